@@ -1,0 +1,472 @@
+#include "core/geo/crs.h"
+
+#include "core/base/check.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <mutex>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+struct TransformationDeleter {
+    void operator()(OGRCoordinateTransformation* t) const
+    {
+        OGRCoordinateTransformation::DestroyCT(t);
+    }
+};
+using Transformation = std::unique_ptr<OGRCoordinateTransformation, TransformationDeleter>;
+
+// PROJ reports every point outside a projection's domain; the caller gets that as an empty result.
+class QuietErrors {
+public:
+    QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler); }
+    ~QuietErrors()
+    {
+        CPLPopErrorHandler();
+        CPLErrorReset();
+    }
+    QuietErrors(const QuietErrors&) = delete;
+    QuietErrors& operator=(const QuietErrors&) = delete;
+};
+
+bool containsText(std::string_view text, std::string_view lower_case_word)
+{
+    const auto is_same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == b;
+    };
+    return std::search(text.begin(), text.end(), lower_case_word.begin(), lower_case_word.end(),
+                       is_same) != text.end();
+}
+
+std::string exportWkt(const OGRSpatialReference& srs)
+{
+    char* text = nullptr;
+    const std::array<const char*, 3> options{"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
+    srs.exportToWkt(&text, options.data());
+    std::string wkt = text != nullptr ? text : "";
+    CPLFree(text);
+    return wkt;
+}
+
+// Which of the first two axes is x, and which way both point.
+struct AxisLayout {
+    bool is_swapped = false; // the first axis is y
+    double east_sign = 1.0;
+    double north_sign = 1.0;
+};
+
+AxisLayout layoutOf(const OGRSpatialReference& srs)
+{
+    OGRAxisOrientation first = OAO_Other;
+    OGRAxisOrientation second = OAO_Other;
+    srs.GetAxis(nullptr, 0, &first);
+    srs.GetAxis(nullptr, 1, &second);
+    const auto is_meridional = [](OGRAxisOrientation o) {
+        return o == OAO_North || o == OAO_South;
+    };
+    const auto is_zonal = [](OGRAxisOrientation o) { return o == OAO_East || o == OAO_West; };
+    AxisLayout layout;
+    layout.is_swapped = is_meridional(first) && is_zonal(second);
+    const OGRAxisOrientation x_axis = layout.is_swapped ? second : first;
+    const OGRAxisOrientation y_axis = layout.is_swapped ? first : second;
+    // Polar systems call both axes "north" or "south", along two meridians: those are right as
+    // they stand.
+    if (is_zonal(x_axis) && is_meridional(y_axis)) {
+        layout.east_sign = x_axis == OAO_West ? -1.0 : 1.0;
+        layout.north_sign = y_axis == OAO_South ? -1.0 : 1.0;
+    }
+    return layout;
+}
+
+void setEastNorthOrder(OGRSpatialReference& srs)
+{
+    srs.SetDataAxisToSRSAxisMapping(layoutOf(srs).is_swapped ? std::vector<int>{2, 1}
+                                                             : std::vector<int>{1, 2});
+}
+
+bool hasSphericalAxes(const OGRSpatialReference& srs)
+{
+    return containsText(exportWkt(srs), "cs[spherical");
+}
+
+bool isCylindrical(const OGRSpatialReference& srs)
+{
+    const char* method = srs.GetAttrValue("PROJECTION");
+    if (method == nullptr) {
+        return false;
+    }
+    constexpr std::array kMethods{
+        SRS_PT_EQUIRECTANGULAR,          SRS_PT_MERCATOR_1SP,       SRS_PT_MERCATOR_2SP,
+        SRS_PT_CYLINDRICAL_EQUAL_AREA,   SRS_PT_MILLER_CYLINDRICAL, SRS_PT_GALL_STEREOGRAPHIC,
+        SRS_PT_MERCATOR_AUXILIARY_SPHERE};
+    return std::any_of(kMethods.begin(), kMethods.end(),
+                       [method](const char* m) { return EQUAL(m, method); });
+}
+
+} // namespace
+
+struct Crs::Impl {
+    OGRSpatialReference srs;
+    OGRSpatialReference base; // the geographic system underneath, x = longitude, y = latitude
+    std::string name;
+    std::string wkt;
+    CrsKind kind = CrsKind::Local;
+    std::optional<Ellipsoid> ellipsoid;
+    const Body* body = nullptr;
+    LatitudeKind latitude_kind = LatitudeKind::Planetographic;
+    double unit = 1.0;
+    std::string unit_name;
+    AxisLayout axes;
+    std::optional<double> turn;
+    std::optional<VerticalUnit> vertical_unit;
+    std::string vertical_datum_name;
+    std::vector<std::string> notices;
+
+    // How the base system counts: radians per unit, its meridian, its axes.
+    double base_unit_rad = std::numbers::pi / 180.0;
+    double base_meridian_rad = 0.0;
+    double base_east_sign = 1.0;
+
+    mutable std::mutex mutex; // guards the two below: a transformation serves one thread at a time
+    Transformation to_base;
+    Transformation from_base;
+
+    // Base coordinates, still in the base system's own unit, to the frame of the program.
+    GeographicPoint fromBase(double x, double y) const
+    {
+        const Angle longitude =
+            Angle::radians(base_east_sign * x * base_unit_rad + base_meridian_rad);
+        const Angle latitude = Angle::radians(y * base_unit_rad);
+        return {longitude, latitude_kind == LatitudeKind::Planetographic
+                               ? ellipsoid->planetocentric(latitude)
+                               : latitude};
+    }
+
+    MapPoint toBase(GeographicPoint p) const
+    {
+        const Angle latitude = latitude_kind == LatitudeKind::Planetographic
+                                   ? ellipsoid->planetographic(p.latitude)
+                                   : p.latitude;
+        return {base_east_sign * (p.longitude.radians() - base_meridian_rad) / base_unit_rad,
+                latitude.radians() / base_unit_rad};
+    }
+
+    std::optional<MapPoint> transform(OGRCoordinateTransformation& t, double x, double y) const
+    {
+        const std::scoped_lock lock(mutex);
+        const QuietErrors quiet;
+        int is_success = 0;
+        t.Transform(1, &x, &y, nullptr, &is_success);
+        if (is_success == 0 || !std::isfinite(x) || !std::isfinite(y)) {
+            return std::nullopt;
+        }
+        return MapPoint{x, y};
+    }
+
+    void readBase();
+    void readVertical();
+    Status readHorizontal();
+};
+
+// The geographic system underneath: what its numbers mean.
+void Crs::Impl::readBase()
+{
+    const AxisLayout base_axes = layoutOf(base);
+    setEastNorthOrder(base);
+    base_east_sign = base_axes.east_sign;
+    base_unit_rad = base.GetAngularUnits();
+    if (hasSphericalAxes(base)) {
+        // OGR does not report the unit of a spherical system; the registries only have degrees.
+        base_unit_rad = std::numbers::pi / 180.0;
+        latitude_kind = LatitudeKind::Planetocentric;
+    }
+    base_meridian_rad = base.GetPrimeMeridian() * std::numbers::pi / 180.0;
+    ellipsoid = Ellipsoid{base.GetSemiMajor(), base.GetSemiMinor()};
+    if (ellipsoid->flattening() < 1e-12) {
+        ellipsoid->polar_m = ellipsoid->equatorial_m;
+    }
+    const auto attribute = [this](const char* key) {
+        const char* value = base.GetAttrValue(key);
+        return std::string(value != nullptr ? value : "");
+    };
+    const std::string words = name + " / " + std::string(base.GetName() ? base.GetName() : "") +
+                              " / " + attribute("DATUM") + " / " + attribute("SPHEROID");
+    body = bodyMentioned(words);
+    const auto has_plausible_radius = [this] {
+        constexpr double kFactorMax = 1.3; // small bodies are irregular
+        const double ratio = ellipsoid->equatorial_m / body->ellipsoid.equatorial_m;
+        return ratio < kFactorMax && ratio > 1.0 / kFactorMax;
+    };
+    if (body == nullptr || !has_plausible_radius()) {
+        body = bodyOfRadius(ellipsoid->equatorial_m);
+    }
+}
+
+void Crs::Impl::readVertical()
+{
+    if (srs.IsCompound() == 0 && srs.IsVertical() == 0) {
+        return;
+    }
+    const char* datum = srs.GetAttrValue("VERT_CS");
+    vertical_datum_name = datum != nullptr ? datum : "";
+    const char* vertical_name = nullptr;
+    const double metres = srs.GetTargetLinearUnits("VERT_CS", &vertical_name);
+    vertical_unit = verticalUnitFrom(vertical_name != nullptr ? vertical_name : "");
+    if (!vertical_unit && metres > 0.0 && vertical_name != nullptr) {
+        vertical_unit = VerticalUnit{vertical_name, metres};
+    }
+}
+
+Status Crs::Impl::readHorizontal()
+{
+    axes = layoutOf(srs);
+    setEastNorthOrder(srs);
+    const bool is_spherical = srs.IsProjected() == 0 && hasSphericalAxes(srs);
+    if (srs.IsGeocentric() != 0 && !is_spherical) {
+        return Error{
+            ErrorCode::Unsupported,
+            fmt::format("CRS \"{}\" is geocentric; a map needs a geographic or projected one",
+                        name)};
+    }
+    if (srs.IsLocal() != 0 ||
+        (srs.IsProjected() == 0 && srs.IsGeographic() == 0 && !is_spherical)) {
+        const char* local_unit = nullptr;
+        unit = srs.GetLinearUnits(&local_unit);
+        unit_name = local_unit != nullptr ? local_unit : "metre";
+        return Done{};
+    }
+    if (srs.IsGeographic() != 0 && srs.IsDerivedGeographic() == 0) {
+        kind = CrsKind::Geographic;
+        base = srs;
+        readBase();
+        // GeoTIFF keeps the name of IAU_2015:49902 and the like, but not their spherical axes.
+        if (containsText(name, "ocentric")) {
+            latitude_kind = LatitudeKind::Planetocentric;
+        }
+    } else if (is_spherical) {
+        kind = CrsKind::Geographic;
+        base = srs;
+        readBase();
+    } else {
+        kind = CrsKind::Projected;
+        const char* linear_unit = nullptr;
+        unit = srs.GetTargetLinearUnits("PROJCS", &linear_unit);
+        unit_name = linear_unit != nullptr ? linear_unit : "metre";
+        // Old planetary products write a scale factor of 0 where they mean "none".
+        if (srs.IsProjected() != 0 && srs.FindProjParm(SRS_PP_SCALE_FACTOR) >= 0 &&
+            srs.GetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0) == 0.0) {
+            srs.SetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0);
+            notices.emplace_back("the projection's scale factor is 0, which cannot be; 1 is used");
+        }
+        const std::unique_ptr<OGRSpatialReference> geographic(srs.CloneGeogCS());
+        if (!geographic) {
+            return Error{ErrorCode::Unsupported,
+                         fmt::format("CRS \"{}\" names no geographic system underneath", name)};
+        }
+        base = *geographic;
+        readBase();
+        if (srs.IsDerivedGeographic() != 0) { // a rotated pole: angles, laid flat at their equator
+            unit = srs.GetAngularUnits() * ellipsoid->equatorial_m;
+            unit_name = "degree";
+        }
+        const QuietErrors quiet;
+        to_base.reset(OGRCreateCoordinateTransformation(&srs, &base));
+        from_base.reset(OGRCreateCoordinateTransformation(&base, &srs));
+        if (!to_base || !from_base) {
+            return Error{ErrorCode::Unsupported, fmt::format("PROJ cannot compute CRS \"{}\": {}",
+                                                             name, CPLGetLastErrorMsg())};
+        }
+        return Done{};
+    }
+    unit = base_unit_rad;
+    const char* angular_unit = nullptr;
+    srs.GetAngularUnits(&angular_unit);
+    unit_name = angular_unit != nullptr && !is_spherical ? angular_unit : "degree";
+    turn = 2.0 * std::numbers::pi / base_unit_rad;
+    return Done{};
+}
+
+Crs::Crs(std::shared_ptr<const Impl> impl)
+    : impl_(std::move(impl))
+{}
+
+Result<Crs> Crs::fromText(const std::string& text)
+{
+    const QuietErrors quiet;
+    OGRSpatialReference srs;
+    if (srs.SetFromUserInput(text.c_str(),
+                             OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
+        OGRERR_NONE) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("\"{}\" is no known CRS; give a code such as EPSG:32610 or "
+                                 "IAU_2015:49910, a PROJ string or WKT",
+                                 text)};
+    }
+    return fromSpatialReference(srs);
+}
+
+Result<Crs> Crs::fromSpatialReference(const OGRSpatialReference& reference)
+{
+    auto impl = std::make_shared<Impl>();
+    impl->srs = reference;
+    impl->name = reference.GetName() != nullptr ? reference.GetName() : "unnamed";
+    impl->wkt = exportWkt(reference);
+    impl->readVertical();
+    impl->srs.DemoteTo2D(nullptr);
+    if (impl->srs.IsCompound() != 0) {
+        impl->srs.StripVertical();
+    }
+    Status horizontal = impl->readHorizontal();
+    if (!horizontal) {
+        return std::move(horizontal).error();
+    }
+    if (impl->to_base && isCylindrical(impl->srs)) {
+        const double meridian = impl->srs.GetNormProjParm(SRS_PP_CENTRAL_MERIDIAN, 0.0);
+        const auto origin = impl->transform(*impl->from_base, meridian, 0.0);
+        const auto quarter = impl->transform(*impl->from_base, meridian + 90.0, 0.0);
+        if (origin && quarter) {
+            impl->turn = 4.0 * std::abs(quarter->x - origin->x);
+        }
+    }
+    return Crs(std::move(impl));
+}
+
+Crs Crs::geographic(const Body& body, const Ellipsoid& ellipsoid)
+{
+    OGRSpatialReference srs;
+    const std::string body_name(body.name);
+    const std::string name =
+        body_name + (body.latitude == LatitudeKind::Planetocentric ? " / Ocentric" : " / Ographic");
+    const double inverse_flattening = ellipsoid.isSphere() ? 0.0 : 1.0 / ellipsoid.flattening();
+    srs.SetGeogCS(name.c_str(), body_name.c_str(), body_name.c_str(), ellipsoid.equatorial_m,
+                  inverse_flattening);
+    Result<Crs> crs = fromSpatialReference(srs);
+    MARSVIEW_CHECK(crs.has_value());
+    return std::move(crs).value();
+}
+
+Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body_name) const
+{
+    if (impl_->kind == CrsKind::Local) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("CRS \"{}\" is local and stands on no ellipsoid", name())};
+    }
+    if (!(ellipsoid.polar_m > 0.0) || !(ellipsoid.equatorial_m >= ellipsoid.polar_m)) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("radii {} m and {} m are not those of an oblate ellipsoid",
+                                 ellipsoid.equatorial_m, ellipsoid.polar_m)};
+    }
+    OGRSpatialReference srs = impl_->srs;
+    const bool is_centric =
+        impl_->kind == CrsKind::Geographic && impl_->latitude_kind == LatitudeKind::Planetocentric;
+    const std::string geographic_name = body_name + (is_centric ? " / Ocentric" : " / Ographic");
+    const double inverse_flattening = ellipsoid.isSphere() ? 0.0 : 1.0 / ellipsoid.flattening();
+    const double meridian_deg = impl_->base_meridian_rad * 180.0 / std::numbers::pi;
+    if (srs.SetGeogCS(geographic_name.c_str(), body_name.c_str(), body_name.c_str(),
+                      ellipsoid.equatorial_m, inverse_flattening, nullptr,
+                      meridian_deg) != OGRERR_NONE) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("CRS \"{}\" cannot be moved to another ellipsoid", name())};
+    }
+    return fromSpatialReference(srs);
+}
+
+const std::string& Crs::name() const
+{
+    return impl_->name;
+}
+const std::string& Crs::wkt() const
+{
+    return impl_->wkt;
+}
+CrsKind Crs::kind() const
+{
+    return impl_->kind;
+}
+const std::optional<Ellipsoid>& Crs::ellipsoid() const
+{
+    return impl_->ellipsoid;
+}
+const Body* Crs::body() const
+{
+    return impl_->body;
+}
+LatitudeKind Crs::latitudeKind() const
+{
+    return impl_->latitude_kind;
+}
+double Crs::unit() const
+{
+    return impl_->unit;
+}
+const std::string& Crs::unitName() const
+{
+    return impl_->unit_name;
+}
+double Crs::eastSign() const
+{
+    return impl_->axes.east_sign;
+}
+double Crs::northSign() const
+{
+    return impl_->axes.north_sign;
+}
+const std::optional<double>& Crs::turn() const
+{
+    return impl_->turn;
+}
+const std::optional<VerticalUnit>& Crs::verticalUnit() const
+{
+    return impl_->vertical_unit;
+}
+const std::string& Crs::verticalDatumName() const
+{
+    return impl_->vertical_datum_name;
+}
+const std::vector<std::string>& Crs::notices() const
+{
+    return impl_->notices;
+}
+
+std::optional<GeographicPoint> Crs::toGeographic(MapPoint map) const
+{
+    switch (impl_->kind) {
+    case CrsKind::Geographic:
+        return impl_->fromBase(map.x, map.y);
+    case CrsKind::Projected:
+        if (const auto base = impl_->transform(*impl_->to_base, map.x, map.y)) {
+            return impl_->fromBase(base->x, base->y);
+        }
+        return std::nullopt;
+    case CrsKind::Local:
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+std::optional<MapPoint> Crs::toMap(GeographicPoint geographic) const
+{
+    switch (impl_->kind) {
+    case CrsKind::Geographic:
+        return impl_->toBase(geographic);
+    case CrsKind::Projected: {
+        const MapPoint base = impl_->toBase(geographic);
+        return impl_->transform(*impl_->from_base, base.x, base.y);
+    }
+    case CrsKind::Local:
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+} // namespace marsview

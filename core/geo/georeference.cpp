@@ -1,0 +1,99 @@
+#include "core/geo/georeference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+// Metres in one unit of map x and map y, signed so that positive is east and north.
+struct MetresPerUnit {
+    double x = 1.0;
+    double y = 1.0;
+};
+
+// A geographic raster is laid flat with the scale of its centre: one degree is worth there, in both
+// directions, what it is worth on the ellipsoid at that latitude.
+MetresPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
+{
+    if (!crs) {
+        return {};
+    }
+    if (crs->kind() != CrsKind::Geographic) {
+        return {crs->unit() * crs->eastSign(), crs->unit() * crs->northSign()};
+    }
+    const Ellipsoid& ellipsoid = *crs->ellipsoid();
+    constexpr double kLatitudeMax_rad =
+        89.9 * std::numbers::pi / 180.0; // keeps the scale invertible
+    const Angle latitude =
+        Angle::radians(std::clamp(centre.y * crs->unit(), -kLatitudeMax_rad, kLatitudeMax_rad));
+    const bool is_centric = crs->latitudeKind() == LatitudeKind::Planetocentric;
+    const Angle graphic = is_centric ? ellipsoid.planetographic(latitude) : latitude;
+    const double north = is_centric ? ellipsoid.metresPerRadianOfPlanetocentricLatitude(graphic)
+                                    : ellipsoid.metresPerRadianOfPlanetographicLatitude(graphic);
+    return {ellipsoid.metresPerRadianOfLongitude(graphic) * crs->unit() * crs->eastSign(),
+            north * crs->unit() * crs->northSign()};
+}
+
+} // namespace
+
+Georeference::Georeference(std::size_t columns,
+                           std::size_t rows,
+                           const GeoTransform& transform,
+                           std::optional<Crs> crs)
+    : columns_(columns)
+    , rows_(rows)
+    , transform_(transform)
+    , crs_(std::move(crs))
+{
+    const GridPoint centre{(static_cast<double>(columns_) - 1.0) / 2.0,
+                           (static_cast<double>(rows_) - 1.0) / 2.0};
+    const MetresPerUnit scale = metresPerUnit(crs_, toMap(centre));
+    const GeoTransform::Terms& t = transform_.terms();
+    scene_frame_ = {.origin = centre,
+                    .east_per_column = t[1] * scale.x,
+                    .east_per_row = t[2] * scale.x,
+                    .north_per_column = t[4] * scale.y,
+                    .north_per_row = t[5] * scale.y};
+    if (crs_ && crs_->turn() && t[2] == 0.0 && t[4] == 0.0) {
+        const double columns_per_turn = *crs_->turn() / std::abs(t[1]);
+        wraps_around_ = std::abs(columns_per_turn - static_cast<double>(columns_)) < 0.5;
+    }
+}
+
+std::optional<GeographicPoint> Georeference::toGeographic(GridPoint grid) const
+{
+    return crs_ ? crs_->toGeographic(toMap(grid)) : std::nullopt;
+}
+
+std::optional<GridPoint> Georeference::toGrid(GeographicPoint geographic) const
+{
+    if (!crs_) {
+        return std::nullopt;
+    }
+    std::optional<MapPoint> map = crs_->toMap(geographic);
+    if (!map) {
+        return std::nullopt;
+    }
+    if (const auto& turn = crs_->turn()) {
+        // Among the positions that differ by whole turns, the one nearest to the centre is on the
+        // raster if any is, because no raster is wider than its neighbourhood of half a turn; one
+        // that goes all around is cut there, at its seam.
+        const double centre_x = toMap(scene_frame_.origin).x;
+        map->x += *turn * std::round((centre_x - map->x) / *turn);
+    }
+    return toGrid(*map);
+}
+
+double Georeference::pixelWidth_m() const noexcept
+{
+    return std::hypot(scene_frame_.east_per_column, scene_frame_.north_per_column);
+}
+
+double Georeference::pixelHeight_m() const noexcept
+{
+    return std::hypot(scene_frame_.east_per_row, scene_frame_.north_per_row);
+}
+
+} // namespace marsview

@@ -1,0 +1,57 @@
+// Where a raster lies: grid ↔ map ↔ geographic ↔ scene.
+#pragma once
+
+#include "core/geo/crs.h"
+#include "core/geo/frames.h"
+#include "core/geo/geotransform.h"
+#include "core/geo/scene_frame.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace marsview {
+
+/// The placement of a raster of columns × rows samples. Immutable; any thread, except that the
+/// geographic conversions wait for each other (see Crs).
+class Georeference {
+public:
+    /// Without a CRS the map counts in metres and has no geographic coordinates.
+    Georeference(std::size_t columns,
+                 std::size_t rows,
+                 const GeoTransform& transform,
+                 std::optional<Crs> crs);
+
+    std::size_t columns() const noexcept { return columns_; }
+    std::size_t rows() const noexcept { return rows_; }
+    const GeoTransform& transform() const noexcept { return transform_; }
+    const std::optional<Crs>& crs() const noexcept { return crs_; }
+    /// Null where there is no CRS or its body is not known.
+    const Body* body() const noexcept { return crs_ ? crs_->body() : nullptr; }
+
+    MapPoint toMap(GridPoint grid) const noexcept { return transform_.toMap(grid); }
+    GridPoint toGrid(MapPoint map) const noexcept { return transform_.toGrid(map); }
+
+    std::optional<GeographicPoint> toGeographic(GridPoint grid) const;
+    /// The turn of longitude is chosen so that the position lies on the raster, or else nearest to
+    /// its centre.
+    std::optional<GridPoint> toGrid(GeographicPoint geographic) const;
+
+    /// True where the columns go once around the body, so that the last column's eastern neighbour
+    /// is the first.
+    bool wrapsAround() const noexcept { return wraps_around_; }
+
+    const SceneFrame& sceneFrame() const noexcept { return scene_frame_; }
+    /// Length in metres of one step along a row and along a column at the raster's centre.
+    double pixelWidth_m() const noexcept;  // NOLINT(readability-identifier-naming)
+    double pixelHeight_m() const noexcept; // NOLINT(readability-identifier-naming)
+
+private:
+    std::size_t columns_;
+    std::size_t rows_;
+    GeoTransform transform_;
+    std::optional<Crs> crs_;
+    bool wraps_around_ = false;
+    SceneFrame scene_frame_;
+};
+
+} // namespace marsview

@@ -1,0 +1,23 @@
+// Vertical units, and what heights are counted from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace marsview {
+
+/// A unit of height. `name` is what people read ("m", "ft", "US survey ft", "km").
+struct VerticalUnit {
+    std::string name = "m";
+    double metres = 1.0;
+    bool operator==(const VerticalUnit&) const = default;
+};
+
+/// Understands the spellings met in raster files ("metre", "METERS", "feet", "ftUS", "US survey
+/// foot", "km", …), case-insensitive. A bare foot is the international one of 0.3048 m, which
+/// differs from the survey foot by 2 parts in a million. Nothing where the text is empty or
+/// unknown.
+std::optional<VerticalUnit> verticalUnitFrom(std::string_view text);
+
+} // namespace marsview

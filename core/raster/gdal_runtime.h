@@ -1,0 +1,35 @@
+// GDAL's process-wide set-up and its error reports. Used inside core/raster only.
+#pragma once
+
+#include <cpl_error.h>
+
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// Registers the drivers and bounds GDAL's block cache, once. Any thread; cheap after the first
+/// call. Silences GDAL's own printing to stderr: messages are collected by GdalMessages.
+void ensureGdal();
+
+/// Collects what GDAL reports on this thread while it lives.
+class GdalMessages {
+public:
+    GdalMessages();
+    ~GdalMessages();
+    GdalMessages(const GdalMessages&) = delete;
+    GdalMessages& operator=(const GdalMessages&) = delete;
+
+    bool hasFailed() const noexcept { return !failures_.empty(); }
+    /// The first failure as one line without a full stop; `otherwise` where there was none.
+    std::string firstFailure(const std::string& otherwise) const;
+    const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+
+private:
+    static void CPL_STDCALL collect(CPLErr level, CPLErrorNum number, const char* text);
+
+    std::vector<std::string> failures_;
+    std::vector<std::string> warnings_;
+};
+
+} // namespace marsview

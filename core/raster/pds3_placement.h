@@ -1,0 +1,32 @@
+// Where PDS3 products lie, against what GDAL makes of their labels.
+#pragma once
+
+#include "core/geo/crs.h"
+#include "core/geo/geotransform.h"
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+
+namespace marsview {
+
+/// Whole pixels by which a raster has to be moved to lie where its label says.
+struct PixelShift {
+    int columns = 0; // positive: eastward for a north-up raster
+    int rows = 0;    // positive: southward
+    bool isNone() const noexcept { return columns == 0 && rows == 0; }
+};
+
+/// Compares the outer corner of the first pixel with the label's MAXIMUM_LATITUDE and
+/// WESTERNMOST_LONGITUDE. MOLA labels count the projection offset from another pixel than LOLA
+/// labels do, and GDAL 3.6 reads both alike, which moves MOLA grids by one pixel. Only a
+/// disagreement of one whole pixel in a cylindrical projection is taken for that; anything else
+/// is left alone.
+///
+/// `label` is the PDS3 label as JSON (GDAL's "json:PDS" domain).
+PixelShift
+pds3PlacementShift(const nlohmann::json& label, const GeoTransform& transform, const Crs& crs);
+
+/// `transform` moved by `shift`.
+GeoTransform shifted(const GeoTransform& transform, PixelShift shift);
+
+} // namespace marsview

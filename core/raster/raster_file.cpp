@@ -1,0 +1,529 @@
+#include "core/raster/raster_file.h"
+
+#include "core/raster/gdal_runtime.h"
+#include "core/raster/pds3_placement.h"
+#include "core/raster/raster_path.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace marsview {
+namespace {
+
+// No raster that exists comes near: the Earth at 2.4 m has this many columns.
+constexpr int kSideMax = 1 << 24;
+
+// Samples are read in bands of whole rows of about this size: large enough that the call costs
+// nothing, small enough that progress and cancel feel immediate.
+constexpr std::size_t kBandBytes = std::size_t{8} << 20;
+
+struct DatasetCloser {
+    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
+
+std::optional<SampleType> sampleTypeOf(GDALRasterBand& band)
+{
+    switch (band.GetRasterDataType()) {
+    case GDT_Byte: {
+        // Before GDAL 3.7, signed bytes are bytes with a remark.
+        const char* pixel_type = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
+        return pixel_type != nullptr && EQUAL(pixel_type, "SIGNEDBYTE") ? SampleType::Int8
+                                                                        : SampleType::UInt8;
+    }
+    case GDT_UInt16:
+        return SampleType::UInt16;
+    case GDT_Int16:
+        return SampleType::Int16;
+    case GDT_UInt32:
+        return SampleType::UInt32;
+    case GDT_Int32:
+        return SampleType::Int32;
+    case GDT_UInt64:
+        return SampleType::UInt64;
+    case GDT_Int64:
+        return SampleType::Int64;
+    case GDT_Float32:
+        return SampleType::Float32;
+    case GDT_Float64:
+        return SampleType::Float64;
+    default:
+        return std::nullopt;
+    }
+}
+
+std::string listOfSubdatasets(GDALDataset& dataset)
+{
+    const CPLStringList entries(CSLDuplicate(dataset.GetMetadata("SUBDATASETS")));
+    std::string list;
+    for (int i = 1; i <= 8; ++i) {
+        const char* name = entries.FetchNameValue(fmt::format("SUBDATASET_{}_NAME", i).c_str());
+        if (name == nullptr) {
+            break;
+        }
+        list += (list.empty() ? "" : ", ") + std::string(name);
+    }
+    return list;
+}
+
+// A raster of several bands with colours, or one band of palette entries, is a picture.
+bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
+{
+    if (band.GetColorTable() != nullptr) {
+        return true;
+    }
+    switch (band.GetColorInterpretation()) {
+    case GCI_RedBand:
+    case GCI_GreenBand:
+    case GCI_BlueBand:
+    case GCI_CyanBand:
+    case GCI_MagentaBand:
+    case GCI_YellowBand:
+        return dataset.GetRasterCount() >= 3;
+    default:
+        return false;
+    }
+}
+
+struct OpenedDataset {
+    Dataset dataset;
+    std::string name;
+};
+
+Result<OpenedDataset> openDataset(const std::string& path)
+{
+    Result<std::vector<std::string>> names = rasterNamesFor(path);
+    if (!names) {
+        return std::move(names).error();
+    }
+    std::string first_failure;
+    for (const std::string& name : *names) {
+        const GdalMessages messages;
+        Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+        if (dataset) {
+            return OpenedDataset{std::move(dataset), name};
+        }
+        // The companion of a bare data file is the one that can tell what is wrong.
+        const std::string failure = messages.firstFailure("");
+        if (first_failure.empty() || name != path) {
+            first_failure = failure;
+        }
+    }
+    VSIStatBufL status{};
+    if (VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode)) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: is a directory that holds no raster of its own; open a file "
+                                 "in it",
+                                 path)};
+    }
+    if (first_failure.find("not recognized") != std::string::npos || first_failure.empty()) {
+        first_failure = "is in no raster format that GDAL recognises, or is damaged";
+    }
+    return Error{ErrorCode::Unsupported, fmt::format("{}: {}", path, first_failure)};
+}
+
+nlohmann::json jsonDomain(GDALDataset& dataset, const char* domain)
+{
+    char** entries = dataset.GetMetadata(domain);
+    if (entries == nullptr || entries[0] == nullptr) {
+        return {};
+    }
+    nlohmann::json parsed = nlohmann::json::parse(entries[0], nullptr, false);
+    return parsed.is_discarded() ? nlohmann::json{} : parsed;
+}
+
+void readVertical(GDALDataset& dataset,
+                  GDALRasterBand& band,
+                  const nlohmann::json& pds3,
+                  RasterInfo& info)
+{
+    int has_scale = 0;
+    int has_offset = 0;
+    const double scale = band.GetScale(&has_scale);
+    const double offset = band.GetOffset(&has_offset);
+    if (has_scale != 0 && std::isfinite(scale) && scale != 0.0) {
+        info.scale = scale;
+    }
+    if (has_offset != 0 && std::isfinite(offset)) {
+        info.offset = offset;
+    }
+    std::string unit = band.GetUnitType() != nullptr ? band.GetUnitType() : "";
+    const auto image = pds3.find("IMAGE");
+    if (unit.empty() && image != pds3.end() && image->is_object()) {
+        const auto entry = image->find("UNIT");
+        unit = entry != image->end() && entry->is_string() ? entry->get<std::string>() : "";
+    }
+    if (const auto known = verticalUnitFrom(unit)) {
+        info.unit = *known;
+        info.is_unit_declared = true;
+    } else if (!unit.empty()) {
+        info.notices.push_back(
+            fmt::format("unit \"{}\" is not a length known here; metres are "
+                        "assumed",
+                        unit));
+    } else if (info.crs && info.crs->verticalUnit()) {
+        info.unit = *info.crs->verticalUnit();
+        info.is_unit_declared = true;
+    }
+    // What heights are counted from, where the product tells.
+    if (info.crs && !info.crs->verticalDatumName().empty()) {
+        info.vertical_datum = info.crs->verticalDatumName();
+    } else if (const char* dted = dataset.GetMetadataItem("DTED_VerticalDatum")) {
+        info.vertical_datum = EQUAL(dted, "MSL") ? "mean sea level" : dted;
+    } else if (info.driver == "SRTMHGT") {
+        info.vertical_datum = "EGM96 geoid";
+    } else if (image != pds3.end() && image->is_object()) {
+        const std::string description = image->value("DESCRIPTION", std::string());
+        if (description.find("areoid") != std::string::npos) {
+            info.vertical_datum = "areoid";
+        }
+    }
+}
+
+void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo& info)
+{
+    if (const OGRSpatialReference* reference = dataset.GetSpatialRef()) {
+        Result<Crs> crs = Crs::fromSpatialReference(*reference);
+        if (crs) {
+            info.crs = std::move(crs).value();
+            info.body = info.crs->body();
+            for (const std::string& notice : info.crs->notices()) {
+                info.notices.push_back(notice);
+            }
+        } else {
+            info.notices.push_back(
+                fmt::format("{}; the map is placed without a CRS", crs.error().message));
+        }
+    }
+    GeoTransform::Terms terms{};
+    if (dataset.GetGeoTransform(terms.data()) != CE_None) {
+        info.notices.emplace_back(
+            "no georeferencing in the file: each pixel is placed as one unit "
+            "square; give a geotransform to place it");
+        return;
+    }
+    Result<GeoTransform> transform = GeoTransform::fromTerms(terms);
+    if (!transform) {
+        info.notices.push_back(
+            fmt::format("{}: each pixel is placed as one unit square; give "
+                        "another to place it",
+                        transform.error().message));
+        return;
+    }
+    info.transform = *transform;
+    if (info.crs) {
+        const PixelShift shift = pds3PlacementShift(pds3, *info.transform, *info.crs);
+        if (!shift.isNone()) {
+            info.transform = shifted(*info.transform, shift);
+            info.notices.push_back(fmt::format(
+                "moved by {} column and {} row to lie where the label's latitude and longitude "
+                "limits are",
+                shift.columns, shift.rows));
+        }
+    }
+}
+
+void readNodata(GDALRasterBand& band, RasterInfo& info)
+{
+    int has_nodata = 0;
+    double nodata = 0.0;
+    if (info.type == SampleType::Int64) {
+        nodata = static_cast<double>(band.GetNoDataValueAsInt64(&has_nodata));
+    } else if (info.type == SampleType::UInt64) {
+        nodata = static_cast<double>(band.GetNoDataValueAsUInt64(&has_nodata));
+    } else {
+        nodata = band.GetNoDataValue(&has_nodata);
+    }
+    if (has_nodata != 0) {
+        info.nodata = nodata;
+    }
+    // ISIS3 and PDS4 have several special values, others a mask file: those only the mask tells.
+    const int flags = band.GetMaskFlags();
+    info.has_mask_band = (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
+}
+
+} // namespace
+
+struct RasterFile::Impl {
+    Dataset dataset;
+    GDALRasterBand* band = nullptr;
+    RasterInfo info;
+
+    Status readRows(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const;
+    Status markMasked(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const;
+    Error readFailure(const GdalMessages& messages, const GridWindow& window) const;
+    std::size_t rowsPerBand() const;
+    std::optional<double> findTypicalSample();
+};
+
+RasterFile::RasterFile(std::unique_ptr<Impl> impl)
+    : impl_(std::move(impl))
+{}
+RasterFile::RasterFile(RasterFile&&) noexcept = default;
+RasterFile& RasterFile::operator=(RasterFile&&) noexcept = default;
+RasterFile::~RasterFile() = default;
+
+const RasterInfo& RasterFile::info() const noexcept
+{
+    return impl_->info;
+}
+
+Result<RasterFile> RasterFile::open(const std::string& path, int band)
+{
+    ensureGdal();
+    Result<OpenedDataset> opened = openDataset(path);
+    if (!opened) {
+        return std::move(opened).error();
+    }
+    auto impl = std::make_unique<Impl>();
+    impl->dataset = std::move(opened->dataset);
+    GDALDataset& dataset = *impl->dataset;
+    RasterInfo& info = impl->info;
+    info.path = opened->name;
+    const auto refuse = [&path](ErrorCode code, const std::string& why) {
+        return Error{code, fmt::format("{}: {}", path, why)};
+    };
+    if (info.path != path) {
+        info.notices.push_back(fmt::format("opened through {}", info.path));
+    }
+    info.driver = dataset.GetDriverName();
+    info.band_count = dataset.GetRasterCount();
+    if (info.band_count == 0) {
+        const std::string subdatasets = listOfSubdatasets(dataset);
+        if (!subdatasets.empty()) {
+            return refuse(ErrorCode::Unsupported,
+                          "holds several rasters; open one of " + subdatasets);
+        }
+        return refuse(ErrorCode::Unsupported, "holds no raster band");
+    }
+    if (band < 1 || band > info.band_count) {
+        return refuse(
+            ErrorCode::OutOfRange,
+            fmt::format("has bands 1 to {}, but band {} was asked for", info.band_count, band));
+    }
+    info.band = band;
+    impl->band = dataset.GetRasterBand(band);
+    const int columns = dataset.GetRasterXSize();
+    const int rows = dataset.GetRasterYSize();
+    if (columns > kSideMax || rows > kSideMax) {
+        return refuse(ErrorCode::TooLarge,
+                      fmt::format("{} × {} samples cannot be a map; at most {} a side are read",
+                                  columns, rows, kSideMax));
+    }
+    info.columns = static_cast<std::size_t>(columns);
+    info.rows = static_cast<std::size_t>(rows);
+    const std::optional<SampleType> type = sampleTypeOf(*impl->band);
+    if (!type) {
+        return refuse(ErrorCode::Unsupported,
+                      fmt::format("holds {} numbers; elevations are real",
+                                  GDALGetDataTypeName(impl->band->GetRasterDataType())));
+    }
+    info.type = *type;
+    if (isPicture(dataset, *impl->band)) {
+        return refuse(ErrorCode::Unsupported, "is a colour picture, not an elevation map");
+    }
+    if (info.band_count > 1) {
+        info.notices.push_back(fmt::format("band {} of {} is read", band, info.band_count));
+    }
+    const GdalMessages messages;
+    const nlohmann::json pds3 = jsonDomain(dataset, "json:PDS");
+    readNodata(*impl->band, info);
+    readPlacement(dataset, pds3, info);
+    readVertical(dataset, *impl->band, pds3, info);
+    info.typical_raw = impl->findTypicalSample();
+    deduceHeightReference(info);
+    return RasterFile(std::move(impl));
+}
+
+// One sample that is not void, from a few rows: enough to tell radii from heights. Only asked where
+// the type can hold a radius in metres.
+std::optional<double> RasterFile::Impl::findTypicalSample()
+{
+    const bool can_hold_radius = sampleBytes(info.type) >= 4 || info.scale != 1.0 ||
+                                 info.offset != 0.0 || info.unit.metres != 1.0;
+    if (!can_hold_radius || !info.crs) {
+        return std::nullopt;
+    }
+    for (const std::size_t row : {info.rows / 2, info.rows / 4, info.rows - 1 - info.rows / 4}) {
+        Result<SampleGrid> grid = SampleGrid::create(info.type, info.columns, 1);
+        if (!grid) {
+            return std::nullopt;
+        }
+        const GridWindow window{0, row, info.columns, 1};
+        if (!readRows(*grid, window, 0)) {
+            return std::nullopt; // reading the samples proper will tell
+        }
+        const SampleStatistics statistics = grid->applyRule({info.nodata}, 0, 1);
+        if (statistics.hasSamples()) {
+            return statistics.raw_maximum;
+        }
+    }
+    return std::nullopt;
+}
+
+std::size_t RasterFile::Impl::rowsPerBand() const
+{
+    int block_columns = 0;
+    int block_rows = 0;
+    band->GetBlockSize(&block_columns, &block_rows);
+    const std::size_t row_bytes = info.columns * sampleBytes(info.type);
+    const std::size_t wanted = std::max<std::size_t>(1, kBandBytes / row_bytes);
+    // Whole rows of blocks, so that no block is decoded twice.
+    const std::size_t block = std::max<std::size_t>(1, static_cast<std::size_t>(block_rows));
+    const std::size_t rows = std::max<std::size_t>(1, wanted / block) * block;
+    return std::min(rows, info.rows);
+}
+
+Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWindow& window) const
+{
+    std::string why = messages.firstFailure("GDAL gave no reason");
+    GDALDataset::RawBinaryLayout layout;
+    VSIStatBufL status{};
+    if (dataset->GetRawBinaryLayout(layout) &&
+        VSIStatL(layout.osRawFilename.c_str(), &status) == 0) {
+        const auto expected = static_cast<std::uint64_t>(layout.nImageOffset) +
+                              static_cast<std::uint64_t>(layout.nLineOffset) * info.rows;
+        if (static_cast<std::uint64_t>(status.st_size) < expected) {
+            why = fmt::format("the data file has {} bytes where its header promises {}",
+                              status.st_size, expected);
+        }
+    }
+    return Error{ErrorCode::Unreadable,
+                 fmt::format("{}: reading rows {} to {} failed: {}", info.path, window.row,
+                             window.row + window.rows - 1, why)};
+}
+
+Status
+RasterFile::Impl::readRows(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const
+{
+    const GdalMessages messages;
+    const CPLErr outcome =
+        band->RasterIO(GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
+                       static_cast<int>(window.columns), static_cast<int>(window.rows),
+                       grid.rowData(grid_row), static_cast<int>(window.columns),
+                       static_cast<int>(window.rows), band->GetRasterDataType(), 0, 0, nullptr);
+    if (outcome != CE_None || messages.hasFailed()) {
+        return readFailure(messages, window);
+    }
+    return Done{};
+}
+
+Status
+RasterFile::Impl::markMasked(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const
+{
+    if (!info.has_mask_band) {
+        return Done{};
+    }
+    const GdalMessages messages;
+    std::vector<std::uint8_t> mask(window.columns * window.rows);
+    const CPLErr outcome = band->GetMaskBand()->RasterIO(
+        GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
+        static_cast<int>(window.columns), static_cast<int>(window.rows), mask.data(),
+        static_cast<int>(window.columns), static_cast<int>(window.rows), GDT_Byte, 0, 0, nullptr);
+    if (outcome != CE_None || messages.hasFailed()) {
+        return readFailure(messages, window);
+    }
+    for (std::size_t r = 0; r < window.rows; ++r) {
+        for (std::size_t c = 0; c < window.columns; ++c) {
+            if (mask[r * window.columns + c] == 0) {
+                grid.markVoid(c, grid_row + r);
+            }
+        }
+    }
+    return Done{};
+}
+
+Result<LoadedSamples> RasterFile::readWindow(const GridWindow& window, const VoidRule& voids)
+{
+    const RasterInfo& info = impl_->info;
+    MARSVIEW_CHECK(window.column + window.columns <= info.columns);
+    MARSVIEW_CHECK(window.row + window.rows <= info.rows);
+    Result<SampleGrid> grid = SampleGrid::create(info.type, window.columns, window.rows);
+    if (!grid) {
+        return std::move(grid).error();
+    }
+    if (Status read = impl_->readRows(*grid, window, 0); !read) {
+        return std::move(read).error();
+    }
+    if (Status masked = impl_->markMasked(*grid, window, 0); !masked) {
+        return std::move(masked).error();
+    }
+    const SampleStatistics statistics = grid->applyRule(voids, 0, window.rows);
+    return LoadedSamples{std::move(*grid), statistics};
+}
+
+Result<LoadedSamples>
+RasterFile::readAll(JobMonitor& monitor, const VoidRule& voids, std::size_t memory_bytes_max)
+{
+    const RasterInfo& info = impl_->info;
+    const std::size_t bytes = info.columns * info.rows * sampleBytes(info.type);
+    if (bytes > memory_bytes_max) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{}: {} × {} samples take {:.1f} GB, more than the {:.1f} GB that "
+                                 "one map may use",
+                                 info.path, info.columns, info.rows,
+                                 static_cast<double>(bytes) / 1e9,
+                                 static_cast<double>(memory_bytes_max) / 1e9)};
+    }
+    Result<SampleGrid> grid = SampleGrid::create(info.type, info.columns, info.rows);
+    if (!grid) {
+        return Error{grid.error().code, fmt::format("{}: {}", info.path, grid.error().message)};
+    }
+    SampleStatistics statistics;
+    const std::size_t step = impl_->rowsPerBand();
+    for (std::size_t row = 0; row < info.rows; row += step) {
+        if (monitor.isCancelled()) {
+            return Error{ErrorCode::Cancelled, fmt::format("{}: reading was cancelled", info.path)};
+        }
+        const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
+        if (Status read = impl_->readRows(*grid, window, row); !read) {
+            return std::move(read).error();
+        }
+        if (Status masked = impl_->markMasked(*grid, window, row); !masked) {
+            return std::move(masked).error();
+        }
+        statistics.merge(grid->applyRule(voids, row, window.rows));
+        monitor.report(static_cast<double>(row + window.rows) / static_cast<double>(info.rows));
+    }
+    return LoadedSamples{std::move(*grid), statistics};
+}
+
+Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& voids)
+{
+    const RasterInfo& info = impl_->info;
+    SampleStatistics statistics;
+    const std::size_t step = impl_->rowsPerBand();
+    for (std::size_t row = 0; row < info.rows; row += step) {
+        if (monitor.isCancelled()) {
+            return Error{ErrorCode::Cancelled, fmt::format("{}: reading was cancelled", info.path)};
+        }
+        const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
+        Result<LoadedSamples> loaded = readWindow(window, voids);
+        if (!loaded) {
+            return std::move(loaded).error();
+        }
+        statistics.merge(loaded->statistics);
+        monitor.report(static_cast<double>(row + window.rows) / static_cast<double>(info.rows));
+    }
+    return statistics;
+}
+
+std::size_t defaultMemoryBudget()
+{
+    const long pages = sysconf(_SC_PHYS_PAGES);
+    const long page_bytes = sysconf(_SC_PAGE_SIZE);
+    if (pages <= 0 || page_bytes <= 0) {
+        return std::size_t{2} << 30;
+    }
+    return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_bytes);
+}
+
+} // namespace marsview

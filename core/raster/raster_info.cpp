@@ -1,0 +1,145 @@
+#include "core/raster/raster_info.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace marsview {
+namespace {
+
+// Heights of a planetary raster are radii where they are this near to the body's radius.
+constexpr double kRadiusShareMax = 0.2;
+
+// Below this radius a height may well be as large as the radius, so that nothing can be concluded
+// from a sample; an offset in the file's header still can.
+constexpr double kBodyRadiusMin_m = 10e3;
+
+bool isNearRadius(double value_m, double radius_m)
+{
+    return radius_m > 0.0 && std::abs(value_m / radius_m - 1.0) < kRadiusShareMax;
+}
+
+std::optional<double> bodyRadius(const RasterInfo& info)
+{
+    if (info.crs && info.crs->ellipsoid()) {
+        return info.crs->ellipsoid()->equatorial_m;
+    }
+    if (info.body != nullptr) {
+        return info.body->ellipsoid.equatorial_m;
+    }
+    return std::nullopt;
+}
+
+bool fitsInDegrees(const RasterInfo& info)
+{
+    if (!info.transform) {
+        return false;
+    }
+    const double columns = static_cast<double>(info.columns);
+    const double rows = static_cast<double>(info.rows);
+    const MapPoint first = info.transform->toMap({0.0, 0.0});
+    const MapPoint last = info.transform->toMap({columns - 1.0, rows - 1.0});
+    return std::max(std::abs(first.x), std::abs(last.x)) <= 540.0 &&
+           std::abs(last.x - first.x) <= 361.0 &&
+           std::max(std::abs(first.y), std::abs(last.y)) <= 90.0;
+}
+
+} // namespace
+
+ElevationScale RasterInfo::elevationScale() const noexcept
+{
+    return {scale * unit.metres, offset * unit.metres - reference_radius_m.value_or(0.0)};
+}
+
+std::uint64_t RasterInfo::triangleCount() const noexcept
+{
+    return 2 * static_cast<std::uint64_t>(columns - 1) * static_cast<std::uint64_t>(rows - 1);
+}
+
+void deduceHeightReference(RasterInfo& info)
+{
+    static constexpr std::string_view kRadiusDatum = "sphere of radius ";
+    info.reference_radius_m.reset();
+    if (info.vertical_datum.starts_with(kRadiusDatum)) {
+        info.vertical_datum.clear();
+    }
+    const std::optional<double> radius = bodyRadius(info);
+    if (!radius) {
+        return;
+    }
+    const double offset_m = info.offset * info.unit.metres;
+    if (isNearRadius(offset_m, *radius)) {
+        info.reference_radius_m = offset_m;
+    } else if (info.typical_raw && *radius > kBodyRadiusMin_m &&
+               isNearRadius((*info.typical_raw * info.scale + info.offset) * info.unit.metres,
+                            *radius)) {
+        info.reference_radius_m = *radius;
+    }
+    if (info.reference_radius_m) {
+        info.vertical_datum = fmt::format("{}{} m", kRadiusDatum, *info.reference_radius_m);
+    }
+}
+
+Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides)
+{
+    if (overrides.vertical_unit) {
+        const auto unit = verticalUnitFrom(*overrides.vertical_unit);
+        if (!unit) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("vertical unit: \"{}\" is not known; use m, km, ft or "
+                                     "\"US survey ft\"",
+                                     *overrides.vertical_unit)};
+        }
+        info.unit = *unit;
+        info.is_unit_declared = true;
+    }
+    if (overrides.nodata) {
+        info.nodata = overrides.nodata;
+    }
+    if (overrides.transform) {
+        Result<GeoTransform> transform = GeoTransform::fromTerms(*overrides.transform);
+        if (!transform) {
+            return std::move(transform).error();
+        }
+        info.transform = *transform;
+    }
+    if (overrides.crs) {
+        Result<Crs> crs = Crs::fromText(*overrides.crs);
+        if (!crs) {
+            return Error{crs.error().code, "CRS: " + crs.error().message};
+        }
+        info.crs = std::move(crs).value();
+        info.body = info.crs->body();
+    }
+    if (overrides.body || overrides.ellipsoid) {
+        const Body* body = overrides.body ? bodyNamed(*overrides.body) : info.body;
+        if (overrides.body && body == nullptr) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("body: \"{}\" is not known; give its radii instead, or a name "
+                                     "such as Mars, Moon, Earth, Vesta or Titan",
+                                     *overrides.body)};
+        }
+        if (body == nullptr) {
+            body = bodyOfRadius(overrides.ellipsoid->equatorial_m);
+        }
+        const Ellipsoid ellipsoid = overrides.ellipsoid ? *overrides.ellipsoid : body->ellipsoid;
+        const bool is_other_ellipsoid = overrides.ellipsoid || body != info.body;
+        if (info.crs && is_other_ellipsoid) {
+            Result<Crs> crs = info.crs->onEllipsoid(
+                ellipsoid, body != nullptr ? std::string(body->name) : "unnamed body");
+            if (!crs) {
+                return std::move(crs).error();
+            }
+            info.crs = std::move(crs).value();
+        } else if (!info.crs && body != nullptr && fitsInDegrees(info)) {
+            info.crs = Crs::geographic(*body, ellipsoid);
+            info.notices.push_back(
+                fmt::format("no CRS in the file: its extent is read as degrees on {}", body->name));
+        }
+        info.body = body;
+    }
+    deduceHeightReference(info);
+    return info;
+}
+
+} // namespace marsview

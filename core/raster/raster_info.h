@@ -1,0 +1,82 @@
+// What a raster file says about itself, and what the user says instead.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/geo/crs.h"
+#include "core/geo/geotransform.h"
+#include "core/geo/vertical.h"
+#include "core/raster/sample_grid.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// Raw sample to height: height in metres = raw × gain + offset_m.
+struct ElevationScale {
+    double gain = 1.0;
+    double offset_m = 0.0;
+
+    constexpr double height(double raw) const noexcept { return raw * gain + offset_m; }
+    bool operator==(const ElevationScale&) const = default;
+};
+
+/// The description of one band of a raster file.
+struct RasterInfo {
+    std::string path; // what was opened; may differ from what was asked for (a label for its data)
+    std::string driver; // GDAL's short name, "GTiff"
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    int band = 1; // counted from 1
+    int band_count = 1;
+    SampleType type = SampleType::Int16;
+    std::optional<double> nodata; // raw
+    bool has_mask_band = false;   // voids are also told by a mask beside the samples
+
+    double scale = 1.0; // value = raw × scale + offset, in `unit`
+    double offset = 0.0;
+    VerticalUnit unit;
+    bool is_unit_declared = false;     // otherwise metres are assumed
+    std::optional<double> typical_raw; // some sample that is not void, where one was looked for
+    /// Where the values are distances from the body's centre: the radius in metres that is
+    /// subtracted to get heights.
+    std::optional<double> reference_radius_m;
+    std::string vertical_datum; // what heights are counted from; empty where unknown
+
+    /// Nothing where the file has none, or one that cannot be inverted.
+    std::optional<GeoTransform> transform;
+    std::optional<Crs> crs;
+    const Body* body = nullptr; // of the CRS, or told by the user; null where unknown
+
+    /// What was noticed, assumed or corrected; whole sentences for the user.
+    std::vector<std::string> notices;
+
+    ElevationScale elevationScale() const noexcept;
+    /// Number of triangles of the surface, two a cell.
+    std::uint64_t triangleCount() const noexcept;
+};
+
+/// What the user knows better than the file. The file itself is never changed.
+struct RasterOverrides {
+    std::optional<std::string> crs;     // text as for Crs::fromText
+    std::optional<std::string> body;    // name as for bodyNamed
+    std::optional<Ellipsoid> ellipsoid; // radii in metres
+    std::optional<GeoTransform::Terms> transform;
+    std::optional<std::string> vertical_unit; // spelling as for verticalUnitFrom
+    std::optional<double> nodata;             // raw
+
+    bool operator==(const RasterOverrides&) const = default;
+    bool isEmpty() const { return *this == RasterOverrides{}; }
+};
+
+/// `info` as the file tells it, with the overrides in place of what it says. Errors name the
+/// option that cannot be used and why.
+Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
+
+/// Decides whether values are heights or radii (see RasterInfo::reference_radius_m) and names the
+/// datum accordingly. Called whenever scale, unit, CRS or body changed.
+void deduceHeightReference(RasterInfo& info);
+
+} // namespace marsview

@@ -1,0 +1,121 @@
+#include "core/raster/raster_path.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 2> kLabelExtensions{".lbl", ".xml"};
+constexpr std::array<std::string_view, 7> kDataExtensions{".dem", ".flt", ".bil", ".bip",
+                                                          ".bsq", ".img", ".dat"};
+
+// Archives larger than this are not searched for their only raster.
+constexpr int kArchiveEntriesMax = 64;
+
+std::string lowerCase(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool isFileName(const std::string& path)
+{
+    return !path.starts_with("/vsi") && path.find("://") == std::string::npos;
+}
+
+void appendSiblings(const fs::path& path,
+                    std::span<const std::string_view> extensions,
+                    std::vector<std::string>& names)
+{
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const std::string stem = lowerCase(path.stem().string());
+    std::error_code ignored;
+    for (const std::string_view extension : extensions) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+            const fs::path& sibling = entry.path();
+            if (lowerCase(sibling.stem().string()) == stem &&
+                lowerCase(sibling.extension().string()) == extension) {
+                names.push_back(path.has_parent_path() ? sibling.string()
+                                                       : sibling.filename().string());
+            }
+        }
+    }
+}
+
+void appendArchiveEntries(const std::string& path, std::vector<std::string>& names)
+{
+    const std::string archive = "/vsizip/" + path;
+    const CPLStringList entries(VSIReadDirEx(archive.c_str(), kArchiveEntriesMax));
+    for (int i = 0; i < entries.Count(); ++i) {
+        names.push_back(archive + "/" + entries[i]);
+    }
+}
+
+} // namespace
+
+Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
+{
+    std::vector<std::string> names{path};
+    if (path.empty()) {
+        return Error{ErrorCode::NotFound, "no file name was given"};
+    }
+    if (!isFileName(path)) {
+        return names;
+    }
+    std::error_code failure;
+    const fs::file_status status = fs::status(path, failure);
+    if (status.type() == fs::file_type::not_found) {
+        // GDAL's own connection strings ("NETCDF:file:variable") look like files that are not
+        // there.
+        if (path.find(':') != std::string::npos) {
+            return names;
+        }
+        return Error{ErrorCode::NotFound, fmt::format("{}: there is no such file", path)};
+    }
+    if (status.type() == fs::file_type::none) {
+        return Error{ErrorCode::Unreadable, fmt::format("{}: {}", path, failure.message())};
+    }
+    if (access(path.c_str(), R_OK) != 0) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: may not be read ({})", path,
+                                 std::strerror(errno))}; // NOLINT(concurrency-mt-unsafe)
+    }
+    if (status.type() == fs::file_type::directory) {
+        return names; // some formats are directories; GDAL knows
+    }
+    if (status.type() != fs::file_type::regular) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: is neither a file nor a directory", path)};
+    }
+    if (fs::file_size(path, failure) == 0) {
+        return Error{ErrorCode::Invalid, fmt::format("{}: the file is empty", path)};
+    }
+    const std::string extension = lowerCase(fs::path(path).extension().string());
+    if (extension == ".img" || extension == ".dat" || extension == ".cub") {
+        appendSiblings(path, kLabelExtensions, names);
+    } else if (extension == ".hdr" || extension == ".prj") {
+        appendSiblings(path, kDataExtensions, names);
+    } else if (extension == ".zip") {
+        appendArchiveEntries(path, names);
+    }
+    return names;
+}
+
+} // namespace marsview

@@ -1,0 +1,150 @@
+#include "core/raster/sample_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <new>
+#include <type_traits>
+
+namespace marsview {
+namespace {
+
+// Nodata is declared as a double, but means the value that the samples' type can hold: a float32
+// map with nodata -3.4028234663852886e38 or 1e-34 compares in float.
+template <typename T>
+struct Nodata {
+    bool exists = false;
+    T value{};
+
+    explicit Nodata(const std::optional<double>& declared)
+    {
+        if (!declared || std::isnan(*declared)) {
+            return; // NaN is void in any case
+        }
+        if constexpr (std::is_floating_point_v<T>) {
+            value = static_cast<T>(*declared);
+            exists = true;
+        } else {
+            const double low = static_cast<double>(std::numeric_limits<T>::min());
+            const double high = static_cast<double>(std::numeric_limits<T>::max());
+            if (*declared >= low && *declared <= high && *declared == std::floor(*declared)) {
+                exists = true;
+                value =
+                    *declared >= high ? std::numeric_limits<T>::max() : static_cast<T>(*declared);
+            }
+        }
+    }
+};
+
+template <typename T>
+bool isVoidValue(T value, const Nodata<T>& nodata)
+{
+    if constexpr (std::is_floating_point_v<T>) {
+        if (!std::isfinite(value)) {
+            return true;
+        }
+    }
+    return nodata.exists && value == nodata.value;
+}
+
+} // namespace
+
+std::string_view sampleTypeName(SampleType type)
+{
+    switch (type) {
+    case SampleType::UInt8:
+        return "Byte";
+    case SampleType::Int8:
+        return "Int8";
+    case SampleType::UInt16:
+        return "UInt16";
+    case SampleType::Int16:
+        return "Int16";
+    case SampleType::UInt32:
+        return "UInt32";
+    case SampleType::Int32:
+        return "Int32";
+    case SampleType::UInt64:
+        return "UInt64";
+    case SampleType::Int64:
+        return "Int64";
+    case SampleType::Float32:
+        return "Float32";
+    case SampleType::Float64:
+        return "Float64";
+    }
+    MARSVIEW_CHECK(false);
+}
+
+void SampleStatistics::merge(const SampleStatistics& other) noexcept
+{
+    raw_minimum = std::min(raw_minimum, other.raw_minimum);
+    raw_maximum = std::max(raw_maximum, other.raw_maximum);
+    void_count += other.void_count;
+    sample_count += other.sample_count;
+}
+
+Result<SampleGrid> SampleGrid::create(SampleType type, std::size_t columns, std::size_t rows)
+{
+    MARSVIEW_CHECK(columns > 0 && rows > 0);
+    SampleGrid grid;
+    grid.type_ = type;
+    grid.columns_ = columns;
+    grid.rows_ = rows;
+    grid.words_per_row_ = (columns + 63) / 64;
+    const std::size_t bytes = columns * rows * sampleBytes(type);
+    grid.samples_.reset(new (std::nothrow) std::byte[bytes]);
+    if (!grid.samples_) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{} × {} samples need {} bytes, which cannot be had", columns,
+                                 rows, bytes)};
+    }
+    return grid;
+}
+
+std::size_t SampleGrid::bytes() const noexcept
+{
+    return columns_ * rows_ * sampleBytes(type_) + voids_.size() * sizeof(std::uint64_t);
+}
+
+void SampleGrid::markVoid(std::size_t column, std::size_t row)
+{
+    if (voids_.empty()) {
+        voids_.assign(words_per_row_ * rows_, 0);
+    }
+    voids_[row * words_per_row_ + column / 64] |= std::uint64_t{1} << (column % 64);
+}
+
+SampleStatistics SampleGrid::applyRule(const VoidRule& rule, std::size_t first, std::size_t count)
+{
+    MARSVIEW_CHECK(first + count <= rows_);
+    return dispatchSampleType(type_, [&](auto zero) {
+        using T = decltype(zero);
+        const Nodata<T> nodata(rule.nodata);
+        SampleStatistics statistics;
+        statistics.sample_count = count * columns_;
+        T low = std::numeric_limits<T>::max();
+        T high = std::numeric_limits<T>::lowest();
+        for (std::size_t r = first; r < first + count; ++r) {
+            const T* row = reinterpret_cast<const T*>(samples_.get()) + r * columns_;
+            for (std::size_t c = 0; c < columns_; ++c) {
+                if (isVoidValue(row[c], nodata)) {
+                    markVoid(c, r);
+                }
+                if (isVoid(c, r)) {
+                    ++statistics.void_count;
+                    continue;
+                }
+                low = std::min(low, row[c]);
+                high = std::max(high, row[c]);
+            }
+        }
+        if (statistics.hasSamples()) {
+            statistics.raw_minimum = static_cast<double>(low);
+            statistics.raw_maximum = static_cast<double>(high);
+        }
+        return statistics;
+    });
+}
+
+} // namespace marsview

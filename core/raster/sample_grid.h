@@ -1,0 +1,102 @@
+// The samples of a raster in memory, in the type of the file.
+#pragma once
+
+#include "core/base/grid_view.h"
+#include "core/base/result.h"
+#include "core/raster/sample_type.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+
+/// What a scan over samples found, in raw units (before scale, offset and unit).
+struct SampleStatistics {
+    double raw_minimum = std::numeric_limits<double>::infinity(); // over samples that are not void
+    double raw_maximum = -std::numeric_limits<double>::infinity();
+    std::uint64_t void_count = 0;
+    std::uint64_t sample_count = 0;
+
+    bool hasSamples() const noexcept { return void_count < sample_count; }
+    void merge(const SampleStatistics& other) noexcept;
+};
+
+/// Which raw values stand for "nothing was measured here".
+struct VoidRule {
+    std::optional<double> nodata; // NaN and infinities are void in any case
+};
+
+/// Columns × rows samples in row-major order, kept in the raster's own type: an int16 map costs
+/// two bytes a sample, plus one bit where the map has voids. Row 0 is the raster's first.
+///
+/// Reading concurrently is safe; writing is for the one thread that fills the grid.
+class SampleGrid {
+public:
+    /// Uninitialised samples, none void. TooLarge where the memory cannot be had.
+    static Result<SampleGrid> create(SampleType type, std::size_t columns, std::size_t rows);
+
+    SampleType type() const noexcept { return type_; }
+    std::size_t columns() const noexcept { return columns_; }
+    std::size_t rows() const noexcept { return rows_; }
+    /// Memory held, the void mask included.
+    std::size_t bytes() const noexcept;
+
+    /// The raw value, void or not. Unchecked: column < columns(), row < rows().
+    double raw(std::size_t column, std::size_t row) const noexcept
+    {
+        const std::size_t index = row * columns_ + column;
+        return dispatchSampleType(type_, [&](auto zero) {
+            using T = decltype(zero);
+            return static_cast<double>(reinterpret_cast<const T*>(samples_.get())[index]);
+        });
+    }
+    bool isVoid(std::size_t column, std::size_t row) const noexcept
+    {
+        if (voids_.empty()) {
+            return false;
+        }
+        const std::size_t word = row * words_per_row_ + column / 64;
+        return ((voids_[word] >> (column % 64)) & 1U) != 0;
+    }
+    bool hasVoids() const noexcept { return !voids_.empty(); }
+
+    /// Calls `function(GridView<const T>)` with the samples in their own type.
+    template <typename F>
+    decltype(auto) visit(F&& function) const
+    {
+        return dispatchSampleType(type_, [&](auto zero) -> decltype(auto) {
+            using T = decltype(zero);
+            return std::forward<F>(function)(
+                GridView<const T>(reinterpret_cast<const T*>(samples_.get()), columns_, rows_));
+        });
+    }
+
+    /// Where the samples of a row begin, for filling: columns() × sampleBytes(type()) bytes.
+    std::byte* rowData(std::size_t row) noexcept
+    {
+        return samples_.get() + row * columns_ * sampleBytes(type_);
+    }
+
+    void markVoid(std::size_t column, std::size_t row);
+    /// Marks the samples of rows [first, first + count) that `rule` calls void, and returns what
+    /// these rows hold. Samples already marked stay void.
+    SampleStatistics applyRule(const VoidRule& rule, std::size_t first, std::size_t count);
+    void clearVoids() noexcept { voids_.clear(); }
+
+private:
+    SampleGrid() = default;
+
+    SampleType type_ = SampleType::Int16;
+    std::size_t columns_ = 0;
+    std::size_t rows_ = 0;
+    std::unique_ptr<std::byte[]> samples_;
+    std::size_t words_per_row_ = 0;
+    std::vector<std::uint64_t> voids_; // a bit a sample, rows padded to words; empty: none is void
+};
+
+} // namespace marsview

@@ -1,0 +1,100 @@
+#include "core/session/dataset.h"
+
+#include "core/raster/raster_file.h"
+#include "core/terrain/seam.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <utility>
+
+namespace marsview {
+
+Dataset::Dataset(DatasetSpec spec,
+                 RasterInfo file_info,
+                 RasterInfo info,
+                 std::shared_ptr<const SampleGrid> samples,
+                 const SampleStatistics& statistics)
+    : spec_(std::move(spec))
+    , file_info_(std::move(file_info))
+    , info_(std::move(info))
+    , samples_(std::move(samples))
+    , statistics_(statistics)
+    , georeference_(georeferenceOf(info_))
+    , heightfield_(samples_, statistics_, info_.elevationScale())
+{}
+
+double Dataset::height(GeographicPoint geographic) const
+{
+    const std::optional<GridPoint> grid = georeference_.toGrid(geographic);
+    if (!grid) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (georeference_.wrapsAround()) {
+        if (const auto seam = seamCell(*grid, heightfield_.columns(), heightfield_.rows())) {
+            const std::size_t last = heightfield_.columns() - 1;
+            return heightInCell(
+                {heightfield_.sample(last, seam->row), heightfield_.sample(0, seam->row),
+                 heightfield_.sample(last, seam->row + 1), heightfield_.sample(0, seam->row + 1)},
+                seam->u, seam->v);
+        }
+    }
+    return heightfield_.height(*grid);
+}
+
+Result<std::shared_ptr<const Dataset>>
+loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_bytes_max)
+{
+    Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
+    if (!file) {
+        return std::move(file).error();
+    }
+    RasterInfo file_info = file->info();
+    Result<RasterInfo> info = withOverrides(file_info, spec.overrides);
+    if (!info) {
+        return Error{info.error().code, fmt::format("{}: {}", spec.path, info.error().message)};
+    }
+    if (info->columns < 2 || info->rows < 2) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: {} × {} samples make no surface; at least 2 × 2 are needed",
+                                 spec.path, info->columns, info->rows)};
+    }
+    Result<LoadedSamples> samples = file->readAll(monitor, {info->nodata}, memory_bytes_max);
+    if (!samples) {
+        return std::move(samples).error();
+    }
+    if (!samples->statistics.hasSamples()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: holds no height, all of its {} samples are void", spec.path,
+                                 samples->statistics.sample_count)};
+    }
+    return std::shared_ptr<const Dataset>(new Dataset(
+        spec, std::move(file_info), std::move(info).value(),
+        std::make_shared<const SampleGrid>(std::move(samples->grid)), samples->statistics));
+}
+
+Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
+                                                     const RasterOverrides& overrides)
+{
+    const std::string& path = dataset.spec().path;
+    Result<RasterInfo> info = withOverrides(dataset.fileInfo(), overrides);
+    if (!info) {
+        return Error{info.error().code, fmt::format("{}: {}", path, info.error().message)};
+    }
+    if (info->nodata != dataset.info().nodata) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: another nodata value needs the samples read again", path)};
+    }
+    DatasetSpec spec = dataset.spec();
+    spec.overrides = overrides;
+    return std::shared_ptr<const Dataset>(new Dataset(std::move(spec), dataset.fileInfo(),
+                                                      std::move(info).value(), dataset.samples_,
+                                                      dataset.statistics_));
+}
+
+Georeference georeferenceOf(const RasterInfo& info)
+{
+    return {info.columns, info.rows, info.transform.value_or(GeoTransform{}), info.crs};
+}
+
+} // namespace marsview

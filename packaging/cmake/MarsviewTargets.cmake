@@ -1,0 +1,65 @@
+# How every target of the project is compiled: language, warnings, sanitizers.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+# Debian puts GeographicLib's find module beside, not on, CMake's path.
+list(APPEND CMAKE_MODULE_PATH "${CMAKE_INSTALL_PREFIX}/share/cmake/geographiclib"
+  /usr/share/cmake/geographiclib)
+
+find_package(Threads REQUIRED)
+
+add_library(marsview_flags INTERFACE)
+target_include_directories(marsview_flags INTERFACE "${CMAKE_SOURCE_DIR}")
+target_compile_options(marsview_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wcast-align
+  -Woverloaded-virtual -Wnon-virtual-dtor -Wdouble-promotion -Wformat=2
+  -ffp-contract=off # the same bits on every machine
+  $<$<BOOL:${MARSVIEW_WERROR}>:-Werror>)
+if(MARSVIEW_SANITIZE)
+  target_compile_options(marsview_flags INTERFACE
+    -fsanitize=${MARSVIEW_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(marsview_flags INTERFACE -fsanitize=${MARSVIEW_SANITIZE})
+endif()
+
+# marsview_library(NAME SOURCES … LINKS …): a static library of one layer. Its links are public
+# because our headers name the types of what they build on.
+function(marsview_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;SYSTEM_INCLUDES" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC ${ARG_LINKS} PRIVATE marsview_flags)
+  target_include_directories(${name} PUBLIC "${CMAKE_SOURCE_DIR}")
+  target_include_directories(${name} SYSTEM PUBLIC ${ARG_SYSTEM_INCLUDES})
+endfunction()
+
+# `format` and `tidy` work on the project's own sources. clang-tidy wants a database written for
+# clang: build the target in the "clang" preset.
+file(GLOB_RECURSE MARSVIEW_OWN_SOURCES CONFIGURE_DEPENDS
+  "${CMAKE_SOURCE_DIR}/app/*.cpp" "${CMAKE_SOURCE_DIR}/app/*.h"
+  "${CMAKE_SOURCE_DIR}/core/*.cpp" "${CMAKE_SOURCE_DIR}/core/*.h"
+  "${CMAKE_SOURCE_DIR}/haptics/*.cpp" "${CMAKE_SOURCE_DIR}/haptics/*.h"
+  "${CMAKE_SOURCE_DIR}/ui/*.cpp" "${CMAKE_SOURCE_DIR}/ui/*.h"
+  "${CMAKE_SOURCE_DIR}/tests/*.cpp" "${CMAKE_SOURCE_DIR}/tests/*.h")
+find_program(CLANG_FORMAT_PROGRAM NAMES clang-format-14 clang-format)
+if(CLANG_FORMAT_PROGRAM)
+  add_custom_target(format
+    COMMAND "${CLANG_FORMAT_PROGRAM}" -i ${MARSVIEW_OWN_SOURCES} VERBATIM)
+  add_custom_target(format-check
+    COMMAND "${CLANG_FORMAT_PROGRAM}" --dry-run -Werror ${MARSVIEW_OWN_SOURCES} VERBATIM)
+endif()
+find_program(RUN_CLANG_TIDY_PROGRAM NAMES run-clang-tidy-14 run-clang-tidy)
+if(RUN_CLANG_TIDY_PROGRAM)
+  add_custom_target(tidy
+    COMMAND "${RUN_CLANG_TIDY_PROGRAM}" -quiet -j 2 -p "${CMAKE_BINARY_DIR}"
+      "^${CMAKE_SOURCE_DIR}/(app|core|haptics|ui|tests)/" VERBATIM)
+endif()
