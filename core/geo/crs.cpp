@@ -58,6 +58,23 @@ std::string exportWkt(const OGRSpatialReference& srs)
     return wkt;
 }
 
+// Readers of formats without CRS names leave a placeholder; say what the system is instead.
+std::string nameOf(const OGRSpatialReference& srs)
+{
+    const std::string name = srs.GetName() != nullptr ? srs.GetName() : "";
+    if (!name.empty() && name != "unnamed" && name != "unknown" && name != "Unknown") {
+        return name;
+    }
+    const char* geographic = srs.GetAttrValue("GEOGCS");
+    const std::string base = geographic != nullptr ? geographic : "unnamed";
+    int is_north = 0;
+    if (const int zone = srs.GetUTMZone(&is_north)) {
+        return fmt::format("{} / UTM zone {}{}", base, zone, is_north != 0 ? "N" : "S");
+    }
+    const char* method = srs.GetAttrValue("PROJECTION");
+    return method != nullptr ? fmt::format("{} / {}", base, method) : base;
+}
+
 // Which of the first two axes is x, and which way both point.
 struct AxisLayout {
     bool is_swapped = false; // the first axis is y
@@ -319,7 +336,7 @@ Result<Crs> Crs::fromSpatialReference(const OGRSpatialReference& reference)
 {
     auto impl = std::make_shared<Impl>();
     impl->srs = reference;
-    impl->name = reference.GetName() != nullptr ? reference.GetName() : "unnamed";
+    impl->name = nameOf(reference);
     impl->wkt = exportWkt(reference);
     impl->readVertical();
     impl->srs.DemoteTo2D(nullptr);

@@ -56,7 +56,16 @@ Georeference::Georeference(std::size_t columns,
                     .east_per_row = t[2] * scale.x,
                     .north_per_column = t[4] * scale.y,
                     .north_per_row = t[5] * scale.y};
-    if (crs_ && crs_->turn() && t[2] == 0.0 && t[4] == 0.0) {
+    if (!crs_ || !crs_->turn()) {
+        return;
+    }
+    if (const auto origin = crs_->toGeographic(toMap(centre))) {
+        constexpr double kHalfTurn = std::numbers::pi;
+        centre_longitude_ = origin->longitude.radians() <= -kHalfTurn
+                                ? Angle::radians(origin->longitude.radians() + 2.0 * kHalfTurn)
+                                : origin->longitude;
+    }
+    if (t[2] == 0.0 && t[4] == 0.0) {
         const double columns_per_turn = *crs_->turn() / std::abs(t[1]);
         wraps_around_ = std::abs(columns_per_turn - static_cast<double>(columns_)) < 0.5;
     }
@@ -64,7 +73,21 @@ Georeference::Georeference(std::size_t columns,
 
 std::optional<GeographicPoint> Georeference::toGeographic(GridPoint grid) const
 {
-    return crs_ ? crs_->toGeographic(toMap(grid)) : std::nullopt;
+    if (!crs_) {
+        return std::nullopt;
+    }
+    const MapPoint map = toMap(grid);
+    std::optional<GeographicPoint> point = crs_->toGeographic(map);
+    if (point && crs_->turn()) {
+        const double turns_from_centre =
+            crs_->eastSign() * (map.x - toMap(scene_frame_.origin).x) / *crs_->turn();
+        const double expected_deg = centre_longitude_.degrees() + 360.0 * turns_from_centre;
+        const double whole_turns = std::round((expected_deg - point->longitude.degrees()) / 360.0);
+        if (whole_turns != 0.0) {
+            point->longitude = Angle::degrees(point->longitude.degrees() + 360.0 * whole_turns);
+        }
+    }
+    return point;
 }
 
 std::optional<GridPoint> Georeference::toGrid(GeographicPoint geographic) const

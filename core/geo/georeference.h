@@ -31,6 +31,10 @@ public:
     MapPoint toMap(GridPoint grid) const noexcept { return transform_.toMap(grid); }
     GridPoint toGrid(MapPoint map) const noexcept { return transform_.toGrid(map); }
 
+    /// Where longitude is periodic along x (geographic systems, cylindrical projections), it runs
+    /// on without a jump across the raster and beyond its edges: a global map goes from 0° to 360°
+    /// or from -180° to 180°, as its CRS lays it out. Otherwise it lies in [-180°, 180°]. Nothing
+    /// where the position is outside the projection or there is no body to be on.
     std::optional<GeographicPoint> toGeographic(GridPoint grid) const;
     /// The turn of longitude is chosen so that the position lies on the raster, or else nearest to
     /// its centre.
@@ -51,6 +55,7 @@ private:
     GeoTransform transform_;
     std::optional<Crs> crs_;
     bool wraps_around_ = false;
+    Angle centre_longitude_; // of the origin of scene_frame_, where the CRS has a turn
     SceneFrame scene_frame_;
 };
 

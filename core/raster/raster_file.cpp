@@ -20,6 +20,7 @@ namespace {
 
 // No raster that exists comes near: the Earth at 2.4 m has this many columns.
 constexpr int kSideMax = 1 << 24;
+constexpr std::uint64_t kSamplesMax = std::uint64_t{1} << 40;
 
 // Samples are read in bands of whole rows of about this size: large enough that the call costs
 // nothing, small enough that progress and cancel feel immediate.
@@ -124,8 +125,14 @@ Result<OpenedDataset> openDataset(const std::string& path)
                                  "in it",
                                  path)};
     }
-    if (first_failure.find("not recognized") != std::string::npos || first_failure.empty()) {
+    const auto says = [&first_failure](const char* words) {
+        return first_failure.find(words) != std::string::npos;
+    };
+    if (says("not recognized") || first_failure.empty()) {
         first_failure = "is in no raster format that GDAL recognises, or is damaged";
+    } else if (says("No such file or directory")) {
+        first_failure = fmt::format(
+            "names a data file that is not there; put it beside this one ({})", first_failure);
     }
     return Error{ErrorCode::Unsupported, fmt::format("{}: {}", path, first_failure)};
 }
@@ -313,13 +320,15 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     impl->band = dataset.GetRasterBand(band);
     const int columns = dataset.GetRasterXSize();
     const int rows = dataset.GetRasterYSize();
-    if (columns > kSideMax || rows > kSideMax) {
-        return refuse(ErrorCode::TooLarge,
-                      fmt::format("{} × {} samples cannot be a map; at most {} a side are read",
-                                  columns, rows, kSideMax));
-    }
     info.columns = static_cast<std::size_t>(columns);
     info.rows = static_cast<std::size_t>(rows);
+    if (columns > kSideMax || rows > kSideMax || info.columns * info.rows > kSamplesMax) {
+        return refuse(
+            ErrorCode::TooLarge,
+            fmt::format("{} × {} samples cannot be a map; at most {} a side and {} in all "
+                        "are read",
+                        columns, rows, kSideMax, kSamplesMax));
+    }
     const std::optional<SampleType> type = sampleTypeOf(*impl->band);
     if (!type) {
         return refuse(ErrorCode::Unsupported,

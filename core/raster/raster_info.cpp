@@ -1,6 +1,7 @@
 #include "core/raster/raster_info.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -77,6 +78,25 @@ void deduceHeightReference(RasterInfo& info)
     }
     if (info.reference_radius_m) {
         info.vertical_datum = fmt::format("{}{} m", kRadiusDatum, *info.reference_radius_m);
+    }
+}
+
+void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
+{
+    if (!statistics.hasSamples()) {
+        info.notices.push_back(fmt::format("holds no height: all of its {} samples are void",
+                                           statistics.sample_count));
+        return;
+    }
+    constexpr std::array kUsualVoidMarks{-32768.0, -32767.0, -9999.0, -99999.0,
+                                         -3.4028234663852886e38};
+    const bool is_usual_mark = std::find(kUsualVoidMarks.begin(), kUsualVoidMarks.end(),
+                                         statistics.raw_minimum) != kUsualVoidMarks.end();
+    if (!info.nodata && is_usual_mark) {
+        info.notices.push_back(
+            fmt::format("the lowest sample, {}, is a usual mark for voids, but "
+                        "the file declares none; if it is one, give it as nodata",
+                        statistics.raw_minimum));
     }
 }
 

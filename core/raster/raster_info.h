@@ -75,6 +75,10 @@ struct RasterOverrides {
 /// option that cannot be used and why.
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
 
+/// Adds a notice where the samples look as if the file forgot to declare its voids, or has nothing
+/// but voids.
+void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics);
+
 /// Decides whether values are heights or radii (see RasterInfo::reference_radius_m) and names the
 /// datum accordingly. Called whenever scale, unit, CRS or body changed.
 void deduceHeightReference(RasterInfo& info);

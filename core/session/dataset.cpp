@@ -85,6 +85,7 @@ Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
         return Error{ErrorCode::Unsupported,
                      fmt::format("{}: another nodata value needs the samples read again", path)};
     }
+    noteSuspiciousSamples(*info, dataset.statistics_);
     DatasetSpec spec = dataset.spec();
     spec.overrides = overrides;
     return std::shared_ptr<const Dataset>(new Dataset(std::move(spec), dataset.fileInfo(),

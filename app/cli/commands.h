@@ -1,0 +1,19 @@
+// The commands of marsview-cli. Each adds itself to the parser and sets `run` when it is chosen.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace marsview {
+
+/// What the chosen command does once the arguments are parsed.
+using CommandAction = std::function<Status()>;
+
+void addInfoCommand(CLI::App& app, CommandAction& run);
+/// `has_stdin` tells beforehand whether `--stdin` is among the arguments: the position options then
+/// stand without numbers.
+void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin);
+
+} // namespace marsview

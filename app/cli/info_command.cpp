@@ -1,0 +1,203 @@
+// marsview-cli info: what a raster is, where it lies and what its heights mean.
+
+#include "app/cli/commands.h"
+#include "app/cli/long_job.h"
+#include "app/cli/map_options.h"
+#include "app/cli/text_output.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct Options {
+    MapOptions map;
+    bool is_json = false;
+};
+
+Json textOrNull(const std::string& text)
+{
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
+// Longitude and latitude in degrees of the outer corners, the way people of that body count them.
+Json cornersOf(const OpenedMap& map, LatitudeKind latitude_kind)
+{
+    const double right = static_cast<double>(map.info.columns) - 0.5;
+    const double below = static_cast<double>(map.info.rows) - 0.5;
+    Json corners = Json::object();
+    for (const auto& [name, grid] : {std::pair{"upper_left", GridPoint{-0.5, -0.5}},
+                                     std::pair{"upper_right", GridPoint{right, -0.5}},
+                                     std::pair{"lower_left", GridPoint{-0.5, below}},
+                                     std::pair{"lower_right", GridPoint{right, below}}}) {
+        const auto point = map.georeference.toGeographic(grid);
+        if (!point) {
+            corners[name] = nullptr;
+            continue;
+        }
+        const Angle latitude = latitude_kind == LatitudeKind::Planetographic
+                                   ? map.info.crs->ellipsoid()->planetographic(point->latitude)
+                                   : point->latitude;
+        corners[name] = {point->longitude.degrees(), latitude.degrees()};
+    }
+    return corners;
+}
+
+Json describe(const OpenedMap& map, const SampleStatistics& statistics, const MapOptions& options)
+{
+    const RasterInfo& info = map.info;
+    const ElevationScale scale = info.elevationScale();
+    const bool has_samples = statistics.hasSamples();
+    double low = has_samples ? scale.height(statistics.raw_minimum) : kNone;
+    double high = has_samples ? scale.height(statistics.raw_maximum) : kNone;
+    if (low > high) {
+        std::swap(low, high);
+    }
+    Json json;
+    json["file"] = info.path;
+    json["driver"] = info.driver;
+    json["columns"] = info.columns;
+    json["rows"] = info.rows;
+    json["band"] = info.band;
+    json["band_count"] = info.band_count;
+    json["sample_type"] = sampleTypeName(info.type);
+    json["nodata"] = info.nodata ? asJson(*info.nodata) : Json(nullptr);
+    if (info.nodata && std::isnan(*info.nodata)) {
+        json["nodata"] = "nan";
+    }
+    json["has_mask"] = info.has_mask_band;
+    json["void_count"] = statistics.void_count;
+    json["minimum"] = asJson(low);
+    json["maximum"] = asJson(high);
+    json["raw_minimum"] = asJson(has_samples ? statistics.raw_minimum : kNone);
+    json["raw_maximum"] = asJson(has_samples ? statistics.raw_maximum : kNone);
+    json["scale"] = info.scale;
+    json["offset"] = info.offset;
+    json["vertical_unit"] = info.unit.name;
+    json["is_vertical_unit_declared"] = info.is_unit_declared;
+    json["vertical_datum"] = textOrNull(info.vertical_datum);
+    json["reference_radius_m"] =
+        info.reference_radius_m ? asJson(*info.reference_radius_m) : Json(nullptr);
+    json["crs_name"] = info.crs ? Json(info.crs->name()) : Json(nullptr);
+    json["crs_unit"] = info.crs ? Json(info.crs->unitName()) : Json(nullptr);
+    json["crs_wkt"] = info.crs ? Json(info.crs->wkt()) : Json(nullptr);
+    json["body"] = info.body != nullptr ? Json(info.body->name) : Json(nullptr);
+    const auto ellipsoid = info.crs ? info.crs->ellipsoid() : std::nullopt;
+    json["radii_m"] = ellipsoid ? Json{ellipsoid->equatorial_m, ellipsoid->polar_m} : Json(nullptr);
+    const GeoTransform& transform = map.georeference.transform();
+    json["pixel_size"] = {transform.pixelWidth(), transform.pixelHeight()};
+    json["pixel_size_m"] = {map.georeference.pixelWidth_m(), map.georeference.pixelHeight_m()};
+    json["geotransform"] = info.transform ? Json(info.transform->terms()) : Json(nullptr);
+    const LatitudeKind latitude_kind = options.latitudeKind(info.body);
+    json["latitude_kind"] =
+        latitude_kind == LatitudeKind::Planetographic ? "planetographic" : "planetocentric";
+    json["corners_lonlat"] = info.crs ? cornersOf(map, latitude_kind) : Json(nullptr);
+    json["wraps_around"] = map.georeference.wrapsAround();
+    json["triangle_count"] = info.triangleCount();
+    json["notices"] = info.notices;
+    return json;
+}
+
+std::string asWords(const Json& value)
+{
+    if (value.is_null()) {
+        return "unknown";
+    }
+    if (value.is_boolean()) {
+        return value.get<bool>() ? "yes" : "no";
+    }
+    if (value.is_string()) {
+        return value.get<std::string>();
+    }
+    if (value.is_number_float()) {
+        return asText(value.get<double>());
+    }
+    if (value.is_array()) {
+        std::string words;
+        for (const Json& item : value) {
+            words += (words.empty() ? "" : " ") + asWords(item);
+        }
+        return words;
+    }
+    return value.dump();
+}
+
+void printForPeople(const Json& json, const RasterInfo& info)
+{
+    const auto print = [](std::string_view name, const std::string& words) {
+        printLine(fmt::format("{:<16}{}", name, words));
+    };
+    const auto field = [&json](const char* key) { return asWords(json.at(key)); };
+    print("file", field("file"));
+    print("driver", field("driver"));
+    print("columns", field("columns"));
+    print("rows", field("rows"));
+    print("sample type", field("sample_type"));
+    print("nodata", json["nodata"].is_null() ? "none" : field("nodata"));
+    print("voids", field("void_count"));
+    print("minimum", json["minimum"].is_null() ? "none" : field("minimum") + " m");
+    print("maximum", json["maximum"].is_null() ? "none" : field("maximum") + " m");
+    if (info.scale != 1.0 || info.offset != 0.0) {
+        print("scale, offset", field("scale") + " " + field("offset"));
+    }
+    print("vertical unit", field("vertical_unit") + (info.is_unit_declared ? "" : " (assumed)"));
+    print("vertical datum", field("vertical_datum"));
+    print("CRS", json["crs_name"].is_null() ? "none" : field("crs_name"));
+    print("body", field("body"));
+    print("radii", json["radii_m"].is_null() ? "unknown" : field("radii_m") + " m");
+    print("pixel size",
+          field("pixel_size") + " " + (info.crs ? info.crs->unitName() : std::string("units")));
+    print("pixel size", field("pixel_size_m") + " m");
+    print("geotransform", json["geotransform"].is_null() ? "none" : field("geotransform"));
+    if (!json["corners_lonlat"].is_null()) {
+        for (const auto& [name, corner] : json["corners_lonlat"].items()) {
+            print(name, asWords(corner) + " " + field("latitude_kind"));
+        }
+    }
+    print("triangles", field("triangle_count"));
+}
+
+Status runInfo(const Options& options)
+{
+    Result<OpenedMap> map = openMap(options.map);
+    if (!map) {
+        return std::move(map).error();
+    }
+    LongJob job("reading");
+    Result<SampleStatistics> statistics = map->file.scan(job.monitor(), {map->info.nodata});
+    if (!statistics) {
+        return std::move(statistics).error();
+    }
+    noteSuspiciousSamples(map->info, *statistics);
+    const Json json = describe(*map, *statistics, options.map);
+    if (options.is_json) {
+        printLine(json.dump(2, ' ', false, Json::error_handler_t::replace));
+    } else {
+        printForPeople(json, map->info);
+    }
+    printNotices(*map);
+    return Done{};
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App& app, CommandAction& run)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("info", "Say what a map is and where it lies");
+    options->map.addTo(*command);
+    command->add_flag("--json", options->is_json, "for machines");
+    command->callback([options, &run] { run = [options] { return runInfo(*options); }; });
+}
+
+} // namespace marsview

@@ -1,0 +1,91 @@
+#include "app/cli/map_options.h"
+
+#include "core/session/dataset.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace marsview {
+
+void MapOptions::addTo(CLI::App& command)
+{
+    command.add_option("DEM", path, "elevation map: a file, a label, or a GDAL dataset name")
+        ->required();
+    const std::string group = "Instead of what the file says";
+    command.add_option("--band", band, "band to read, counted from 1")->group(group);
+    command.add_option("--crs", crs, "EPSG:… or IAU_2015:… code, PROJ string or WKT")->group(group);
+    command.add_option("--body", body, "Mars, Moon, Earth, …")->group(group);
+    command
+        .add_option("--radii", radii_m, "equatorial and polar radius of the ellipsoid in metres")
+        ->expected(1, 2)
+        ->group(group);
+    command
+        .add_option(
+            "--geotransform", geotransform,
+            "x0 dx/dcolumn dx/drow y0 dy/dcolumn dy/drow, of the first pixel's outer corner")
+        ->expected(6)
+        ->group(group);
+    command.add_option("--unit", vertical_unit, "unit of the heights: m, km, ft, \"US survey ft\"")
+        ->group(group);
+    command.add_option("--nodata", nodata, "raw value that means void")->group(group);
+    command
+        .add_option("--latitude", latitude,
+                    "how latitudes count: planetocentric (default; on the Earth: planetographic)")
+        ->check(CLI::IsMember({"planetocentric", "planetographic"}));
+}
+
+RasterOverrides MapOptions::overrides() const
+{
+    RasterOverrides overrides;
+    const auto given = [](const std::string& text) {
+        return text.empty() ? std::nullopt : std::optional<std::string>(text);
+    };
+    overrides.crs = given(crs);
+    overrides.body = given(body);
+    overrides.vertical_unit = given(vertical_unit);
+    overrides.nodata = nodata;
+    if (!radii_m.empty()) {
+        overrides.ellipsoid = Ellipsoid{radii_m.front(), radii_m.back()};
+    }
+    if (!geotransform.empty()) {
+        GeoTransform::Terms terms{};
+        std::copy(geotransform.begin(), geotransform.end(), terms.begin());
+        overrides.transform = terms;
+    }
+    return overrides;
+}
+
+LatitudeKind MapOptions::latitudeKind(const Body* of_body) const
+{
+    if (latitude == "planetographic") {
+        return LatitudeKind::Planetographic;
+    }
+    if (latitude == "planetocentric" || of_body == nullptr) {
+        return LatitudeKind::Planetocentric;
+    }
+    return of_body->latitude;
+}
+
+Result<OpenedMap> openMap(const MapOptions& options)
+{
+    Result<RasterFile> file = RasterFile::open(options.path, options.band);
+    if (!file) {
+        return std::move(file).error();
+    }
+    Result<RasterInfo> info = withOverrides(file->info(), options.overrides());
+    if (!info) {
+        return Error{info.error().code, fmt::format("{}: {}", options.path, info.error().message)};
+    }
+    Georeference georeference = georeferenceOf(*info);
+    return OpenedMap{std::move(file).value(), std::move(info).value(), std::move(georeference)};
+}
+
+void printNotices(const OpenedMap& map)
+{
+    for (const std::string& notice : map.info.notices) {
+        std::fprintf(stderr, "marsview-cli: %s: %s\n", map.info.path.c_str(), notice.c_str());
+    }
+}
+
+} // namespace marsview

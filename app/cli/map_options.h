@@ -1,0 +1,48 @@
+// The options that say which map is meant and what the user knows better than its file.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/geo/body.h"
+#include "core/geo/georeference.h"
+#include "core/raster/raster_file.h"
+#include "core/raster/raster_info.h"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// Filled by the parser.
+struct MapOptions {
+    std::string path;
+    int band = 1;
+    std::string crs;
+    std::string body;
+    std::vector<double> radii_m; // equatorial, or equatorial and polar
+    std::vector<double> geotransform;
+    std::string vertical_unit;
+    std::optional<double> nodata;
+    std::string latitude; // "planetocentric", "planetographic", or empty for the body's custom
+
+    void addTo(CLI::App& command);
+    RasterOverrides overrides() const;
+    /// How bare latitudes are meant for a map of that body (null: of no known one).
+    LatitudeKind latitudeKind(const Body* of_body) const;
+};
+
+/// An open raster with the options applied.
+struct OpenedMap {
+    RasterFile file;
+    RasterInfo info;
+    Georeference georeference;
+};
+
+Result<OpenedMap> openMap(const MapOptions& options);
+
+/// Says on stderr what was noticed about the map: for when the result is out. A failure says only
+/// its own sentence.
+void printNotices(const OpenedMap& map);
+
+} // namespace marsview

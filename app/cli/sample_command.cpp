@@ -1,0 +1,228 @@
+// marsview-cli sample: heights of the surface at single positions.
+
+#include "app/cli/commands.h"
+#include "app/cli/map_options.h"
+#include "app/cli/text_output.h"
+#include "core/terrain/surface_reader.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class PositionFrame { Map, LonLat, Pixel };
+
+struct Options {
+    MapOptions map;
+    PositionFrame frame = PositionFrame::Map;
+    std::vector<double> position;
+    bool is_stdin = false;
+    bool is_json = false;
+};
+
+struct Position {
+    double first = 0.0;
+    double second = 0.0;
+};
+
+class Sampler {
+public:
+    Sampler(OpenedMap& map, const Options& options)
+        : map_(map)
+        , reader_(map.file, map.info, map.georeference)
+        , frame_(options.frame)
+        , latitude_kind_(options.map.latitudeKind(map.info.body))
+        , is_json_(options.is_json)
+    {}
+
+    Status print(Position position)
+    {
+        Result<double> height = heightAt(position);
+        if (!height) {
+            return std::move(height).error();
+        }
+        if (is_json_) {
+            printLine(asReport(position, *height).dump());
+        } else {
+            printLine(asText(*height));
+        }
+        return Done{};
+    }
+
+private:
+    Result<double> heightAt(Position p)
+    {
+        switch (frame_) {
+        case PositionFrame::Pixel:
+            return reader_.height(GridPoint{p.first, p.second});
+        case PositionFrame::Map:
+            return reader_.height(map_.georeference.toGrid(MapPoint{p.first, p.second}));
+        case PositionFrame::LonLat:
+            return reader_.height(geographic(p));
+        }
+        MARSVIEW_CHECK(false);
+    }
+
+    GeographicPoint geographic(Position p) const
+    {
+        const Angle latitude = Angle::degrees(p.second);
+        return {Angle::degrees(p.first), latitude_kind_ == LatitudeKind::Planetographic
+                                             ? map_.info.crs->ellipsoid()->planetocentric(latitude)
+                                             : latitude};
+    }
+
+    Json asReport(Position p, double height_m) const
+    {
+        Json json;
+        json["height"] = asJson(height_m);
+        json["unit"] = "m";
+        json["vertical_datum"] =
+            map_.info.vertical_datum.empty() ? Json(nullptr) : Json(map_.info.vertical_datum);
+        std::optional<GridPoint> grid;
+        switch (frame_) {
+        case PositionFrame::Pixel:
+            grid = GridPoint{p.first, p.second};
+            break;
+        case PositionFrame::Map:
+            grid = map_.georeference.toGrid(MapPoint{p.first, p.second});
+            break;
+        case PositionFrame::LonLat:
+            grid = map_.georeference.toGrid(geographic(p));
+            break;
+        }
+        json["pixel"] = nullptr;
+        json["map"] = nullptr;
+        json["lonlat"] = nullptr;
+        if (grid) {
+            json["pixel"] = {asJson(grid->column), asJson(grid->row)};
+            const MapPoint map = map_.georeference.toMap(*grid);
+            json["map"] = {asJson(map.x), asJson(map.y)};
+            if (const auto point = map_.georeference.toGeographic(*grid)) {
+                const Angle latitude =
+                    latitude_kind_ == LatitudeKind::Planetographic
+                        ? map_.info.crs->ellipsoid()->planetographic(point->latitude)
+                        : point->latitude;
+                json["lonlat"] = {asJson(point->longitude.degrees()), asJson(latitude.degrees())};
+            }
+        }
+        json["latitude_kind"] =
+            latitude_kind_ == LatitudeKind::Planetographic ? "planetographic" : "planetocentric";
+        return json;
+    }
+
+    OpenedMap& map_;
+    SurfaceReader reader_;
+    PositionFrame frame_;
+    LatitudeKind latitude_kind_;
+    bool is_json_;
+};
+
+// Two numbers, apart by blanks, a comma or a semicolon.
+std::optional<Position> parsePosition(std::string line)
+{
+    for (char& c : line) {
+        if (c == ',' || c == ';' || c == '\t' || c == '\r') {
+            c = ' ';
+        }
+    }
+    std::istringstream words(line);
+    words.imbue(std::locale::classic());
+    Position position;
+    std::string rest;
+    if (!(words >> position.first >> position.second) || words >> rest) {
+        return std::nullopt;
+    }
+    return position;
+}
+
+Status sampleStdin(Sampler& sampler)
+{
+    std::string line;
+    for (std::size_t number = 1; std::getline(std::cin, line); ++number) {
+        if (line.find_first_not_of(" \t\r") == std::string::npos) {
+            continue;
+        }
+        const std::optional<Position> position = parsePosition(line);
+        if (!position) {
+            return Error{
+                ErrorCode::Invalid,
+                fmt::format("--stdin: line {} is \"{}\"; two numbers are needed", number, line)};
+        }
+        if (Status status = sampler.print(*position); !status) {
+            return status;
+        }
+    }
+    return Done{};
+}
+
+Status runSample(const Options& options)
+{
+    Result<OpenedMap> map = openMap(options.map);
+    if (!map) {
+        return std::move(map).error();
+    }
+    const bool has_lonlat = map->info.crs && map->info.crs->kind() != CrsKind::Local;
+    if (options.frame == PositionFrame::LonLat && !has_lonlat) {
+        return Error{
+            ErrorCode::Invalid,
+            fmt::format("{}: has no CRS, so longitude and latitude mean nothing on it; say "
+                        "which with --crs or --body",
+                        options.map.path)};
+    }
+    Sampler sampler(*map, options);
+    Status status = options.is_stdin ? sampleStdin(sampler)
+                                     : sampler.print({options.position[0], options.position[1]});
+    if (status) {
+        printNotices(*map);
+    }
+    return status;
+}
+
+} // namespace
+
+void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("sample", "Print the height at a position, in metres");
+    options->map.addTo(*command);
+    CLI::Option_group* frames = command->add_option_group("Position");
+    struct FrameOption {
+        const char* name;
+        const char* metavar;
+        const char* help;
+        PositionFrame frame;
+    };
+    for (const FrameOption& entry :
+         {FrameOption{"--map", "X Y", "map coordinates in the raster's CRS", PositionFrame::Map},
+          FrameOption{"--lonlat", "LON LAT", "degrees, east-positive", PositionFrame::LonLat},
+          FrameOption{"--pixel", "C R", "column and row; integers are sample centres",
+                      PositionFrame::Pixel}}) {
+        const auto set_frame = [options, frame = entry.frame] { options->frame = frame; };
+        if (has_stdin) {
+            frames->add_flag_callback(entry.name, set_frame, entry.help);
+        } else {
+            frames->add_option(entry.name, options->position, entry.help)
+                ->expected(2)
+                ->type_name(entry.metavar)
+                ->each([set_frame](const std::string&) { set_frame(); });
+        }
+    }
+    frames->require_option(has_stdin ? 0 : 1, 1);
+    command->add_flag(
+        "--stdin", options->is_stdin,
+        "read one position a line, print one height a line; the position options then "
+        "stand without numbers (default: --map)");
+    command->add_flag("--json", options->is_json, "for machines");
+    command->callback([options, &run] { run = [options] { return runSample(*options); }; });
+}
+
+} // namespace marsview

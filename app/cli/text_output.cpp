@@ -1,0 +1,28 @@
+#include "app/cli/text_output.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace marsview {
+
+std::string asText(double value)
+{
+    if (std::isnan(value)) {
+        return "nan";
+    }
+    return fmt::format("{:#}", value);
+}
+
+nlohmann::ordered_json asJson(double value)
+{
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+void printLine(const std::string& text)
+{
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    std::fputc('\n', stdout);
+}
+
+} // namespace marsview

@@ -1,0 +1,19 @@
+// How results are written: independent of the locale, and exact.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace marsview {
+
+/// The shortest digits that read back as the same double, always with a point ("1500.0"); "nan"
+/// where there is no number.
+std::string asText(double value);
+
+/// The same number for JSON, which knows no NaN: null instead.
+nlohmann::ordered_json asJson(double value);
+
+/// Writes the text and a newline to stdout.
+void printLine(const std::string& text);
+
+} // namespace marsview

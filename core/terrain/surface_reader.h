@@ -1,0 +1,36 @@
+// Heights of the surface straight from the file, for rasters of any size.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/geo/georeference.h"
+#include "core/raster/raster_file.h"
+#include "core/raster/raster_info.h"
+
+namespace marsview {
+
+/// Evaluates the triangulated surface at single positions by reading the cell around each one, so
+/// that the first answer costs the same on a map of any size. Same bits as Heightfield::height on
+/// the same map held in memory. For one thread.
+class SurfaceReader {
+public:
+    /// `info` describes `file`, overrides included. Both outlive the reader.
+    SurfaceReader(RasterFile& file, const RasterInfo& info, const Georeference& georeference);
+
+    /// Height in metres; NaN outside the outermost samples and in voids. An error where reading
+    /// fails.
+    Result<double> height(GridPoint grid);
+
+    /// As above; on a map that goes once around the body, the strip between its last and its first
+    /// column is interpolated too. NaN where the map has no geographic coordinates.
+    Result<double> height(GeographicPoint geographic);
+
+private:
+    Result<double> sample(std::size_t column, std::size_t row);
+
+    RasterFile& file_;
+    const RasterInfo& info_;
+    const Georeference& georeference_;
+    ElevationScale scale_;
+};
+
+} // namespace marsview
