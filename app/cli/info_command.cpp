@@ -96,7 +96,8 @@ Json describe(const OpenedMap& map, const SampleStatistics& statistics, const Ma
     json["radii_m"] = ellipsoid ? Json{ellipsoid->equatorial_m, ellipsoid->polar_m} : Json(nullptr);
     const GeoTransform& transform = map.georeference.transform();
     json["pixel_size"] = {transform.pixelWidth(), transform.pixelHeight()};
-    json["pixel_size_m"] = {map.georeference.pixelWidth_m(), map.georeference.pixelHeight_m()};
+    json["pixel_size_m"] = {map.georeference.pixelWidthMetres(),
+                            map.georeference.pixelHeightMetres()};
     json["geotransform"] = info.transform ? Json(info.transform->terms()) : Json(nullptr);
     const LatitudeKind latitude_kind = options.latitudeKind(info.body);
     json["latitude_kind"] =

@@ -34,17 +34,18 @@ struct Error {
 template <typename T>
 class [[nodiscard]] Result {
 public:
+    // Both conversions are meant: `return value;` and `return Error{…};` are how functions answer.
+    // NOLINTNEXTLINE(google-explicit-constructor)
     Result(T value)
         : state_(std::in_place_index<0>, std::move(value))
-    {} // NOLINT(google-explicit-constructor)
+    {}
+    // NOLINTNEXTLINE(google-explicit-constructor)
     Result(Error error)
         : state_(std::in_place_index<1>, std::move(error))
-    {} // NOLINT(google-explicit-constructor)
+    {}
 
-    bool has_value() const noexcept
-    {
-        return state_.index() == 0;
-    } // NOLINT(readability-identifier-naming)
+    // NOLINTNEXTLINE(readability-identifier-naming): the standard's name
+    bool has_value() const noexcept { return state_.index() == 0; }
     explicit operator bool() const noexcept { return has_value(); }
 
     T& value() &

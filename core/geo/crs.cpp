@@ -61,7 +61,7 @@ std::string exportWkt(const OGRSpatialReference& srs)
 // Readers of formats without CRS names leave a placeholder; say what the system is instead.
 std::string nameOf(const OGRSpatialReference& srs)
 {
-    const std::string name = srs.GetName() != nullptr ? srs.GetName() : "";
+    std::string name = srs.GetName() != nullptr ? srs.GetName() : "";
     if (!name.empty() && name != "unnamed" && name != "unknown" && name != "Unknown") {
         return name;
     }

@@ -24,10 +24,10 @@ MetresPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
         return {crs->unit() * crs->eastSign(), crs->unit() * crs->northSign()};
     }
     const Ellipsoid& ellipsoid = *crs->ellipsoid();
-    constexpr double kLatitudeMax_rad =
+    constexpr double kLatitudeMaxRad =
         89.9 * std::numbers::pi / 180.0; // keeps the scale invertible
     const Angle latitude =
-        Angle::radians(std::clamp(centre.y * crs->unit(), -kLatitudeMax_rad, kLatitudeMax_rad));
+        Angle::radians(std::clamp(centre.y * crs->unit(), -kLatitudeMaxRad, kLatitudeMaxRad));
     const bool is_centric = crs->latitudeKind() == LatitudeKind::Planetocentric;
     const Angle graphic = is_centric ? ellipsoid.planetographic(latitude) : latitude;
     const double north = is_centric ? ellipsoid.metresPerRadianOfPlanetocentricLatitude(graphic)
@@ -109,12 +109,12 @@ std::optional<GridPoint> Georeference::toGrid(GeographicPoint geographic) const
     return toGrid(*map);
 }
 
-double Georeference::pixelWidth_m() const noexcept
+double Georeference::pixelWidthMetres() const noexcept
 {
     return std::hypot(scene_frame_.east_per_column, scene_frame_.north_per_column);
 }
 
-double Georeference::pixelHeight_m() const noexcept
+double Georeference::pixelHeightMetres() const noexcept
 {
     return std::hypot(scene_frame_.east_per_row, scene_frame_.north_per_row);
 }

@@ -46,8 +46,8 @@ public:
 
     const SceneFrame& sceneFrame() const noexcept { return scene_frame_; }
     /// Length in metres of one step along a row and along a column at the raster's centre.
-    double pixelWidth_m() const noexcept;  // NOLINT(readability-identifier-naming)
-    double pixelHeight_m() const noexcept; // NOLINT(readability-identifier-naming)
+    double pixelWidthMetres() const noexcept;
+    double pixelHeightMetres() const noexcept;
 
 private:
     std::size_t columns_;

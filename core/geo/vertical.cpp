@@ -7,8 +7,8 @@
 namespace marsview {
 namespace {
 
-constexpr double kInternationalFoot_m = 0.3048;
-constexpr double kUsSurveyFoot_m = 1200.0 / 3937.0;
+constexpr double kInternationalFootM = 0.3048;
+constexpr double kUsSurveyFootM = 1200.0 / 3937.0;
 
 struct Spelling {
     std::string_view text; // lower case, letters only
@@ -22,17 +22,17 @@ constexpr std::array kSpellings{
     Spelling{"meters", "m", 1.0},
     Spelling{"metre", "m", 1.0},
     Spelling{"metres", "m", 1.0},
-    Spelling{"ft", "ft", kInternationalFoot_m},
-    Spelling{"foot", "ft", kInternationalFoot_m},
-    Spelling{"feet", "ft", kInternationalFoot_m},
-    Spelling{"internationalfoot", "ft", kInternationalFoot_m},
-    Spelling{"internationalfeet", "ft", kInternationalFoot_m},
-    Spelling{"ftus", "US survey ft", kUsSurveyFoot_m},
-    Spelling{"usft", "US survey ft", kUsSurveyFoot_m},
-    Spelling{"ussurveyft", "US survey ft", kUsSurveyFoot_m},
-    Spelling{"ussurveyfoot", "US survey ft", kUsSurveyFoot_m},
-    Spelling{"ussurveyfeet", "US survey ft", kUsSurveyFoot_m},
-    Spelling{"footus", "US survey ft", kUsSurveyFoot_m},
+    Spelling{"ft", "ft", kInternationalFootM},
+    Spelling{"foot", "ft", kInternationalFootM},
+    Spelling{"feet", "ft", kInternationalFootM},
+    Spelling{"internationalfoot", "ft", kInternationalFootM},
+    Spelling{"internationalfeet", "ft", kInternationalFootM},
+    Spelling{"ftus", "US survey ft", kUsSurveyFootM},
+    Spelling{"usft", "US survey ft", kUsSurveyFootM},
+    Spelling{"ussurveyft", "US survey ft", kUsSurveyFootM},
+    Spelling{"ussurveyfoot", "US survey ft", kUsSurveyFootM},
+    Spelling{"ussurveyfeet", "US survey ft", kUsSurveyFootM},
+    Spelling{"footus", "US survey ft", kUsSurveyFootM},
     Spelling{"km", "km", 1000.0},
     Spelling{"kilometer", "km", 1000.0},
     Spelling{"kilometers", "km", 1000.0},

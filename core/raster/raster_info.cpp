@@ -13,7 +13,7 @@ constexpr double kRadiusShareMax = 0.2;
 
 // Below this radius a height may well be as large as the radius, so that nothing can be concluded
 // from a sample; an offset in the file's header still can.
-constexpr double kBodyRadiusMin_m = 10e3;
+constexpr double kBodyRadiusMinM = 10e3;
 
 bool isNearRadius(double value_m, double radius_m)
 {
@@ -71,7 +71,7 @@ void deduceHeightReference(RasterInfo& info)
     const double offset_m = info.offset * info.unit.metres;
     if (isNearRadius(offset_m, *radius)) {
         info.reference_radius_m = offset_m;
-    } else if (info.typical_raw && *radius > kBodyRadiusMin_m &&
+    } else if (info.typical_raw && *radius > kBodyRadiusMinM &&
                isNearRadius((*info.typical_raw * info.scale + info.offset) * info.unit.metres,
                             *radius)) {
         info.reference_radius_m = *radius;
