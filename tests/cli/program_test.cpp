@@ -1,0 +1,85 @@
+// The promises that hold for every command: exit status, and which stream says what.
+#include "tests/cli/run_cli.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace marsview::test {
+namespace {
+
+std::string mars()
+{
+    return (bundledSamples() / "mars_mola_4ppd.tif").string();
+}
+
+void expectUsageError(const std::vector<std::string>& arguments)
+{
+    const ProgramOutput output = runCli(arguments);
+    EXPECT_EQ(output.exit_status, 2) << output.err;
+    EXPECT_EQ(output.out, "");
+    EXPECT_TRUE(output.err.starts_with("marsview-cli: ")) << output.err;
+}
+
+} // namespace
+
+TEST(Program, RefusesWrongUsageWithStatusTwo)
+{
+    expectUsageError({});
+    expectUsageError({"fly"});
+    expectUsageError({"info"});
+    expectUsageError({"info", mars(), "--colour"});
+    expectUsageError({"sample", mars()});
+    expectUsageError({"sample", mars(), "--pixel", "1"});
+    expectUsageError({"sample", mars(), "--pixel", "1", "2", "--map", "1", "2"});
+    expectUsageError({"sample", mars(), "--pixel", "one", "2"});
+    expectUsageError({"sample", mars(), "--lonlat", "1", "2", "--latitude", "magnetic"});
+}
+
+TEST(Program, AnswersHelpAndVersionEverywhere)
+{
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{}, {"info"}, {"sample"}}) {
+        for (const char* option : {"--help", "--version"}) {
+            std::vector<std::string> arguments = command;
+            arguments.emplace_back(option);
+            const ProgramOutput output = runCli(arguments);
+            EXPECT_EQ(output.exit_status, 0) << option;
+            EXPECT_NE(output.out, "") << option;
+            EXPECT_EQ(output.err, "") << option;
+        }
+    }
+}
+
+TEST(Program, FailsWithStatusOneAndOneLineThatNamesTheFile)
+{
+    const TempFolder folder;
+    const std::string missing = folder.file("nowhere.tif");
+    const std::string empty = folder.write("empty.tif", "");
+    const std::string junk = folder.write("junk.tif", "not a raster at all");
+    for (const std::string& path : {missing, empty, junk, folder.path().string()}) {
+        for (const std::vector<std::string>& arguments :
+             {std::vector<std::string>{"info", path}, {"sample", path, "--pixel", "0", "0"}}) {
+            const ProgramOutput output = runCli(arguments);
+            EXPECT_EQ(output.exit_status, 1) << path;
+            EXPECT_EQ(output.out, "") << path;
+            EXPECT_TRUE(output.err.starts_with("marsview-cli: " + path + ": ")) << output.err;
+            EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+        }
+    }
+}
+
+TEST(Program, NamesTheOverrideThatItCannotUse)
+{
+    for (const auto& [option, value] :
+         {std::pair{"--crs", "EPSG:999999"}, std::pair{"--body", "Arrakis"},
+          std::pair{"--unit", "cubits"}}) {
+        const ProgramOutput output = runCli({"info", mars(), option, value});
+        EXPECT_EQ(output.exit_status, 1);
+        EXPECT_NE(output.err.find(value), std::string::npos) << output.err;
+    }
+}
+
+} // namespace marsview::test

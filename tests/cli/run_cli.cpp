@@ -1,0 +1,35 @@
+#include "tests/cli/run_cli.h"
+
+#include <sstream>
+#include <stdexcept>
+
+namespace marsview::test {
+
+ProgramOutput runCli(std::vector<std::string> arguments, const std::string& input)
+{
+    arguments.insert(arguments.begin(), MARSVIEW_CLI);
+    return runProgram(arguments, input);
+}
+
+nlohmann::json cliInfo(const std::string& path, const std::vector<std::string>& options)
+{
+    std::vector<std::string> arguments{"info", path, "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramOutput output = runCli(arguments);
+    if (output.exit_status != 0) {
+        throw std::runtime_error(output.err);
+    }
+    return nlohmann::json::parse(output.out);
+}
+
+std::vector<double> numbersIn(const std::string& text)
+{
+    std::vector<double> numbers;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        numbers.push_back(std::stod(line));
+    }
+    return numbers;
+}
+
+} // namespace marsview::test

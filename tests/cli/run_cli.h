@@ -1,0 +1,21 @@
+// Running marsview-cli as a script would.
+#pragma once
+
+#include "tests/support/run_program.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+
+/// Runs the program that was built beside the tests.
+ProgramOutput runCli(std::vector<std::string> arguments, const std::string& input = "");
+
+/// `info PATH --json`, parsed; throws where it fails.
+nlohmann::json cliInfo(const std::string& path, const std::vector<std::string>& options = {});
+
+/// The numbers printed one a line; "nan" as NaN.
+std::vector<double> numbersIn(const std::string& text);
+
+} // namespace marsview::test
