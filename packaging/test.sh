@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# test.sh: installs what is missing, builds what users get with its tests, and runs them all.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+./packaging/install-packages.sh run test
+cmake --preset release --log-level=WARNING
+cmake --build --preset release
+exec ctest --preset release --parallel "$(nproc)"
