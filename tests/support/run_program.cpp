@@ -1,0 +1,93 @@
+#include "tests/support/run_program.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace marsview::test {
+namespace {
+
+struct FileCloser {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, FileCloser>;
+
+// Files instead of pipes: nobody waits for anybody, whatever the sizes.
+File temporaryFile()
+{
+    File file(std::tmpfile());
+    if (!file) {
+        throw std::system_error(errno, std::generic_category(), "temporary file");
+    }
+    return file;
+}
+
+std::string contents(std::FILE* file)
+{
+    std::string text;
+    std::array<char, 1 << 16> buffer{};
+    std::rewind(file);
+    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file)) {
+        text.append(buffer.data(), count);
+    }
+    return text;
+}
+
+} // namespace
+
+ProgramOutput runProgram(const std::vector<std::string>& arguments, const std::string& input)
+{
+    const File in = temporaryFile();
+    const File out = temporaryFile();
+    const File err = temporaryFile();
+    std::fwrite(input.data(), 1, input.size(), in.get());
+    std::rewind(in.get());
+
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments) {
+        argv.push_back(const_cast<char*>(argument.c_str())); // execvp leaves them alone
+    }
+    argv.push_back(nullptr);
+
+    const pid_t child = fork();
+    if (child < 0) {
+        throw std::system_error(errno, std::generic_category(), "fork");
+    }
+    if (child == 0) {
+        dup2(fileno(in.get()), STDIN_FILENO);
+        dup2(fileno(out.get()), STDOUT_FILENO);
+        dup2(fileno(err.get()), STDERR_FILENO);
+        execvp(argv[0], argv.data());
+        _exit(127);
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            throw std::system_error(errno, std::generic_category(), "waitpid");
+        }
+    }
+    return {.exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+            .out = contents(out.get()),
+            .err = contents(err.get())};
+}
+
+std::string runTool(const std::vector<std::string>& arguments, const std::string& input)
+{
+    ProgramOutput output = runProgram(arguments, input);
+    if (output.exit_status != 0) {
+        std::string command;
+        for (const std::string& argument : arguments) {
+            command += argument + " ";
+        }
+        throw std::runtime_error(command + "exited with " + std::to_string(output.exit_status) +
+                                 ": " + output.err);
+    }
+    return std::move(output.out);
+}
+
+} // namespace marsview::test
