@@ -20,14 +20,18 @@ struct SeamPosition {
 /// on the grid itself, or beyond the first or last row.
 inline std::optional<SeamPosition> seamCell(GridPoint grid, std::size_t columns, std::size_t rows)
 {
-    const double count = static_cast<double>(columns);
+    const double last_column = static_cast<double>(columns - 1);
     const double last_row = static_cast<double>(rows - 1);
-    const double column = grid.column < 0.0 ? grid.column + count : grid.column;
-    if (!(column > count - 1.0 && column < count && grid.row >= 0.0 && grid.row <= last_row)) {
+    // Counted from the last column. Left of the first one the fraction is 1 less a hair at most,
+    // which may round to 1 but not beyond.
+    const double u = grid.column < 0.0 ? grid.column + 1.0 : grid.column - last_column;
+    const bool is_between =
+        grid.column < 0.0 ? u >= 0.0 : u > 0.0 && grid.column < last_column + 1.0;
+    if (!(is_between && grid.row >= 0.0 && grid.row <= last_row)) {
         return std::nullopt;
     }
     const double row = std::min(std::floor(grid.row), last_row - 1.0);
-    return SeamPosition{static_cast<std::size_t>(row), column - (count - 1.0), grid.row - row};
+    return SeamPosition{static_cast<std::size_t>(row), u, grid.row - row};
 }
 
 } // namespace marsview

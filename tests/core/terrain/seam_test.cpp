@@ -49,11 +49,18 @@ TEST(Seam, TheGridItselfAndTheOutsideAreNotTheSeam)
 {
     for (const GridPoint p :
          {GridPoint{0.0, 10.0}, GridPoint{359.0, 10.0}, GridPoint{100.0, 10.0},
-          GridPoint{360.0, 10.0}, GridPoint{-1.0, 10.0}, GridPoint{-1.5, 10.0},
+          GridPoint{360.0, 10.0}, GridPoint{-1.25, 10.0}, GridPoint{-1.5, 10.0},
           GridPoint{359.5, -0.01}, GridPoint{359.5, 180.01}, GridPoint{std::nan(""), 10.0},
           GridPoint{359.5, std::nan("")}, GridPoint{INFINITY, 10.0}, GridPoint{-INFINITY, 10.0}}) {
         EXPECT_FALSE(seamCell(p, kColumns, kRows)) << p.column << " " << p.row;
     }
+}
+
+TEST(Seam, ATurnLeftOfTheLastColumnIsTheSeamsNearEnd)
+{
+    const auto cell = seamCell({-1.0, 10.0}, kColumns, kRows);
+    ASSERT_TRUE(cell);
+    EXPECT_EQ(cell->u, 0.0);
 }
 
 // A position a rounding error left of the first sample is still on the map.
