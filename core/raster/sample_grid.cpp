@@ -36,6 +36,10 @@ struct Nodata {
     }
 };
 
+// What an array may be asked for: the largest difference of two pointers.
+constexpr std::size_t kBytesMax =
+    static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max());
+
 template <typename T>
 bool isVoidValue(T value, const Nodata<T>& nodata)
 {
@@ -92,12 +96,16 @@ Result<SampleGrid> SampleGrid::create(SampleType type, std::size_t columns, std:
     grid.columns_ = columns;
     grid.rows_ = rows;
     grid.words_per_row_ = (columns + 63) / 64;
-    const std::size_t bytes = columns * rows * sampleBytes(type);
-    grid.samples_.reset(new (std::nothrow) std::byte[bytes]);
+    const std::size_t row_bytes = columns * sampleBytes(type);
+    const bool is_countable =
+        columns <= kBytesMax / sampleBytes(type) && rows <= kBytesMax / row_bytes;
+    if (is_countable) {
+        grid.samples_.reset(new (std::nothrow) std::byte[row_bytes * rows]);
+    }
     if (!grid.samples_) {
         return Error{ErrorCode::TooLarge,
-                     fmt::format("{} × {} samples need {} bytes, which cannot be had", columns,
-                                 rows, bytes)};
+                     fmt::format("{} × {} samples of {} bytes are more than memory can be had for",
+                                 columns, rows, sampleBytes(type))};
     }
     return grid;
 }

@@ -82,6 +82,10 @@ bool isVoidByMeaning(T sample, const std::optional<double>& nodata)
         if (!nodata) {
             return false;
         }
+        // 2^63 - 1 and 2^64 - 1 are no doubles; whoever declares them is read as one more.
+        if (*nodata == static_cast<double>(std::numeric_limits<T>::max())) {
+            return sample == std::numeric_limits<T>::max();
+        }
         // Integers of 64 bits exceed a double's digits; a long double holds both.
         return static_cast<long double>(sample) == static_cast<long double>(*nodata);
     }
