@@ -20,7 +20,7 @@ struct Ellipsoid {
     bool operator==(const Ellipsoid&) const = default;
 
     /// Planetocentric latitude of a planetographic (geodetic) one, and back. Angles in
-    /// [-90°, 90°]; the poles and the equator are fixed points; error below 4 ulp.
+    /// [-90°, 90°]; the poles and the equator are fixed points; error below 8 ulp.
     Angle planetocentric(Angle planetographic_latitude) const;
     Angle planetographic(Angle planetocentric_latitude) const;
 

@@ -93,11 +93,14 @@ AxisLayout layoutOf(const OGRSpatialReference& srs)
     };
     const auto is_zonal = [](OGRAxisOrientation o) { return o == OAO_East || o == OAO_West; };
     AxisLayout layout;
-    layout.is_swapped = is_meridional(first) && is_zonal(second);
+    // Polar systems call both axes "north" or "south", along two meridians; of these, UPS
+    // (EPSG:32661 and 32761) counts its northing first, and OGR knows.
+    layout.is_swapped =
+        (is_meridional(first) && is_zonal(second)) ||
+        (is_meridional(first) && is_meridional(second) && srs.EPSGTreatsAsNorthingEasting() != 0);
     const OGRAxisOrientation x_axis = layout.is_swapped ? second : first;
     const OGRAxisOrientation y_axis = layout.is_swapped ? first : second;
-    // Polar systems call both axes "north" or "south", along two meridians: those are right as
-    // they stand.
+    // The two axes of a polar system grow as they stand.
     if (is_zonal(x_axis) && is_meridional(y_axis)) {
         layout.east_sign = x_axis == OAO_West ? -1.0 : 1.0;
         layout.north_sign = y_axis == OAO_South ? -1.0 : 1.0;
@@ -114,6 +117,13 @@ void setEastNorthOrder(OGRSpatialReference& srs)
 bool hasSphericalAxes(const OGRSpatialReference& srs)
 {
     return containsText(exportWkt(srs), "cs[spherical");
+}
+
+std::string angularUnitName(const OGRSpatialReference& srs)
+{
+    const char* name = nullptr;
+    srs.GetAngularUnits(&name);
+    return name != nullptr ? name : "degree";
 }
 
 bool isCylindrical(const OGRSpatialReference& srs)
@@ -167,6 +177,18 @@ struct Crs::Impl {
         return {longitude, latitude_kind == LatitudeKind::Planetographic
                                ? ellipsoid->planetocentric(latitude)
                                : latitude};
+    }
+
+    // The same for the map coordinates of a geographic system. Nothing beyond the poles, except for
+    // what rounding of a geotransform puts there.
+    std::optional<GeographicPoint> fromAngles(MapPoint map) const
+    {
+        constexpr double kSlack = 1.0 + 1e-12;
+        const double pole = std::numbers::pi / 2.0 / base_unit_rad;
+        if (!std::isfinite(map.x) || !(std::abs(map.y) <= pole * kSlack)) {
+            return std::nullopt;
+        }
+        return fromBase(map.x, std::clamp(map.y, -pole, pole));
     }
 
     MapPoint toBase(GeographicPoint p) const
@@ -285,6 +307,13 @@ Status Crs::Impl::readHorizontal()
             srs.SetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0);
             notices.emplace_back("the projection's scale factor is 0, which cannot be; 1 is used");
         }
+        if (srs.IsDerivedGeographic() != 0) {
+            // OGR gives no way to the system underneath: it calls the rotated one its own base.
+            return Error{ErrorCode::Unsupported,
+                         fmt::format("CRS \"{}\" has a rotated pole, which is not supported; warp "
+                                     "the map to a plain geographic or projected CRS",
+                                     name)};
+        }
         const std::unique_ptr<OGRSpatialReference> geographic(srs.CloneGeogCS());
         if (!geographic) {
             return Error{ErrorCode::Unsupported,
@@ -292,10 +321,6 @@ Status Crs::Impl::readHorizontal()
         }
         base = *geographic;
         readBase();
-        if (srs.IsDerivedGeographic() != 0) { // a rotated pole: angles, laid flat at their equator
-            unit = srs.GetAngularUnits() * ellipsoid->equatorial_m;
-            unit_name = "degree";
-        }
         const QuietErrors quiet;
         to_base.reset(OGRCreateCoordinateTransformation(&srs, &base));
         from_base.reset(OGRCreateCoordinateTransformation(&base, &srs));
@@ -378,7 +403,8 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
         return Error{ErrorCode::Invalid,
                      fmt::format("CRS \"{}\" is local and stands on no ellipsoid", name())};
     }
-    if (!(ellipsoid.polar_m > 0.0) || !(ellipsoid.equatorial_m >= ellipsoid.polar_m)) {
+    if (!(ellipsoid.polar_m > 0.0) || !(ellipsoid.equatorial_m >= ellipsoid.polar_m) ||
+        !std::isfinite(ellipsoid.equatorial_m)) {
         return Error{ErrorCode::OutOfRange,
                      fmt::format("radii {} m and {} m are not those of an oblate ellipsoid",
                                  ellipsoid.equatorial_m, ellipsoid.polar_m)};
@@ -388,10 +414,18 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
         impl_->kind == CrsKind::Geographic && impl_->latitude_kind == LatitudeKind::Planetocentric;
     const std::string geographic_name = body_name + (is_centric ? " / Ocentric" : " / Ographic");
     const double inverse_flattening = ellipsoid.isSphere() ? 0.0 : 1.0 / ellipsoid.flattening();
-    const double meridian_deg = impl_->base_meridian_rad * 180.0 / std::numbers::pi;
-    if (srs.SetGeogCS(geographic_name.c_str(), body_name.c_str(), body_name.c_str(),
-                      ellipsoid.equatorial_m, inverse_flattening, nullptr,
-                      meridian_deg) != OGRERR_NONE) {
+    const double meridian = impl_->base_meridian_rad / impl_->base_unit_rad;
+    const QuietErrors quiet;
+    bool is_moved =
+        srs.SetGeogCS(geographic_name.c_str(), body_name.c_str(), body_name.c_str(),
+                      ellipsoid.equatorial_m, inverse_flattening, nullptr, meridian,
+                      angularUnitName(impl_->base).c_str(), impl_->base_unit_rad) == OGRERR_NONE;
+    if (is_moved && impl_->kind == CrsKind::Geographic && impl_->base_east_sign < 0.0) {
+        // A geographic system takes new axes with its new datum; a projected one keeps its own.
+        is_moved =
+            srs.SetAxes(nullptr, "Latitude", OAO_North, "Longitude", OAO_West) == OGRERR_NONE;
+    }
+    if (!is_moved) {
         return Error{ErrorCode::Unsupported,
                      fmt::format("CRS \"{}\" cannot be moved to another ellipsoid", name())};
     }
@@ -459,7 +493,7 @@ std::optional<GeographicPoint> Crs::toGeographic(MapPoint map) const
 {
     switch (impl_->kind) {
     case CrsKind::Geographic:
-        return impl_->fromBase(map.x, map.y);
+        return impl_->fromAngles(map);
     case CrsKind::Projected:
         if (const auto base = impl_->transform(*impl_->to_base, map.x, map.y)) {
             return impl_->fromBase(base->x, base->y);
@@ -477,7 +511,9 @@ std::optional<MapPoint> Crs::toMap(GeographicPoint geographic) const
     case CrsKind::Geographic:
         return impl_->toBase(geographic);
     case CrsKind::Projected: {
-        const MapPoint base = impl_->toBase(geographic);
+        MapPoint base = impl_->toBase(geographic);
+        // PROJ refuses longitudes beyond 10 rad, and callers may count any number of turns.
+        base.x = std::remainder(base.x, 2.0 * std::numbers::pi / impl_->base_unit_rad);
         return impl_->transform(*impl_->from_base, base.x, base.y);
     }
     case CrsKind::Local:

@@ -73,9 +73,12 @@ public:
     const std::vector<std::string>& notices() const;
 
     /// Longitude in [-180°, 180°] except for geographic systems, which keep the turn they were
-    /// given. Nothing where the point is outside the projection, or the system is Local.
+    /// given. Nothing where the point is outside the projection or beyond a pole, or the system is
+    /// Local.
     std::optional<GeographicPoint> toGeographic(MapPoint map) const;
-    /// Inverse of toGeographic. Round trips within 1e-9 m (projected) and 1e-12° (geographic).
+    /// Inverse of toGeographic, for longitudes in any turn. Round trips are as good as PROJ's
+    /// inverse: 1e-12° for geographic systems, 1e-7 m for most projections, 1e-5 m for polar
+    /// stereographic ones, and up to 2 cm for equal-area ones on Mars' ellipsoid.
     std::optional<MapPoint> toMap(GeographicPoint geographic) const;
 
 private:

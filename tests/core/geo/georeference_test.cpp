@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,11 @@ std::vector<PlacementCase> placementCases()
         {"MarsGraphicNorth", "IAU_2015:49931", 500, 500, {-1e6, 4000, 0, 1e6, 0, -4000}, false},
         {"MoonEqc", "IAU_2015:30110", 100, 100, {1e6, 1000, 0, 1e6, 0, -1000}, false},
     };
+}
+
+void PrintTo(const PlacementCase& c, std::ostream* stream)
+{
+    *stream << c.crs;
 }
 
 class Placement : public testing::TestWithParam<PlacementCase> {
