@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <mutex>
 #include <numbers>
 
@@ -212,10 +213,71 @@ struct Crs::Impl {
         return MapPoint{x, y};
     }
 
+    std::optional<MapPoint> inverse(MapPoint map) const;
+
     void readBase();
     void readVertical();
     Status readHorizontal();
 };
+
+// Map to base coordinates. PROJ's inverses stop at their own tolerances, which leaves 10 µm in
+// polar stereographic projections and 2 cm in equal-area ones on Mars' ellipsoid; its forward
+// equations are good to rounding. So the inverse is polished with Newton steps on the forward
+// equations.
+std::optional<MapPoint> Crs::Impl::inverse(MapPoint map) const
+{
+    std::optional<MapPoint> best = transform(*to_base, map.x, map.y);
+    if (!best) {
+        return std::nullopt;
+    }
+    struct Residual {
+        double x, y;
+        double size() const { return std::hypot(x, y); }
+    };
+    const auto residual = [&](MapPoint at) -> std::optional<Residual> {
+        const auto image = transform(*from_base, at.x, at.y);
+        if (!image) {
+            return std::nullopt;
+        }
+        // A cylindrical map may run on beyond its first turn.
+        const double dx = map.x - image->x;
+        return Residual{turn ? std::remainder(dx, *turn) : dx, map.y - image->y};
+    };
+    constexpr int kStepsMax = 3;
+    const double good_enough =
+        2.0 * std::numeric_limits<double>::epsilon() * std::hypot(map.x, map.y);
+    std::optional<Residual> error = residual(*best);
+    for (int step = 0; step < kStepsMax && error && error->size() > good_enough; ++step) {
+        // Derivatives by differences. The step is a few metres on the ground, away from the pole.
+        const double h = 1e-6 / base_unit_rad;
+        const double h_y = best->y > 0.0 ? -h : h;
+        const auto east = residual({best->x + h, best->y});
+        const auto north = residual({best->x, best->y + h_y});
+        if (!east || !north) {
+            break;
+        }
+        const double xx = (error->x - east->x) / h;
+        const double yx = (error->y - east->y) / h;
+        const double xy = (error->x - north->x) / h_y;
+        const double yy = (error->y - north->y) / h_y;
+        const double determinant = xx * yy - xy * yx;
+        const MapPoint next{best->x + (error->x * yy - error->y * xy) / determinant,
+                            best->y + (error->y * xx - error->x * yx) / determinant};
+        if (!std::isfinite(next.x) || !std::isfinite(next.y)) {
+            break; // at a pole, where longitude means nothing
+        }
+        const auto next_error = residual(next);
+        if (!next_error || next_error->size() >= error->size()) {
+            break; // rounding, or a fold at the edge of the projection
+        }
+        best = next;
+        error = next_error;
+    }
+    // Where the way back leads elsewhere, the position is beyond the edge of the projection.
+    constexpr double kAstrayShareOfRadius = 1e-6;
+    const double astray = kAstrayShareOfRadius * ellipsoid->equatorial_m / unit;
+    return error && error->size() < astray ? best : std::nullopt;
+}
 
 // The geographic system underneath: what its numbers mean.
 void Crs::Impl::readBase()
@@ -414,11 +476,11 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
         impl_->kind == CrsKind::Geographic && impl_->latitude_kind == LatitudeKind::Planetocentric;
     const std::string geographic_name = body_name + (is_centric ? " / Ocentric" : " / Ographic");
     const double inverse_flattening = ellipsoid.isSphere() ? 0.0 : 1.0 / ellipsoid.flattening();
-    const double meridian = impl_->base_meridian_rad / impl_->base_unit_rad;
+    const double meridian_deg = impl_->base_meridian_rad * 180.0 / std::numbers::pi;
     const QuietErrors quiet;
     bool is_moved =
         srs.SetGeogCS(geographic_name.c_str(), body_name.c_str(), body_name.c_str(),
-                      ellipsoid.equatorial_m, inverse_flattening, nullptr, meridian,
+                      ellipsoid.equatorial_m, inverse_flattening, nullptr, meridian_deg,
                       angularUnitName(impl_->base).c_str(), impl_->base_unit_rad) == OGRERR_NONE;
     if (is_moved && impl_->kind == CrsKind::Geographic && impl_->base_east_sign < 0.0) {
         // A geographic system takes new axes with its new datum; a projected one keeps its own.
@@ -495,7 +557,7 @@ std::optional<GeographicPoint> Crs::toGeographic(MapPoint map) const
     case CrsKind::Geographic:
         return impl_->fromAngles(map);
     case CrsKind::Projected:
-        if (const auto base = impl_->transform(*impl_->to_base, map.x, map.y)) {
+        if (const auto base = impl_->inverse(map)) {
             return impl_->fromBase(base->x, base->y);
         }
         return std::nullopt;

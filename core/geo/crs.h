@@ -76,9 +76,8 @@ public:
     /// given. Nothing where the point is outside the projection or beyond a pole, or the system is
     /// Local.
     std::optional<GeographicPoint> toGeographic(MapPoint map) const;
-    /// Inverse of toGeographic, for longitudes in any turn. Round trips are as good as PROJ's
-    /// inverse: 1e-12° for geographic systems, 1e-7 m for most projections, 1e-5 m for polar
-    /// stereographic ones, and up to 2 cm for equal-area ones on Mars' ellipsoid.
+    /// Inverse of toGeographic, for longitudes in any turn. Round trips are good to rounding:
+    /// 1e-12° for geographic systems, 3e-8 m for projected ones.
     std::optional<MapPoint> toMap(GeographicPoint geographic) const;
 
 private:

@@ -185,6 +185,8 @@ void readVertical(GDALDataset& dataset,
         info.vertical_datum = info.crs->verticalDatumName();
     } else if (const char* dted = dataset.GetMetadataItem("DTED_VerticalDatum")) {
         info.vertical_datum = EQUAL(dted, "MSL") ? "mean sea level" : dted;
+    } else if (const char* declared = dataset.GetMetadataItem("VERTICAL_DATUM")) {
+        info.vertical_datum = declared; // GeoTIFF has no place for datums of other bodies
     } else if (info.driver == "SRTMHGT") {
         info.vertical_datum = "EGM96 geoid";
     } else if (image != pds3.end() && image->is_object()) {

@@ -203,8 +203,8 @@ TEST_P(Placement, TheMetricPixelIsTheOneOnTheBody)
         const double dlat = (p.latitude - here->latitude).degrees();
         return radius * kDegree * std::hypot(dlon * std::cos(here->latitude.radians()), dlat);
     };
-    EXPECT_NEAR(std::log2(4.0 * metres(*right) / reference_.pixelWidth_m()), 0.0, 1.0);
-    EXPECT_NEAR(std::log2(4.0 * metres(*below) / reference_.pixelHeight_m()), 0.0, 1.0);
+    EXPECT_NEAR(std::log2(4.0 * metres(*right) / reference_.pixelWidthMetres()), 0.0, 1.0);
+    EXPECT_NEAR(std::log2(4.0 * metres(*below) / reference_.pixelHeightMetres()), 0.0, 1.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rasters,

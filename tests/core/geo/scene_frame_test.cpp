@@ -171,8 +171,8 @@ TEST(SceneFrame, ARotatedRasterRoundTrips)
                                           {390045.0, 30.0 * std::cos(0.5), 30.0 * std::sin(0.5),
                                            3797505.0, 30.0 * std::sin(0.5), -30.0 * std::cos(0.5)},
                                           "EPSG:32611");
-    EXPECT_NEAR(reference.pixelWidth_m(), 30.0, 1e-12);
-    EXPECT_NEAR(reference.pixelHeight_m(), 30.0, 1e-12);
+    EXPECT_NEAR(reference.pixelWidthMetres(), 30.0, 1e-12);
+    EXPECT_NEAR(reference.pixelHeightMetres(), 30.0, 1e-12);
     expectRoundTrips(reference);
 }
 
