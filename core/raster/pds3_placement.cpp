@@ -47,7 +47,8 @@ pds3PlacementShift(const nlohmann::json& label, const GeoTransform& transform, c
     if (projection == label.end() || !projection->is_object() || !crs.turn()) {
         return {};
     }
-    if (projection->value("POSITIVE_LONGITUDE_DIRECTION", std::string("EAST")) != "EAST") {
+    const auto direction = projection->find("POSITIVE_LONGITUDE_DIRECTION");
+    if (direction != projection->end() && *direction != "EAST") {
         return {};
     }
     const std::optional<double> north = numberAt(*projection, "MAXIMUM_LATITUDE");

@@ -147,6 +147,17 @@ nlohmann::json jsonDomain(GDALDataset& dataset, const char* domain)
     return parsed.is_discarded() ? nlohmann::json{} : parsed;
 }
 
+// A text in an object of a PDS3 label; empty where there is none, or something else than a text.
+std::string labelText(const nlohmann::json& label, const char* object, const char* key)
+{
+    const auto parent = label.find(object);
+    if (parent == label.end() || !parent->is_object()) {
+        return "";
+    }
+    const auto entry = parent->find(key);
+    return entry != parent->end() && entry->is_string() ? entry->get<std::string>() : "";
+}
+
 void readVertical(GDALDataset& dataset,
                   GDALRasterBand& band,
                   const nlohmann::json& pds3,
@@ -163,10 +174,8 @@ void readVertical(GDALDataset& dataset,
         info.offset = offset;
     }
     std::string unit = band.GetUnitType() != nullptr ? band.GetUnitType() : "";
-    const auto image = pds3.find("IMAGE");
-    if (unit.empty() && image != pds3.end() && image->is_object()) {
-        const auto entry = image->find("UNIT");
-        unit = entry != image->end() && entry->is_string() ? entry->get<std::string>() : "";
+    if (unit.empty()) {
+        unit = labelText(pds3, "IMAGE", "UNIT");
     }
     if (const auto known = verticalUnitFrom(unit)) {
         info.unit = *known;
@@ -189,11 +198,8 @@ void readVertical(GDALDataset& dataset,
         info.vertical_datum = declared; // GeoTIFF has no place for datums of other bodies
     } else if (info.driver == "SRTMHGT") {
         info.vertical_datum = "EGM96 geoid";
-    } else if (image != pds3.end() && image->is_object()) {
-        const std::string description = image->value("DESCRIPTION", std::string());
-        if (description.find("areoid") != std::string::npos) {
-            info.vertical_datum = "areoid";
-        }
+    } else if (labelText(pds3, "IMAGE", "DESCRIPTION").find("areoid") != std::string::npos) {
+        info.vertical_datum = "areoid";
     }
 }
 

@@ -110,8 +110,13 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
     const std::string extension = lowerCase(fs::path(path).extension().string());
     if (extension == ".img" || extension == ".dat" || extension == ".cub") {
         appendSiblings(path, kLabelExtensions, names);
-    } else if (extension == ".hdr" || extension == ".prj") {
+    } else if (extension == ".hdr") {
         appendSiblings(path, kDataExtensions, names);
+    } else if (extension == ".prj") {
+        // GDAL would take the text of a projection beside a header for its samples.
+        std::vector<std::string> data;
+        appendSiblings(path, kDataExtensions, data);
+        names.insert(names.begin(), data.begin(), data.end());
     } else if (extension == ".zip") {
         appendArchiveEntries(path, names);
     }
