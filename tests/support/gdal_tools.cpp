@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <limits>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -90,7 +91,10 @@ std::string compactWkt(const std::string& wkt)
             compact += c;
         }
     }
-    return compact;
+    static const std::regex kEnsemble(
+        R"re(ENSEMBLE\["([^"]*) ensemble",(?:MEMBER\["[^"]*"\],)*(ELLIPSOID\[[^\]]*\]\]),)re"
+        R"re(ENSEMBLEACCURACY\[[^\]]*\]\])re");
+    return std::regex_replace(compact, kEnsemble, R"re(DATUM["$1",$2])re");
 }
 
 } // namespace marsview::test

@@ -40,7 +40,9 @@ struct Position {
 std::vector<Position>
 transformed(const std::string& from, const std::string& to, const std::vector<Position>& positions);
 
-/// WKT without the white space between its parts, so that texts compare.
+/// WKT so that texts compare: without the white space between its parts, and with the ensemble of
+/// WGS 84's realisations as the one datum that it stands for; which of the two GDAL writes depends
+/// on what the process opened before.
 std::string compactWkt(const std::string& wkt);
 
 } // namespace marsview::test
