@@ -15,6 +15,11 @@ constexpr double kRadiusShareMax = 0.2;
 // from a sample; an offset in the file's header still can.
 constexpr double kBodyRadiusMinM = 10e3;
 
+bool isOblate(const Ellipsoid& e)
+{
+    return std::isfinite(e.equatorial_m) && e.polar_m > 0.0 && e.equatorial_m >= e.polar_m;
+}
+
 bool isNearRadius(double value_m, double radius_m)
 {
     return radius_m > 0.0 && std::abs(value_m / radius_m - 1.0) < kRadiusShareMax;
@@ -130,6 +135,11 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
         }
         info.crs = std::move(crs).value();
         info.body = info.crs->body();
+    }
+    if (overrides.ellipsoid && !isOblate(*overrides.ellipsoid)) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("radii: {} m and {} m are not those of an oblate ellipsoid",
+                                 overrides.ellipsoid->equatorial_m, overrides.ellipsoid->polar_m)};
     }
     if (overrides.body || overrides.ellipsoid) {
         const Body* body = overrides.body ? bodyNamed(*overrides.body) : info.body;
