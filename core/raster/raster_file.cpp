@@ -274,7 +274,9 @@ struct RasterFile::Impl {
 
     Status readRows(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const;
     Status markMasked(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const;
+    Status checkExtent(const GridWindow& window) const;
     Error readFailure(const GdalMessages& messages, const GridWindow& window) const;
+    Error readFailure(const std::string& why, const GridWindow& window) const;
     std::size_t rowsPerBand() const;
     std::optional<double> findTypicalSample();
 };
@@ -401,26 +403,48 @@ std::size_t RasterFile::Impl::rowsPerBand() const
 
 Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWindow& window) const
 {
-    std::string why = messages.firstFailure("GDAL gave no reason");
-    GDALDataset::RawBinaryLayout layout;
-    VSIStatBufL status{};
-    if (dataset->GetRawBinaryLayout(layout) &&
-        VSIStatL(layout.osRawFilename.c_str(), &status) == 0) {
-        const auto expected = static_cast<std::uint64_t>(layout.nImageOffset) +
-                              static_cast<std::uint64_t>(layout.nLineOffset) * info.rows;
-        if (static_cast<std::uint64_t>(status.st_size) < expected) {
-            why = fmt::format("the data file has {} bytes where its header promises {}",
-                              status.st_size, expected);
-        }
-    }
+    return readFailure(messages.firstFailure("GDAL gave no reason"), window);
+}
+
+Error RasterFile::Impl::readFailure(const std::string& why, const GridWindow& window) const
+{
     return Error{ErrorCode::Unreadable,
                  fmt::format("{}: reading rows {} to {} failed: {}", info.path, window.row,
                              window.row + window.rows - 1, why)};
 }
 
+// GDAL reads what lies beyond the end of raw data as zeros, in some of its paths without a word.
+Status RasterFile::Impl::checkExtent(const GridWindow& window) const
+{
+    GDALDataset::RawBinaryLayout layout;
+    VSIStatBufL status{};
+    if (!dataset->GetRawBinaryLayout(layout) ||
+        VSIStatL(layout.osRawFilename.c_str(), &status) != 0) {
+        return Done{};
+    }
+    const auto end_of_row = [&](std::size_t row) {
+        return static_cast<std::int64_t>(layout.nImageOffset) +
+               static_cast<std::int64_t>(layout.nBandOffset) * (info.band - 1) +
+               static_cast<std::int64_t>(layout.nLineOffset) * static_cast<std::int64_t>(row) +
+               static_cast<std::int64_t>(layout.nPixelOffset) *
+                   static_cast<std::int64_t>(info.columns - 1) +
+               static_cast<std::int64_t>(sampleBytes(info.type));
+    };
+    const auto bytes = static_cast<std::int64_t>(status.st_size);
+    if (std::max(end_of_row(window.row), end_of_row(window.row + window.rows - 1)) > bytes) {
+        return readFailure(fmt::format("the data file has {} bytes where its header promises {}",
+                                       bytes, std::max(end_of_row(0), end_of_row(info.rows - 1))),
+                           window);
+    }
+    return Done{};
+}
+
 Status
 RasterFile::Impl::readRows(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const
 {
+    if (Status complete = checkExtent(window); !complete) {
+        return complete;
+    }
     const GdalMessages messages;
     const CPLErr outcome =
         band->RasterIO(GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
