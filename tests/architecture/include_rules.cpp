@@ -1,0 +1,159 @@
+#include "tests/architecture/include_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fmt/format.h>
+#include <span>
+
+namespace marsview::test {
+namespace {
+
+// A folder and the project's folders that it may include from. Longer folders come first.
+struct Layer {
+    std::string_view folder;
+    std::vector<std::string_view> may_include;
+};
+
+const std::vector<Layer>& layers()
+{
+    static const std::vector<Layer> kLayers{
+        {"core/base/", {"core/base/"}},
+        {"core/geo/", {"core/base/", "core/geo/"}},
+        {"core/raster/", {"core/base/", "core/geo/", "core/raster/"}},
+        {"core/terrain/", {"core/base/", "core/geo/", "core/raster/", "core/terrain/"}},
+        {"core/contact/",
+         {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/contact/"}},
+        {"core/measure/",
+         {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/measure/"}},
+        {"core/view/", {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/view/"}},
+        {"core/session/", {"core/"}},
+        {"haptics/", {"core/", "haptics/"}},
+        {"ui/render/", {"core/", "ui/render/"}},
+        {"ui/", {"core/", "haptics/", "ui/"}},
+        {"app/cli/", {"core/", "haptics/", "ui/render/", "app/cli/"}},
+        {"app/gui/", {"core/", "haptics/", "ui/", "app/gui/"}},
+        {"tests/architecture/", {"tests/"}},
+        {"tests/support/", {"core/", "tests/support/"}},
+        {"tests/core/", {"core/", "tests/"}},
+        {"tests/haptics/", {"core/", "haptics/", "tests/"}},
+        {"tests/", {"core/", "haptics/", "ui/", "tests/"}},
+    };
+    return kLayers;
+}
+
+constexpr std::array<std::string_view, 6> kOurs{"core/", "haptics/", "ui/",
+                                                "app/",  "tests/",   "resources/"};
+
+bool startsWithAny(std::string_view text, std::span<const std::string_view> starts)
+{
+    return std::any_of(starts.begin(), starts.end(),
+                       [text](std::string_view start) { return text.starts_with(start); });
+}
+
+// <QWidget>, <QtCore/qglobal.h>, <qpa/…>: Qt's headers begin so, and no other library's here.
+bool isQt(std::string_view header)
+{
+    return (header.size() > 1 && header[0] == 'Q' &&
+            std::isupper(static_cast<unsigned char>(header[1])) != 0) ||
+           header.starts_with("Qt") || header.starts_with("qpa/");
+}
+
+bool isGdal(std::string_view header)
+{
+    constexpr std::array<std::string_view, 7> kStarts{"gdal", "ogr",        "cpl_", "vrt",
+                                                      "gnm",  "memdataset", "proj"};
+    return startsWithAny(header, kStarts);
+}
+
+bool mayUseQt(std::string_view path)
+{
+    constexpr std::array<std::string_view, 2> kFolders{"app/gui/", "tests/ui/"};
+    return startsWithAny(path, kFolders) ||
+           (path.starts_with("ui/") && !path.starts_with("ui/render/"));
+}
+
+bool mayUseGdal(std::string_view path)
+{
+    constexpr std::array<std::string_view, 2> kFolders{"core/raster/", "core/geo/"};
+    return startsWithAny(path, kFolders);
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    const auto first = text.find_first_not_of(" \t");
+    return first == std::string_view::npos ? std::string_view{} : text.substr(first);
+}
+
+} // namespace
+
+std::vector<std::string> includesOf(std::string_view source)
+{
+    std::vector<std::string> includes;
+    bool is_in_comment = false;
+    while (!source.empty()) {
+        const auto end = source.find('\n');
+        std::string_view line = trimmed(source.substr(0, end));
+        source = end == std::string_view::npos ? std::string_view{} : source.substr(end + 1);
+        if (is_in_comment) {
+            const auto close = line.find("*/");
+            if (close == std::string_view::npos) {
+                continue;
+            }
+            is_in_comment = false;
+            line = trimmed(line.substr(close + 2));
+        }
+        if (line.starts_with("#")) {
+            const std::string_view directive = trimmed(line.substr(1));
+            if (directive.starts_with("include")) {
+                const std::string_view rest = trimmed(directive.substr(7));
+                const char closing = rest.starts_with('<') ? '>' : '"';
+                const auto close = rest.find(closing, 1);
+                if (close != std::string_view::npos) {
+                    includes.emplace_back(closing == '>' ? rest.substr(0, close + 1)
+                                                         : rest.substr(1, close - 1));
+                }
+            }
+        }
+        // Comments that begin within a line end there, in this project.
+        is_in_comment = line.starts_with("/*") && line.find("*/") == std::string_view::npos;
+    }
+    return includes;
+}
+
+std::optional<std::string> violation(std::string_view path, std::string_view include)
+{
+    const bool is_system = include.starts_with('<');
+    const std::string_view header = is_system ? include.substr(1, include.size() - 2) : include;
+    const auto refused = [&](std::string_view why) {
+        return fmt::format("{} includes {}: {}", path, include, why);
+    };
+    if (isQt(header) && !mayUseQt(path)) {
+        return refused("Qt belongs to ui (without ui/render) and app/gui");
+    }
+    if (isGdal(header) && !mayUseGdal(path)) {
+        return refused("GDAL belongs to core/raster and core/geo");
+    }
+    if (header.starts_with("hidapi") && !path.starts_with("haptics/drivers/")) {
+        return refused("hidapi belongs to haptics/drivers");
+    }
+    if (!startsWithAny(header, kOurs)) {
+        return is_system ? std::nullopt
+                         : std::optional(refused("own headers are named from the source root"));
+    }
+    if (is_system) {
+        return refused("own headers stand in quotes");
+    }
+    const auto layer = std::find_if(layers().begin(), layers().end(),
+                                    [path](const Layer& l) { return path.starts_with(l.folder); });
+    if (layer == layers().end()) {
+        return refused("the file is in no layer");
+    }
+    if (!startsWithAny(header, layer->may_include)) {
+        return refused(fmt::format("{} may include {} only", layer->folder,
+                                   fmt::join(layer->may_include, ", ")));
+    }
+    return std::nullopt;
+}
+
+} // namespace marsview::test

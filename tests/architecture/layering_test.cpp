@@ -1,0 +1,141 @@
+// The arrows of the architecture, read from the sources themselves.
+#include "tests/architecture/include_rules.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isSource(const fs::path& path)
+{
+    const std::string extension = path.extension().string();
+    return extension == ".h" || extension == ".cpp" || extension == ".c";
+}
+
+TEST(Layering, EveryIncludeFollowsTheArrows)
+{
+    std::size_t files = 0;
+    std::size_t includes = 0;
+    for (const char* folder : {"app", "core", "haptics", "ui", "tests"}) {
+        const fs::path root = sourceRoot() / folder;
+        if (!fs::exists(root)) {
+            continue;
+        }
+        for (const auto& entry : fs::recursive_directory_iterator(root)) {
+            if (!entry.is_regular_file() || !isSource(entry.path())) {
+                continue;
+            }
+            ++files;
+            const std::string path = fs::relative(entry.path(), sourceRoot()).generic_string();
+            for (const std::string& include : includesOf(readFile(entry.path()))) {
+                ++includes;
+                if (const auto why = violation(path, include)) {
+                    ADD_FAILURE() << *why;
+                }
+            }
+        }
+    }
+    std::printf("%zu includes in %zu files\n", includes, files);
+    EXPECT_GT(files, 40U); // or the test looks in the wrong place
+    EXPECT_GT(includes, 200U);
+}
+
+TEST(IncludeRules, ReadDirectivesAndNothingElse)
+{
+    const char* source =
+        "// #include \"core/a.h\"\n"
+        "#include \"core/b.h\"\n"
+        "  #  include <QWidget> // why\n"
+        "/* #include \"core/c.h\"\n"
+        "#include \"core/d.h\"\n"
+        "*/ #include \"core/e.h\"\n"
+        "#ifdef X /* one line */\n"
+        "#include <gdal_priv.h>\n"
+        "const char* s = \"#include <nothing>\";\n"
+        "#include \"core/last.h\"";
+    const std::vector<std::string> expected{"core/b.h", "<QWidget>", "core/e.h", "<gdal_priv.h>",
+                                            "core/last.h"};
+    EXPECT_EQ(includesOf(source), expected);
+}
+
+TEST(IncludeRules, PlantedViolationsAreFound)
+{
+    const std::pair<const char*, const char*> table[] = {
+        {"core/geo/crs.cpp", "core/raster/raster_file.h"},
+        {"core/base/angle.h", "core/geo/frames.h"},
+        {"core/raster/raster_file.cpp", "core/terrain/heightfield.h"},
+        {"core/terrain/heightfield.h", "core/contact/proxy.h"},
+        {"core/contact/proxy.cpp", "core/view/camera.h"},
+        {"core/measure/profile.cpp", "core/contact/proxy.h"},
+        {"core/view/camera.cpp", "core/measure/profile.h"},
+        {"core/view/camera.cpp", "core/session/dataset.h"},
+        {"core/session/dataset.cpp", "haptics/device/device.h"},
+        {"core/session/dataset.cpp", "ui/bridge/loader.h"},
+        {"core/session/dataset.cpp", "app/cli/info.h"},
+        {"core/session/dataset.cpp", "<QString>"},
+        {"core/session/dataset.cpp", "<QtCore/QString>"},
+        {"core/session/dataset.cpp", "<gdal_priv.h>"},
+        {"core/terrain/heightfield.cpp", "<ogr_spatialref.h>"},
+        {"core/base/check.cpp", "<cpl_conv.h>"},
+        {"haptics/loop/loop.cpp", "ui/render/scene.h"},
+        {"haptics/loop/loop.cpp", "<QThread>"},
+        {"haptics/loop/loop.cpp", "<hidapi/hidapi.h>"},
+        {"haptics/device/registry.cpp", "<hidapi.h>"},
+        {"ui/render/scene.cpp", "<QOpenGLContext>"},
+        {"ui/render/scene.cpp", "ui/widgets/map_view.h"},
+        {"ui/render/scene.cpp", "haptics/loop/loop.h"},
+        {"ui/widgets/map_view.cpp", "app/gui/main_window.h"},
+        {"ui/widgets/map_view.cpp", "<gdal.h>"},
+        {"app/cli/main.cpp", "<QCoreApplication>"},
+        {"app/cli/main.cpp", "ui/widgets/map_view.h"},
+        {"app/cli/main.cpp", "app/gui/main_window.h"},
+        {"tests/core/raster/x_test.cpp", "<gdal_priv.h>"},
+        {"tests/core/view/x_test.cpp", "ui/widgets/map_view.h"},
+        {"tests/architecture/x_test.cpp", "core/base/angle.h"},
+        {"core/geo/crs.cpp", "crs.h"},
+        {"core/geo/crs.cpp", "../base/angle.h"},
+        {"core/geo/crs.cpp", "<core/base/angle.h>"},
+        {"tools/helper.cpp", "core/base/angle.h"},
+    };
+    for (const auto& [path, include] : table) {
+        EXPECT_TRUE(violation(path, include)) << path << " may include " << include;
+    }
+}
+
+TEST(IncludeRules, WhatTheArchitectureAllowsIsAllowed)
+{
+    const std::pair<const char*, const char*> table[] = {
+        {"core/geo/crs.cpp", "core/base/angle.h"},
+        {"core/geo/crs.cpp", "<ogr_spatialref.h>"},
+        {"core/geo/body.cpp", "<GeographicLib/Ellipsoid.hpp>"},
+        {"core/raster/raster_file.cpp", "<gdal_priv.h>"},
+        {"core/session/dataset.cpp", "core/raster/raster_file.h"},
+        {"core/contact/proxy.cpp", "core/terrain/triangulation.h"},
+        {"haptics/loop/loop.cpp", "core/contact/proxy.h"},
+        {"haptics/drivers/hid_device.cpp", "<hidapi/hidapi.h>"},
+        {"ui/render/scene.cpp", "core/view/camera.h"},
+        {"ui/render/scene.cpp", "<epoxy/gl.h>"},
+        {"ui/widgets/map_view.cpp", "ui/render/scene.h"},
+        {"ui/widgets/map_view.cpp", "<QOpenGLWidget>"},
+        {"app/gui/main.cpp", "ui/widgets/map_view.h"},
+        {"app/cli/main.cpp", "ui/render/scene.h"},
+        {"tests/core/raster/x_test.cpp", "tests/support/random.h"},
+        {"core/base/check.cpp", "<cstdio>"},
+        {"core/base/x.cpp", "<queue>"},
+    };
+    for (const auto& [path, include] : table) {
+        EXPECT_FALSE(violation(path, include)) << violation(path, include).value_or("");
+    }
+}
+
+} // namespace
+} // namespace marsview::test

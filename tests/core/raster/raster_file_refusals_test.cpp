@@ -1,0 +1,390 @@
+// Files that are no elevation maps, or not what they claim. Each is refused in one sentence that
+// names the file, without a crash and without taking memory for what is not there.
+#include "core/raster/raster_file.h"
+#include "core/session/dataset.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::RasterRecipe;
+using test::recipeFor;
+using test::TempFolder;
+using test::writeRaster;
+using test::writeVrt;
+
+constexpr std::size_t kBudget = std::size_t{1} << 30;
+
+Result<std::shared_ptr<const Dataset>> load(const std::string& path,
+                                            std::size_t memory_bytes_max = kBudget)
+{
+    JobMonitor monitor;
+    return loadDataset({path, 1, {}}, monitor, memory_bytes_max);
+}
+
+long peakMemory_kb()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+void expectOneSentence(const Error& error, const std::string& path)
+{
+    const std::string& message = error.message;
+    EXPECT_TRUE(message.starts_with(path)) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    ASSERT_GT(message.size(), path.size() + 3) << message;
+    EXPECT_NE(message.back(), '.') << message;
+    EXPECT_NE(message.back(), ' ') << message;
+}
+
+void expectRefused(const std::string& path, ErrorCode code)
+{
+    SCOPED_TRACE(path);
+    const long before_kb = peakMemory_kb();
+    const auto dataset = load(path);
+    ASSERT_FALSE(dataset);
+    EXPECT_EQ(dataset.error().code, code) << dataset.error().message;
+    expectOneSentence(dataset.error(), path);
+    EXPECT_LT(peakMemory_kb() - before_kb, 200 * 1024);
+}
+
+RasterRecipe smallMap()
+{
+    return recipeFor<std::int16_t>(3, {1, 2, 3, 4, 5, 6});
+}
+
+bool opensAsMap(const std::string& path)
+{
+    return load(path).has_value();
+}
+
+TEST(Refusal, AMissingFile)
+{
+    const TempFolder folder;
+    expectRefused(folder.file("missing.tif"), ErrorCode::NotFound);
+    expectRefused(folder.file("no/such/folder.tif"), ErrorCode::NotFound);
+}
+
+TEST(Refusal, AFileThatMayNotBeRead)
+{
+    if (geteuid() == 0) {
+        GTEST_SKIP() << "root may read every file";
+    }
+    const TempFolder folder;
+    const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
+    fs::permissions(path, fs::perms::none);
+    expectRefused(path, ErrorCode::Unreadable);
+}
+
+TEST(Refusal, AnEmptyFile)
+{
+    const TempFolder folder;
+    expectRefused(folder.write("map.tif", ""), ErrorCode::Invalid);
+}
+
+TEST(Refusal, ADirectory)
+{
+    const TempFolder folder;
+    expectRefused(folder.path().string(), ErrorCode::Unsupported);
+}
+
+TEST(Refusal, SomethingElseThanARaster)
+{
+    const TempFolder folder;
+    expectRefused(folder.write("map.tif", "this is no raster"), ErrorCode::Unsupported);
+    expectRefused(folder.write("map.hgt", std::string(1000, 'x')), ErrorCode::Unsupported);
+    expectRefused(folder.write("map.zip", "PK\x03\x04 broken"), ErrorCode::Unsupported);
+    expectRefused(folder.write("map.vrt", "<VRTDataset"), ErrorCode::Unsupported);
+    expectRefused(folder.write("map.xml", "<Product_Observational/>"), ErrorCode::Unsupported);
+    expectRefused(folder.write("map.lbl", "PDS_VERSION_ID = PDS3\nEND\n"), ErrorCode::Unsupported);
+    expectRefused(folder.write("points.csv", "x,y,z\n1,2,3\n"), ErrorCode::Unsupported);
+}
+
+TEST(Refusal, AnAbsurdSize)
+{
+    const TempFolder folder;
+    for (const char* size : {"rasterXSize=\"2147483647\" rasterYSize=\"2147483647\"",
+                             "rasterXSize=\"2147483647\" rasterYSize=\"1\"",
+                             "rasterXSize=\"2\" rasterYSize=\"2147483647\""}) {
+        expectRefused(folder.write("map.vrt", "<VRTDataset " + std::string(size) +
+                                                  "><VRTRasterBand dataType=\"Float64\" "
+                                                  "band=\"1\"/></VRTDataset>"),
+                      ErrorCode::TooLarge);
+    }
+    // As large as is taken for a map, but not for this memory.
+    expectRefused(folder.write("map.vrt",
+                               "<VRTDataset rasterXSize=\"16777216\" rasterYSize=\"16777216\">"
+                               "<VRTRasterBand dataType=\"Float64\" band=\"1\"/></VRTDataset>"),
+                  ErrorCode::TooLarge);
+}
+
+// Many more bytes in a row than a whole map may take: nothing may be read to find that out.
+TEST(Refusal, AWideRowOfRadiiIsNotReadBeforeTheLimitIsChecked)
+{
+    const TempFolder folder;
+    expectRefused(folder.write("map.vrt",
+                               "<VRTDataset rasterXSize=\"16777216\" rasterYSize=\"1000\">"
+                               "<SRS>IAU_2015:49900</SRS>"
+                               "<VRTRasterBand dataType=\"Float64\" band=\"1\"/></VRTDataset>"),
+                  ErrorCode::TooLarge);
+}
+
+TEST(Refusal, MoreMemoryThanGranted)
+{
+    const TempFolder folder;
+    const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
+    const auto refused = load(path, 11);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::TooLarge);
+    expectOneSentence(refused.error(), path);
+    EXPECT_TRUE(load(path, 12));
+}
+
+TEST(Refusal, PicturesAndComplexNumbers)
+{
+    const TempFolder folder;
+    const RasterRecipe bytes = recipeFor<std::uint8_t>(2, {1, 2, 3, 4});
+    expectRefused(writeRaster(folder, "colour.tif", "GTiff", bytes,
+                              {"-b", "1", "-b", "1", "-b", "1", "-colorinterp", "red,green,blue"}),
+                  ErrorCode::Unsupported);
+    RasterRecipe indexed = bytes;
+    indexed.band_xml =
+        "<ColorInterp>Palette</ColorInterp><ColorTable>"
+        "<Entry c1=\"0\" c2=\"0\" c3=\"0\" c4=\"255\"/>"
+        "<Entry c1=\"255\" c2=\"0\" c3=\"0\" c4=\"255\"/></ColorTable>";
+    expectRefused(writeRaster(folder, "indexed.tif", "GTiff", indexed), ErrorCode::Unsupported);
+    for (const char* type : {"CInt16", "CFloat32", "CFloat64"}) {
+        expectRefused(writeRaster(folder, "complex.tif", "GTiff", bytes, {"-ot", type}),
+                      ErrorCode::Unsupported);
+    }
+}
+
+TEST(Refusal, OnlyVoids)
+{
+    const TempFolder folder;
+    RasterRecipe recipe = recipeFor<std::int16_t>(3, {-9999, -9999, -9999, -9999, -9999, -9999});
+    recipe.band_xml = "<NoDataValue>-9999</NoDataValue>";
+    expectRefused(writeRaster(folder, "voids.tif", "GTiff", recipe), ErrorCode::Invalid);
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    expectRefused(
+        writeRaster(folder, "nan.tif", "GTiff", recipeFor<float>(2, {kNan, kNan, kNan, kNan})),
+        ErrorCode::Invalid);
+}
+
+TEST(Refusal, FewerThanTwoByTwoSamples)
+{
+    const TempFolder folder;
+    expectRefused(writeRaster(folder, "one.tif", "GTiff", recipeFor<std::int16_t>(1, {5})),
+                  ErrorCode::Invalid);
+    expectRefused(writeRaster(folder, "row.tif", "GTiff", recipeFor<std::int16_t>(3, {5, 6, 7})),
+                  ErrorCode::Invalid);
+    expectRefused(writeRaster(folder, "column.tif", "GTiff", recipeFor<std::int16_t>(1, {5, 6, 7})),
+                  ErrorCode::Invalid);
+}
+
+TEST(Refusal, AFileWithoutBands)
+{
+    const TempFolder folder;
+    const std::string path =
+        folder.write("none.vrt", "<VRTDataset rasterXSize=\"5\" rasterYSize=\"5\"></VRTDataset>");
+    const auto dataset = load(path);
+    ASSERT_FALSE(dataset);
+    expectOneSentence(dataset.error(), path);
+}
+
+TEST(Refusal, FilesCutShort)
+{
+    const TempFolder folder;
+    const std::string whole = test::readFile(
+        writeRaster(folder, "whole.tif", "GTiff",
+                    recipeFor<std::int16_t>(200, std::vector<std::int16_t>(200 * 200, 7))));
+    for (const double share : {0.001, 0.01, 0.5, 0.9, 0.999}) {
+        const auto bytes = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+        const std::string path = folder.write("short.tif", whole.substr(0, bytes));
+        SCOPED_TRACE(share);
+        const auto dataset = load(path);
+        ASSERT_FALSE(dataset);
+        expectOneSentence(dataset.error(), path);
+    }
+}
+
+// GDAL itself takes what is missing at the end of raw data for zeros.
+TEST(Refusal, RawDataCutShortAnywhere)
+{
+    const TempFolder folder;
+    for (const char* driver : {"ENVI", "EHdr"}) {
+        const std::string path =
+            writeRaster(folder, std::string(driver) + ".bil", driver,
+                        recipeFor<std::int16_t>(20, std::vector<std::int16_t>(20 * 20, 7)));
+        ASSERT_TRUE(opensAsMap(path));
+        for (const std::uintmax_t bytes : {799U, 798U, 790U, 761U, 760U, 400U, 39U, 1U}) {
+            fs::resize_file(path, bytes);
+            SCOPED_TRACE(bytes);
+            expectRefused(path, ErrorCode::Unreadable);
+        }
+    }
+    const std::string path = writeVrt(folder, "raw", smallMap());
+    ASSERT_TRUE(opensAsMap(path));
+    fs::resize_file(folder.file("raw.raw"), 10);
+    expectRefused(path, ErrorCode::Unreadable);
+}
+
+TEST(Refusal, RealFilesThatAreBroken)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    for (const char* file :
+         {"mars_mola/megt44n000hb.lbl", // its data is missing
+          "derived/megt90n000cb_truncated.lbl", "derived/S11E120.hgt",
+          "gdal_autotest/gcore/data/byte_truncated.tif", "oracle/mars-nomenclature.csv",
+          "oracle/GeodTest-100.dat", "oracle/three_point_bennison1990.txt", "CATALOGUE.tsv"}) {
+        const std::string path = (test::sharedData() / file).string();
+        SCOPED_TRACE(path);
+        const auto dataset = load(path);
+        ASSERT_FALSE(dataset);
+        expectOneSentence(dataset.error(), path);
+        std::printf("%s\n", dataset.error().message.substr(path.size() + 2).c_str());
+    }
+}
+
+TEST(Refusal, AFileCutShortAfterItWasOpened)
+{
+    const TempFolder folder;
+    const std::string path =
+        writeRaster(folder, "map.tif", "GTiff",
+                    recipeFor<std::int16_t>(2000, std::vector<std::int16_t>(2000 * 2000, 7)));
+    auto file = RasterFile::open(path);
+    ASSERT_TRUE(file);
+    fs::resize_file(path, 4096);
+    JobMonitor monitor;
+    const auto loaded = file->readAll(monitor, {}, kBudget);
+    ASSERT_FALSE(loaded);
+    EXPECT_EQ(loaded.error().code, ErrorCode::Unreadable);
+    expectOneSentence(loaded.error(), path);
+    const auto window = file->readWindow({1500, 1500, 10, 10}, {});
+    ASSERT_FALSE(window);
+    expectOneSentence(window.error(), path);
+    ASSERT_FALSE(file->scan(monitor, {}));
+}
+
+TEST(Refusal, AFileRemovedAfterItWasOpened)
+{
+    const TempFolder folder;
+    const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
+    auto file = RasterFile::open(path);
+    ASSERT_TRUE(file);
+    fs::remove(path);
+    JobMonitor monitor;
+    // The system keeps the data for whoever has it open; what may not happen is a crash or garbage.
+    const auto loaded = file->readAll(monitor, {}, kBudget);
+    if (loaded) {
+        EXPECT_EQ(loaded->grid.raw(2, 1), 6.0);
+    } else {
+        expectOneSentence(loaded.error(), path);
+    }
+    const auto again = load(path);
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().code, ErrorCode::NotFound);
+}
+
+TEST(Refusal, ReadingThatNobodyWantsAnyMore)
+{
+    const TempFolder folder;
+    const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
+    JobMonitor monitor;
+    monitor.cancel();
+    const auto dataset = loadDataset({path, 1, {}}, monitor, kBudget);
+    ASSERT_FALSE(dataset);
+    EXPECT_EQ(dataset.error().code, ErrorCode::Cancelled);
+    expectOneSentence(dataset.error(), path);
+    auto file = RasterFile::open(path);
+    ASSERT_TRUE(file);
+    const auto scanned = file->scan(monitor, {});
+    ASSERT_FALSE(scanned);
+    EXPECT_EQ(scanned.error().code, ErrorCode::Cancelled);
+}
+
+// What lacks a place is still a map: the user can say where it lies.
+TEST(Tolerance, MapsWithoutAUsablePlaceOpenWithANotice)
+{
+    const TempFolder folder;
+    const auto noticed = [&](RasterRecipe recipe, const std::string& word) {
+        const std::string path = writeVrt(folder, "map", recipe);
+        const auto file = RasterFile::open(path);
+        ASSERT_TRUE(file) << file.error().message;
+        EXPECT_TRUE(
+            std::any_of(file->info().notices.begin(), file->info().notices.end(),
+                        [&](const std::string& n) { return n.find(word) != std::string::npos; }))
+            << word;
+        for (const std::string& notice : file->info().notices) {
+            EXPECT_EQ(notice.find('\n'), std::string::npos) << notice;
+        }
+        EXPECT_TRUE(opensAsMap(path));
+    };
+    RasterRecipe nowhere = smallMap();
+    nowhere.transform.reset();
+    noticed(nowhere, "no georeferencing");
+    RasterRecipe zero = smallMap();
+    zero.transform = {0, 0, 0, 0, 0, 0};
+    noticed(zero, "cannot be inverted");
+    RasterRecipe parallel = smallMap();
+    parallel.transform = {0, 30, 30, 0, 30, 30};
+    noticed(parallel, "cannot be inverted");
+    RasterRecipe endless = smallMap();
+    endless.transform = {std::numeric_limits<double>::infinity(), 30, 0, 0, 0, -30};
+    noticed(endless, "cannot be inverted");
+    RasterRecipe geocentric = smallMap();
+    geocentric.srs = "EPSG:4978";
+    noticed(geocentric, "geocentric");
+}
+
+TEST(Tolerance, AGarbageCrsIsNoCrash)
+{
+    const TempFolder folder;
+    for (const char* srs : {"garbage", "PROJCS[\"x\"]",
+                            "GEOGCS[\"x\",DATUM[\"y\",SPHEROID[\"z\",0,0]]]", "+proj=eqc +R=0",
+                            "PROJCS[\"x\",GEOGCS[\"x\",DATUM[\"y\",SPHEROID[\"z\",6378137,298]],"
+                            "PRIMEM[\"G\",0],UNIT[\"degree\",0.017]],PROJECTION[\"Nonsense\"],"
+                            "UNIT[\"metre\",1]]"}) {
+        RasterRecipe recipe = smallMap();
+        recipe.srs = srs;
+        const std::string path = writeVrt(folder, "map", recipe);
+        const auto dataset = load(path);
+        if (dataset) {
+            (void)(*dataset)->georeference().toGeographic(GridPoint{0.5, 0.5});
+        } else {
+            expectOneSentence(dataset.error(), path);
+        }
+    }
+}
+
+TEST(Tolerance, HugeNodataIsNoEndlessLoop)
+{
+    const TempFolder folder;
+    for (const char* nodata :
+         {"1e300", "-1.7976931348623157e308", "nan", "inf", "-inf", "1e-320"}) {
+        RasterRecipe recipe = recipeFor<float>(3, {1, 2, 3, 4, 5, 6});
+        recipe.band_xml = "<NoDataValue>" + std::string(nodata) + "</NoDataValue>";
+        const auto dataset = load(writeVrt(folder, "map", recipe));
+        ASSERT_TRUE(dataset) << nodata << ": " << dataset.error().message;
+        EXPECT_EQ((*dataset)->heightfield().range()->maximum_m, 6.0) << nodata;
+    }
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,211 @@
+#include "core/raster/raster_info.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace marsview {
+namespace {
+
+RasterInfo mars()
+{
+    RasterInfo info;
+    info.columns = 1440;
+    info.rows = 720;
+    info.transform = *GeoTransform::fromTerms({0, 0.25, 0, 90, 0, -0.25});
+    info.crs = *Crs::fromText("IAU_2015:49900");
+    info.body = info.crs->body();
+    return info;
+}
+
+TEST(RasterInfo, HeightIsScaleOffsetUnitAndReferenceInThatOrder)
+{
+    RasterInfo info;
+    info.scale = 0.5;
+    info.offset = 10.0;
+    info.unit = {"ft", 0.3048};
+    info.reference_radius_m = 3.0;
+    EXPECT_DOUBLE_EQ(info.elevationScale().height(100.0), (100.0 * 0.5 + 10.0) * 0.3048 - 3.0);
+}
+
+TEST(RasterInfo, TwoTrianglesACell)
+{
+    RasterInfo info;
+    info.columns = std::size_t{1} << 24;
+    info.rows = std::size_t{1} << 24;
+    const std::uint64_t side = (std::uint64_t{1} << 24) - 1;
+    EXPECT_EQ(info.triangleCount(), 2 * side * side);
+}
+
+TEST(HeightReference, AnOffsetNearTheRadiusMeansRadii)
+{
+    RasterInfo info = mars();
+    info.scale = 0.5;
+    info.offset = 3396000.0;
+    deduceHeightReference(info);
+    ASSERT_TRUE(info.reference_radius_m);
+    EXPECT_EQ(*info.reference_radius_m, 3396000.0);
+    EXPECT_EQ(info.elevationScale().height(0.0), 0.0);
+    EXPECT_NE(info.vertical_datum.find("3396000"), std::string::npos);
+}
+
+TEST(HeightReference, ATypicalSampleNearTheRadiusMeansRadii)
+{
+    RasterInfo info = mars();
+    info.typical_raw = 3389500.0;
+    deduceHeightReference(info);
+    ASSERT_TRUE(info.reference_radius_m);
+    EXPECT_EQ(*info.reference_radius_m, 3396190.0);
+}
+
+TEST(HeightReference, KilometresOfRadiusAreRadiiToo)
+{
+    RasterInfo info = mars();
+    info.unit = {"km", 1000.0};
+    info.typical_raw = 3389.5;
+    deduceHeightReference(info);
+    EXPECT_TRUE(info.reference_radius_m);
+}
+
+TEST(HeightReference, HeightsAreNotRadii)
+{
+    for (const double typical : {-8200.0, 0.0, 21229.0, 1e5}) {
+        RasterInfo info = mars();
+        info.typical_raw = typical;
+        deduceHeightReference(info);
+        EXPECT_FALSE(info.reference_radius_m) << typical;
+    }
+    RasterInfo nowhere; // no CRS, no body: nothing to compare with
+    nowhere.typical_raw = 3389500.0;
+    deduceHeightReference(nowhere);
+    EXPECT_FALSE(nowhere.reference_radius_m);
+}
+
+TEST(HeightReference, IsForgottenWhenTheReasonIsGone)
+{
+    RasterInfo info = mars();
+    info.typical_raw = 3389.5;
+    info.unit = {"km", 1000.0};
+    deduceHeightReference(info);
+    ASSERT_TRUE(info.reference_radius_m);
+    info.unit = {"m", 1.0};
+    deduceHeightReference(info);
+    EXPECT_FALSE(info.reference_radius_m);
+    EXPECT_EQ(info.vertical_datum, "");
+}
+
+TEST(Overrides, NoneLeaveWhatTheFileSays)
+{
+    const auto info = withOverrides(mars(), {});
+    ASSERT_TRUE(info);
+    EXPECT_EQ(info->crs->name(), mars().crs->name());
+    EXPECT_EQ(info->transform, mars().transform);
+    EXPECT_TRUE(RasterOverrides{}.isEmpty());
+}
+
+TEST(Overrides, EachReplacesItsOwnThing)
+{
+    RasterOverrides overrides;
+    overrides.crs = "EPSG:32610";
+    overrides.transform = GeoTransform::Terms{1, 2, 0, 3, 0, -4};
+    overrides.vertical_unit = "ft";
+    overrides.nodata = -5.0;
+    EXPECT_FALSE(overrides.isEmpty());
+    const auto info = withOverrides(mars(), overrides);
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_EQ(info->crs->name(), "WGS 84 / UTM zone 10N");
+    EXPECT_EQ(info->body->name, "Earth");
+    EXPECT_EQ(info->transform->terms(), *overrides.transform);
+    EXPECT_EQ(info->unit.name, "ft");
+    EXPECT_TRUE(info->is_unit_declared);
+    EXPECT_EQ(info->nodata, -5.0);
+}
+
+TEST(Overrides, RadiiReplaceTheEllipsoidOnly)
+{
+    RasterOverrides overrides;
+    overrides.ellipsoid = Ellipsoid{3396000.0, 3396000.0};
+    const auto info = withOverrides(mars(), overrides);
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_EQ(*info->crs->ellipsoid(), *overrides.ellipsoid);
+    EXPECT_EQ(info->body->name, "Mars");
+}
+
+TEST(Overrides, ABodyGivesItsEllipsoid)
+{
+    RasterOverrides overrides;
+    overrides.body = "Moon";
+    const auto info = withOverrides(mars(), overrides);
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_EQ(info->body->name, "Moon");
+    EXPECT_EQ(info->crs->ellipsoid()->equatorial_m, 1737400.0);
+    EXPECT_EQ(info->crs->body()->name, "Moon");
+}
+
+TEST(Overrides, ABodyMakesDegreesOfABareGlobalGrid)
+{
+    RasterInfo bare;
+    bare.columns = 360;
+    bare.rows = 180;
+    bare.transform = *GeoTransform::fromTerms({0, 1, 0, 90, 0, -1});
+    RasterOverrides overrides;
+    overrides.body = "Vesta";
+    const auto info = withOverrides(bare, overrides);
+    ASSERT_TRUE(info) << info.error().message;
+    ASSERT_TRUE(info->crs);
+    EXPECT_EQ(info->crs->kind(), CrsKind::Geographic);
+    EXPECT_EQ(info->crs->latitudeKind(), LatitudeKind::Planetocentric);
+    EXPECT_FALSE(info->notices.empty());
+    bare.transform = *GeoTransform::fromTerms({5e5, 30, 0, 4e6, 0, -30});
+    const auto metres = withOverrides(bare, overrides);
+    ASSERT_TRUE(metres);
+    EXPECT_FALSE(metres->crs);
+    EXPECT_EQ(metres->body->name, "Vesta");
+}
+
+TEST(Overrides, WhatCannotBeUsedIsRefusedInOneSentence)
+{
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<RasterOverrides> bad(8);
+    bad[0].crs = "EPSG:99999999";
+    bad[1].crs = "EPSG:4978"; // geocentric
+    bad[2].body = "Vulcan";
+    bad[3].ellipsoid = Ellipsoid{0.0, 0.0};
+    bad[4].ellipsoid = Ellipsoid{3396190.0, kNan};
+    bad[5].vertical_unit = "parsec";
+    bad[6].transform = GeoTransform::Terms{0, 0, 0, 0, 0, 0};
+    bad[7].transform = GeoTransform::Terms{kNan, 1, 0, 0, 0, -1};
+    for (std::size_t i = 0; i < bad.size(); ++i) {
+        const auto info = withOverrides(mars(), bad[i]);
+        ASSERT_FALSE(info) << i;
+        const std::string& message = info.error().message;
+        EXPECT_FALSE(message.empty());
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_NE(message.back(), '.') << message;
+    }
+}
+
+// Radii have to be checked whatever else is known: here no CRS would check them.
+TEST(Overrides, BadRadiiAreRefusedWithoutACrsToo)
+{
+    RasterInfo bare;
+    bare.columns = 360;
+    bare.rows = 180;
+    for (const bool has_degrees : {false, true}) {
+        if (has_degrees) {
+            bare.transform = *GeoTransform::fromTerms({0, 1, 0, 90, 0, -1});
+        }
+        for (const char* body : {"", "Mars"}) {
+            RasterOverrides overrides;
+            if (*body != '\0') {
+                overrides.body = body;
+            }
+            overrides.ellipsoid = Ellipsoid{-5.0, 0.0};
+            EXPECT_FALSE(withOverrides(bare, overrides)) << has_degrees << " " << body;
+        }
+    }
+}
+
+} // namespace
+} // namespace marsview
