@@ -1,0 +1,48 @@
+// Where a ray first meets the surface at full resolution.
+#pragma once
+
+#include "core/geo/frames.h"
+#include "core/geo/scene_frame.h"
+#include "core/terrain/heightfield.h"
+#include "core/terrain/min_max_pyramid.h"
+
+#include <optional>
+
+namespace marsview {
+
+/// A half-line over the grid: position and height at parameter t are affine in t >= 0.
+struct GridRay {
+    GridPoint origin;
+    double origin_height_m = 0.0;
+    double columns_per_t = 0.0;
+    double rows_per_t = 0.0;
+    double height_per_t_m = 0.0;
+};
+
+/// A ray of the scene seen from the grid, with the same parameter: grid and height are affine in
+/// scene coordinates. `exaggeration` > 0.
+GridRay gridRay(const ScenePoint& origin,
+                const Vec3& direction,
+                const SceneFrame& frame,
+                double exaggeration);
+
+struct RayHit {
+    GridPoint grid;
+    double height_m = 0.0; // of the surface, not exaggerated
+    double t = 0.0;        // along the ray
+};
+
+/// The first point with t >= 0 that the ray shares with the surface, from either side. Rays find no
+/// gap between triangles; triangles with a void corner are holes. Edges and corners count where
+/// their own samples are not void, as in Heightfield::height. A ray that lies in the surface hits
+/// where it enters it.
+///
+/// Error against exact arithmetic: 1e-9 of a cell and 8 ulp of the largest height met, for grid
+/// coordinates up to 1e6. Cost: logarithmic in the length that passes clear of the terrain, linear
+/// in the number of cells whose blocks (MinMaxPyramid) it grazes. No allocation.
+///
+/// `pyramid` was built from `heightfield`.
+std::optional<RayHit>
+castRay(const Heightfield& heightfield, const MinMaxPyramid& pyramid, const GridRay& ray) noexcept;
+
+} // namespace marsview

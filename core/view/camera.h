@@ -1,0 +1,89 @@
+// The camera: where it stands, what it sees, and the ray behind each pixel.
+//
+// Everything is double and in scene metres. Drawing converts to float relative to the eye at the
+// last moment (viewRotation() has no translation), so nothing jitters far from the origin.
+#pragma once
+
+#include "core/base/angle.h"
+#include "core/geo/frames.h"
+#include "core/view/matrix.h"
+#include "core/view/scene_box.h"
+
+#include <optional>
+
+namespace marsview {
+
+/// Width and height of a picture in pixels; both at least 1.
+struct Viewport {
+    int width = 1;
+    int height = 1;
+
+    double aspect() const noexcept
+    {
+        return static_cast<double>(width) / static_cast<double>(height);
+    }
+};
+
+/// A position in a picture: x right, y down, from the outer corner of the top left pixel.
+struct PixelPoint {
+    double x = 0.0;
+    double y = 0.0;
+};
+
+/// A half-line. The direction has length 1.
+struct Ray {
+    ScenePoint origin;
+    Vec3 direction;
+
+    constexpr ScenePoint at(double distance_m) const noexcept
+    {
+        return origin + direction * distance_m;
+    }
+};
+
+/// A camera that hangs at a distance from the point it looks at.
+struct OrbitCamera {
+    ScenePoint target;
+    double distance_m = 1.0;                    // > 0
+    Angle azimuth;                              // the heading of the view, clockwise from north
+    Angle tilt;                                 // 0 looks straight down, 90° along the horizon
+    Angle field_of_view = Angle::degrees(40.0); // vertical
+
+    bool operator==(const OrbitCamera&) const = default;
+};
+
+/// Unit vectors of the picture, right-handed: right × up = -forward.
+struct CameraAxes {
+    Vec3 right;
+    Vec3 up;
+    Vec3 forward;
+};
+
+CameraAxes axesOf(const OrbitCamera& camera);
+ScenePoint eyeOf(const OrbitCamera& camera);
+
+/// Depths along the view direction between which something may have to be drawn.
+struct ClipRange {
+    double near_m = 0.1;
+    double far_m = 1.0;
+};
+
+/// 0 < near < far; encloses the part of `box` that is further from the eye than 1/200 of the
+/// camera's distance, which is nearer than navigation lets the ground come.
+ClipRange clipRange(const OrbitCamera& camera, const SceneBox& box);
+
+/// Scene directions to eye directions: x right, y up, z backward. No translation: subtract the eye
+/// first.
+Matrix4 viewRotation(const OrbitCamera& camera);
+
+/// OpenGL's perspective projection, depth -1 at near and 1 at far.
+Matrix4 projection(const OrbitCamera& camera, const Viewport& viewport, const ClipRange& clip);
+
+/// The ray from the eye through a position in the picture.
+Ray pickRay(const OrbitCamera& camera, const Viewport& viewport, PixelPoint pixel);
+
+/// Where a point appears. Nothing where it is not in front of the eye.
+std::optional<PixelPoint>
+project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& point);
+
+} // namespace marsview

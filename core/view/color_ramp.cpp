@@ -1,0 +1,129 @@
+#include "core/view/color_ramp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+struct Oklab {
+    double l = 0.0;
+    double a = 0.0;
+    double b = 0.0;
+};
+
+double linearFrom(std::uint8_t component)
+{
+    const double c = component / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+std::uint8_t componentFrom(double linear)
+{
+    const double bounded = std::clamp(linear, 0.0, 1.0);
+    const double c =
+        bounded <= 0.0031308 ? bounded * 12.92 : 1.055 * std::pow(bounded, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(c * 255.0));
+}
+
+Oklab oklabFrom(Rgb8 color)
+{
+    const double r = linearFrom(color.red);
+    const double g = linearFrom(color.green);
+    const double b = linearFrom(color.blue);
+    const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+    const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+    const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+    return {.l = 0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            .a = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            .b = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+Rgb8 rgbFrom(const Oklab& color)
+{
+    const auto cubed = [](double x) { return x * x * x; };
+    const double l = cubed(color.l + 0.3963377774 * color.a + 0.2158037573 * color.b);
+    const double m = cubed(color.l - 0.1055613458 * color.a - 0.0638541728 * color.b);
+    const double s = cubed(color.l - 0.0894841775 * color.a - 1.2914855480 * color.b);
+    return {.red = componentFrom(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+            .green = componentFrom(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+            .blue = componentFrom(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+// Each ramp rises in lightness by equal amounts from stop to stop (the test holds it), from dark
+// enough to stand out against white text to light enough to keep hill shading visible.
+constexpr std::array kDawn{
+    ColorStop{0.0, {18, 46, 84}},    ColorStop{0.2, {26, 88, 98}},
+    ColorStop{0.4, {77, 119, 82}},   ColorStop{0.6, {148, 143, 69}},
+    ColorStop{0.8, {232, 163, 103}}, ColorStop{1.0, {255, 208, 198}},
+};
+constexpr std::array kRust{
+    ColorStop{0.0, {58, 32, 40}},   ColorStop{0.2, {98, 50, 42}},   ColorStop{0.4, {140, 73, 41}},
+    ColorStop{0.6, {181, 103, 53}}, ColorStop{0.8, {214, 147, 93}}, ColorStop{1.0, {241, 197, 153}},
+};
+constexpr std::array kGrey{
+    ColorStop{0.0, {58, 58, 60}},
+    ColorStop{1.0, {232, 230, 226}},
+};
+
+constexpr std::array kRamps{
+    ColorRamp{"dawn", kDawn},
+    ColorRamp{"rust", kRust},
+    ColorRamp{"grey", kGrey},
+};
+
+// The bodies without air whose surface is grey to the eye.
+constexpr std::array<std::string_view, 6> kGreyBodies{"Moon",  "Mercury", "Ceres",
+                                                      "Vesta", "Phobos",  "Deimos"};
+
+} // namespace
+
+std::span<const ColorRamp> colorRamps()
+{
+    return kRamps;
+}
+
+const ColorRamp* colorRampNamed(std::string_view name)
+{
+    const auto hit = std::find_if(kRamps.begin(), kRamps.end(),
+                                  [name](const ColorRamp& ramp) { return ramp.name == name; });
+    return hit != kRamps.end() ? &*hit : nullptr;
+}
+
+const ColorRamp& defaultColorRamp(std::string_view body_name)
+{
+    if (body_name == "Mars") {
+        return kRamps[1];
+    }
+    const bool is_grey =
+        std::find(kGreyBodies.begin(), kGreyBodies.end(), body_name) != kGreyBodies.end();
+    return is_grey ? kRamps[2] : kRamps[0];
+}
+
+double lightness(Rgb8 color)
+{
+    return oklabFrom(color).l;
+}
+
+std::array<Rgb8, 256> sampledRamp(const ColorRamp& ramp)
+{
+    std::array<Rgb8, 256> colors{};
+    std::size_t next = 1;
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const double position = static_cast<double>(i) / 255.0;
+        while (next + 1 < ramp.stops.size() && ramp.stops[next].position < position) {
+            ++next;
+        }
+        const ColorStop& a = ramp.stops[next - 1];
+        const ColorStop& b = ramp.stops[next];
+        const double t = std::clamp((position - a.position) / (b.position - a.position), 0.0, 1.0);
+        const Oklab from = oklabFrom(a.color);
+        const Oklab to = oklabFrom(b.color);
+        colors[i] = rgbFrom({.l = from.l + (to.l - from.l) * t,
+                             .a = from.a + (to.a - from.a) * t,
+                             .b = from.b + (to.b - from.b) * t});
+    }
+    return colors;
+}
+
+} // namespace marsview

@@ -1,0 +1,199 @@
+#include "core/view/navigation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+constexpr Angle kTiltMax = Angle::degrees(85.0);
+
+// The eye stays this share of its distance above the ground: four times the near plane's share, so
+// that the ground in front of it is not cut open.
+constexpr double kClearanceShare = 1.0 / 50.0;
+
+constexpr double kPixelsNearest = 2.0;
+constexpr double kDiagonalsFarthest = 4.0;
+
+// A drag towards the horizon moves the map by at most this many camera distances.
+constexpr double kDragReach = 4.0;
+
+constexpr double kHomeMargin = 1.04;
+
+Angle wrapped(Angle azimuth)
+{
+    return Angle::radians(std::remainder(azimuth.radians(), 2.0 * std::numbers::pi));
+}
+
+// How far back along the view axis, and where across it, the eye has to be so that all points lie
+// between two planes that open by the tangent `slope` to either side. Per plane, the furthest point
+// decides.
+struct Fit {
+    double across = 0.0;
+    double depth = 0.0;
+};
+
+Fit fitBetween(const std::array<ScenePoint, 8>& points,
+               const Vec3& across,
+               const Vec3& forward,
+               double slope)
+{
+    double positive = -HUGE_VAL;
+    double negative = -HUGE_VAL;
+    for (const ScenePoint& p : points) {
+        const double a = dot(p, across);
+        const double d = dot(p, forward);
+        positive = std::max(positive, a - slope * d);
+        negative = std::max(negative, -a - slope * d);
+    }
+    return {.across = (positive - negative) / 2.0, .depth = -(positive + negative) / (2.0 * slope)};
+}
+
+} // namespace
+
+NavigationLimits navigationLimits(const SceneBox& box, double pixel_m)
+{
+    const double nearest = std::max(kPixelsNearest * pixel_m, 1e-6 * box.diagonal_m());
+    return {.box = box,
+            .distance_min_m = nearest,
+            .distance_max_m = std::max(kDiagonalsFarthest * box.diagonal_m(), nearest)};
+}
+
+OrbitCamera
+constrained(OrbitCamera camera, const NavigationLimits& limits, const GroundQuery& ground)
+{
+    const SceneBox& box = limits.box;
+    camera.target = {std::clamp(camera.target.x, box.minimum.x, box.maximum.x),
+                     std::clamp(camera.target.y, box.minimum.y, box.maximum.y),
+                     std::clamp(camera.target.z, box.minimum.z, box.maximum.z)};
+    camera.distance_m = std::clamp(camera.distance_m, limits.distance_min_m, limits.distance_max_m);
+    camera.tilt = std::clamp(camera.tilt, Angle{}, kTiltMax);
+    camera.azimuth = wrapped(camera.azimuth);
+    const ScenePoint eye = eyeOf(camera);
+    const double ground_z = ground ? ground(eye.x, eye.y) : std::nan("");
+    if (std::isfinite(ground_z)) {
+        const double lowest = ground_z + kClearanceShare * camera.distance_m;
+        camera.target.z += std::max(0.0, lowest - eye.z);
+    }
+    return camera;
+}
+
+OrbitCamera orbited(OrbitCamera camera, Angle azimuth_change, Angle tilt_change)
+{
+    camera.azimuth = wrapped(camera.azimuth + azimuth_change);
+    camera.tilt = std::clamp(camera.tilt + tilt_change, Angle{}, kTiltMax);
+    return camera;
+}
+
+OrbitCamera
+zoomed(OrbitCamera camera, double factor, const ScenePoint& anchor, const NavigationLimits& limits)
+{
+    const double distance_m =
+        std::clamp(camera.distance_m * factor, limits.distance_min_m, limits.distance_max_m);
+    camera.target = anchor + (camera.target - anchor) * (distance_m / camera.distance_m);
+    camera.distance_m = distance_m;
+    return camera;
+}
+
+OrbitCamera dragged(OrbitCamera camera, const Viewport& viewport, const Drag& drag)
+{
+    const double reach_m = kDragReach * camera.distance_m;
+    const ScenePoint from =
+        pointOnLevel(pickRay(camera, viewport, drag.from), drag.grabbed_z_m, reach_m);
+    const ScenePoint to =
+        pointOnLevel(pickRay(camera, viewport, drag.to), drag.grabbed_z_m, reach_m);
+    camera.target.x += from.x - to.x;
+    camera.target.y += from.y - to.y;
+    return camera;
+}
+
+OrbitCamera panned(OrbitCamera camera, double right_share, double forward_share)
+{
+    const double sin_a = std::sin(camera.azimuth.radians());
+    const double cos_a = std::cos(camera.azimuth.radians());
+    camera.target.x += camera.distance_m * (right_share * cos_a + forward_share * sin_a);
+    camera.target.y += camera.distance_m * (forward_share * cos_a - right_share * sin_a);
+    return camera;
+}
+
+OrbitCamera retargeted(OrbitCamera camera, double distance_m)
+{
+    const ScenePoint eye = eyeOf(camera);
+    camera.target = eye + axesOf(camera).forward * distance_m;
+    camera.distance_m = distance_m;
+    return camera;
+}
+
+OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view)
+{
+    OrbitCamera camera;
+    camera.field_of_view = field_of_view;
+    camera.tilt = Angle::degrees(40.0);
+    const CameraAxes axes = axesOf(camera);
+    const double slope = std::tan(field_of_view.radians() / 2.0) / kHomeMargin;
+    const auto corners = box.corners();
+    const Fit across = fitBetween(corners, axes.right, axes.forward, slope * viewport.aspect());
+    const Fit upward = fitBetween(corners, axes.up, axes.forward, slope);
+    const ScenePoint eye = axes.right * across.across + axes.up * upward.across +
+                           axes.forward * std::min(across.depth, upward.depth);
+    // The target lies on the map's mean level; the eye is above it because all of the box is in
+    // sight of a camera that looks down.
+    const double distance_m =
+        std::max((box.centre().z - eye.z) / axes.forward.z, 1e-3 * box.diagonal_m());
+    camera.distance_m = distance_m;
+    camera.target = eye + axes.forward * distance_m;
+    return camera;
+}
+
+std::optional<OrbitCamera> openingCamera(const Georeference& georeference)
+{
+    const Body* body = georeference.body();
+    if (body == nullptr || body->name != "Mars" || !georeference.wrapsAround()) {
+        return std::nullopt;
+    }
+    // Between the Tharsis volcanoes (247° E) and the canyons of Valles Marineris (255° to 310° E).
+    const auto grid = georeference.toGrid(
+        GeographicPoint{.longitude = Angle::degrees(266.0), .latitude = Angle::degrees(-1.0)});
+    const double last_column = static_cast<double>(georeference.columns() - 1);
+    const double last_row = static_cast<double>(georeference.rows() - 1);
+    if (!grid || grid->column < 0.0 || grid->column > last_column || grid->row < 0.0 ||
+        grid->row > last_row) {
+        return std::nullopt;
+    }
+    OrbitCamera camera;
+    camera.target = georeference.sceneFrame().toScene(*grid, 0.0);
+    camera.distance_m = 5.6e6;
+    camera.azimuth = Angle::degrees(-28.0);
+    camera.tilt = Angle::degrees(52.0);
+    return camera;
+}
+
+ScenePoint pointOnLevel(const Ray& ray, double level_m, double distance_max_m)
+{
+    const double t = (level_m - ray.origin.z) / ray.direction.z;
+    return ray.at(t > 0.0 && t < distance_max_m ? t : distance_max_m);
+}
+
+OrbitCamera interpolated(const OrbitCamera& from, const OrbitCamera& to, double t)
+{
+    if (t <= 0.0) {
+        return from;
+    }
+    if (t >= 1.0) {
+        return to;
+    }
+    const auto mix = [](double a, double b, double share) { return a + (b - a) * share; };
+    const double k = std::log(to.distance_m / from.distance_m);
+    const double share = std::abs(k) < 1e-6 ? t : std::expm1(k * t) / std::expm1(k);
+    OrbitCamera camera = from;
+    camera.distance_m = from.distance_m * std::exp(k * t);
+    camera.target = from.target + (to.target - from.target) * share;
+    camera.azimuth = wrapped(from.azimuth + wrapped(to.azimuth - from.azimuth) * t);
+    camera.tilt = Angle::radians(mix(from.tilt.radians(), to.tilt.radians(), t));
+    camera.field_of_view =
+        Angle::radians(mix(from.field_of_view.radians(), to.field_of_view.radians(), t));
+    return camera;
+}
+
+} // namespace marsview

@@ -1,0 +1,424 @@
+#include "ui/georeferencing_panel.h"
+
+#include "core/session/dataset.h"
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QLocale>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+// Digits enough to read, not to compute: nine tell a millimetre from 1000 km.
+QString number(double value)
+{
+    return QLocale().toString(value, 'g', 9);
+}
+
+// Digits enough to read the same double back, always with a point: for fields.
+QString exactNumber(double value)
+{
+    return QLocale::c().toString(value, 'g', QLocale::FloatingPointShortest);
+}
+
+// A number as the user writes it: with a point, or as the locale has it.
+std::optional<double> parsed(const QString& text)
+{
+    bool is_number = false;
+    const double plain = QLocale::c().toDouble(text, &is_number);
+    if (is_number) {
+        return plain;
+    }
+    const double local = QLocale().toDouble(text, &is_number);
+    return is_number ? std::optional(local) : std::nullopt;
+}
+
+QString fromStd(std::string_view text)
+{
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+QLabel* makeFact(QWidget* parent)
+{
+    auto* label = new QLabel(parent);
+    label->setWordWrap(true);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+    return label;
+}
+
+// Text that is none of the numbers asked for.
+struct NotANumber {
+    QString text;
+};
+
+// Nothing where the field is left empty.
+std::optional<double> valueOf(const QLineEdit& field)
+{
+    const QString text = field.text().trimmed();
+    if (text.isEmpty()) {
+        return std::nullopt;
+    }
+    const auto value = parsed(text);
+    if (!value) {
+        throw NotANumber{text};
+    }
+    return value;
+}
+
+} // namespace
+
+GeoreferencingPanel::GeoreferencingPanel(QWidget* parent)
+    : QWidget(parent)
+    , pages_(new QStackedWidget(this))
+{
+    facts_page_ = makeFactsPage();
+    fields_page_ = makeFieldsPage();
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(pages_);
+    setDataset(nullptr);
+}
+
+QWidget* GeoreferencingPanel::makeFactsPage()
+{
+    auto* scroll = new QScrollArea(pages_);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto* content = new QWidget(scroll);
+    auto* layout = new QVBoxLayout(content);
+    facts_ = new QFormLayout;
+    facts_->setLabelAlignment(Qt::AlignLeft | Qt::AlignTop);
+    facts_->setRowWrapPolicy(QFormLayout::DontWrapRows);
+    layout->addLayout(facts_);
+    notices_ = makeFact(content);
+    notices_->setAccessibleName(tr("Notices about the map"));
+    layout->addWidget(notices_);
+    override_button_ = new QPushButton(tr("&Override…"), content);
+    override_button_->setObjectName(QStringLiteral("override"));
+    override_button_->setToolTip(
+        tr("Tell the body, CRS and placement; nothing is written to the file"));
+    connect(override_button_, &QPushButton::clicked, this, &GeoreferencingPanel::edit);
+    layout->addWidget(override_button_, 0, Qt::AlignLeft);
+    layout->addStretch(1);
+    scroll->setWidget(content);
+    pages_->addWidget(scroll);
+    return scroll;
+}
+
+QWidget* GeoreferencingPanel::makeFieldsPage()
+{
+    auto* scroll = new QScrollArea(pages_);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto* content = new QWidget(scroll);
+    auto* layout = new QVBoxLayout(content);
+    auto* hint = makeFact(content);
+    hint->setText(tr("Empty fields stay as the file has them. Nothing is written to the file."));
+    layout->addWidget(hint);
+    auto* form = new QFormLayout;
+    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    const auto make_field = [content](const QString& name, const char* object_name) {
+        auto* field = new QLineEdit(content);
+        field->setAccessibleName(name);
+        field->setObjectName(QLatin1String(object_name));
+        field->setMinimumWidth(40);
+        return field;
+    };
+    crs_ = make_field(tr("CRS"), "crs");
+    crs_->setToolTip(
+        tr("Anything that GDAL understands: EPSG:32610, IAU_2015:49910, a PROJ "
+           "string, WKT"));
+    form->addRow(tr("&CRS"), crs_);
+    body_ = new QComboBox(content);
+    body_->setAccessibleName(tr("Body"));
+    body_->setObjectName(QStringLiteral("body"));
+    body_->addItem(tr("As in the file"));
+    for (const Body& body : knownBodies()) {
+        body_->addItem(fromStd(body.name), fromStd(body.name));
+    }
+    form->addRow(tr("&Body"), body_);
+    equatorial_ = make_field(tr("Equatorial radius in metres"), "equatorial");
+    polar_ = make_field(tr("Polar radius in metres"), "polar");
+    form->addRow(tr("&Equatorial radius (m)"), equatorial_);
+    form->addRow(tr("&Polar radius (m)"), polar_);
+    layout->addLayout(form);
+
+    auto* terms_label = new QLabel(tr("Geotransform, outer corner of the first pixel:"), content);
+    terms_label->setWordWrap(true);
+    layout->addWidget(terms_label);
+    auto* grid = new QGridLayout;
+    const std::array names{tr("x"), tr("x per column"), tr("x per row"),
+                           tr("y"), tr("y per column"), tr("y per row")};
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        terms_[i] = make_field(names[i], "");
+        terms_[i]->setObjectName(QStringLiteral("term%1").arg(i));
+        auto* label = new QLabel(names[i], content);
+        label->setBuddy(terms_[i]);
+        const int column = static_cast<int>(i / 3);
+        const int row = static_cast<int>(i % 3) * 2;
+        grid->addWidget(label, row, column);
+        grid->addWidget(terms_[i], row + 1, column);
+    }
+    layout->addLayout(grid);
+
+    auto* heights = new QFormLayout;
+    heights->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    unit_ = new QComboBox(content);
+    unit_->setAccessibleName(tr("Height unit"));
+    unit_->setObjectName(QStringLiteral("unit"));
+    unit_->addItem(tr("As in the file"));
+    for (const char* unit : {"m", "km", "ft", "US survey ft"}) {
+        unit_->addItem(QLatin1String(unit), QLatin1String(unit));
+    }
+    heights->addRow(tr("&Height unit"), unit_);
+    nodata_ = make_field(tr("Nodata value"), "nodata");
+    heights->addRow(tr("&Nodata"), nodata_);
+    layout->addLayout(heights);
+
+    problem_ = makeFact(content);
+    problem_->setAccessibleName(tr("What cannot be applied"));
+    QFont bold = problem_->font();
+    bold.setBold(true);
+    problem_->setFont(bold);
+    layout->addWidget(problem_);
+
+    auto* apply_button = new QPushButton(tr("&Apply"), content);
+    apply_button->setObjectName(QStringLiteral("apply"));
+    connect(apply_button, &QPushButton::clicked, this, &GeoreferencingPanel::apply);
+    auto* reset_button = new QPushButton(tr("&Reset to File"), content);
+    reset_button->setObjectName(QStringLiteral("reset"));
+    connect(reset_button, &QPushButton::clicked, this,
+            [this] { Q_EMIT overridesRequested(RasterOverrides{}); });
+    auto* back_button = new QPushButton(tr("&Close"), content);
+    back_button->setObjectName(QStringLiteral("close"));
+    connect(back_button, &QPushButton::clicked, this,
+            [this] { pages_->setCurrentWidget(facts_page_); });
+    auto* buttons = new QGridLayout;
+    buttons->addWidget(apply_button, 0, 0);
+    buttons->addWidget(back_button, 0, 1);
+    buttons->addWidget(reset_button, 1, 0, 1, 2);
+    layout->addLayout(buttons);
+    layout->addStretch(1);
+    for (QLineEdit* field : content->findChildren<QLineEdit*>()) {
+        connect(field, &QLineEdit::returnPressed, this, &GeoreferencingPanel::apply);
+    }
+    scroll->setWidget(content);
+    pages_->addWidget(scroll);
+    return scroll;
+}
+
+void GeoreferencingPanel::setDataset(const std::shared_ptr<const Dataset>& dataset)
+{
+    const bool is_other_file =
+        !dataset || !dataset_ || dataset->spec().path != dataset_->spec().path;
+    dataset_ = dataset;
+    if (is_other_file) {
+        pages_->setCurrentWidget(facts_page_);
+    }
+    override_button_->setEnabled(dataset_ != nullptr);
+    fillFacts();
+    fillFields();
+}
+
+void GeoreferencingPanel::edit()
+{
+    if (dataset_) {
+        pages_->setCurrentWidget(fields_page_);
+        crs_->setFocus();
+    }
+}
+
+void GeoreferencingPanel::fillFacts()
+{
+    while (facts_->rowCount() > 0) {
+        facts_->removeRow(0);
+    }
+    notices_->clear();
+    if (!dataset_) {
+        notices_->setText(tr("No map is open."));
+        return;
+    }
+    const RasterInfo& info = dataset_->info();
+    const Georeference& georeference = dataset_->georeference();
+    const auto add = [this](const QString& name, const QString& value) {
+        QLabel* fact = makeFact(this);
+        fact->setText(value);
+        fact->setAccessibleName(name);
+        facts_->addRow(name, fact);
+    };
+    const QString unknown = tr("unknown");
+    add(tr("Body"), info.body != nullptr ? fromStd(info.body->name) : unknown);
+    if (info.crs && info.crs->ellipsoid()) {
+        const Ellipsoid& e = *info.crs->ellipsoid();
+        add(tr("Ellipsoid"), e.isSphere()
+                                 ? tr("sphere, %1 m").arg(number(e.equatorial_m))
+                                 : tr("%1 / %2 m").arg(number(e.equatorial_m), number(e.polar_m)));
+    } else {
+        add(tr("Ellipsoid"), unknown);
+    }
+    const QString crs_name = info.crs ? QString::fromStdString(info.crs->name()) : QString();
+    add(tr("CRS"), info.crs ? (crs_name.isEmpty() ? tr("unnamed") : crs_name) : tr("none"));
+    const GeoTransform& transform = georeference.transform();
+    const QString unit = info.crs ? QString::fromStdString(info.crs->unitName()) : tr("map unit");
+    const QString width = number(transform.pixelWidth());
+    const QString height = number(transform.pixelHeight());
+    //: %1 × %2 is the size of a pixel, %3 the unit
+    add(tr("Pixel"),
+        width == height ? tr("%1 %2").arg(width, unit) : tr("%1 × %2 %3").arg(width, height, unit));
+    const auto metres = [](double value) { return QLocale().toString(value, 'g', 6); };
+    add(tr("Pixel (m)"),
+        tr("%1 × %2 m")
+            .arg(metres(georeference.pixelWidth_m()), metres(georeference.pixelHeight_m())));
+    // The extent of the pixels' outer corners, rotated rasters included.
+    const double columns = static_cast<double>(georeference.columns());
+    const double rows = static_cast<double>(georeference.rows());
+    MapPoint low{HUGE_VAL, HUGE_VAL};
+    MapPoint high{-HUGE_VAL, -HUGE_VAL};
+    for (const GridPoint corner :
+         {GridPoint{-0.5, -0.5}, GridPoint{columns - 0.5, -0.5}, GridPoint{-0.5, rows - 0.5},
+          GridPoint{columns - 0.5, rows - 0.5}}) {
+        const MapPoint p = georeference.toMap(corner);
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    //: The range of map coordinates: x from %1 to %2, y from %3 to %4
+    add(tr("Extent"), tr("x %1 … %2\ny %3 … %4")
+                          .arg(number(low.x), number(high.x), number(low.y), number(high.y)));
+    const GeoTransform::Terms& t = transform.terms();
+    add(tr("Geotransform"), info.transform ? tr("%1, %2, %3\n%4, %5, %6")
+                                                 .arg(number(t[0]), number(t[1]), number(t[2]),
+                                                      number(t[3]), number(t[4]), number(t[5]))
+                                           : tr("none"));
+    //: %1 columns and %2 rows of samples, of type %3
+    add(tr("Samples"), tr("%L1 × %L2, %3")
+                           .arg(info.columns)
+                           .arg(info.rows)
+                           .arg(fromStd(sampleTypeName(info.type))));
+    if (const auto& range = dataset_->heightfield().range()) {
+        const auto rounded = [](double value) { return QLocale().toString(value, 'g', 7); };
+        add(tr("Heights"),
+            tr("%1 … %2 m").arg(rounded(range->minimum_m), rounded(range->maximum_m)));
+    }
+    add(tr("Height unit"), info.is_unit_declared
+                               ? QString::fromStdString(info.unit.name)
+                               : tr("%1, assumed").arg(QString::fromStdString(info.unit.name)));
+    add(tr("Datum"),
+        info.vertical_datum.empty() ? unknown : QString::fromStdString(info.vertical_datum));
+    add(tr("Nodata"), info.nodata ? number(*info.nodata) : tr("none"));
+    add(tr("Driver"), QString::fromStdString(info.driver));
+    if (!dataset_->spec().overrides.isEmpty()) {
+        add(tr("Source"), tr("overridden by you"));
+    }
+    QStringList lines;
+    for (const std::string& notice : info.notices) {
+        lines.append(QStringLiteral("• ") + QString::fromStdString(notice));
+    }
+    notices_->setText(lines.join(QLatin1Char('\n')));
+    notices_->setVisible(!lines.isEmpty());
+}
+
+void GeoreferencingPanel::fillFields()
+{
+    showProblem({});
+    const RasterOverrides overrides = dataset_ ? dataset_->spec().overrides : RasterOverrides{};
+    const auto fill = [](QLineEdit* field, const std::optional<double>& value,
+                         const std::optional<double>& in_file) {
+        field->setText(value ? exactNumber(*value) : QString());
+        field->setPlaceholderText(in_file ? exactNumber(*in_file) : QString());
+    };
+    const auto choose = [](QComboBox* box, const std::optional<std::string>& value) {
+        const int index = value ? box->findData(QString::fromStdString(*value)) : 0;
+        box->setCurrentIndex(std::max(0, index));
+    };
+    crs_->setText(QString::fromStdString(overrides.crs.value_or("")));
+    crs_->setPlaceholderText(dataset_ && dataset_->fileInfo().crs
+                                 ? QString::fromStdString(dataset_->fileInfo().crs->name())
+                                 : QString());
+    choose(body_, overrides.body);
+    choose(unit_, overrides.vertical_unit);
+    const auto radius = [](const std::optional<Ellipsoid>& e, double Ellipsoid::*which) {
+        return e ? std::optional((*e).*which) : std::nullopt;
+    };
+    const std::optional<Ellipsoid> in_effect =
+        dataset_ && dataset_->info().crs ? dataset_->info().crs->ellipsoid() : std::nullopt;
+    fill(equatorial_, radius(overrides.ellipsoid, &Ellipsoid::equatorial_m),
+         radius(in_effect, &Ellipsoid::equatorial_m));
+    fill(polar_, radius(overrides.ellipsoid, &Ellipsoid::polar_m),
+         radius(in_effect, &Ellipsoid::polar_m));
+    const GeoTransform::Terms in_file =
+        dataset_ ? dataset_->fileInfo().transform.value_or(GeoTransform{}).terms()
+                 : GeoTransform{}.terms();
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        fill(terms_[i],
+             overrides.transform ? std::optional((*overrides.transform)[i]) : std::nullopt,
+             in_file[i]);
+    }
+    fill(nodata_, overrides.nodata, dataset_ ? dataset_->fileInfo().nodata : std::nullopt);
+}
+
+void GeoreferencingPanel::apply()
+{
+    if (!dataset_) {
+        return;
+    }
+    RasterOverrides overrides;
+    const QString crs = crs_->text().trimmed();
+    if (!crs.isEmpty()) {
+        overrides.crs = crs.toStdString();
+    }
+    if (body_->currentIndex() > 0) {
+        overrides.body = body_->currentData().toString().toStdString();
+    }
+    if (unit_->currentIndex() > 0) {
+        overrides.vertical_unit = unit_->currentData().toString().toStdString();
+    }
+    try {
+        const auto equatorial = valueOf(*equatorial_);
+        const auto polar = valueOf(*polar_);
+        if (equatorial || polar) {
+            // One radius alone means a sphere.
+            overrides.ellipsoid =
+                Ellipsoid{.equatorial_m = equatorial.value_or(*(polar ? polar : equatorial)),
+                          .polar_m = polar.value_or(*(equatorial ? equatorial : polar))};
+        }
+        GeoTransform::Terms terms = dataset_->fileInfo().transform.value_or(GeoTransform{}).terms();
+        bool is_any_given = false;
+        for (std::size_t i = 0; i < terms.size(); ++i) {
+            if (const auto value = valueOf(*terms_[i])) {
+                terms[i] = *value;
+                is_any_given = true;
+            }
+        }
+        if (is_any_given) {
+            overrides.transform = terms;
+        }
+        overrides.nodata = valueOf(*nodata_);
+    } catch (const NotANumber& problem) {
+        showProblem(tr("\"%1\" is not a number.").arg(problem.text));
+        return;
+    }
+    showProblem({});
+    if (overrides != dataset_->spec().overrides) {
+        Q_EMIT overridesRequested(overrides);
+    }
+}
+
+void GeoreferencingPanel::showProblem(const QString& problem)
+{
+    problem_->setText(problem);
+    problem_->setVisible(!problem.isEmpty());
+}
+
+} // namespace marsview

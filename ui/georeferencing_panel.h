@@ -1,0 +1,65 @@
+// The panel that tells where a map lies, and lets the user know better.
+#pragma once
+
+#include "core/raster/raster_info.h"
+
+#include <QWidget>
+
+#include <array>
+#include <memory>
+#include <optional>
+
+class QComboBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QStackedWidget;
+
+namespace marsview {
+
+class Dataset;
+
+/// Two pages: the facts, and the fields to override them. Asks for changes; never makes any.
+class GeoreferencingPanel final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit GeoreferencingPanel(QWidget* parent = nullptr);
+
+    /// The map in effect; null for none. Fills both pages.
+    void setDataset(const std::shared_ptr<const Dataset>& dataset);
+
+    /// Switches to the fields.
+    void edit();
+
+Q_SIGNALS:
+    void overridesRequested(const RasterOverrides& overrides);
+
+private:
+    QWidget* makeFactsPage();
+    QWidget* makeFieldsPage();
+    void fillFacts();
+    void fillFields();
+    void apply();
+    void showProblem(const QString& problem);
+
+    std::shared_ptr<const Dataset> dataset_;
+    QStackedWidget* pages_ = nullptr;
+    QWidget* facts_page_ = nullptr;
+    QWidget* fields_page_ = nullptr;
+    QFormLayout* facts_ = nullptr;
+    QLabel* notices_ = nullptr;
+    QPushButton* override_button_ = nullptr;
+
+    QLineEdit* crs_ = nullptr;
+    QComboBox* body_ = nullptr;
+    QLineEdit* equatorial_ = nullptr;
+    QLineEdit* polar_ = nullptr;
+    std::array<QLineEdit*, 6> terms_{};
+    QComboBox* unit_ = nullptr;
+    QLineEdit* nodata_ = nullptr;
+    QLabel* problem_ = nullptr;
+};
+
+} // namespace marsview

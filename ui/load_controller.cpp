@@ -1,0 +1,160 @@
+#include "ui/load_controller.h"
+
+#include "core/base/job_monitor.h"
+#include "core/raster/raster_file.h"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr std::chrono::milliseconds kProgressInterval{33};
+
+// A job that was cancelled inside a slow network read must not hold up the next one.
+constexpr int kThreadCountMax = 4;
+
+// Reading takes most of the time; the rest is divided by what was measured on a 34 Mpx map.
+constexpr double kReadingShare = 0.6;
+constexpr double kPyramidShare = 0.15;
+
+} // namespace
+
+struct LoadController::Job {
+    LoadRequest request;
+    JobMonitor reading;
+    JobMonitor pyramid;
+    JobMonitor drawing;
+    std::atomic<bool> is_preparing{false};
+
+    void cancel()
+    {
+        reading.cancel();
+        pyramid.cancel();
+        drawing.cancel();
+    }
+    LoadProgress progress() const
+    {
+        return {.stage = is_preparing ? LoadStage::Preparing : LoadStage::Reading,
+                .fraction = kReadingShare * reading.fraction() +
+                            kPyramidShare * pyramid.fraction() +
+                            (1.0 - kReadingShare - kPyramidShare) * drawing.fraction()};
+    }
+};
+
+LoadController::LoadController(QObject* parent)
+    : QObject(parent)
+{
+    pool_.setMaxThreadCount(kThreadCountMax);
+    progress_timer_.setInterval(kProgressInterval);
+    connect(&progress_timer_, &QTimer::timeout, this, &LoadController::reportProgress);
+}
+
+LoadController::~LoadController()
+{
+    if (job_) {
+        job_->cancel();
+    }
+    // Jobs post to this object: none may be left when it goes. What they posted goes with it.
+    pool_.waitForDone();
+}
+
+void LoadController::start(const LoadRequest& request)
+{
+    abandon();
+    job_ = std::make_shared<Job>();
+    job_->request = request;
+    Q_EMIT started(request.spec);
+    progress_timer_.start();
+    reportProgress();
+    pool_.start([this, job = job_] {
+        Result<LoadedMap> outcome = run(*job);
+        QMetaObject::invokeMethod(
+            this, [this, job, outcome = std::move(outcome)] { finish(job, outcome); },
+            Qt::QueuedConnection);
+    });
+}
+
+void LoadController::cancel()
+{
+    if (!job_) {
+        return;
+    }
+    const DatasetSpec spec = job_->request.spec;
+    abandon();
+    Q_EMIT cancelled(spec);
+}
+
+void LoadController::abandon()
+{
+    if (job_) {
+        job_->cancel();
+        job_.reset();
+        progress_timer_.stop();
+    }
+}
+
+Result<LoadedMap> LoadController::run(Job& job)
+{
+    const LoadRequest& request = job.request;
+    try {
+        const auto load = [&]() -> Result<std::shared_ptr<const Dataset>> {
+            if (request.loaded) {
+                auto dataset = withOverrides(*request.loaded, request.spec.overrides);
+                if (dataset || dataset.error().code != ErrorCode::Unsupported) {
+                    return dataset;
+                }
+            }
+            return loadDataset(request.spec, job.reading, defaultMemoryBudget());
+        };
+        Result<std::shared_ptr<const Dataset>> dataset = load();
+        if (!dataset) {
+            return std::move(dataset).error();
+        }
+        job.reading.report(1.0);
+        job.is_preparing = true;
+        Result<MinMaxPyramid> pyramid =
+            MinMaxPyramid::build((*dataset)->heightfield(), job.pyramid);
+        if (!pyramid) {
+            return std::move(pyramid).error();
+        }
+        auto draw_data = makeTerrainDrawData(**dataset, request.limits, job.drawing);
+        if (!draw_data) {
+            return std::move(draw_data).error();
+        }
+        return LoadedMap{.dataset = *dataset,
+                         .pyramid =
+                             std::make_shared<const MinMaxPyramid>(std::move(pyramid).value()),
+                         .draw_data = *draw_data};
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::TooLarge, request.spec.path +
+                                              ": needs more memory than there is; close other "
+                                              "programs or open a smaller map"};
+    } catch (const std::exception& e) {
+        return Error{ErrorCode::Unreadable, request.spec.path + ": " + e.what()};
+    }
+}
+
+void LoadController::finish(const std::shared_ptr<Job>& job, const Result<LoadedMap>& outcome)
+{
+    if (job != job_) {
+        return; // cancelled, or another load was started, after this one was posted
+    }
+    reportProgress();
+    job_.reset();
+    progress_timer_.stop();
+    if (outcome) {
+        Q_EMIT succeeded(*outcome);
+    } else {
+        Q_EMIT failed({.spec = job->request.spec, .error = outcome.error()});
+    }
+}
+
+void LoadController::reportProgress()
+{
+    Q_EMIT progressed(job_->progress());
+}
+
+} // namespace marsview

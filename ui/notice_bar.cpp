@@ -1,0 +1,56 @@
+#include "ui/notice_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QStyle>
+#include <QToolButton>
+
+namespace marsview {
+
+NoticeBar::NoticeBar(QWidget* parent)
+    : QFrame(parent)
+    , text_(new QLabel(this))
+{
+    setAccessibleName(tr("Notices about the map"));
+    setFrameShape(QFrame::NoFrame);
+    setAutoFillBackground(true);
+    setBackgroundRole(QPalette::ToolTipBase);
+    setForegroundRole(QPalette::ToolTipText);
+    text_->setForegroundRole(QPalette::ToolTipText);
+    text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    auto* icon = new QLabel(this);
+    const int side = style()->pixelMetric(QStyle::PM_SmallIconSize);
+    icon->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(side, side));
+    auto* details = new QToolButton(this);
+    details->setText(tr("Details"));
+    details->setAutoRaise(true);
+    auto* close = new QToolButton(this);
+    close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
+    close->setAutoRaise(true);
+    close->setAccessibleName(tr("Close Notices"));
+    auto* layout = new QHBoxLayout(this);
+    layout->setContentsMargins(8, 2, 4, 2);
+    layout->addWidget(icon);
+    layout->addWidget(text_, 1);
+    layout->addWidget(details);
+    layout->addWidget(close);
+    connect(details, &QToolButton::clicked, this, &NoticeBar::detailsRequested);
+    connect(close, &QToolButton::clicked, this, &QWidget::hide);
+    hide();
+}
+
+void NoticeBar::setNotices(const QStringList& notices)
+{
+    if (notices.isEmpty()) {
+        hide();
+        return;
+    }
+    const int more = static_cast<int>(notices.size()) - 1;
+    text_->setText(more == 0 ? notices.front()
+                             //: %1 is a sentence about the map, %n how many further ones there are
+                             : tr("%1 (and %n more)", nullptr, more).arg(notices.front()));
+    text_->setToolTip(notices.join(QLatin1Char('\n')));
+    show();
+}
+
+} // namespace marsview
