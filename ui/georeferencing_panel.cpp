@@ -280,7 +280,7 @@ void GeoreferencingPanel::fillFacts()
     const auto metres = [](double value) { return QLocale().toString(value, 'g', 6); };
     add(tr("Pixel (m)"),
         tr("%1 × %2 m")
-            .arg(metres(georeference.pixelWidth_m()), metres(georeference.pixelHeight_m())));
+            .arg(metres(georeference.pixelWidthMetres()), metres(georeference.pixelHeightMetres())));
     // The extent of the pixels' outer corners, rotated rasters included.
     const double columns = static_cast<double>(georeference.columns());
     const double rows = static_cast<double>(georeference.rows());

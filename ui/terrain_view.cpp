@@ -425,7 +425,7 @@ NavigationLimits TerrainView::limits() const
 {
     const Georeference& georeference = map_.dataset->georeference();
     return navigationLimits(box(),
-                            std::min(georeference.pixelWidth_m(), georeference.pixelHeight_m()));
+                            std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
 }
 
 OrbitCamera TerrainView::bounded(const OrbitCamera& camera) const
