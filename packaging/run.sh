@@ -5,7 +5,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/run
-program=$build/app/gui/marsview
+program=$build/bin/marsview
 picture=$build/marsview.png
 
 "$root/packaging/install-packages.sh" run
