@@ -34,8 +34,9 @@ public:
     const Heightfield& heightfield() const noexcept { return heightfield_; }
 
     /// Height in metres at a geographic position. Where the map goes once around the body, the
-    /// strip between the last column and the first is interpolated as any other cell. NaN outside
-    /// and in voids.
+    /// strip between the last column and the first is interpolated as any other cell. A
+    /// millionth of a sample beyond the outermost ones still counts as on them. NaN outside and in
+    /// voids.
     double height(GeographicPoint geographic) const;
 
 private:
