@@ -1,0 +1,128 @@
+// Heights in feet, radii and kilometres come out in metres.
+#include "core/raster/raster_file.h"
+#include "core/session/dataset.h"
+#include "tests/support/gdal_tools.h"
+#include "tests/support/random.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+std::shared_ptr<const Dataset> load(const std::string& path, const RasterOverrides& overrides = {})
+{
+    JobMonitor monitor;
+    auto dataset = loadDataset({path, 1, overrides}, monitor, defaultMemoryBudget());
+    EXPECT_TRUE(dataset) << dataset.error().message;
+    return dataset ? *dataset : nullptr;
+}
+
+// A USGS DEM is ASCII in records of 1024 characters. Record A holds the unit of elevations in
+// columns 535 to 540 (1 feet, 2 metres) and the resolution of heights, by which every elevation is
+// multiplied, in columns 841 to 852. Declaring feet and a resolution of 1/0.3048 of one expresses
+// the same heights in feet, without touching the elevations.
+std::string inFeet(std::string dem)
+{
+    EXPECT_EQ(dem.substr(534, 6), "     2");
+    dem.replace(534, 6, "     1");
+    EXPECT_EQ(dem.substr(840, 12), "0.100000E+01");
+    dem.replace(840, 12, "0.328084E+01");
+    return dem;
+}
+
+TEST(Units, AUsgsDemInFeetHasTheHeightsOfTheOneInMetres)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const test::TempFolder folder;
+    const auto original = test::sharedData() / "usgs_dem/SainteHelens.dem";
+    const auto metres = load(original.string());
+    const auto feet = load(folder.write("feet.dem", inFeet(test::readFile(original))));
+    ASSERT_TRUE(metres && feet);
+    EXPECT_EQ(metres->info().unit.name, "m");
+    EXPECT_EQ(feet->info().unit.name, "ft");
+    EXPECT_TRUE(feet->info().is_unit_declared);
+    EXPECT_EQ(feet->info().unit.metres, 0.3048);
+    // The resolution is written with six digits, 3e-8 off; feet are kept as floats, which up to
+    // 8343 are 0.0005 apart.
+    const double tolerance_m = 3e-8 * 2543.0 + 0.5 * 0.001 * 0.3048;
+    double worst_m = 0.0;
+    for (std::size_t r = 0; r < metres->heightfield().rows(); ++r) {
+        for (std::size_t c = 0; c < metres->heightfield().columns(); ++c) {
+            const double expected = metres->heightfield().sample(c, r);
+            const double found = feet->heightfield().sample(c, r);
+            ASSERT_EQ(std::isnan(found), std::isnan(expected)) << c << " " << r;
+            if (!std::isnan(expected)) {
+                worst_m = std::max(worst_m, std::abs(found - expected));
+            }
+        }
+    }
+    std::printf("worst difference %.4f m\n", worst_m);
+    EXPECT_LE(worst_m, tolerance_m);
+    EXPECT_NEAR(feet->heightfield().range()->maximum_m, 2543.0, tolerance_m);
+}
+
+TEST(Units, FeetThatTheFileDoesNotDeclareAreToldByTheUser)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const std::string path = (test::sharedData() / "derived/trinidad_co_3as.tif").string();
+    const auto assumed = load(path);
+    RasterOverrides overrides;
+    overrides.vertical_unit = "ft";
+    const auto feet = load(path, overrides);
+    ASSERT_TRUE(assumed && feet);
+    EXPECT_FALSE(assumed->info().is_unit_declared);
+    EXPECT_TRUE(feet->info().is_unit_declared);
+    test::Random random;
+    std::vector<test::Pixel> pixels;
+    for (int i = 0; i < 500; ++i) {
+        pixels.push_back({random.below(2401), random.below(1201)});
+    }
+    const std::vector<double> raw = test::rawSamples(path, pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const test::Pixel& p = pixels[i];
+        if (raw[i] == -999.0) {
+            EXPECT_TRUE(std::isnan(feet->heightfield().sample(p.column, p.row)));
+            continue;
+        }
+        const auto stored = static_cast<double>(static_cast<float>(raw[i]));
+        EXPECT_EQ(assumed->heightfield().sample(p.column, p.row), stored);
+        EXPECT_EQ(feet->heightfield().sample(p.column, p.row), stored * 0.3048);
+    }
+    EXPECT_NEAR(feet->heightfield().range()->maximum_m, 14176.16 * 0.3048, 0.01);
+    // The same without reading the file again.
+    const auto told = withOverrides(*assumed, overrides);
+    ASSERT_TRUE(told) << told.error().message;
+    EXPECT_EQ((*told)->heightfield().sample(1000, 500), feet->heightfield().sample(1000, 500));
+}
+
+TEST(Units, RadiiOfTheMoonAreHeightsAboveTheirReferenceSphere)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const std::string path = (test::sharedData() / "moon_lola/LDEM_4.LBL").string();
+    const auto moon = load(path);
+    ASSERT_TRUE(moon);
+    ASSERT_TRUE(moon->info().reference_radius_m);
+    EXPECT_EQ(*moon->info().reference_radius_m, 1737400.0);
+    EXPECT_NE(moon->info().vertical_datum.find("1737400"), std::string::npos);
+    test::Random random;
+    std::vector<test::Pixel> pixels;
+    for (int i = 0; i < 500; ++i) {
+        pixels.push_back({random.below(1440), random.below(720)});
+    }
+    const std::vector<double> raw = test::rawSamples(path, pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        // The label: HEIGHT = DN * SCALING_FACTOR, which is 0.5.
+        EXPECT_EQ(moon->heightfield().sample(pixels[i].column, pixels[i].row), raw[i] * 0.5);
+    }
+}
+
+} // namespace
+} // namespace marsview
