@@ -476,6 +476,7 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
         impl_->kind == CrsKind::Geographic && impl_->latitude_kind == LatitudeKind::Planetocentric;
     const std::string geographic_name = body_name + (is_centric ? " / Ocentric" : " / Ographic");
     const double inverse_flattening = ellipsoid.isSphere() ? 0.0 : 1.0 / ellipsoid.flattening();
+    // In degrees whatever the unit of the system.
     const double meridian_deg = impl_->base_meridian_rad * 180.0 / std::numbers::pi;
     const QuietErrors quiet;
     bool is_moved =
