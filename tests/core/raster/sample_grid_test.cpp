@@ -11,6 +11,19 @@
 #include <string>
 #include <vector>
 
+// Sanitizers end a program that asks for more memory than there is; here it has to be told no.
+#if defined(__SANITIZE_ADDRESS__)
+extern "C" const char* __asan_default_options() // NOLINT
+{
+    return "allocator_may_return_null=1";
+}
+#elif defined(__SANITIZE_THREAD__)
+extern "C" const char* __tsan_default_options() // NOLINT
+{
+    return "allocator_may_return_null=1";
+}
+#endif
+
 namespace marsview {
 namespace {
 
