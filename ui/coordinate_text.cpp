@@ -127,7 +127,8 @@ QString coordinateText(CoordinateDisplay display,
     if (!point || !info.crs->ellipsoid()) {
         return {};
     }
-    const double pixel_m = std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres());
+    const double pixel_m =
+        std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres());
     const double pixel_degrees =
         pixel_m / info.crs->ellipsoid()->equatorial_m * (180.0 / std::numbers::pi);
     return geographicText(*point, display, info, decimalsFor(pixel_degrees, 7));

@@ -278,9 +278,9 @@ void GeoreferencingPanel::fillFacts()
     add(tr("Pixel"),
         width == height ? tr("%1 %2").arg(width, unit) : tr("%1 × %2 %3").arg(width, height, unit));
     const auto metres = [](double value) { return QLocale().toString(value, 'g', 6); };
-    add(tr("Pixel (m)"),
-        tr("%1 × %2 m")
-            .arg(metres(georeference.pixelWidthMetres()), metres(georeference.pixelHeightMetres())));
+    add(tr("Pixel (m)"), tr("%1 × %2 m")
+                             .arg(metres(georeference.pixelWidthMetres()),
+                                  metres(georeference.pixelHeightMetres())));
     // The extent of the pixels' outer corners, rotated rasters included.
     const double columns = static_cast<double>(georeference.columns());
     const double rows = static_cast<double>(georeference.rows());

@@ -424,8 +424,8 @@ SceneBox TerrainView::box() const
 NavigationLimits TerrainView::limits() const
 {
     const Georeference& georeference = map_.dataset->georeference();
-    return navigationLimits(box(),
-                            std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
+    return navigationLimits(
+        box(), std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
 }
 
 OrbitCamera TerrainView::bounded(const OrbitCamera& camera) const

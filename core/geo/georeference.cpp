@@ -36,6 +36,16 @@ MetresPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
             north * crs->unit() * crs->northSign()};
 }
 
+// The way from a sample to the map or to longitude and latitude and back rounds by up to 1e-10
+// sample. Nobody means to be outside by so little.
+constexpr double kEdgeSlack = 1e-9;
+
+double ontoEdge(double position, double last)
+{
+    const double inside = std::clamp(position, 0.0, last);
+    return std::abs(position - inside) <= kEdgeSlack ? inside : position;
+}
+
 } // namespace
 
 Georeference::Georeference(std::size_t columns,
@@ -69,6 +79,13 @@ Georeference::Georeference(std::size_t columns,
         const double columns_per_turn = *crs_->turn() / std::abs(t[1]);
         wraps_around_ = std::abs(columns_per_turn - static_cast<double>(columns_)) < 0.5;
     }
+}
+
+GridPoint Georeference::toGrid(MapPoint map) const noexcept
+{
+    const GridPoint grid = transform_.toGrid(map);
+    return {ontoEdge(grid.column, static_cast<double>(columns_ - 1)),
+            ontoEdge(grid.row, static_cast<double>(rows_ - 1))};
 }
 
 std::optional<GeographicPoint> Georeference::toGeographic(GridPoint grid) const

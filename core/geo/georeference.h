@@ -29,7 +29,8 @@ public:
     const Body* body() const noexcept { return crs_ ? crs_->body() : nullptr; }
 
     MapPoint toMap(GridPoint grid) const noexcept { return transform_.toMap(grid); }
-    GridPoint toGrid(MapPoint map) const noexcept { return transform_.toGrid(map); }
+    /// Positions outside the outermost samples by no more than rounding (1e-9 sample) are on them.
+    GridPoint toGrid(MapPoint map) const noexcept;
 
     /// Where longitude is periodic along x (geographic systems, cylindrical projections), it runs
     /// on without a jump across the raster and beyond its edges: a global map goes from 0° to 360°

@@ -11,20 +11,6 @@
 
 namespace marsview {
 
-namespace {
-
-// The way from a sample to longitude and latitude and back rounds: by 1e-10 sample on a map in
-// metres, by 2e-6 m in PROJ's polar projections. Nobody means to be outside by so little.
-constexpr double kEdgeSlack = 1e-6;
-
-double ontoEdge(double position, double last)
-{
-    const double inside = std::clamp(position, 0.0, last);
-    return std::abs(position - inside) < kEdgeSlack ? inside : position;
-}
-
-} // namespace
-
 Dataset::Dataset(DatasetSpec spec,
                  RasterInfo file_info,
                  RasterInfo info,
@@ -41,12 +27,10 @@ Dataset::Dataset(DatasetSpec spec,
 
 double Dataset::height(GeographicPoint geographic) const
 {
-    std::optional<GridPoint> grid = georeference_.toGrid(geographic);
+    const std::optional<GridPoint> grid = georeference_.toGrid(geographic);
     if (!grid) {
         return std::numeric_limits<double>::quiet_NaN();
     }
-    grid->column = ontoEdge(grid->column, static_cast<double>(heightfield_.columns() - 1));
-    grid->row = ontoEdge(grid->row, static_cast<double>(heightfield_.rows() - 1));
     if (georeference_.wrapsAround()) {
         if (const auto seam = seamCell(*grid, heightfield_.columns(), heightfield_.rows())) {
             const std::size_t last = heightfield_.columns() - 1;

@@ -37,6 +37,7 @@ const std::vector<Layer>& layers()
         {"tests/support/", {"core/", "tests/support/"}},
         {"tests/core/", {"core/", "tests/"}},
         {"tests/haptics/", {"core/", "haptics/", "tests/"}},
+        {"tests/cli/", {"core/", "haptics/", "app/cli/", "tests/"}},
         {"tests/", {"core/", "haptics/", "ui/", "tests/"}},
     };
     return kLayers;
