@@ -91,9 +91,6 @@ QString displayName(CoordinateDisplay display, const RasterInfo& info)
 {
     switch (display) {
     case CoordinateDisplay::Planetocentric:
-        if (info.crs && info.crs->ellipsoid() && info.crs->ellipsoid()->isSphere()) {
-            return tr("on the sphere");
-        }
         return isEarth(info) ? tr("geocentric") : tr("planetocentric");
     case CoordinateDisplay::Planetographic:
         return isEarth(info) ? tr("geodetic") : tr("planetographic");

@@ -74,22 +74,21 @@ public:
                 }
                 continue;
             }
-            std::array<Node, 4> children;
-            std::size_t child_count = 0;
+            // Children come in between those already on the stack, the nearest on top.
+            const std::size_t base = count;
             const std::size_t level = node.level - 1;
             for (std::size_t row = 2 * node.row;
                  row < std::min(2 * node.row + 2, pyramid_.rows(level)); ++row) {
                 for (std::size_t column = 2 * node.column;
                      column < std::min(2 * node.column + 2, pyramid_.columns(level)); ++column) {
                     if (const auto child = enter(level, column, row)) {
-                        children[child_count++] = *child;
+                        std::size_t place = count++;
+                        for (; place > base && stack[place - 1].order < child->order; --place) {
+                            stack[place] = stack[place - 1];
+                        }
+                        stack[place] = *child;
                     }
                 }
-            }
-            std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(child_count),
-                      [](const Node& a, const Node& b) { return isNearer(b, a); });
-            for (std::size_t i = 0; i < child_count; ++i) {
-                stack[count++] = children[i];
             }
         }
         return std::nullopt;
@@ -103,8 +102,6 @@ private:
         Interval interval; // within the node's rectangle
         double order = 0.0;
     };
-
-    static bool isNearer(const Node& a, const Node& b) { return a.order < b.order; }
 
     // The node if the ray passes through its box, or else nothing.
     std::optional<Node> enter(std::size_t level, std::size_t column, std::size_t row) const

@@ -12,7 +12,7 @@ namespace marsview {
 
 /// A half-line over the grid: position and height at parameter t are affine in t >= 0.
 struct GridRay {
-    GridPoint origin;
+    GridPoint origin{};
     double origin_height_m = 0.0;
     double columns_per_t = 0.0;
     double rows_per_t = 0.0;

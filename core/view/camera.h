@@ -43,10 +43,10 @@ struct Ray {
 
 /// A camera that hangs at a distance from the point it looks at.
 struct OrbitCamera {
-    ScenePoint target;
+    ScenePoint target{};
     double distance_m = 1.0;                    // > 0
-    Angle azimuth;                              // the heading of the view, clockwise from north
-    Angle tilt;                                 // 0 looks straight down, 90° along the horizon
+    Angle azimuth{};                            // the heading of the view, clockwise from north
+    Angle tilt{};                               // 0 looks straight down, 90° along the horizon
     Angle field_of_view = Angle::degrees(40.0); // vertical
 
     bool operator==(const OrbitCamera&) const = default;

@@ -53,17 +53,18 @@ Rgb8 rgbFrom(const Oklab& color)
 // Each ramp rises in lightness by equal amounts from stop to stop (the test holds it), from dark
 // enough to stand out against white text to light enough to keep hill shading visible.
 constexpr std::array kDawn{
-    ColorStop{0.0, {18, 46, 84}},    ColorStop{0.2, {26, 88, 98}},
-    ColorStop{0.4, {77, 119, 82}},   ColorStop{0.6, {148, 143, 69}},
-    ColorStop{0.8, {232, 163, 103}}, ColorStop{1.0, {255, 208, 198}},
+    ColorStop{0.0, {33, 65, 116}},   ColorStop{0.2, {39, 105, 115}},
+    ColorStop{0.4, {94, 137, 99}},   ColorStop{0.6, {164, 160, 86}},
+    ColorStop{0.8, {241, 171, 111}}, ColorStop{1.0, {255, 210, 201}},
 };
 constexpr std::array kRust{
-    ColorStop{0.0, {58, 32, 40}},   ColorStop{0.2, {98, 50, 42}},   ColorStop{0.4, {140, 73, 41}},
-    ColorStop{0.6, {181, 103, 53}}, ColorStop{0.8, {214, 147, 93}}, ColorStop{1.0, {241, 197, 153}},
+    ColorStop{0.0, {90, 46, 54}},    ColorStop{0.2, {133, 68, 55}},
+    ColorStop{0.4, {175, 93, 57}},   ColorStop{0.6, {209, 126, 74}},
+    ColorStop{0.8, {234, 165, 110}}, ColorStop{1.0, {251, 206, 162}},
 };
 constexpr std::array kGrey{
-    ColorStop{0.0, {58, 58, 60}},
-    ColorStop{1.0, {232, 230, 226}},
+    ColorStop{0.0, {77, 77, 79}},
+    ColorStop{1.0, {234, 232, 228}},
 };
 
 constexpr std::array kRamps{

@@ -17,7 +17,7 @@ using GroundQuery = std::function<double(double east_m, double north_m)>;
 
 /// How far the camera may go.
 struct NavigationLimits {
-    SceneBox box;
+    SceneBox box{};
     double distance_min_m = 1.0;
     double distance_max_m = 1e9;
 };
@@ -40,8 +40,8 @@ zoomed(OrbitCamera camera, double factor, const ScenePoint& anchor, const Naviga
 
 /// A drag over the picture.
 struct Drag {
-    PixelPoint from;
-    PixelPoint to;
+    PixelPoint from{};
+    PixelPoint to{};
     double grabbed_z_m = 0.0; // scene height of what was grabbed
 };
 

@@ -24,6 +24,7 @@ struct TerrainDrawData {
     std::size_t columns = 0; // of the map itself
     std::size_t rows = 0;
     HeightRange range;
+    HeightRange tint_range; // over which the colour ramp is spread: all but the rarest heights
     OverviewGrid overview;
     ReliefMap relief;
 };

@@ -63,6 +63,7 @@ uniform sampler2D u_ramp;
 uniform vec2 u_relief_scale; // texture coordinate of one sample
 uniform bool u_has_voids;
 uniform bool u_has_every_sample;
+uniform vec2 u_tint; // share of the ramp = height's share of the range × x + y
 uniform vec3 u_light;
 uniform float u_exaggeration;
 out vec4 color;
@@ -95,7 +96,8 @@ void main()
     vec3 normal = normalize(vec3(tilt * u_exaggeration, upright));
     float shade = 0.28 + 0.84 * max(dot(normal, u_light), 0.0);
     // The middles of the first and the last of the ramp's 256 colours.
-    vec3 tint = texture(u_ramp, vec2(relief.b * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
+    float share = clamp(relief.b * u_tint.x + u_tint.y, 0.0, 1.0);
+    vec3 tint = texture(u_ramp, vec2(share * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
     color = vec4(tint * shade, 1.0);
 }
 )";
@@ -427,6 +429,13 @@ void TerrainRenderer::Impl::drawTerrain(const OrbitCamera& camera,
                 1.0F / static_cast<GLfloat>(relief.rows * relief.step));
     glUniform1i(program.uniform("u_has_voids"), relief.has_voids ? 1 : 0);
     glUniform1i(program.uniform("u_has_every_sample"), relief.step == 1 ? 1 : 0);
+    const double relief_m = data.range.maximum_m - data.range.minimum_m;
+    const double tinted_m = data.tint_range.maximum_m - data.tint_range.minimum_m;
+    const double low_m = data.tint_range.minimum_m - data.range.minimum_m;
+    // A flat map has the middle colour.
+    glUniform2f(program.uniform("u_tint"),
+                tinted_m > 0.0 ? static_cast<GLfloat>(relief_m / tinted_m) : 0.0F,
+                tinted_m > 0.0 ? static_cast<GLfloat>(-low_m / tinted_m) : 0.5F);
     const double level = std::cos(style.light_altitude.radians());
     glUniform3f(program.uniform("u_light"),
                 static_cast<GLfloat>(level * std::sin(style.light_azimuth.radians())),

@@ -1,0 +1,192 @@
+#include "core/view/navigation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+constexpr Viewport kViewport{1000, 600};
+const SceneBox kBox{{-1e5, -5e4, -2e3}, {1e5, 5e4, 6e3}};
+
+OrbitCamera someCamera()
+{
+    return {.target = {2e4, 1e4, 500.0},
+            .distance_m = 8e4,
+            .azimuth = Angle::degrees(-40.0),
+            .tilt = Angle::degrees(50.0)};
+}
+
+double flatGround(double /*east_m*/, double /*north_m*/)
+{
+    return 0.0;
+}
+
+TEST(HomeCamera, ShowsTheWholeBoxFromTheSouth)
+{
+    for (const Viewport viewport : {Viewport{1600, 400}, Viewport{300, 900}, kViewport}) {
+        const OrbitCamera camera = homeCamera(kBox, viewport);
+        EXPECT_EQ(camera.azimuth, Angle{});
+        EXPECT_LT(eyeOf(camera).y, kBox.centre().y);
+        double widest = 0.0;
+        for (const ScenePoint& corner : kBox.corners()) {
+            const auto pixel = project(camera, viewport, corner);
+            ASSERT_TRUE(pixel);
+            EXPECT_GE(pixel->x, 0.0);
+            EXPECT_LE(pixel->x, viewport.width);
+            EXPECT_GE(pixel->y, 0.0);
+            EXPECT_LE(pixel->y, viewport.height);
+            widest = std::max({widest, std::abs(pixel->x / viewport.width - 0.5),
+                               std::abs(pixel->y / viewport.height - 0.5)});
+        }
+        EXPECT_GT(widest, 0.4) << "the map fills the picture in one direction";
+    }
+}
+
+TEST(Zoomed, KeepsTheAnchorInItsPlace)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    const ScenePoint anchor{5e4, 3e4, 1200.0};
+    const OrbitCamera before = someCamera();
+    const auto pixel = project(before, kViewport, anchor);
+    for (const double factor : {0.9, 0.5, 0.01, 1.7}) {
+        const auto after = project(zoomed(before, factor, anchor, limits), kViewport, anchor);
+        ASSERT_TRUE(pixel && after);
+        EXPECT_NEAR(after->x, pixel->x, 1e-6);
+        EXPECT_NEAR(after->y, pixel->y, 1e-6);
+    }
+}
+
+TEST(Zoomed, StopsAtTheLimits)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    const OrbitCamera camera = someCamera();
+    EXPECT_EQ(zoomed(camera, 1e-12, camera.target, limits).distance_m, limits.distance_min_m);
+    EXPECT_EQ(zoomed(camera, 1e12, camera.target, limits).distance_m, limits.distance_max_m);
+}
+
+TEST(Interpolated, KeepsTheAnchorOfAZoomAllTheWay)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    const ScenePoint anchor{5e4, 3e4, 1200.0};
+    const OrbitCamera before = someCamera();
+    const OrbitCamera after = zoomed(before, 0.2, anchor, limits);
+    const auto pixel = project(before, kViewport, anchor);
+    for (double t = 0.0; t <= 1.0; t += 0.125) {
+        const auto between = project(interpolated(before, after, t), kViewport, anchor);
+        ASSERT_TRUE(pixel && between);
+        EXPECT_NEAR(between->x, pixel->x, 1e-6);
+        EXPECT_NEAR(between->y, pixel->y, 1e-6);
+    }
+}
+
+TEST(Interpolated, TurnsTheShorterWay)
+{
+    OrbitCamera from = someCamera();
+    OrbitCamera to = from;
+    from.azimuth = Angle::degrees(170.0);
+    to.azimuth = Angle::degrees(-170.0);
+    EXPECT_NEAR(std::abs(interpolated(from, to, 0.5).azimuth.degrees()), 180.0, 1e-9);
+    EXPECT_EQ(interpolated(from, to, 0.0), from);
+    EXPECT_EQ(interpolated(from, to, 1.0), to);
+}
+
+TEST(Dragged, CarriesWhatWasGrabbed)
+{
+    const OrbitCamera before = someCamera();
+    const PixelPoint from{520.0, 310.0};
+    const PixelPoint to{430.0, 380.0};
+    const double level_m = 700.0;
+    const ScenePoint grabbed = pointOnLevel(pickRay(before, kViewport, from), level_m, 1e9);
+    const OrbitCamera after =
+        dragged(before, kViewport, {.from = from, .to = to, .grabbed_z_m = level_m});
+    const auto pixel = project(after, kViewport, grabbed);
+    ASSERT_TRUE(pixel);
+    EXPECT_NEAR(pixel->x, to.x, 1e-6);
+    EXPECT_NEAR(pixel->y, to.y, 1e-6);
+}
+
+TEST(Dragged, IsBoundedAtTheHorizon)
+{
+    OrbitCamera camera = someCamera();
+    camera.tilt = Angle::degrees(85.0);
+    const OrbitCamera after =
+        dragged(camera, kViewport, {.from = {500.0, 300.0}, .to = {500.0, 5.0}});
+    EXPECT_LT(length(after.target - camera.target), 10.0 * camera.distance_m);
+}
+
+TEST(Panned, FollowsTheHeading)
+{
+    OrbitCamera camera = someCamera();
+    camera.azimuth = Angle::degrees(90.0); // looks east
+    const OrbitCamera after = panned(camera, 0.0, 0.5);
+    EXPECT_NEAR(after.target.x - camera.target.x, 0.5 * camera.distance_m, 1e-6);
+    EXPECT_NEAR(after.target.y, camera.target.y, 1e-6);
+    EXPECT_NEAR(panned(camera, 0.5, 0.0).target.y - camera.target.y, -0.5 * camera.distance_m,
+                1e-6);
+}
+
+TEST(Orbited, KeepsTheTargetAndDistance)
+{
+    const OrbitCamera camera = someCamera();
+    const OrbitCamera after = orbited(camera, Angle::degrees(25.0), Angle::degrees(-10.0));
+    EXPECT_EQ(after.target, camera.target);
+    EXPECT_EQ(after.distance_m, camera.distance_m);
+    EXPECT_NEAR(after.azimuth.degrees(), -15.0, 1e-9);
+    EXPECT_NEAR(after.tilt.degrees(), 40.0, 1e-9);
+    EXPECT_LE(orbited(camera, {}, Angle::degrees(500.0)).tilt.degrees(), 85.0 + 1e-9);
+}
+
+TEST(Retargeted, LeavesThePictureAlone)
+{
+    const OrbitCamera camera = someCamera();
+    const OrbitCamera after = retargeted(camera, 3.3e4);
+    EXPECT_LT(length(eyeOf(after) - eyeOf(camera)), 1e-6);
+    EXPECT_EQ(after.azimuth, camera.azimuth);
+    EXPECT_EQ(after.tilt, camera.tilt);
+}
+
+TEST(Constrained, NeverLosesTheMap)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    OrbitCamera lost = someCamera();
+    lost.target = {1e9, -1e9, 1e7};
+    lost.distance_m = 1e12;
+    lost.tilt = Angle::degrees(120.0);
+    const OrbitCamera found = constrained(lost, limits, flatGround);
+    EXPECT_LE(found.target.x, kBox.maximum.x);
+    EXPECT_GE(found.target.y, kBox.minimum.y);
+    EXPECT_LE(found.distance_m, limits.distance_max_m);
+    EXPECT_LE(found.tilt.degrees(), 85.0 + 1e-9);
+}
+
+TEST(Constrained, KeepsTheEyeAboveTheGround)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    const auto hill = [](double east_m, double north_m) {
+        return 5e3 * std::exp(-(east_m * east_m + north_m * north_m) / 1e8);
+    };
+    for (double azimuth = -180.0; azimuth < 180.0; azimuth += 15.0) {
+        for (const double distance_m : {100.0, 1e3, 1e4, 1e5}) {
+            const OrbitCamera camera = constrained({.target = {0.0, 0.0, -2e3},
+                                                    .distance_m = distance_m,
+                                                    .azimuth = Angle::degrees(azimuth),
+                                                    .tilt = Angle::degrees(85.0)},
+                                                   limits, hill);
+            const ScenePoint eye = eyeOf(camera);
+            EXPECT_GT(eye.z, hill(eye.x, eye.y));
+        }
+    }
+}
+
+TEST(Constrained, AsksNothingOfHolesInTheGround)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    const auto nothing = [](double /*east_m*/, double /*north_m*/) { return std::nan(""); };
+    const OrbitCamera camera = someCamera();
+    EXPECT_EQ(constrained(camera, limits, nothing), constrained(camera, limits, {}));
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,190 @@
+#include "tests/ui/test_map.h"
+#include "ui/georeferencing_panel.h"
+#include "ui/main_window.h"
+#include "ui/status_readout.h"
+#include "ui/terrain_view.h"
+
+#include <QDropEvent>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+class MainWindowTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        window_ = std::make_unique<MainWindow>(testWindowOptions());
+        window_->show();
+    }
+
+    TerrainView& view() { return *window_->view(); }
+    std::string shownFile()
+    {
+        return view().map() ? view().map().dataset->spec().path : std::string();
+    }
+    bool waitForLoad()
+    {
+        return QTest::qWaitFor([this] { return !window_->loader().isLoading(); }, 30000);
+    }
+
+    TestMaps maps_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(MainWindowTest, OpensAFileAskedForBeforeItWasShown)
+{
+    MainWindow window(testWindowOptions());
+    const QString file = maps_.hill();
+    window.open(file);
+    window.show();
+    ASSERT_TRUE(waitUntilSettled(window));
+    EXPECT_EQ(window.view()->map().dataset->spec().path, file.toStdString());
+    EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("hill.asc")));
+}
+
+TEST_F(MainWindowTest, OpensTheFileChosenInTheDialog)
+{
+    const QString file = maps_.hill();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    window_->chooseFile();
+    auto* dialog = window_->findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    Q_EMIT dialog->fileSelected(file);
+    dialog->reject();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_EQ(shownFile(), file.toStdString());
+}
+
+TEST_F(MainWindowTest, OpensAFileDroppedOnIt)
+{
+    const QString file = maps_.hill();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(file)});
+    QDragEnterEvent enter({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(window_.get(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(window_.get(), &drop);
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_EQ(shownFile(), file.toStdString());
+}
+
+TEST_F(MainWindowTest, KeepsTheMapWhenAnotherCannotBeOpened)
+{
+    const QString file = maps_.hill();
+    ASSERT_TRUE(openAndWait(*window_, file));
+    const OrbitCamera camera = view().camera();
+    const QSignalSpy failures(window_.get(), &MainWindow::openFailed);
+    window_->open(QStringLiteral("/no/such/map.tif"));
+    ASSERT_TRUE(waitForLoad());
+    ASSERT_EQ(failures.count(), 1);
+    EXPECT_TRUE(failures[0][0].toString().startsWith(QStringLiteral("/no/such/map.tif: ")));
+    EXPECT_EQ(shownFile(), file.toStdString());
+    EXPECT_EQ(view().camera(), camera);
+}
+
+TEST_F(MainWindowTest, KeepsTheMapWhenLoadingIsCancelled)
+{
+    const QString file = maps_.hill();
+    ASSERT_TRUE(openAndWait(*window_, file));
+    window_->open(maps_.ring());
+    EXPECT_TRUE(window_->loader().isLoading());
+    window_->cancelLoading();
+    EXPECT_FALSE(window_->loader().isLoading());
+    QTest::qWait(100);
+    EXPECT_EQ(shownFile(), file.toStdString());
+}
+
+TEST_F(MainWindowTest, TellsPositionAndHeightUnderThePointer)
+{
+    const QString file = maps_.hill();
+    ASSERT_TRUE(openAndWait(*window_, file));
+    const QPoint pointer = view().rect().center();
+    QTest::mouseMove(&view(), pointer);
+    ASSERT_TRUE(
+        QTest::qWaitFor([this] { return !window_->readout()->heightLabel().isEmpty(); }, 5000));
+    const auto hit = view().surfaceAt(pointer);
+    ASSERT_TRUE(hit);
+    const Dataset& dataset = *view().map().dataset;
+    const double height_m = dataset.heightfield().height(hit->grid);
+    EXPECT_NEAR(window_->readout()->heightLabel().section(QLatin1Char(' '), 0, 0).toDouble(),
+                height_m, 0.06);
+    const MapPoint map = dataset.georeference().toMap(hit->grid);
+    const QString text = window_->readout()->coordinateLabel();
+    EXPECT_NEAR(text.section(QStringLiteral(", "), 0, 0).toDouble(), map.x, 0.51);
+    EXPECT_NEAR(text.section(QStringLiteral(", "), 1, 1).toDouble(), map.y, 0.51);
+}
+
+TEST_F(MainWindowTest, TakesAndUndoesToldGeoreferencing)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    EXPECT_EQ(view().map().dataset->georeference().body(), nullptr);
+    GeoreferencingPanel& panel = *window_->georeferencingPanel();
+    panel.edit();
+    panel.findChild<QLineEdit*>(QStringLiteral("crs"))->setText(QStringLiteral("EPSG:32611"));
+    panel.findChild<QPushButton*>(QStringLiteral("apply"))->click();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    ASSERT_NE(view().map().dataset->georeference().body(), nullptr);
+    EXPECT_EQ(view().map().dataset->georeference().body()->name, "Earth");
+    EXPECT_EQ(window_->readout()->display(), CoordinateDisplay::Planetographic);
+
+    window_->undoStack().undo();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_EQ(view().map().dataset->georeference().body(), nullptr);
+    window_->undoStack().redo();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_NE(view().map().dataset->georeference().body(), nullptr);
+}
+
+TEST_F(MainWindowTest, RefusesToldGeoreferencingThatMakesNoSense)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    const QSignalSpy failures(window_.get(), &MainWindow::openFailed);
+    GeoreferencingPanel& panel = *window_->georeferencingPanel();
+    panel.edit();
+    panel.findChild<QLineEdit*>(QStringLiteral("crs"))->setText(QStringLiteral("EPSG:nonsense"));
+    panel.findChild<QPushButton*>(QStringLiteral("apply"))->click();
+    ASSERT_TRUE(waitForLoad());
+    EXPECT_EQ(failures.count(), 1);
+    EXPECT_FALSE(window_->undoStack().canUndo());
+    EXPECT_TRUE(view().map().dataset->spec().overrides.isEmpty());
+}
+
+TEST_F(MainWindowTest, ReadsTheFileAgainForAnotherNodataValue)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.ring()));
+    GeoreferencingPanel& panel = *window_->georeferencingPanel();
+    panel.edit();
+    panel.findChild<QLineEdit*>(QStringLiteral("nodata"))->setText(QStringLiteral("100"));
+    panel.findChild<QPushButton*>(QStringLiteral("apply"))->click();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_TRUE(std::isnan(view().map().dataset->heightfield().sample(0, 0)));
+    EXPECT_FALSE(std::isnan(view().map().dataset->heightfield().sample(30, 20)));
+}
+
+TEST_F(MainWindowTest, LeavesTwoThirdsOfTheWidthToTheMap)
+{
+    window_->resize(1000, 700);
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    EXPECT_GE(view().width() * 3, window_->width() * 2 - 30);
+}
+
+TEST_F(MainWindowTest, MayBeClosedWhileLoading)
+{
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    window_->open(maps_.hill());
+    window_.reset();
+    QCoreApplication::processEvents();
+}
+
+} // namespace
+} // namespace marsview

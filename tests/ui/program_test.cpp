@@ -1,0 +1,103 @@
+// The program from outside.
+
+#include "tests/ui/test_map.h"
+
+#include <QImage>
+#include <QProcess>
+#include <QProcessEnvironment>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+struct Outcome {
+    int exit_code = -1;
+    bool has_crashed = true;
+    QString errors; // without Qt's remarks about the environment
+};
+
+Outcome run(const QStringList& arguments, const QString& platform = {})
+{
+    QProcess process;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    if (!platform.isEmpty()) {
+        environment.insert(QStringLiteral("QT_QPA_PLATFORM"), platform);
+    }
+    process.setProcessEnvironment(environment);
+    process.start(QStringLiteral(MARSVIEW_PROGRAM), arguments);
+    const bool is_finished = process.waitForFinished(60000);
+    QStringList lines;
+    for (const QString& line : QString::fromUtf8(process.readAllStandardError()).split(u'\n')) {
+        if (!line.isEmpty() && !line.startsWith(QStringLiteral("QStandardPaths"))) {
+            lines.append(line);
+        }
+    }
+    return {.exit_code = process.exitCode(),
+            .has_crashed = !is_finished || process.exitStatus() != QProcess::NormalExit,
+            .errors = lines.join(u'\n')};
+}
+
+TEST(Program, WritesAPictureOfTheWholeMapAndExits)
+{
+    const TestMaps maps;
+    const QString picture = maps.path(QStringLiteral("picture.png"));
+    const Outcome outcome = run({maps.hill(), QStringLiteral("--screenshot"), picture,
+                                 QStringLiteral("--size"), QStringLiteral("900x600")});
+    EXPECT_FALSE(outcome.has_crashed);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors.toStdString();
+    EXPECT_EQ(outcome.errors, QString());
+    const QImage image(picture);
+    ASSERT_EQ(image.size(), QSize(900, 600));
+    // The middle of the map's two thirds of the window, against the sky in its corner.
+    const QColor middle = image.pixelColor(300, 330);
+    const QColor corner = image.pixelColor(4, 150);
+    EXPECT_GT(middle.lightness(), corner.lightness() + 20);
+}
+
+TEST(Program, TellsInOneLineWhyAFileCannotBeOpened)
+{
+    const TestMaps maps;
+    const Outcome outcome = run({QStringLiteral("/no/such/map.tif"), QStringLiteral("--screenshot"),
+                                 maps.path(QStringLiteral("picture.png"))});
+    EXPECT_FALSE(outcome.has_crashed);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_TRUE(outcome.errors.startsWith(QStringLiteral("marsview: /no/such/map.tif: ")));
+    EXPECT_EQ(outcome.errors.count(u'\n'), 0);
+}
+
+TEST(Program, TellsInOneLineThatAPictureCannotBeWritten)
+{
+    const TestMaps maps;
+    const Outcome outcome = run({maps.hill(), QStringLiteral("--screenshot"),
+                                 QStringLiteral("/no/such/folder/picture.png")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_TRUE(
+        outcome.errors.startsWith(QStringLiteral("marsview: /no/such/folder/picture.png: ")));
+}
+
+TEST(Program, SurvivesAPlatformWithoutOpenGl)
+{
+    const TestMaps maps;
+    for (const QStringList& arguments :
+         {QStringList{maps.hill()}, QStringList{maps.hill(), QStringLiteral("--screenshot"),
+                                                maps.path(QStringLiteral("picture.png"))}}) {
+        const Outcome outcome = run(arguments, QStringLiteral("offscreen"));
+        EXPECT_FALSE(outcome.has_crashed);
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_TRUE(outcome.errors.startsWith(QStringLiteral("marsview: ")));
+    }
+}
+
+TEST(Program, AnswersWithoutADisplay)
+{
+    EXPECT_EQ(run({QStringLiteral("--version")}, QStringLiteral("none")).exit_code, 0);
+    EXPECT_EQ(run({QStringLiteral("--help")}, QStringLiteral("none")).exit_code, 0);
+    EXPECT_EQ(run({QStringLiteral("--no-such-option")}, QStringLiteral("none")).exit_code, 2);
+    EXPECT_EQ(
+        run({QStringLiteral("--size"), QStringLiteral("big")}, QStringLiteral("none")).exit_code,
+        2);
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,81 @@
+#include "tests/ui/test_map.h"
+
+#include "ui/terrain_view.h"
+
+#include <QFile>
+#include <QTest>
+#include <QTextStream>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+constexpr int kTimeout_ms = 30000;
+
+} // namespace
+
+QString TestMaps::write(const QString& name, const Shape& shape, const Height& height) const
+{
+    QFile file(path(name));
+    if (!file.open(QIODevice::WriteOnly | QIODevice::Text)) {
+        return {};
+    }
+    QTextStream out(&file);
+    out.setRealNumberPrecision(12);
+    out << "ncols " << shape.columns << "\nnrows " << shape.rows << "\nxllcorner "
+        << shape.x_lower_left << "\nyllcorner " << shape.y_lower_left << "\ncellsize " << shape.cell
+        << "\nNODATA_value -9999\n";
+    for (int row = 0; row < shape.rows; ++row) {
+        for (int column = 0; column < shape.columns; ++column) {
+            const double value = height(column, row);
+            out << (std::isnan(value) ? -9999.0 : value) << (column + 1 < shape.columns ? " " : "");
+        }
+        out << "\n";
+    }
+    return path(name);
+}
+
+QString TestMaps::hill(const QString& name) const
+{
+    return write(name, {}, [](int column, int row) {
+        const double c = column - 20.0;
+        const double r = row - 12.0;
+        return 100.0 + std::round(2000.0 * std::exp(-(c * c + r * r) / 80.0)) / 10.0;
+    });
+}
+
+QString TestMaps::ring() const
+{
+    return write(QStringLiteral("ring.asc"), {}, [](int column, int row) {
+        return std::hypot(column - 29.5, row - 19.5) < 8.0 ? std::nan("") : 100.0 + column;
+    });
+}
+
+WindowOptions testWindowOptions()
+{
+    return {.geometry = WindowOptions::Geometry::Fixed,
+            .failures = WindowOptions::Failures::BySignalOnly};
+}
+
+bool waitUntilSettled(MainWindow& window)
+{
+    bool is_settled = false;
+    const auto connection = QObject::connect(&window, &MainWindow::settled, &window,
+                                             [&is_settled] { is_settled = true; });
+    const bool was_in_time = QTest::qWaitFor([&is_settled] { return is_settled; }, kTimeout_ms);
+    QObject::disconnect(connection);
+    // Layout changes that came with the map ask for another picture.
+    return was_in_time &&
+           QTest::qWaitFor(
+               [&window] { return !window.map() || window.view()->isPictureComplete(); },
+               kTimeout_ms);
+}
+
+bool openAndWait(MainWindow& window, const QString& file)
+{
+    window.open(file);
+    return waitUntilSettled(window);
+}
+
+} // namespace marsview

@@ -1,0 +1,46 @@
+// Small maps on disk, and windows that show them.
+#pragma once
+
+#include "ui/main_window.h"
+
+#include <QString>
+#include <QTemporaryDir>
+
+#include <functional>
+
+namespace marsview {
+
+/// A folder of maps that vanishes with the object.
+class TestMaps {
+public:
+    struct Shape {
+        int columns = 60;
+        int rows = 40;
+        double x_lower_left = 500000.0;
+        double y_lower_left = 4000000.0;
+        double cell = 30.0;
+    };
+    using Height = std::function<double(int column, int row)>; // NaN for void
+
+    /// Writes an ESRI ASCII grid without a CRS.
+    QString write(const QString& name, const Shape& shape, const Height& height) const;
+    /// A map with a hill north-west of its middle.
+    QString hill(const QString& name = QStringLiteral("hill.asc")) const;
+    /// A map with a hole around its middle.
+    QString ring() const;
+    QString path(const QString& name) const { return folder_.filePath(name); }
+
+private:
+    QTemporaryDir folder_;
+};
+
+/// Options of a window that neither remembers nor opens dialogs.
+WindowOptions testWindowOptions();
+
+/// Waits, with events, until the window has settled. False after half a minute.
+bool waitUntilSettled(MainWindow& window);
+
+/// Opens and waits.
+bool openAndWait(MainWindow& window, const QString& file);
+
+} // namespace marsview
