@@ -49,7 +49,7 @@ void printProblem(const QString& problem)
 int runWindow(QApplication& application, const Options& options)
 {
     using marsview::WindowOptions;
-    const QString problem = marsview::graphicsProblem();
+    const auto [problem, format] = marsview::checkGraphics();
     if (!problem.isEmpty()) {
         printProblem(problem);
         const QString platform = QGuiApplication::platformName();
@@ -60,6 +60,7 @@ int runWindow(QApplication& application, const Options& options)
         }
         return kFailed;
     }
+    QSurfaceFormat::setDefaultFormat(format);
     WindowOptions window_options;
     if (options.isScreenshot()) {
         window_options = {.geometry = WindowOptions::Geometry::Fixed,
@@ -119,7 +120,6 @@ int main(int argc, char** argv)
         return parser.exit(e) == 0 ? 0 : kUsage;
     }
     try {
-        QSurfaceFormat::setDefaultFormat(marsview::mapSurfaceFormat());
         int qt_argc = 1; // ours are not Qt's
         QApplication application(qt_argc, argv);
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));

@@ -155,6 +155,9 @@ private:
         std::size_t column = cellAt(columnAt(t), ray_.columns_per_t, left, right);
         std::size_t row = cellAt(rowAt(t), ray_.rows_per_t, upper, lower);
         InCell begin = inCell(t, column, row);
+        if (ray_.columns_per_t == 0.0 && ray_.rows_per_t == 0.0) {
+            return castVertically(heightfield_.cell(column, row), column, row, begin);
+        }
         while (true) {
             const double t_column = crossing(ray_.origin.column, ray_.columns_per_t, column);
             const double t_row = crossing(ray_.origin.row, ray_.rows_per_t, row);
@@ -234,10 +237,6 @@ private:
                                          const InCell& begin,
                                          const InCell& end) const
     {
-        const bool is_vertical = ray_.columns_per_t == 0.0 && ray_.rows_per_t == 0.0;
-        if (is_vertical) {
-            return castVertically(cell, column, row, begin);
-        }
         const double surface_begin = heightInCell(cell, begin.u, begin.v);
         const double surface_end = heightInCell(cell, end.u, end.v);
         const double g_begin = rayHeight(begin.t) - surface_begin;
