@@ -55,9 +55,9 @@ GraphicsCheck checkGraphics()
     surface.setFormat(mapSurfaceFormat());
     surface.create();
     if (!context.create() || !context.makeCurrent(&surface)) {
-        return tr(
-            "no OpenGL context can be created; install the graphics driver, or Mesa's "
-            "software one (libgl1-mesa-dri)");
+        return failed(
+            tr("no OpenGL context can be created; install the graphics driver, or Mesa's "
+               "software one (libgl1-mesa-dri)"));
     }
     const auto version = context.format().version();
     const bool is_software = isSoftware(context);

@@ -44,8 +44,8 @@ constexpr int kDockWidth = 300;
 // Docks leave two thirds of the width to the map.
 constexpr int kDockShareOfWidth = 3;
 
-// The slider spans 1/10 to 1000 times a map's own exaggeration in round steps of about 1.4.
-constexpr int kSliderStepsDown = 12;
+// The slider spans ×0.001, for degrees against metres, to ×100 in round steps of about 1.5.
+constexpr int kSliderStepsDown = 18;
 constexpr int kSliderStepsUp = 12;
 
 struct StepAction {

@@ -160,13 +160,14 @@ makeOverview(const Heightfield& heightfield, const OverviewLimits& limits, JobMo
 
 Result<ReliefMap> makeReliefMap(const Heightfield& heightfield,
                                 const SceneFrame& frame,
-                                std::size_t side_max,
+                                const ReliefOptions& options,
                                 JobMonitor& monitor)
 {
-    MARSVIEW_CHECK(side_max >= 2);
+    MARSVIEW_CHECK(options.side_max >= 2 && options.exaggeration > 0.0);
     ReliefMap map;
     const std::size_t side = std::max(heightfield.columns(), heightfield.rows());
-    map.step = (side + side_max - 1) / side_max;
+    map.step = (side + options.side_max - 1) / options.side_max;
+    map.exaggeration = options.exaggeration;
     map.columns = (heightfield.columns() + map.step - 1) / map.step;
     map.rows = (heightfield.rows() + map.step - 1) / map.step;
     map.texels.resize(4 * map.columns * map.rows);
@@ -180,7 +181,7 @@ Result<ReliefMap> makeReliefMap(const Heightfield& heightfield,
     const double step = static_cast<double>(map.step);
     const double determinant = (frame.east_per_column * frame.north_per_row -
                                 frame.east_per_row * frame.north_per_column) *
-                               step;
+                               step / options.exaggeration;
     const auto east_of_column = static_cast<float>(frame.north_per_row / determinant);
     const auto east_of_row = static_cast<float>(-frame.north_per_column / determinant);
     const auto north_of_column = static_cast<float>(-frame.east_per_row / determinant);

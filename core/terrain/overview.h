@@ -41,8 +41,8 @@ struct OverviewLimits {
 Result<OverviewGrid>
 makeOverview(const Heightfield& heightfield, const OverviewLimits& limits, JobMonitor& monitor);
 
-/// What shading needs at every step-th sample: the surface normal without exaggeration, the height,
-/// and whether there is a surface at all.
+/// What shading needs at every step-th sample: the surface normal, the height, and whether there is
+/// a surface at all.
 ///
 /// Four 16-bit numbers a texel, 0 … 65535 for 0 … 1: x = n_east / 2 + 1/2, y = n_north / 2 + 1/2,
 /// z = height's share of the map's range, w = share of samples that are not void; x, y and z are
@@ -53,14 +53,22 @@ struct ReliefMap {
     std::size_t rows = 0;
     std::size_t step = 1;
     bool has_voids = false;
+    double exaggeration = 1.0; // that normals are for
     std::vector<std::uint16_t> texels;
 };
 
-/// The finest relief map with at most `side_max` texels a side: blocks of step × step samples are
-/// averaged. Only Cancelled can go wrong.
+struct ReliefOptions {
+    std::size_t side_max = 4096; // texels along a side, >= 2
+    /// Normals are kept for heights stretched so much: near the one that is drawn, 16 bits are
+    /// enough for slopes of any size, also of degrees against metres.
+    double exaggeration = 1.0;
+};
+
+/// The finest relief map within the options: blocks of step × step samples are averaged. Only
+/// Cancelled can go wrong.
 Result<ReliefMap> makeReliefMap(const Heightfield& heightfield,
                                 const SceneFrame& frame,
-                                std::size_t side_max,
+                                const ReliefOptions& options,
                                 JobMonitor& monitor);
 
 } // namespace marsview

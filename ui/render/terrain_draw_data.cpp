@@ -1,5 +1,8 @@
 #include "ui/render/terrain_draw_data.h"
 
+#include "core/view/exaggeration.h"
+#include "core/view/scene_box.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -54,8 +57,13 @@ makeTerrainDrawData(const Dataset& dataset, const RenderLimits& limits, JobMonit
     }
     data->overview = std::move(overview).value();
     data->tint_range = commonRange(data->overview, data->range);
-    Result<ReliefMap> relief = makeReliefMap(
-        heightfield, data->frame, std::min(limits.texture_side_max, kReliefSideMax), monitor);
+    const SceneBox box = sceneBox(data->frame, data->columns, data->rows, data->range, 1.0);
+    Result<ReliefMap> relief =
+        makeReliefMap(heightfield, data->frame,
+                      {.side_max = std::min(limits.texture_side_max, kReliefSideMax),
+                       .exaggeration = defaultExaggeration(
+                           box.extent_m(), data->range.maximum_m - data->range.minimum_m)},
+                      monitor);
     if (!relief) {
         return std::move(relief).error();
     }

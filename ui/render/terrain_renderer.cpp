@@ -65,7 +65,7 @@ uniform bool u_has_voids;
 uniform bool u_has_every_sample;
 uniform vec2 u_tint; // share of the ramp = height's share of the range × x + y
 uniform vec3 u_light;
-uniform float u_exaggeration;
+uniform float u_stretch; // exaggeration over that of the relief map
 out vec4 color;
 
 // The triangles between samples, as core/terrain/triangulation.h cuts them.
@@ -92,8 +92,8 @@ void main()
         relief.rgb /= relief.a;
     }
     vec2 tilt = relief.rg * 2.0 - 1.0;
-    float upright = sqrt(max(1.0 - dot(tilt, tilt), 1e-4));
-    vec3 normal = normalize(vec3(tilt * u_exaggeration, upright));
+    float upright = sqrt(max(1.0 - dot(tilt, tilt), 1e-5));
+    vec3 normal = normalize(vec3(tilt * u_stretch, upright));
     float shade = 0.28 + 0.84 * max(dot(normal, u_light), 0.0);
     // The middles of the first and the last of the ramp's 256 colours.
     float share = clamp(relief.b * u_tint.x + u_tint.y, 0.0, 1.0);
@@ -427,6 +427,8 @@ void TerrainRenderer::Impl::drawTerrain(const OrbitCamera& camera,
     glUniform2f(program.uniform("u_relief_scale"),
                 1.0F / static_cast<GLfloat>(relief.columns * relief.step),
                 1.0F / static_cast<GLfloat>(relief.rows * relief.step));
+    glUniform1f(program.uniform("u_stretch"),
+                static_cast<GLfloat>(style.exaggeration / relief.exaggeration));
     glUniform1i(program.uniform("u_has_voids"), relief.has_voids ? 1 : 0);
     glUniform1i(program.uniform("u_has_every_sample"), relief.step == 1 ? 1 : 0);
     const double relief_m = data.range.maximum_m - data.range.minimum_m;

@@ -75,7 +75,7 @@ TEST(MakeReliefMap, TellsNormalsInTheScene)
     const Heightfield field = heightfieldOf(
         20, 30, [](std::size_t, std::size_t r) { return static_cast<double>(r) * 10.0; });
     JobMonitor monitor;
-    const ReliefMap map = makeReliefMap(field, rotated, 4096, monitor).value();
+    const ReliefMap map = makeReliefMap(field, rotated, {}, monitor).value();
     ASSERT_EQ(map.columns, 20U);
     ASSERT_EQ(map.rows, 30U);
     EXPECT_FALSE(map.has_voids);
@@ -86,13 +86,28 @@ TEST(MakeReliefMap, TellsNormalsInTheScene)
     EXPECT_EQ(texel[3], 65535);
 }
 
+TEST(MakeReliefMap, KeepsNormalsOfVerySteepMapsApart)
+{
+    const Heightfield field = heightfieldOf(20, 30, [](std::size_t c, std::size_t r) {
+        return static_cast<double>(c) * (r < 15 ? 1e5 : 2e5);
+    });
+    JobMonitor monitor;
+    const ReliefMap map =
+        makeReliefMap(field, SceneFrame{}, {.exaggeration = 1e-5}, monitor).value();
+    const auto east = [&](std::size_t row) {
+        return map.texels[4 * (row * map.columns + 10)] / 65535.0 * 2.0 - 1.0;
+    };
+    EXPECT_NEAR(east(5), -std::sqrt(0.5), 1e-4);
+    EXPECT_NEAR(east(25), -2.0 / std::sqrt(5.0), 1e-4);
+}
+
 TEST(MakeReliefMap, AveragesAndKeepsShareOfVoids)
 {
     const Heightfield field = heightfieldOf(8, 8, [](std::size_t c, std::size_t r) {
         return c == 0 && r == 0 ? std::nan("") : static_cast<double>(c / 2);
     });
     JobMonitor monitor;
-    const ReliefMap map = makeReliefMap(field, SceneFrame{}, 4, monitor).value();
+    const ReliefMap map = makeReliefMap(field, SceneFrame{}, {.side_max = 4}, monitor).value();
     ASSERT_EQ(map.step, 2U);
     EXPECT_TRUE(map.has_voids);
     EXPECT_NEAR(map.texels[3] / 65535.0, 0.75, 1e-4);
