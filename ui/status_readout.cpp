@@ -22,6 +22,7 @@ StatusReadout::StatusReadout(QWidget* parent)
     : QWidget(parent)
     , coordinate_(new QLabel(this))
     , display_button_(new QToolButton(this))
+    , display_group_(new QActionGroup(this))
     , height_(new QLabel(this))
 {
     coordinate_->setAccessibleName(tr("Position under the pointer"));
@@ -92,7 +93,6 @@ void StatusReadout::fillMenu()
 {
     QMenu* menu = display_button_->menu();
     menu->clear();
-    auto* group = new QActionGroup(menu);
     for (const CoordinateDisplay display : coordinateDisplays(dataset_->info())) {
         const QString name = displayName(display, dataset_->info());
         const QString text = display == CoordinateDisplay::Map
@@ -101,7 +101,7 @@ void StatusReadout::fillMenu()
         QAction* action = menu->addAction(text);
         action->setCheckable(true);
         action->setChecked(display == display_);
-        group->addAction(action);
+        display_group_->addAction(action);
         connect(action, &QAction::triggered, this, [this, display] { setDisplay(display); });
     }
     const QString name = displayName(display_, dataset_->info());

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+class QActionGroup;
 class QLabel;
 class QToolButton;
 
@@ -42,6 +43,7 @@ private:
     CoordinateDisplay display_ = CoordinateDisplay::Map;
     QLabel* coordinate_ = nullptr;
     QToolButton* display_button_ = nullptr;
+    QActionGroup* display_group_ = nullptr;
     QLabel* height_ = nullptr;
 };
 

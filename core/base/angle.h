@@ -26,7 +26,7 @@ public:
     constexpr Angle operator+(Angle other) const { return Angle(radians_ + other.radians_); }
     constexpr Angle operator-(Angle other) const { return Angle(radians_ - other.radians_); }
     constexpr Angle operator*(double factor) const { return Angle(radians_ * factor); }
-    constexpr auto operator<=>(const Angle&) const = default;
+    constexpr auto operator<=>(const Angle&) const = default; // NOLINT(modernize-use-nullptr)
 
 private:
     constexpr explicit Angle(double radians)

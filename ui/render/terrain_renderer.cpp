@@ -316,7 +316,7 @@ struct TerrainRenderer::Impl {
 void TerrainRenderer::Impl::makePatchMesh()
 {
     std::vector<std::uint8_t> cells;
-    cells.reserve(2 * kPatchSide * kPatchSide);
+    cells.reserve(std::size_t{2} * kPatchSide * kPatchSide);
     for (int row = 0; row < kPatchSide; ++row) {
         for (int column = 0; column < kPatchSide; ++column) {
             cells.push_back(static_cast<std::uint8_t>(column));
@@ -324,7 +324,7 @@ void TerrainRenderer::Impl::makePatchMesh()
         }
     }
     std::vector<std::uint16_t> indices;
-    indices.reserve(6 * kPatchCells * kPatchCells);
+    indices.reserve(std::size_t{6} * kPatchCells * kPatchCells);
     for (int row = 0; row < kPatchCells; ++row) {
         for (int column = 0; column < kPatchCells; ++column) {
             const int upper_left = row * kPatchSide + column;
