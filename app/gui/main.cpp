@@ -97,29 +97,28 @@ int runWindow(QApplication& application, const Options& options)
 
 int main(int argc, char** argv)
 {
-    Options options;
-    std::string size;
-    CLI::App parser{"Explore topographic maps of planets and moons in a window.", "marsview"};
-    parser.add_option("DEM", options.map, "the map to open: any elevation raster that GDAL reads");
-    parser
-        .add_option("--screenshot", options.screenshot,
-                    "write a picture of the window once the map is drawn, and exit")
-        ->option_text("FILE");
-    parser.add_option("--size", size, "the size of the window in pixels")->option_text("WxH");
-    parser.set_version_flag("--version", std::string("marsview ") + MARSVIEW_VERSION);
     try {
-        parser.parse(argc, argv);
-        if (!size.empty()) {
+        CLI::App parser{"Explore topographic maps of planets and moons in a window.", "marsview"};
+        Options options;
+        std::string size;
+        parser.add_option("DEM", options.map,
+                          "the map to open: any elevation raster that GDAL reads");
+        parser
+            .add_option("--screenshot", options.screenshot,
+                        "write a picture of the window once the map is drawn, and exit")
+            ->option_text("FILE");
+        parser.add_option("--size", size, "the size of the window in pixels")->option_text("WxH");
+        parser.set_version_flag("--version", std::string("marsview ") + MARSVIEW_VERSION);
+        try {
+            parser.parse(argc, argv);
             options.size = sizeFrom(size);
-            if (!options.size.isValid()) {
+            if (!size.empty() && !options.size.isValid()) {
                 throw CLI::ValidationError("--size",
                                            "\"" + size + "\" is no size such as 1280x800");
             }
+        } catch (const CLI::ParseError& e) {
+            return parser.exit(e) == 0 ? 0 : kUsage;
         }
-    } catch (const CLI::ParseError& e) {
-        return parser.exit(e) == 0 ? 0 : kUsage;
-    }
-    try {
         int qt_argc = 1; // ours are not Qt's
         QApplication application(qt_argc, argv);
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));

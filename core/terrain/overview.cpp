@@ -116,6 +116,8 @@ float difference(float before, float here, float after)
 
 std::uint16_t unorm16(float share)
 {
+    // Never negative, and called for every texel: lround would be a function call.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
     return static_cast<std::uint16_t>(std::clamp(share, 0.0F, 1.0F) * 65535.0F + 0.5F);
 }
 

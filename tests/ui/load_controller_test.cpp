@@ -9,7 +9,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kTimeout_ms = 30000;
+constexpr int kTimeout = 30000; // ms
 
 LoadRequest requestFor(const QString& file)
 {
@@ -49,7 +49,7 @@ TEST(LoadController, DeliversAMapWithAllItsParts)
                      [&](const LoadedMap& map) { loaded = map; });
     controller.start(requestFor(maps.hill()));
     EXPECT_TRUE(controller.isLoading());
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !controller.isLoading(); }, kTimeout_ms));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !controller.isLoading(); }, kTimeout));
     ASSERT_TRUE(loaded);
     EXPECT_TRUE(loaded.pyramid);
     EXPECT_TRUE(loaded.draw_data);
@@ -60,7 +60,7 @@ TEST(LoadController, TellsWhyAFileCannotBeOpened)
     LoadController controller;
     Outcomes outcomes(controller);
     controller.start(requestFor(QStringLiteral("/no/such/map.tif")));
-    ASSERT_TRUE(QTest::qWaitFor([&] { return outcomes.count() > 0; }, kTimeout_ms));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return outcomes.count() > 0; }, kTimeout));
     ASSERT_EQ(outcomes.failed.size(), 1U);
     EXPECT_EQ(outcomes.failed[0].find("/no/such/map.tif: "), 0U);
 }
@@ -95,7 +95,7 @@ TEST(LoadController, DeliversOnlyTheLastOfSeveralLoads)
         controller.start(requestFor(first));
     }
     controller.start(requestFor(last));
-    ASSERT_TRUE(QTest::qWaitFor([&] { return outcomes.count() > 0; }, kTimeout_ms));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return outcomes.count() > 0; }, kTimeout));
     QTest::qWait(50);
     ASSERT_EQ(outcomes.count(), 1U);
     EXPECT_EQ(outcomes.succeeded[0], last.toStdString());

@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kTimeout_ms = 30000;
+constexpr int kTimeout = 30000; // ms
 
 } // namespace
 
@@ -63,13 +63,12 @@ bool waitUntilSettled(MainWindow& window)
     bool is_settled = false;
     const auto connection = QObject::connect(&window, &MainWindow::settled, &window,
                                              [&is_settled] { is_settled = true; });
-    const bool was_in_time = QTest::qWaitFor([&is_settled] { return is_settled; }, kTimeout_ms);
+    const bool was_in_time = QTest::qWaitFor([&is_settled] { return is_settled; }, kTimeout);
     QObject::disconnect(connection);
     // Layout changes that came with the map ask for another picture.
     return was_in_time &&
            QTest::qWaitFor(
-               [&window] { return !window.map() || window.view()->isPictureComplete(); },
-               kTimeout_ms);
+               [&window] { return !window.map() || window.view()->isPictureComplete(); }, kTimeout);
 }
 
 bool openAndWait(MainWindow& window, const QString& file)

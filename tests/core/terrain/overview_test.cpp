@@ -104,7 +104,7 @@ TEST(MakeReliefMap, KeepsNormalsOfVerySteepMapsApart)
 TEST(MakeReliefMap, AveragesAndKeepsShareOfVoids)
 {
     const Heightfield field = heightfieldOf(8, 8, [](std::size_t c, std::size_t r) {
-        return c == 0 && r == 0 ? std::nan("") : static_cast<double>(c / 2);
+        return c == 0 && r == 0 ? std::nan("") : std::floor(static_cast<double>(c) / 2.0);
     });
     JobMonitor monitor;
     const ReliefMap map = makeReliefMap(field, SceneFrame{}, {.side_max = 4}, monitor).value();
