@@ -218,10 +218,13 @@ TEST_F(TerrainViewTest, DrawsNothingWhenNothingChanges)
     int frames = 0;
     QObject::connect(&view(), &QOpenGLWidget::frameSwapped, window_.get(), [&] { ++frames; });
     ASSERT_TRUE(rest());
-    QTest::qWait(100);
-    frames = 0;
-    QTest::qWait(300);
-    EXPECT_EQ(frames, 0);
+    // The window system may still ask for a frame or two; then none comes by itself.
+    const auto is_quiet = [&] {
+        frames = 0;
+        QTest::qWait(300);
+        return frames == 0;
+    };
+    EXPECT_TRUE(QTest::qWaitFor(is_quiet, 5000));
 }
 
 } // namespace
