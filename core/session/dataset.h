@@ -17,7 +17,7 @@ namespace marsview {
 struct DatasetSpec {
     std::string path;
     int band = 1;
-    RasterOverrides overrides;
+    RasterOverrides overrides{};
     bool operator==(const DatasetSpec&) const = default;
 };
 
