@@ -39,7 +39,7 @@ std::uint64_t hashOf(const SampleGrid& grid)
     return hash;
 }
 
-double peakMemory_mb()
+double peakMemoryMb()
 {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -73,7 +73,7 @@ void BM_ReadAll(benchmark::State& state, const std::string& path)
     }
     state.SetItemsProcessed(samples);
     state.counters["bytes/sample"] = bytes_per_sample;
-    state.counters["peak_MB"] = peakMemory_mb();
+    state.counters["peak_MB"] = peakMemoryMb();
     state.SetLabel(fmt::format("hash {:016x}", hash));
 }
 
@@ -86,8 +86,9 @@ std::string synthetic(const test::TempFolder& folder,
 {
     std::vector<T> samples(side * side);
     for (std::size_t i = 0; i < samples.size(); ++i) {
+        const std::size_t row = i / side;
         const double x = static_cast<double>(i % side);
-        const double y = static_cast<double>(i / side);
+        const double y = static_cast<double>(row);
         const double height = 3000.0 * std::sin(x * 0.011) * std::cos(y * 0.017) +
                               400.0 * std::sin(x * 0.13 + y * 0.07);
         samples[i] = static_cast<T>(i % 1009 == 0 ? -9999.0 : height);

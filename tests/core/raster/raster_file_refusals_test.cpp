@@ -36,7 +36,7 @@ Result<std::shared_ptr<const Dataset>> load(const std::string& path,
     return loadDataset({path, 1, {}}, monitor, memory_bytes_max);
 }
 
-long peakMemory_kb()
+long peakMemoryKb()
 {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -56,12 +56,12 @@ void expectOneSentence(const Error& error, const std::string& path)
 void expectRefused(const std::string& path, ErrorCode code)
 {
     SCOPED_TRACE(path);
-    const long before_kb = peakMemory_kb();
+    const long before_kb = peakMemoryKb();
     const auto dataset = load(path);
     ASSERT_FALSE(dataset);
     EXPECT_EQ(dataset.error().code, code) << dataset.error().message;
     expectOneSentence(dataset.error(), path);
-    EXPECT_LT(peakMemory_kb() - before_kb, 200 * 1024);
+    EXPECT_LT(peakMemoryKb() - before_kb, 200 * 1024);
 }
 
 RasterRecipe smallMap()
@@ -211,9 +211,9 @@ TEST(Refusal, AFileWithoutBands)
 TEST(Refusal, FilesCutShort)
 {
     const TempFolder folder;
-    const std::string whole = test::readFile(
-        writeRaster(folder, "whole.tif", "GTiff",
-                    recipeFor<std::int16_t>(200, std::vector<std::int16_t>(200 * 200, 7))));
+    const std::string whole = test::readFile(writeRaster(
+        folder, "whole.tif", "GTiff",
+        recipeFor<std::int16_t>(200, std::vector<std::int16_t>(std::size_t{200} * 200, 7))));
     for (const double share : {0.001, 0.01, 0.5, 0.9, 0.999}) {
         const auto bytes = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
         const std::string path = folder.write("short.tif", whole.substr(0, bytes));
@@ -229,9 +229,9 @@ TEST(Refusal, RawDataCutShortAnywhere)
 {
     const TempFolder folder;
     for (const char* driver : {"ENVI", "EHdr"}) {
-        const std::string path =
-            writeRaster(folder, std::string(driver) + ".bil", driver,
-                        recipeFor<std::int16_t>(20, std::vector<std::int16_t>(20 * 20, 7)));
+        const std::string path = writeRaster(
+            folder, std::string(driver) + ".bil", driver,
+            recipeFor<std::int16_t>(20, std::vector<std::int16_t>(std::size_t{20} * 20, 7)));
         ASSERT_TRUE(opensAsMap(path));
         for (const std::uintmax_t bytes : {799U, 798U, 790U, 761U, 760U, 400U, 39U}) {
             fs::resize_file(path, bytes);
@@ -275,9 +275,9 @@ TEST(Refusal, RealFilesThatAreBroken)
 TEST(Refusal, AFileCutShortAfterItWasOpened)
 {
     const TempFolder folder;
-    const std::string path =
-        writeRaster(folder, "map.tif", "GTiff",
-                    recipeFor<std::int16_t>(2000, std::vector<std::int16_t>(2000 * 2000, 7)));
+    const std::string path = writeRaster(
+        folder, "map.tif", "GTiff",
+        recipeFor<std::int16_t>(2000, std::vector<std::int16_t>(std::size_t{2000} * 2000, 7)));
     auto file = RasterFile::open(path);
     ASSERT_TRUE(file);
     fs::resize_file(path, 4096);
@@ -333,7 +333,7 @@ TEST(Refusal, ReadingThatNobodyWantsAnyMore)
 TEST(Tolerance, MapsWithoutAUsablePlaceOpenWithANotice)
 {
     const TempFolder folder;
-    const auto noticed = [&](RasterRecipe recipe, const std::string& word) {
+    const auto noticed = [&](const RasterRecipe& recipe, const std::string& word) {
         const std::string path = writeVrt(folder, "map", recipe);
         const auto file = RasterFile::open(path);
         ASSERT_TRUE(file) << file.error().message;
@@ -366,11 +366,13 @@ TEST(Tolerance, MapsWithoutAUsablePlaceOpenWithANotice)
 TEST(Tolerance, AGarbageCrsIsNoCrash)
 {
     const TempFolder folder;
-    for (const char* srs : {"garbage", "PROJCS[\"x\"]",
-                            "GEOGCS[\"x\",DATUM[\"y\",SPHEROID[\"z\",0,0]]]", "+proj=eqc +R=0",
-                            "PROJCS[\"x\",GEOGCS[\"x\",DATUM[\"y\",SPHEROID[\"z\",6378137,298]],"
-                            "PRIMEM[\"G\",0],UNIT[\"degree\",0.017]],PROJECTION[\"Nonsense\"],"
-                            "UNIT[\"metre\",1]]"}) {
+    const std::string nonsense =
+        "PROJCS[\"x\",GEOGCS[\"x\",DATUM[\"y\",SPHEROID[\"z\",6378137,298]],"
+        "PRIMEM[\"G\",0],UNIT[\"degree\",0.017]],"
+        "PROJECTION[\"Nonsense\"],UNIT[\"metre\",1]]";
+    for (const std::string& srs : {std::string("garbage"), std::string("PROJCS[\"x\"]"),
+                                   std::string("GEOGCS[\"x\",DATUM[\"y\",SPHEROID[\"z\",0,0]]]"),
+                                   std::string("+proj=eqc +R=0"), nonsense}) {
         RasterRecipe recipe = smallMap();
         recipe.srs = srs;
         const std::string path = writeVrt(folder, "map", recipe);

@@ -82,6 +82,7 @@ TEST(Units, FeetThatTheFileDoesNotDeclareAreToldByTheUser)
     EXPECT_TRUE(feet->info().is_unit_declared);
     test::Random random;
     std::vector<test::Pixel> pixels;
+    pixels.reserve(500);
     for (int i = 0; i < 500; ++i) {
         pixels.push_back({random.below(2401), random.below(1201)});
     }
@@ -114,6 +115,7 @@ TEST(Units, RadiiOfTheMoonAreHeightsAboveTheirReferenceSphere)
     EXPECT_NE(moon->info().vertical_datum.find("1737400"), std::string::npos);
     test::Random random;
     std::vector<test::Pixel> pixels;
+    pixels.reserve(500);
     for (int i = 0; i < 500; ++i) {
         pixels.push_back({random.below(1440), random.below(720)});
     }

@@ -209,7 +209,7 @@ TEST(CastRay, HitsStraightBelowAndAbove)
 
 TEST(CastRay, MissesWhatLiesBehindAndBeside)
 {
-    const std::vector<float> flat(40 * 40, 5.0F);
+    const std::vector<float> flat(std::size_t{40} * 40, 5.0F);
     const Terrain terrain = terrainOf(flat, 40);
     EXPECT_FALSE(terrain.cast({.origin = {10, 10}, .origin_height_m = 6, .height_per_t_m = 1}));
     EXPECT_FALSE(terrain.cast({.origin = {50, 10}, .origin_height_m = 6, .height_per_t_m = -1}));
@@ -220,7 +220,7 @@ TEST(CastRay, MissesWhatLiesBehindAndBeside)
 
 TEST(CastRay, HitsAFlatMapFromAllSides)
 {
-    const std::vector<float> flat(70 * 50, 5.0F);
+    const std::vector<float> flat(std::size_t{70} * 50, 5.0F);
     const Terrain terrain = terrainOf(flat, 70);
     const auto hit = terrain.cast(rayBetween({-10.0, -10.0, 25.0}, {30.0, 20.0, 5.0}));
     ASSERT_TRUE(hit);
@@ -277,7 +277,7 @@ TEST(MinMaxPyramid, BoundsEverySampleOfEveryNode)
 
 TEST(MinMaxPyramid, StopsWhenCancelled)
 {
-    const std::vector<float> flat(40 * 40, 5.0F);
+    const std::vector<float> flat(std::size_t{40} * 40, 5.0F);
     const Terrain terrain = terrainOf(flat, 40);
     JobMonitor monitor;
     monitor.cancel();
