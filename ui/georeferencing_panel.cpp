@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace marsview {
 namespace {
@@ -28,7 +29,7 @@ QString number(double value)
 // Digits enough to read the same double back, always with a point: for fields.
 QString exactNumber(double value)
 {
-    return QLocale::c().toString(value, 'g', QLocale::FloatingPointShortest);
+    return QString::fromStdString(fmt::format("{}", value));
 }
 
 // A number as the user writes it: with a point, or as the locale has it.
@@ -99,6 +100,7 @@ QWidget* GeoreferencingPanel::makeFactsPage()
     auto* layout = new QVBoxLayout(content);
     facts_ = new QFormLayout;
     facts_->setLabelAlignment(Qt::AlignLeft | Qt::AlignTop);
+    facts_->setHorizontalSpacing(12);
     facts_->setRowWrapPolicy(QFormLayout::DontWrapRows);
     layout->addLayout(facts_);
     notices_ = makeFact(content);
@@ -201,7 +203,7 @@ QWidget* GeoreferencingPanel::makeFieldsPage()
     reset_button->setObjectName(QStringLiteral("reset"));
     connect(reset_button, &QPushButton::clicked, this,
             [this] { Q_EMIT overridesRequested(RasterOverrides{}); });
-    auto* back_button = new QPushButton(tr("&Close"), content);
+    auto* back_button = new QPushButton(tr("Bac&k"), content);
     back_button->setObjectName(QStringLiteral("close"));
     connect(back_button, &QPushButton::clicked, this,
             [this] { pages_->setCurrentWidget(facts_page_); });
@@ -221,12 +223,8 @@ QWidget* GeoreferencingPanel::makeFieldsPage()
 
 void GeoreferencingPanel::setDataset(const std::shared_ptr<const Dataset>& dataset)
 {
-    const bool is_other_file =
-        !dataset || !dataset_ || dataset->spec().path != dataset_->spec().path;
     dataset_ = dataset;
-    if (is_other_file) {
-        pages_->setCurrentWidget(facts_page_);
-    }
+    pages_->setCurrentWidget(facts_page_); // what was applied shows in the facts
     override_button_->setEnabled(dataset_ != nullptr);
     fillFacts();
     fillFields();
@@ -278,9 +276,10 @@ void GeoreferencingPanel::fillFacts()
     add(tr("Pixel"),
         width == height ? tr("%1 %2").arg(width, unit) : tr("%1 × %2 %3").arg(width, height, unit));
     const auto metres = [](double value) { return QLocale().toString(value, 'g', 6); };
-    add(tr("Pixel (m)"), tr("%1 × %2 m")
-                             .arg(metres(georeference.pixelWidthMetres()),
-                                  metres(georeference.pixelHeightMetres())));
+    const QString pixel_size =
+        tr("%1 × %2 m")
+            .arg(metres(georeference.pixelWidthMetres()), metres(georeference.pixelHeightMetres()));
+    add(tr("Pixel (m)"), info.crs ? pixel_size : tr("%1, assumed").arg(pixel_size));
     // The extent of the pixels' outer corners, rotated rasters included.
     const double columns = static_cast<double>(georeference.columns());
     const double rows = static_cast<double>(georeference.rows());
@@ -368,6 +367,21 @@ void GeoreferencingPanel::fillFields()
     fill(nodata_, overrides.nodata, dataset_ ? dataset_->fileInfo().nodata : std::nullopt);
 }
 
+// A radius left empty stays as the file has it; on a sphere, or where the file has none, one radius
+// alone makes a sphere.
+Ellipsoid GeoreferencingPanel::ellipsoidFrom(std::optional<double> equatorial_m,
+                                             std::optional<double> polar_m) const
+{
+    const auto in_file =
+        dataset_->fileInfo().crs ? dataset_->fileInfo().crs->ellipsoid() : std::nullopt;
+    const double only_m = equatorial_m ? *equatorial_m : *polar_m;
+    const Ellipsoid rest = in_file && !in_file->isSphere()
+                               ? *in_file
+                               : Ellipsoid{.equatorial_m = only_m, .polar_m = only_m};
+    return {.equatorial_m = equatorial_m.value_or(rest.equatorial_m),
+            .polar_m = polar_m.value_or(rest.polar_m)};
+}
+
 void GeoreferencingPanel::apply()
 {
     if (!dataset_) {
@@ -388,10 +402,7 @@ void GeoreferencingPanel::apply()
         const auto equatorial = valueOf(*equatorial_);
         const auto polar = valueOf(*polar_);
         if (equatorial || polar) {
-            // One radius alone means a sphere.
-            overrides.ellipsoid =
-                Ellipsoid{.equatorial_m = equatorial.value_or(*(polar ? polar : equatorial)),
-                          .polar_m = polar.value_or(*(equatorial ? equatorial : polar))};
+            overrides.ellipsoid = ellipsoidFrom(equatorial, polar);
         }
         GeoTransform::Terms terms = dataset_->fileInfo().transform.value_or(GeoTransform{}).terms();
         bool is_any_given = false;

@@ -41,6 +41,8 @@ private:
     QWidget* makeFieldsPage();
     void fillFacts();
     void fillFields();
+    Ellipsoid ellipsoidFrom(std::optional<double> equatorial_m,
+                            std::optional<double> polar_m) const;
     void apply();
     void showProblem(const QString& problem);
 

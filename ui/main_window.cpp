@@ -41,8 +41,10 @@ constexpr int kStateVersion = 1; // of saveState(); raise when docks or toolbars
 constexpr QSize kDefaultSize{1280, 800};
 constexpr int kDockWidth = 300;
 
-// Docks leave two thirds of the width to the map.
+// Docks leave two thirds of the width to the map, but are never too narrow to be read; where both
+// cannot be, the map has the window.
 constexpr int kDockShareOfWidth = 3;
+constexpr int kDockWidthMin = 240;
 
 // The slider spans ×0.001, for degrees against metres, to ×100 in round steps of about 1.5.
 constexpr int kSliderStepsDown = 18;
@@ -143,6 +145,9 @@ void MainWindow::makeActions()
     save_picture_action_ = file->addAction(tr("Save &Picture…"), this, &MainWindow::savePicture);
     save_picture_action_->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
     save_picture_action_->setIcon(style()->standardIcon(QStyle::SP_DialogSaveButton));
+    cancel_action_ = file->addAction(tr("&Cancel Loading"), this, &MainWindow::cancelLoading);
+    cancel_action_->setShortcut(Qt::Key_Escape);
+    cancel_action_->setEnabled(false);
     file->addSeparator();
     QAction* quit = file->addAction(tr("&Quit"), this, &QWidget::close);
     quit->setShortcut(QKeySequence::Quit);
@@ -245,6 +250,7 @@ void MainWindow::makeDocks()
     georeferencing_dock_->setObjectName(QStringLiteral("georeferencingDock"));
     georeferencing_dock_->setAllowedAreas(Qt::LeftDockWidgetArea | Qt::RightDockWidgetArea);
     georeferencing_dock_->setWidget(panel_);
+    georeferencing_dock_->setMinimumWidth(kDockWidthMin);
     addDockWidget(Qt::RightDockWidgetArea, georeferencing_dock_);
     resizeDocks({georeferencing_dock_}, {kDockWidth}, Qt::Horizontal);
     connect(panel_, &GeoreferencingPanel::overridesRequested, this,
@@ -284,6 +290,7 @@ void MainWindow::connectLoader()
         progress_label_->setVisible(is_loading);
         progress_bar_->setVisible(is_loading);
         cancel_button_->setVisible(is_loading);
+        cancel_action_->setEnabled(is_loading);
     };
     connect(loader_, &LoadController::started, this,
             [show_progress](const DatasetSpec&) { show_progress(true); });
@@ -535,7 +542,22 @@ void MainWindow::closeEvent(QCloseEvent* event)
 void MainWindow::resizeEvent(QResizeEvent* event)
 {
     QMainWindow::resizeEvent(event);
-    georeferencing_dock_->setMaximumWidth(std::max(200, width() / kDockShareOfWidth));
+    fitDockToWidth();
+}
+
+void MainWindow::fitDockToWidth()
+{
+    const int width_max = width() / kDockShareOfWidth;
+    const bool is_too_narrow = width_max < kDockWidthMin && !georeferencing_dock_->isFloating();
+    if (is_too_narrow && georeferencing_dock_->isVisible()) {
+        is_dock_folded_ = true;
+        georeferencing_dock_->hide();
+    } else if (!is_too_narrow && is_dock_folded_) {
+        is_dock_folded_ = false;
+        georeferencing_dock_->show();
+        resizeDocks({georeferencing_dock_}, {std::min(kDockWidth, width_max)}, Qt::Horizontal);
+    }
+    georeferencing_dock_->setMaximumWidth(std::max(kDockWidthMin, width_max));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)

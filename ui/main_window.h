@@ -77,6 +77,7 @@ private:
     void connectLoader();
     void connectView();
     void restoreWindow();
+    void fitDockToWidth();
 
     void startLoad(Purpose purpose, const DatasetSpec& spec);
     void requestOverrides(Purpose purpose, const RasterOverrides& overrides);
@@ -102,6 +103,7 @@ private:
     QProgressBar* progress_bar_ = nullptr;
     QToolButton* cancel_button_ = nullptr;
     QAction* open_action_ = nullptr;
+    QAction* cancel_action_ = nullptr;
     QAction* save_picture_action_ = nullptr;
     QAction* home_action_ = nullptr;
     QAction* north_action_ = nullptr;
@@ -111,7 +113,8 @@ private:
 
     LoadedMap map_;
     QUndoStack undo_stack_;
-    int applied_index_ = 0; // of the undo stack, for the map in effect
+    bool is_dock_folded_ = false; // away while the window is too narrow for it
+    int applied_index_ = 0;       // of the undo stack, for the map in effect
     bool is_settling_ = false;
     std::optional<RenderLimits> render_limits_; // known once there is a graphics context
     QString waiting_file_;                      // to be opened then

@@ -13,7 +13,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <memory>
 #include <string>
 
 namespace {
@@ -23,11 +25,16 @@ constexpr int kUsage = 2;
 
 struct Options {
     std::string map;
+    bool is_map_given = false;
     std::string screenshot;
     QSize size;
 
     bool isScreenshot() const { return !screenshot.empty(); }
 };
+
+constexpr int kWidthMin = 320;
+constexpr int kHeightMin = 240;
+constexpr int kSideMax = 8192; // what every driver of OpenGL 3.3 draws
 
 // The text of a size such as "1280x800"; invalid where it is none.
 QSize sizeFrom(const std::string& text)
@@ -36,14 +43,37 @@ QSize sizeFrom(const std::string& text)
     int height = 0;
     int end = 0;
     const bool is_size = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) == 2 &&
-                         static_cast<std::size_t>(end) == text.size() && width >= 320 &&
-                         height >= 240 && width <= 16384 && height <= 16384;
+                         static_cast<std::size_t>(end) == text.size() && width >= kWidthMin &&
+                         height >= kHeightMin && width <= kSideMax && height <= kSideMax;
     return is_size ? QSize(width, height) : QSize();
 }
 
 void printProblem(const QString& problem)
 {
     std::fprintf(stderr, "marsview: %s\n", problem.toUtf8().constData());
+}
+
+// Qt stops the program with an advice of its own where it finds no display. While it starts, only
+// ours is to be read.
+void reportFatalOnly(QtMsgType type, const QMessageLogContext&, const QString&)
+{
+    if (type == QtFatalMsg) {
+        std::fputs(
+            "marsview: no display can be opened; start in a desktop session, or under "
+            "xvfb-run\n",
+            stderr);
+        std::_Exit(kFailed);
+    }
+}
+
+// Ours are not Qt's: it gets the program's name alone.
+std::unique_ptr<QApplication> makeApplication(int& argc, char** argv)
+{
+    argc = 1;
+    const QtMessageHandler handler = qInstallMessageHandler(reportFatalOnly);
+    auto application = std::make_unique<QApplication>(argc, argv);
+    qInstallMessageHandler(handler);
+    return application;
 }
 
 int runWindow(QApplication& application, const Options& options)
@@ -70,10 +100,10 @@ int runWindow(QApplication& application, const Options& options)
     if (options.size.isValid()) {
         window.resize(options.size);
     }
-    const QString map = options.map.empty()
-                            ? marsview::sampleMapFor(QCoreApplication::applicationDirPath())
-                            : QString::fromStdString(options.map);
-    if (!map.isEmpty()) {
+    const QString map = options.is_map_given
+                            ? QString::fromStdString(options.map)
+                            : marsview::sampleMapFor(QCoreApplication::applicationDirPath());
+    if (options.is_map_given || !map.isEmpty()) {
         window.open(map);
     }
     if (options.isScreenshot()) {
@@ -101,33 +131,41 @@ int main(int argc, char** argv)
         CLI::App parser{"Explore topographic maps of planets and moons in a window.", "marsview"};
         Options options;
         std::string size;
-        parser.add_option("DEM", options.map,
-                          "the map to open: any elevation raster that GDAL reads");
+        const CLI::Option* map = parser.add_option(
+            "DEM", options.map, "the map to open: any elevation raster that GDAL reads");
+        const CLI::Option* screenshot =
+            parser
+                .add_option("--screenshot", options.screenshot,
+                            "write a picture of the window once the map is drawn, and exit")
+                ->option_text("FILE");
         parser
-            .add_option("--screenshot", options.screenshot,
-                        "write a picture of the window once the map is drawn, and exit")
-            ->option_text("FILE");
-        parser.add_option("--size", size, "the size of the window in pixels")->option_text("WxH");
+            .add_option("--size", size,
+                        "the size of the window in pixels, from 320x240 to 8192x8192")
+            ->option_text("WxH");
         parser.set_version_flag("--version", std::string("marsview ") + MARSVIEW_VERSION);
         try {
             parser.parse(argc, argv);
             options.size = sizeFrom(size);
+            options.is_map_given = map->count() > 0;
             if (!size.empty() && !options.size.isValid()) {
                 throw CLI::ValidationError("--size",
-                                           "\"" + size + "\" is no size such as 1280x800");
+                                           "\"" + size + "\" is no size from 320x240 to 8192x8192");
+            }
+            if (screenshot->count() > 0 && options.screenshot.empty()) {
+                throw CLI::ValidationError("--screenshot", "the name of the picture is empty");
             }
         } catch (const CLI::ParseError& e) {
             return parser.exit(e) == 0 ? 0 : kUsage;
         }
-        int qt_argc = 1; // ours are not Qt's
-        QApplication application(qt_argc, argv);
+        const std::unique_ptr<QApplication> application = makeApplication(argc, argv);
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));
         QCoreApplication::setApplicationName(QStringLiteral("MarsView"));
         QCoreApplication::setApplicationVersion(QStringLiteral(MARSVIEW_VERSION));
         if (QLocale().language() == QLocale::C) {
             QLocale::setDefault(QLocale(QLocale::English)); // digits in groups
         }
-        return runWindow(application, options);
+        QGuiApplication::setDesktopFileName(QStringLiteral("org.marsview.MarsView"));
+        return runWindow(*application, options);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "marsview: %s\n", e.what());
         return kFailed;

@@ -432,7 +432,8 @@ Status RasterFile::Impl::checkExtent(const GridWindow& window) const
     };
     const auto bytes = static_cast<std::int64_t>(status.st_size);
     if (std::max(end_of_row(window.row), end_of_row(window.row + window.rows - 1)) > bytes) {
-        return readFailure(fmt::format("the data file has {} bytes where its header promises {}",
+        return readFailure(fmt::format("it is cut short, {} of the {} bytes that its header "
+                                       "promises are there; fetch it again",
                                        bytes, std::max(end_of_row(0), end_of_row(info.rows - 1))),
                            window);
     }

@@ -97,11 +97,55 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
                                          -3.4028234663852886e38};
     const bool is_usual_mark = std::find(kUsualVoidMarks.begin(), kUsualVoidMarks.end(),
                                          statistics.raw_minimum) != kUsualVoidMarks.end();
+    constexpr double kHeightMaxM = 1e6; // where no body is known
+    const double height_max_m = bodyRadius(info).value_or(kHeightMaxM);
+    for (const double raw : {statistics.raw_minimum, statistics.raw_maximum}) {
+        const double height_m = info.elevationScale().height(raw);
+        if (!(std::abs(height_m) <= height_max_m)) {
+            info.notices.push_back(
+                fmt::format("a height of {} m is larger than any body's; if it "
+                            "marks voids, give {} as nodata, or tell the unit",
+                            height_m, raw));
+            break;
+        }
+    }
     if (!info.nodata && is_usual_mark) {
         info.notices.push_back(
             fmt::format("the lowest sample, {}, is a usual mark for voids, but "
                         "the file declares none; if it is one, give it as nodata",
                         statistics.raw_minimum));
+    }
+}
+
+void notePlacement(RasterInfo& info)
+{
+    if (!info.transform) {
+        return; // told when the file was opened
+    }
+    if (!info.crs) {
+        info.notices.emplace_back(
+            "no CRS: map units are taken as metres; tell its CRS or body to "
+            "get longitude and latitude");
+        return;
+    }
+    if (info.crs->kind() != CrsKind::Geographic) {
+        return;
+    }
+    const double columns = static_cast<double>(info.columns);
+    const double rows = static_cast<double>(info.rows);
+    const double turn = *info.crs->turn();
+    for (const GridPoint corner :
+         {GridPoint{0.0, 0.0}, GridPoint{columns - 1.0, 0.0}, GridPoint{0.0, rows - 1.0},
+          GridPoint{columns - 1.0, rows - 1.0}}) {
+        const MapPoint p = info.transform->toMap(corner);
+        if (std::abs(p.y) > turn / 4.0 + info.transform->pixelHeight() ||
+            std::abs(p.x) > 2.0 * turn) {
+            info.notices.push_back(fmt::format(
+                "its corner ({}, {}) is no longitude and latitude, so CRS \"{}\" cannot "
+                "be right; tell another one",
+                p.x, p.y, info.crs->name()));
+            return;
+        }
     }
 }
 
@@ -169,6 +213,7 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
         info.body = body;
     }
     deduceHeightReference(info);
+    notePlacement(info);
     return info;
 }
 

@@ -71,12 +71,15 @@ struct RasterOverrides {
     bool isEmpty() const { return *this == RasterOverrides{}; }
 };
 
+/// Adds a notice where there is no CRS, or where the placement cannot be meant in the CRS.
+void notePlacement(RasterInfo& info);
+
 /// `info` as the file tells it, with the overrides in place of what it says. Errors name the
 /// option that cannot be used and why.
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
 
-/// Adds a notice where the samples look as if the file forgot to declare its voids, or has nothing
-/// but voids.
+/// Adds a notice where the samples look as if the file forgot to declare its voids, has nothing but
+/// voids, or holds numbers that are no heights.
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics);
 
 /// Decides whether values are heights or radii (see RasterInfo::reference_radius_m) and names the
