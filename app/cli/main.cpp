@@ -1,6 +1,7 @@
 // marsview-cli: the command line for scripts and benchmarks. No display and no Qt needed.
 
 #include "app/cli/commands.h"
+#include "app/cli/text_output.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -39,7 +40,8 @@ int run(int argc, char** argv)
     }
     const marsview::Status status = action();
     if (!status) {
-        std::fprintf(stderr, "marsview-cli: %s\n", status.error().message.c_str());
+        std::fprintf(stderr, "marsview-cli: %s\n",
+                     marsview::asOneLine(status.error().message).c_str());
         return kExitFailed;
     }
     if (std::fflush(stdout) != 0) {

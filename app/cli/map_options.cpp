@@ -1,5 +1,6 @@
 #include "app/cli/map_options.h"
 
+#include "app/cli/text_output.h"
 #include "core/session/dataset.h"
 
 #include <algorithm>
@@ -84,7 +85,8 @@ Result<OpenedMap> openMap(const MapOptions& options)
 void printNotices(const OpenedMap& map)
 {
     for (const std::string& notice : map.info.notices) {
-        std::fprintf(stderr, "marsview-cli: %s: %s\n", map.info.path.c_str(), notice.c_str());
+        std::fprintf(stderr, "marsview-cli: %s\n",
+                     asOneLine(map.info.path + ": " + notice).c_str());
     }
 }
 

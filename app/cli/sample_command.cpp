@@ -5,6 +5,7 @@
 #include "app/cli/text_output.h"
 #include "core/terrain/surface_reader.h"
 
+#include <charconv>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
@@ -12,7 +13,9 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <vector>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -24,7 +27,7 @@ enum class PositionFrame { Map, LonLat, Pixel };
 struct Options {
     MapOptions map;
     PositionFrame frame = PositionFrame::Map;
-    std::vector<double> position;
+    std::pair<double, double> position;
     bool is_stdin = false;
     bool is_json = false;
 };
@@ -126,7 +129,20 @@ private:
     bool is_json_;
 };
 
-// Two numbers, apart by blanks, a comma or a semicolon.
+std::optional<double> parseNumber(std::string_view word)
+{
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+    }
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (failure != std::errc{} || end != word.data() + word.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+// Two numbers, apart by blanks, a comma or a semicolon; "nan" is a number.
 std::optional<Position> parsePosition(std::string line)
 {
     for (char& c : line) {
@@ -135,13 +151,15 @@ std::optional<Position> parsePosition(std::string line)
         }
     }
     std::istringstream words(line);
-    words.imbue(std::locale::classic());
-    Position position;
+    std::string first;
+    std::string second;
     std::string rest;
-    if (!(words >> position.first >> position.second) || words >> rest) {
+    if (!(words >> first >> second) || words >> rest) {
         return std::nullopt;
     }
-    return position;
+    const auto x = parseNumber(first);
+    const auto y = parseNumber(second);
+    return x && y ? std::optional<Position>({*x, *y}) : std::nullopt;
 }
 
 Status sampleStdin(Sampler& sampler)
@@ -153,6 +171,10 @@ Status sampleStdin(Sampler& sampler)
         }
         const std::optional<Position> position = parsePosition(line);
         if (!position) {
+            constexpr std::size_t kQuotedMax = 60;
+            if (line.size() > kQuotedMax) {
+                line = line.substr(0, kQuotedMax) + "…";
+            }
             return Error{
                 ErrorCode::Invalid,
                 fmt::format("--stdin: line {} is \"{}\"; two numbers are needed", number, line)};
@@ -179,8 +201,9 @@ Status runSample(const Options& options)
                         options.map.path)};
     }
     Sampler sampler(*map, options);
-    Status status = options.is_stdin ? sampleStdin(sampler)
-                                     : sampler.print({options.position[0], options.position[1]});
+    Status status = options.is_stdin
+                        ? sampleStdin(sampler)
+                        : sampler.print({options.position.first, options.position.second});
     if (status) {
         printNotices(*map);
     }
@@ -211,7 +234,6 @@ void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
             frames->add_flag_callback(entry.name, set_frame, entry.help);
         } else {
             frames->add_option(entry.name, options->position, entry.help)
-                ->expected(2)
                 ->type_name(entry.metavar)
                 ->each([set_frame](const std::string&) { set_frame(); });
         }

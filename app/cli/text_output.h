@@ -13,6 +13,9 @@ std::string asText(double value);
 /// The same number for JSON, which knows no NaN: null instead.
 nlohmann::ordered_json asJson(double value);
 
+/// The text with spaces for line breaks and other control characters, which file names may hold.
+std::string asOneLine(std::string text);
+
 /// Writes the text and a newline to stdout.
 void printLine(const std::string& text);
 

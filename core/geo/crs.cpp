@@ -156,6 +156,8 @@ struct Crs::Impl {
     std::string unit_name;
     AxisLayout axes;
     std::optional<double> turn;
+    double south_pole_y = -std::numeric_limits<double>::infinity(); // where x is periodic
+    double north_pole_y = std::numeric_limits<double>::infinity();
     std::optional<VerticalUnit> vertical_unit;
     std::string vertical_datum_name;
     std::vector<std::string> notices;
@@ -226,6 +228,12 @@ struct Crs::Impl {
 // equations.
 std::optional<MapPoint> Crs::Impl::inverse(MapPoint map) const
 {
+    // Labels round their scale, which puts the edge of a global map a little beyond the pole.
+    constexpr double kBeyondPoleShareMax = 1e-4;
+    const double pole_y = std::clamp(map.y, south_pole_y, north_pole_y);
+    if (std::abs(map.y - pole_y) <= kBeyondPoleShareMax * std::abs(pole_y)) {
+        map.y = pole_y;
+    }
     std::optional<MapPoint> best = transform(*to_base, map.x, map.y);
     if (!best) {
         return std::nullopt;
@@ -344,6 +352,10 @@ Status Crs::Impl::readHorizontal()
         const char* local_unit = nullptr;
         unit = srs.GetLinearUnits(&local_unit);
         unit_name = local_unit != nullptr ? local_unit : "metre";
+        notices.push_back(
+            fmt::format("CRS \"{}\" belongs to no body, its coordinates are taken as "
+                        "lengths; tell another one to get longitude and latitude",
+                        name));
         return Done{};
     }
     if (srs.IsGeographic() != 0 && srs.IsDerivedGeographic() == 0) {
@@ -440,6 +452,13 @@ Result<Crs> Crs::fromSpatialReference(const OGRSpatialReference& reference)
         const auto quarter = impl->transform(*impl->from_base, meridian + 90.0, 0.0);
         if (origin && quarter) {
             impl->turn = 4.0 * std::abs(quarter->x - origin->x);
+        }
+        const double right_angle = std::numbers::pi / 2.0 / impl->base_unit_rad;
+        const auto north = impl->transform(*impl->from_base, meridian, right_angle);
+        const auto south = impl->transform(*impl->from_base, meridian, -right_angle);
+        if (north && south) {
+            impl->north_pole_y = std::max(north->y, south->y);
+            impl->south_pole_y = std::min(north->y, south->y);
         }
     }
     return Crs(std::move(impl));

@@ -36,14 +36,14 @@ MetresPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
             north * crs->unit() * crs->northSign()};
 }
 
-// The way from a sample to the map or to longitude and latitude and back rounds by up to 1e-10
-// sample. Nobody means to be outside by so little.
-constexpr double kEdgeSlack = 1e-9;
+// The way from a sample to the map or to longitude and latitude and back rounds by up to 3e-10
+// sample. Nobody means to be outside, or beside a void, by so little.
+constexpr double kRounding = 1e-9;
 
-double ontoEdge(double position, double last)
+double withoutRounding(double position)
 {
-    const double inside = std::clamp(position, 0.0, last);
-    return std::abs(position - inside) <= kEdgeSlack ? inside : position;
+    const double nearest = std::round(position);
+    return std::abs(position - nearest) <= kRounding ? nearest : position;
 }
 
 } // namespace
@@ -84,8 +84,7 @@ Georeference::Georeference(std::size_t columns,
 GridPoint Georeference::toGrid(MapPoint map) const noexcept
 {
     const GridPoint grid = transform_.toGrid(map);
-    return {ontoEdge(grid.column, static_cast<double>(columns_ - 1)),
-            ontoEdge(grid.row, static_cast<double>(rows_ - 1))};
+    return {withoutRounding(grid.column), withoutRounding(grid.row)};
 }
 
 std::optional<GeographicPoint> Georeference::toGeographic(GridPoint grid) const

@@ -29,7 +29,8 @@ public:
     const Body* body() const noexcept { return crs_ ? crs_->body() : nullptr; }
 
     MapPoint toMap(GridPoint grid) const noexcept { return transform_.toMap(grid); }
-    /// Positions outside the outermost samples by no more than rounding (1e-9 sample) are on them.
+    /// Coordinates no further from a whole number than rounding (1e-9 sample) are that number, so
+    /// that the place of a sample is neither outside nor in the void beside it.
     GridPoint toGrid(MapPoint map) const noexcept;
 
     /// Where longitude is periodic along x (geographic systems, cylindrical projections), it runs

@@ -11,7 +11,7 @@ namespace {
 
 // Enough for a row of 256² int16 tiles across 100 000 columns; GDAL's default, 5 % of the memory,
 // would hold whole maps twice.
-constexpr GIntBig kBlockCacheBytes = GIntBig{64} << 20;
+constexpr GIntBig kBlockCacheBytes = GIntBig{32} << 20;
 
 // GDAL's texts end in full stops and may run over several lines.
 std::string asOneLine(const char* text)

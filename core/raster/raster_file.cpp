@@ -1,6 +1,7 @@
 #include "core/raster/raster_file.h"
 
 #include "core/raster/gdal_runtime.h"
+#include "core/raster/netcdf_extent.h"
 #include "core/raster/pds3_placement.h"
 #include "core/raster/raster_path.h"
 
@@ -25,6 +26,9 @@ constexpr std::uint64_t kSamplesMax = std::uint64_t{1} << 40;
 // Samples are read in bands of whole rows of about this size: large enough that the call costs
 // nothing, small enough that progress and cancel feel immediate.
 constexpr std::size_t kBandBytes = std::size_t{8} << 20;
+
+// A row of blocks larger than this is read in parts, though its blocks are then decoded again.
+constexpr std::size_t kBandBytesMax = std::size_t{64} << 20;
 
 struct DatasetCloser {
     void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
@@ -169,6 +173,9 @@ void readVertical(GDALDataset& dataset,
     const double offset = band.GetOffset(&has_offset);
     if (has_scale != 0 && std::isfinite(scale) && scale != 0.0) {
         info.scale = scale;
+    } else if (has_scale != 0) {
+        info.notices.push_back(
+            fmt::format("a scale of {} makes no heights; 1 is used instead", scale));
     }
     if (has_offset != 0 && std::isfinite(offset)) {
         info.offset = offset;
@@ -265,11 +272,28 @@ void readNodata(GDALRasterBand& band, RasterInfo& info)
     info.has_mask_band = (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
 }
 
+struct NetcdfExtent {
+    std::string path;
+    std::int64_t bytes = 0;
+};
+
+std::optional<NetcdfExtent> netcdfExtentOf(GDALDataset& dataset, const std::string& driver)
+{
+    const CPLStringList files(driver == "netCDF" ? dataset.GetFileList() : nullptr);
+    if (files.Count() == 0) {
+        return std::nullopt;
+    }
+    const auto bytes = classicNetcdfBytes(files[0]);
+    return bytes ? std::optional<NetcdfExtent>({files[0], static_cast<std::int64_t>(*bytes)})
+                 : std::nullopt;
+}
+
 } // namespace
 
 struct RasterFile::Impl {
     Dataset dataset;
     GDALRasterBand* band = nullptr;
+    std::optional<NetcdfExtent> netcdf; // for classic netCDF files
     RasterInfo info;
 
     Status readRows(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const;
@@ -354,6 +378,7 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     }
     const GdalMessages messages;
     const nlohmann::json pds3 = jsonDomain(dataset, "json:PDS");
+    impl->netcdf = netcdfExtentOf(dataset, info.driver);
     readNodata(*impl->band, info);
     readPlacement(dataset, pds3, info);
     readVertical(dataset, *impl->band, pds3, info);
@@ -397,13 +422,17 @@ std::size_t RasterFile::Impl::rowsPerBand() const
     const std::size_t wanted = std::max<std::size_t>(1, kBandBytes / row_bytes);
     // Whole rows of blocks, so that no block is decoded twice.
     const std::size_t block = std::max<std::size_t>(1, static_cast<std::size_t>(block_rows));
-    const std::size_t rows = std::max<std::size_t>(1, wanted / block) * block;
+    std::size_t rows = std::max<std::size_t>(1, wanted / block) * block;
+    if (rows * row_bytes > kBandBytesMax) {
+        rows = std::max<std::size_t>(1, kBandBytesMax / row_bytes);
+    }
     return std::min(rows, info.rows);
 }
 
 Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWindow& window) const
 {
-    return readFailure(messages.firstFailure("GDAL gave no reason"), window);
+    return readFailure(messages.firstFailure("the file is cut short or damaged; fetch it again"),
+                       window);
 }
 
 Error RasterFile::Impl::readFailure(const std::string& why, const GridWindow& window) const
@@ -416,8 +445,18 @@ Error RasterFile::Impl::readFailure(const std::string& why, const GridWindow& wi
 // GDAL reads what lies beyond the end of raw data as zeros, in some of its paths without a word.
 Status RasterFile::Impl::checkExtent(const GridWindow& window) const
 {
-    GDALDataset::RawBinaryLayout layout;
+    const auto cut_short = [&](std::int64_t present, std::int64_t promised) {
+        return readFailure(fmt::format("it is cut short, {} of the {} bytes that its header "
+                                       "promises are there; fetch it again",
+                                       present, promised),
+                           window);
+    };
     VSIStatBufL status{};
+    if (netcdf && VSIStatL(netcdf->path.c_str(), &status) == 0 &&
+        static_cast<std::int64_t>(status.st_size) < netcdf->bytes) {
+        return cut_short(static_cast<std::int64_t>(status.st_size), netcdf->bytes);
+    }
+    GDALDataset::RawBinaryLayout layout;
     if (!dataset->GetRawBinaryLayout(layout) ||
         VSIStatL(layout.osRawFilename.c_str(), &status) != 0) {
         return Done{};
@@ -432,10 +471,7 @@ Status RasterFile::Impl::checkExtent(const GridWindow& window) const
     };
     const auto bytes = static_cast<std::int64_t>(status.st_size);
     if (std::max(end_of_row(window.row), end_of_row(window.row + window.rows - 1)) > bytes) {
-        return readFailure(fmt::format("it is cut short, {} of the {} bytes that its header "
-                                       "promises are there; fetch it again",
-                                       bytes, std::max(end_of_row(0), end_of_row(info.rows - 1))),
-                           window);
+        return cut_short(bytes, std::max(end_of_row(0), end_of_row(info.rows - 1)));
     }
     return Done{};
 }

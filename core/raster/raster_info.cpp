@@ -193,7 +193,12 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
                                      "such as Mars, Moon, Earth, Vesta or Titan",
                                      *overrides.body)};
         }
-        if (body == nullptr) {
+        constexpr double kFactorMax = 1.3; // small bodies are irregular
+        const auto suits = [](const Body& candidate, const Ellipsoid& e) {
+            const double ratio = e.equatorial_m / candidate.ellipsoid.equatorial_m;
+            return ratio < kFactorMax && ratio > 1.0 / kFactorMax;
+        };
+        if (!overrides.body && (body == nullptr || !suits(*body, *overrides.ellipsoid))) {
             body = bodyOfRadius(overrides.ellipsoid->equatorial_m);
         }
         const Ellipsoid ellipsoid = overrides.ellipsoid ? *overrides.ellipsoid : body->ellipsoid;

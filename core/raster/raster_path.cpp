@@ -25,9 +25,6 @@ constexpr std::array<std::string_view, 2> kLabelExtensions{".lbl", ".xml"};
 constexpr std::array<std::string_view, 7> kDataExtensions{".dem", ".flt", ".bil", ".bip",
                                                           ".bsq", ".img", ".dat"};
 
-// Archives larger than this are not searched for their only raster.
-constexpr int kArchiveEntriesMax = 64;
-
 std::string lowerCase(std::string text)
 {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -62,7 +59,7 @@ void appendSiblings(const fs::path& path,
 void appendArchiveEntries(const std::string& path, std::vector<std::string>& names)
 {
     const std::string archive = "/vsizip/" + path;
-    const CPLStringList entries(VSIReadDirEx(archive.c_str(), kArchiveEntriesMax));
+    const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
     for (int i = 0; i < entries.Count(); ++i) {
         names.push_back(archive + "/" + entries[i]);
     }

@@ -115,12 +115,15 @@ int main(int argc, char** argv)
         {"BM_ReadAll/float64_deflate_tiles/2048", synthetic<double>(folder, "d.tif", kSide, tiled)},
     };
     for (const auto& [name, path] : inputs) {
-        benchmark::RegisterBenchmark(name, BM_ReadAll, path)->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark(name, BM_ReadAll, path)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
     }
     const auto moon = test::sharedData() / "derived" / "moon_gld100_64ppd_crop_8192x4096.tif";
     if (std::filesystem::exists(moon)) {
         benchmark::RegisterBenchmark("BM_ReadAll/moon_crop/8192x4096", BM_ReadAll, moon.string())
-            ->Unit(benchmark::kMillisecond);
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
     } else {
         std::fprintf(stderr, "the crop of the Moon is not at %s; left out\n", moon.c_str());
     }

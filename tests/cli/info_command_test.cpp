@@ -74,6 +74,32 @@ TEST(InfoCommand, AgreesWithGdalinfoOnEveryReadableFile)
     }
 }
 
+TEST(InfoCommand, PlacesTheCornersOfPds3MapsWhereTheLabelsDo)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    for (const char* label : {"mars_mola/megt90n000cb.lbl", "moon_lola/LDEM_4.LBL"}) {
+        SCOPED_TRACE(label);
+        const nlohmann::json corners = cliInfo((sharedData() / label).string())["corners_lonlat"];
+        constexpr double kRoundedScaleDeg = 0.002; // the labels write MAP_SCALE with five digits
+        EXPECT_THAT(corners["upper_left"].get<std::vector<double>>(),
+                    ElementsAre(DoubleNear(0.0, kRoundedScaleDeg), DoubleNear(90.0, 1e-9)));
+        EXPECT_THAT(corners["lower_right"].get<std::vector<double>>(),
+                    ElementsAre(DoubleNear(360.0, kRoundedScaleDeg), DoubleNear(-90.0, 1e-9)));
+    }
+}
+
+TEST(InfoCommand, RefusesNetcdfThatIsCutShort)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const TempFolder folder;
+    const std::string whole = readFile(sharedData() / "etopo/etopo60.cdf");
+    const std::string half = folder.write("half.nc", whole.substr(0, whole.size() / 2));
+    const ProgramOutput output = runCli({"info", half});
+    EXPECT_EQ(output.exit_status, 1);
+    EXPECT_NE(output.err.find("cut short"), std::string::npos) << output.err;
+    EXPECT_EQ(runCli({"info", folder.write("whole.nc", whole)}).exit_status, 0);
+}
+
 TEST(InfoCommand, TellsFeetFromMetres)
 {
     const TempFolder folder;

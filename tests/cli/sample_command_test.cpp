@@ -120,6 +120,30 @@ TEST(SampleCommand, NamesTheLineOfStandardInputThatItCannotRead)
     EXPECT_NE(output.err.find("line 2"), std::string::npos) << output.err;
 }
 
+TEST(SampleCommand, FindsEverySampleAtItsPlaceOnTheMapAlsoBesideVoids)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const std::string path = (sharedData() / "derived/W100N40_etopo5.DEM").string();
+    std::string places;
+    std::string pixels;
+    for (int row = 0; row < 600; row += 3) {
+        for (int column = 0; column < 480; column += 7) {
+            pixels += fmt::format("{} {}\n", column, row);
+            places += fmt::format("{} {}\n", -100.0416666666665 + (column + 0.5) * 0.083333333333,
+                                  40.0416666666665 - (row + 0.5) * 0.083333333333);
+        }
+    }
+    EXPECT_EQ(runCli({"sample", path, "--map", "--stdin"}, places).out,
+              runCli({"sample", path, "--pixel", "--stdin"}, pixels).out);
+}
+
+TEST(SampleCommand, TakesThePositionBeforeTheMapToo)
+{
+    EXPECT_EQ(runCli({"sample", "--pixel", "3", "4", mars()}).out,
+              runCli({"sample", mars(), "--pixel", "3", "4"}).out);
+    EXPECT_EQ(runCli({"sample", mars(), "--pixel", "--stdin"}, "nan 1\n3 4\n").exit_status, 0);
+}
+
 TEST(SampleCommand, ReadsTheColoradoMapInFeetWhenTold)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
