@@ -3,6 +3,7 @@
 #include "core/view/navigation.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -18,8 +19,9 @@ double eased(double t)
 
 } // namespace
 
-Navigator::Navigator(QObject* parent)
+Navigator::Navigator(CameraBound bound, QObject* parent)
     : QObject(parent)
+    , bound_(std::move(bound))
 {
     timer_.setTimerType(Qt::PreciseTimer);
     timer_.setInterval(kFrame);
@@ -29,15 +31,15 @@ Navigator::Navigator(QObject* parent)
 void Navigator::jumpTo(const OrbitCamera& camera)
 {
     timer_.stop();
-    camera_ = camera;
-    goal_ = camera;
+    camera_ = bound_(camera);
+    goal_ = camera_;
     Q_EMIT cameraChanged(camera_);
 }
 
 void Navigator::moveTo(const OrbitCamera& goal, std::chrono::milliseconds duration)
 {
     start_ = camera_;
-    goal_ = goal;
+    goal_ = bound_(goal);
     duration_ = duration;
     clock_.start();
     timer_.start();
@@ -52,10 +54,11 @@ void Navigator::stop()
 void Navigator::advance()
 {
     const double t = static_cast<double>(clock_.elapsed()) / static_cast<double>(duration_.count());
+    // Between two cameras that are allowed there may be a mountain.
+    camera_ = bound_(interpolated(start_, goal_, eased(std::min(t, 1.0))));
     if (t >= 1.0) {
-        timer_.stop();
+        stop();
     }
-    camera_ = interpolated(start_, goal_, eased(std::min(t, 1.0)));
     Q_EMIT cameraChanged(camera_);
 }
 

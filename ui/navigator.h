@@ -8,15 +8,20 @@
 #include <QTimer>
 
 #include <chrono>
+#include <functional>
 
 namespace marsview {
 
-/// Holds the camera and moves it towards a goal. Its timer runs only while it moves.
+/// The nearest camera that is allowed; a camera that is allowed it leaves alone.
+using CameraBound = std::function<OrbitCamera(const OrbitCamera&)>;
+
+/// Holds the camera and moves it towards a goal, within bounds all the way. Its timer runs only
+/// while it moves.
 class Navigator final : public QObject {
     Q_OBJECT
 
 public:
-    explicit Navigator(QObject* parent = nullptr);
+    explicit Navigator(CameraBound bound, QObject* parent = nullptr);
 
     const OrbitCamera& camera() const noexcept { return camera_; }
     /// Where the camera will be when it has come to rest.
@@ -34,6 +39,7 @@ Q_SIGNALS:
 private:
     void advance();
 
+    CameraBound bound_;
     OrbitCamera camera_;
     OrbitCamera start_;
     OrbitCamera goal_;

@@ -72,6 +72,7 @@ bool isSameFrame(const SceneFrame& a, const SceneFrame& b)
 
 TerrainView::TerrainView(QWidget* parent)
     : QOpenGLWidget(parent)
+    , navigator_([this](const OrbitCamera& camera) { return bounded(camera); })
     , empty_hint_(new QLabel(this))
 {
     style_.ramp = &defaultColorRamp({});
@@ -123,7 +124,7 @@ void TerrainView::setMap(const LoadedMap& map)
 
 void TerrainView::setCamera(const OrbitCamera& camera)
 {
-    navigator_.jumpTo(bounded(camera));
+    navigator_.jumpTo(camera);
 }
 
 void TerrainView::setExaggeration(double exaggeration)
@@ -135,7 +136,7 @@ void TerrainView::setExaggeration(double exaggeration)
     // A motion that is under way ends where it would have ended.
     const OrbitCamera goal = map_ ? onGround(navigator_.goal()) : navigator_.goal();
     style_.exaggeration = exaggeration;
-    navigator_.jumpTo(bounded(reexaggerated(goal, before, exaggeration)));
+    navigator_.jumpTo(reexaggerated(goal, before, exaggeration));
     Q_EMIT exaggerationChanged(exaggeration);
 }
 
@@ -162,6 +163,7 @@ void TerrainView::step(NavigationStep step)
         camera = zoomed(camera, kKeyZoomFactor, camera.target, limits());
         break;
     case NavigationStep::ZoomOut:
+        camera = beforeZoom(1.0 / kKeyZoomFactor);
         camera = zoomed(camera, 1.0 / kKeyZoomFactor, camera.target, limits());
         break;
     case NavigationStep::TurnLeft:
@@ -177,13 +179,13 @@ void TerrainView::step(NavigationStep step)
         camera = orbited(camera, {}, -kKeyTilt);
         break;
     }
-    navigator_.moveTo(bounded(camera), kKeyDuration);
+    navigator_.moveTo(camera, kKeyDuration);
 }
 
 void TerrainView::goHome()
 {
     if (map_) {
-        navigator_.moveTo(bounded(homeCamera(box(), viewport())), kFlyDuration);
+        navigator_.moveTo(homeCamera(box(), viewport()), kFlyDuration);
     }
 }
 
@@ -192,7 +194,7 @@ void TerrainView::turnNorthUp()
     if (map_) {
         OrbitCamera camera = onGround(navigator_.goal());
         camera.azimuth = {};
-        navigator_.moveTo(bounded(camera), kFlyDuration);
+        navigator_.moveTo(camera, kFlyDuration);
     }
 }
 
@@ -295,8 +297,8 @@ void TerrainView::showPendingMap()
             const HeightRange& range = map_.draw_data->range;
             style_.exaggeration =
                 defaultExaggeration(box().extent_m(), range.maximum_m - range.minimum_m);
-            navigator_.jumpTo(bounded(openingCamera(map_.dataset->georeference())
-                                          .value_or(homeCamera(box(), viewport()))));
+            navigator_.jumpTo(openingCamera(map_.dataset->georeference())
+                                  .value_or(homeCamera(box(), viewport())));
         }
     }
     QMetaObject::invokeMethod(
@@ -324,7 +326,7 @@ void TerrainView::mousePressEvent(QMouseEvent* event)
     navigator_.stop();
     drag_action_ = dragActionFor(*event);
     drag_position_ = event->position();
-    grabbed_z_m_ = anchorAt(drag_position_).z;
+    grabbed_z_m_ = anchorAt(drag_position_, navigator_.camera()).z;
     if (drag_action_ == DragAction::Orbit) {
         navigator_.jumpTo(onGround(navigator_.camera()));
     }
@@ -369,7 +371,7 @@ void TerrainView::mouseDoubleClickEvent(QMouseEvent* event)
     goal.target = map_.dataset->georeference().sceneFrame().toScene(
         hit->grid, hit->height_m * style_.exaggeration);
     goal.distance_m *= kFlyFactor;
-    navigator_.moveTo(bounded(goal), kFlyDuration);
+    navigator_.moveTo(goal, kFlyDuration);
 }
 
 void TerrainView::wheelEvent(QWheelEvent* event)
@@ -380,9 +382,9 @@ void TerrainView::wheelEvent(QWheelEvent* event)
     }
     const bool is_fine = (event->modifiers() & Qt::ControlModifier) != 0;
     const double factor = std::pow(is_fine ? kWheelFactorFine : kWheelFactor, notches);
-    const ScenePoint anchor = anchorAt(event->position());
-    const OrbitCamera goal = zoomed(onGround(navigator_.goal()), factor, anchor, limits());
-    navigator_.moveTo(bounded(goal), kWheelDuration);
+    const OrbitCamera goal = beforeZoom(factor);
+    const ScenePoint anchor = anchorAt(event->position(), goal);
+    navigator_.moveTo(zoomed(goal, factor, anchor, limits()), kWheelDuration);
     event->accept();
 }
 
@@ -410,9 +412,15 @@ PixelPoint TerrainView::pixelAt(QPointF position) const
 double TerrainView::groundAt(double east_m, double north_m) const
 {
     const Dataset& dataset = *map_.dataset;
-    return dataset.heightfield().height(
-               dataset.georeference().sceneFrame().toGrid({east_m, north_m, 0.0})) *
-           style_.exaggeration;
+    GridPoint grid = dataset.georeference().sceneFrame().toGrid({east_m, north_m, 0.0});
+    // The edge of the map is ground too, whatever rounding makes of it.
+    const auto on_edge = [](double place, std::size_t count) {
+        const double nearest = std::clamp(place, 0.0, static_cast<double>(count - 1));
+        return std::abs(nearest - place) < 1e-6 ? nearest : place;
+    };
+    grid = {on_edge(grid.column, dataset.heightfield().columns()),
+            on_edge(grid.row, dataset.heightfield().rows())};
+    return dataset.heightfield().height(grid) * style_.exaggeration;
 }
 
 SceneBox TerrainView::box() const
@@ -452,16 +460,22 @@ OrbitCamera TerrainView::onGround(const OrbitCamera& camera) const
     return retargeted(camera, hit->t);
 }
 
-// The scene point under a position: on the surface, or else level with the target.
-ScenePoint TerrainView::anchorAt(QPointF position) const
+// Zooming in goes by the distance to the ground in the middle of the picture. Zooming out goes by
+// the distance there is: it has to grow each time, also where the eye backs into a ridge and has
+// another ground in front of it then.
+OrbitCamera TerrainView::beforeZoom(double factor) const
 {
-    const OrbitCamera& camera = navigator_.camera();
+    return factor < 1.0 ? onGround(navigator_.goal()) : navigator_.goal();
+}
+
+// The scene point under a position: on the surface, or else where `camera` finds one beside it.
+ScenePoint TerrainView::anchorAt(QPointF position, const OrbitCamera& camera) const
+{
     if (const auto hit = surfaceAt(position)) {
         return map_.dataset->georeference().sceneFrame().toScene(
             hit->grid, hit->height_m * style_.exaggeration);
     }
-    return pointOnLevel(pickRay(camera, viewport(), pixelAt(position)), camera.target.z,
-                        2.0 * camera.distance_m);
+    return anchorBesideMap(camera, pickRay(navigator_.camera(), viewport(), pixelAt(position)));
 }
 
 void TerrainView::reportPointer()

@@ -101,7 +101,8 @@ private:
     NavigationLimits limits() const;
     OrbitCamera bounded(const OrbitCamera& camera) const;
     OrbitCamera onGround(const OrbitCamera& camera) const;
-    ScenePoint anchorAt(QPointF position) const;
+    OrbitCamera beforeZoom(double factor) const;
+    ScenePoint anchorAt(QPointF position, const OrbitCamera& camera) const;
     void reportPointer();
 
     std::unique_ptr<TerrainRenderer> renderer_;

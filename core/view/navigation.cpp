@@ -13,6 +13,13 @@ constexpr Angle kTiltMax = Angle::degrees(85.0);
 // that the ground in front of it is not cut open.
 constexpr double kClearanceShare = 1.0 / 50.0;
 
+// Where the ground under a target in the air appears at the lowest, between the middle of the
+// picture (0) and its lower edge (1).
+constexpr double kGroundLowest = 0.75;
+
+// Beside the map, a zoom holds what is at most this many camera distances away.
+constexpr double kAnchorReach = 2.0;
+
 constexpr double kPixelsNearest = 2.0;
 constexpr double kDiagonalsFarthest = 4.0;
 
@@ -24,6 +31,107 @@ constexpr double kHomeMargin = 1.04;
 Angle wrapped(Angle azimuth)
 {
     return Angle::radians(std::remainder(azimuth.radians(), 2.0 * std::numbers::pi));
+}
+
+// How far the target may hang over the ground under it with that ground still well inside the
+// picture. Without bound where the view is so steep that it always is.
+double hangMax(const OrbitCamera& camera)
+{
+    const double slope = kGroundLowest * std::tan(camera.field_of_view.radians() / 2.0);
+    const double fall = std::sin(camera.tilt.radians()) - slope * std::cos(camera.tilt.radians());
+    return fall > 0.0 ? camera.distance_m * slope / fall : HUGE_VAL;
+}
+
+// How much too low the eye is. Negative where it is high enough or over no ground.
+double clearanceMissing(const OrbitCamera& camera, const GroundQuery& ground)
+{
+    const ScenePoint eye = eyeOf(camera);
+    const double ground_z = ground(eye.x, eye.y);
+    return std::isfinite(ground_z) ? ground_z + kClearanceShare * camera.distance_m - eye.z : -1.0;
+}
+
+// The tilt nearest below the camera's at which the eye is clear of the ground: found by steps, as
+// the ground may rise and fall under the eye, then by bisection, so that it changes smoothly. With
+// the target on the ground or above it, the eye is clear at 0, straight above the target.
+Angle clearTilt(OrbitCamera camera, const GroundQuery& ground)
+{
+    constexpr int kSteps = 32;
+    constexpr int kBisections = 24;
+    const Angle tilt = camera.tilt;
+    const auto is_clear = [&](double share) {
+        camera.tilt = tilt * share;
+        return clearanceMissing(camera, ground) <= 0.0;
+    };
+    int step = kSteps - 1;
+    while (step > 0 && !is_clear(static_cast<double>(step) / kSteps)) {
+        --step;
+    }
+    double clear = static_cast<double>(step) / kSteps;
+    double blocked = static_cast<double>(step + 1) / kSteps;
+    for (int i = 0; i < kBisections; ++i) {
+        const double middle = (clear + blocked) / 2.0;
+        (is_clear(middle) ? clear : blocked) = middle;
+    }
+    return tilt * clear;
+}
+
+// The first point at which `accepts` says yes on rings around `centre`, from `radius_min_m` on.
+// They grow by a quarter, so the point is nearly the nearest.
+template <typename Accepts>
+std::optional<ScenePoint> findAround(const ScenePoint& centre,
+                                     double radius_min_m,
+                                     double radius_max_m,
+                                     const Accepts& accepts)
+{
+    constexpr int kDirections = 16;
+    for (double radius_m = radius_min_m; radius_m <= radius_max_m; radius_m *= 1.25) {
+        for (int i = 0; i < kDirections; ++i) {
+            const double heading = 2.0 * std::numbers::pi * i / kDirections;
+            const ScenePoint p =
+                centre + Vec3{std::sin(heading), std::cos(heading), 0.0} * radius_m;
+            if (accepts(p)) {
+                return p;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+// Whether there is ground in the picture, near the target, though none under it.
+bool seesGround(const OrbitCamera& camera, double radius_min_m, const GroundQuery& ground)
+{
+    constexpr Viewport kNarrow{1, 2}; // as good as any window, and wide ones show more
+    const auto is_seen = [&](const ScenePoint& p) {
+        const double ground_z = ground(p.x, p.y);
+        if (!std::isfinite(ground_z)) {
+            return false;
+        }
+        const auto pixel = project(camera, kNarrow, {p.x, p.y, ground_z});
+        return pixel && pixel->x > 0.05 && pixel->x < 0.95 && pixel->y > 0.1 && pixel->y < 1.9;
+    };
+    return findAround(camera.target, radius_min_m, 0.5 * camera.distance_m, is_seen).has_value();
+}
+
+// The target not so high that the ground under it leaves the picture, and the eye clear of the
+// ground. The eye rises with the target as far as that allows. The rest it has to rise over the
+// target, or else the picture would end up with nothing but sky in it.
+OrbitCamera cleared(OrbitCamera camera, const SceneBox& box, const GroundQuery& ground)
+{
+    const double ground_z = ground(camera.target.x, camera.target.y);
+    double highest = box.maximum.z;
+    if (std::isfinite(ground_z)) {
+        highest = std::clamp(highest, ground_z, ground_z + hangMax(camera));
+    }
+    camera.target.z = std::min(camera.target.z, highest);
+    const double missing = clearanceMissing(camera, ground);
+    if (missing > 0.0) {
+        // The surplus makes good what rounding takes away.
+        camera.target.z = std::min(camera.target.z + missing + 1e-6 * camera.distance_m, highest);
+        if (clearanceMissing(camera, ground) > 0.0) {
+            camera.tilt = clearTilt(camera, ground);
+        }
+    }
+    return camera;
 }
 
 // How far back along the view axis, and where across it, the eye has to be so that all points lie
@@ -70,13 +178,20 @@ constrained(OrbitCamera camera, const NavigationLimits& limits, const GroundQuer
     camera.distance_m = std::clamp(camera.distance_m, limits.distance_min_m, limits.distance_max_m);
     camera.tilt = std::clamp(camera.tilt, Angle{}, kTiltMax);
     camera.azimuth = wrapped(camera.azimuth);
-    const ScenePoint eye = eyeOf(camera);
-    const double ground_z = ground ? ground(eye.x, eye.y) : std::nan("");
-    if (std::isfinite(ground_z)) {
-        const double lowest = ground_z + kClearanceShare * camera.distance_m;
-        camera.target.z += std::max(0.0, lowest - eye.z);
+    if (!ground) {
+        return camera;
     }
-    return camera;
+    const double radius_min_m = limits.distance_min_m / 4.0; // half a pixel
+    const OrbitCamera found = cleared(camera, box, ground);
+    const auto has_ground = [&](const ScenePoint& p) { return std::isfinite(ground(p.x, p.y)); };
+    if (has_ground(found.target) || seesGround(found, radius_min_m, ground)) {
+        return found;
+    }
+    // In the middle of a hole, or beside a slanted map: back to the nearest ground.
+    const auto nearest =
+        findAround(camera.target, radius_min_m, 1.25 * box.diagonal_m(), has_ground);
+    camera.target = nearest.value_or(camera.target);
+    return cleared(camera, box, ground);
 }
 
 OrbitCamera orbited(OrbitCamera camera, Angle azimuth_change, Angle tilt_change)
@@ -94,6 +209,13 @@ zoomed(OrbitCamera camera, double factor, const ScenePoint& anchor, const Naviga
     camera.target = anchor + (camera.target - anchor) * (distance_m / camera.distance_m);
     camera.distance_m = distance_m;
     return camera;
+}
+
+ScenePoint anchorBesideMap(const OrbitCamera& camera, const Ray& ray)
+{
+    return ray.direction.z < 0.0
+               ? pointOnLevel(ray, camera.target.z, kAnchorReach * camera.distance_m)
+               : camera.target;
 }
 
 OrbitCamera dragged(OrbitCamera camera, const Viewport& viewport, const Drag& drag)

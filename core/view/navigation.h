@@ -27,6 +27,9 @@ NavigationLimits navigationLimits(const SceneBox& box, double pixel_m);
 
 /// The camera within bounds: target inside the box, distance within the limits, tilt in [0, 85°],
 /// azimuth in [-180°, 180°], and the eye at least 1/50 of its distance above the ground under it.
+/// Some ground is in the picture: under the target, which is not so high over it that it would
+/// leave the picture at the bottom, or near by. An eye that is too low rises with the target only
+/// so far, then by less tilt; a target far from any ground goes to the nearest.
 OrbitCamera
 constrained(OrbitCamera camera, const NavigationLimits& limits, const GroundQuery& ground);
 
@@ -37,6 +40,11 @@ OrbitCamera orbited(OrbitCamera camera, Angle azimuth_change, Angle tilt_change)
 /// factor gives way to the limits of distance.
 OrbitCamera
 zoomed(OrbitCamera camera, double factor, const ScenePoint& anchor, const NavigationLimits& limits);
+
+/// What a zoom holds in its place where the ray through the pointer hits nothing: what is level
+/// with the target, at most two camera distances away, or the target where the ray does not go
+/// down. To shrink the picture towards a point of the sky would press the eye into the ground.
+ScenePoint anchorBesideMap(const OrbitCamera& camera, const Ray& ray);
 
 /// A drag over the picture.
 struct Drag {

@@ -1,4 +1,5 @@
 #include "core/view/navigation.h"
+#include "tests/support/shared_data.h"
 #include "tests/ui/test_map.h"
 #include "ui/terrain_view.h"
 
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -119,6 +121,95 @@ TEST_F(TerrainViewTest, ZoomsToThePointerWithTheWheel)
     wheel(pointer, 120, Qt::ControlModifier);
     ASSERT_TRUE(rest());
     EXPECT_GT(view().camera().distance_m, 0.85 * after) << "Ctrl is fine";
+}
+
+TEST_F(TerrainViewTest, RisesFromTheGroundWhenZoomedOutOverTheSky)
+{
+    OrbitCamera low = view().camera();
+    low.distance_m = 200.0;
+    low.azimuth = Angle::degrees(90.0); // away from the hill
+    low.tilt = Angle::degrees(85.0);
+    view().setCamera(low);
+    const QPointF sky(view().width() * 0.7, 20.0);
+    double distance_m = view().camera().distance_m;
+    double eye_z = eyeOf(view().camera()).z;
+    for (int i = 0; i < 8; ++i) {
+        ASSERT_FALSE(view().surfaceAt(sky));
+        wheel(sky, -120);
+        ASSERT_TRUE(rest());
+        distance_m /= 0.8;
+        ASSERT_NEAR(view().camera().distance_m, distance_m, 1e-6 * distance_m);
+        EXPECT_GT(eyeOf(view().camera()).z, eye_z);
+        eye_z = eyeOf(view().camera()).z;
+    }
+    wheel(sky, -120 * 40);
+    ASSERT_TRUE(rest());
+    EXPECT_GT(view().camera().distance_m, 6000.0);
+    EXPECT_GT(eyeOf(view().camera()).z, 500.0);
+}
+
+// From the slopes of Mount St Helens, stretched high, the view went out over the map's edge.
+TEST_F(TerrainViewTest, NeverShowsOnlySky)
+{
+    ASSERT_TRUE(openAndWait(
+        *window_,
+        QString::fromStdString((test::bundledSamples() / "mount_st_helens_30m.tif").string())));
+    view().setExaggeration(10.0);
+    const Heightfield& heights = view().map().dataset->heightfield();
+    const double last_column = static_cast<double>(heights.columns() - 1);
+    const double last_row = static_cast<double>(heights.rows() - 1);
+    const auto is_ground_seen = [this] {
+        bool is_seen = false;
+        for (double y = 0.05; y < 1.0; y += 0.05) {
+            is_seen = is_seen || view().surfaceAt({view().width() * 0.5, view().height() * y});
+        }
+        return is_seen;
+    };
+    for (const auto& [grid, azimuth] : {std::pair{GridPoint{last_column / 2.0, 0.0}, 0.0},
+                                        std::pair{GridPoint{last_column, last_row / 2.0}, 90.0},
+                                        std::pair{GridPoint{last_column / 3.0, last_row}, 180.0},
+                                        std::pair{GridPoint{0.0, last_row / 3.0}, -90.0}}) {
+        OrbitCamera camera = view().camera();
+        camera.target = view().map().dataset->georeference().sceneFrame().toScene(
+            grid, 10.0 * heights.range()->maximum_m);
+        camera.distance_m = 3000.0;
+        camera.azimuth = Angle::degrees(azimuth);
+        camera.tilt = Angle::degrees(85.0);
+        view().setCamera(camera);
+        EXPECT_TRUE(is_ground_seen()) << "looking towards " << azimuth;
+        view().step(NavigationStep::ZoomIn);
+        ASSERT_TRUE(rest());
+        EXPECT_TRUE(is_ground_seen()) << "nearer, looking towards " << azimuth;
+    }
+}
+
+// The straight way from one side of a ridge to the other leads through it.
+TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
+{
+    const QString wall = maps_.write(QStringLiteral("wall.asc"), {}, [](int column, int /*row*/) {
+        return column > 27 && column < 33 ? 400.0 : 0.0;
+    });
+    ASSERT_TRUE(openAndWait(*window_, wall));
+    view().setExaggeration(1.0);
+    const Dataset& dataset = *view().map().dataset;
+    const SceneFrame& frame = dataset.georeference().sceneFrame();
+    int frames_over_wall = 0;
+    QObject::connect(&view(), &TerrainView::pointerMoved, &view(), [&] {
+        const ScenePoint eye = eyeOf(view().camera());
+        const double ground_m = dataset.heightfield().height(frame.toGrid(eye));
+        if (std::isfinite(ground_m)) {
+            EXPECT_GT(eye.z, ground_m);
+            frames_over_wall += ground_m > 300.0 ? 1 : 0;
+        }
+    });
+    // The turn takes the eye around the target from north by west to south: twice over the wall.
+    view().setCamera({.target = frame.toScene({38.0, 20.0}, 0.0),
+                      .distance_m = 500.0,
+                      .azimuth = Angle::degrees(170.0),
+                      .tilt = Angle::degrees(70.0)});
+    view().turnNorthUp();
+    ASSERT_TRUE(rest());
+    EXPECT_GT(frames_over_wall, 0);
 }
 
 TEST_F(TerrainViewTest, FliesToWhereItIsDoubleClicked)

@@ -66,6 +66,39 @@ TEST(Zoomed, StopsAtTheLimits)
     EXPECT_EQ(zoomed(camera, 1e12, camera.target, limits).distance_m, limits.distance_max_m);
 }
 
+TEST(Zoomed, OutOverTheSkyMultipliesTheDistance)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    OrbitCamera camera =
+        constrained({.target = {0.0, 4e4, 0.0}, .distance_m = 500.0, .tilt = Angle::degrees(85.0)},
+                    limits, flatGround);
+    double distance_m = camera.distance_m;
+    for (int i = 0; i < 60; ++i) {
+        const Ray ray = pickRay(camera, kViewport, {700.0, 20.0});
+        ASSERT_GT(ray.direction.z, 0.0);
+        camera = constrained(zoomed(camera, 1.25, anchorBesideMap(camera, ray), limits), limits,
+                             flatGround);
+        distance_m = std::min(distance_m * 1.25, limits.distance_max_m);
+        ASSERT_NEAR(camera.distance_m, distance_m, 1e-9 * distance_m);
+        ASSERT_NEAR(eyeOf(camera).z, distance_m * std::cos(camera.tilt.radians()),
+                    1e-9 * distance_m);
+    }
+    EXPECT_EQ(camera.distance_m, limits.distance_max_m);
+    EXPECT_NEAR(camera.tilt.degrees(), 85.0, 1e-9);
+}
+
+TEST(AnchorBesideMap, IsLevelWithTheTarget)
+{
+    const OrbitCamera camera = someCamera();
+    const PixelPoint pixel{700.0, 400.0};
+    const ScenePoint anchor = anchorBesideMap(camera, pickRay(camera, kViewport, pixel));
+    EXPECT_NEAR(anchor.z, camera.target.z, 1e-6);
+    const auto seen = project(camera, kViewport, anchor);
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->x, pixel.x, 1e-6);
+    EXPECT_NEAR(seen->y, pixel.y, 1e-6);
+}
+
 TEST(Interpolated, KeepsTheAnchorOfAZoomAllTheWay)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
@@ -178,6 +211,39 @@ TEST(Constrained, KeepsTheEyeAboveTheGround)
             EXPECT_GT(eye.z, hill(eye.x, eye.y));
         }
     }
+}
+
+// A target in the air over the map's edge, seen along the horizon, had only sky around it.
+TEST(Constrained, KeepsTheGroundUnderTheTargetInThePicture)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    for (double tilt = 0.0; tilt <= 85.0; tilt += 5.0) {
+        for (const double z : {0.0, 1e3, 6e3}) {
+            const OrbitCamera camera = constrained({.target = {0.0, kBox.maximum.y, z},
+                                                    .distance_m = 2e3,
+                                                    .tilt = Angle::degrees(tilt)},
+                                                   limits, flatGround);
+            const auto pixel = project(camera, kViewport, {camera.target.x, camera.target.y, 0.0});
+            ASSERT_TRUE(pixel);
+            EXPECT_LE(pixel->y, 0.875 * kViewport.height + 1e-6);
+            EXPECT_NEAR(camera.tilt.degrees(), tilt, 1e-9);
+        }
+    }
+}
+
+TEST(Constrained, TiltsLessBehindARidge)
+{
+    const NavigationLimits limits = navigationLimits(kBox, 30.0);
+    const auto ridge = [](double /*east_m*/, double north_m) {
+        return 5e3 * std::exp(-north_m * north_m / 1e6);
+    };
+    const OrbitCamera camera =
+        constrained({.target = {0.0, 4e3, 0.0}, .distance_m = 4e3, .tilt = Angle::degrees(85.0)},
+                    limits, ridge);
+    const ScenePoint eye = eyeOf(camera);
+    EXPECT_LT(camera.tilt.degrees(), 84.0);
+    EXPECT_NEAR(eye.z, ridge(eye.x, eye.y) + camera.distance_m / 50.0, 1.0);
+    EXPECT_EQ(constrained(camera, limits, ridge), camera) << "what is allowed is left alone";
 }
 
 TEST(Constrained, AsksNothingOfHolesInTheGround)
