@@ -106,7 +106,8 @@ TEST(Interpolated, KeepsTheAnchorOfAZoomAllTheWay)
     const OrbitCamera before = someCamera();
     const OrbitCamera after = zoomed(before, 0.2, anchor, limits);
     const auto pixel = project(before, kViewport, anchor);
-    for (double t = 0.0; t <= 1.0; t += 0.125) {
+    for (int eighth = 0; eighth <= 8; ++eighth) {
+        const double t = eighth / 8.0;
         const auto between = project(interpolated(before, after, t), kViewport, anchor);
         ASSERT_TRUE(pixel && between);
         EXPECT_NEAR(between->x, pixel->x, 1e-6);
@@ -200,7 +201,8 @@ TEST(Constrained, KeepsTheEyeAboveTheGround)
     const auto hill = [](double east_m, double north_m) {
         return 5e3 * std::exp(-(east_m * east_m + north_m * north_m) / 1e8);
     };
-    for (double azimuth = -180.0; azimuth < 180.0; azimuth += 15.0) {
+    for (int heading = -180; heading < 180; heading += 15) {
+        const double azimuth = heading;
         for (const double distance_m : {100.0, 1e3, 1e4, 1e5}) {
             const OrbitCamera camera = constrained({.target = {0.0, 0.0, -2e3},
                                                     .distance_m = distance_m,
