@@ -57,6 +57,16 @@ QLabel* makeFact(QWidget* parent)
     return label;
 }
 
+// Scrolls what is too tall; what is too wide wraps.
+QScrollArea* makeScrollArea(QWidget* parent)
+{
+    auto* scroll = new QScrollArea(parent);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    return scroll;
+}
+
 // Text that is none of the numbers asked for.
 struct NotANumber {
     QString text;
@@ -92,10 +102,7 @@ GeoreferencingPanel::GeoreferencingPanel(QWidget* parent)
 
 QWidget* GeoreferencingPanel::makeFactsPage()
 {
-    auto* scroll = new QScrollArea(pages_);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    QScrollArea* scroll = makeScrollArea(pages_);
     auto* content = new QWidget(scroll);
     auto* layout = new QVBoxLayout(content);
     facts_ = new QFormLayout;
@@ -120,10 +127,7 @@ QWidget* GeoreferencingPanel::makeFactsPage()
 
 QWidget* GeoreferencingPanel::makeFieldsPage()
 {
-    auto* scroll = new QScrollArea(pages_);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    QScrollArea* scroll = makeScrollArea(pages_);
     auto* content = new QWidget(scroll);
     auto* layout = new QVBoxLayout(content);
     auto* hint = makeFact(content);

@@ -155,7 +155,12 @@ int main(int argc, char** argv)
                 throw CLI::ValidationError("--screenshot", "the name of the picture is empty");
             }
         } catch (const CLI::ParseError& e) {
-            return parser.exit(e) == 0 ? 0 : kUsage;
+            if (e.get_exit_code() == 0) {
+                return parser.exit(e); // help or version
+            }
+            std::fprintf(stderr, "marsview: %s\nRun marsview --help for what it understands.\n",
+                         e.what());
+            return kUsage;
         }
         const std::unique_ptr<QApplication> application = makeApplication(argc, argv);
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));
