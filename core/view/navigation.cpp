@@ -84,7 +84,8 @@ std::optional<ScenePoint> findAround(const ScenePoint& centre,
                                      const Accepts& accepts)
 {
     constexpr int kDirections = 16;
-    for (double radius_m = radius_min_m; radius_m <= radius_max_m; radius_m *= 1.25) {
+    double radius_m = radius_min_m;
+    while (radius_m <= radius_max_m) {
         for (int i = 0; i < kDirections; ++i) {
             const double heading = 2.0 * std::numbers::pi * i / kDirections;
             const ScenePoint p =
@@ -93,6 +94,7 @@ std::optional<ScenePoint> findAround(const ScenePoint& centre,
                 return p;
             }
         }
+        radius_m *= 1.25;
     }
     return std::nullopt;
 }
