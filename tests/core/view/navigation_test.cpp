@@ -219,7 +219,8 @@ TEST(Constrained, KeepsTheEyeAboveTheGround)
 TEST(Constrained, KeepsTheGroundUnderTheTargetInThePicture)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
-    for (double tilt = 0.0; tilt <= 85.0; tilt += 5.0) {
+    for (int degrees = 0; degrees <= 85; degrees += 5) {
+        const double tilt = degrees;
         for (const double z : {0.0, 1e3, 6e3}) {
             const OrbitCamera camera = constrained({.target = {0.0, kBox.maximum.y, z},
                                                     .distance_m = 2e3,

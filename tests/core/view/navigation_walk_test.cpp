@@ -200,9 +200,10 @@ private:
     // Pixels find cells that are larger than the picture, samples find what pixels miss.
     bool isSurfaceSeen() const
     {
-        for (double y = 5.0; y < kViewport.height; y += 10.0) {
-            for (double x = 5.0; x < kViewport.width; x += 10.0) {
-                if (cast(pickRay(camera_, kViewport, {x, y}))) {
+        for (int y = 5; y < kViewport.height; y += 10) {
+            for (int x = 5; x < kViewport.width; x += 10) {
+                if (cast(pickRay(camera_, kViewport,
+                                 {static_cast<double>(x), static_cast<double>(y)}))) {
                     return true;
                 }
             }
