@@ -12,6 +12,7 @@ namespace marsview {
 using CommandAction = std::function<Status()>;
 
 void addInfoCommand(CLI::App& app, CommandAction& run);
+void addRenderCommand(CLI::App& app, CommandAction& run);
 /// `has_stdin` tells beforehand whether `--stdin` is among the arguments: the position options then
 /// stand without numbers.
 void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin);

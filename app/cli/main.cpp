@@ -25,6 +25,7 @@ int run(int argc, char** argv)
     marsview::CommandAction action;
     marsview::addInfoCommand(app, action);
     marsview::addSampleCommand(app, action, has_stdin);
+    marsview::addRenderCommand(app, action);
     for (CLI::App* command : app.get_subcommands({})) {
         command->set_version_flag("--version", MARSVIEW_VERSION);
     }

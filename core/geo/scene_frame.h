@@ -14,6 +14,7 @@ struct SceneFrame {
     double east_per_row = 0.0;
     double north_per_column = 0.0;
     double north_per_row = -1.0;
+    constexpr bool operator==(const SceneFrame&) const = default;
 
     constexpr ScenePoint toScene(GridPoint grid, double scene_height_m) const noexcept
     {

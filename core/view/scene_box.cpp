@@ -14,6 +14,14 @@ std::array<ScenePoint, 8> SceneBox::corners() const noexcept
     return all;
 }
 
+SceneBox united(const SceneBox& a, const SceneBox& b) noexcept
+{
+    return {{std::min(a.minimum.x, b.minimum.x), std::min(a.minimum.y, b.minimum.y),
+             std::min(a.minimum.z, b.minimum.z)},
+            {std::max(a.maximum.x, b.maximum.x), std::max(a.maximum.y, b.maximum.y),
+             std::max(a.maximum.z, b.maximum.z)}};
+}
+
 SceneBox sceneBox(const SceneFrame& frame,
                   std::size_t columns,
                   std::size_t rows,

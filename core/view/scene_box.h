@@ -29,6 +29,9 @@ struct SceneBox {
     std::array<ScenePoint, 8> corners() const noexcept;
 };
 
+/// The smallest box around both.
+SceneBox united(const SceneBox& a, const SceneBox& b) noexcept;
+
 /// The box around the outermost samples of a grid of columns × rows, rotated rasters included.
 SceneBox sceneBox(const SceneFrame& frame,
                   std::size_t columns,

@@ -1,127 +1,64 @@
-// The map is drawn as square patches of kPatchCells cells over the overview grid. All patches share
-// one vertex and one index buffer; heights come from a texture. Positions are relative to the eye:
-// the offset of a patch is formed in double, only what is within the patch in float.
-//
-// Colour comes per pixel from the relief map, which is finer than the triangles, and so do holes.
+// Nodes (core/view/detail_selection.h) are drawn as instances of one square of 32 × 32 cells, whose
+// heights come from the height atlas and whose shading comes from the relief cache. Positions are
+// relative to a sample near the eye, so that floats suffice.
 
 #include "ui/render/terrain_renderer.h"
 
-#include "ui/render/gl_program.h"
+#include "core/base/check.h"
+#include "core/view/exaggeration.h"
+#include "core/view/scene_box.h"
+#include "ui/render/cover_texture.h"
+#include "ui/render/frame_target.h"
+#include "ui/render/gl_objects.h"
+#include "ui/render/height_atlas.h"
+#include "ui/render/relief_cache.h"
+#include "ui/render/terrain_shaders.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <limits>
-#include <vector>
+#include <optional>
+#include <span>
+#include <unordered_set>
+#include <utility>
 
 namespace marsview {
 namespace {
 
-constexpr int kPatchCells = 64;
-constexpr int kPatchSide = kPatchCells + 1;
-static_assert(kPatchSide * kPatchSide <= 65536, "indices are 16 bits wide");
+constexpr int kCells = static_cast<int>(DetailErrors::kNodeCells);
+constexpr int kSide = kCells + 1;
 
-// How much of a relief map is sent per draw: about 10 ms of copying, so that the window stays
-// responsive while a new map arrives.
-constexpr std::size_t kUploadBytes = std::size_t{24} << 20;
+// A texture's slope of 1 is this many times the slope that the default exaggeration makes steep.
+// 16 bits then resolve 5e-4 of that, which no light shows.
+constexpr double kSlopeReach = 16.0;
 
-// In software (Mesa llvmpipe, 2 cores) 160 000 triangles keep turning a map fluent; a GPU hardly
-// notices a million. Finer relief than the triangles' comes from the relief map in any case.
-constexpr std::size_t kTrianglesInSoftware = 160'000;
-constexpr std::size_t kTrianglesOnGpu = 1'000'000;
+// How many tiles are sent to the driver per frame: a millisecond each in software.
+constexpr std::size_t kUploadsPerFrame = 8;
 
-constexpr const char* kTerrainVertex = R"(#version 330 core
-layout(location = 0) in vec2 a_cell;
-uniform sampler2D u_heights;
-uniform ivec2 u_first_vertex;
-uniform ivec2 u_last_vertex;
-uniform vec2 u_last_sample;
-uniform float u_step;
-uniform vec3 u_origin_from_eye;
-uniform vec4 u_frame; // east per column, east per row, north per column, north per row
-uniform float u_exaggeration;
-uniform mat4 u_clip_from_eye;
-out vec2 v_grid;
-void main()
-{
-    ivec2 vertex = min(u_first_vertex + ivec2(a_cell), u_last_vertex);
-    v_grid = min(vec2(vertex) * u_step, u_last_sample);
-    vec2 local = v_grid - vec2(u_first_vertex) * u_step;
-    float height = texelFetch(u_heights, vertex, 0).r;
-    vec3 offset = vec3(dot(u_frame.xy, local), dot(u_frame.zw, local), height * u_exaggeration);
-    gl_Position = u_clip_from_eye * vec4(u_origin_from_eye + offset, 1.0);
-}
-)";
+// What is held at the driver's. In software it is the processor's memory: a window of 1280 × 800
+// shows some 60 tiles of 0.4 MB and some 500 nodes of 4 kB; a GPU has more pixels to fill.
+struct StoreSizes {
+    std::size_t relief_tiles;
+    std::size_t atlas_columns;
+    std::size_t atlas_rows;
+};
+constexpr StoreSizes kStoresInSoftware{192, 64, 32};
+constexpr StoreSizes kStoresOnGpu{512, 64, 64};
 
-constexpr const char* kTerrainFragment = R"(#version 330 core
-in vec2 v_grid;
-uniform sampler2D u_relief;
-uniform sampler2D u_ramp;
-uniform vec2 u_relief_scale; // texture coordinate of one sample
-uniform bool u_has_voids;
-uniform bool u_has_every_sample;
-uniform vec2 u_tint; // share of the ramp = height's share of the range × x + y
-uniform vec3 u_light;
-uniform float u_stretch; // exaggeration over that of the relief map
-out vec4 color;
+// Relief tiles in a picture, of those in store, so that the next picture's find room.
+constexpr double kReliefShareMax = 0.75;
 
-// The triangles between samples, as core/terrain/triangulation.h cuts them.
-bool isInHole(vec2 grid)
-{
-    ivec2 cell = clamp(ivec2(floor(grid)), ivec2(0), textureSize(u_relief, 0) - 2);
-    vec2 f = grid - vec2(cell);
-    float third = f.x >= f.y ? texelFetch(u_relief, cell + ivec2(1, 0), 0).a
-                             : texelFetch(u_relief, cell + ivec2(0, 1), 0).a;
-    return min(third, min(texelFetch(u_relief, cell, 0).a,
-                          texelFetch(u_relief, cell + ivec2(1, 1), 0).a)) < 0.5;
-}
-
-void main()
-{
-    vec2 samples_per_pixel = fwidth(v_grid);
-    vec4 relief = texture(u_relief, (v_grid + 0.5) * u_relief_scale);
-    if (u_has_voids) {
-        bool is_exact =
-            u_has_every_sample && max(samples_per_pixel.x, samples_per_pixel.y) <= 1.0;
-        if (relief.a == 0.0 || (is_exact ? isInHole(v_grid) : relief.a < 0.5)) {
-            discard;
-        }
-        relief.rgb /= relief.a;
-    }
-    vec2 tilt = relief.rg * 2.0 - 1.0;
-    float upright = sqrt(max(1.0 - dot(tilt, tilt), 1e-5));
-    vec3 normal = normalize(vec3(tilt * u_stretch, upright));
-    float shade = 0.28 + 0.84 * max(dot(normal, u_light), 0.0);
-    // The middles of the first and the last of the ramp's 256 colours.
-    float share = clamp(relief.b * u_tint.x + u_tint.y, 0.0, 1.0);
-    vec3 tint = texture(u_ramp, vec2(share * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
-    color = vec4(tint * shade, 1.0);
-}
-)";
-
-constexpr const char* kSkyVertex = R"(#version 330 core
-out float v_up;
-void main()
-{
-    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-    v_up = p.y * 0.5 + 0.5;
-    gl_Position = vec4(p, 0.0, 1.0);
-}
-)";
-
-constexpr const char* kSkyFragment = R"(#version 330 core
-in float v_up;
-uniform vec3 u_top;
-uniform vec3 u_bottom;
-out vec4 color;
-void main()
-{
-    color = vec4(mix(u_bottom, u_top, v_up), 1.0);
-}
-)";
+// An instance, as the shader takes it (TerrainAttribute).
+struct NodeInstance {
+    std::array<float, 3> place;
+    std::array<float, 4> slot;
+    std::array<float, 4> relief;
+    std::array<float, 2> uncle;
+    CornerRanges parent;
+    CornerRanges grandparent;
+};
 
 struct Color3 {
     float red;
@@ -135,200 +72,147 @@ Color3 asFloats(Rgb8 color)
             static_cast<float>(color.blue) / 255.0F};
 }
 
-class Texture {
-public:
-    Texture() { glGenTextures(1, &id_); }
-    ~Texture() { glDeleteTextures(1, &id_); }
-    Texture(const Texture&) = delete;
-    Texture& operator=(const Texture&) = delete;
+// A map with what drawing it needs.
+struct Layer {
+    TerrainLayer source;
+    std::uint32_t number = 0; // never used twice
+    DrawnSurface surface;
+    DetailSelector selector;
+    double slope_max = 1.0;
+    GlTexture ramp;
+    CoverTexture cover;
 
-    void bind(GLenum unit) const
+    Layer(const TerrainLayer& layer, std::uint32_t layer_number)
+        : source(layer)
+        , number(layer_number)
+        , surface(*source.heightfield, source.analysis->means)
+        , selector(source.analysis,
+                   source.heightfield->columns(),
+                   source.heightfield->rows(),
+                   source.frame)
+        , cover(*source.heightfield, source.analysis->means)
     {
-        glActiveTexture(unit);
-        glBindTexture(GL_TEXTURE_2D, id_);
+        const HeightRange range = source.heightfield->range().value_or(HeightRange{});
+        slope_max = kSlopeReach /
+                    defaultExaggeration(box(1.0).extent_m(), range.maximum_m - range.minimum_m);
+        sendRamp();
     }
-    static void setFilters(GLint minify, GLint magnify)
+
+    SceneBox box(double exaggeration) const
     {
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magnify);
+        const Heightfield& heightfield = *source.heightfield;
+        return sceneBox(source.frame, heightfield.columns(), heightfield.rows(),
+                        heightfield.range().value_or(HeightRange{}), exaggeration);
+    }
+    bool hasVoids() const { return source.heightfield->samples().hasVoids(); }
+
+    void sendRamp() const
+    {
+        const auto colors = sampledRamp(*source.ramp);
+        static_assert(sizeof(Rgb8) == 3);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D, ramp.id());
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, static_cast<GLsizei>(colors.size()), 1, 0, GL_RGB,
+                     GL_UNSIGNED_BYTE, colors.data());
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
-
-private:
-    GLuint id_ = 0;
 };
 
-// A square of overview cells, and the heights within, relative to the overview's base.
-struct Patch {
-    int first_column = 0;
-    int first_row = 0;
-    float minimum_m = 0.0F;
-    float maximum_m = 0.0F;
-};
-
-std::vector<Patch> patchesOf(const OverviewGrid& grid)
+// How many different reliefs a selection wears.
+std::size_t reliefCount(const DetailSelection& selection)
 {
-    std::vector<Patch> patches;
-    for (std::size_t row = 0; row + 1 < grid.rows; row += kPatchCells) {
-        for (std::size_t column = 0; column + 1 < grid.columns; column += kPatchCells) {
-            Patch patch{.first_column = static_cast<int>(column),
-                        .first_row = static_cast<int>(row),
-                        .minimum_m = std::numeric_limits<float>::infinity(),
-                        .maximum_m = -std::numeric_limits<float>::infinity()};
-            for (std::size_t r = row; r < std::min(row + kPatchSide, grid.rows); ++r) {
-                for (std::size_t c = column; c < std::min(column + kPatchSide, grid.columns); ++c) {
-                    // Written so that NaN changes nothing.
-                    const float height = grid.height(c, r);
-                    patch.minimum_m = height < patch.minimum_m ? height : patch.minimum_m;
-                    patch.maximum_m = height > patch.maximum_m ? height : patch.maximum_m;
-                }
-            }
-            if (patch.minimum_m <= patch.maximum_m) {
-                patches.push_back(patch);
-            }
-        }
+    std::unordered_set<std::size_t> seen;
+    for (const SelectedNode& selected : selection.nodes) {
+        seen.insert(LayerNodeHash{}({.layer = 0, .node = selected.relief}));
     }
-    return patches;
+    return seen.size();
 }
 
-// A map at the driver's, or on its way there.
-struct Terrain {
-    std::shared_ptr<const TerrainDrawData> data;
-    std::vector<Patch> patches;
-    Texture heights;
-    Texture relief;
-    std::size_t relief_rows_sent = 0;
-    bool is_sent = false;
+std::array<GLfloat, 16> asFloats(const Matrix4& matrix)
+{
+    std::array<GLfloat, 16> values{};
+    std::transform(matrix.values.begin(), matrix.values.end(), values.begin(),
+                   [](double v) { return static_cast<GLfloat>(v); });
+    return values;
+}
 
-    explicit Terrain(std::shared_ptr<const TerrainDrawData> draw_data)
-        : data(std::move(draw_data))
-        , patches(patchesOf(data->overview))
-    {}
-
-    void sendMore()
-    {
-        const ReliefMap& map = data->relief;
-        const auto columns = static_cast<GLsizei>(map.columns);
-        const auto rows = static_cast<GLsizei>(map.rows);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        relief.bind(GL_TEXTURE0);
-        if (relief_rows_sent == 0) {
-            glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16, columns, rows, 0, GL_RGBA, GL_UNSIGNED_SHORT,
-                         nullptr);
-            Texture::setFilters(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
-        }
-        const std::size_t row_bytes = map.columns * 4 * sizeof(std::uint16_t);
-        const std::size_t count = std::min(map.rows - relief_rows_sent,
-                                           std::max<std::size_t>(1, kUploadBytes / row_bytes));
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(relief_rows_sent), columns,
-                        static_cast<GLsizei>(count), GL_RGBA, GL_UNSIGNED_SHORT,
-                        map.texels.data() + relief_rows_sent * map.columns * 4);
-        relief_rows_sent += count;
-        if (relief_rows_sent < map.rows) {
-            return;
-        }
-        glGenerateMipmap(GL_TEXTURE_2D);
-        sendHeights();
-        is_sent = true;
-    }
-
-private:
-    void sendHeights() const
-    {
-        const OverviewGrid& grid = data->overview;
-        // Void vertices far from any height: the relief map cuts away all that hangs on them.
-        std::vector<float> finite(grid.heights_m);
-        std::replace_if(
-            finite.begin(), finite.end(), [](float h) { return std::isnan(h); }, 0.0F);
-        heights.bind(GL_TEXTURE0);
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, static_cast<GLsizei>(grid.columns),
-                     static_cast<GLsizei>(grid.rows), 0, GL_RED, GL_FLOAT, finite.data());
-        Texture::setFilters(GL_NEAREST, GL_NEAREST);
-    }
-};
-
-// The product of view and projection, and which boxes it keeps out of the picture.
-struct ClipFromEye {
-    Matrix4 matrix;
-
-    // True where all corners lie beyond the same side of the picture.
-    bool isOutside(const std::array<Vec3, 8>& corners) const
-    {
-        std::array<int, 5> beyond{};
-        for (const Vec3& p : corners) {
-            const auto row = [&](std::size_t i) {
-                return matrix(i, 0) * p.x + matrix(i, 1) * p.y + matrix(i, 2) * p.z + matrix(i, 3);
-            };
-            const double x = row(0);
-            const double y = row(1);
-            const double w = row(3);
-            beyond[0] += x < -w ? 1 : 0;
-            beyond[1] += x > w ? 1 : 0;
-            beyond[2] += y < -w ? 1 : 0;
-            beyond[3] += y > w ? 1 : 0;
-            beyond[4] += w <= 0.0 ? 1 : 0;
-        }
-        return std::any_of(beyond.begin(), beyond.end(), [](int count) { return count == 8; });
-    }
-};
+// Fraction of the height-th part of an ancestor in which a node begins.
+std::array<float, 2> placeIn(const DetailNode& node, std::size_t levels_up)
+{
+    const std::size_t parts = std::size_t{1} << levels_up;
+    return {static_cast<float>(node.column % parts) / static_cast<float>(parts),
+            static_cast<float>(node.row % parts) / static_cast<float>(parts)};
+}
 
 } // namespace
 
 struct TerrainRenderer::Impl {
-    GlProgram terrain_program;
-    GlProgram sky_program;
+    TerrainShaders shaders;
     std::string driver_name;
-    RenderLimits render_limits;
-    Texture ramp;
-    const ColorRamp* sent_ramp = nullptr;
-    GLuint patch_vertices = 0;
-    GLuint patch_indices = 0;
-    GLuint patch_array = 0;
-    GLuint empty_array = 0;
+    bool is_software = false;
+    HeightAtlas atlas;
+    ReliefCache reliefs;
+    FrameTarget frame_target;
+    std::vector<std::unique_ptr<Layer>> layers; // uppermost first
+    std::uint32_t next_layer_number = 0;
+
+    GlBuffer cell_vertices;
+    GlBuffer cell_indices;
+    GlBuffer instances;
+    GlVertexArray node_array;
+    GlVertexArray empty_array;
     GLsizei index_count = 0;
-    std::unique_ptr<Terrain> shown;
-    std::unique_ptr<Terrain> coming;
+    std::vector<NodeInstance> batch;
 
-    Impl(GlProgram terrain, GlProgram sky)
-        : terrain_program(std::move(terrain))
-        , sky_program(std::move(sky))
+    Impl(TerrainShaders compiled,
+         std::string name,
+         bool has_no_gpu,
+         const StoreSizes& stores,
+         std::function<void()> notify)
+        : shaders(std::move(compiled))
+        , driver_name(std::move(name))
+        , is_software(has_no_gpu)
+        , atlas(stores.atlas_columns, stores.atlas_rows)
+        , reliefs(stores.relief_tiles, std::move(notify))
     {
-        makePatchMesh();
-        glGenVertexArrays(1, &empty_array);
+        makeNodeMesh();
     }
-    ~Impl()
-    {
-        glDeleteVertexArrays(1, &empty_array);
-        glDeleteVertexArrays(1, &patch_array);
-        glDeleteBuffers(1, &patch_indices);
-        glDeleteBuffers(1, &patch_vertices);
-    }
-    Impl(const Impl&) = delete;
-    Impl& operator=(const Impl&) = delete;
 
-    void makePatchMesh();
-    void sendRamp(const ColorRamp& wanted);
+    void makeNodeMesh();
     void drawSky(const DrawStyle& style) const;
-    void drawTerrain(const OrbitCamera& camera, const DrawStyle& style, const Viewport& viewport);
+    DetailSelection select(Layer& layer, const DrawRequest& request, double exaggeration) const;
+    void drawLayer(std::size_t index,
+                   const DetailSelection& selection,
+                   const DrawRequest& request,
+                   const DrawStyle& style);
+    void setUniforms(const GlProgram& program,
+                     std::size_t index,
+                     const DrawRequest& request,
+                     const DrawStyle& style,
+                     GridPoint anchor) const;
+    void drawBatch();
+    ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 };
 
-void TerrainRenderer::Impl::makePatchMesh()
+void TerrainRenderer::Impl::makeNodeMesh()
 {
     std::vector<std::uint8_t> cells;
-    cells.reserve(std::size_t{2} * kPatchSide * kPatchSide);
-    for (int row = 0; row < kPatchSide; ++row) {
-        for (int column = 0; column < kPatchSide; ++column) {
+    cells.reserve(std::size_t{2} * kSide * kSide);
+    for (int row = 0; row < kSide; ++row) {
+        for (int column = 0; column < kSide; ++column) {
             cells.push_back(static_cast<std::uint8_t>(column));
             cells.push_back(static_cast<std::uint8_t>(row));
         }
     }
     std::vector<std::uint16_t> indices;
-    indices.reserve(std::size_t{6} * kPatchCells * kPatchCells);
-    for (int row = 0; row < kPatchCells; ++row) {
-        for (int column = 0; column < kPatchCells; ++column) {
-            const int upper_left = row * kPatchSide + column;
-            const int lower_left = upper_left + kPatchSide;
+    indices.reserve(std::size_t{6} * kCells * kCells);
+    for (int row = 0; row < kCells; ++row) {
+        for (int column = 0; column < kCells; ++column) {
+            const int upper_left = row * kSide + column;
+            const int lower_left = upper_left + kSide;
             for (const int index : {upper_left, lower_left + 1, upper_left + 1, // upper
                                     upper_left, lower_left, lower_left + 1}) {  // lower
                 indices.push_back(static_cast<std::uint16_t>(index));
@@ -336,139 +220,251 @@ void TerrainRenderer::Impl::makePatchMesh()
         }
     }
     index_count = static_cast<GLsizei>(indices.size());
-    glGenVertexArrays(1, &patch_array);
-    glGenBuffers(1, &patch_vertices);
-    glGenBuffers(1, &patch_indices);
-    glBindVertexArray(patch_array);
-    glBindBuffer(GL_ARRAY_BUFFER, patch_vertices);
+    glBindVertexArray(node_array.id());
+    glBindBuffer(GL_ARRAY_BUFFER, cell_vertices.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(cells.size()), cells.data(),
                  GL_STATIC_DRAW);
-    glEnableVertexAttribArray(0);
-    glVertexAttribPointer(0, 2, GL_UNSIGNED_BYTE, GL_FALSE, 2, nullptr);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, patch_indices);
+    glEnableVertexAttribArray(kCellAttribute);
+    glVertexAttribPointer(kCellAttribute, 2, GL_UNSIGNED_BYTE, GL_FALSE, 2, nullptr);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, cell_indices.id());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)), indices.data(),
                  GL_STATIC_DRAW);
+    glBindBuffer(GL_ARRAY_BUFFER, instances.id());
+    const auto attribute = [](GLuint location, GLint count, std::size_t offset) {
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(NodeInstance),
+                              reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL's way
+        glVertexAttribDivisor(location, 1);
+    };
+    attribute(kPlaceAttribute, 3, offsetof(NodeInstance, place));
+    attribute(kSlotAttribute, 4, offsetof(NodeInstance, slot));
+    attribute(kReliefAttribute, 4, offsetof(NodeInstance, relief));
+    attribute(kUncleAttribute, 2, offsetof(NodeInstance, uncle));
+    attribute(kParentAttribute, 4, offsetof(NodeInstance, parent));
+    attribute(kGrandparentAttribute, 4, offsetof(NodeInstance, grandparent));
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
-}
-
-void TerrainRenderer::Impl::sendRamp(const ColorRamp& wanted)
-{
-    if (sent_ramp == &wanted) {
-        return;
-    }
-    const auto colors = sampledRamp(wanted);
-    static_assert(sizeof(Rgb8) == 3);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    ramp.bind(GL_TEXTURE2);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, static_cast<GLsizei>(colors.size()), 1, 0, GL_RGB,
-                 GL_UNSIGNED_BYTE, colors.data());
-    Texture::setFilters(GL_LINEAR, GL_LINEAR);
-    sent_ramp = &wanted;
 }
 
 void TerrainRenderer::Impl::drawSky(const DrawStyle& style) const
 {
     const Color3 top = asFloats(style.sky_top);
     const Color3 bottom = asFloats(style.sky_bottom);
-    glDisable(GL_DEPTH_TEST);
-    glUseProgram(sky_program.id());
-    glUniform3f(sky_program.uniform("u_top"), top.red, top.green, top.blue);
-    glUniform3f(sky_program.uniform("u_bottom"), bottom.red, bottom.green, bottom.blue);
-    glBindVertexArray(empty_array);
+    glUseProgram(shaders.sky().id());
+    glUniform3f(shaders.sky().uniform("u_top"), top.red, top.green, top.blue);
+    glUniform3f(shaders.sky().uniform("u_bottom"), bottom.red, bottom.green, bottom.blue);
+    glBindVertexArray(empty_array.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void TerrainRenderer::Impl::drawTerrain(const OrbitCamera& camera,
-                                        const DrawStyle& style,
-                                        const Viewport& viewport)
+// Where a picture would need more relief than there is room for, texels become larger.
+DetailSelection
+TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double exaggeration) const
 {
-    const TerrainDrawData& data = *shown->data;
-    const SceneFrame& frame = data.frame;
-    const OverviewGrid& grid = data.overview;
-    const double step = static_cast<double>(grid.step);
-    const double last_column = static_cast<double>(data.columns - 1);
-    const double last_row = static_cast<double>(data.rows - 1);
-    const SceneBox box = sceneBox(frame, data.columns, data.rows, data.range, style.exaggeration);
-    const ClipFromEye clip{projection(camera, viewport, clipRange(camera, box)) *
-                           viewRotation(camera)};
-    const ScenePoint eye = eyeOf(camera);
-
-    sendRamp(*style.ramp);
-    shown->heights.bind(GL_TEXTURE0);
-    shown->relief.bind(GL_TEXTURE1);
-    ramp.bind(GL_TEXTURE2);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    glDisable(GL_CULL_FACE); // rasters that are mirrored or rotated turn the triangles around
-    glDisable(GL_BLEND);
-
-    const GlProgram& program = terrain_program;
-    glUseProgram(program.id());
-    glUniform1i(program.uniform("u_heights"), 0);
-    glUniform1i(program.uniform("u_relief"), 1);
-    glUniform1i(program.uniform("u_ramp"), 2);
-    std::array<GLfloat, 16> matrix{};
-    std::transform(clip.matrix.values.begin(), clip.matrix.values.end(), matrix.begin(),
-                   [](double v) { return static_cast<GLfloat>(v); });
-    glUniformMatrix4fv(program.uniform("u_clip_from_eye"), 1, GL_FALSE, matrix.data());
-    glUniform4f(program.uniform("u_frame"), static_cast<GLfloat>(frame.east_per_column),
-                static_cast<GLfloat>(frame.east_per_row),
-                static_cast<GLfloat>(frame.north_per_column),
-                static_cast<GLfloat>(frame.north_per_row));
-    glUniform1f(program.uniform("u_step"), static_cast<GLfloat>(step));
-    glUniform1f(program.uniform("u_exaggeration"), static_cast<GLfloat>(style.exaggeration));
-    glUniform2i(program.uniform("u_last_vertex"), static_cast<GLint>(grid.columns - 1),
-                static_cast<GLint>(grid.rows - 1));
-    glUniform2f(program.uniform("u_last_sample"), static_cast<GLfloat>(last_column),
-                static_cast<GLfloat>(last_row));
-    const ReliefMap& relief = data.relief;
-    glUniform2f(program.uniform("u_relief_scale"),
-                1.0F / static_cast<GLfloat>(relief.columns * relief.step),
-                1.0F / static_cast<GLfloat>(relief.rows * relief.step));
-    glUniform1f(program.uniform("u_stretch"),
-                static_cast<GLfloat>(style.exaggeration / relief.exaggeration));
-    glUniform1i(program.uniform("u_has_voids"), relief.has_voids ? 1 : 0);
-    glUniform1i(program.uniform("u_has_every_sample"), relief.step == 1 ? 1 : 0);
-    const double relief_m = data.range.maximum_m - data.range.minimum_m;
-    const double tinted_m = data.tint_range.maximum_m - data.tint_range.minimum_m;
-    const double low_m = data.tint_range.minimum_m - data.range.minimum_m;
-    // A flat map has the middle colour.
-    glUniform2f(program.uniform("u_tint"),
-                tinted_m > 0.0 ? static_cast<GLfloat>(relief_m / tinted_m) : 0.0F,
-                tinted_m > 0.0 ? static_cast<GLfloat>(-low_m / tinted_m) : 0.5F);
-    const double level = std::cos(style.light_altitude.radians());
-    glUniform3f(program.uniform("u_light"),
-                static_cast<GLfloat>(level * std::sin(style.light_azimuth.radians())),
-                static_cast<GLfloat>(level * std::cos(style.light_azimuth.radians())),
-                static_cast<GLfloat>(std::sin(style.light_altitude.radians())));
-
-    const GLint first_vertex = program.uniform("u_first_vertex");
-    const GLint origin_from_eye = program.uniform("u_origin_from_eye");
-    glBindVertexArray(patch_array);
-    for (const Patch& patch : shown->patches) {
-        const GridPoint first{patch.first_column * step, patch.first_row * step};
-        const GridPoint last{std::min(first.column + kPatchCells * step, last_column),
-                             std::min(first.row + kPatchCells * step, last_row)};
-        std::array<Vec3, 8> corners{};
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const double height =
-                static_cast<double>((i & 4U) != 0 ? patch.maximum_m : patch.minimum_m);
-            corners[i] = frame.toScene({(i & 1U) != 0 ? last.column : first.column,
-                                        (i & 2U) != 0 ? last.row : first.row},
-                                       (height + grid.base_height_m) * style.exaggeration) -
-                         eye;
+    const auto room = static_cast<std::size_t>(
+        kReliefShareMax * static_cast<double>(reliefs.size()) / static_cast<double>(layers.size()));
+    DetailTarget target = request.detail;
+    while (true) {
+        DetailSelection selection = layer.selector.select(
+            {.camera = request.camera, .viewport = request.viewport, .exaggeration = exaggeration},
+            target);
+        if (reliefCount(selection) <= room) {
+            return selection;
         }
-        if (clip.isOutside(corners)) {
-            continue;
-        }
-        const Vec3 origin = frame.toScene(first, grid.base_height_m * style.exaggeration) - eye;
-        glUniform2i(first_vertex, patch.first_column, patch.first_row);
-        glUniform3f(origin_from_eye, static_cast<GLfloat>(origin.x), static_cast<GLfloat>(origin.y),
-                    static_cast<GLfloat>(origin.z));
-        glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_SHORT, nullptr);
+        target.texel_px *= 1.4;
     }
+}
+
+void TerrainRenderer::Impl::drawLayer(std::size_t index,
+                                      const DetailSelection& selection,
+                                      const DrawRequest& request,
+                                      const DrawStyle& style)
+{
+    Layer& layer = *layers[index];
+    const Heightfield& heightfield = *layer.source.heightfield;
+    const GridPoint eye = layer.source.frame.toGrid(eyeOf(request.camera));
+    const GridPoint anchor{
+        std::clamp(std::floor(eye.column), 0.0, static_cast<double>(heightfield.columns() - 1)),
+        std::clamp(std::floor(eye.row), 0.0, static_cast<double>(heightfield.rows() - 1))};
+    const auto cover_count = static_cast<int>(std::min<std::size_t>(index, kCoversMax));
+    const GlProgram& program = shaders.terrain({.mode = style.look.mode,
+                                                .has_contours = style.look.has_contours,
+                                                .has_voids = layer.hasVoids(),
+                                                .cover_count = cover_count});
+    glUseProgram(program.id());
+    setUniforms(program, index, request, style, anchor);
+
+    const std::size_t top = layer.source.analysis->errors.levelCount() - 1;
+    const auto request_of = [&](const DetailNode& node) {
+        return ReliefRequest{.key = {.layer = layer.number, .node = node},
+                             .heightfield = layer.source.heightfield,
+                             .frame = layer.source.frame,
+                             .slope_max = layer.slope_max};
+    };
+    // The one that stands in for all others comes first.
+    reliefs.find(request_of({std::max(top, kReliefLevelMin), 0, 0}), top);
+    atlas.beginRound();
+    batch.clear();
+    for (const SelectedNode& selected : selection.nodes) {
+        const LayerNode key{.layer = layer.number, .node = selected.node};
+        std::optional<HeightAtlas::Place> slot = atlas.place(key, layer.surface);
+        if (!slot) {
+            drawBatch();
+            atlas.beginRound();
+            slot = atlas.place(key, layer.surface);
+        }
+        const auto relief = reliefs.find(request_of(selected.relief), top);
+        if (!relief) {
+            continue; // within the first frames
+        }
+        const DetailNode& node = selected.node;
+        const double step = static_cast<double>(std::size_t{1} << node.level);
+        const double first_column = static_cast<double>(node.column) * kCells * step;
+        const double first_row = static_cast<double>(node.row) * kCells * step;
+        NodeInstance instance{};
+        instance.place = {static_cast<float>(first_column - anchor.column),
+                          static_cast<float>(first_row - anchor.row), static_cast<float>(step)};
+        const auto in_parent = placeIn(node, 1);
+        instance.slot = {static_cast<float>(slot->x), static_cast<float>(slot->y), in_parent[0],
+                         in_parent[1]};
+        instance.uncle = placeIn(node, 2);
+        instance.parent = selected.parent_ranges_m;
+        instance.grandparent = selected.grandparent_ranges_m;
+        // Texture coordinates of a sample: its texel, counted from the border's first.
+        const ReliefTileId tile = reliefTileOf(relief->node);
+        const double texel = static_cast<double>(std::size_t{1} << tile.level);
+        const double side = static_cast<double>(ReliefTile::kSide);
+        const auto coordinate = [&](double sample, std::size_t tile_index) {
+            const double first = static_cast<double>(tile_index * ReliefTile::kTexels) * texel;
+            return static_cast<float>(
+                ((sample - first + 0.5) / texel + static_cast<double>(ReliefTile::kBorder)) / side);
+        };
+        // The fraction marks a texel a sample, see the shader.
+        instance.relief = {static_cast<float>(1.0 / (texel * side)),
+                           coordinate(first_column, tile.column), coordinate(first_row, tile.row),
+                           static_cast<float>(relief->slot) + (tile.level == 0 ? 0.25F : 0.0F)};
+        batch.push_back(instance);
+    }
+    drawBatch();
+}
+
+void TerrainRenderer::Impl::drawBatch()
+{
+    if (batch.empty()) {
+        return;
+    }
+    glBindVertexArray(node_array.id());
+    glBindBuffer(GL_ARRAY_BUFFER, instances.id());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(batch.size() * sizeof(NodeInstance)),
+                 batch.data(), GL_STREAM_DRAW);
+    glDrawElementsInstanced(GL_TRIANGLES, index_count, GL_UNSIGNED_SHORT, nullptr,
+                            static_cast<GLsizei>(batch.size()));
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    batch.clear();
+}
+
+void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
+                                        std::size_t index,
+                                        const DrawRequest& request,
+                                        const DrawStyle& style,
+                                        GridPoint anchor) const
+{
+    const Layer& layer = *layers[index];
+    const SceneFrame& frame = layer.source.frame;
+    const Heightfield& heightfield = *layer.source.heightfield;
+    const auto set = [&program](const char* name, auto... values) {
+        const GLint location = program.uniform(name);
+        if constexpr (sizeof...(values) == 1) {
+            glUniform1f(location, static_cast<GLfloat>(values)...);
+        } else if constexpr (sizeof...(values) == 2) {
+            glUniform2f(location, static_cast<GLfloat>(values)...);
+        } else if constexpr (sizeof...(values) == 3) {
+            glUniform3f(location, static_cast<GLfloat>(values)...);
+        } else {
+            glUniform4f(location, static_cast<GLfloat>(values)...);
+        }
+    };
+    enum Unit : GLint { Heights, Ramp, Slopes, Shares, FirstCover };
+    atlas.bind(GL_TEXTURE0 + Heights);
+    glActiveTexture(GL_TEXTURE0 + Ramp);
+    glBindTexture(GL_TEXTURE_2D, layer.ramp.id());
+    reliefs.bind(GL_TEXTURE0 + Slopes, layer.hasVoids());
+    glUniform1i(program.uniform("u_heights"), Heights);
+    glUniform1i(program.uniform("u_ramp"), Ramp);
+    glUniform1i(program.uniform("u_slopes"), Slopes);
+    glUniform1i(program.uniform("u_shares"), Shares);
+
+    const Matrix4 clip_from_eye =
+        projection(request.camera, request.viewport, clip(request.camera, style.exaggeration)) *
+        viewRotation(request.camera);
+    glUniformMatrix4fv(program.uniform("u_clip_from_eye"), 1, GL_FALSE,
+                       asFloats(clip_from_eye).data());
+    const double base_m = layer.surface.baseMetres();
+    const Vec3 anchor_from_eye =
+        frame.toScene(anchor, base_m * style.exaggeration) - eyeOf(request.camera);
+    set("u_anchor_from_eye", anchor_from_eye.x, anchor_from_eye.y, anchor_from_eye.z);
+    set("u_frame", frame.east_per_column, frame.east_per_row, frame.north_per_column,
+        frame.north_per_row);
+    set("u_exaggeration", style.exaggeration);
+    set("u_last_sample", static_cast<double>(heightfield.columns() - 1) - anchor.column,
+        static_cast<double>(heightfield.rows() - 1) - anchor.row);
+
+    const HeightRange& tinted = layer.source.tint_range;
+    const double tinted_m = tinted.maximum_m - tinted.minimum_m;
+    // A flat map has the middle colour.
+    set("u_tint", tinted_m > 0.0 ? 1.0 / tinted_m : 0.0,
+        tinted_m > 0.0 ? (base_m - tinted.minimum_m) / tinted_m : 0.5);
+    const TerrainLook& look = style.look;
+    const double level = std::cos(look.light_altitude.radians());
+    set("u_light", level * std::sin(look.light_azimuth.radians()),
+        level * std::cos(look.light_azimuth.radians()), std::sin(look.light_altitude.radians()));
+    set("u_slope_unit", layer.slope_max * style.exaggeration);
+    set("u_slope_unit_true", layer.slope_max);
+
+    const HeightRange range = heightfield.range().value_or(HeightRange{});
+    const double pixel_m = 2.0 * request.camera.distance_m *
+                           std::tan(request.camera.field_of_view.radians() / 2.0) /
+                           request.viewport.height;
+    const double interval_m = contourInterval(look, range, pixel_m);
+    if (interval_m > 0.0) {
+        // Lines are counted in fives, so a multiple of five intervals may be left out.
+        const double lines = std::fmod(base_m / interval_m, 5.0);
+        set("u_contour", 1.0 / interval_m, lines);
+    } else {
+        set("u_contour", 0.0, 0.5);
+    }
+
+    for (std::size_t i = 0; i < std::min<std::size_t>(index, kCoversMax); ++i) {
+        const Layer& cover = *layers[index - 1 - i];
+        const GLint unit = FirstCover + static_cast<GLint>(i);
+        cover.cover.bind(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        const Heightfield& above = *cover.source.heightfield;
+        const auto place = [&](GridPoint grid) {
+            const GridPoint there = cover.source.frame.toGrid(frame.toScene(grid, 0.0));
+            return GridPoint{there.column / static_cast<double>(above.columns() - 1),
+                             there.row / static_cast<double>(above.rows() - 1)};
+        };
+        const GridPoint at = place(anchor);
+        const GridPoint right = place({anchor.column + 1.0, anchor.row});
+        const GridPoint down = place({anchor.column, anchor.row + 1.0});
+        const std::string element = fmt::format("[{}]", i);
+        glUniform1i(program.uniform(("u_cover" + element).c_str()), unit);
+        set(("u_cover_linear" + element).c_str(), right.column - at.column, down.column - at.column,
+            right.row - at.row, down.row - at.row);
+        set(("u_cover_offset" + element).c_str(), at.column, at.row);
+    }
+}
+
+// All layers share one depth range, so that their depths can be compared.
+ClipRange TerrainRenderer::Impl::clip(const OrbitCamera& camera, double exaggeration) const
+{
+    SceneBox box;
+    for (const auto& layer : layers) {
+        const SceneBox more = layer->box(exaggeration);
+        box = layer == layers.front() ? more : united(box, more);
+    }
+    return clipRange(camera, box);
 }
 
 TerrainRenderer::TerrainRenderer(std::unique_ptr<Impl> impl)
@@ -477,7 +473,7 @@ TerrainRenderer::TerrainRenderer(std::unique_ptr<Impl> impl)
 
 TerrainRenderer::~TerrainRenderer() = default;
 
-Result<std::unique_ptr<TerrainRenderer>> TerrainRenderer::create()
+Result<std::unique_ptr<TerrainRenderer>> TerrainRenderer::create(std::function<void()> notify)
 {
     const int version = epoxy_gl_version();
     if (!epoxy_is_desktop_gl() || version < 33) {
@@ -487,31 +483,18 @@ Result<std::unique_ptr<TerrainRenderer>> TerrainRenderer::create()
                         "a newer driver or Mesa's software one",
                         epoxy_is_desktop_gl() ? "" : "OpenGL ES ", version / 10, version % 10)};
     }
-    Result<GlProgram> terrain = GlProgram::create(kTerrainVertex, kTerrainFragment);
-    if (!terrain) {
-        return std::move(terrain).error();
+    Result<TerrainShaders> shaders = TerrainShaders::create();
+    if (!shaders) {
+        return std::move(shaders).error();
     }
-    Result<GlProgram> sky = GlProgram::create(kSkyVertex, kSkyFragment);
-    if (!sky) {
-        return std::move(sky).error();
-    }
-    auto impl = std::make_unique<Impl>(std::move(terrain).value(), std::move(sky).value());
-    impl->driver_name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    const auto says = [&impl](const char* word) {
-        return impl->driver_name.find(word) != std::string::npos;
+    const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const auto says = [&driver](const char* word) {
+        return driver.find(word) != std::string::npos;
     };
     const bool is_software = says("llvmpipe") || says("softpipe") || says("SwiftShader");
-    GLint side = 1024;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
-    impl->render_limits = {.texture_side_max = static_cast<std::size_t>(std::max(side, 1024)),
-                           .triangle_count_max =
-                               is_software ? kTrianglesInSoftware : kTrianglesOnGpu};
-    return std::unique_ptr<TerrainRenderer>(new TerrainRenderer(std::move(impl)));
-}
-
-RenderLimits TerrainRenderer::limits() const
-{
-    return impl_->render_limits;
+    return std::unique_ptr<TerrainRenderer>(new TerrainRenderer(
+        std::make_unique<Impl>(std::move(shaders).value(), driver, is_software,
+                               is_software ? kStoresInSoftware : kStoresOnGpu, std::move(notify))));
 }
 
 const std::string& TerrainRenderer::driver() const
@@ -519,47 +502,93 @@ const std::string& TerrainRenderer::driver() const
     return impl_->driver_name;
 }
 
-void TerrainRenderer::setTerrain(std::shared_ptr<const TerrainDrawData> data)
+bool TerrainRenderer::isSoftware() const
 {
-    impl_->coming.reset();
-    if (data) {
-        impl_->coming = std::make_unique<Terrain>(std::move(data));
-    } else {
-        impl_->shown.reset();
-    }
+    return impl_->is_software;
 }
 
-bool TerrainRenderer::advance()
+void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
 {
-    if (impl_->coming) {
-        impl_->coming->sendMore();
-        if (impl_->coming->is_sent) {
-            impl_->shown = std::move(impl_->coming);
+    std::vector<std::unique_ptr<Layer>> before = std::exchange(impl_->layers, {});
+    for (const TerrainLayer& layer : layers) {
+        MARSVIEW_CHECK(layer.heightfield && layer.analysis && layer.ramp != nullptr);
+        const auto known = std::find_if(before.begin(), before.end(), [&](const auto& old) {
+            return old && old->source.heightfield == layer.heightfield &&
+                   old->source.analysis == layer.analysis && old->source.frame == layer.frame;
+        });
+        if (known == before.end()) {
+            impl_->layers.push_back(std::make_unique<Layer>(layer, impl_->next_layer_number++));
+            continue;
         }
+        const bool has_new_ramp = (*known)->source.ramp != layer.ramp;
+        (*known)->source = layer;
+        if (has_new_ramp) {
+            (*known)->sendRamp();
+        }
+        impl_->layers.push_back(std::move(*known));
     }
-    return isComplete();
 }
 
-void TerrainRenderer::draw(const OrbitCamera& camera,
-                           const DrawStyle& style,
-                           const Viewport& viewport)
+ClipRange TerrainRenderer::clip(const OrbitCamera& camera, double exaggeration) const
 {
-    MARSVIEW_CHECK(style.ramp != nullptr);
-    glViewport(0, 0, viewport.width, viewport.height);
-    glDepthMask(GL_TRUE);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    impl_->drawSky(style);
-    if (impl_->shown) {
-        impl_->drawTerrain(camera, style, viewport);
+    return impl_->clip(camera, exaggeration);
+}
+
+DrawReport
+TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsigned target)
+{
+    Impl& impl = *impl_;
+    DrawReport report;
+    impl.reliefs.beginRound(kUploadsPerFrame);
+    std::vector<DetailSelection> selections;
+    for (const auto& layer : impl.layers) {
+        selections.push_back(impl.select(*layer, request, style.exaggeration));
+        report.triangle_count += selections.back().triangle_count;
+        report.node_count += selections.back().nodes.size();
+        report.error_px = std::max(report.error_px, selections.back().error_px);
     }
+    const Viewport drawn{
+        .width = std::max(1, static_cast<int>(std::lround(request.viewport.width * request.scale))),
+        .height =
+            std::max(1, static_cast<int>(std::lround(request.viewport.height * request.scale)))};
+    const bool is_straight = request.scale == 1.0 && request.samples <= 1;
+    if (is_straight) {
+        glBindFramebuffer(GL_FRAMEBUFFER, target);
+    } else {
+        impl.frame_target.begin(drawn, request.samples);
+    }
+    glViewport(0, 0, drawn.width, drawn.height);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LEQUAL);  // the sky lies at the far end
+    glDisable(GL_CULL_FACE); // rasters that are mirrored or rotated turn the triangles around
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    for (std::size_t i = 0; i < impl.layers.size(); ++i) {
+        impl.drawLayer(i, selections[i], request, style);
+    }
+    impl.drawSky(style); // last: what the terrain hides is not drawn
     glBindVertexArray(0);
     glUseProgram(0);
     glActiveTexture(GL_TEXTURE0);
+    if (!is_straight) {
+        impl.frame_target.end(target, request.viewport);
+        glViewport(0, 0, request.viewport.width, request.viewport.height);
+    }
+    report.is_complete = impl.reliefs.endRound();
+    return report;
 }
 
-bool TerrainRenderer::isComplete() const
+DrawReport
+TerrainRenderer::drawComplete(const DrawRequest& request, const DrawStyle& style, unsigned target)
 {
-    return !impl_->coming;
+    DrawReport report = draw(request, style, target);
+    while (!report.is_complete) {
+        impl_->reliefs.wait();
+        report = draw(request, style, target);
+    }
+    return report;
 }
 
 } // namespace marsview

@@ -1,54 +1,75 @@
-// Drawing a map with OpenGL 3.3 core. No Qt: whoever has a current context may draw.
+// Drawing maps with OpenGL 3.3 core. No Qt: whoever has a current context may draw.
 #pragma once
 
-#include "core/base/angle.h"
 #include "core/base/result.h"
 #include "core/view/camera.h"
 #include "core/view/color_ramp.h"
-#include "ui/render/terrain_draw_data.h"
+#include "core/view/detail_selection.h"
+#include "core/view/terrain_look.h"
+#include "ui/render/terrain_layer.h"
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace marsview {
 
 /// How the terrain looks. Changing any of it costs nothing but the next frame.
 struct DrawStyle {
     double exaggeration = 1.0;
-    const ColorRamp* ramp = nullptr;             // never null when drawing; static data
-    Angle light_azimuth = Angle::degrees(315.0); // where the light comes from
-    Angle light_altitude = Angle::degrees(45.0);
+    TerrainLook look;
     Rgb8 sky_top{12, 15, 22};
     Rgb8 sky_bottom{34, 40, 50};
 };
 
-/// Draws one map. Every call needs the context current in which the renderer was created, the
+/// One picture: from where, how large, how fine.
+struct DrawRequest {
+    OrbitCamera camera;
+    Viewport viewport;
+    DetailTarget detail;
+    double scale = 1.0; // share of the viewport's width and height that is drawn, then enlarged
+    int samples = 1;    // a pixel
+};
+
+/// What a picture took and what it shows.
+struct DrawReport {
+    std::size_t triangle_count = 0;
+    std::size_t node_count = 0;
+    double error_px = 0.0;   // the surface is off by at most this
+    bool is_complete = true; // shading included; otherwise draw again when told
+};
+
+/// Draws maps. Every call needs the context current in which the renderer was created, the
 /// destructor included. Leaves no program, buffer or vertex array bound.
 class TerrainRenderer {
 public:
-    /// Unsupported where the context is older than OpenGL 3.3 or refuses the shaders.
-    static Result<std::unique_ptr<TerrainRenderer>> create();
+    /// Unsupported where the context is older than OpenGL 3.3 or refuses the shaders. `notify` is
+    /// called on another thread when something that was missing in the picture has come; it may be
+    /// empty.
+    static Result<std::unique_ptr<TerrainRenderer>> create(std::function<void()> notify);
 
     ~TerrainRenderer();
     TerrainRenderer(const TerrainRenderer&) = delete;
     TerrainRenderer& operator=(const TerrainRenderer&) = delete;
 
-    RenderLimits limits() const;
     /// The driver's name for itself: "llvmpipe (LLVM 15.0.6, 256 bits)".
     const std::string& driver() const;
+    /// True where the processor does the drawing.
+    bool isSoftware() const;
 
-    /// The map to draw from now on; null for none. The previous one stays in the picture until
-    /// advance() has sent this one to the driver whole.
-    void setTerrain(std::shared_ptr<const TerrainDrawData> data);
+    /// The maps to draw from now on, the uppermost first: where it has a surface, those below have
+    /// none. Layers that were there before keep what the driver has of them.
+    void setLayers(const std::vector<TerrainLayer>& layers);
 
-    /// Sends a part of what is still to be sent, a few milliseconds of work, and returns
-    /// isComplete().
-    bool advance();
-    /// True when draw() shows everything of the current terrain.
-    bool isComplete() const;
+    /// The depths between which everything is drawn.
+    ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 
-    /// Draws what has arrived into the bound frame buffer, from its lower left corner.
-    void draw(const OrbitCamera& camera, const DrawStyle& style, const Viewport& viewport);
+    /// Draws into the frame buffer object `target` with what there is.
+    DrawReport draw(const DrawRequest& request, const DrawStyle& style, unsigned target);
+    /// As above, waiting for all that is missing.
+    DrawReport drawComplete(const DrawRequest& request, const DrawStyle& style, unsigned target);
 
 private:
     struct Impl;

@@ -1,0 +1,179 @@
+// marsview-cli render: one picture of the terrain, without a window.
+
+#include "app/cli/commands.h"
+#include "app/cli/scene.h"
+#include "core/raster/picture_file.h"
+#include "ui/render/offscreen_picture.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+constexpr int kSideMax = 16384;
+
+struct Options {
+    MapOptions map;
+    std::string output;
+    std::string size = "1280x800";
+    std::vector<double> look_at;
+    std::optional<double> distance_m;
+    double azimuth_deg = 0.0;
+    std::optional<double> tilt_deg;
+    std::optional<double> exaggeration;
+    double error_px = 1.0;
+    bool is_full = false;
+    int samples = 4;
+    std::string shading = "tint";
+    std::string ramp;
+    std::vector<double> light_deg{315.0, 45.0};
+    bool has_contours = false;
+};
+
+Result<Viewport> sizeFrom(const std::string& text)
+{
+    Viewport size;
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &size.width, &size.height, &read) != 2 || // NOLINT
+        static_cast<std::size_t>(read) != text.size()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("--size: \"{}\" is no size; write it as 1280x800", text)};
+    }
+    if (size.width < 1 || size.height < 1 || size.width > kSideMax || size.height > kSideMax) {
+        return Error{ErrorCode::OutOfRange, fmt::format("--size: {} is outside 1x1 to {}x{} pixels",
+                                                        text, kSideMax, kSideMax)};
+    }
+    return size;
+}
+
+Result<OrbitCamera> cameraFrom(const Options& options,
+                               const Scene& scene,
+                               double exaggeration,
+                               const Viewport& viewport)
+{
+    OrbitCamera camera = homeCamera(scene.box(exaggeration), viewport);
+    const double home_distance_m = camera.distance_m;
+    if (options.tilt_deg) {
+        camera.tilt = Angle::degrees(*options.tilt_deg);
+    }
+    camera.azimuth = Angle::degrees(options.azimuth_deg);
+    if (!options.look_at.empty()) {
+        const Georeference& georeference = scene.map.dataset->georeference();
+        const GridPoint grid =
+            georeference.toGrid(MapPoint{options.look_at.front(), options.look_at.back()});
+        const double last_column = static_cast<double>(georeference.columns() - 1);
+        const double last_row = static_cast<double>(georeference.rows() - 1);
+        if (!(grid.column >= 0.0 && grid.column <= last_column && grid.row >= 0.0 &&
+              grid.row <= last_row)) {
+            return Error{ErrorCode::OutOfRange,
+                         fmt::format("--look-at: {},{} is not on the map", options.look_at.front(),
+                                     options.look_at.back())};
+        }
+        const double height_m = scene.map.dataset->heightfield().height(grid);
+        camera.target = georeference.sceneFrame().toScene(
+            grid, std::isnan(height_m) ? 0.0 : height_m * exaggeration);
+    }
+    camera.distance_m = options.distance_m.value_or(home_distance_m);
+    return scene.bounded(camera, exaggeration);
+}
+
+Status runRender(const Options& options)
+{
+    const Result<Viewport> viewport = sizeFrom(options.size);
+    if (!viewport) {
+        return viewport.error();
+    }
+    const ColorRamp* ramp = options.ramp.empty() ? nullptr : colorRampNamed(options.ramp);
+    Result<Scene> scene = openScene(options.map, ramp);
+    if (!scene) {
+        return std::move(scene).error();
+    }
+    const double exaggeration = options.exaggeration.value_or(scene->exaggeration);
+    const Result<OrbitCamera> camera = cameraFrom(options, *scene, exaggeration, *viewport);
+    if (!camera) {
+        return camera.error();
+    }
+    DrawStyle style;
+    style.exaggeration = exaggeration;
+    style.look.mode = options.shading == "tint"        ? ShadingMode::Tint
+                      : options.shading == "hillshade" ? ShadingMode::Hillshade
+                                                       : ShadingMode::Slope;
+    style.look.has_contours = options.has_contours;
+    style.look.light_azimuth = Angle::degrees(options.light_deg.front());
+    style.look.light_altitude = Angle::degrees(options.light_deg.back());
+    const Result<OffscreenPicture> picture = drawOffscreen(
+        *scene->renderer,
+        {.camera = *camera,
+         .viewport = *viewport,
+         .detail = {.error_px = options.error_px, .has_every_sample = options.is_full},
+         .samples = options.samples},
+        style, DepthUse::No);
+    if (!picture) {
+        return picture.error();
+    }
+    Status written = writePng(picture->colors, options.output);
+    if (written) {
+        std::fprintf(stderr, "%s: %zu triangles, off by at most %.2g pixels\n",
+                     options.output.c_str(), picture->report.triangle_count,
+                     picture->report.error_px);
+    }
+    return written;
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& app, CommandAction& run)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("render", "Draw a picture of the terrain, by default of the whole map");
+    options->map.addTo(*command);
+    command->add_option("-o,--output", options->output, "PNG file to write")->required();
+    command->add_option("--size", options->size, "width and height in pixels")
+        ->capture_default_str();
+    command->add_option("--look-at", options->look_at, "X,Y in the middle of the picture, map CRS")
+        ->delimiter(',')
+        ->expected(2);
+    command->add_option("--distance", options->distance_m, "of the eye from there, metres")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--azimuth", options->azimuth_deg,
+                        "heading of the view, degrees clockwise from north");
+    command->add_option("--tilt", options->tilt_deg, "0 looks straight down, at most 85 degrees")
+        ->check(CLI::Range(0.0, 85.0));
+    command->add_option("--exaggeration", options->exaggeration, "of heights")
+        ->check(CLI::PositiveNumber);
+    auto* error = command
+                      ->add_option("--error-px", options->error_px,
+                                   "how far off the surface may be, in pixels")
+                      ->capture_default_str()
+                      ->check(CLI::PositiveNumber);
+    command->add_flag("--full", options->is_full, "draw every sample")->excludes(error);
+    command->add_option("--samples", options->samples, "a pixel, against jagged edges")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16));
+    command->add_option("--shading", options->shading, "tint, hillshade or slope")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"tint", "hillshade", "slope"}));
+    std::vector<std::string> ramps;
+    for (const ColorRamp& known : colorRamps()) {
+        ramps.emplace_back(known.name);
+    }
+    command->add_option("--ramp", options->ramp, "colours; by default those that suit the body")
+        ->check(CLI::IsMember(ramps));
+    command
+        ->add_option("--light", options->light_deg,
+                     "azimuth,altitude where the light comes from, degrees")
+        ->delimiter(',')
+        ->expected(2)
+        ->capture_default_str();
+    command->add_flag("--contours", options->has_contours, "draw contour lines");
+    command->callback([options, &run] { run = [options] { return runRender(*options); }; });
+}
+
+} // namespace marsview

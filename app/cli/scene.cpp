@@ -1,0 +1,68 @@
+#include "app/cli/scene.h"
+
+#include "app/cli/long_job.h"
+#include "core/view/color_ramp.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace marsview {
+
+SceneBox Scene::box(double with_exaggeration) const
+{
+    const Heightfield& heightfield = map.dataset->heightfield();
+    return sceneBox(map.dataset->georeference().sceneFrame(), heightfield.columns(),
+                    heightfield.rows(), heightfield.range().value_or(HeightRange{}),
+                    with_exaggeration);
+}
+
+double Scene::ground(double east_m, double north_m, double with_exaggeration) const
+{
+    const GridPoint grid = map.dataset->georeference().sceneFrame().toGrid({east_m, north_m, 0.0});
+    return map.dataset->heightfield().height(grid) * with_exaggeration;
+}
+
+OrbitCamera Scene::bounded(const OrbitCamera& camera, double with_exaggeration) const
+{
+    const Georeference& georeference = map.dataset->georeference();
+    return constrained(
+        camera,
+        navigationLimits(box(with_exaggeration), std::min(georeference.pixelWidthMetres(),
+                                                          georeference.pixelHeightMetres())),
+        [&](double east_m, double north_m) { return ground(east_m, north_m, with_exaggeration); });
+}
+
+Result<Scene> openScene(const MapOptions& options, const ColorRamp* ramp)
+{
+    // First what fails at once.
+    Result<std::unique_ptr<EglContext>> context = EglContext::create();
+    if (!context) {
+        return std::move(context).error();
+    }
+    Result<std::unique_ptr<TerrainRenderer>> renderer = TerrainRenderer::create({});
+    if (!renderer) {
+        return std::move(renderer).error();
+    }
+    LongJob job("reading");
+    auto dataset =
+        loadDataset({.path = options.path, .band = options.band, .overrides = options.overrides()},
+                    job.monitor(), defaultMemoryBudget());
+    if (!dataset) {
+        return std::move(dataset).error();
+    }
+    Result<LoadedMap> map = prepareMap(std::move(dataset).value(), job.monitor());
+    if (!map) {
+        return std::move(map).error();
+    }
+    const Body* body = map->dataset->info().body;
+    const ColorRamp& suitable = defaultColorRamp(body != nullptr ? body->name : std::string_view{});
+    (*renderer)->setLayers({terrainLayer(*map, ramp != nullptr ? *ramp : suitable)});
+    Scene scene{.context = std::move(context).value(),
+                .renderer = std::move(renderer).value(),
+                .map = std::move(map).value(),
+                .exaggeration = 1.0};
+    scene.exaggeration = suitableExaggeration(*scene.map.dataset);
+    return scene;
+}
+
+} // namespace marsview

@@ -1,0 +1,32 @@
+// What commands that draw have in common: a map, a renderer without a window, a camera.
+#pragma once
+
+#include "app/cli/map_options.h"
+#include "core/session/loaded_map.h"
+#include "core/view/navigation.h"
+#include "ui/render/egl_context.h"
+#include "ui/render/terrain_renderer.h"
+
+#include <memory>
+
+namespace marsview {
+
+/// A map ready to be drawn on this thread.
+struct Scene {
+    std::unique_ptr<EglContext> context; // outlives the renderer
+    std::unique_ptr<TerrainRenderer> renderer;
+    LoadedMap map;
+    double exaggeration = 1.0; // that suits the map
+
+    /// The box of the map at an exaggeration.
+    SceneBox box(double with_exaggeration) const;
+    /// Height of the ground in scene metres; NaN beside the map and in voids.
+    double ground(double east_m, double north_m, double with_exaggeration) const;
+    /// The camera within the bounds of navigation, above the ground.
+    OrbitCamera bounded(const OrbitCamera& camera, double with_exaggeration) const;
+};
+
+/// Reads and analyses the map, showing progress. `ramp` is null for the one that suits the body.
+Result<Scene> openScene(const MapOptions& options, const ColorRamp* ramp);
+
+} // namespace marsview

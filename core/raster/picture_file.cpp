@@ -1,0 +1,65 @@
+#include "core/raster/picture_file.h"
+
+#include "core/base/check.h"
+#include "core/raster/gdal_runtime.h"
+
+#include <gdal_priv.h>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+namespace marsview {
+
+Status writePng(const Picture& picture, const std::string& path)
+{
+    MARSVIEW_CHECK(picture.rgb.size() == static_cast<std::size_t>(picture.width) *
+                                             static_cast<std::size_t>(picture.height) * 3);
+    ensureGdal();
+    GdalMessages messages;
+    const auto refusal = [&] {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: the picture cannot be written ({}); choose another folder",
+                                 path, messages.firstFailure("unknown reason"))};
+    };
+    GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
+    GDALDriver* png = GetGDALDriverManager()->GetDriverByName("PNG");
+    if (memory == nullptr || png == nullptr) {
+        return refusal();
+    }
+    const GDALDatasetUniquePtr source(
+        memory->Create("", picture.width, picture.height, 3, GDT_Byte, nullptr));
+    // GDAL's interface for reading and writing is one and takes no pointer to const.
+    auto* pixels = const_cast<std::uint8_t*>(picture.rgb.data()); // NOLINT
+    if (!source || source->RasterIO(GF_Write, 0, 0, picture.width, picture.height, pixels,
+                                    picture.width, picture.height, GDT_Byte, 3, nullptr, 3,
+                                    GSpacing{3} * picture.width, 1, nullptr) != CE_None) {
+        return refusal();
+    }
+    const std::string unfinished = path + ".part";
+    {
+        const GDALDatasetUniquePtr written(
+            png->CreateCopy(unfinished.c_str(), source.get(), FALSE, nullptr, nullptr, nullptr));
+        if (!written || messages.hasFailed()) {
+            return refusal();
+        }
+    }
+    std::error_code error;
+    if (messages.hasFailed()) {
+        std::filesystem::remove(unfinished, error);
+        return refusal();
+    }
+    std::filesystem::rename(unfinished, path, error);
+    if (error) {
+        std::error_code ignored;
+        std::filesystem::remove(unfinished, ignored);
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: the picture cannot be written ({}); choose another name",
+                                 path, error.message())};
+    }
+    return Done{};
+}
+
+} // namespace marsview

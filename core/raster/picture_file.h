@@ -1,0 +1,23 @@
+// Pictures and the files they are saved in.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// Width × height pixels of red, green and blue, row by row from the top.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;
+};
+
+/// Writes a PNG file, in place of one of that name only when it is whole. Unreadable where it
+/// cannot be written.
+Status writePng(const Picture& picture, const std::string& path);
+
+} // namespace marsview

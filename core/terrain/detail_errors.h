@@ -1,0 +1,87 @@
+// How far the surface drawn with fewer samples is from the surface with all of them.
+//
+// Detail comes in levels: level k takes every 2^k-th sample of every 2^k-th row, and the last
+// column and row, and cuts its cells by the same diagonal (triangulation.h). Nodes are those of
+// MinMaxPyramid: node (k, i, j) covers kNodeCells × kNodeCells cells of level k.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/terrain/drawn_surface.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace marsview {
+
+/// A node of the quadtree over the map.
+struct DetailNode {
+    std::size_t level = 0;
+    std::size_t column = 0; // counted in nodes of that level
+    std::size_t row = 0;
+    bool operator==(const DetailNode&) const = default;
+};
+
+/// The measured errors, node by node. Immutable; any thread. Takes 1/128 of a byte a sample.
+class DetailErrors {
+public:
+    static constexpr std::size_t kNodeCells = 32;
+
+    /// No sample is further off than kPeak times the error of its node.
+    static constexpr float kPeak = 4.0F;
+
+    /// How much a corner's error grows at least from one level to the next. See cornerErrors.
+    static constexpr float kGrowth = 1.5F;
+
+    /// Compares every sample with every level, on all cores. Only Cancelled can go wrong.
+    static Result<DetailErrors> build(const DrawnSurface& surface, JobMonitor& monitor);
+
+    std::size_t levelCount() const noexcept { return levels_.size(); }
+    std::size_t columns(std::size_t level) const noexcept { return levels_[level].columns; }
+    std::size_t rows(std::size_t level) const noexcept { return levels_[level].rows; }
+
+    /// The largest vertical distance in metres, over the samples in the node that are not void,
+    /// between the sample and the surface drawn at the node's level; at most 1e-6 of the map's
+    /// range is rounding. 0 at level 0.
+    float nodeError(const DetailNode& node) const noexcept
+    {
+        const Level& l = levels_[node.level];
+        return l.errors_m[node.row * l.columns + node.column];
+    }
+
+    /// Bounds of the error at the corners of a level >= 1's nodes: columns + 1 times rows + 1 of
+    /// them. A corner's is no less than the errors of the nodes that meet there, so interpolated
+    /// between the corners of a node it is no less than the node's; and no less than kGrowth times
+    /// those of the finer level's corners in these nodes.
+    float cornerError(std::size_t level, std::size_t column, std::size_t row) const noexcept
+    {
+        const Level& l = levels_[level];
+        return l.corner_errors_m[row * (l.columns + 1) + column];
+    }
+
+private:
+    struct Level {
+        std::size_t columns = 0;
+        std::size_t rows = 0;
+        std::vector<float> errors_m;
+        std::vector<float> corner_errors_m;
+    };
+
+    void spreadToCorners();
+
+    std::vector<Level> levels_;
+};
+
+/// Values at the corners of the nodes of one level.
+struct CornerGrid {
+    std::size_t columns = 0; // of nodes; there is one corner more
+    std::size_t rows = 0;
+    std::vector<float> values;
+};
+
+/// Raises `coarser` to at least DetailErrors::kGrowth times the values of `finer`, the next finer
+/// level, at all corners of the nodes that meet at a corner.
+void growCorners(const CornerGrid& finer, CornerGrid& coarser);
+
+} // namespace marsview

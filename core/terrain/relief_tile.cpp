@@ -1,0 +1,314 @@
+// Notation. A texel covers the samples [x0, x1) × [y0, y1). Along a row of samples, the slopes
+// between x0 - 1/2 and x1 - 1/2 sum up to the difference of the heights there, each the mean of its
+// two neighbours. So only the samples on either side of texel borders count along a row, and
+// likewise along a column; beyond the map and in voids the next sample that is there takes their
+// place.
+
+#include "core/terrain/relief_tile.h"
+
+#include "core/base/check.h"
+#include "core/terrain/sample_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace marsview {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// The height at a border between two samples, and where it was taken, in samples after the border.
+struct BorderHeight {
+    float height = kNan;
+    float position = 0.0F;
+};
+
+BorderHeight between(float before, float after)
+{
+    if (std::isnan(before)) {
+        return {after, 0.5F};
+    }
+    return std::isnan(after) ? BorderHeight{before, -0.5F}
+                             : BorderHeight{(before + after) * 0.5F, 0.0F};
+}
+
+// Sums over a texel.
+struct Sums {
+    float per_column = 0.0F; // slopes, metres a sample
+    float column_count = 0.0F;
+    float per_row = 0.0F;
+    float row_count = 0.0F;
+    float sample_count = 0.0F;
+};
+
+// The texels of a tile that touch the map, in one direction.
+struct TexelSpan {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+TexelSpan texelsOnMap(std::size_t tile, std::size_t level, std::size_t samples)
+{
+    const std::size_t step = std::size_t{1} << level;
+    const std::size_t count = (samples + step - 1) / step; // texels that the whole map has
+    const std::size_t first = tile * ReliefTile::kTexels;  // of them, without the border
+    const std::size_t border = ReliefTile::kBorder;
+    MARSVIEW_CHECK(first < count);
+    return {.begin = first >= border ? 0 : border,
+            .end = std::min(ReliefTile::kSide, count - first + border)};
+}
+
+// Texels beside the map are like the nearest on it, so that filters do not fade out there.
+void extend(ReliefTile::Level& level, const TexelSpan& columns, const TexelSpan& rows)
+{
+    for (std::size_t j = 0; j < level.side; ++j) {
+        const std::size_t row = std::clamp(j, rows.begin, rows.end - 1);
+        for (std::size_t i = 0; i < level.side; ++i) {
+            const std::size_t column = std::clamp(i, columns.begin, columns.end - 1);
+            const std::size_t to = j * level.side + i;
+            const std::size_t from = row * level.side + column;
+            level.slopes[2 * to] = level.slopes[2 * from];
+            level.slopes[2 * to + 1] = level.slopes[2 * from + 1];
+            if (!level.shares.empty()) {
+                level.shares[to] = level.shares[from];
+            }
+        }
+    }
+}
+
+class TileMaker {
+public:
+    TileMaker(const Heightfield& heightfield, const ReliefTileId& id)
+        : heightfield_(heightfield)
+        , step_(static_cast<std::ptrdiff_t>(std::size_t{1} << id.level))
+        , first_column_(firstSample(id.column))
+        , first_row_(firstSample(id.row))
+        , columns_(static_cast<std::ptrdiff_t>(heightfield.columns()))
+        , rows_(static_cast<std::ptrdiff_t>(heightfield.rows()))
+        , row_(static_cast<std::size_t>(kSideSamples * step_ + 2), kNan)
+        , row_before_(row_)
+        , border_above_(row_.size())
+        , border_below_(row_.size())
+    {}
+
+    // Calls use(row of texels, sums) for all rows that touch the map.
+    template <typename Use>
+    void run(const Use& use)
+    {
+        const HeightRange range = heightfield_.range().value_or(HeightRange{});
+        base_m_ = (range.minimum_m + range.maximum_m) / 2.0;
+        std::vector<Sums> sums(ReliefTile::kSide);
+        const auto side = static_cast<std::ptrdiff_t>(ReliefTile::kSide);
+        for (std::ptrdiff_t j = 0; j < side; ++j) {
+            const std::ptrdiff_t y0 = first_row_ + j * step_;
+            if (y0 + step_ <= 0 || y0 >= rows_) {
+                is_border_known_ = false;
+                continue;
+            }
+            std::fill(sums.begin(), sums.end(), Sums{});
+            sumAlongRows(y0, sums);
+            sumAlongColumns(sums);
+            use(static_cast<std::size_t>(j), sums);
+        }
+    }
+
+private:
+    static constexpr auto kSideSamples = static_cast<std::ptrdiff_t>(ReliefTile::kSide);
+
+    std::ptrdiff_t firstSample(std::size_t tile) const
+    {
+        return (static_cast<std::ptrdiff_t>(tile * ReliefTile::kTexels) -
+                static_cast<std::ptrdiff_t>(ReliefTile::kBorder)) *
+               step_;
+    }
+
+    // The samples of a row from the one before the tile to the one after it; NaN beside the map.
+    void readRow(std::ptrdiff_t row, std::vector<float>& heights) const
+    {
+        const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(first_column_ - 1, 0);
+        const std::ptrdiff_t end = std::min(first_column_ + kSideSamples * step_ + 1, columns_);
+        if (row < 0 || row >= rows_ || begin >= end) {
+            std::fill(heights.begin(), heights.end(), kNan);
+            return;
+        }
+        readHeights(
+            heightfield_, static_cast<std::size_t>(begin), static_cast<std::size_t>(row), base_m_,
+            std::span(heights).subspan(static_cast<std::size_t>(begin - (first_column_ - 1)),
+                                       static_cast<std::size_t>(end - begin)));
+    }
+
+    void sumAlongRows(std::ptrdiff_t y0, std::vector<Sums>& sums)
+    {
+        if (!is_border_known_) {
+            readRow(y0 - 1, row_before_);
+        }
+        const std::ptrdiff_t y1 = std::min(y0 + step_, rows_);
+        for (std::ptrdiff_t y = std::max<std::ptrdiff_t>(y0, 0); y < y1; ++y) {
+            readRow(y, row_);
+            if (y == y0 && !is_border_known_) {
+                setBorder(row_before_, row_, border_above_);
+            } else if (y == 0) {
+                setBorder(std::vector<float>(row_.size(), kNan), row_, border_above_);
+            }
+            for (std::size_t i = 0; i < sums.size(); ++i) {
+                addRow(row_.data() + static_cast<std::ptrdiff_t>(i) * step_ + 1, sums[i]);
+            }
+            std::swap(row_, row_before_);
+        }
+        // row_before_ is the texels' last row now.
+        readRow(y1, row_);
+        setBorder(row_before_, row_, border_below_);
+        row_height_ = static_cast<float>(y1 - std::max<std::ptrdiff_t>(y0, 0));
+    }
+
+    // One row of samples of one texel; samples[-1] and samples[step_] are its neighbours'.
+    void addRow(const float* samples, Sums& sums) const
+    {
+        const BorderHeight left = between(samples[-1], samples[0]);
+        const BorderHeight right = between(samples[step_ - 1], samples[step_]);
+        const float length = static_cast<float>(step_) + right.position - left.position;
+        const float slope = (right.height - left.height) / length;
+        if (length > 0.0F && !std::isnan(slope)) {
+            sums.per_column += slope;
+            sums.column_count += 1.0F;
+        }
+        if (heightfield_.samples().hasVoids()) {
+            for (std::ptrdiff_t i = 0; i < step_; ++i) {
+                sums.sample_count += std::isnan(samples[i]) ? 0.0F : 1.0F;
+            }
+        }
+    }
+
+    static void setBorder(const std::vector<float>& before,
+                          const std::vector<float>& after,
+                          std::vector<BorderHeight>& border)
+    {
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            border[i] = between(before[i], after[i]);
+        }
+    }
+
+    void sumAlongColumns(std::vector<Sums>& sums)
+    {
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            const std::size_t begin = i * static_cast<std::size_t>(step_) + 1;
+            for (std::size_t x = begin; x < begin + static_cast<std::size_t>(step_); ++x) {
+                const BorderHeight& above = border_above_[x];
+                const BorderHeight& below = border_below_[x];
+                const float length = row_height_ + below.position - above.position;
+                const float slope = (below.height - above.height) / length;
+                if (length > 0.0F && !std::isnan(slope)) {
+                    sums[i].per_row += slope;
+                    sums[i].row_count += 1.0F;
+                }
+            }
+        }
+        std::swap(border_above_, border_below_);
+        is_border_known_ = true;
+    }
+
+    const Heightfield& heightfield_;
+    std::ptrdiff_t step_;
+    std::ptrdiff_t first_column_;
+    std::ptrdiff_t first_row_;
+    std::ptrdiff_t columns_;
+    std::ptrdiff_t rows_;
+    double base_m_ = 0.0;
+    std::vector<float> row_; // entry 0 is the sample before the tile's first
+    std::vector<float> row_before_;
+    std::vector<BorderHeight> border_above_;
+    std::vector<BorderHeight> border_below_;
+    bool is_border_known_ = false; // border_above_ is that of the next row of texels
+    float row_height_ = 1.0F;
+};
+
+std::int16_t snorm16(float share)
+{
+    return static_cast<std::int16_t>(std::lrintf(std::clamp(share, -1.0F, 1.0F) * 32767.0F));
+}
+
+// Half as many texels a side.
+void halve(const ReliefTile::Level& finer, ReliefTile::Level& level)
+{
+    level.side = finer.side / 2;
+    level.slopes.resize(2 * level.side * level.side);
+    level.shares.resize(finer.shares.empty() ? 0 : level.side * level.side);
+    for (std::size_t j = 0; j < level.side; ++j) {
+        for (std::size_t i = 0; i < level.side; ++i) {
+            const std::size_t above = 2 * j * finer.side + 2 * i;
+            const std::size_t below = above + finer.side;
+            const std::size_t at = j * level.side + i;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const int sum = finer.slopes[2 * above + k] + finer.slopes[2 * above + 2 + k] +
+                                finer.slopes[2 * below + k] + finer.slopes[2 * below + 2 + k];
+                level.slopes[2 * at + k] = static_cast<std::int16_t>((sum + 2) >> 2);
+            }
+            if (!level.shares.empty()) {
+                const int sum = finer.shares[above] + finer.shares[above + 1] +
+                                finer.shares[below] + finer.shares[below + 1];
+                level.shares[at] = static_cast<std::uint8_t>((sum + 2) >> 2);
+            }
+        }
+    }
+}
+
+} // namespace
+
+ReliefTile makeReliefTile(const Heightfield& heightfield,
+                          const SceneFrame& frame,
+                          const ReliefTileId& id,
+                          double slope_max)
+{
+    MARSVIEW_CHECK(slope_max > 0.0);
+    // Gradients transform by the inverse transpose of the frame's linear part.
+    const double determinant =
+        frame.east_per_column * frame.north_per_row - frame.east_per_row * frame.north_per_column;
+    const auto east_of_column = static_cast<float>(frame.north_per_row / determinant / slope_max);
+    const auto east_of_row = static_cast<float>(-frame.north_per_column / determinant / slope_max);
+    const auto north_of_column = static_cast<float>(-frame.east_per_row / determinant / slope_max);
+    const auto north_of_row = static_cast<float>(frame.east_per_column / determinant / slope_max);
+
+    const bool has_voids = heightfield.samples().hasVoids();
+    const TexelSpan columns = texelsOnMap(id.column, id.level, heightfield.columns());
+    const TexelSpan rows = texelsOnMap(id.row, id.level, heightfield.rows());
+    // Of a texel, the samples on the map: fewer at its last column and row.
+    const auto samplesOf = [&](std::size_t texel, std::size_t tile, std::size_t samples) {
+        const std::size_t step = std::size_t{1} << id.level;
+        const std::size_t first = (tile * ReliefTile::kTexels + texel - ReliefTile::kBorder) * step;
+        return static_cast<float>(std::min(step, samples - first));
+    };
+    ReliefTile tile;
+    ReliefTile::Level& finest = tile.levels.front();
+    finest.side = ReliefTile::kSide;
+    finest.slopes.resize(2 * finest.side * finest.side);
+    finest.shares.resize(has_voids ? finest.side * finest.side : 0);
+    TileMaker(heightfield, id).run([&](std::size_t row, const std::vector<Sums>& sums) {
+        const float row_samples = samplesOf(row, id.row, heightfield.rows());
+        for (std::size_t column = columns.begin; column < columns.end; ++column) {
+            const Sums& texel = sums[column];
+            const std::size_t at = row * finest.side + column;
+            const float share =
+                has_voids ? texel.sample_count /
+                                (row_samples * samplesOf(column, id.column, heightfield.columns()))
+                          : 1.0F;
+            const float weight_c = texel.column_count > 0.0F ? share / texel.column_count : 0.0F;
+            const float weight_r = texel.row_count > 0.0F ? share / texel.row_count : 0.0F;
+            const float per_column = texel.per_column * weight_c;
+            const float per_row = texel.per_row * weight_r;
+            finest.slopes[2 * at] = snorm16(per_column * east_of_column + per_row * east_of_row);
+            finest.slopes[2 * at + 1] =
+                snorm16(per_column * north_of_column + per_row * north_of_row);
+            if (has_voids) {
+                finest.shares[at] = static_cast<std::uint8_t>(std::lrintf(share * 255.0F));
+            }
+        }
+    });
+    extend(finest, columns, rows);
+    for (std::size_t level = 1; level < ReliefTile::kLevels; ++level) {
+        halve(tile.levels[level - 1], tile.levels[level]);
+    }
+    return tile;
+}
+
+} // namespace marsview

@@ -1,0 +1,19 @@
+// Rows of heights as floats: what passes over all samples work on.
+#pragma once
+
+#include "core/terrain/heightfield.h"
+
+#include <cstddef>
+#include <span>
+
+namespace marsview {
+
+/// Writes the heights of the samples [first_column, first_column + heights.size()) of a row, less
+/// `base_m`, in metres; NaN where void. All columns lie on the grid.
+void readHeights(const Heightfield& heightfield,
+                 std::size_t first_column,
+                 std::size_t row,
+                 double base_m,
+                 std::span<float> heights);
+
+} // namespace marsview

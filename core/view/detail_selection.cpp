@@ -1,0 +1,236 @@
+#include "core/view/detail_selection.h"
+
+#include "core/base/check.h"
+#include "core/view/frustum.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+// For levels that there are not: nothing is ever that far away. Finite, as it is multiplied by 0.
+constexpr float kNever = 1e30F;
+
+// Distances are taken again in the graphics driver, as floats.
+constexpr double kRounding = 1.0001;
+
+double distance(const ScenePoint& eye, const SceneBox& box)
+{
+    const auto outside = [](double p, double low, double high) {
+        return std::max({low - p, p - high, 0.0});
+    };
+    return length({outside(eye.x, box.minimum.x, box.maximum.x),
+                   outside(eye.y, box.minimum.y, box.maximum.y),
+                   outside(eye.z, box.minimum.z, box.maximum.z)});
+}
+
+DetailNode ancestor(const DetailNode& node, std::size_t level)
+{
+    const std::size_t up = level - node.level;
+    return {level, node.column >> up, node.row >> up};
+}
+
+} // namespace
+
+// What stays the same during one selection.
+struct DetailSelector::Pass {
+    ScenePoint eye;
+    Frustum frustum;
+    DetailTarget target;
+    double pixels = 1.0;          // that a metre across the view is wide at one metre's distance
+    double range_per_error = 1.0; // metres a metre
+    DetailSelection selection;
+};
+
+DetailSelector::DetailSelector(std::shared_ptr<const SurfaceAnalysis> analysis,
+                               std::size_t columns,
+                               std::size_t rows,
+                               const SceneFrame& frame)
+    : analysis_(std::move(analysis))
+    , columns_(columns)
+    , rows_(rows)
+    , frame_(frame)
+    , cell_m_(std::max(std::hypot(frame.east_per_column, frame.north_per_column),
+                       std::hypot(frame.east_per_row, frame.north_per_row)))
+{}
+
+DetailSelection DetailSelector::select(const DetailView& view, const DetailTarget& target)
+{
+    MARSVIEW_CHECK(target.error_px > 0.0 && target.texel_px > 0.0 && view.exaggeration > 0.0);
+    if (view.exaggeration != exaggeration_) {
+        setExaggeration(view.exaggeration);
+    }
+    const double pixels =
+        view.viewport.height / (2.0 * std::tan(view.camera.field_of_view.radians() / 2.0));
+    Pass pass{.eye = eyeOf(view.camera),
+              .frustum = {view.camera, view.viewport},
+              .target = target,
+              .pixels = pixels,
+              .range_per_error = pixels * view.exaggeration / target.error_px,
+              .selection = {}};
+    const std::size_t top = analysis_->errors.levelCount() - 1;
+    SelectedNode selected;
+    visit({top, 0, 0}, false, selected, pass);
+    std::sort(
+        pass.selection.nodes.begin(), pass.selection.nodes.end(),
+        [](const SelectedNode& a, const SelectedNode& b) { return a.distance_m < b.distance_m; });
+    return std::move(pass.selection);
+}
+
+// `selected` carries the relief that was found on the way down.
+void DetailSelector::visit(const DetailNode& node,
+                           bool has_relief,
+                           SelectedNode& selected,
+                           Pass& pass) const
+{
+    if (analysis_->bounds.bounds(node.level, node.column, node.row).isEmpty()) {
+        return;
+    }
+    const SceneBox box = boxOf(node);
+    if (pass.frustum.isOutside(box)) {
+        return;
+    }
+    const double distance_m = distance(pass.eye, box);
+    if (!has_relief) {
+        const double side_m = cell_m_ * static_cast<double>(DetailErrors::kNodeCells << node.level);
+        const double texel_m = side_m / static_cast<double>(kReliefTexels);
+        has_relief = node.level <= kReliefLevelMin ||
+                     pass.pixels * texel_m <= pass.target.texel_px * distance_m;
+        selected.relief = node.level >= kReliefLevelMin ? node : ancestor(node, kReliefLevelMin);
+    }
+    bool is_drawn = node.level == 0;
+    if (!is_drawn && !pass.target.has_every_sample) {
+        const CornerRanges ranges = rangesOf(node, pass);
+        const auto furthest = static_cast<double>(*std::max_element(ranges.begin(), ranges.end()));
+        is_drawn = distance_m >= kMorphEnd * kRounding * furthest;
+    }
+    if (!is_drawn) {
+        const std::size_t level = node.level - 1;
+        for (std::size_t row = 2 * node.row;
+             row < std::min(2 * node.row + 2, analysis_->errors.rows(level)); ++row) {
+            for (std::size_t column = 2 * node.column;
+                 column < std::min(2 * node.column + 2, analysis_->errors.columns(level));
+                 ++column) {
+                visit({level, column, row}, has_relief, selected, pass);
+            }
+        }
+        return;
+    }
+    selected.node = node;
+    selected.distance_m = distance_m;
+    selected.parent_ranges_m = {kNever, kNever, kNever, kNever};
+    selected.grandparent_ranges_m = selected.parent_ranges_m;
+    const double own_error_m = static_cast<double>(analysis_->errors.nodeError(node));
+    double error_px = pass.range_per_error * pass.target.error_px * own_error_m / distance_m;
+    if (!pass.target.has_every_sample) {
+        const std::size_t level_count = analysis_->errors.levelCount();
+        if (node.level + 1 < level_count) {
+            const DetailNode parent = ancestor(node, node.level + 1);
+            selected.parent_ranges_m = rangesOf(parent, pass);
+            const double nearest_m = static_cast<double>(*std::min_element(
+                selected.parent_ranges_m.begin(), selected.parent_ranges_m.end()));
+            if (distance_m + length(box.maximum - box.minimum) > nearest_m) {
+                const double coarse_m = static_cast<double>(analysis_->errors.nodeError(parent));
+                error_px = std::max(error_px, pass.range_per_error * pass.target.error_px *
+                                                  coarse_m / std::max(nearest_m, distance_m));
+            }
+        }
+        if (node.level + 2 < level_count) {
+            selected.grandparent_ranges_m = rangesOf(ancestor(node, node.level + 2), pass);
+        }
+    }
+    DetailSelection& selection = pass.selection;
+    selection.nodes.push_back(selected);
+    selection.error_px = std::max(selection.error_px, std::min(error_px, pass.target.error_px));
+    const auto cells = [&](std::size_t samples, std::size_t index) {
+        const std::size_t first = index * (DetailErrors::kNodeCells << node.level);
+        const std::size_t left =
+            ((samples - 1 - first) + (std::size_t{1} << node.level) - 1) >> node.level;
+        return std::min(DetailErrors::kNodeCells, left);
+    };
+    selection.triangle_count += 2 * cells(columns_, node.column) * cells(rows_, node.row);
+}
+
+SceneBox DetailSelector::boxOf(const DetailNode& node) const
+{
+    const MinMaxPyramid::Bounds& bounds =
+        analysis_->bounds.bounds(node.level, node.column, node.row);
+    const double low = static_cast<double>(bounds.minimum_m) * exaggeration_;
+    const double high = static_cast<double>(bounds.maximum_m) * exaggeration_;
+    const std::size_t side = DetailErrors::kNodeCells << node.level;
+    const GridPoint first{static_cast<double>(node.column * side),
+                          static_cast<double>(node.row * side)};
+    const GridPoint last{static_cast<double>(std::min((node.column + 1) * side, columns_ - 1)),
+                         static_cast<double>(std::min((node.row + 1) * side, rows_ - 1))};
+    SceneBox box{frame_.toScene(first, low), frame_.toScene(first, high)};
+    for (const GridPoint corner :
+         {last, GridPoint{first.column, last.row}, GridPoint{last.column, first.row}}) {
+        const ScenePoint p = frame_.toScene(corner, low);
+        box.minimum.x = std::min(box.minimum.x, p.x);
+        box.minimum.y = std::min(box.minimum.y, p.y);
+        box.maximum.x = std::max(box.maximum.x, p.x);
+        box.maximum.y = std::max(box.maximum.y, p.y);
+    }
+    return box;
+}
+
+float DetailSelector::rangeAt(std::size_t level,
+                              std::size_t column,
+                              std::size_t row,
+                              const Pass& pass) const
+{
+    const CornerGrid& sizes = size_ranges_m_[level];
+    const float by_size = sizes.values[row * (sizes.columns + 1) + column];
+    const auto by_error =
+        static_cast<float>(pass.range_per_error *
+                           static_cast<double>(analysis_->errors.cornerError(level, column, row)));
+    float by_relief = 0.0F;
+    if (level > kReliefLevelMin) {
+        const double texel_m = cell_m_ * static_cast<double>(DetailErrors::kNodeCells << level) /
+                               static_cast<double>(kReliefTexels);
+        by_relief = static_cast<float>(pass.pixels * texel_m / (pass.target.texel_px * kMorphEnd));
+    }
+    return std::max({by_size, by_error, by_relief});
+}
+
+CornerRanges DetailSelector::rangesOf(const DetailNode& node, const Pass& pass) const
+{
+    return {rangeAt(node.level, node.column, node.row, pass),
+            rangeAt(node.level, node.column + 1, node.row, pass),
+            rangeAt(node.level, node.column, node.row + 1, pass),
+            rangeAt(node.level, node.column + 1, node.row + 1, pass)};
+}
+
+// Ranges that follow from the size of the nodes, heights included.
+void DetailSelector::setExaggeration(double exaggeration)
+{
+    exaggeration_ = exaggeration;
+    const DetailErrors& errors = analysis_->errors;
+    size_ranges_m_.assign(errors.levelCount(), {});
+    for (std::size_t level = 1; level < errors.levelCount(); ++level) {
+        CornerGrid& corners = size_ranges_m_[level];
+        corners = {.columns = errors.columns(level), .rows = errors.rows(level), .values = {}};
+        corners.values.resize((corners.columns + 1) * (corners.rows + 1));
+        for (std::size_t row = 0; row < corners.rows; ++row) {
+            for (std::size_t column = 0; column < corners.columns; ++column) {
+                if (analysis_->bounds.bounds(level, column, row).isEmpty()) {
+                    continue;
+                }
+                const SceneBox box = boxOf({level, column, row});
+                const auto range =
+                    static_cast<float>(kRangePerSize * length(box.maximum - box.minimum));
+                for (const std::size_t corner : {row * (corners.columns + 1) + column,
+                                                 (row + 1) * (corners.columns + 1) + column}) {
+                    corners.values[corner] = std::max(corners.values[corner], range);
+                    corners.values[corner + 1] = std::max(corners.values[corner + 1], range);
+                }
+            }
+        }
+        if (level > 1) {
+            growCorners(size_ranges_m_[level - 1], corners);
+        }
+    }
+}
+
+} // namespace marsview

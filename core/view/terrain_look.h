@@ -1,0 +1,37 @@
+// How the terrain is coloured and lit.
+#pragma once
+
+#include "core/base/angle.h"
+#include "core/terrain/heightfield.h"
+
+namespace marsview {
+
+enum class ShadingMode {
+    Tint,      // colours of the ramp for heights, shaded by the light
+    Hillshade, // light alone
+    Slope,     // colours of the ramp for the steepness of the ground
+};
+
+struct TerrainLook {
+    ShadingMode mode = ShadingMode::Tint;
+    bool has_contours = false;
+    double contour_interval_m = 0.0;             // 0: chosen by what the picture shows
+    Angle light_azimuth = Angle::degrees(315.0); // where the light comes from, clockwise from north
+    Angle light_altitude = Angle::degrees(45.0); // above the horizon
+
+    bool operator==(const TerrainLook&) const = default;
+};
+
+/// The slope at the upper end of the ramp in the mode Slope; steeper ground has its last colour.
+constexpr Angle kSlopeShownMax = Angle::degrees(60.0);
+
+/// A round interval (1, 2, 5 × 10^n m) for contour lines: some 12 to 30 lines over the whole range,
+/// and finer ones the nearer the camera is, so that ground rising one in ten has a line about every
+/// 40 to 100 pixels. 0 where there is nothing to draw lines of: heights all equal or unknown, or no
+/// scale.
+double automaticContourInterval(const HeightRange& range, double metres_per_pixel);
+
+/// The interval that a look asks for: 0 without contours.
+double contourInterval(const TerrainLook& look, const HeightRange& range, double metres_per_pixel);
+
+} // namespace marsview

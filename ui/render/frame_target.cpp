@@ -1,0 +1,70 @@
+#include "ui/render/frame_target.h"
+
+#include <algorithm>
+
+namespace marsview {
+namespace {
+
+bool isSame(const Viewport& a, const Viewport& b)
+{
+    return a.width == b.width && a.height == b.height;
+}
+
+void copyColors(GLuint from, const Viewport& from_size, GLuint to, const Viewport& to_size)
+{
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+    glBlitFramebuffer(0, 0, from_size.width, from_size.height, 0, 0, to_size.width, to_size.height,
+                      GL_COLOR_BUFFER_BIT, isSame(from_size, to_size) ? GL_NEAREST : GL_LINEAR);
+}
+
+} // namespace
+
+FrameTarget::Buffers FrameTarget::make(const Viewport& size, int samples)
+{
+    Buffers buffers{.size = size, .samples = samples, .frame = {}, .color = {}, .depth = {}};
+    GLint samples_max = 0;
+    glGetIntegerv(GL_MAX_SAMPLES, &samples_max);
+    const GLsizei count = samples > 1 ? std::min(samples, samples_max) : 0;
+    glBindRenderbuffer(GL_RENDERBUFFER, buffers.color.id());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, size.width, size.height);
+    glBindRenderbuffer(GL_RENDERBUFFER, buffers.depth.id());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, size.width,
+                                     size.height);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, buffers.frame.id());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                              buffers.color.id());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                              buffers.depth.id());
+    return buffers;
+}
+
+void FrameTarget::begin(const Viewport& size, int samples)
+{
+    if (!drawn_ || !isSame(drawn_->size, size) || drawn_->samples != samples) {
+        drawn_.reset(); // first, so that both are never held
+        drawn_ = make(size, samples);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_->frame.id());
+}
+
+void FrameTarget::end(GLuint target, const Viewport& target_size)
+{
+    const bool is_two_steps = drawn_->samples > 1 && !isSame(drawn_->size, target_size);
+    if (is_two_steps) {
+        // Samples are merged by a copy of the same size only.
+        if (!resolved_ || !isSame(resolved_->size, drawn_->size)) {
+            resolved_.reset();
+            resolved_ = make(drawn_->size, 0);
+        }
+        copyColors(drawn_->frame.id(), drawn_->size, resolved_->frame.id(), resolved_->size);
+        copyColors(resolved_->frame.id(), resolved_->size, target, target_size);
+    } else {
+        resolved_.reset();
+        copyColors(drawn_->frame.id(), drawn_->size, target, target_size);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
+}
+
+} // namespace marsview

@@ -1,0 +1,37 @@
+// Where a frame is drawn when not straight into the window: smaller, or with several samples a
+// pixel.
+#pragma once
+
+#include "core/view/camera.h"
+#include "ui/render/gl_objects.h"
+
+#include <optional>
+
+namespace marsview {
+
+/// A frame buffer with colour and depth that is kept between frames of the same kind.
+class FrameTarget {
+public:
+    /// Binds a buffer of that size; `samples` of 0 or 1 is one a pixel, more are as many as the
+    /// driver has up to that.
+    void begin(const Viewport& size, int samples);
+    /// Copies the colours into `target` at its size, smoothed where sizes differ, and leaves that
+    /// bound.
+    void end(GLuint target, const Viewport& target_size);
+
+private:
+    struct Buffers {
+        Viewport size;
+        int samples = 0;
+        GlFramebuffer frame;
+        GlRenderbuffer color;
+        GlRenderbuffer depth;
+    };
+
+    static Buffers make(const Viewport& size, int samples);
+
+    std::optional<Buffers> drawn_;
+    std::optional<Buffers> resolved_; // one sample a pixel, where drawn_ has more and another size
+};
+
+} // namespace marsview

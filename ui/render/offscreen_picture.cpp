@@ -1,0 +1,92 @@
+#include "ui/render/offscreen_picture.h"
+
+#include "ui/render/gl_objects.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <fmt/format.h>
+#include <limits>
+
+namespace marsview {
+namespace {
+
+std::size_t pixelCount(const Viewport& size)
+{
+    return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+}
+
+// OpenGL's rows begin at the bottom.
+template <typename T>
+std::vector<T> upsideDown(const std::vector<T>& rows, std::size_t row_length)
+{
+    std::vector<T> turned;
+    turned.reserve(rows.size());
+    for (std::size_t end = rows.size(); end > 0; end -= row_length) {
+        turned.insert(turned.end(), rows.begin() + static_cast<std::ptrdiff_t>(end - row_length),
+                      rows.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    return turned;
+}
+
+} // namespace
+
+Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
+                                       const DrawRequest& request,
+                                       const DrawStyle& style,
+                                       DepthUse depth_use)
+{
+    const Viewport& size = request.viewport;
+    GLint side_max = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &side_max);
+    if (std::max(size.width, size.height) > side_max) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("{} × {} pixels: this driver draws at most {} a side", size.width,
+                                 size.height, side_max)};
+    }
+    const GlFramebuffer frame;
+    const GlRenderbuffer color;
+    const GlRenderbuffer depth;
+    glBindRenderbuffer(GL_RENDERBUFFER, color.id());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size.width, size.height);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color.id());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.id());
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("{} × {} pixels: this driver has no frame buffer of that size",
+                                 size.width, size.height)};
+    }
+    OffscreenPicture picture;
+    picture.report = renderer.drawComplete(request, style, frame.id());
+    picture.colors.width = size.width;
+    picture.colors.height = size.height;
+    std::vector<std::uint8_t> rgb(pixelCount(size) * 3);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    const auto width = static_cast<std::size_t>(size.width);
+    picture.colors.rgb = upsideDown(rgb, width * 3);
+    if (depth_use == DepthUse::Yes && request.samples <= 1 && request.scale == 1.0) {
+        std::vector<float> window_depths(pixelCount(size));
+        glReadPixels(0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                     window_depths.data());
+        const ClipRange clip = renderer.clip(request.camera, style.exaggeration);
+        std::vector<double> depths(window_depths.size());
+        std::transform(window_depths.begin(), window_depths.end(), depths.begin(), [&](float d) {
+            if (d >= 1.0F) {
+                return std::numeric_limits<double>::infinity();
+            }
+            const double z = 2.0 * static_cast<double>(d) - 1.0;
+            return 2.0 * clip.near_m * clip.far_m /
+                   (clip.far_m + clip.near_m - z * (clip.far_m - clip.near_m));
+        });
+        picture.depths_m = upsideDown(depths, width);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return picture;
+}
+
+} // namespace marsview

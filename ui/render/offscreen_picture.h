@@ -1,0 +1,29 @@
+// Pictures for files and measurements, drawn without a window.
+#pragma once
+
+#include "core/raster/picture_file.h"
+#include "ui/render/terrain_renderer.h"
+
+#include <vector>
+
+namespace marsview {
+
+/// Colours and depths of the same frame.
+struct OffscreenPicture {
+    Picture colors;
+    /// Distance along the view axis in scene metres, row by row from the top; infinite where
+    /// nothing but sky is seen. Empty where it was not asked for, or with several samples a pixel.
+    std::vector<double> depths_m;
+    DrawReport report;
+};
+
+enum class DepthUse { No, Yes };
+
+/// Draws `request` whole and reads it back. OutOfRange where the driver has no frame buffer of that
+/// size.
+Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
+                                       const DrawRequest& request,
+                                       const DrawStyle& style,
+                                       DepthUse depth_use);
+
+} // namespace marsview

@@ -1,0 +1,104 @@
+#include "ui/render/relief_loader.h"
+
+#include <algorithm>
+
+namespace marsview {
+namespace {
+
+// One core is left to the thread that draws.
+std::size_t threadCount()
+{
+    const std::size_t cores = std::max(2U, std::thread::hardware_concurrency());
+    return std::min<std::size_t>(cores - 1, 4);
+}
+
+} // namespace
+
+ReliefTileId reliefTileOf(const DetailNode& node)
+{
+    return {node.level - kReliefLevelMin, node.column, node.row};
+}
+
+ReliefLoader::ReliefLoader(std::function<void()> notify)
+    : notify_(std::move(notify))
+{
+    for (std::size_t i = 0; i < threadCount(); ++i) {
+        threads_.emplace_back([this] { run(); });
+    }
+}
+
+ReliefLoader::~ReliefLoader()
+{
+    {
+        const std::lock_guard lock(mutex_);
+        is_stopping_ = true;
+        wanted_.clear();
+    }
+    has_work_.notify_all();
+}
+
+void ReliefLoader::want(std::vector<ReliefRequest> requests)
+{
+    {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(requests, [this](const ReliefRequest& request) {
+            return std::find(in_work_.begin(), in_work_.end(), request.key) != in_work_.end() ||
+                   std::any_of(finished_.begin(), finished_.end(), [&](const ReliefResult& result) {
+                       return result.key == request.key;
+                   });
+        });
+        std::reverse(requests.begin(), requests.end());
+        wanted_ = std::move(requests);
+    }
+    has_work_.notify_all();
+}
+
+std::vector<ReliefResult> ReliefLoader::take(std::size_t count_max)
+{
+    const std::lock_guard lock(mutex_);
+    const auto count = static_cast<std::ptrdiff_t>(std::min(count_max, finished_.size()));
+    std::vector<ReliefResult> taken(std::make_move_iterator(finished_.begin()),
+                                    std::make_move_iterator(finished_.begin() + count));
+    finished_.erase(finished_.begin(), finished_.begin() + count);
+    return taken;
+}
+
+bool ReliefLoader::isBusy() const
+{
+    const std::lock_guard lock(mutex_);
+    return !wanted_.empty() || !in_work_.empty() || !finished_.empty();
+}
+
+void ReliefLoader::waitForOne()
+{
+    std::unique_lock lock(mutex_);
+    has_result_.wait(lock, [this] { return !finished_.empty(); });
+}
+
+void ReliefLoader::run()
+{
+    std::unique_lock lock(mutex_);
+    while (true) {
+        has_work_.wait(lock, [this] { return is_stopping_ || !wanted_.empty(); });
+        if (is_stopping_) {
+            return;
+        }
+        const ReliefRequest request = std::move(wanted_.back());
+        wanted_.pop_back();
+        in_work_.push_back(request.key);
+        lock.unlock();
+        ReliefTile tile = makeReliefTile(*request.heightfield, request.frame,
+                                         reliefTileOf(request.key.node), request.slope_max);
+        lock.lock();
+        std::erase(in_work_, request.key);
+        finished_.push_back({request.key, std::move(tile)});
+        has_result_.notify_all();
+        if (notify_ && !is_stopping_) {
+            lock.unlock();
+            notify_();
+            lock.lock();
+        }
+    }
+}
+
+} // namespace marsview

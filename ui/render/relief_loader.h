@@ -1,0 +1,66 @@
+// Making relief tiles on threads of its own.
+#pragma once
+
+#include "core/terrain/relief_tile.h"
+#include "ui/render/height_atlas.h"
+#include "ui/render/terrain_layer.h"
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace marsview {
+
+/// A tile to be made.
+struct ReliefRequest {
+    LayerNode key; // the node that wears it
+    std::shared_ptr<const Heightfield> heightfield;
+    SceneFrame frame;
+    double slope_max = 1.0;
+};
+
+struct ReliefResult {
+    LayerNode key;
+    ReliefTile tile;
+};
+
+/// The tile that node (level, column, row) wears. `level` >= kReliefLevelMin.
+ReliefTileId reliefTileOf(const DetailNode& node);
+
+/// All members are for the thread that owns it; the threads that make tiles are its own.
+class ReliefLoader {
+public:
+    /// `notify` is called on a loader's thread after every tile; it may be empty.
+    explicit ReliefLoader(std::function<void()> notify);
+    /// Waits for the tiles that are being made, a few milliseconds.
+    ~ReliefLoader();
+    ReliefLoader(const ReliefLoader&) = delete;
+    ReliefLoader& operator=(const ReliefLoader&) = delete;
+
+    /// What is wanted now, the most urgent first. Takes the place of what was wanted before.
+    void want(std::vector<ReliefRequest> requests);
+    /// At most `count_max` finished tiles, each handed out once.
+    std::vector<ReliefResult> take(std::size_t count_max);
+    /// True while something is wanted, being made, or waiting to be taken.
+    bool isBusy() const;
+    /// Waits until a tile is finished. Only while isBusy().
+    void waitForOne();
+
+private:
+    void run();
+
+    std::function<void()> notify_;
+    mutable std::mutex mutex_;
+    std::condition_variable has_work_;
+    std::condition_variable has_result_;
+    std::vector<ReliefRequest> wanted_; // the most urgent last
+    std::vector<LayerNode> in_work_;
+    std::vector<ReliefResult> finished_;
+    bool is_stopping_ = false;
+    std::vector<std::jthread> threads_;
+};
+
+} // namespace marsview

@@ -1,0 +1,33 @@
+// A map as the renderer takes it.
+#pragma once
+
+#include "core/geo/scene_frame.h"
+#include "core/session/loaded_map.h"
+#include "core/terrain/heightfield.h"
+#include "core/terrain/surface_analysis.h"
+#include "core/view/color_ramp.h"
+
+#include <memory>
+
+namespace marsview {
+
+/// One map in the scene. Copies share what is large.
+struct TerrainLayer {
+    std::shared_ptr<const Heightfield> heightfield;
+    std::shared_ptr<const SurfaceAnalysis> analysis; // of heightfield
+    SceneFrame frame;                                // from its grid to the scene
+    const ColorRamp* ramp = nullptr;                 // static data
+    HeightRange tint_range; // over which the ramp is spread: all but the rarest heights
+};
+
+/// The layer of a map by itself, in its own frame.
+inline TerrainLayer terrainLayer(const LoadedMap& map, const ColorRamp& ramp)
+{
+    return {.heightfield = {map.dataset, &map.dataset->heightfield()},
+            .analysis = map.analysis,
+            .frame = map.dataset->georeference().sceneFrame(),
+            .ramp = &ramp,
+            .tint_range = map.tint_range};
+}
+
+} // namespace marsview

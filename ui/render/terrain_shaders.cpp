@@ -1,0 +1,262 @@
+#include "ui/render/terrain_shaders.h"
+
+#include "core/base/check.h"
+
+#include <fmt/format.h>
+
+namespace marsview {
+namespace {
+
+// Positions are samples relative to an anchor near the eye, and metres over the base height: whole
+// numbers, the same for a sample whichever node it is drawn with, so that nodes that meet compute
+// the same bits. See core/view/detail_selection.h for ranges and morphing.
+constexpr const char* kTerrainVertex = R"(#version 330 core
+layout(location = 0) in vec2 a_cell;
+layout(location = 1) in vec3 a_place;
+layout(location = 2) in vec4 a_slot;
+layout(location = 3) in vec4 a_relief;
+layout(location = 4) in vec2 a_uncle;
+layout(location = 5) in vec4 a_parent;
+layout(location = 6) in vec4 a_grandparent;
+uniform sampler2D u_heights;
+uniform vec2 u_last_sample;
+uniform vec3 u_anchor_from_eye;
+uniform vec4 u_frame; // east per column, east per row, north per column, north per row
+uniform float u_exaggeration;
+uniform mat4 u_clip_from_eye;
+out float v_height;
+out vec2 v_relief;
+out vec2 v_sample; // relative to the anchor
+flat out float v_layer;
+invariant gl_Position;
+
+const float kNodeCells = 32.0;
+const float kMorphEnd = 1.2;
+
+// Column, row, height.
+vec3 vertexAt(vec2 cell)
+{
+    vec2 place = min(a_place.xy + cell * a_place.z, u_last_sample);
+    return vec3(place, texelFetch(u_heights, ivec2(a_slot.xy + cell), 0).r);
+}
+
+vec3 fromEye(vec3 p)
+{
+    return vec3(dot(u_frame.xy, p.xy), dot(u_frame.zw, p.xy), p.z * u_exaggeration) +
+           u_anchor_from_eye;
+}
+
+// Between corners. Exact where a share is 0 or 1.
+float between(vec4 corners, vec2 share)
+{
+    vec2 side = corners.xz * (1.0 - share.x) + corners.yw * share.x;
+    return side.x * (1.0 - share.y) + side.y * share.y;
+}
+
+// How far a vertex has given way to the next level, 0 … 1.
+float morph(vec3 p, vec4 ranges, vec2 share)
+{
+    float range = between(ranges, share);
+    return clamp((length(fromEye(p)) - range) / ((kMorphEnd - 1.0) * range), 0.0, 1.0);
+}
+
+vec3 blend(vec3 from, vec3 to, float share)
+{
+    return share <= 0.0 ? from : share >= 1.0 ? to : from + (to - from) * share;
+}
+
+void main()
+{
+    vec2 next_cell = 2.0 * floor(a_cell * 0.5);
+    vec2 last_cell = 4.0 * floor(a_cell * 0.25);
+    vec3 own = vertexAt(a_cell);
+    vec3 next = vertexAt(next_cell);
+    vec3 last = vertexAt(last_cell);
+    float to_last = morph(next, a_grandparent, a_uncle + next_cell / (4.0 * kNodeCells));
+    float to_next = morph(own, a_parent, a_slot.zw + a_cell / (2.0 * kNodeCells));
+    vec3 p = blend(own, blend(next, last, to_last), to_next);
+    v_height = p.z;
+    v_sample = p.xy;
+    v_relief = (p.xy - a_place.xy) * a_relief.x + a_relief.yz;
+    v_layer = a_relief.w;
+    gl_Position = u_clip_from_eye * vec4(fromEye(p), 1.0);
+}
+)";
+
+constexpr const char* kTerrainFragment = R"(
+in float v_height;
+in vec2 v_relief;
+in vec2 v_sample;
+flat in float v_layer;
+uniform sampler2DArray u_slopes;
+uniform sampler2D u_ramp;
+uniform float u_slope_unit; // exaggerated slope of the texture's 1
+uniform float u_slope_unit_true;
+uniform vec2 u_tint; // share of the ramp = height × x + y
+uniform vec3 u_light;
+out vec4 color;
+
+const float kAmbient = 0.28;
+const float kDirect = 0.84;
+
+vec3 rampColor(float share)
+{
+    // The middles of the first and the last of the ramp's 256 colours.
+    return texture(u_ramp, vec2(clamp(share, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
+}
+
+#ifdef VOIDS
+uniform sampler2DArray u_shares;
+const float kTexels = 256.0;
+const float kBorder = 8.0;
+
+// The triangles between samples, as core/terrain/triangulation.h cuts them.
+bool isInHole(vec2 place)
+{
+    ivec2 cell = ivec2(floor(place));
+    vec2 f = place - vec2(cell);
+    int layer = int(v_layer + 0.5);
+    float third = texelFetch(u_shares, ivec3(cell + (f.x >= f.y ? ivec2(1, 0) : ivec2(0, 1)),
+                                             layer), 0).r;
+    return min(third, min(texelFetch(u_shares, ivec3(cell, layer), 0).r,
+                          texelFetch(u_shares, ivec3(cell + ivec2(1), layer), 0).r)) < 0.5;
+}
+#endif
+
+#if COVERS > 0
+uniform sampler2D u_cover[COVERS];
+uniform vec4 u_cover_linear[COVERS]; // sample relative to the anchor to the cover's texture
+uniform vec2 u_cover_offset[COVERS];
+
+bool isCovered()
+{
+    for (int i = 0; i < COVERS; ++i) {
+        vec2 place = vec2(dot(u_cover_linear[i].xy, v_sample), dot(u_cover_linear[i].zw, v_sample)) +
+                     u_cover_offset[i];
+        if (all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, vec2(1.0))) &&
+            texture(u_cover[i], place).r >= 0.5) {
+            return true;
+        }
+    }
+    return false;
+}
+#endif
+
+#ifdef CONTOURS
+uniform vec2 u_contour; // lines per metre, and the line at height 0
+
+// The share of a line on this pixel: 1 wide, every fifth 1.8.
+float contour()
+{
+    float line = v_height * u_contour.x + u_contour.y;
+    float per_pixel = max(fwidth(line), 1e-6);
+    float nearest = floor(line + 0.5);
+    float width = abs(nearest - 5.0 * floor(nearest / 5.0 + 0.5)) < 0.25 ? 1.8 : 1.0;
+    float ink = clamp(0.5 * width + 0.5 - abs(line - nearest) / per_pixel, 0.0, 1.0);
+    return ink * clamp(2.0 - 4.0 * per_pixel, 0.0, 1.0); // fades where lines run together
+}
+#endif
+
+void main()
+{
+#ifdef CONTOURS
+    float ink = contour(); // before any pixel is given up, as it takes differences between them
+#endif
+    vec2 slope = texture(u_slopes, vec3(v_relief, v_layer)).rg;
+#ifdef VOIDS
+    float share = texture(u_shares, vec3(v_relief, v_layer)).r;
+    vec2 texel = v_relief * (kTexels + 2.0 * kBorder);
+    vec2 texels_per_pixel = fwidth(texel);
+    // A layer that holds a texel a sample is marked by a fraction.
+    bool is_exact = fract(v_layer) > 0.1 && max(texels_per_pixel.x, texels_per_pixel.y) <= 1.0;
+    if (is_exact ? isInHole(texel - 0.5) : share < 0.5) {
+        discard;
+    }
+    slope /= max(share, 0.5);
+#endif
+#if COVERS > 0
+    if (isCovered()) {
+        discard;
+    }
+#endif
+    vec3 normal = normalize(vec3(-slope * u_slope_unit, 1.0));
+    float shade = kAmbient + kDirect * max(dot(normal, u_light), 0.0);
+#if MODE == 0
+    vec3 surface = rampColor(v_height * u_tint.x + u_tint.y) * shade;
+#elif MODE == 1
+    vec3 surface = vec3(0.92 * shade);
+#else
+    float steep = atan(length(slope) * u_slope_unit_true);
+    vec3 surface = rampColor(steep / radians(60.0)) * (0.6 + 0.4 * shade);
+#endif
+#ifdef CONTOURS
+    surface = mix(surface, vec3(0.08, 0.07, 0.06), 0.7 * ink);
+#endif
+    color = vec4(surface, 1.0);
+}
+)";
+
+constexpr const char* kSkyVertex = R"(#version 330 core
+out float v_up;
+void main()
+{
+    vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    v_up = p.y * 0.5 + 0.5;
+    gl_Position = vec4(p, 1.0, 1.0);
+}
+)";
+
+constexpr const char* kSkyFragment = R"(#version 330 core
+in float v_up;
+uniform vec3 u_top;
+uniform vec3 u_bottom;
+out vec4 color;
+void main()
+{
+    color = vec4(mix(u_bottom, u_top, v_up), 1.0);
+}
+)";
+
+Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
+{
+    const std::string fragment = fmt::format(
+        "#version 330 core\n#define MODE {}\n#define COVERS {}\n{}{}{}", static_cast<int>(key.mode),
+        key.cover_count, key.has_contours ? "#define CONTOURS\n" : "",
+        key.has_voids ? "#define VOIDS\n" : "", kTerrainFragment);
+    return GlProgram::create(kTerrainVertex, fragment.c_str());
+}
+
+} // namespace
+
+Result<TerrainShaders> TerrainShaders::create()
+{
+    Result<GlProgram> sky = GlProgram::create(kSkyVertex, kSkyFragment);
+    if (!sky) {
+        return std::move(sky).error();
+    }
+    Result<GlProgram> terrain = compiledTerrain({});
+    if (!terrain) {
+        return std::move(terrain).error();
+    }
+    TerrainShaders shaders(std::move(sky).value());
+    shaders.terrain_.emplace(TerrainShaderKey{}, std::move(terrain).value());
+    return shaders;
+}
+
+const GlProgram& TerrainShaders::terrain(const TerrainShaderKey& key)
+{
+    const auto known = terrain_.find(key);
+    if (known != terrain_.end()) {
+        return known->second;
+    }
+    Result<GlProgram> program = compiledTerrain(key);
+    MARSVIEW_CHECK(program.has_value());
+    return terrain_.emplace(key, std::move(program).value()).first->second;
+}
+
+std::string TerrainShaders::vertexSource()
+{
+    return kTerrainVertex;
+}
+
+} // namespace marsview

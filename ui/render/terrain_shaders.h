@@ -1,0 +1,57 @@
+// The programs that draw terrain and sky, compiled when they are first needed.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/view/terrain_look.h"
+#include "ui/render/gl_program.h"
+
+#include <map>
+#include <string>
+
+namespace marsview {
+
+/// What a program is compiled for: software drivers take both sides of every branch, so that each
+/// kind of picture gets a program of its own.
+struct TerrainShaderKey {
+    ShadingMode mode = ShadingMode::Tint;
+    bool has_contours = false;
+    bool has_voids = false;
+    int cover_count = 0; // maps that lie over this one, at most kCoversMax
+    auto operator<=>(const TerrainShaderKey&) const = default;
+};
+
+inline constexpr int kCoversMax = 3;
+
+/// The program's locations of the vertex attributes.
+enum TerrainAttribute : unsigned {
+    kCellAttribute,        // vertex: column and row within the node, 0 … 32
+    kPlaceAttribute,       // node: first sample relative to the anchor, samples a cell
+    kSlotAttribute,        // node: place in the height atlas, place in the parent
+    kReliefAttribute,      // node: texture coordinate = sample × x + (y, z), layer w
+    kUncleAttribute,       // node: place in the grandparent
+    kParentAttribute,      // node: ranges at the parent's corners
+    kGrandparentAttribute, // node: ranges at the grandparent's corners
+};
+
+class TerrainShaders {
+public:
+    /// Compiles the most usual program, so that a driver that cannot is found out at once.
+    static Result<TerrainShaders> create();
+
+    /// The program for `key`. The driver has compiled its like before: failing is a bug.
+    const GlProgram& terrain(const TerrainShaderKey& key);
+    const GlProgram& sky() const noexcept { return sky_; }
+
+    /// The vertex stage's source, for tests that look at its results.
+    static std::string vertexSource();
+
+private:
+    explicit TerrainShaders(GlProgram sky)
+        : sky_(std::move(sky))
+    {}
+
+    std::map<TerrainShaderKey, GlProgram> terrain_;
+    GlProgram sky_;
+};
+
+} // namespace marsview
