@@ -6,12 +6,6 @@
 namespace marsview {
 namespace {
 
-struct Oklab {
-    double l = 0.0;
-    double a = 0.0;
-    double b = 0.0;
-};
-
 double linearFrom(std::uint8_t component)
 {
     const double c = component / 255.0;
@@ -26,19 +20,6 @@ std::uint8_t componentFrom(double linear)
     return static_cast<std::uint8_t>(std::lround(c * 255.0));
 }
 
-Oklab oklabFrom(Rgb8 color)
-{
-    const double r = linearFrom(color.red);
-    const double g = linearFrom(color.green);
-    const double b = linearFrom(color.blue);
-    const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-    const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-    const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-    return {.l = 0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
-            .a = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-            .b = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
-}
-
 Rgb8 rgbFrom(const Oklab& color)
 {
     const auto cubed = [](double x) { return x * x * x; };
@@ -50,8 +31,9 @@ Rgb8 rgbFrom(const Oklab& color)
             .blue = componentFrom(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
-// Each ramp rises in lightness by equal amounts from stop to stop (the test holds it), from dark
-// enough to stand out against white text to light enough to keep hill shading visible.
+// Designed in Oklab. Each of the even ramps rises in lightness by equal amounts from stop to stop
+// (the test holds it), from dark enough to stand out against white text to light enough to keep
+// hill shading visible.
 constexpr std::array kDawn{
     ColorStop{0.0, {33, 65, 116}},   ColorStop{0.2, {39, 105, 115}},
     ColorStop{0.4, {94, 137, 99}},   ColorStop{0.6, {164, 160, 86}},
@@ -67,10 +49,45 @@ constexpr std::array kGrey{
     ColorStop{1.0, {234, 232, 228}},
 };
 
+// Through purple and red to straw, in equal steps of lightness, chroma and hue turning slowly.
+constexpr std::array kEmber{
+    ColorStop{0.0, {64, 26, 79}},   ColorStop{0.2, {124, 41, 94}},  ColorStop{0.4, {183, 67, 84}},
+    ColorStop{0.6, {226, 112, 65}}, ColorStop{0.8, {242, 173, 87}}, ColorStop{1.0, {247, 229, 159}},
+};
+// From violet through teal to lime.
+constexpr std::array kLagoon{
+    ColorStop{0.0, {56, 24, 95}},    ColorStop{0.2, {57, 74, 133}},
+    ColorStop{0.4, {41, 124, 147}},  ColorStop{0.6, {76, 169, 146}},
+    ColorStop{0.8, {142, 209, 128}}, ColorStop{1.0, {231, 238, 112}},
+};
+// Blue and red-brown are the pair that every kind of colour vision tells apart.
+constexpr std::array kDatum{
+    ColorStop{0.0, {18, 59, 117}},   ColorStop{0.25, {86, 148, 199}},
+    ColorStop{0.5, {233, 232, 223}}, ColorStop{0.75, {198, 119, 67}},
+    ColorStop{1.0, {103, 37, 20}},
+};
+// What people know from atlases. Its lightness goes up and down, so it shows steps where there are
+// none, and its greens and browns look alike to many.
+constexpr std::array kHypsometric{
+    ColorStop{0.0, {38, 84, 64}},     ColorStop{0.25, {98, 140, 80}},
+    ColorStop{0.45, {190, 178, 110}}, ColorStop{0.65, {160, 110, 70}},
+    ColorStop{0.82, {120, 84, 68}},   ColorStop{1.0, {245, 243, 240}},
+};
+
 constexpr std::array kRamps{
-    ColorRamp{"dawn", kDawn},
-    ColorRamp{"rust", kRust},
-    ColorRamp{"grey", kGrey},
+    ColorRamp{.name = "dawn", .stops = kDawn},
+    ColorRamp{.name = "rust", .stops = kRust},
+    ColorRamp{.name = "grey", .stops = kGrey},
+    ColorRamp{.name = "ember", .stops = kEmber},
+    ColorRamp{.name = "lagoon", .stops = kLagoon},
+    ColorRamp{.name = "datum",
+              .stops = kDatum,
+              .evenness = RampEvenness::EvenToSides,
+              .is_centred_on_datum = true},
+    ColorRamp{.name = "hypsometric",
+              .stops = kHypsometric,
+              .evenness = RampEvenness::Uneven,
+              .is_color_blind_safe = false},
 };
 
 // The bodies without air whose surface is grey to the eye.
@@ -99,6 +116,28 @@ const ColorRamp& defaultColorRamp(std::string_view body_name)
     const bool is_grey =
         std::find(kGreyBodies.begin(), kGreyBodies.end(), body_name) != kGreyBodies.end();
     return is_grey ? kRamps[2] : kRamps[0];
+}
+
+Oklab oklabFrom(Rgb8 color)
+{
+    const double r = linearFrom(color.red);
+    const double g = linearFrom(color.green);
+    const double b = linearFrom(color.blue);
+    const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+    const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+    const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+    return {.l = 0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            .a = 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            .b = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+HeightRange tintedRange(const ColorRamp& ramp, const HeightRange& heights)
+{
+    if (!ramp.is_centred_on_datum) {
+        return heights;
+    }
+    const double reach_m = std::max(std::abs(heights.minimum_m), std::abs(heights.maximum_m));
+    return {.minimum_m = -reach_m, .maximum_m = reach_m};
 }
 
 double lightness(Rgb8 color)
