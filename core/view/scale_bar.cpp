@@ -1,0 +1,30 @@
+#include "core/view/scale_bar.h"
+
+#include "core/view/round_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+
+double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport)
+{
+    return 2.0 * camera.distance_m * std::tan(camera.field_of_view.radians() / 2.0) /
+           viewport.height;
+}
+
+std::optional<ScaleBar> scaleBar(double metres_per_pixel, double width_max_px)
+{
+    constexpr double kShortest = 1e-300; // metres
+    const double length_max_m = metres_per_pixel * width_max_px;
+    if (!(metres_per_pixel > 0.0) || !(width_max_px > 0.0) || !(length_max_m > kShortest) ||
+        !std::isfinite(length_max_m)) {
+        return std::nullopt;
+    }
+    const double length_m = roundNumberBelow(length_max_m);
+    // A bar a billionth too long was rounded to the round number that it is.
+    return ScaleBar{.length_m = length_m,
+                    .width_px = std::min(length_m / metres_per_pixel, width_max_px)};
+}
+
+} // namespace marsview
