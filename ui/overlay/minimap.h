@@ -1,0 +1,89 @@
+// The overview of the whole map, and the way to any place on it.
+#pragma once
+
+#include "core/view/camera.h"
+#include "core/view/footprint.h"
+
+#include <QImage>
+#include <QPixmap>
+#include <QPolygonF>
+#include <QTransform>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// Shows a map from above, north up and east to the right however its raster lies, with the part
+/// that the camera sees and the camera itself. A press or drag, or the arrow keys while it has the
+/// focus, ask to look at another place.
+class Minimap final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit Minimap(QWidget* parent = nullptr);
+
+    /// The picture covers the pixels of a raster of columns × rows samples from edge to edge, as
+    /// core/view/map_preview.h makes it. A null image is shown as an empty plate.
+    void
+    setMap(const QImage& preview, const SceneFrame& frame, std::size_t columns, std::size_t rows);
+    /// There is no map.
+    void clear();
+    /// `viewport` is the map's in device pixels.
+    void setCamera(const OrbitCamera& camera, const Viewport& viewport);
+
+    /// How large the widget may be, its rim included. Its size is the largest within that keeps the
+    /// map's aspect.
+    void setLargestSize(QSize size);
+    /// Empty without a map and where the largest size has no room for a useful picture.
+    QSize sizeHint() const override;
+
+    /// A place of the scene in the widget, and back: on the map's level through the camera's
+    /// target, and moved to the nearest edge where the position is beside the map.
+    QPointF positionOf(const ScenePoint& place) const;
+    ScenePoint placeAt(QPointF position) const;
+
+Q_SIGNALS:
+    /// The camera should look at this place; its height is that of the camera's target.
+    void placeRequested(const ScenePoint& place);
+    /// The widget wants another size.
+    void roomChanged();
+
+protected:
+    bool event(QEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    struct Bounds {
+        double west = 0.0; // scene metres
+        double east = 0.0;
+        double south = 0.0;
+        double north = 0.0;
+    };
+
+    ScenePoint onMap(const ScenePoint& place) const;
+    void place();
+    void drawCamera(QPainter& painter) const;
+    void describe();
+
+    QImage preview_;
+    std::optional<MapPlan> map_;
+    Bounds bounds_;
+    std::optional<OrbitCamera> camera_;
+    Viewport viewport_;
+    QSize largest_size_{220, 160};
+    double pixels_per_metre_ = 1.0;
+    QPointF middle_;       // of the bounds, in the widget
+    QTransform from_grid_; // to the widget
+    QPixmap drawn_map_;    // for this size and pixel ratio; null when it has to be drawn
+    std::vector<GridPoint> footprint_;
+    bool is_dragged_ = false;
+};
+
+} // namespace marsview

@@ -1,0 +1,62 @@
+// Where the overlays go.
+#pragma once
+
+#include <QObject>
+#include <QRect>
+
+#include <array>
+
+class QWidget;
+
+namespace marsview {
+
+class Compass;
+class ForceMeter;
+class Legend;
+class Minimap;
+class ScaleBarView;
+
+/// What lies over the map. Any may be null.
+struct OverlayParts {
+    Minimap* minimap = nullptr;
+    Legend* legend = nullptr;
+    Compass* compass = nullptr;
+    ScaleBarView* scale_bar = nullptr;
+    ForceMeter* force_meter = nullptr;
+};
+
+/// Keeps overlays in the corners of a widget: the minimap in the upper right, compass and scale bar
+/// in the lower right, the legend in the lower left, the force meter at the bottom in the middle,
+/// or as near to that as there is room. Mirrored in layouts from right to left. No two ever
+/// overlap; what has no room is hidden, the legend first, then the minimap, the compass, the scale
+/// bar. A force meter that comes and goes moves and hides nothing else.
+class OverlayLayout final : public QObject {
+    Q_OBJECT
+
+public:
+    /// Makes the parts children of `host`, which owns them from then on. This object must not
+    /// outlive them: best a child of `host`, too.
+    OverlayLayout(QWidget* host, const OverlayParts& parts);
+
+    /// Whether a part may be seen at all; true to begin with.
+    void setWanted(QWidget* part, bool is_wanted);
+    bool isWanted(const QWidget* part) const;
+
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    struct Entry {
+        QWidget* widget = nullptr;
+        bool is_wanted = true;
+    };
+
+    void arrange();
+    bool isNeeded(const QWidget* part) const;
+
+    QWidget* host_ = nullptr;
+    OverlayParts parts_;
+    std::array<Entry, 5> entries_;
+    bool is_arranging_ = false;
+};
+
+} // namespace marsview
