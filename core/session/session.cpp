@@ -1,0 +1,211 @@
+#include "core/session/session.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// Places at which two systems are compared, as shares of a raster. Uneven, so that no symmetry of a
+// projection hides a difference; none on an edge, where projections end.
+constexpr std::array<std::array<double, 2>, 6> kProbes{{
+    {0.5, 0.5},
+    {0.07, 0.11},
+    {0.93, 0.13},
+    {0.17, 0.89},
+    {0.83, 0.79},
+    {0.41, 0.29},
+}};
+constexpr double kToleranceInPixels = 1e-3;
+
+template <typename Change>
+Session changed(Session session, LayerId id, Change change)
+{
+    const std::size_t index = indexOf(session, id);
+    if (index < session.layers.size()) {
+        change(session.layers[index]);
+    }
+    return session;
+}
+
+LayerState stateBeside(const Dataset& scene, const Dataset& dataset)
+{
+    const RasterInfo& info = dataset.info();
+    if (info.body != nullptr && scene.info().body != nullptr && info.body != scene.info().body) {
+        return LayerState::OtherBody;
+    }
+    if (!info.crs || !scene.info().crs) {
+        return LayerState::UnknownPlace;
+    }
+    if (info.body != scene.info().body) {
+        return LayerState::OtherCrs; // only one of the two is on a body that we know
+    }
+    return isSameCrs(*scene.info().crs, *info.crs, dataset.georeference()) ? LayerState::Shown
+                                                                           : LayerState::OtherCrs;
+}
+
+} // namespace
+
+const Layer* layerOf(const Session& session, LayerId id)
+{
+    const std::size_t index = indexOf(session, id);
+    return index < session.layers.size() ? &session.layers[index] : nullptr;
+}
+
+std::size_t indexOf(const Session& session, LayerId id)
+{
+    const auto hit = std::find_if(session.layers.begin(), session.layers.end(),
+                                  [id](const Layer& layer) { return layer.id == id; });
+    return static_cast<std::size_t>(hit - session.layers.begin());
+}
+
+Session added(Session session, Layer layer)
+{
+    MARSVIEW_CHECK(layer.dataset != nullptr);
+    layer.id = LayerId{session.next_id};
+    ++session.next_id;
+    if (layer.name.empty()) {
+        layer.name = std::filesystem::path(layer.dataset->spec().path).filename().string();
+    }
+    if (!layer.is_sample) {
+        std::erase_if(session.layers, [](const Layer& other) { return other.is_sample; });
+    }
+    session.active = layer.id;
+    session.layers.insert(session.layers.begin(), std::move(layer));
+    return session;
+}
+
+Session removed(Session session, LayerId id)
+{
+    const std::size_t index = indexOf(session, id);
+    if (index == session.layers.size()) {
+        return session;
+    }
+    session.layers.erase(session.layers.begin() + static_cast<std::ptrdiff_t>(index));
+    if (session.layers.empty()) {
+        session.active = LayerId::None;
+    } else if (session.active == id) {
+        session.active = session.layers[std::min(index, session.layers.size() - 1)].id;
+    }
+    return session;
+}
+
+Session moved(Session session, LayerId id, std::size_t index)
+{
+    const std::size_t from = indexOf(session, id);
+    if (from == session.layers.size()) {
+        return session;
+    }
+    Layer layer = std::move(session.layers[from]);
+    session.layers.erase(session.layers.begin() + static_cast<std::ptrdiff_t>(from));
+    const std::size_t to = std::min(index, session.layers.size());
+    session.layers.insert(session.layers.begin() + static_cast<std::ptrdiff_t>(to),
+                          std::move(layer));
+    return session;
+}
+
+Session activated(Session session, LayerId id)
+{
+    if (layerOf(session, id) != nullptr) {
+        session.active = id;
+    }
+    return session;
+}
+
+Session withVisibility(Session session, LayerId id, bool is_visible)
+{
+    return changed(std::move(session), id, [&](Layer& layer) { layer.is_visible = is_visible; });
+}
+
+Session withRamp(Session session, LayerId id, std::string ramp)
+{
+    return changed(std::move(session), id, [&](Layer& layer) { layer.ramp = std::move(ramp); });
+}
+
+Session withName(Session session, LayerId id, std::string name)
+{
+    return changed(std::move(session), id, [&](Layer& layer) { layer.name = std::move(name); });
+}
+
+Session withDataset(Session session, LayerId id, std::shared_ptr<const Dataset> dataset)
+{
+    MARSVIEW_CHECK(dataset != nullptr);
+    return changed(std::move(session), id,
+                   [&](Layer& layer) { layer.dataset = std::move(dataset); });
+}
+
+Session withLook(Session session, const TerrainLook& look)
+{
+    session.look = look;
+    return session;
+}
+
+std::vector<LayerState> placement(const Session& session)
+{
+    std::vector<LayerState> states;
+    states.reserve(session.layers.size());
+    const Dataset* scene = nullptr;
+    for (const Layer& layer : session.layers) {
+        if (!layer.is_visible) {
+            states.push_back(LayerState::Hidden);
+        } else if (scene == nullptr) {
+            scene = layer.dataset.get();
+            states.push_back(LayerState::Shown);
+        } else {
+            states.push_back(stateBeside(*scene, *layer.dataset));
+        }
+    }
+    return states;
+}
+
+std::vector<const Layer*> shownLayers(const Session& session)
+{
+    const std::vector<LayerState> states = placement(session);
+    std::vector<const Layer*> shown;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (states[i] == LayerState::Shown) {
+            shown.push_back(&session.layers[i]);
+        }
+    }
+    return shown;
+}
+
+bool isSameCrs(const Crs& a, const Crs& b, const Georeference& sample)
+{
+    if (a.wkt() == b.wkt()) {
+        return true;
+    }
+    if (a.kind() != b.kind() || a.kind() == CrsKind::Local || a.unit() != b.unit()) {
+        return false;
+    }
+    const double tolerance = kToleranceInPixels * std::min(sample.transform().pixelWidth(),
+                                                           sample.transform().pixelHeight());
+    bool is_compared = false;
+    for (const auto& [column_share, row_share] : kProbes) {
+        const MapPoint here =
+            sample.toMap({column_share * static_cast<double>(sample.columns() - 1),
+                          row_share * static_cast<double>(sample.rows() - 1)});
+        const auto place = b.toGeographic(here);
+        if (!place) {
+            continue; // outside the projection: says nothing
+        }
+        const auto there = a.toMap(*place);
+        if (!there) {
+            return false;
+        }
+        double dx = there->x - here.x;
+        if (a.turn()) {
+            dx = std::remainder(dx, *a.turn());
+        }
+        if (!(std::abs(dx) <= tolerance && std::abs(there->y - here.y) <= tolerance)) {
+            return false;
+        }
+        is_compared = true;
+    }
+    return is_compared;
+}
+
+} // namespace marsview

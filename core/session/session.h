@@ -1,0 +1,91 @@
+// The document as a value: which maps are open, in what order, and how they look.
+//
+// Every change is a pure function from one session to the next, so undo is keeping the one before.
+// Sessions share their datasets; a copy costs a few words a layer.
+#pragma once
+
+#include "core/session/dataset.h"
+#include "core/view/terrain_look.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// Names a layer for as long as its session and all that follow from it live. Never reused.
+enum class LayerId : std::uint64_t { None = 0 };
+
+struct Layer {
+    LayerId id = LayerId::None;
+    std::shared_ptr<const Dataset> dataset; // never null in a session
+    std::string name{};                     // as people read it
+    bool is_visible = true;                 // as far as the user is concerned; see placement()
+    std::string ramp{};     // a name of colorRamps(); empty: the one that suits the body
+    bool is_sample = false; // came by itself, and goes when the user opens something
+
+    bool operator==(const Layer&) const = default;
+};
+
+struct Session {
+    std::vector<Layer> layers; // top first
+    /// The layer that panels and status bar speak of; None only where there is no layer.
+    LayerId active = LayerId::None;
+    TerrainLook look;
+    std::uint64_t next_id = 1;
+
+    bool operator==(const Session&) const = default;
+};
+
+/// Null where there is no such layer.
+const Layer* layerOf(const Session& session, LayerId id);
+inline const Layer* activeLayer(const Session& session)
+{
+    return layerOf(session, session.active);
+}
+/// Counted from the top; the number of layers where there is no such layer.
+std::size_t indexOf(const Session& session, LayerId id);
+
+/// The layer on top, under a new id, and active. Samples make room for what is none. An empty name
+/// becomes the last part of the dataset's path.
+Session added(Session session, Layer layer);
+
+// The following leave a session as it is where there is no such layer.
+
+/// Where the active layer goes, the one that takes its place becomes active, or else the one above.
+Session removed(Session session, LayerId id);
+/// To `index` in the order that results; beyond the end is the end.
+Session moved(Session session, LayerId id, std::size_t index);
+Session activated(Session session, LayerId id);
+Session withVisibility(Session session, LayerId id, bool is_visible);
+Session withRamp(Session session, LayerId id, std::string ramp);
+Session withName(Session session, LayerId id, std::string name);
+Session withDataset(Session session, LayerId id, std::shared_ptr<const Dataset> dataset);
+Session withLook(Session session, const TerrainLook& look);
+
+/// Whether a layer is in the picture, and if not, why not.
+enum class LayerState {
+    Shown,
+    Hidden,      // by the user
+    OtherBody,   // than the scene's
+    OtherCrs,    // than the scene's
+    UnknownPlace // it or the scene has no CRS, so that nobody knows how they lie to each other
+};
+
+/// One state a layer, in the order of the layers. The topmost visible layer is the scene: it is
+/// shown, and with it the visible layers of the same body and CRS (see isSameCrs). Nothing is ever
+/// bent into another CRS on the way to the screen.
+std::vector<LayerState> placement(const Session& session);
+
+/// The layers in the picture, top first; empty where all are hidden.
+std::vector<const Layer*> shownLayers(const Session& session);
+
+/// True where map coordinates of `a` mean the same places as those of `b`, so that the grids of
+/// rasters in them differ by an affine map: the same system under whatever name, up to whole turns
+/// of longitude. `sample` is a raster that lies in `b`; its places are compared, to a thousandth of
+/// its pixels. Asks PROJ some ten times.
+bool isSameCrs(const Crs& a, const Crs& b, const Georeference& sample);
+
+} // namespace marsview

@@ -1,0 +1,261 @@
+#include "core/session/session.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/random.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using testing::ElementsAre;
+
+using test::RasterRecipe;
+using test::recipeFor;
+using test::TempFolder;
+using test::writeVrt;
+
+using Terms = std::array<double, 6>;
+
+constexpr Terms kUtm{500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0};
+constexpr Terms kDegrees{10.0, 0.01, 0.0, 20.0, 0.0, -0.01};
+
+// Datasets of a few samples, wherever they are wanted.
+class Maps {
+public:
+    std::shared_ptr<const Dataset>
+    at(const std::string& srs, const Terms& terms, const RasterOverrides& overrides = {})
+    {
+        RasterRecipe recipe = recipeFor(12, std::vector<float>(120, 1.0F));
+        recipe.srs = srs;
+        recipe.transform = terms;
+        const std::string path = writeVrt(folder_, "map" + std::to_string(count_++), recipe);
+        JobMonitor monitor;
+        auto dataset = loadDataset({path, 1, overrides}, monitor, std::size_t{1} << 20);
+        EXPECT_TRUE(dataset) << dataset.error().message;
+        return dataset ? *dataset : nullptr;
+    }
+    std::shared_ptr<const Dataset> any() { return at("EPSG:32611", kUtm); }
+
+private:
+    TempFolder folder_;
+    int count_ = 0;
+};
+
+std::vector<std::string> namesOf(const Session& session)
+{
+    std::vector<std::string> names;
+    for (const Layer& layer : session.layers) {
+        names.push_back(layer.name);
+    }
+    return names;
+}
+
+Session with(const std::vector<std::shared_ptr<const Dataset>>& bottom_first)
+{
+    Session session;
+    for (std::size_t i = 0; i < bottom_first.size(); ++i) {
+        session = added(session, {.dataset = bottom_first[i], .name = std::string(1, "abcdef"[i])});
+    }
+    return session;
+}
+
+TEST(Session, PutsWhatIsOpenedOnTopAndMakesItActive)
+{
+    Maps maps;
+    const Session session = with({maps.any(), maps.any(), maps.any()});
+    EXPECT_THAT(namesOf(session), ElementsAre("c", "b", "a"));
+    EXPECT_EQ(activeLayer(session)->name, "c");
+}
+
+TEST(Session, NamesALayerAfterItsFile)
+{
+    Maps maps;
+    const Session session = added({}, {.dataset = maps.any()});
+    EXPECT_EQ(session.layers[0].name, "map0.vrt");
+}
+
+TEST(Session, ReplacesTheSampleByWhatIsOpened)
+{
+    Maps maps;
+    const Session sample = added({}, {.dataset = maps.any(), .name = "s", .is_sample = true});
+    const Session session = added(sample, {.dataset = maps.any(), .name = "a"});
+    EXPECT_THAT(namesOf(session), ElementsAre("a"));
+    EXPECT_THAT(namesOf(added(session, {.dataset = maps.any(), .name = "b"})),
+                ElementsAre("b", "a"));
+    EXPECT_THAT(namesOf(sample), ElementsAre("s")); // a value: what it came from is untouched
+}
+
+TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
+{
+    Maps maps;
+    const auto dataset = maps.any();
+    const auto other = maps.any();
+    test::Random random;
+    Session session;
+    std::set<std::uint64_t> ids_ever;
+    for (int i = 0; i < 5000; ++i) {
+        const Session before = session;
+        const LayerId id = before.layers.empty() || random.chance(0.1)
+                               ? LayerId{random.below(50)}
+                               : before.layers[random.below(before.layers.size())].id;
+        const std::size_t index = indexOf(before, id);
+        const bool is_there = index < before.layers.size();
+        const auto is_only_changed_at = [&](auto field) {
+            Session undone = session;
+            ASSERT_EQ(undone.layers.size(), before.layers.size());
+            if (is_there) {
+                undone.layers[index].*field = before.layers[index].*field;
+            }
+            EXPECT_EQ(undone, before);
+        };
+        switch (random.below(8)) {
+        case 0: {
+            session = added(before, {.dataset = dataset, .is_sample = random.chance(0.2)});
+            const Layer& layer = session.layers.front();
+            EXPECT_TRUE(ids_ever.insert(static_cast<std::uint64_t>(layer.id)).second);
+            EXPECT_EQ(session.active, layer.id);
+            break;
+        }
+        case 1:
+            session = removed(before, id);
+            EXPECT_EQ(session.layers.size(), before.layers.size() - (is_there ? 1 : 0));
+            EXPECT_EQ(layerOf(session, id), nullptr);
+            break;
+        case 2: {
+            const std::size_t to = random.below(before.layers.size() + 2);
+            session = moved(before, id, to);
+            if (is_there) {
+                EXPECT_EQ(indexOf(session, id), std::min(to, before.layers.size() - 1));
+                // The others keep their order, and the way back is the way back.
+                EXPECT_EQ(removed(session, id).layers, removed(before, id).layers);
+                EXPECT_EQ(moved(session, id, index), before);
+            }
+            break;
+        }
+        case 3:
+            session = withVisibility(before, id, random.chance(0.5));
+            is_only_changed_at(&Layer::is_visible);
+            break;
+        case 4:
+            session = withRamp(before, id, random.chance(0.5) ? "grey" : "");
+            is_only_changed_at(&Layer::ramp);
+            break;
+        case 5:
+            session = withName(before, id, std::to_string(i));
+            is_only_changed_at(&Layer::name);
+            break;
+        case 6:
+            session = withDataset(before, id, random.chance(0.5) ? dataset : other);
+            is_only_changed_at(&Layer::dataset);
+            break;
+        default:
+            session = activated(before, id);
+            EXPECT_EQ(session.active, is_there ? id : before.active);
+            break;
+        }
+        EXPECT_EQ(session.layers.empty(), session.active == LayerId::None);
+        EXPECT_EQ(session.layers.empty(), activeLayer(session) == nullptr);
+        EXPECT_EQ(placement(session).size(), session.layers.size());
+    }
+}
+
+TEST(Placement, ShowsTheTopmostVisibleLayerAndWhatLiesInItsSystem)
+{
+    Maps maps;
+    const auto utm = maps.at("EPSG:32611", kUtm);
+    const auto utm_elsewhere = maps.at("EPSG:32611", {600000.0, 10.0, 3.0, 4100000.0, 3.0, -10.0});
+    const auto other_zone = maps.at("EPSG:32612", kUtm);
+    const auto mars = maps.at("IAU_2015:49900", kDegrees);
+    const auto moon = maps.at("IAU_2015:30100", kDegrees);
+    const auto nowhere = maps.at("", kUtm);
+    using S = LayerState;
+    Session session = with({nowhere, moon, mars, other_zone, utm_elsewhere, utm});
+    EXPECT_THAT(placement(session), ElementsAre(S::Shown, S::Shown, S::OtherCrs, S::OtherBody,
+                                                S::OtherBody, S::UnknownPlace));
+    EXPECT_EQ(shownLayers(session).size(), 2U);
+
+    const LayerId top = session.layers[0].id;
+    session = withVisibility(session, session.layers[1].id, false);
+    session = withVisibility(session, top, false);
+    EXPECT_THAT(placement(session), ElementsAre(S::Hidden, S::Hidden, S::Shown, S::OtherBody,
+                                                S::OtherBody, S::UnknownPlace));
+    session = moved(session, session.layers[5].id, 0); // the one without a CRS leads
+    EXPECT_THAT(placement(session), ElementsAre(S::Shown, S::Hidden, S::Hidden, S::UnknownPlace,
+                                                S::UnknownPlace, S::UnknownPlace));
+    for (const Layer& layer : Session(session).layers) {
+        session = withVisibility(session, layer.id, false);
+    }
+    EXPECT_TRUE(shownLayers(session).empty());
+}
+
+TEST(Placement, NeverDependsOnWhatIsHidden)
+{
+    Maps maps;
+    const std::vector datasets{maps.at("EPSG:32611", kUtm), maps.at("EPSG:32612", kUtm),
+                               maps.at("IAU_2015:49900", kDegrees), maps.at("", kUtm)};
+    test::Random random;
+    for (int i = 0; i < 200; ++i) {
+        Session session;
+        for (int k = 0; k < 6; ++k) {
+            session = added(session, {.dataset = datasets[random.below(datasets.size())]});
+            if (random.chance(0.4)) {
+                session = withVisibility(session, session.active, false);
+            }
+        }
+        Session visible_only = session;
+        for (const Layer& layer : session.layers) {
+            if (!layer.is_visible) {
+                visible_only = removed(visible_only, layer.id);
+            }
+        }
+        std::vector<LayerId> all;
+        for (const Layer* layer : shownLayers(session)) {
+            all.push_back(layer->id);
+        }
+        std::vector<LayerId> few;
+        for (const Layer* layer : shownLayers(visible_only)) {
+            few.push_back(layer->id);
+        }
+        EXPECT_EQ(all, few);
+    }
+}
+
+TEST(SameCrs, IsAMatterOfPlacesNotOfNames)
+{
+    Maps maps;
+    const auto crs_of = [](const std::string& text) { return *Crs::fromText(text); };
+    struct Pair {
+        const char* a;
+        const char* b;
+        Terms terms;
+        bool is_same;
+    };
+    const Terms metres{100000.0, 500.0, 0.0, 200000.0, 0.0, -500.0};
+    for (const Pair& pair : std::vector<Pair>{
+             {"EPSG:32611", "+proj=utm +zone=11 +datum=WGS84", kUtm, true},
+             {"EPSG:32611", "EPSG:32612", kUtm, false},
+             {"EPSG:32611", "+proj=utm +zone=11 +datum=WGS84 +units=ft", kUtm, false},
+             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396190 +lat_ts=0 +lon_0=0", metres, true},
+             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396000", metres, false},
+             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396190 +lon_0=180", metres, false},
+             {"+proj=eqc +R=3396190", "+proj=sinu +R=3396190", metres, false},
+             {"+proj=longlat +R=3396190", "+proj=longlat +R=3396000", kDegrees, true},
+             // Planetocentric against planetographic: 10 km apart.
+             {"IAU_2015:49901", "IAU_2015:49902", kDegrees, false},
+             {"EPSG:4326", "+proj=utm +zone=33 +datum=WGS84", kDegrees, false},
+         }) {
+        const Georeference sample(100, 100, *GeoTransform::fromTerms(pair.terms), crs_of(pair.b));
+        EXPECT_EQ(isSameCrs(crs_of(pair.a), crs_of(pair.b), sample), pair.is_same)
+            << pair.a << " and " << pair.b;
+    }
+}
+
+} // namespace
+} // namespace marsview
