@@ -1,7 +1,6 @@
 #include "ui/coordinate_text.h"
 
 #include <QCoreApplication>
-#include <QLocale>
 
 #include <algorithm>
 #include <cmath>
@@ -13,22 +12,6 @@ namespace {
 QString tr(const char* text)
 {
     return QCoreApplication::translate("CoordinateText", text);
-}
-
-// Decimals that show a tenth of `resolution`.
-int decimalsFor(double resolution, int most)
-{
-    if (!(resolution > 0.0)) {
-        return most;
-    }
-    return std::clamp(static_cast<int>(std::ceil(-std::log10(resolution / 10.0) - 1e-9)), 0, most);
-}
-
-QString number(double value, int decimals)
-{
-    // No "-0".
-    const double half = 0.5 * std::pow(10.0, -decimals);
-    return QLocale().toString(std::abs(value) < half ? 0.0 : value, 'f', decimals);
 }
 
 bool isEarth(const RasterInfo& info)
@@ -45,28 +28,6 @@ QString unitSymbol(const Crs& crs)
         return QStringLiteral("m");
     }
     return QString::fromStdString(crs.unitName());
-}
-
-QString geographicText(const GeographicPoint& point,
-                       CoordinateDisplay display,
-                       const RasterInfo& info,
-                       int decimals)
-{
-    const Ellipsoid& ellipsoid = *info.crs->ellipsoid();
-    const Angle latitude = display == CoordinateDisplay::Planetographic
-                               ? ellipsoid.planetographic(point.latitude)
-                               : point.latitude;
-    const LongitudeRange range =
-        info.body != nullptr ? info.body->longitude : LongitudeRange::From180WestTo180East;
-    const double east = wrapLongitude(point.longitude, range).degrees();
-    const double north = latitude.degrees();
-    //: Latitude; %1 is degrees
-    const QString north_text = north < 0.0 ? tr("%1° S") : tr("%1° N");
-    //: Longitude; %1 is degrees
-    const QString east_text = east < 0.0 ? tr("%1° W") : tr("%1° E");
-    //: %1 is the latitude, %2 the longitude
-    return tr("%1 %2").arg(north_text.arg(number(std::abs(north), decimals)),
-                           east_text.arg(number(std::abs(east), decimals)));
 }
 
 } // namespace
@@ -117,7 +78,7 @@ QString coordinateText(CoordinateDisplay display,
         const QString unit = info.crs ? unitSymbol(*info.crs) : QString();
         //: Map coordinates: %1 is x, %2 is y, %3 their unit
         return tr("%1, %2 %3")
-            .arg(number(map.x, decimals), number(map.y, decimals), unit)
+            .arg(numberText(map.x, decimals), numberText(map.y, decimals), unit)
             .trimmed();
     }
     const auto point = georeference.toGeographic(grid);
@@ -131,16 +92,40 @@ QString coordinateText(CoordinateDisplay display,
     return geographicText(*point, display, info, decimalsFor(pixel_degrees, 7));
 }
 
-QString heightText(const RasterInfo& info, const HeightRange& range, double height_m)
+QString geographicText(const GeographicPoint& point,
+                       CoordinateDisplay display,
+                       const RasterInfo& info,
+                       int decimals)
 {
-    const QString value =
-        number(height_m, decimalsFor((range.maximum_m - range.minimum_m) / 100.0, 3));
+    const Ellipsoid& ellipsoid = *info.crs->ellipsoid();
+    const Angle latitude = display == CoordinateDisplay::Planetographic
+                               ? ellipsoid.planetographic(point.latitude)
+                               : point.latitude;
+    const LongitudeRange range =
+        info.body != nullptr ? info.body->longitude : LongitudeRange::From180WestTo180East;
+    const double east = wrapLongitude(point.longitude, range).degrees();
+    const double north = latitude.degrees();
+    //: Latitude; %1 is degrees
+    const QString north_text = north < 0.0 ? tr("%1° S") : tr("%1° N");
+    //: Longitude; %1 is degrees
+    const QString east_text = east < 0.0 ? tr("%1° W") : tr("%1° E");
+    //: %1 is the latitude, %2 the longitude
+    return tr("%1 %2").arg(north_text.arg(numberText(std::abs(north), decimals)),
+                           east_text.arg(numberText(std::abs(east), decimals)));
+}
+
+QString
+heightText(const RasterInfo& info, const HeightRange& range, double height_m, HeightUnit unit)
+{
+    const double relief = inUnit(range.maximum_m, unit) - inUnit(range.minimum_m, unit);
+    const QString value = numberText(inUnit(height_m, unit), decimalsFor(relief / 100.0, 3));
     if (info.vertical_datum.empty()) {
-        //: A height in metres
-        return tr("%1 m").arg(value);
+        //: A height and its unit
+        return tr("%1 %2").arg(value, unitSymbol(unit));
     }
-    //: %1 is a height in metres, %2 what it is counted from
-    return tr("%1 m above %2").arg(value, QString::fromStdString(info.vertical_datum));
+    //: %1 is a height, %2 its unit, %3 what it is counted from
+    return tr("%1 %2 above %3")
+        .arg(value, unitSymbol(unit), QString::fromStdString(info.vertical_datum));
 }
 
 } // namespace marsview

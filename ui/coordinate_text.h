@@ -4,6 +4,7 @@
 #include "core/geo/georeference.h"
 #include "core/raster/raster_info.h"
 #include "core/terrain/heightfield.h"
+#include "ui/number_text.h"
 
 #include <QString>
 
@@ -28,7 +29,17 @@ QString coordinateText(CoordinateDisplay display,
                        const Georeference& georeference,
                        GridPoint grid);
 
+/// A position given by longitude and latitude, in a display other than Map, to `decimals` of a
+/// degree.
+QString geographicText(const GeographicPoint& point,
+                       CoordinateDisplay display,
+                       const RasterInfo& info,
+                       int decimals);
+
 /// "21 171 m above areoid". Resolves about a thousandth of the map's relief.
-QString heightText(const RasterInfo& info, const HeightRange& range, double height_m);
+QString heightText(const RasterInfo& info,
+                   const HeightRange& range,
+                   double height_m,
+                   HeightUnit unit = HeightUnit::Metres);
 
 } // namespace marsview

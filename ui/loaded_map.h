@@ -3,6 +3,7 @@
 
 #include "core/session/dataset.h"
 #include "core/terrain/min_max_pyramid.h"
+#include "core/view/color_ramp.h"
 #include "ui/render/terrain_draw_data.h"
 
 #include <memory>
@@ -16,6 +17,12 @@ struct LoadedMap {
     std::shared_ptr<const TerrainDrawData> draw_data;
 
     explicit operator bool() const noexcept { return dataset != nullptr; }
+};
+
+/// A map as it is to be drawn.
+struct ShownLayer {
+    LoadedMap map;
+    const ColorRamp* ramp = nullptr; // one of colorRamps(); never null
 };
 
 } // namespace marsview

@@ -1,31 +1,32 @@
-// The window: menus, toolbar, map, panels and status bar, and what happens between them.
+// The window: puts the map, the panels, the toolbar and the dialogs together.
 #pragma once
 
-#include "ui/load_controller.h"
-#include "ui/loaded_map.h"
+#include "ui/dialogs/go_to_dialog.h"
+#include "ui/preferences.h"
+#include "ui/session_controller.h"
 
 #include <QMainWindow>
-#include <QUndoStack>
 
-#include <optional>
-
-class QAction;
-class QDockWidget;
-class QLabel;
-class QProgressBar;
-class QSlider;
-class QToolButton;
+#include <memory>
 
 namespace marsview {
 
+class DatasetPanel;
 class GeoreferencingPanel;
+class LightPopup;
+class LoadStatus;
+class MainToolBar;
 class NoticeBar;
+class RecentFiles;
 class StatusReadout;
 class TerrainView;
+class WindowDocks;
+struct WindowActions;
 
 /// How a window behaves beyond showing maps.
 struct WindowOptions {
-    /// Size, place and docks are taken from, and left for, the next window.
+    /// Size, place, docks, recent files and preferences are taken from, and left for, the next
+    /// window; or all of it is as on the first day.
     enum class Geometry { Remembered, Fixed } geometry = Geometry::Remembered;
     /// Where failures are told besides the signal.
     enum class Failures { InDialogs, BySignalOnly } failures = Failures::InDialogs;
@@ -38,21 +39,35 @@ public:
     explicit MainWindow(WindowOptions options = {}, QWidget* parent = nullptr);
     ~MainWindow() override;
 
-    /// Loads the map of that file and shows it in place of the present one, which stays if the file
-    /// cannot be opened. May be called before the window is shown.
+    /// Loads the map of that file as a layer on top. A file that cannot be opened changes nothing.
+    /// May be called before the window is shown.
     void open(const QString& file);
+    /// As a map to look at until the user opens one.
+    void openSample(const QString& file);
     /// Stops what is loading.
     void cancelLoading();
-    /// Asks for a file, then opens it.
+    /// Asks for files, then opens them.
     void chooseFile();
 
     TerrainView* view() const noexcept { return view_; }
     StatusReadout* readout() const noexcept { return readout_; }
-    GeoreferencingPanel* georeferencingPanel() const noexcept { return panel_; }
-    QUndoStack& undoStack() noexcept { return undo_stack_; }
-    const LoadController& loader() const noexcept { return *loader_; }
-    /// The map that was loaded last; the picture follows within a few frames.
-    const LoadedMap& map() const noexcept { return map_; }
+    DatasetPanel* datasetPanel() const noexcept { return datasets_; }
+    GeoreferencingPanel* georeferencingPanel() const noexcept { return georeferencing_; }
+    WindowDocks* docks() const noexcept { return docks_; }
+    RecentFiles* recentFiles() const noexcept { return recent_; }
+    const WindowActions& actionSet() const noexcept { return *actions_; }
+    SessionController& controller() noexcept { return *controller_; }
+    const Session& session() const noexcept { return controller_->session(); }
+    QUndoStack& undoStack() noexcept { return controller_->undoStack(); }
+    const LoadController& loader() const noexcept { return controller_->loader(); }
+    const Preferences& preferences() const noexcept { return preferences_; }
+
+    /// Takes effect at once; remembered when the window is.
+    void setPreferences(const Preferences& preferences);
+    void goToCoordinate();
+    void showPreferences();
+    void showAbout();
+    void showKeys();
 
 Q_SIGNALS:
     /// Nothing is loading and the picture shows all there is, or there is nothing to load.
@@ -67,59 +82,41 @@ protected:
     void dropEvent(QDropEvent* event) override;
 
 private:
-    // What the load under way was started for.
-    enum class Purpose { Open, Override, UndoStep };
-
-    void makeActions();
-    void makeToolBar();
-    void makeDocks();
+    bool isRemembered() const noexcept
+    {
+        return options_.geometry == WindowOptions::Geometry::Remembered;
+    }
+    void makeCentre();
     void makeStatusBar();
-    void connectLoader();
+    void connectActions();
+    void connectPanels();
+    void connectController();
     void connectView();
     void restoreWindow();
-    void fitDockToWidth();
-
-    void startLoad(Purpose purpose, const DatasetSpec& spec);
-    void requestOverrides(Purpose purpose, const RasterOverrides& overrides);
-    void acceptMap(const LoadedMap& map);
-    void rejectLoad();
-    void settleUndoStack();
+    void showSession();
+    void showActive();
     void reportFailure(const QString& title, const QString& problem);
     void savePicture();
-    void showExaggeration(double exaggeration);
-    void showAbout();
-    void showKeys();
+    void openLightPopup();
     void settleIfIdle();
 
     WindowOptions options_;
+    Preferences preferences_;
     TerrainView* view_ = nullptr;
+    SessionController* controller_ = nullptr;
+    std::unique_ptr<WindowActions> actions_;
     NoticeBar* notices_ = nullptr;
+    DatasetPanel* datasets_ = nullptr;
+    GeoreferencingPanel* georeferencing_ = nullptr;
+    WindowDocks* docks_ = nullptr;
+    MainToolBar* tool_bar_ = nullptr;
     StatusReadout* readout_ = nullptr;
-    GeoreferencingPanel* panel_ = nullptr;
-    QDockWidget* georeferencing_dock_ = nullptr;
-    QSlider* exaggeration_slider_ = nullptr;
-    QLabel* exaggeration_label_ = nullptr;
-    QLabel* progress_label_ = nullptr;
-    QProgressBar* progress_bar_ = nullptr;
-    QToolButton* cancel_button_ = nullptr;
-    QAction* open_action_ = nullptr;
-    QAction* cancel_action_ = nullptr;
-    QAction* save_picture_action_ = nullptr;
-    QAction* home_action_ = nullptr;
-    QAction* north_action_ = nullptr;
-    QAction* exaggerate_action_ = nullptr;
-    QAction* flatten_action_ = nullptr;
-    QList<QAction*> map_actions_; // of use only while a map is open
-
-    LoadedMap map_;
-    QUndoStack undo_stack_;
-    bool is_dock_folded_ = false; // away while the window is too narrow for it
-    int applied_index_ = 0;       // of the undo stack, for the map in effect
-    bool is_settling_ = false;
-    std::optional<RenderLimits> render_limits_; // known once there is a graphics context
-    QString waiting_file_;                      // to be opened then
-    Purpose purpose_ = Purpose::Open;
-    LoadController* loader_ = nullptr;
+    LoadStatus* load_status_ = nullptr;
+    RecentFiles* recent_ = nullptr;
+    LightPopup* light_popup_ = nullptr;
+    std::shared_ptr<const Dataset> noticed_; // whose notices were shown last
+    GoToEntry last_place_;
+    QString last_folder_;
 };
 
 } // namespace marsview

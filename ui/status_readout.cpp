@@ -1,66 +1,95 @@
 #include "ui/status_readout.h"
 
 #include "core/session/dataset.h"
+#include "ui/reserved_label.h"
 
 #include <QActionGroup>
 #include <QFontMetrics>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QMenu>
 #include <QToolButton>
 
 #include <algorithm>
+#include <cmath>
 
 namespace marsview {
 namespace {
 
-constexpr int kDisplayNameWidth = 220; // pixels at which a long CRS name is cut short
+constexpr int kDisplayNameWidth = 150; // pixels at which a long CRS name is cut short
+
+// A place of the scene on the grid of another map in the same CRS.
+GridPoint onGridOf(const Dataset& dataset, const Dataset& scene, GridPoint grid)
+{
+    if (&dataset == &scene) {
+        return grid;
+    }
+    if (const auto place = scene.georeference().toGeographic(grid)) {
+        if (const auto there = dataset.georeference().toGrid(*place)) {
+            return *there; // the right turn of longitude
+        }
+    }
+    return dataset.georeference().toGrid(scene.georeference().toMap(grid));
+}
 
 } // namespace
 
 StatusReadout::StatusReadout(QWidget* parent)
     : QWidget(parent)
-    , coordinate_(new QLabel(this))
+    , coordinate_(new ReservedLabel(QStringLiteral("−00,000,000.0, −00,000,000.0 m"), this))
+    , toggle_button_(new QToolButton(this))
     , display_button_(new QToolButton(this))
     , display_group_(new QActionGroup(this))
-    , height_(new QLabel(this))
+    , height_(new ReservedLabel(QStringLiteral("−00,000.0 m above areoid"), this))
+    , detail_(new ReservedLabel(tr("detail %1 px").arg(QStringLiteral("00.0")), this))
 {
     coordinate_->setAccessibleName(tr("Position under the pointer"));
     height_->setAccessibleName(tr("Height under the pointer"));
+    detail_->setAccessibleName(tr("Largest error of the picture"));
+    toggle_button_->setText(QStringLiteral("⇄"));
+    toggle_button_->setObjectName(QStringLiteral("toggleDisplay"));
+    toggle_button_->setAutoRaise(true);
+    toggle_button_->setAccessibleName(tr("Switch between map and geographic coordinates"));
+    toggle_button_->setToolTip(tr("Switch between map coordinates and latitude and longitude"));
     display_button_->setAccessibleName(tr("Coordinate system of the position"));
     display_button_->setToolTip(tr("In which terms positions are shown"));
     display_button_->setPopupMode(QToolButton::InstantPopup);
     display_button_->setAutoRaise(true);
     display_button_->setMenu(new QMenu(display_button_));
-    coordinate_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    height_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    // Wide enough for the longest that is usual, so that nothing moves while the numbers change.
-    const QFontMetrics metrics(font());
-    coordinate_->setMinimumWidth(
-        metrics.horizontalAdvance(QStringLiteral("−00,000,000.0, −00,000,000.0 m")));
-    height_->setMinimumWidth(metrics.horizontalAdvance(QStringLiteral("−00,000.0 m above areoid")));
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(6, 0, 6, 0);
     layout->setSpacing(4);
     layout->addWidget(coordinate_);
+    layout->addWidget(toggle_button_);
     layout->addWidget(display_button_);
-    layout->addSpacing(16);
+    layout->addSpacing(8);
     layout->addWidget(height_);
+    layout->addSpacing(8);
+    layout->addWidget(detail_);
     layout->addStretch(1);
-    setDataset(nullptr);
+    connect(toggle_button_, &QToolButton::clicked, this, [this] {
+        toggleDisplay();
+        Q_EMIT displayChosen(display_);
+    });
+    setDatasets(nullptr, nullptr);
 }
 
-void StatusReadout::setDataset(const std::shared_ptr<const Dataset>& dataset)
+void StatusReadout::setDatasets(const std::shared_ptr<const Dataset>& scene,
+                                const std::shared_ptr<const Dataset>& active)
 {
-    dataset_ = dataset;
-    hit_.reset();
-    display_button_->setVisible(dataset_ != nullptr);
-    if (dataset_) {
-        const auto displays = coordinateDisplays(dataset_->info());
-        if (std::find(displays.begin(), displays.end(), display_) == displays.end() ||
-            display_ == CoordinateDisplay::Map) {
-            display_ = displays.front();
-        }
+    if (scene != scene_) {
+        hit_.reset();
+    }
+    scene_ = scene;
+    active_ = active;
+    display_button_->setVisible(scene_ != nullptr);
+    toggle_button_->setVisible(scene_ != nullptr);
+    detail_->setVisible(scene_ != nullptr);
+    if (scene_) {
+        const auto displays = coordinateDisplays(scene_->info());
+        const bool has_wanted =
+            std::find(displays.begin(), displays.end(), wanted_) != displays.end();
+        display_ = is_display_wanted_ && has_wanted ? wanted_ : displays.front();
+        toggle_button_->setEnabled(displays.size() > 1);
         fillMenu();
     }
     refresh();
@@ -74,51 +103,102 @@ void StatusReadout::setHit(const std::optional<RayHit>& hit)
 
 void StatusReadout::setDisplay(CoordinateDisplay display)
 {
-    display_ = display;
-    fillMenu();
+    wanted_ = display;
+    is_display_wanted_ = true;
+    setDatasets(scene_, active_);
+}
+
+void StatusReadout::toggleDisplay()
+{
+    if (scene_) {
+        setDisplay(display_ == CoordinateDisplay::Map ? coordinateDisplays(scene_->info()).front()
+                                                      : CoordinateDisplay::Map);
+    }
+}
+
+void StatusReadout::setHeightUnit(HeightUnit unit)
+{
+    unit_ = unit;
     refresh();
+}
+
+void StatusReadout::setDetail(double pixels)
+{
+    //: How far the picture may be from the full map, in pixels
+    detail_->setWholeText(tr("detail %1 px").arg(numberText(pixels, 1)));
 }
 
 QString StatusReadout::coordinateLabel() const
 {
-    return coordinate_->text();
+    return coordinate_->wholeText();
 }
 
 QString StatusReadout::heightLabel() const
 {
-    return height_->text();
+    return height_->wholeText();
+}
+
+QString StatusReadout::detailLabel() const
+{
+    return detail_->wholeText();
 }
 
 void StatusReadout::fillMenu()
 {
     QMenu* menu = display_button_->menu();
     menu->clear();
-    for (const CoordinateDisplay display : coordinateDisplays(dataset_->info())) {
-        const QString name = displayName(display, dataset_->info());
+    int width = 0;
+    const auto shortened = [this](const QString& name) {
+        return fontMetrics().elidedText(name, Qt::ElideMiddle, kDisplayNameWidth);
+    };
+    for (const CoordinateDisplay display : coordinateDisplays(scene_->info())) {
+        const QString name = displayName(display, scene_->info());
         const QString text = display == CoordinateDisplay::Map
                                  ? tr("Map: %1").arg(name)
-                                 : tr("Longitude and latitude, %1").arg(name);
+                                 : tr("Latitude and longitude, %1").arg(name);
         QAction* action = menu->addAction(text);
         action->setCheckable(true);
         action->setChecked(display == display_);
         display_group_->addAction(action);
-        connect(action, &QAction::triggered, this, [this, display] { setDisplay(display); });
+        connect(action, &QAction::triggered, this, [this, display] {
+            setDisplay(display);
+            Q_EMIT displayChosen(display);
+        });
+        width = std::max(width, fontMetrics().horizontalAdvance(shortened(name)));
     }
-    const QString name = displayName(display_, dataset_->info());
-    display_button_->setText(fontMetrics().elidedText(name, Qt::ElideMiddle, kDisplayNameWidth));
+    display_button_->setText(shortened(displayName(display_, scene_->info())));
+    display_button_->setFixedWidth(width + 28); // as wide in all terms, with the arrow
+}
+
+QString StatusReadout::heightAt(const RayHit& hit) const
+{
+    const auto text = [this](const Dataset& dataset, double height_m) {
+        return heightText(dataset.info(), dataset.heightfield().range().value_or(HeightRange{}),
+                          height_m, unit_);
+    };
+    if (active_ && active_ != scene_) {
+        const double height_m =
+            active_->heightfield().height(onGridOf(*active_, *scene_, hit.grid));
+        if (std::isfinite(height_m)) {
+            return text(*active_, height_m);
+        }
+    }
+    return text(*scene_, hit.height_m);
 }
 
 void StatusReadout::refresh()
 {
-    if (!dataset_ || !hit_) {
-        coordinate_->setText(dataset_ ? QStringLiteral("–") : QString());
-        height_->setText({});
+    if (!scene_ || !hit_) {
+        //: In place of a coordinate
+        coordinate_->setWholeText(scene_ ? tr("pointer off the map") : QString());
+        coordinate_->setEnabled(false);
+        height_->setWholeText({});
         return;
     }
-    const RasterInfo& info = dataset_->info();
-    coordinate_->setText(coordinateText(display_, info, dataset_->georeference(), hit_->grid));
-    height_->setText(
-        heightText(info, dataset_->heightfield().range().value_or(HeightRange{}), hit_->height_m));
+    coordinate_->setEnabled(true);
+    coordinate_->setWholeText(
+        coordinateText(display_, scene_->info(), scene_->georeference(), hit_->grid));
+    height_->setWholeText(heightAt(*hit_));
 }
 
 } // namespace marsview

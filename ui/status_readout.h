@@ -16,35 +16,57 @@ class QToolButton;
 namespace marsview {
 
 class Dataset;
+class ReservedLabel;
 
-/// Shows a position, in the terms that the user picks, and the height there. Its parts keep their
-/// width while numbers change.
+/// Shows a position, in the terms that the user picks, the height there, and how sharp the picture
+/// is. Its parts keep their width while numbers change.
 class StatusReadout final : public QWidget {
     Q_OBJECT
 
 public:
     explicit StatusReadout(QWidget* parent = nullptr);
 
-    /// Null for none.
-    void setDataset(const std::shared_ptr<const Dataset>& dataset);
+    /// `scene` is the map that positions are on, null for none. `active` is the one whose heights
+    /// are told, where it has any; it may be the same, or null for none. Both lie in one CRS.
+    void setDatasets(const std::shared_ptr<const Dataset>& scene,
+                     const std::shared_ptr<const Dataset>& active);
+    /// On the scene's grid; nothing where the pointer is off the map.
     void setHit(const std::optional<RayHit>& hit);
     void setDisplay(CoordinateDisplay display);
     CoordinateDisplay display() const noexcept { return display_; }
+    /// Between map coordinates and the usual longitude and latitude. Nothing where there is but
+    /// one.
+    void toggleDisplay();
+    void setHeightUnit(HeightUnit unit);
+    /// The screen-space error of the picture, in pixels.
+    void setDetail(double pixels);
 
     QString coordinateLabel() const;
     QString heightLabel() const;
+    QString detailLabel() const;
+
+Q_SIGNALS:
+    /// By the user.
+    void displayChosen(CoordinateDisplay display);
 
 private:
     void fillMenu();
     void refresh();
+    QString heightAt(const RayHit& hit) const;
 
-    std::shared_ptr<const Dataset> dataset_;
+    std::shared_ptr<const Dataset> scene_;
+    std::shared_ptr<const Dataset> active_;
     std::optional<RayHit> hit_;
+    CoordinateDisplay wanted_ = CoordinateDisplay::Planetocentric; // where the map has it
+    bool is_display_wanted_ = false;                               // otherwise the map's usual one
     CoordinateDisplay display_ = CoordinateDisplay::Map;
-    QLabel* coordinate_ = nullptr;
+    HeightUnit unit_ = HeightUnit::Metres;
+    ReservedLabel* coordinate_ = nullptr;
+    QToolButton* toggle_button_ = nullptr;
     QToolButton* display_button_ = nullptr;
     QActionGroup* display_group_ = nullptr;
-    QLabel* height_ = nullptr;
+    ReservedLabel* height_ = nullptr;
+    ReservedLabel* detail_ = nullptr;
 };
 
 } // namespace marsview

@@ -113,6 +113,48 @@ TerrainView::~TerrainView()
     releaseGraphics();
 }
 
+void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
+{
+    const LoadedMap map = top_first.empty() ? LoadedMap{} : top_first.front().map;
+    pending_ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
+    const LoadedMap& latest = is_pending_ ? pending_map_ : map_;
+    if (map.dataset != latest.dataset) {
+        setMap(map);
+    } else if (!is_pending_ && pending_ramp_ != nullptr) {
+        style_.ramp = pending_ramp_;
+        is_completion_reported_ = false;
+        update();
+    }
+}
+
+void TerrainView::setLook(const TerrainLook& look)
+{
+    look_ = look;
+    style_.light_azimuth = look.light_azimuth;
+    style_.light_altitude = look.light_altitude;
+    is_completion_reported_ = false;
+    update();
+}
+
+void TerrainView::setAntialiasing(bool) {}
+
+void TerrainView::setFrameTarget(std::chrono::milliseconds) {}
+
+void TerrainView::flyTo(GridPoint grid, double distance_m)
+{
+    if (!map_) {
+        return;
+    }
+    OrbitCamera goal = onGround(navigator_.goal());
+    const double height_m = map_.dataset->heightfield().height(grid);
+    const double z_m = std::isfinite(height_m) ? height_m * style_.exaggeration : goal.target.z;
+    goal.target = map_.dataset->georeference().sceneFrame().toScene(grid, z_m);
+    if (distance_m > 0.0) {
+        goal.distance_m = distance_m;
+    }
+    navigator_.moveTo(goal, kFlyDuration);
+}
+
 void TerrainView::setMap(const LoadedMap& map)
 {
     pending_map_ = map;
@@ -291,8 +333,7 @@ void TerrainView::showPendingMap()
     is_pending_ = false;
     empty_hint_->setVisible(!map_);
     if (map_) {
-        const Body* body = map_.dataset->info().body;
-        style_.ramp = &defaultColorRamp(body != nullptr ? body->name : std::string_view{});
+        style_.ramp = pending_ramp_;
         if (!is_same_place) {
             const HeightRange& range = map_.draw_data->range;
             style_.exaggeration =

@@ -3,14 +3,17 @@
 
 #include "core/terrain/ray_cast.h"
 #include "core/view/navigation.h"
+#include "core/view/terrain_look.h"
 #include "ui/loaded_map.h"
 #include "ui/navigator.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <QOpenGLWidget>
 
+#include <chrono>
 #include <memory>
 #include <optional>
+#include <vector>
 
 class QLabel;
 
@@ -42,12 +45,19 @@ public:
     explicit TerrainView(QWidget* parent = nullptr);
     ~TerrainView() override;
 
-    /// Puts a map in place of the one shown; null for none. The change becomes visible, and
-    /// mapShown() is emitted, when the picture is whole. The camera stays where both maps lie
-    /// alike, otherwise it goes to the map's opening view.
-    void setMap(const LoadedMap& map);
-    /// The map in the picture.
+    /// Puts these layers in place of those shown, top first; none for an empty view. All lie in one
+    /// CRS. The change becomes visible, and mapShown() is emitted, when the picture is whole. The
+    /// camera stays where the topmost layers lie alike, otherwise it goes to the new one's opening
+    /// view.
+    void setLayers(const std::vector<ShownLayer>& top_first);
+    /// The topmost map in the picture.
     const LoadedMap& map() const noexcept { return map_; }
+
+    void setLook(const TerrainLook& look);
+    const TerrainLook& look() const noexcept { return look_; }
+    void setAntialiasing(bool is_wanted);
+    /// The time that a frame may take while something moves.
+    void setFrameTarget(std::chrono::milliseconds target);
 
     const OrbitCamera& camera() const noexcept { return navigator_.camera(); }
     /// Jumps, within the limits.
@@ -61,6 +71,8 @@ public:
     void step(NavigationStep step);
     void goHome();
     void turnNorthUp();
+    /// Flies to a place of the topmost layer; `distance_m` of 0 keeps the distance.
+    void flyTo(GridPoint grid, double distance_m);
 
     /// The surface behind a position in widget coordinates, at full resolution.
     std::optional<RayHit> surfaceAt(QPointF position) const;
@@ -79,6 +91,8 @@ Q_SIGNALS:
     /// What is under the pointer changed; nothing where it is not over the surface.
     void pointerMoved(const std::optional<RayHit>& hit);
     void exaggerationChanged(double exaggeration);
+    /// The screen-space error of what is drawn, in pixels.
+    void detailChanged(double pixels);
 
 protected:
     void initializeGL() override;
@@ -92,6 +106,7 @@ protected:
     void leaveEvent(QEvent* event) override;
 
 private:
+    void setMap(const LoadedMap& map);
     void releaseGraphics();
     void showPendingMap();
     Viewport viewport() const;
@@ -108,6 +123,8 @@ private:
     std::unique_ptr<TerrainRenderer> renderer_;
     Navigator navigator_;
     DrawStyle style_;
+    TerrainLook look_;
+    const ColorRamp* pending_ramp_ = nullptr;
     LoadedMap map_;
     LoadedMap pending_map_;
     bool is_pending_ = false;

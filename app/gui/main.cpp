@@ -100,11 +100,11 @@ int runWindow(QApplication& application, const Options& options)
     if (options.size.isValid()) {
         window.resize(options.size);
     }
-    const QString map = options.is_map_given
-                            ? QString::fromStdString(options.map)
-                            : marsview::sampleMapFor(QCoreApplication::applicationDirPath());
-    if (options.is_map_given || !map.isEmpty()) {
-        window.open(map);
+    const QString sample = marsview::sampleMapFor(QCoreApplication::applicationDirPath());
+    if (options.is_map_given) {
+        window.open(QString::fromStdString(options.map));
+    } else if (!sample.isEmpty()) {
+        window.openSample(sample);
     }
     if (options.isScreenshot()) {
         auto* taker =

@@ -604,4 +604,9 @@ std::size_t defaultMemoryBudget()
     return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_bytes);
 }
 
+std::string gdalVersion()
+{
+    return GDALVersionInfo("RELEASE_NAME");
+}
+
 } // namespace marsview

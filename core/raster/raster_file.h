@@ -66,4 +66,7 @@ private:
 /// Half of the machine's memory: what a single map may take by default.
 std::size_t defaultMemoryBudget();
 
+/// The version of GDAL in use, "3.6.2".
+std::string gdalVersion();
+
 } // namespace marsview

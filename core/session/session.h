@@ -16,7 +16,7 @@
 namespace marsview {
 
 /// Names a layer for as long as its session and all that follow from it live. Never reused.
-enum class LayerId : std::uint64_t { None = 0 };
+enum class LayerId : std::uint32_t { None = 0 };
 
 struct Layer {
     LayerId id = LayerId::None;
@@ -34,7 +34,7 @@ struct Session {
     /// The layer that panels and status bar speak of; None only where there is no layer.
     LayerId active = LayerId::None;
     TerrainLook look;
-    std::uint64_t next_id = 1;
+    std::uint32_t next_id = 1;
 
     bool operator==(const Session&) const = default;
 };

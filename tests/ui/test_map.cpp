@@ -66,9 +66,12 @@ bool waitUntilSettled(MainWindow& window)
     const bool was_in_time = QTest::qWaitFor([&is_settled] { return is_settled; }, kTimeout);
     QObject::disconnect(connection);
     // Layout changes that came with the map ask for another picture.
-    return was_in_time &&
-           QTest::qWaitFor(
-               [&window] { return !window.map() || window.view()->isPictureComplete(); }, kTimeout);
+    return was_in_time && QTest::qWaitFor(
+                              [&window] {
+                                  return shownLayers(window.session()).empty() ||
+                                         window.view()->isPictureComplete();
+                              },
+                              kTimeout);
 }
 
 bool openAndWait(MainWindow& window, const QString& file)

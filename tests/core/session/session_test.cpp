@@ -103,7 +103,7 @@ TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
     for (int i = 0; i < 5000; ++i) {
         const Session before = session;
         const LayerId id = before.layers.empty() || random.chance(0.1)
-                               ? LayerId{random.below(50)}
+                               ? LayerId{static_cast<std::uint32_t>(random.below(50))}
                                : before.layers[random.below(before.layers.size())].id;
         const std::size_t index = indexOf(before, id);
         const bool is_there = index < before.layers.size();

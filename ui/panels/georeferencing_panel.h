@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/raster/raster_info.h"
+#include "ui/number_text.h"
 
 #include <QWidget>
 
@@ -27,8 +28,10 @@ class GeoreferencingPanel final : public QWidget {
 public:
     explicit GeoreferencingPanel(QWidget* parent = nullptr);
 
-    /// The map in effect; null for none. Fills both pages.
+    /// The map in effect; null for none. Fills both pages; what is being typed stays as long as
+    /// the map does.
     void setDataset(const std::shared_ptr<const Dataset>& dataset);
+    void setHeightUnit(HeightUnit unit);
 
     /// Switches to the fields.
     void edit();
@@ -40,6 +43,9 @@ private:
     QWidget* makeFactsPage();
     QWidget* makeFieldsPage();
     void fillFacts();
+    void addFact(const QString& name, const QString& value);
+    void addPlaceFacts(const Dataset& dataset);
+    void addSampleFacts(const Dataset& dataset);
     void fillFields();
     Ellipsoid ellipsoidFrom(std::optional<double> equatorial_m,
                             std::optional<double> polar_m) const;
@@ -47,6 +53,7 @@ private:
     void showProblem(const QString& problem);
 
     std::shared_ptr<const Dataset> dataset_;
+    HeightUnit unit_of_heights_ = HeightUnit::Metres;
     QStackedWidget* pages_ = nullptr;
     QWidget* facts_page_ = nullptr;
     QWidget* fields_page_ = nullptr;

@@ -1,6 +1,8 @@
-#include "ui/georeferencing_panel.h"
+#include "ui/panels/georeferencing_panel.h"
 
+#include "core/geo/extent.h"
 #include "core/session/dataset.h"
+#include "ui/coordinate_text.h"
 
 #include <QComboBox>
 #include <QFormLayout>
@@ -23,7 +25,7 @@ namespace {
 // Digits enough to read, not to compute: nine tell a millimetre from 1000 km.
 QString number(double value)
 {
-    return QLocale().toString(value, 'g', 9);
+    return shortNumberText(value, 9);
 }
 
 // Digits enough to read the same double back, always with a point: for fields.
@@ -97,7 +99,9 @@ GeoreferencingPanel::GeoreferencingPanel(QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(pages_);
-    setDataset(nullptr);
+    override_button_->setEnabled(false);
+    fillFacts();
+    fillFields();
 }
 
 QWidget* GeoreferencingPanel::makeFactsPage()
@@ -108,7 +112,8 @@ QWidget* GeoreferencingPanel::makeFactsPage()
     facts_ = new QFormLayout;
     facts_->setLabelAlignment(Qt::AlignLeft | Qt::AlignTop);
     facts_->setHorizontalSpacing(12);
-    facts_->setRowWrapPolicy(QFormLayout::DontWrapRows);
+    facts_->setVerticalSpacing(0);
+    facts_->setRowWrapPolicy(QFormLayout::WrapAllRows);
     layout->addLayout(facts_);
     notices_ = makeFact(content);
     notices_->setAccessibleName(tr("Notices about the map"));
@@ -227,6 +232,9 @@ QWidget* GeoreferencingPanel::makeFieldsPage()
 
 void GeoreferencingPanel::setDataset(const std::shared_ptr<const Dataset>& dataset)
 {
+    if (dataset == dataset_) {
+        return;
+    }
     dataset_ = dataset;
     pages_->setCurrentWidget(facts_page_); // what was applied shows in the facts
     override_button_->setEnabled(dataset_ != nullptr);
@@ -242,6 +250,12 @@ void GeoreferencingPanel::edit()
     }
 }
 
+void GeoreferencingPanel::setHeightUnit(HeightUnit unit)
+{
+    unit_of_heights_ = unit;
+    fillFacts();
+}
+
 void GeoreferencingPanel::fillFacts()
 {
     while (facts_->rowCount() > 0) {
@@ -250,86 +264,122 @@ void GeoreferencingPanel::fillFacts()
     notices_->clear();
     if (!dataset_) {
         notices_->setText(tr("No map is open."));
+        notices_->show();
         return;
     }
-    const RasterInfo& info = dataset_->info();
-    const Georeference& georeference = dataset_->georeference();
-    const auto add = [this](const QString& name, const QString& value) {
-        QLabel* fact = makeFact(this);
-        fact->setText(value);
-        fact->setAccessibleName(name);
-        facts_->addRow(name, fact);
-    };
-    const QString unknown = tr("unknown");
-    add(tr("Body"), info.body != nullptr ? fromStd(info.body->name) : unknown);
-    if (info.crs && info.crs->ellipsoid()) {
-        const Ellipsoid& e = *info.crs->ellipsoid();
-        add(tr("Ellipsoid"), e.isSphere()
-                                 ? tr("sphere, %1 m").arg(number(e.equatorial_m))
-                                 : tr("%1 / %2 m").arg(number(e.equatorial_m), number(e.polar_m)));
-    } else {
-        add(tr("Ellipsoid"), unknown);
-    }
-    const QString crs_name = info.crs ? QString::fromStdString(info.crs->name()) : QString();
-    add(tr("CRS"), info.crs ? (crs_name.isEmpty() ? tr("unnamed") : crs_name) : tr("none"));
-    const GeoTransform& transform = georeference.transform();
-    const QString unit = info.crs ? QString::fromStdString(info.crs->unitName()) : tr("map unit");
-    const QString width = number(transform.pixelWidth());
-    const QString height = number(transform.pixelHeight());
-    //: %1 × %2 is the size of a pixel, %3 the unit
-    add(tr("Pixel"),
-        width == height ? tr("%1 %2").arg(width, unit) : tr("%1 × %2 %3").arg(width, height, unit));
-    const auto metres = [](double value) { return QLocale().toString(value, 'g', 6); };
-    const QString pixel_size =
-        tr("%1 × %2 m")
-            .arg(metres(georeference.pixelWidthMetres()), metres(georeference.pixelHeightMetres()));
-    add(tr("Pixel (m)"), info.crs ? pixel_size : tr("%1, assumed").arg(pixel_size));
-    // The extent of the pixels' outer corners, rotated rasters included.
-    const double columns = static_cast<double>(georeference.columns());
-    const double rows = static_cast<double>(georeference.rows());
-    MapPoint low{HUGE_VAL, HUGE_VAL};
-    MapPoint high{-HUGE_VAL, -HUGE_VAL};
-    for (const GridPoint corner :
-         {GridPoint{-0.5, -0.5}, GridPoint{columns - 0.5, -0.5}, GridPoint{-0.5, rows - 0.5},
-          GridPoint{columns - 0.5, rows - 0.5}}) {
-        const MapPoint p = georeference.toMap(corner);
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    //: The range of map coordinates: x from %1 to %2, y from %3 to %4
-    add(tr("Extent"), tr("x %1 … %2\ny %3 … %4")
-                          .arg(number(low.x), number(high.x), number(low.y), number(high.y)));
-    const GeoTransform::Terms& t = transform.terms();
-    add(tr("Geotransform"), info.transform ? tr("%1, %2, %3\n%4, %5, %6")
-                                                 .arg(number(t[0]), number(t[1]), number(t[2]),
-                                                      number(t[3]), number(t[4]), number(t[5]))
-                                           : tr("none"));
-    //: %1 columns and %2 rows of samples, of type %3
-    add(tr("Samples"), tr("%L1 × %L2, %3")
-                           .arg(info.columns)
-                           .arg(info.rows)
-                           .arg(fromStd(sampleTypeName(info.type))));
-    if (const auto& range = dataset_->heightfield().range()) {
-        const auto rounded = [](double value) { return QLocale().toString(value, 'g', 7); };
-        add(tr("Heights"),
-            tr("%1 … %2 m").arg(rounded(range->minimum_m), rounded(range->maximum_m)));
-    }
-    add(tr("Height unit"), info.is_unit_declared
-                               ? QString::fromStdString(info.unit.name)
-                               : tr("%1, assumed").arg(QString::fromStdString(info.unit.name)));
-    add(tr("Datum"),
-        info.vertical_datum.empty() ? unknown : QString::fromStdString(info.vertical_datum));
-    add(tr("Nodata"), info.nodata ? number(*info.nodata) : tr("none"));
-    add(tr("Driver"), QString::fromStdString(info.driver));
-    if (!dataset_->spec().overrides.isEmpty()) {
-        add(tr("Source"), tr("overridden by you"));
-    }
+    addPlaceFacts(*dataset_);
+    addSampleFacts(*dataset_);
     QStringList lines;
-    for (const std::string& notice : info.notices) {
+    for (const std::string& notice : dataset_->info().notices) {
         lines.append(QStringLiteral("• ") + QString::fromStdString(notice));
     }
     notices_->setText(lines.join(QLatin1Char('\n')));
     notices_->setVisible(!lines.isEmpty());
+}
+
+// A name above its value: beside it, neither has room in a narrow panel.
+void GeoreferencingPanel::addFact(const QString& name, const QString& value)
+{
+    auto* caption = new QLabel(name, this);
+    caption->setForegroundRole(QPalette::PlaceholderText);
+    QFont small = caption->font();
+    small.setPointSizeF(small.pointSizeF() * 0.88);
+    caption->setFont(small);
+    caption->setContentsMargins(0, facts_->rowCount() == 0 ? 0 : 6, 0, 0);
+    QLabel* fact = makeFact(this);
+    fact->setText(value);
+    fact->setAccessibleName(name);
+    facts_->addRow(caption, fact);
+}
+
+void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
+{
+    const RasterInfo& info = dataset.info();
+    const Georeference& georeference = dataset.georeference();
+    const QString unknown = tr("unknown");
+    addFact(tr("Body"), info.body != nullptr ? fromStd(info.body->name) : unknown);
+    if (info.crs && info.crs->ellipsoid()) {
+        const Ellipsoid& e = *info.crs->ellipsoid();
+        //: Radii of an ellipsoid
+        addFact(
+            tr("Radii"),
+            e.isSphere()
+                ? tr("%1 m, sphere").arg(number(e.equatorial_m))
+                //: Radii: %1 equatorial, %2 polar
+                : tr("%1 m equatorial\n%2 m polar").arg(number(e.equatorial_m), number(e.polar_m)));
+    } else {
+        addFact(tr("Radii"), unknown);
+    }
+    const QString crs_name = info.crs ? QString::fromStdString(info.crs->name()) : QString();
+    addFact(tr("CRS"), info.crs ? (crs_name.isEmpty() ? tr("unnamed") : crs_name) : tr("none"));
+    const GeoTransform& transform = georeference.transform();
+    const bool is_geographic = info.crs && info.crs->kind() == CrsKind::Geographic;
+    const QString unit =
+        is_geographic ? QStringLiteral("°")
+                      : QLatin1Char(' ') + (info.crs ? QString::fromStdString(info.crs->unitName())
+                                                     : tr("map units"));
+    const QString width = number(transform.pixelWidth());
+    const QString height = number(transform.pixelHeight());
+    const auto metres = [](double value) { return shortNumberText(value, 6); };
+    QString pixel = width == height
+                        //: The size of a pixel, and its unit with the space before it
+                        ? tr("%1%2").arg(width, unit)
+                        : tr("%1 × %2%3").arg(width, height, unit);
+    const bool is_in_metres = info.crs && !is_geographic && info.crs->unit() == 1.0;
+    if (!is_in_metres) {
+        const QString in_metres = tr("%1 × %2 m")
+                                      .arg(metres(georeference.pixelWidthMetres()),
+                                           metres(georeference.pixelHeightMetres()));
+        pixel += QLatin1Char('\n') + (info.crs ? in_metres : tr("%1, assumed").arg(in_metres));
+    }
+    addFact(tr("Pixel"), pixel);
+    const MapExtent extent = mapExtent(georeference);
+    if (!is_geographic) {
+        //: The range of map coordinates: x from %1 to %2, y from %3 to %4
+        addFact(tr("Extent"), tr("x %1 … %2\ny %3 … %4")
+                                  .arg(number(extent.low.x), number(extent.high.x),
+                                       number(extent.low.y), number(extent.high.y)));
+    }
+    const std::vector<CoordinateDisplay> displays = coordinateDisplays(info);
+    if (const auto place = geographicExtent(georeference)) {
+        const auto longitude = [](Angle angle) { return shortNumberText(angle.degrees(), 6); };
+        const auto latitude = [&](Angle angle) {
+            const bool is_graphic = displays.front() == CoordinateDisplay::Planetographic;
+            return shortNumberText(
+                (is_graphic ? info.crs->ellipsoid()->planetographic(angle) : angle).degrees(), 6);
+        };
+        //: Longitudes from %1 to %2 and latitudes from %3 to %4; %5 is the kind of latitude
+        addFact(tr("Longitude, latitude"),
+                tr("%1° … %2° E\n%3° … %4° N %5")
+                    .arg(longitude(place->west), longitude(place->east), latitude(place->south),
+                         latitude(place->north), displayName(displays.front(), info)));
+    }
+    const GeoTransform::Terms& t = transform.terms();
+    addFact(tr("Geotransform"), info.transform ? tr("%1, %2, %3\n%4, %5, %6")
+                                                     .arg(number(t[0]), number(t[1]), number(t[2]),
+                                                          number(t[3]), number(t[4]), number(t[5]))
+                                               : tr("none"));
+}
+
+void GeoreferencingPanel::addSampleFacts(const Dataset& dataset)
+{
+    const RasterInfo& info = dataset.info();
+    //: %1 columns and %2 rows of samples, of type %3
+    addFact(tr("Samples"), tr("%1 × %2, %3")
+                               .arg(countText(info.columns), countText(info.rows),
+                                    fromStd(sampleTypeName(info.type))));
+    if (const auto& range = dataset.heightfield().range()) {
+        addFact(tr("Heights"), heightRangeText(*range, unit_of_heights_));
+    }
+    const QString unit = QString::fromStdString(info.unit.name);
+    addFact(tr("Height unit"), info.is_unit_declared ? unit : tr("%1, assumed").arg(unit));
+    addFact(tr("Datum"), info.vertical_datum.empty() ? tr("unknown")
+                                                     : QString::fromStdString(info.vertical_datum));
+    addFact(tr("Nodata"), info.nodata ? number(*info.nodata) : tr("none"));
+    addFact(tr("Driver"), QString::fromStdString(info.driver));
+    if (!dataset.spec().overrides.isEmpty()) {
+        addFact(tr("Source"), tr("overridden by you"));
+    }
 }
 
 void GeoreferencingPanel::fillFields()

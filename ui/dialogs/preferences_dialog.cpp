@@ -1,0 +1,79 @@
+#include "ui/dialogs/preferences_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace marsview {
+
+PreferencesDialog::PreferencesDialog(const Preferences& preferences, QWidget* parent)
+    : QDialog(parent)
+    , theme_(new QComboBox(this))
+    , height_unit_(new QComboBox(this))
+    , frame_rate_(new QComboBox(this))
+    , antialiasing_(new QCheckBox(tr("Smooth &edges"), this))
+{
+    setWindowTitle(tr("Preferences"));
+    //: A theme: as light or dark as the desktop
+    theme_->addItem(tr("As the desktop"), static_cast<int>(Theme::System));
+    theme_->addItem(tr("Light"), static_cast<int>(Theme::Light));
+    theme_->addItem(tr("Dark"), static_cast<int>(Theme::Dark));
+    theme_->setAccessibleName(tr("Theme"));
+    height_unit_->addItem(tr("Metres"), static_cast<int>(HeightUnit::Metres));
+    height_unit_->addItem(tr("Feet"), static_cast<int>(HeightUnit::Feet));
+    height_unit_->setAccessibleName(tr("Unit of heights"));
+    for (const int rate : {20, 30, 60}) {
+        //: Frames per second
+        frame_rate_->addItem(tr("%n per second", nullptr, rate), rate);
+    }
+    frame_rate_->setAccessibleName(tr("Pictures while moving"));
+    frame_rate_->setToolTip(
+        tr("More pictures make motion smoother and the ground coarser while it lasts"));
+    antialiasing_->setAccessibleName(tr("Smooth edges"));
+    antialiasing_->setToolTip(tr("Where the graphics driver does it without effort"));
+
+    auto* form = new QFormLayout;
+    form->addRow(tr("&Theme"), theme_);
+    form->addRow(tr("&Heights in"), height_unit_);
+    form->addRow(tr("&Pictures while moving"), frame_rate_);
+    form->addRow(QString(), antialiasing_);
+    auto* buttons =
+        new QDialogButtonBox(QDialogButtonBox::Close | QDialogButtonBox::RestoreDefaults, this);
+    auto* layout = new QVBoxLayout(this);
+    layout->addLayout(form);
+    layout->addStretch(1);
+    layout->addWidget(buttons);
+    fill(preferences);
+
+    const auto tell = [this] { Q_EMIT preferencesChanged(this->preferences()); };
+    for (QComboBox* box : {theme_, height_unit_, frame_rate_}) {
+        connect(box, &QComboBox::currentIndexChanged, this, tell);
+    }
+    connect(antialiasing_, &QCheckBox::toggled, this, tell);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
+            [this] { fill(Preferences{}); });
+}
+
+void PreferencesDialog::fill(const Preferences& preferences)
+{
+    theme_->setCurrentIndex(theme_->findData(static_cast<int>(preferences.theme)));
+    height_unit_->setCurrentIndex(
+        height_unit_->findData(static_cast<int>(preferences.height_unit)));
+    frame_rate_->setCurrentIndex(frame_rate_->findData(preferences.frames_per_s));
+    antialiasing_->setChecked(preferences.has_antialiasing);
+}
+
+Preferences PreferencesDialog::preferences() const
+{
+    return {.theme = static_cast<Theme>(theme_->currentData().toInt()),
+            .height_unit = static_cast<HeightUnit>(height_unit_->currentData().toInt()),
+            .has_antialiasing = antialiasing_->isChecked(),
+            .frames_per_s = frame_rate_->currentData().toInt()};
+}
+
+} // namespace marsview

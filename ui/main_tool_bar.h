@@ -1,0 +1,34 @@
+// The toolbar: what is used all the time.
+#pragma once
+
+#include <QToolBar>
+
+class QLabel;
+class QSlider;
+class QToolButton;
+
+namespace marsview {
+
+struct WindowActions;
+
+class MainToolBar final : public QToolBar {
+    Q_OBJECT
+
+public:
+    explicit MainToolBar(const WindowActions& actions, QWidget* parent = nullptr);
+
+    void showExaggeration(double exaggeration);
+    void setExaggerationEnabled(bool is_enabled);
+    /// The button of the light, or the toolbar where it has no room for it.
+    const QWidget& lightAnchor() const;
+
+Q_SIGNALS:
+    void exaggerationRequested(double exaggeration);
+
+private:
+    QSlider* slider_ = nullptr;
+    QLabel* label_ = nullptr;
+    QWidget* light_button_ = nullptr;
+};
+
+} // namespace marsview

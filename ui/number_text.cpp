@@ -1,0 +1,70 @@
+#include "ui/number_text.h"
+
+#include <QCoreApplication>
+#include <QLocale>
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+constexpr double kMetresInAFoot = 0.3048;
+
+} // namespace
+
+double inUnit(double height_m, HeightUnit unit)
+{
+    return unit == HeightUnit::Feet ? height_m / kMetresInAFoot : height_m;
+}
+
+QString unitSymbol(HeightUnit unit)
+{
+    return unit == HeightUnit::Feet ? QStringLiteral("ft") : QStringLiteral("m");
+}
+
+QString numberText(double value, int decimals)
+{
+    const double half = 0.5 * std::pow(10.0, -decimals);
+    return withMinusSigns(QLocale().toString(std::abs(value) < half ? 0.0 : value, 'f', decimals));
+}
+
+QString shortNumberText(double value, int digits)
+{
+    return withMinusSigns(QLocale().toString(value, 'g', digits));
+}
+
+QString countText(std::size_t count)
+{
+    return QLocale().toString(static_cast<qulonglong>(count));
+}
+
+QString heightRangeText(const HeightRange& range, HeightUnit unit)
+{
+    const double low = inUnit(range.minimum_m, unit);
+    const double high = inUnit(range.maximum_m, unit);
+    const int decimals = decimalsFor((high - low) / 10.0, 3);
+    //: A range of heights; %3 is their unit
+    return QCoreApplication::translate("HeightText", "%1 … %2 %3")
+        .arg(numberText(low, decimals), numberText(high, decimals), unitSymbol(unit));
+}
+
+int decimalsFor(double resolution, int most)
+{
+    if (!(resolution > 0.0)) {
+        return most;
+    }
+    return std::clamp(static_cast<int>(std::ceil(-std::log10(resolution / 10.0) - 1e-9)), 0, most);
+}
+
+QString withMinusSigns(QString text)
+{
+    for (qsizetype i = 0; i + 1 < text.size(); ++i) {
+        if (text[i] == QLatin1Char('-') && text[i + 1].isDigit()) {
+            text[i] = QChar(0x2212);
+        }
+    }
+    return text;
+}
+
+} // namespace marsview

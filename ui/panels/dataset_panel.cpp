@@ -1,0 +1,155 @@
+#include "ui/panels/dataset_panel.h"
+
+#include "ui/panels/layer_delegate.h"
+#include "ui/panels/layer_model.h"
+#include "ui/ramp_text.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListView>
+#include <QScopedValueRollback>
+#include <QStackedLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace marsview {
+namespace {
+
+QToolButton* makeButton(QAction* action, QWidget* parent)
+{
+    auto* button = new QToolButton(parent);
+    button->setDefaultAction(action);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return button;
+}
+
+} // namespace
+
+DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
+    : QWidget(parent)
+    , model_(new LayerModel(this))
+    , list_(new QListView(this))
+    , empty_(new QLabel(this))
+    , ramps_(new QComboBox(this))
+    , pages_(new QStackedLayout)
+{
+    list_->setAccessibleName(tr("Layers, the topmost first"));
+    list_->setObjectName(QStringLiteral("layers"));
+    list_->setFrameShape(QFrame::NoFrame);
+    list_->setModel(model_);
+    list_->setItemDelegate(new LayerDelegate(*model_, this));
+    list_->setSelectionMode(QAbstractItemView::SingleSelection);
+    list_->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
+    list_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+    list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    list_->setResizeMode(QListView::Adjust);
+    list_->setDragDropMode(QAbstractItemView::InternalMove);
+    list_->setDefaultDropAction(Qt::MoveAction);
+    list_->setContextMenuPolicy(Qt::ActionsContextMenu);
+    list_->setTabKeyNavigation(false);
+    for (QAction* action :
+         {actions.go_to, actions.rename, actions.move_up, actions.move_down, actions.remove}) {
+        list_->addAction(action);
+    }
+
+    empty_->setText(tr("No maps are open.\nDrop a DEM here or press Ctrl+O."));
+    empty_->setAlignment(Qt::AlignCenter);
+    empty_->setWordWrap(true);
+    empty_->setContentsMargins(12, 12, 12, 12);
+    empty_->setEnabled(false);
+    pages_->addWidget(list_);
+    pages_->addWidget(empty_);
+
+    ramps_->setAccessibleName(tr("Colour ramp of the active layer"));
+    ramps_->setObjectName(QStringLiteral("ramp"));
+    ramps_->setIconSize({32, 12});
+    ramps_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    ramps_->setMinimumContentsLength(6);
+    //: A colour ramp: the one that suits the map's body
+    ramps_->addItem(tr("Automatic"), QString());
+    for (const ColorRamp& ramp : colorRamps()) {
+        ramps_->addItem(
+            rampIcon(ramp), rampName(ramp),
+            QString::fromUtf8(ramp.name.data(), static_cast<qsizetype>(ramp.name.size())));
+    }
+    auto* ramp_row = new QHBoxLayout;
+    ramp_row->setSpacing(8);
+    auto* ramp_label = new QLabel(tr("&Ramp"), this);
+    ramp_label->setBuddy(ramps_);
+    ramp_row->addWidget(ramp_label);
+    ramp_row->addWidget(ramps_, 1);
+
+    auto* buttons = new QHBoxLayout;
+    buttons->setSpacing(2);
+    buttons->addWidget(makeButton(actions.open, this));
+    for (QAction* action : {actions.move_up, actions.move_down}) {
+        QToolButton* button = makeButton(action, this);
+        button->setArrowType(action == actions.move_up ? Qt::UpArrow : Qt::DownArrow);
+        button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+        button->setAccessibleName(action->text().remove(QLatin1Char('&')));
+        buttons->addWidget(button);
+    }
+    buttons->addStretch(1); // what cannot be meant by accident stands apart
+    buttons->addWidget(makeButton(actions.remove, this));
+
+    auto* foot = new QVBoxLayout;
+    foot->setContentsMargins(6, 4, 6, 4);
+    foot->addLayout(ramp_row);
+    foot->addLayout(buttons);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addLayout(pages_, 1);
+    layout->addLayout(foot);
+
+    connect(model_, &LayerModel::visibilityRequested, this, &DatasetPanel::visibilityRequested);
+    connect(model_, &LayerModel::nameRequested, this, &DatasetPanel::nameRequested);
+    connect(model_, &LayerModel::moveRequested, this, &DatasetPanel::moveRequested);
+    connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+            [this](const QModelIndex& current) {
+                if (!is_filling_ && current.isValid()) {
+                    Q_EMIT activationRequested(model_->idAt(current));
+                }
+            });
+    connect(ramps_, &QComboBox::activated, this, [this](int item) {
+        Q_EMIT rampRequested(model_->session().active, ramps_->itemData(item).toString());
+    });
+    showActive();
+}
+
+void DatasetPanel::setSession(const Session& session)
+{
+    const QScopedValueRollback filling(is_filling_, true);
+    model_->setSession(session);
+    showActive();
+}
+
+void DatasetPanel::setHeightUnit(HeightUnit unit)
+{
+    model_->setHeightUnit(unit);
+}
+
+void DatasetPanel::editName()
+{
+    list_->setFocus();
+    list_->edit(list_->currentIndex());
+}
+
+void DatasetPanel::showActive()
+{
+    const QModelIndex index = model_->indexOfLayer(model_->session().active);
+    pages_->setCurrentWidget(index.isValid() ? static_cast<QWidget*>(list_) : empty_);
+    if (index.isValid() && index != list_->currentIndex()) {
+        list_->setCurrentIndex(index);
+    }
+    list_->doItemsLayout(); // a reason not to be shown makes a row taller
+    ramps_->setEnabled(index.isValid());
+    const Layer* layer = activeLayer(model_->session());
+    ramps_->setCurrentIndex(layer != nullptr ? ramps_->findData(QString::fromStdString(layer->ramp))
+                                             : 0);
+}
+
+} // namespace marsview

@@ -1,0 +1,63 @@
+// The panel that lists the layers.
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/number_text.h"
+
+#include <QWidget>
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QListView;
+class QStackedLayout;
+
+namespace marsview {
+
+class LayerModel;
+
+/// What can be done with the active layer; the same actions are in the menus.
+struct LayerActions {
+    QAction* open = nullptr;
+    QAction* remove = nullptr;
+    QAction* move_up = nullptr;
+    QAction* move_down = nullptr;
+    QAction* rename = nullptr;
+    QAction* go_to = nullptr;
+};
+
+/// A list that shows the session. Asks for changes; never makes any.
+class DatasetPanel final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit DatasetPanel(const LayerActions& actions, QWidget* parent = nullptr);
+
+    void setSession(const Session& session);
+    void setHeightUnit(HeightUnit unit);
+    /// Lets the user type a new name for the active layer.
+    void editName();
+
+    QListView* list() const noexcept { return list_; }
+    LayerModel* model() const noexcept { return model_; }
+
+Q_SIGNALS:
+    void activationRequested(LayerId id);
+    void visibilityRequested(LayerId id, bool is_visible);
+    void nameRequested(LayerId id, const QString& name);
+    void moveRequested(LayerId id, std::size_t index);
+    /// Empty for the ramp that suits the body.
+    void rampRequested(LayerId id, const QString& ramp);
+
+private:
+    void showActive();
+
+    LayerModel* model_ = nullptr;
+    QListView* list_ = nullptr;
+    QLabel* empty_ = nullptr;
+    QComboBox* ramps_ = nullptr;
+    QStackedLayout* pages_ = nullptr;
+    bool is_filling_ = false;
+};
+
+} // namespace marsview

@@ -1,0 +1,40 @@
+// Histograms of the session's maps, counted away from the GUI thread.
+#pragma once
+
+#include "core/session/dataset.h"
+#include "core/terrain/height_histogram.h"
+
+#include <QObject>
+#include <QThreadPool>
+
+#include <map>
+#include <memory>
+
+namespace marsview {
+
+/// Counts each map once and forgets it with its dataset. Lives in the GUI thread; the destructor
+/// waits for the count that runs, which is some 10 ms.
+class HistogramMaker final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit HistogramMaker(QObject* parent = nullptr);
+    ~HistogramMaker() override;
+
+    /// Null while it is being counted; made() tells when it is there.
+    std::shared_ptr<const HeightHistogram> find(const std::shared_ptr<const Dataset>& dataset);
+
+Q_SIGNALS:
+    void made(const std::shared_ptr<const Dataset>& dataset);
+
+private:
+    struct Entry {
+        std::weak_ptr<const Dataset> dataset;
+        std::shared_ptr<const HeightHistogram> histogram; // null while it is being counted
+    };
+
+    std::map<const Dataset*, Entry> entries_;
+    QThreadPool pool_;
+};
+
+} // namespace marsview

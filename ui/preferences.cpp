@@ -1,0 +1,75 @@
+#include "ui/preferences.h"
+
+#include <QSettings>
+#include <QString>
+
+#include <algorithm>
+#include <array>
+
+namespace marsview {
+namespace {
+
+// Words, so that people may edit the file.
+constexpr std::array kThemes{"system", "light", "dark"};
+constexpr std::array kUnits{"m", "ft"};
+constexpr std::array kFrameRates{20, 30, 60};
+
+template <typename Enum, std::size_t kCount>
+Enum enumFrom(const QVariant& value, const std::array<const char*, kCount>& words, Enum otherwise)
+{
+    for (std::size_t i = 0; i < kCount; ++i) {
+        if (value.toString() == QLatin1String(words[i])) {
+            return static_cast<Enum>(i);
+        }
+    }
+    return otherwise;
+}
+
+QString themeKey()
+{
+    return QStringLiteral("preferences/theme");
+}
+
+QString unitKey()
+{
+    return QStringLiteral("preferences/heightUnit");
+}
+
+QString antialiasingKey()
+{
+    return QStringLiteral("preferences/antialiasing");
+}
+
+QString frameRateKey()
+{
+    return QStringLiteral("preferences/framesPerSecond");
+}
+
+} // namespace
+
+Preferences preferencesFrom(const QSettings& settings)
+{
+    const Preferences standard;
+    Preferences preferences;
+    preferences.theme = enumFrom(settings.value(themeKey()), kThemes, standard.theme);
+    preferences.height_unit = enumFrom(settings.value(unitKey()), kUnits, standard.height_unit);
+    preferences.has_antialiasing =
+        settings.value(antialiasingKey(), standard.has_antialiasing).toBool();
+    const int rate = settings.value(frameRateKey()).toInt();
+    const bool is_offered =
+        std::find(kFrameRates.begin(), kFrameRates.end(), rate) != kFrameRates.end();
+    preferences.frames_per_s = is_offered ? rate : standard.frames_per_s;
+    return preferences;
+}
+
+void save(const Preferences& preferences, QSettings& settings)
+{
+    settings.setValue(themeKey(),
+                      QLatin1String(kThemes[static_cast<std::size_t>(preferences.theme)]));
+    settings.setValue(unitKey(),
+                      QLatin1String(kUnits[static_cast<std::size_t>(preferences.height_unit)]));
+    settings.setValue(antialiasingKey(), preferences.has_antialiasing);
+    settings.setValue(frameRateKey(), preferences.frames_per_s);
+}
+
+} // namespace marsview

@@ -1,0 +1,38 @@
+// The files opened last, and the menu that offers them.
+#pragma once
+
+#include <QObject>
+#include <QStringList>
+
+class QMenu;
+
+namespace marsview {
+
+/// Remembers ten files, the last opened first, for this and for later windows. Files that are gone
+/// stay in the list, behind the others, and say so.
+class RecentFiles final : public QObject {
+    Q_OBJECT
+
+public:
+    enum class Memory { Settings, WindowOnly };
+
+    /// Keeps `menu` filled whenever it opens.
+    RecentFiles(QMenu& menu, Memory memory, QObject* parent = nullptr);
+
+    void add(const QString& file);
+    void clear();
+    const QStringList& files() const noexcept { return files_; }
+
+Q_SIGNALS:
+    void chosen(const QString& file);
+
+private:
+    void fillMenu();
+    void changed();
+
+    QMenu& menu_;
+    Memory memory_;
+    QStringList files_; // the last opened first
+};
+
+} // namespace marsview

@@ -1,0 +1,369 @@
+#include "ui/session_controller.h"
+
+#include "ui/terrain_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// Undone layers keep their samples in memory; nobody takes back more steps than these.
+constexpr int kUndoStepsMax = 100;
+
+// Places at which a layer is looked for on screen, along each side.
+constexpr int kProbesPerSide = 5;
+
+QString nameOf(const Layer& layer)
+{
+    return QString::fromStdString(layer.name);
+}
+
+bool isSame(const std::vector<ShownLayer>& a, const std::vector<ShownLayer>& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const ShownLayer& x, const ShownLayer& y) {
+                          return x.map.dataset == y.map.dataset && x.ramp == y.ramp;
+                      });
+}
+
+// A place of `layer` on the grid of the scene, which lies in the same CRS.
+std::optional<GridPoint> onGridOf(const Dataset& scene, const Dataset& layer, GridPoint grid)
+{
+    if (&scene == &layer) {
+        return grid;
+    }
+    const Georeference& from = layer.georeference();
+    if (const auto place = from.toGeographic(grid)) {
+        if (const auto there = scene.georeference().toGrid(*place)) {
+            return there;
+        }
+    }
+    return scene.georeference().toGrid(from.toMap(grid));
+}
+
+GridPoint placeOn(const Dataset& dataset, double column_share, double row_share)
+{
+    return {column_share * static_cast<double>(dataset.heightfield().columns() - 1),
+            row_share * static_cast<double>(dataset.heightfield().rows() - 1)};
+}
+
+// From where the larger side of a map fills most of a picture that is 40° high.
+double distanceToSee(const Dataset& dataset)
+{
+    const Georeference& georeference = dataset.georeference();
+    const double side_m =
+        std::max(static_cast<double>(georeference.columns()) * georeference.pixelWidthMetres(),
+                 static_cast<double>(georeference.rows()) * georeference.pixelHeightMetres());
+    return 1.2 * side_m / (2.0 * std::tan(Angle::degrees(20.0).radians()));
+}
+
+} // namespace
+
+const ColorRamp& rampOf(const Layer& layer)
+{
+    const ColorRamp* ramp = colorRampNamed(layer.ramp);
+    const Body* body = layer.dataset->info().body;
+    return ramp != nullptr ? *ramp
+                           : defaultColorRamp(body != nullptr ? body->name : std::string_view{});
+}
+
+SessionController::SessionController(TerrainView& view, QObject* parent)
+    : QObject(parent)
+    , view_(view)
+    , loader_(new LoadController(this))
+{
+    undo_stack_.setUndoLimit(kUndoStepsMax);
+    connect(&view_, &TerrainView::ready, this, [this](const RenderLimits& limits) {
+        limits_ = limits;
+        startNext();
+    });
+    connect(&view_, &TerrainView::mapShown, this, &SessionController::revealWhatCame);
+    connect(loader_, &LoadController::progressed, this, [this](const LoadProgress& progress) {
+        if (current_) {
+            Q_EMIT loadProgressed({.file = QString::fromStdString(current_->spec.path),
+                                   .progress = progress,
+                                   .position = begun_count_,
+                                   .count = asked_count_});
+        }
+    });
+    connect(loader_, &LoadController::succeeded, this, &SessionController::accept);
+    connect(loader_, &LoadController::failed, this, [this](const LoadFailure& failure) {
+        current_.reset();
+        Q_EMIT failed(QString::fromStdString(failure.error.message));
+        endLoad();
+    });
+}
+
+SessionController::~SessionController() = default;
+
+void SessionController::open(const QStringList& files)
+{
+    if (files.isEmpty()) {
+        return;
+    }
+    // The sample is for people who have nothing of their own to look at.
+    std::erase_if(waiting_, [](const Load& load) { return load.purpose == Load::Purpose::Sample; });
+    if (current_ && current_->purpose == Load::Purpose::Sample) {
+        current_.reset();
+        loader_->cancel();
+    }
+    for (const QString& file : files) {
+        enqueue({.purpose = Load::Purpose::Open, .spec = {.path = file.toStdString()}});
+    }
+    startNext();
+}
+
+void SessionController::openSample(const QString& file)
+{
+    if (session_.layers.empty() && !isBusy()) {
+        enqueue({.purpose = Load::Purpose::Sample, .spec = {.path = file.toStdString()}});
+        startNext();
+    }
+}
+
+void SessionController::overrideGeoreferencing(LayerId id, const RasterOverrides& overrides)
+{
+    const Layer* layer = layerOf(session_, id);
+    if (layer == nullptr) {
+        return;
+    }
+    Load load{.purpose = Load::Purpose::Override, .spec = layer->dataset->spec(), .layer = id};
+    load.spec.overrides = overrides;
+    enqueue(std::move(load));
+    startNext();
+}
+
+void SessionController::enqueue(Load load)
+{
+    if (!isBusy()) {
+        asked_count_ = 0;
+        begun_count_ = 0;
+    }
+    ++asked_count_;
+    waiting_.push_back(std::move(load));
+}
+
+void SessionController::startNext()
+{
+    if (current_ || waiting_.empty() || !limits_) {
+        return;
+    }
+    current_ = std::move(waiting_.front());
+    waiting_.pop_front();
+    ++begun_count_;
+    const Layer* layer = layerOf(session_, current_->layer);
+    loader_->start({.spec = current_->spec,
+                    .limits = *limits_,
+                    .loaded = layer != nullptr ? layer->dataset : nullptr});
+}
+
+void SessionController::endLoad()
+{
+    startNext();
+    if (!isBusy()) {
+        Q_EMIT loadingEnded();
+    }
+}
+
+void SessionController::cancel()
+{
+    if (!isBusy()) {
+        return;
+    }
+    waiting_.clear();
+    current_.reset();
+    loader_->cancel();
+    Q_EMIT loadingCancelled();
+    Q_EMIT loadingEnded();
+}
+
+// What is being loaded for a layer that is gone is of no use.
+void SessionController::dropLoadsOf(LayerId id)
+{
+    const bool was_busy = isBusy();
+    std::erase_if(waiting_, [id](const Load& load) { return load.layer == id; });
+    if (current_ && current_->layer == id) {
+        current_.reset();
+        loader_->cancel();
+    }
+    if (was_busy) {
+        endLoad();
+    }
+}
+
+void SessionController::accept(const LoadedMap& map)
+{
+    const Load load = *std::exchange(current_, std::nullopt);
+    const auto dataset = maps_.keep(map);
+    if (load.purpose == Load::Purpose::Override) {
+        if (const Layer* layer = layerOf(session_, load.layer)) {
+            //: Continues "Undo …"; %1 is a layer
+            change(tr("Georeferencing of %1").arg(nameOf(*layer)),
+                   withDataset(session_, load.layer, dataset));
+        }
+    } else {
+        const bool is_sample = load.purpose == Load::Purpose::Sample;
+        const Session after = added(session_, {.dataset = dataset, .is_sample = is_sample});
+        to_reveal_ = after.active;
+        if (is_sample && undo_stack_.count() == 0) {
+            apply(after);
+        } else {
+            //: Continues "Undo …"; %1 is a layer
+            change(tr("Open %1").arg(nameOf(after.layers.front())), after);
+        }
+        if (!is_sample) {
+            Q_EMIT opened(QString::fromStdString(load.spec.path));
+        }
+    }
+    endLoad();
+}
+
+void SessionController::remove(LayerId id)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        const QString text = tr("Remove %1").arg(nameOf(*layer));
+        change(text, removed(session_, id));
+        dropLoadsOf(id);
+    }
+}
+
+void SessionController::move(LayerId id, std::size_t index)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Move %1").arg(nameOf(*layer)), activated(moved(session_, id, index), id));
+    }
+}
+
+void SessionController::setVisible(LayerId id, bool is_visible)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        const QString text = is_visible ? tr("Show %1") : tr("Hide %1");
+        change(text.arg(nameOf(*layer)), withVisibility(session_, id, is_visible));
+    }
+}
+
+void SessionController::setRamp(LayerId id, const QString& ramp)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Ramp of %1").arg(nameOf(*layer)), withRamp(session_, id, ramp.toStdString()));
+    }
+}
+
+void SessionController::rename(LayerId id, const QString& name)
+{
+    const QString trimmed = name.trimmed();
+    const Layer* layer = layerOf(session_, id);
+    if (layer != nullptr && !trimmed.isEmpty()) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Rename %1").arg(nameOf(*layer)), withName(session_, id, trimmed.toStdString()));
+    }
+}
+
+void SessionController::setShading(ShadingMode mode)
+{
+    TerrainLook look = session_.look;
+    look.mode = mode;
+    //: Continues "Undo …"
+    change(tr("Shading"), withLook(session_, look));
+}
+
+void SessionController::setContours(bool has_contours)
+{
+    TerrainLook look = session_.look;
+    look.has_contours = has_contours;
+    //: Continues "Undo …"
+    change(tr("Contours"), withLook(session_, look));
+}
+
+void SessionController::setLight(Angle azimuth, Angle altitude)
+{
+    TerrainLook look = session_.look;
+    look.light_azimuth = azimuth;
+    look.light_altitude = altitude;
+    //: Continues "Undo …"
+    change(tr("Light"), withLook(session_, look), SessionCommand::Run::Light);
+}
+
+void SessionController::activate(LayerId id)
+{
+    if (id != session_.active) {
+        apply(activated(session_, id));
+    }
+}
+
+void SessionController::change(const QString& text, const Session& after, SessionCommand::Run run)
+{
+    if (after == session_) {
+        return;
+    }
+    undo_stack_.push(new SessionCommand(
+        text, session_, after, [this](const Session& session) { apply(session); }, run));
+}
+
+void SessionController::apply(const Session& session)
+{
+    // Steps of undo know of other active layers; ids given since then stay given.
+    const std::uint32_t next_id = std::max(session_.next_id, session.next_id);
+    session_ = session;
+    session_.next_id = next_id;
+    show();
+    Q_EMIT sessionChanged();
+}
+
+void SessionController::show()
+{
+    std::vector<ShownLayer> shown;
+    for (const Layer* layer : shownLayers(session_)) {
+        shown.push_back({.map = maps_.find(layer->dataset), .ramp = &rampOf(*layer)});
+    }
+    if (!isSame(shown, shown_)) {
+        shown_ = std::move(shown);
+        view_.setLayers(shown_);
+    }
+    if (view_.look() != session_.look) {
+        view_.setLook(session_.look);
+    }
+}
+
+void SessionController::revealWhatCame()
+{
+    const Layer* layer = layerOf(session_, to_reveal_);
+    const Dataset* scene = view_.map().dataset.get();
+    if (layer == nullptr || scene != layer->dataset.get()) {
+        return;
+    }
+    to_reveal_ = LayerId::None;
+    for (int row = 0; row < kProbesPerSide; ++row) {
+        for (int column = 0; column < kProbesPerSide; ++column) {
+            const auto position =
+                view_.positionOf(placeOn(*scene, static_cast<double>(column) / (kProbesPerSide - 1),
+                                         static_cast<double>(row) / (kProbesPerSide - 1)));
+            if (position && QRectF(view_.rect()).contains(*position)) {
+                return;
+            }
+        }
+    }
+    goTo(layer->id);
+}
+
+void SessionController::goTo(LayerId id)
+{
+    const Layer* layer = layerOf(session_, id);
+    const Dataset* scene = view_.map().dataset.get();
+    const auto shown = shownLayers(session_);
+    if (layer == nullptr || scene == nullptr ||
+        std::find(shown.begin(), shown.end(), layer) == shown.end()) {
+        return;
+    }
+    if (const auto centre = onGridOf(*scene, *layer->dataset, placeOn(*layer->dataset, 0.5, 0.5))) {
+        view_.flyTo(*centre, distanceToSee(*layer->dataset));
+    }
+}
+
+} // namespace marsview

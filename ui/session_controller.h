@@ -1,0 +1,120 @@
+// The session of the window: the only bridge between layers, loading, undo and the view.
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/load_controller.h"
+#include "ui/map_store.h"
+#include "ui/session_command.h"
+
+#include <QObject>
+#include <QString>
+#include <QUndoStack>
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+class TerrainView;
+
+/// What is loading, for people.
+struct LoadReport {
+    QString file; // its path
+    LoadProgress progress;
+    int position = 1; // of those asked for together, counted from 1
+    int count = 1;
+};
+
+/// Holds the session and changes it on request; every change is undoable, except which layer is
+/// active. What has to be loaded is loaded first, one after the other in the order asked for, and
+/// becomes a change when it is there. Lives in the GUI thread; must not outlive the view.
+class SessionController final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit SessionController(TerrainView& view, QObject* parent = nullptr);
+    ~SessionController() override;
+
+    const Session& session() const noexcept { return session_; }
+    QUndoStack& undoStack() noexcept { return undo_stack_; }
+    const LoadController& loader() const noexcept { return *loader_; }
+    /// Something is loading or waits for its turn.
+    bool isBusy() const noexcept { return current_.has_value() || !waiting_.empty(); }
+    /// The view can draw, so that loading may begin.
+    bool isReady() const noexcept { return limits_.has_value(); }
+
+    /// Each becomes a layer on top when it is loaded. May be called before the view can draw.
+    void open(const QStringList& files);
+    /// As a sample, which is no change to take back and gives way to the first map opened. Nothing
+    /// where the user was faster.
+    void openSample(const QString& file);
+    /// Tells the file of a layer better.
+    void overrideGeoreferencing(LayerId id, const RasterOverrides& overrides);
+    /// Stops what is loading and forgets what waits.
+    void cancel();
+
+    // Nothing where there is no such layer, or nothing would change.
+    void remove(LayerId id);
+    void move(LayerId id, std::size_t index);
+    void setVisible(LayerId id, bool is_visible);
+    /// A name of colorRamps(); empty for the one that suits the body.
+    void setRamp(LayerId id, const QString& ramp);
+    void rename(LayerId id, const QString& name);
+    void setShading(ShadingMode mode);
+    void setContours(bool has_contours);
+    void setLight(Angle azimuth, Angle altitude);
+    void activate(LayerId id);
+
+    /// Flies to where all of a layer is in sight. Nothing where it is not shown.
+    void goTo(LayerId id);
+
+Q_SIGNALS:
+    /// Layers, their looks or which one is active.
+    void sessionChanged();
+    void loadProgressed(const LoadReport& report);
+    /// Nothing is loading any more.
+    void loadingEnded();
+    /// The user stopped it.
+    void loadingCancelled();
+    void opened(const QString& file);
+    /// "FILE: WHY". The session is as it was.
+    void failed(const QString& problem);
+
+private:
+    struct Load {
+        enum class Purpose { Open, Sample, Override } purpose = Purpose::Open;
+        DatasetSpec spec;
+        LayerId layer = LayerId::None; // whose georeferencing is told
+    };
+
+    void enqueue(Load load);
+    void startNext();
+    void dropLoadsOf(LayerId id);
+    void accept(const LoadedMap& map);
+    void endLoad();
+    void change(const QString& text,
+                const Session& after,
+                SessionCommand::Run run = SessionCommand::Run::None);
+    void apply(const Session& session);
+    void show();
+    void revealWhatCame();
+
+    TerrainView& view_;
+    LoadController* loader_ = nullptr;
+    MapStore maps_;
+    Session session_;
+    QUndoStack undo_stack_;
+    std::optional<RenderLimits> limits_; // known once there is a graphics context
+    std::optional<Load> current_;
+    std::deque<Load> waiting_;
+    int asked_count_ = 0; // since nothing was loading
+    int begun_count_ = 0;
+    LayerId to_reveal_ = LayerId::None;
+    std::vector<ShownLayer> shown_;
+};
+
+/// The ramp that a layer is drawn with.
+const ColorRamp& rampOf(const Layer& layer);
+
+} // namespace marsview

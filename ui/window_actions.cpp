@@ -1,0 +1,252 @@
+#include "ui/window_actions.h"
+
+#include "ui/ramp_text.h"
+#include "ui/terrain_view.h"
+
+#include <QActionGroup>
+#include <QCoreApplication>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QUndoStack>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+QString tr(const char* text)
+{
+    return QCoreApplication::translate("WindowActions", text);
+}
+
+struct StepAction {
+    NavigationStep step;
+    const char* text;
+    Qt::Key key;
+};
+
+constexpr std::array kStepActions{
+    StepAction{NavigationStep::ZoomIn, QT_TRANSLATE_NOOP("WindowActions", "Zoom &In"),
+               Qt::Key_PageUp},
+    StepAction{NavigationStep::ZoomOut, QT_TRANSLATE_NOOP("WindowActions", "Zoom &Out"),
+               Qt::Key_PageDown},
+    StepAction{NavigationStep::PanLeft, QT_TRANSLATE_NOOP("WindowActions", "Pan &Left"),
+               Qt::Key_Left},
+    StepAction{NavigationStep::PanRight, QT_TRANSLATE_NOOP("WindowActions", "Pan &Right"),
+               Qt::Key_Right},
+    StepAction{NavigationStep::PanAway, QT_TRANSLATE_NOOP("WindowActions", "Pan &Forward"),
+               Qt::Key_Up},
+    StepAction{NavigationStep::PanNearer, QT_TRANSLATE_NOOP("WindowActions", "Pan &Back"),
+               Qt::Key_Down},
+    StepAction{NavigationStep::TurnLeft, QT_TRANSLATE_NOOP("WindowActions", "&Turn Left"),
+               Qt::Key_Q},
+    StepAction{NavigationStep::TurnRight, QT_TRANSLATE_NOOP("WindowActions", "T&urn Right"),
+               Qt::Key_E},
+    StepAction{NavigationStep::TiltUp, QT_TRANSLATE_NOOP("WindowActions", "Tilt U&p"), Qt::Key_R},
+    StepAction{NavigationStep::TiltDown, QT_TRANSLATE_NOOP("WindowActions", "Tilt &Down"),
+               Qt::Key_F},
+};
+
+struct ShadingAction {
+    ShadingMode mode;
+    const char* text;
+};
+
+constexpr std::array kShadingActions{
+    //: Colours by height, with light and shade
+    ShadingAction{ShadingMode::Tint, QT_TRANSLATE_NOOP("WindowActions", "&Heights and Light")},
+    //: Light and shade alone
+    ShadingAction{ShadingMode::Hillshade, QT_TRANSLATE_NOOP("WindowActions", "&Light Only")},
+    //: Colours by steepness
+    ShadingAction{ShadingMode::Slope, QT_TRANSLATE_NOOP("WindowActions", "&Slope")},
+};
+
+QString fromStd(std::string_view text)
+{
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+} // namespace
+
+WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo_stack)
+{
+    makeFileMenu(window);
+    makeEditMenu(window, undo_stack);
+    makeViewMenu(window, map);
+    makeMapMenu(window);
+    makeHelpMenu(window);
+    for_shown_ += {save_picture, home, north, go_to_coordinate, exaggerate_more, exaggerate_less};
+    for_shown_ += steps;
+    showSession({});
+}
+
+void WindowActions::makeFileMenu(QMainWindow& window)
+{
+    QMenu* menu = window.menuBar()->addMenu(tr("&File"));
+    open = menu->addAction(tr("&Open…"));
+    open->setShortcut(QKeySequence::Open);
+    open->setToolTip(tr("Open a map as a new layer (%1)")
+                         .arg(open->shortcut().toString(QKeySequence::NativeText)));
+    recent = menu->addMenu(tr("Open &Recent"));
+    menu->addSeparator();
+    save_picture = menu->addAction(tr("Save &Picture…"));
+    save_picture->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_P));
+    save_picture->setToolTip(tr("Save what the map shows as a picture"));
+    menu->addSeparator();
+    cancel_loading = menu->addAction(tr("&Cancel Loading"));
+    cancel_loading->setShortcut(Qt::Key_Escape);
+    cancel_loading->setEnabled(false);
+    menu->addSeparator();
+    quit = menu->addAction(tr("&Quit"));
+    quit->setShortcut(QKeySequence::Quit);
+    quit->setMenuRole(QAction::QuitRole);
+}
+
+void WindowActions::makeEditMenu(QMainWindow& window, QUndoStack& undo_stack)
+{
+    QMenu* menu = window.menuBar()->addMenu(tr("&Edit"));
+    QAction* undo = undo_stack.createUndoAction(&window, tr("&Undo"));
+    undo->setShortcut(QKeySequence::Undo);
+    menu->addAction(undo);
+    QAction* redo = undo_stack.createRedoAction(&window, tr("&Redo"));
+    redo->setShortcut(QKeySequence::Redo);
+    menu->addAction(redo);
+    menu->addSeparator();
+    preferences = menu->addAction(tr("&Preferences…"));
+    preferences->setShortcuts(QKeySequence::Preferences);
+    preferences->setMenuRole(QAction::PreferencesRole);
+}
+
+void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
+{
+    QMenu* menu = window.menuBar()->addMenu(tr("&View"));
+    const auto add_key = [&map](QAction* action, const QList<QKeySequence>& sequences) {
+        action->setShortcuts(sequences);
+        action->setShortcutContext(Qt::WidgetShortcut);
+        map.addAction(action);
+    };
+    home = menu->addAction(tr("&Home"));
+    home->setToolTip(tr("Show the whole map from the south (Home)"));
+    add_key(home, {Qt::Key_Home});
+    north = menu->addAction(tr("&North Up"));
+    north->setIconText(tr("North"));
+    north->setToolTip(tr("Turn north to the top (N)"));
+    add_key(north, {Qt::Key_N});
+    go_to_coordinate = menu->addAction(tr("&Go to Coordinate…"));
+    go_to_coordinate->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_G));
+    menu->addSeparator();
+    QMenu* move = menu->addMenu(tr("&Move"));
+    for (const StepAction& entry : kStepActions) {
+        QAction* action = move->addAction(tr(entry.text));
+        action->setData(static_cast<int>(entry.step));
+        add_key(action, {entry.key});
+        steps.append(action);
+    }
+    menu->addSeparator();
+    exaggerate_more = menu->addAction(tr("E&xaggerate More"));
+    add_key(exaggerate_more, {Qt::Key_Plus, Qt::Key_Equal});
+    exaggerate_less = menu->addAction(tr("Exaggerate &Less"));
+    add_key(exaggerate_less, {Qt::Key_Minus});
+    menu->addSeparator();
+    panels = menu->addMenu(tr("&Panels"));
+}
+
+void WindowActions::makeMapMenu(QMainWindow& window)
+{
+    QMenu* menu = window.menuBar()->addMenu(tr("&Map"));
+    shading = menu->addMenu(tr("&Shading"));
+    shading_group = new QActionGroup(&window);
+    for (const ShadingAction& entry : kShadingActions) {
+        QAction* action = shading->addAction(tr(entry.text));
+        action->setCheckable(true);
+        action->setData(static_cast<int>(entry.mode));
+        shading_group->addAction(action);
+    }
+    shading->addSeparator();
+    contours = shading->addAction(tr("&Contour Lines"));
+    contours->setCheckable(true);
+    ramps = menu->addMenu(tr("&Ramp"));
+    ramp_group = new QActionGroup(&window);
+    const auto add_ramp = [this](const QString& text, const QString& name) {
+        QAction* action = ramps->addAction(text);
+        action->setCheckable(true);
+        action->setData(name);
+        ramp_group->addAction(action);
+        return action;
+    };
+    //: A colour ramp: the one that suits the map's body
+    add_ramp(tr("Automatic"), {});
+    ramps->addSeparator();
+    for (const ColorRamp& ramp : colorRamps()) {
+        add_ramp(rampName(ramp), fromStd(ramp.name))->setIcon(rampIcon(ramp));
+    }
+    light = menu->addAction(tr("&Light…"));
+    light->setToolTip(tr("Choose where the light comes from"));
+    menu->addSeparator();
+    toggle_visibility = menu->addAction(tr("Show La&yer"));
+    toggle_visibility->setCheckable(true);
+    layer.go_to = menu->addAction(tr("&Go to Layer"));
+    layer.rename = menu->addAction(tr("Re&name Layer"));
+    layer.rename->setShortcut(Qt::Key_F2);
+    layer.rename->setShortcutContext(Qt::WidgetShortcut);
+    layer.move_up = menu->addAction(tr("Move Layer &Up"));
+    layer.move_up->setShortcut(QKeySequence(Qt::ALT | Qt::Key_Up));
+    layer.move_up->setShortcutContext(Qt::WidgetShortcut);
+    layer.move_down = menu->addAction(tr("Move Layer &Down"));
+    layer.move_down->setShortcut(QKeySequence(Qt::ALT | Qt::Key_Down));
+    layer.move_down->setShortcutContext(Qt::WidgetShortcut);
+    menu->addSeparator();
+    override_georeferencing = menu->addAction(tr("&Override Georeferencing…"));
+    menu->addSeparator();
+    layer.remove = menu->addAction(tr("R&emove Layer"));
+    layer.remove->setIconText(tr("Remove"));
+    layer.remove->setShortcut(QKeySequence::Delete);
+    layer.remove->setShortcutContext(Qt::WidgetShortcut);
+    layer.open = open;
+}
+
+void WindowActions::makeHelpMenu(QMainWindow& window)
+{
+    QMenu* menu = window.menuBar()->addMenu(tr("&Help"));
+    keys = menu->addAction(tr("&Keys and Mouse"));
+    keys->setShortcut(QKeySequence::HelpContents);
+    menu->addSeparator();
+    about = menu->addAction(tr("&About MarsView"));
+    about->setMenuRole(QAction::AboutRole);
+}
+
+void WindowActions::showSession(const Session& session)
+{
+    const Layer* active = activeLayer(session);
+    const std::vector<LayerState> states = placement(session);
+    const std::size_t index = indexOf(session, session.active);
+    const bool is_any_shown =
+        std::find(states.begin(), states.end(), LayerState::Shown) != states.end();
+    for (QAction* action : std::as_const(for_shown_)) {
+        action->setEnabled(is_any_shown);
+    }
+    for (QAction* action :
+         {layer.rename, layer.remove, toggle_visibility, override_georeferencing}) {
+        action->setEnabled(active != nullptr);
+    }
+    layer.go_to->setEnabled(active != nullptr && states[index] == LayerState::Shown);
+    layer.move_up->setEnabled(active != nullptr && index > 0);
+    layer.move_down->setEnabled(active != nullptr && index + 1 < session.layers.size());
+    toggle_visibility->setChecked(active != nullptr && active->is_visible);
+    ramp_group->setEnabled(active != nullptr);
+    for (QAction* action : ramp_group->actions()) {
+        action->setChecked(active != nullptr &&
+                           action->data().toString() == QString::fromStdString(active->ramp));
+    }
+    for (QAction* action : shading_group->actions()) {
+        action->setChecked(action->data().toInt() == static_cast<int>(session.look.mode));
+    }
+    contours->setChecked(session.look.has_contours);
+}
+
+} // namespace marsview

@@ -1,0 +1,66 @@
+// Everything that the window can be told to do, and the menus that offer it.
+#pragma once
+
+#include "core/view/terrain_look.h"
+#include "ui/panels/dataset_panel.h"
+
+#include <QList>
+
+class QAction;
+class QActionGroup;
+class QMainWindow;
+class QMenu;
+class QUndoStack;
+class QWidget;
+
+namespace marsview {
+
+/// The actions with their texts, keys and hints, and the menus. What they do is connected by the
+/// window. Owned by the window.
+struct WindowActions {
+    /// Makes actions and menu bar. Keys for moving act while `map` has the focus, those for layers
+    /// while their list has it, so that fields keep their arrows and letters.
+    WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo_stack);
+
+    QAction* open = nullptr;
+    QMenu* recent = nullptr; // filled by RecentFiles
+    QAction* save_picture = nullptr;
+    QAction* cancel_loading = nullptr;
+    QAction* quit = nullptr;
+    QAction* preferences = nullptr;
+
+    QAction* home = nullptr;
+    QAction* north = nullptr;
+    QAction* go_to_coordinate = nullptr;
+    QList<QAction*> steps; // data(): the NavigationStep
+    QAction* exaggerate_more = nullptr;
+    QAction* exaggerate_less = nullptr;
+    QMenu* panels = nullptr; // filled by the docks
+
+    LayerActions layer;
+    QAction* toggle_visibility = nullptr;
+    QMenu* ramps = nullptr;
+    QActionGroup* ramp_group = nullptr; // data(): the ramp's name
+    QMenu* shading = nullptr;
+    QActionGroup* shading_group = nullptr; // data(): the ShadingMode
+    QAction* contours = nullptr;
+    QAction* light = nullptr;
+    QAction* override_georeferencing = nullptr;
+
+    QAction* keys = nullptr;
+    QAction* about = nullptr;
+
+    /// Checks and enables what fits `session`.
+    void showSession(const Session& session);
+
+private:
+    void makeFileMenu(QMainWindow& window);
+    void makeEditMenu(QMainWindow& window, QUndoStack& undo_stack);
+    void makeViewMenu(QMainWindow& window, QWidget& map);
+    void makeMapMenu(QMainWindow& window);
+    void makeHelpMenu(QMainWindow& window);
+
+    QList<QAction*> for_shown_; // of use only while something is shown
+};
+
+} // namespace marsview

@@ -1,0 +1,142 @@
+#include "ui/window_docks.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QScopedValueRollback>
+#include <QSettings>
+
+#include <algorithm>
+#include <array>
+
+namespace marsview {
+namespace {
+
+constexpr int kStateVersion = 2; // of saveState(); raise when docks or toolbars change meaning
+
+constexpr int kDockShareOfWidth = 3;
+constexpr int kDockWidthMin = 200;
+constexpr int kDockWidthMax = 300;
+
+bool isDocked(const QDockWidget& dock)
+{
+    return dock.isVisibleTo(dock.parentWidget()) && !dock.isFloating();
+}
+
+} // namespace
+
+WindowDocks::WindowDocks(QMainWindow& window, QWidget* datasets, QWidget* georeferencing)
+    : QObject(&window)
+    , window_(window)
+{
+    makeDock(datasets_, tr("Datasets"), QStringLiteral("datasetDock"), datasets);
+    makeDock(georeferencing_, tr("Georeferencing"), QStringLiteral("georeferencingDock"),
+             georeferencing);
+    window_.addDockWidget(Qt::LeftDockWidgetArea, datasets_.widget);
+    window_.addDockWidget(Qt::RightDockWidgetArea, georeferencing_.widget);
+    for (const Dock* dock : {&datasets_, &georeferencing_}) {
+        connect(dock->widget, &QDockWidget::topLevelChanged, this, &WindowDocks::fit);
+        connect(dock->widget, &QDockWidget::dockLocationChanged, this, &WindowDocks::fit);
+    }
+    datasets_.turn = ++turn_; // rather this one, where there is room for one
+    fit();
+}
+
+void WindowDocks::makeDock(Dock& dock, const QString& title, const QString& name, QWidget* content)
+{
+    dock.widget = new QDockWidget(title, &window_);
+    dock.widget->setObjectName(name);
+    dock.widget->setAllowedAreas(Qt::LeftDockWidgetArea | Qt::RightDockWidgetArea);
+    dock.widget->setWidget(content);
+    dock.widget->setMinimumWidth(kDockWidthMin);
+    connect(dock.widget->toggleViewAction(), &QAction::triggered, this,
+            [this, &dock](bool is_checked) { userToggled(dock, is_checked); });
+}
+
+void WindowDocks::userToggled(Dock& dock, bool is_visible)
+{
+    dock.is_folded = false;
+    if (is_visible) {
+        dock.turn = ++turn_;
+    }
+    fit();
+}
+
+void WindowDocks::reveal(QDockWidget& widget)
+{
+    widget.show();
+    widget.raise();
+    userToggled(&widget == datasets_.widget ? datasets_ : georeferencing_, true);
+}
+
+void WindowDocks::fold(Dock& dock, bool is_folded)
+{
+    if (dock.is_folded != is_folded) {
+        dock.is_folded = is_folded;
+        dock.widget->setVisible(!is_folded);
+    }
+}
+
+void WindowDocks::fit()
+{
+    if (is_fitting_) {
+        return;
+    }
+    const QScopedValueRollback fitting(is_fitting_, true);
+    std::array<Dock*, 2> by_turn{&datasets_, &georeferencing_};
+    std::stable_sort(by_turn.begin(), by_turn.end(),
+                     [](const Dock* a, const Dock* b) { return a->turn > b->turn; });
+    const int width_max = window_.width() / kDockShareOfWidth;
+    // Each side that is in use takes its width once, however many panels are on it.
+    bool is_left_used = false;
+    bool is_right_used = false;
+    int sides = 0;
+    for (Dock* dock : by_turn) {
+        if (!isDocked(*dock->widget) && !dock->is_folded) {
+            continue; // closed by the user, or floating
+        }
+        bool& is_used = window_.dockWidgetArea(dock->widget) == Qt::RightDockWidgetArea
+                            ? is_right_used
+                            : is_left_used;
+        const int sides_with_it = sides + (is_used ? 0 : 1);
+        // What the user asked for last stays, even in a narrow window.
+        const bool has_room = sides_with_it * kDockWidthMin <= width_max;
+        const bool is_asked_for = dock == by_turn.front() && dock->turn > 1;
+        fold(*dock, !has_room && !is_asked_for);
+        if (!dock->is_folded) {
+            is_used = true;
+            sides = sides_with_it;
+        }
+    }
+    const int width = std::clamp(width_max / std::max(1, sides), kDockWidthMin, kDockWidthMax);
+    QList<QDockWidget*> docked;
+    QList<int> widths;
+    for (Dock* dock : by_turn) {
+        dock->widget->setMaximumWidth(dock->widget->isFloating() ? QWIDGETSIZE_MAX
+                                                                 : std::max(width, kDockWidthMin));
+        if (isDocked(*dock->widget)) {
+            docked.append(dock->widget);
+            widths.append(width);
+        }
+    }
+    window_.resizeDocks(docked, widths, Qt::Horizontal);
+}
+
+void WindowDocks::save(QSettings& settings)
+{
+    // What is only folded is open.
+    const QScopedValueRollback fitting(is_fitting_, true);
+    for (Dock* dock : {&datasets_, &georeferencing_}) {
+        fold(*dock, false);
+    }
+    settings.setValue(QStringLiteral("window/state"), window_.saveState(kStateVersion));
+}
+
+void WindowDocks::restore(const QSettings& settings)
+{
+    window_.restoreState(settings.value(QStringLiteral("window/state")).toByteArray(),
+                         kStateVersion);
+    fit();
+}
+
+} // namespace marsview
