@@ -3,7 +3,7 @@
 
 #include "core/base/result.h"
 #include "core/session/dataset.h"
-#include "ui/loaded_map.h"
+#include "core/session/loaded_map.h"
 
 #include <QObject>
 #include <QThreadPool>
@@ -16,7 +16,6 @@ namespace marsview {
 /// What to load.
 struct LoadRequest {
     DatasetSpec spec;
-    RenderLimits limits;
     /// The same file as it is loaded already: where nothing has to be read again, its samples are
     /// used. May be null.
     std::shared_ptr<const Dataset> loaded;

@@ -430,7 +430,7 @@ void MainWindow::openLightPopup()
 
 void MainWindow::settleIfIdle()
 {
-    if (controller_->isReady() && !controller_->isBusy() &&
+    if (view_->isReady() && !controller_->isBusy() &&
         (shownLayers(session()).empty() || view_->isPictureComplete())) {
         Q_EMIT settled();
     }

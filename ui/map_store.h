@@ -1,7 +1,7 @@
 // What the session's datasets need for drawing, kept for as long as a session has them.
 #pragma once
 
-#include "ui/loaded_map.h"
+#include "core/session/loaded_map.h"
 
 #include <map>
 #include <memory>

@@ -75,10 +75,6 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
     , loader_(new LoadController(this))
 {
     undo_stack_.setUndoLimit(kUndoStepsMax);
-    connect(&view_, &TerrainView::ready, this, [this](const RenderLimits& limits) {
-        limits_ = limits;
-        startNext();
-    });
     connect(&view_, &TerrainView::mapShown, this, &SessionController::revealWhatCame);
     connect(loader_, &LoadController::progressed, this, [this](const LoadProgress& progress) {
         if (current_) {
@@ -147,7 +143,7 @@ void SessionController::enqueue(Load load)
 
 void SessionController::startNext()
 {
-    if (current_ || waiting_.empty() || !limits_) {
+    if (current_ || waiting_.empty()) {
         return;
     }
     current_ = std::move(waiting_.front());
@@ -155,7 +151,6 @@ void SessionController::startNext()
     ++begun_count_;
     const Layer* layer = layerOf(session_, current_->layer);
     loader_->start({.spec = current_->spec,
-                    .limits = *limits_,
                     .loaded = layer != nullptr ? layer->dataset : nullptr});
 }
 

@@ -41,8 +41,6 @@ public:
     const LoadController& loader() const noexcept { return *loader_; }
     /// Something is loading or waits for its turn.
     bool isBusy() const noexcept { return current_.has_value() || !waiting_.empty(); }
-    /// The view can draw, so that loading may begin.
-    bool isReady() const noexcept { return limits_.has_value(); }
 
     /// Each becomes a layer on top when it is loaded. May be called before the view can draw.
     void open(const QStringList& files);
@@ -105,7 +103,6 @@ private:
     MapStore maps_;
     Session session_;
     QUndoStack undo_stack_;
-    std::optional<RenderLimits> limits_; // known once there is a graphics context
     std::optional<Load> current_;
     std::deque<Load> waiting_;
     int asked_count_ = 0; // since nothing was loading

@@ -4,7 +4,7 @@
 #include "core/terrain/ray_cast.h"
 #include "core/view/navigation.h"
 #include "core/view/terrain_look.h"
-#include "ui/loaded_map.h"
+#include "core/session/loaded_map.h"
 #include "ui/navigator.h"
 #include "ui/render/terrain_renderer.h"
 

@@ -4,9 +4,17 @@
 #include "core/view/scene_box.h"
 #include "core/view/tint_range.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace marsview {
+namespace {
+
+// A relief texel's largest slope is this many times the slope that the default exaggeration makes
+// steep. 16 bits then resolve 5e-4 of that, which no light shows.
+constexpr double kSlopeReach = 16.0;
+
+} // namespace
 
 Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor& monitor)
 {
@@ -17,9 +25,25 @@ Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor&
     }
     const HeightRange range = heightfield.range().value_or(HeightRange{});
     const HeightRange tinted = tintRange((*analysis)->means, range);
+    const double slope_max = kSlopeReach / suitableExaggeration(*dataset);
+    auto relief = std::make_shared<const ReliefTile>(
+        makeReliefTile(heightfield, dataset->georeference().sceneFrame(),
+                       wholeRelief(heightfield.columns(), heightfield.rows()), slope_max));
     return LoadedMap{.dataset = std::move(dataset),
                      .analysis = std::move(analysis).value(),
-                     .tint_range = tinted};
+                     .tint_range = tinted,
+                     .slope_max = slope_max,
+                     .relief = std::move(relief)};
+}
+
+ReliefTileId wholeRelief(std::size_t columns, std::size_t rows)
+{
+    // Nodes double from DetailErrors::kNodeCells cells until one is enough; tiles cover the same.
+    std::size_t level = 0;
+    while ((ReliefTile::kTexels << level) < std::max(columns, rows) - 1) {
+        ++level;
+    }
+    return {.level = level};
 }
 
 double suitableExaggeration(const Dataset& dataset)

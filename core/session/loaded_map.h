@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/dataset.h"
+#include "core/terrain/relief_tile.h"
 #include "core/terrain/surface_analysis.h"
 
 #include <memory>
@@ -13,12 +14,18 @@ struct LoadedMap {
     std::shared_ptr<const Dataset> dataset;
     std::shared_ptr<const SurfaceAnalysis> analysis; // of the dataset's heightfield
     HeightRange tint_range; // over which colours are spread: all but the rarest heights
+    double slope_max = 1.0; // that relief tiles are made for
+    /// The relief of the whole map, the first that drawing needs.
+    std::shared_ptr<const ReliefTile> relief;
 
     explicit operator bool() const noexcept { return dataset != nullptr; }
 };
 
 /// Analyses a dataset's surface: not for the GUI thread. Only Cancelled can go wrong.
 Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor& monitor);
+
+/// Which relief tile covers all of a map of columns × rows samples.
+ReliefTileId wholeRelief(std::size_t columns, std::size_t rows);
 
 /// The factor at which the map's relief is easily seen (exaggeration.h).
 double suitableExaggeration(const Dataset& dataset);

@@ -7,15 +7,18 @@ namespace marsview {
 Result<std::shared_ptr<const SurfaceAnalysis>> analyse(const Heightfield& heightfield,
                                                        JobMonitor& monitor)
 {
+    // Shares as measured on a map of 34 million samples.
+    monitor.beginStage(0.0, 0.15);
     Result<MinMaxPyramid> bounds = MinMaxPyramid::build(heightfield, monitor);
     if (!bounds) {
         return std::move(bounds).error();
     }
+    monitor.beginStage(0.15, 0.2);
     Result<BlockMeans> means = BlockMeans::build(heightfield, monitor);
     if (!means) {
         return std::move(means).error();
     }
-    // This takes most of the time, and so is the progress that is seen.
+    monitor.beginStage(0.2, 1.0);
     Result<DetailErrors> errors = DetailErrors::build({heightfield, *means}, monitor);
     if (!errors) {
         return std::move(errors).error();

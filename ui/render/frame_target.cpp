@@ -1,5 +1,7 @@
 #include "ui/render/frame_target.h"
 
+#include "core/base/check.h"
+
 #include <algorithm>
 
 namespace marsview {
@@ -10,12 +12,16 @@ bool isSame(const Viewport& a, const Viewport& b)
     return a.width == b.width && a.height == b.height;
 }
 
-void copyColors(GLuint from, const Viewport& from_size, GLuint to, const Viewport& to_size)
+void copy(GLuint from, const Viewport& from_size, GLuint to, const Viewport& to_size)
 {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
-    glBlitFramebuffer(0, 0, from_size.width, from_size.height, 0, 0, to_size.width, to_size.height,
-                      GL_COLOR_BUFFER_BIT, isSame(from_size, to_size) ? GL_NEAREST : GL_LINEAR);
+    const auto part = [&](GLbitfield mask, GLenum filter) {
+        glBlitFramebuffer(0, 0, from_size.width, from_size.height, 0, 0, to_size.width,
+                          to_size.height, mask, filter);
+    };
+    part(GL_COLOR_BUFFER_BIT, isSame(from_size, to_size) ? GL_NEAREST : GL_LINEAR);
+    part(GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
 } // namespace
@@ -29,13 +35,13 @@ FrameTarget::Buffers FrameTarget::make(const Viewport& size, int samples)
     glBindRenderbuffer(GL_RENDERBUFFER, buffers.color.id());
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, size.width, size.height);
     glBindRenderbuffer(GL_RENDERBUFFER, buffers.depth.id());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, size.width,
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH24_STENCIL8, size.width,
                                      size.height);
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, buffers.frame.id());
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                               buffers.color.id());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
                               buffers.depth.id());
     return buffers;
 }
@@ -49,8 +55,9 @@ void FrameTarget::begin(const Viewport& size, int samples)
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_->frame.id());
 }
 
-void FrameTarget::end(GLuint target, const Viewport& target_size)
+void FrameTarget::present(GLuint target, const Viewport& target_size)
 {
+    MARSVIEW_CHECK(drawn_.has_value());
     const bool is_two_steps = drawn_->samples > 1 && !isSame(drawn_->size, target_size);
     if (is_two_steps) {
         // Samples are merged by a copy of the same size only.
@@ -58,11 +65,11 @@ void FrameTarget::end(GLuint target, const Viewport& target_size)
             resolved_.reset();
             resolved_ = make(drawn_->size, 0);
         }
-        copyColors(drawn_->frame.id(), drawn_->size, resolved_->frame.id(), resolved_->size);
-        copyColors(resolved_->frame.id(), resolved_->size, target, target_size);
+        copy(drawn_->frame.id(), drawn_->size, resolved_->frame.id(), resolved_->size);
+        copy(resolved_->frame.id(), resolved_->size, target, target_size);
     } else {
         resolved_.reset();
-        copyColors(drawn_->frame.id(), drawn_->size, target, target_size);
+        copy(drawn_->frame.id(), drawn_->size, target, target_size);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, target);
 }

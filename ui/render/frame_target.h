@@ -15,9 +15,9 @@ public:
     /// Binds a buffer of that size; `samples` of 0 or 1 is one a pixel, more are as many as the
     /// driver has up to that.
     void begin(const Viewport& size, int samples);
-    /// Copies the colours into `target` at its size, smoothed where sizes differ, and leaves that
-    /// bound.
-    void end(GLuint target, const Viewport& target_size);
+    /// Copies colours, smoothed where sizes differ, and depths into `target`, whose depth buffer
+    /// has 24 bits and a stencil of 8, and leaves that bound. As often as wanted after begin().
+    void present(GLuint target, const Viewport& target_size);
 
 private:
     struct Buffers {

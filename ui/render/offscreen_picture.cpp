@@ -49,11 +49,11 @@ Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
     glBindRenderbuffer(GL_RENDERBUFFER, color.id());
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
     glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size.width, size.height);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size.width, size.height);
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color.id());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.id());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth.id());
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         return Error{ErrorCode::OutOfRange,
                      fmt::format("{} × {} pixels: this driver has no frame buffer of that size",

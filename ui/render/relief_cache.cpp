@@ -36,7 +36,7 @@ void ReliefCache::beginRound(std::size_t upload_max)
 {
     slots_.beginRound();
     for (const ReliefResult& result : loader_.take(upload_max)) {
-        upload(result);
+        upload(result.key, result.tile);
     }
     missing_.clear();
 }
@@ -81,9 +81,9 @@ void ReliefCache::bind(GLenum slope_unit, bool has_voids) const
     }
 }
 
-void ReliefCache::upload(const ReliefResult& result)
+void ReliefCache::upload(const LayerNode& key, const ReliefTile& tile)
 {
-    const auto slot = slots_.find(result.key) ? slots_.find(result.key) : slots_.assign(result.key);
+    const auto slot = slots_.find(key) ? slots_.find(key) : slots_.assign(key);
     if (!slot) {
         return; // all are in this picture; it will be asked for again
     }
@@ -91,12 +91,12 @@ void ReliefCache::upload(const ReliefResult& result)
     glBindTexture(GL_TEXTURE_2D_ARRAY, slopes_.id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     GLint n = 0;
-    for (const ReliefTile::Level& level : result.tile.levels) {
+    for (const ReliefTile::Level& level : tile.levels) {
         const auto side = static_cast<GLsizei>(level.side);
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, n++, 0, 0, static_cast<GLint>(*slot), side, side, 1,
                         GL_RG, GL_SHORT, level.slopes.data());
     }
-    if (result.tile.levels.front().shares.empty()) {
+    if (tile.levels.front().shares.empty()) {
         return;
     }
     if (!shares_) {
@@ -106,7 +106,7 @@ void ReliefCache::upload(const ReliefResult& result)
     glBindTexture(GL_TEXTURE_2D_ARRAY, shares_->id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     n = 0;
-    for (const ReliefTile::Level& level : result.tile.levels) {
+    for (const ReliefTile::Level& level : tile.levels) {
         const auto side = static_cast<GLsizei>(level.side);
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, n++, 0, 0, static_cast<GLint>(*slot), side, side, 1,
                         GL_RED, GL_UNSIGNED_BYTE, level.shares.data());

@@ -24,6 +24,8 @@ public:
 
     std::size_t size() const noexcept { return slots_.size(); }
 
+    /// Sends a tile that is there already.
+    void keep(const LayerNode& key, const ReliefTile& tile) { upload(key, tile); }
     /// Sends at most `upload_max` finished tiles to the driver and begins to collect what is
     /// missing. Tiles found from now on stay until the next call.
     void beginRound(std::size_t upload_max);
@@ -39,7 +41,7 @@ public:
     void bind(GLenum slope_unit, bool has_voids) const;
 
 private:
-    void upload(const ReliefResult& result);
+    void upload(const LayerNode& key, const ReliefTile& tile);
 
     LruSlots<LayerNode, LayerNodeHash> slots_;
     GlTexture slopes_;

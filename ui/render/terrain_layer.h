@@ -18,6 +18,8 @@ struct TerrainLayer {
     SceneFrame frame;                                // from its grid to the scene
     const ColorRamp* ramp = nullptr;                 // static data
     HeightRange tint_range; // over which the ramp is spread: all but the rarest heights
+    double slope_max = 1.0; // that relief tiles are made for
+    std::shared_ptr<const ReliefTile> relief; // of the whole map
 };
 
 /// The layer of a map by itself, in its own frame.
@@ -27,7 +29,9 @@ inline TerrainLayer terrainLayer(const LoadedMap& map, const ColorRamp& ramp)
             .analysis = map.analysis,
             .frame = map.dataset->georeference().sceneFrame(),
             .ramp = &ramp,
-            .tint_range = map.tint_range};
+            .tint_range = map.tint_range,
+            .slope_max = map.slope_max,
+            .relief = map.relief};
 }
 
 } // namespace marsview

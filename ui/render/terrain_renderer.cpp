@@ -5,7 +5,6 @@
 #include "ui/render/terrain_renderer.h"
 
 #include "core/base/check.h"
-#include "core/view/exaggeration.h"
 #include "core/view/scene_box.h"
 #include "ui/render/cover_texture.h"
 #include "ui/render/frame_target.h"
@@ -29,10 +28,6 @@ namespace {
 
 constexpr int kCells = static_cast<int>(DetailErrors::kNodeCells);
 constexpr int kSide = kCells + 1;
-
-// A texture's slope of 1 is this many times the slope that the default exaggeration makes steep.
-// 16 bits then resolve 5e-4 of that, which no light shows.
-constexpr double kSlopeReach = 16.0;
 
 // How many tiles are sent to the driver per frame: a millisecond each in software.
 constexpr std::size_t kUploadsPerFrame = 8;
@@ -78,7 +73,6 @@ struct Layer {
     std::uint32_t number = 0; // never used twice
     DrawnSurface surface;
     DetailSelector selector;
-    double slope_max = 1.0;
     GlTexture ramp;
     CoverTexture cover;
 
@@ -92,9 +86,6 @@ struct Layer {
                    source.frame)
         , cover(*source.heightfield, source.analysis->means)
     {
-        const HeightRange range = source.heightfield->range().value_or(HeightRange{});
-        slope_max = kSlopeReach /
-                    defaultExaggeration(box(1.0).extent_m(), range.maximum_m - range.minimum_m);
         sendRamp();
     }
 
@@ -103,6 +94,10 @@ struct Layer {
         const Heightfield& heightfield = *source.heightfield;
         return sceneBox(source.frame, heightfield.columns(), heightfield.rows(),
                         heightfield.range().value_or(HeightRange{}), exaggeration);
+    }
+    DetailNode wholeNode() const
+    {
+        return {std::max(source.analysis->errors.levelCount() - 1, kReliefLevelMin), 0, 0};
     }
     bool hasVoids() const { return source.heightfield->samples().hasVoids(); }
 
@@ -156,6 +151,7 @@ struct TerrainRenderer::Impl {
     HeightAtlas atlas;
     ReliefCache reliefs;
     FrameTarget frame_target;
+    Viewport kept_size;
     std::vector<std::unique_ptr<Layer>> layers; // uppermost first
     std::uint32_t next_layer_number = 0;
 
@@ -300,10 +296,9 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         return ReliefRequest{.key = {.layer = layer.number, .node = node},
                              .heightfield = layer.source.heightfield,
                              .frame = layer.source.frame,
-                             .slope_max = layer.slope_max};
+                             .slope_max = layer.source.slope_max};
     };
-    // The one that stands in for all others comes first.
-    reliefs.find(request_of({std::max(top, kReliefLevelMin), 0, 0}), top);
+    reliefs.find(request_of(layer.wholeNode()), top); // so that it is not given up
     atlas.beginRound();
     batch.clear();
     for (const SelectedNode& selected : selection.nodes) {
@@ -316,7 +311,7 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         }
         const auto relief = reliefs.find(request_of(selected.relief), top);
         if (!relief) {
-            continue; // within the first frames
+            continue; // given up and asked for again
         }
         const DetailNode& node = selected.node;
         const double step = static_cast<double>(std::size_t{1} << node.level);
@@ -419,8 +414,8 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     const double level = std::cos(look.light_altitude.radians());
     set("u_light", level * std::sin(look.light_azimuth.radians()),
         level * std::cos(look.light_azimuth.radians()), std::sin(look.light_altitude.radians()));
-    set("u_slope_unit", layer.slope_max * style.exaggeration);
-    set("u_slope_unit_true", layer.slope_max);
+    set("u_slope_unit", layer.source.slope_max * style.exaggeration);
+    set("u_slope_unit_true", layer.source.slope_max);
 
     const HeightRange range = heightfield.range().value_or(HeightRange{});
     const double pixel_m = 2.0 * request.camera.distance_m *
@@ -517,7 +512,11 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
                    old->source.analysis == layer.analysis && old->source.frame == layer.frame;
         });
         if (known == before.end()) {
-            impl_->layers.push_back(std::make_unique<Layer>(layer, impl_->next_layer_number++));
+            auto added = std::make_unique<Layer>(layer, impl_->next_layer_number++);
+            // Nothing is ever without relief: this one stands in for all others.
+            impl_->reliefs.keep({.layer = added->number, .node = added->wholeNode()},
+                                *layer.relief);
+            impl_->layers.push_back(std::move(added));
             continue;
         }
         const bool has_new_ramp = (*known)->source.ramp != layer.ramp;
@@ -551,7 +550,7 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
         .width = std::max(1, static_cast<int>(std::lround(request.viewport.width * request.scale))),
         .height =
             std::max(1, static_cast<int>(std::lround(request.viewport.height * request.scale)))};
-    const bool is_straight = request.scale == 1.0 && request.samples <= 1;
+    const bool is_straight = request.scale == 1.0 && request.samples <= 1 && !request.is_kept;
     if (is_straight) {
         glBindFramebuffer(GL_FRAMEBUFFER, target);
     } else {
@@ -573,11 +572,31 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
     glUseProgram(0);
     glActiveTexture(GL_TEXTURE0);
     if (!is_straight) {
-        impl.frame_target.end(target, request.viewport);
-        glViewport(0, 0, request.viewport.width, request.viewport.height);
+        impl.kept_size = request.viewport;
+        present(target);
     }
     report.is_complete = impl.reliefs.endRound();
     return report;
+}
+
+void TerrainRenderer::present(unsigned target)
+{
+    impl_->frame_target.present(target, impl_->kept_size);
+    glViewport(0, 0, impl_->kept_size.width, impl_->kept_size.height);
+}
+
+std::size_t TerrainRenderer::countTriangles(const DrawRequest& request, double exaggeration)
+{
+    std::size_t count = 0;
+    for (const auto& layer : impl_->layers) {
+        count += layer->selector
+                     .select({.camera = request.camera,
+                              .viewport = request.viewport,
+                              .exaggeration = exaggeration},
+                             request.detail)
+                     .triangle_count;
+    }
+    return count;
 }
 
 DrawReport

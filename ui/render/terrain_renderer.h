@@ -31,6 +31,7 @@ struct DrawRequest {
     DetailTarget detail;
     double scale = 1.0; // share of the viewport's width and height that is drawn, then enlarged
     int samples = 1;    // a pixel
+    bool is_kept = false; // for present()
 };
 
 /// What a picture took and what it shows.
@@ -66,9 +67,15 @@ public:
     /// The depths between which everything is drawn.
     ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 
-    /// Draws into the frame buffer object `target` with what there is.
+    /// What draw() would take. Cheap: nothing is drawn.
+    std::size_t countTriangles(const DrawRequest& request, double exaggeration);
+
+    /// Draws into the frame buffer object `target` with what there is. Its depth buffer has 24 bits
+    /// and a stencil of 8.
     DrawReport draw(const DrawRequest& request, const DrawStyle& style, unsigned target);
-    /// As above, waiting for all that is missing.
+    /// The last picture that was kept, once more.
+    void present(unsigned target);
+    /// As draw(), waiting for all that is missing.
     DrawReport drawComplete(const DrawRequest& request, const DrawStyle& style, unsigned target);
 
 private:

@@ -1,0 +1,143 @@
+#include "core/session/scene_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace marsview {
+namespace {
+
+// A ray may pass this many covered surfaces of one map.
+constexpr int kCoveredMax = 64;
+
+// Behind a covered hit the ray starts again this share of its way further on.
+constexpr double kStep = 1e-9;
+
+} // namespace
+
+SceneFrame frameWithin(const Georeference& scene, const Georeference& map)
+{
+    const auto onto_scene = [&](GridPoint grid) { return scene.toGrid(map.toMap(grid)); };
+    const GridPoint centre{static_cast<double>(map.columns() - 1) / 2.0,
+                           static_cast<double>(map.rows() - 1) / 2.0};
+    GridPoint there = onto_scene(centre);
+    if (const auto place = map.toGeographic(centre)) {
+        // The same place, by the turn of longitude on which the scene's map has it.
+        there = scene.toGrid(*place).value_or(there);
+    }
+    const SceneFrame& frame = scene.sceneFrame();
+    const GridPoint plain = onto_scene(centre);
+    const auto slope = [&](GridPoint grid) {
+        const GridPoint moved = onto_scene(grid);
+        return frame.toScene({frame.origin.column + moved.column - plain.column,
+                              frame.origin.row + moved.row - plain.row},
+                             0.0);
+    };
+    const ScenePoint column = slope({centre.column + 1.0, centre.row});
+    const ScenePoint row = slope({centre.column, centre.row + 1.0});
+    SceneFrame result{.origin = {},
+                      .east_per_column = column.x,
+                      .east_per_row = row.x,
+                      .north_per_column = column.y,
+                      .north_per_row = row.y};
+    // The centre lies where the scene has it.
+    const ScenePoint at = frame.toScene(there, 0.0);
+    const GridPoint back = result.toGrid({-at.x, -at.y, 0.0});
+    result.origin = {centre.column + back.column, centre.row + back.row};
+    return result;
+}
+
+SceneSurface::SceneSurface(const std::vector<LoadedMap>& maps)
+{
+    for (const LoadedMap& map : maps) {
+        const Georeference& georeference = map.dataset->georeference();
+        maps_.push_back(
+            {.map = map,
+             .frame = maps_.empty()
+                          ? georeference.sceneFrame()
+                          : frameWithin(maps_.front().map.dataset->georeference(), georeference)});
+    }
+}
+
+std::optional<GroundPoint> SceneSurface::cast(const Ray& ray, double exaggeration) const
+{
+    std::optional<GroundPoint> nearest;
+    for (std::size_t index = 0; index < maps_.size(); ++index) {
+        const SceneMap& part = maps_[index];
+        const Heightfield& heightfield = part.map.dataset->heightfield();
+        double from_m = 0.0;
+        for (int i = 0; i < kCoveredMax; ++i) {
+            const auto hit =
+                castRay(heightfield, part.map.analysis->bounds,
+                        gridRay(ray.at(from_m), ray.direction, part.frame, exaggeration));
+            if (!hit || (nearest && from_m + hit->t >= nearest->distance_m)) {
+                break;
+            }
+            const double distance_m = from_m + hit->t;
+            if (!isCovered(part.frame.toScene(hit->grid, 0.0), index)) {
+                nearest = GroundPoint{.index = index,
+                                      .grid = hit->grid,
+                                      .height_m = hit->height_m,
+                                      .distance_m = distance_m};
+                break;
+            }
+            from_m = distance_m * (1.0 + kStep) + std::numeric_limits<double>::min();
+        }
+    }
+    return nearest;
+}
+
+double SceneSurface::height(double east_m, double north_m) const
+{
+    for (const SceneMap& part : maps_) {
+        const double height_m = heightOf(part, east_m, north_m);
+        if (!std::isnan(height_m)) {
+            return height_m;
+        }
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+SceneBox SceneSurface::box(double exaggeration) const
+{
+    SceneBox box;
+    for (const SceneMap& part : maps_) {
+        const Heightfield& heightfield = part.map.dataset->heightfield();
+        const SceneBox more = sceneBox(part.frame, heightfield.columns(), heightfield.rows(),
+                                       heightfield.range().value_or(HeightRange{}), exaggeration);
+        box = &part == &maps_.front() ? more : united(box, more);
+    }
+    return box;
+}
+
+double SceneSurface::pixelMetres() const
+{
+    double pixel_m = std::numeric_limits<double>::infinity();
+    for (const SceneMap& part : maps_) {
+        const Georeference& georeference = part.map.dataset->georeference();
+        pixel_m =
+            std::min({pixel_m, georeference.pixelWidthMetres(), georeference.pixelHeightMetres()});
+    }
+    return pixel_m;
+}
+
+bool SceneSurface::isCovered(const ScenePoint& place, std::size_t index) const
+{
+    return std::any_of(
+        maps_.begin(), maps_.begin() + static_cast<std::ptrdiff_t>(index),
+        [&](const SceneMap& above) { return !std::isnan(heightOf(above, place.x, place.y)); });
+}
+
+double SceneSurface::heightOf(const SceneMap& map, double east_m, double north_m) const
+{
+    const Heightfield& heightfield = map.map.dataset->heightfield();
+    const auto on_edge = [](double place, std::size_t count) {
+        const double nearest = std::clamp(place, 0.0, static_cast<double>(count - 1));
+        return std::abs(nearest - place) < 1e-6 ? nearest : place;
+    };
+    const GridPoint grid = map.frame.toGrid({east_m, north_m, 0.0});
+    return heightfield.height(
+        {on_edge(grid.column, heightfield.columns()), on_edge(grid.row, heightfield.rows())});
+}
+
+} // namespace marsview

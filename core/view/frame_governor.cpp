@@ -1,0 +1,95 @@
+#include "core/view/frame_governor.h"
+
+#include <algorithm>
+#include <array>
+
+namespace marsview {
+namespace {
+
+constexpr std::array kErrorsPx{1.0, 1.4, 2.0, 2.8, 4.0, 5.6, kErrorPxMax};
+constexpr std::array kScales{1.0, 0.85, 0.7, 0.6, kScaleMin};
+
+constexpr double kLearningRate = 0.25;
+constexpr double kSurpriseMax = 3.0;  // times the prediction
+constexpr double kFinerMargin = 0.85; // of the target, for a plan finer than the last
+
+} // namespace
+
+Milliseconds FrameCost::predicted(const FrameLoad& load) const
+{
+    return base + per_triangle * static_cast<double>(load.triangle_count) +
+           per_pixel * load.pixel_count;
+}
+
+FrameCost softwareFrameCost()
+{
+    return {.base = Milliseconds(3.0),
+            .per_triangle = Milliseconds(1.6e-4),
+            .per_pixel = Milliseconds(1.6e-5)};
+}
+
+FrameCost gpuFrameCost()
+{
+    return {.base = Milliseconds(1.5),
+            .per_triangle = Milliseconds(3e-6),
+            .per_pixel = Milliseconds(1e-6)};
+}
+
+FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds taken)
+{
+    const Milliseconds expected = cost.predicted(load);
+    const Milliseconds counted =
+        std::clamp(taken, expected / kSurpriseMax, expected * kSurpriseMax);
+    const double ratio = counted / expected; // 1/3 … 3
+    // A term that makes up a share of the prediction moves by that share of the learning rate.
+    const auto moved = [&](Milliseconds term, Milliseconds part) {
+        return term * (1.0 + kLearningRate * (part / expected) * (ratio - 1.0));
+    };
+    return {.base = moved(cost.base, cost.base),
+            .per_triangle = moved(cost.per_triangle,
+                                  cost.per_triangle * static_cast<double>(load.triangle_count)),
+            .per_pixel = moved(cost.per_pixel, cost.per_pixel * load.pixel_count)};
+}
+
+FramePlan planFrame(const FrameCost& cost,
+                    const FrameWish& wish,
+                    const FramePlan& last,
+                    const std::function<std::size_t(double error_px)>& triangles)
+{
+    const auto is_finer = [&](const FramePlan& plan) {
+        return plan.error_px < last.error_px || plan.scale > last.scale;
+    };
+    const auto fits = [&](const FramePlan& plan, std::size_t triangle_count) {
+        const Milliseconds time =
+            cost.predicted({.triangle_count = triangle_count,
+                            .pixel_count = wish.pixel_count * plan.scale * plan.scale});
+        return time <= wish.target * (is_finer(plan) ? kFinerMargin : 1.0);
+    };
+    if (wish.is_touching) {
+        const std::size_t sharp = triangles(kErrorsPx.front());
+        for (const double scale : kScales) {
+            const FramePlan plan{.error_px = kErrorsPx.front(), .scale = scale};
+            if (fits(plan, sharp)) {
+                return plan;
+            }
+        }
+    }
+    const double first_scale = wish.is_touching ? kScaleMin : 1.0;
+    std::size_t coarsest = 0;
+    for (const double error_px : kErrorsPx) {
+        coarsest = triangles(error_px);
+        const FramePlan plan{.error_px = error_px, .scale = first_scale};
+        if (fits(plan, coarsest)) {
+            return plan;
+        }
+    }
+    for (const double scale : kScales) {
+        const FramePlan plan{.error_px = kErrorPxMax, .scale = scale};
+        if (fits(plan, coarsest)) {
+            return plan;
+        }
+    }
+    return {.error_px = kErrorPxMax, .scale = kScaleMin};
+}
+
+} // namespace marsview

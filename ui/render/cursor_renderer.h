@@ -1,0 +1,58 @@
+// Drawing the cursor: a small solid in the scene, its shadow on the ground, and the spring that
+// ties it to the hand.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/view/camera.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+/// As in section 4.2 of the paper "Large Haptic Topographic Maps".
+enum class CursorShape {
+    Sphere,     // in free space
+    Cone,       // on the ground: its tip points at the place
+    FlatSphere, // while the map is moved
+    LongSphere, // while the map is zoomed
+};
+
+/// All in scene coordinates. Sizes stay the same on screen.
+struct CursorPicture {
+    CursorShape shape = CursorShape::Sphere;
+    ScenePoint position;                 // the middle of a sphere, the tip of the cone
+    std::optional<ScenePoint> goal;      // where the hand is, when the ground keeps it from there
+    std::vector<ScenePoint> shadow;      // a ring on the ground, counterclockwise; may be empty
+    double pixels_per_point = 1.0;       // of the screen
+};
+
+/// Every call needs the context current in which it was created, the destructor included. Leaves no
+/// program, buffer or vertex array bound.
+class CursorRenderer {
+public:
+    static Result<std::unique_ptr<CursorRenderer>> create();
+    ~CursorRenderer();
+    CursorRenderer(const CursorRenderer&) = delete;
+    CursorRenderer& operator=(const CursorRenderer&) = delete;
+
+    /// Draws over a picture of the terrain in the bound frame buffer, hidden by what is in front of
+    /// it. The spring and the goal are seen through the ground.
+    void draw(const CursorPicture& cursor,
+              const OrbitCamera& camera,
+              const Viewport& viewport,
+              const ClipRange& clip);
+
+private:
+    struct Impl;
+    explicit CursorRenderer(std::unique_ptr<Impl> impl);
+
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Scene metres that a pixel is wide at a point: the scale at which things of a steady size on
+/// screen are drawn there.
+double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at);
+
+} // namespace marsview
