@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -54,7 +56,7 @@ double expectedRed(const Grid& grid,
                    std::ptrdiff_t c,
                    std::ptrdiff_t r)
 {
-    const auto tangentAlong = [&](std::ptrdiff_t dc, std::ptrdiff_t dr) {
+    const auto tangent_along = [&](std::ptrdiff_t dc, std::ptrdiff_t dr) {
         std::ptrdiff_t from = grid.at(c - dc, r - dr) ? -1 : 0;
         std::ptrdiff_t to = grid.at(c + dc, r + dr) ? 1 : 0;
         double rise = 0.0;
@@ -71,7 +73,7 @@ double expectedRed(const Grid& grid,
         along.z = rise * style.exaggeration;
         return along;
     };
-    Vec3 normal = normalized(cross(tangentAlong(1, 0), tangentAlong(0, 1)));
+    Vec3 normal = normalized(cross(tangent_along(1, 0), tangent_along(0, 1)));
     if (normal.z < 0.0) {
         normal = -normal;
     }
@@ -139,6 +141,8 @@ TEST(MapPreview, OfFlatGroundHasOneColour)
 
 TEST(MapPreview, IsLitFromTheNorthWestOnEveryRaster)
 {
+    constexpr std::array<GridPoint, 9> kNine{
+        {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}}};
     // A slope that falls to the north-west, on rasters that run to all four quarters.
     for (const double east : {10.0, -10.0}) {
         for (const double north : {10.0, -10.0}) {
@@ -146,7 +150,7 @@ TEST(MapPreview, IsLitFromTheNorthWestOnEveryRaster)
             Grid to_light{3, 3, {}};
             Grid from_light{3, 3, {}};
             for (int i = 0; i < 9; ++i) {
-                const ScenePoint p = frame.toScene({i % 3 * 1.0, i / 3 * 1.0}, 0.0);
+                const ScenePoint p = frame.toScene(kNine[static_cast<std::size_t>(i)], 0.0);
                 to_light.heights_m.push_back(static_cast<float>(50.0 + (p.x - p.y) * 0.5));
                 from_light.heights_m.push_back(static_cast<float>(50.0 - (p.x - p.y) * 0.5));
             }
