@@ -2,6 +2,8 @@
 
 #include "core/view/exaggeration.h"
 
+#include <QImage>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QOpenGLContext>
@@ -10,16 +12,31 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace marsview {
 namespace {
 
 using std::chrono::milliseconds;
 
-// Which drag does what: the first line that fits is taken. The left button is to touch the ground
-// once there is something to touch it with, and only pans until then.
+// After so long without a motion the picture becomes sharp.
+constexpr milliseconds kStillAfter{120};
+
+// While shading is still being made, a sharp picture is drawn again at most this often.
+constexpr milliseconds kNewsInterval{250};
+
+// The shadow of the cursor: radius on screen, and how many sides it has.
+constexpr double kShadowPoints = 9.0;
+constexpr int kShadowSides = 24;
+
+// Grabbed in free space, so many points of the hand zoom by a factor of e.
+constexpr double kGrabZoomPoints = 160.0;
+
+constexpr double kDeeperPerNotch = 1.15; // of the stylus' depth
+
+// Which drag does what: the first line that fits is taken.
 struct DragBinding {
     Qt::MouseButton button;
     Qt::KeyboardModifiers modifiers; // that have to be down; others are ignored
@@ -31,7 +48,7 @@ constexpr std::array kDragBindings{
     DragBinding{Qt::RightButton, Qt::ShiftModifier, DragAction::Pan},
     DragBinding{Qt::MiddleButton, Qt::NoModifier, DragAction::Orbit},
     DragBinding{Qt::RightButton, Qt::NoModifier, DragAction::Orbit},
-    DragBinding{Qt::LeftButton, Qt::NoModifier, DragAction::Pan},
+    DragBinding{Qt::LeftButton, Qt::NoModifier, DragAction::Touch},
 };
 
 DragAction dragActionFor(const QMouseEvent& event)
@@ -61,13 +78,6 @@ constexpr milliseconds kKeyDuration{180};
 constexpr double kFlyFactor = 0.3; // of the distance, a double click
 constexpr milliseconds kFlyDuration{700};
 
-bool isSameFrame(const SceneFrame& a, const SceneFrame& b)
-{
-    return a.origin == b.origin && a.east_per_column == b.east_per_column &&
-           a.east_per_row == b.east_per_row && a.north_per_column == b.north_per_column &&
-           a.north_per_row == b.north_per_row;
-}
-
 } // namespace
 
 TerrainView::TerrainView(QWidget* parent)
@@ -75,7 +85,6 @@ TerrainView::TerrainView(QWidget* parent)
     , navigator_([this](const OrbitCamera& camera) { return bounded(camera); })
     , empty_hint_(new QLabel(this))
 {
-    style_.ramp = &defaultColorRamp({});
     setAccessibleName(tr("Map"));
     setAccessibleDescription(
         tr("The terrain in perspective; the status bar tells the position and "
@@ -97,10 +106,13 @@ TerrainView::TerrainView(QWidget* parent)
     empty_hint_->setFont(font);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(empty_hint_);
+    still_timer_.setSingleShot(true);
+    connect(&still_timer_, &QTimer::timeout, this, &TerrainView::refineWhenStill);
     connect(&navigator_, &Navigator::cameraChanged, this, [this] {
-        is_completion_reported_ = false;
-        update();
+        redrawTerrain();
+        moveStylus();
         reportPointer();
+        Q_EMIT sightChanged();
     });
 }
 
@@ -115,57 +127,67 @@ TerrainView::~TerrainView()
 
 void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
 {
-    const LoadedMap map = top_first.empty() ? LoadedMap{} : top_first.front().map;
-    pending_ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
-    const LoadedMap& latest = is_pending_ ? pending_map_ : map_;
-    if (map.dataset != latest.dataset) {
-        setMap(map);
-    } else if (!is_pending_ && pending_ramp_ != nullptr) {
-        style_.ramp = pending_ramp_;
-        is_completion_reported_ = false;
-        update();
+    std::vector<LoadedMap> maps;
+    for (const ShownLayer& layer : top_first) {
+        maps.push_back(layer.map);
+    }
+    const LoadedMap map = maps.empty() ? LoadedMap{} : maps.front();
+    const bool is_same_place = map_ && map &&
+                               map_.dataset->georeference().sceneFrame() ==
+                                   map.dataset->georeference().sceneFrame();
+    const bool is_other_map = map.dataset != map_.dataset;
+    map_ = map;
+    ground_ = SceneSurface(maps);
+    layers_.clear();
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        layers_.push_back(terrainLayer(maps[i], ground_.maps()[i].frame, *top_first[i].ramp));
+    }
+    are_layers_sent_ = false;
+    empty_hint_->setVisible(!map_);
+    if (map_ && !is_same_place) {
+        style_.exaggeration = suitableExaggeration(*map_.dataset);
+        goToOpeningView();
+    }
+    stylus_.setGround(ground_, style_.exaggeration);
+    redrawTerrain();
+    if (is_other_map) {
+        QMetaObject::invokeMethod(
+            this,
+            [this] {
+                Q_EMIT mapShown(map_);
+                Q_EMIT exaggerationChanged(style_.exaggeration);
+                moveStylus();
+                reportPointer();
+            },
+            Qt::QueuedConnection);
     }
 }
 
 void TerrainView::setLook(const TerrainLook& look)
 {
-    look_ = look;
-    style_.light_azimuth = look.light_azimuth;
-    style_.light_altitude = look.light_altitude;
-    is_completion_reported_ = false;
-    update();
+    style_.look = look;
+    redrawTerrain();
 }
 
-void TerrainView::setAntialiasing(bool) {}
-
-void TerrainView::setFrameTarget(std::chrono::milliseconds) {}
-
-void TerrainView::flyTo(GridPoint grid, double distance_m)
+void TerrainView::setAntialiasing(bool is_wanted)
 {
-    if (!map_) {
-        return;
+    if (is_wanted != has_antialiasing_) {
+        has_antialiasing_ = is_wanted;
+        redrawTerrain();
     }
-    OrbitCamera goal = onGround(navigator_.goal());
-    const double height_m = map_.dataset->heightfield().height(grid);
-    const double z_m = std::isfinite(height_m) ? height_m * style_.exaggeration : goal.target.z;
-    goal.target = map_.dataset->georeference().sceneFrame().toScene(grid, z_m);
-    if (distance_m > 0.0) {
-        goal.distance_m = distance_m;
-    }
-    navigator_.moveTo(goal, kFlyDuration);
 }
 
-void TerrainView::setMap(const LoadedMap& map)
+void TerrainView::setFrameTarget(milliseconds target)
 {
-    pending_map_ = map;
-    is_pending_ = true;
-    is_pending_sent_ = false;
-    is_completion_reported_ = false;
-    update();
+    frame_target_ = target;
+    if (picture_) {
+        picture_->setTarget(target);
+    }
 }
 
 void TerrainView::setCamera(const OrbitCamera& camera)
 {
+    is_at_opening_view_ = false;
     navigator_.jumpTo(camera);
 }
 
@@ -176,17 +198,20 @@ void TerrainView::setExaggeration(double exaggeration)
     }
     const double before = style_.exaggeration;
     // A motion that is under way ends where it would have ended.
-    const OrbitCamera goal = map_ ? onGround(navigator_.goal()) : navigator_.goal();
+    const OrbitCamera goal =
+        ground_.isEmpty() ? navigator_.goal() : onGround(navigator_.goal());
     style_.exaggeration = exaggeration;
+    stylus_.setGround(ground_, exaggeration);
     navigator_.jumpTo(reexaggerated(goal, before, exaggeration));
     Q_EMIT exaggerationChanged(exaggeration);
 }
 
 void TerrainView::step(NavigationStep step)
 {
-    if (!map_) {
+    if (ground_.isEmpty()) {
         return;
     }
+    is_at_opening_view_ = false;
     OrbitCamera camera = onGround(navigator_.goal());
     switch (step) {
     case NavigationStep::PanLeft:
@@ -226,29 +251,59 @@ void TerrainView::step(NavigationStep step)
 
 void TerrainView::goHome()
 {
-    if (map_) {
-        navigator_.moveTo(homeCamera(box(), viewport()), kFlyDuration);
+    if (!ground_.isEmpty()) {
+        navigator_.moveTo(homeCamera(ground_.box(style_.exaggeration), viewport()), kFlyDuration);
     }
 }
 
 void TerrainView::turnNorthUp()
 {
-    if (map_) {
+    if (!ground_.isEmpty()) {
         OrbitCamera camera = onGround(navigator_.goal());
         camera.azimuth = {};
         navigator_.moveTo(camera, kFlyDuration);
     }
 }
 
+void TerrainView::flyTo(GridPoint grid, double distance_m)
+{
+    if (ground_.isEmpty()) {
+        return;
+    }
+    OrbitCamera goal = onGround(navigator_.goal());
+    const SceneFrame& frame = map_.dataset->georeference().sceneFrame();
+    const ScenePoint place = frame.toScene(grid, 0.0);
+    const double z_m = groundAt(place.x, place.y);
+    goal.target = {place.x, place.y, std::isfinite(z_m) ? z_m : goal.target.z};
+    if (distance_m > 0.0) {
+        goal.distance_m = distance_m;
+    }
+    is_at_opening_view_ = false;
+    navigator_.moveTo(goal, kFlyDuration);
+}
+
+void TerrainView::lookAt(const ScenePoint& place)
+{
+    if (ground_.isEmpty()) {
+        return;
+    }
+    OrbitCamera camera = onGround(navigator_.camera());
+    const double z_m = groundAt(place.x, place.y);
+    camera.target = {place.x, place.y, std::isfinite(z_m) ? z_m : camera.target.z};
+    setCamera(camera);
+}
+
 std::optional<RayHit> TerrainView::surfaceAt(QPointF position) const
 {
-    if (!map_) {
+    const std::optional<GroundPoint> ground = groundUnder(position);
+    if (!ground) {
         return std::nullopt;
     }
-    const Ray ray = pickRay(navigator_.camera(), viewport(), pixelAt(position));
-    return castRay(map_.dataset->heightfield(), *map_.pyramid,
-                   gridRay(ray.origin, ray.direction, map_.dataset->georeference().sceneFrame(),
-                           style_.exaggeration));
+    const ScenePoint place = ground_.maps()[ground->index].frame.toScene(ground->grid, 0.0);
+    return RayHit{.grid = ground->index == 0 ? ground->grid
+                                             : ground_.maps().front().frame.toGrid(place),
+                  .height_m = ground->height_m,
+                  .t = ground->distance_m};
 }
 
 std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
@@ -257,9 +312,13 @@ std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
         return std::nullopt;
     }
     const double height_m = map_.dataset->heightfield().height(grid);
-    const auto pixel = project(
-        navigator_.camera(), viewport(),
-        map_.dataset->georeference().sceneFrame().toScene(grid, height_m * style_.exaggeration));
+    return positionOf(map_.dataset->georeference().sceneFrame().toScene(
+        grid, height_m * style_.exaggeration));
+}
+
+std::optional<QPointF> TerrainView::positionOf(const ScenePoint& place) const
+{
+    const auto pixel = project(navigator_.camera(), viewport(), place);
     if (!pixel || !std::isfinite(pixel->x)) {
         return std::nullopt;
     }
@@ -268,26 +327,61 @@ std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
 
 bool TerrainView::isPictureComplete() const
 {
-    return map_ && !is_pending_ && is_completion_reported_ && !navigator_.isMoving();
+    return is_completion_reported_ && is_terrain_current_ && !navigator_.isMoving();
+}
+
+QImage TerrainView::terrainPicture()
+{
+    const bool was_lifted = !stylus_.pose().has_value();
+    stylus_.lift();
+    QImage picture = grabFramebuffer();
+    if (!was_lifted) {
+        moveStylus();
+    }
+    return picture;
 }
 
 void TerrainView::initializeGL()
 {
     connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &TerrainView::releaseGraphics);
-    Result<std::unique_ptr<TerrainRenderer>> renderer = TerrainRenderer::create();
-    if (!renderer) {
-        const QString reason = QString::fromStdString(renderer.error().message);
+    const auto refuse = [this](const Error& error) {
+        renderer_.reset();
+        const QString reason = QString::fromStdString(error.message);
         QMetaObject::invokeMethod(
             this, [this, reason] { Q_EMIT unavailable(reason); }, Qt::QueuedConnection);
+    };
+    auto renderer = TerrainRenderer::create([this] {
+        QMetaObject::invokeMethod(this, &TerrainView::redrawWithNews, Qt::QueuedConnection);
+    });
+    if (!renderer) {
+        refuse(renderer.error());
+        return;
+    }
+    auto cursor = CursorRenderer::create();
+    if (!cursor) {
+        refuse(cursor.error());
         return;
     }
     renderer_ = std::move(renderer).value();
-    if (map_ && !is_pending_) {
-        setMap(map_); // the window got another context
-    }
-    // What follows may load or close things, which is not for the middle of painting.
+    cursor_ = std::move(cursor).value();
+    picture_ = std::make_unique<GovernedPicture>(*renderer_);
+    picture_->setTarget(frame_target_);
+    are_layers_sent_ = false;
+    redrawTerrain();
+    // What follows may open dialogs, which is not for the middle of painting.
     QMetaObject::invokeMethod(
-        this, [this, limits = renderer_->limits()] { Q_EMIT ready(limits); }, Qt::QueuedConnection);
+        this, [this] { Q_EMIT ready(); }, Qt::QueuedConnection);
+}
+
+void TerrainView::releaseGraphics()
+{
+    if (renderer_) {
+        makeCurrent();
+        picture_.reset();
+        cursor_.reset();
+        renderer_.reset();
+        doneCurrent();
+    }
 }
 
 void TerrainView::paintGL()
@@ -295,86 +389,177 @@ void TerrainView::paintGL()
     if (!renderer_) {
         return;
     }
-    if (is_pending_ && !is_pending_sent_) {
-        renderer_->setTerrain(pending_map_.draw_data);
-        is_pending_sent_ = true;
+    if (!is_terrain_current_) {
+        paintTerrain();
+    } else {
+        renderer_->present(defaultFramebufferObject());
     }
-    const bool is_complete = renderer_->advance();
-    if (is_complete && is_pending_) {
-        showPendingMap();
+    paintCursor();
+}
+
+void TerrainView::paintTerrain()
+{
+    if (!std::exchange(are_layers_sent_, true)) {
+        renderer_->setLayers(layers_);
     }
-    renderer_->draw(navigator_.camera(), style_, viewport());
-    if (!is_complete) {
-        update();
-    } else if (map_ && !is_completion_reported_ && !navigator_.isMoving()) {
-        is_completion_reported_ = true;
-        QMetaObject::invokeMethod(
-            this, [this] { Q_EMIT pictureCompleted(); }, Qt::QueuedConnection);
+    const DrawReport report = picture_->paint({.camera = navigator_.camera(),
+                                               .viewport = viewport(),
+                                               .stage = stage_,
+                                               .is_touching = buttons_.is_pressing,
+                                               .is_kept = true},
+                                              style_, defaultFramebufferObject());
+    last_paint_ = std::chrono::steady_clock::now();
+    is_terrain_current_ = true;
+    Q_EMIT detailChanged(report.error_px);
+    if (stage_ == PictureStage::Moving) {
+        still_timer_.start(kStillAfter);
+    } else if (report.is_complete) {
+        // Input that came meanwhile goes first.
+        QMetaObject::invokeMethod(this, &TerrainView::finishStage, Qt::QueuedConnection);
     }
 }
 
-void TerrainView::releaseGraphics()
+void TerrainView::paintCursor()
 {
-    if (renderer_) {
-        makeCurrent();
-        renderer_.reset();
-        doneCurrent();
+    const auto& pose = stylus_.pose();
+    if (!pose) {
+        return;
     }
-}
-
-// The renderer has the map: from here on camera, picking and picture are about the same one.
-void TerrainView::showPendingMap()
-{
-    const bool is_same_place = map_ && pending_map_ &&
-                               isSameFrame(map_.dataset->georeference().sceneFrame(),
-                                           pending_map_.dataset->georeference().sceneFrame());
-    map_ = std::move(pending_map_);
-    pending_map_ = {};
-    is_pending_ = false;
-    empty_hint_->setVisible(!map_);
-    if (map_) {
-        style_.ramp = pending_ramp_;
-        if (!is_same_place) {
-            const HeightRange& range = map_.draw_data->range;
-            style_.exaggeration =
-                defaultExaggeration(box().extent_m(), range.maximum_m - range.minimum_m);
-            navigator_.jumpTo(openingCamera(map_.dataset->georeference())
-                                  .value_or(homeCamera(box(), viewport())));
+    CursorPicture cursor{.shape = CursorShape::Sphere,
+                         .position = pose->proxy,
+                         .goal = std::nullopt,
+                         .shadow = {},
+                         .pixels_per_point = devicePixelRatioF()};
+    switch (pose->mode) {
+    case StylusMode::Hover:
+    case StylusMode::Press:
+        cursor.shape = pose->is_in_contact ? CursorShape::Cone : CursorShape::Sphere;
+        break;
+    case StylusMode::Pan:
+        cursor.shape = CursorShape::FlatSphere;
+        break;
+    case StylusMode::Zoom:
+        cursor.shape = CursorShape::LongSphere;
+        break;
+    }
+    if (pose->is_in_contact) {
+        cursor.goal = pose->goal;
+    } else {
+        const double radius_m = kShadowPoints * devicePixelRatioF() *
+                                metresPerPixel(navigator_.camera(), viewport(), pose->proxy);
+        for (int i = 0; i < kShadowSides; ++i) {
+            const double around = 2.0 * std::numbers::pi * i / kShadowSides;
+            const double x = pose->proxy.x + radius_m * std::cos(around);
+            const double y = pose->proxy.y + radius_m * std::sin(around);
+            const double z = groundAt(x, y);
+            if (std::isfinite(z)) {
+                cursor.shadow.push_back({x, y, z});
+            }
         }
     }
-    QMetaObject::invokeMethod(
-        this,
-        [this] {
-            Q_EMIT mapShown(map_);
-            Q_EMIT exaggerationChanged(style_.exaggeration);
-            reportPointer();
-        },
-        Qt::QueuedConnection);
+    cursor_->draw(cursor, navigator_.camera(), viewport(),
+                  renderer_->clip(navigator_.camera(), style_.exaggeration));
+}
+
+// Something of the picture changed: first what is ready in time.
+void TerrainView::redrawTerrain()
+{
+    stage_ = PictureStage::Moving;
+    is_terrain_current_ = false;
+    is_completion_reported_ = false;
+    update();
+}
+
+// Shading that was missing has come.
+void TerrainView::redrawWithNews()
+{
+    if (!renderer_) {
+        return;
+    }
+    const bool is_due = std::chrono::steady_clock::now() - last_paint_ >= kNewsInterval;
+    if (stage_ == PictureStage::Moving || is_due || !renderer_->isLoading()) {
+        is_terrain_current_ = false;
+        update();
+    }
+}
+
+bool TerrainView::isInHand() const noexcept
+{
+    return navigator_.isMoving() || drag_action_ == DragAction::Orbit ||
+           drag_action_ == DragAction::Pan;
+}
+
+PictureStage TerrainView::lastStage() const
+{
+    return has_antialiasing_ ? PictureStage::Smooth : PictureStage::Sharp;
+}
+
+void TerrainView::refineWhenStill()
+{
+    if (navigator_.isMoving()) {
+        return; // the next frame starts the timer again
+    }
+    if (stage_ == PictureStage::Moving) {
+        stage_ = PictureStage::Sharp;
+        is_terrain_current_ = false;
+        update();
+    }
+}
+
+// A sharp picture has all its shading.
+void TerrainView::finishStage()
+{
+    if (stage_ == PictureStage::Moving || !is_terrain_current_ || is_completion_reported_) {
+        return;
+    }
+    if (stage_ != lastStage()) {
+        stage_ = lastStage();
+        is_terrain_current_ = false;
+        update();
+        return;
+    }
+    is_completion_reported_ = true;
+    Q_EMIT pictureCompleted();
+}
+
+void TerrainView::goToOpeningView()
+{
+    is_at_opening_view_ = true;
+    navigator_.jumpTo(
+        openingCamera(map_.dataset->georeference())
+            .value_or(homeCamera(ground_.box(style_.exaggeration), viewport())));
 }
 
 void TerrainView::resizeEvent(QResizeEvent* event)
 {
-    is_completion_reported_ = false; // before the base class, which paints
+    redrawTerrain(); // before the base class, which paints
     QOpenGLWidget::resizeEvent(event);
-    update();
+    if (is_at_opening_view_ && !ground_.isEmpty()) {
+        goToOpeningView();
+    }
+    Q_EMIT sightChanged();
 }
 
 void TerrainView::mousePressEvent(QMouseEvent* event)
 {
-    if (!map_ || drag_action_ != DragAction::None) {
+    if (ground_.isEmpty() || drag_action_ != DragAction::None) {
         return;
     }
     navigator_.stop();
     drag_action_ = dragActionFor(*event);
     drag_position_ = event->position();
+    pointer_ = event->position();
     grabbed_z_m_ = anchorAt(drag_position_, navigator_.camera()).z;
     if (drag_action_ == DragAction::Orbit) {
-        navigator_.jumpTo(onGround(navigator_.camera()));
+        setCamera(onGround(navigator_.camera()));
     }
+    buttons_.is_pressing = drag_action_ == DragAction::Touch;
+    moveStylus();
 }
 
 void TerrainView::mouseMoveEvent(QMouseEvent* event)
 {
+    const QPointF from = pointer_.value_or(event->position());
     pointer_ = event->position();
     const QPointF moved = event->position() - drag_position_;
     switch (drag_action_) {
@@ -388,7 +573,11 @@ void TerrainView::mouseMoveEvent(QMouseEvent* event)
         setCamera(
             orbited(navigator_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
         break;
+    case DragAction::Touch:
     case DragAction::None:
+        if (!moveByGrab(from, event->position())) {
+            moveStylus();
+        }
         reportPointer();
         break;
     }
@@ -399,6 +588,8 @@ void TerrainView::mouseReleaseEvent(QMouseEvent* event)
 {
     if (event->buttons() == Qt::NoButton) {
         drag_action_ = DragAction::None;
+        buttons_.is_pressing = false;
+        moveStylus();
     }
 }
 
@@ -408,31 +599,62 @@ void TerrainView::mouseDoubleClickEvent(QMouseEvent* event)
     if (!hit || event->button() != Qt::LeftButton) {
         return;
     }
-    OrbitCamera goal = onGround(navigator_.goal());
-    goal.target = map_.dataset->georeference().sceneFrame().toScene(
-        hit->grid, hit->height_m * style_.exaggeration);
-    goal.distance_m *= kFlyFactor;
-    navigator_.moveTo(goal, kFlyDuration);
+    flyTo(hit->grid, onGround(navigator_.goal()).distance_m * kFlyFactor);
 }
 
 void TerrainView::wheelEvent(QWheelEvent* event)
 {
     const double notches = event->angleDelta().y() / kWheelNotch;
-    if (!map_ || notches == 0.0) {
+    if (ground_.isEmpty() || notches == 0.0) {
+        return;
+    }
+    event->accept();
+    if (buttons_.is_pressing) {
+        stylus_.deepen(std::pow(kDeeperPerNotch, -notches));
+        moveStylus();
         return;
     }
     const bool is_fine = (event->modifiers() & Qt::ControlModifier) != 0;
     const double factor = std::pow(is_fine ? kWheelFactorFine : kWheelFactor, notches);
     const OrbitCamera goal = beforeZoom(factor);
     const ScenePoint anchor = anchorAt(event->position(), goal);
+    is_at_opening_view_ = false;
     navigator_.moveTo(zoomed(goal, factor, anchor, limits()), kWheelDuration);
-    event->accept();
+}
+
+void TerrainView::keyPressEvent(QKeyEvent* event)
+{
+    if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier) {
+        if (!event->isAutoRepeat()) {
+            setGrabbing(true);
+        }
+        return;
+    }
+    QOpenGLWidget::keyPressEvent(event);
+}
+
+void TerrainView::keyReleaseEvent(QKeyEvent* event)
+{
+    if (event->key() == Qt::Key_Space) {
+        if (!event->isAutoRepeat()) {
+            setGrabbing(false);
+        }
+        return;
+    }
+    QOpenGLWidget::keyReleaseEvent(event);
+}
+
+void TerrainView::focusOutEvent(QFocusEvent* event)
+{
+    QOpenGLWidget::focusOutEvent(event);
+    setGrabbing(false);
 }
 
 void TerrainView::leaveEvent(QEvent* event)
 {
     QOpenGLWidget::leaveEvent(event);
     pointer_.reset();
+    moveStylus();
     reportPointer();
 }
 
@@ -450,36 +672,25 @@ PixelPoint TerrainView::pixelAt(QPointF position) const
     return {pixel.x(), pixel.y()};
 }
 
-double TerrainView::groundAt(double east_m, double north_m) const
+std::optional<GroundPoint> TerrainView::groundUnder(QPointF position) const
 {
-    const Dataset& dataset = *map_.dataset;
-    GridPoint grid = dataset.georeference().sceneFrame().toGrid({east_m, north_m, 0.0});
-    // The edge of the map is ground too, whatever rounding makes of it.
-    const auto on_edge = [](double place, std::size_t count) {
-        const double nearest = std::clamp(place, 0.0, static_cast<double>(count - 1));
-        return std::abs(nearest - place) < 1e-6 ? nearest : place;
-    };
-    grid = {on_edge(grid.column, dataset.heightfield().columns()),
-            on_edge(grid.row, dataset.heightfield().rows())};
-    return dataset.heightfield().height(grid) * style_.exaggeration;
+    return ground_.cast(pickRay(navigator_.camera(), viewport(), pixelAt(position)),
+                        style_.exaggeration);
 }
 
-SceneBox TerrainView::box() const
+double TerrainView::groundAt(double east_m, double north_m) const
 {
-    const TerrainDrawData& drawn = *map_.draw_data;
-    return sceneBox(drawn.frame, drawn.columns, drawn.rows, drawn.range, style_.exaggeration);
+    return ground_.height(east_m, north_m) * style_.exaggeration;
 }
 
 NavigationLimits TerrainView::limits() const
 {
-    const Georeference& georeference = map_.dataset->georeference();
-    return navigationLimits(
-        box(), std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
+    return navigationLimits(ground_.box(style_.exaggeration), ground_.pixelMetres());
 }
 
 OrbitCamera TerrainView::bounded(const OrbitCamera& camera) const
 {
-    if (!map_) {
+    if (ground_.isEmpty()) {
         return camera;
     }
     return constrained(camera, limits(),
@@ -489,16 +700,14 @@ OrbitCamera TerrainView::bounded(const OrbitCamera& camera) const
 // The same picture, its target on the ground in the middle of it.
 OrbitCamera TerrainView::onGround(const OrbitCamera& camera) const
 {
-    const Ray ray{.origin = eyeOf(camera), .direction = axesOf(camera).forward};
-    const auto hit =
-        castRay(map_.dataset->heightfield(), *map_.pyramid,
-                gridRay(ray.origin, ray.direction, map_.dataset->georeference().sceneFrame(),
-                        style_.exaggeration));
+    const auto hit = ground_.cast({.origin = eyeOf(camera), .direction = axesOf(camera).forward},
+                                  style_.exaggeration);
     const NavigationLimits bounds = limits();
-    if (!hit || hit->t < bounds.distance_min_m || hit->t > bounds.distance_max_m) {
+    if (!hit || hit->distance_m < bounds.distance_min_m ||
+        hit->distance_m > bounds.distance_max_m) {
         return camera;
     }
-    return retargeted(camera, hit->t);
+    return retargeted(camera, hit->distance_m);
 }
 
 // Zooming in goes by the distance to the ground in the middle of the picture. Zooming out goes by
@@ -512,11 +721,55 @@ OrbitCamera TerrainView::beforeZoom(double factor) const
 // The scene point under a position: on the surface, or else where `camera` finds one beside it.
 ScenePoint TerrainView::anchorAt(QPointF position, const OrbitCamera& camera) const
 {
-    if (const auto hit = surfaceAt(position)) {
-        return map_.dataset->georeference().sceneFrame().toScene(
-            hit->grid, hit->height_m * style_.exaggeration);
+    const Ray ray = pickRay(navigator_.camera(), viewport(), pixelAt(position));
+    const auto hit = ground_.cast(ray, style_.exaggeration);
+    return hit ? ray.at(hit->distance_m) : anchorBesideMap(camera, ray);
+}
+
+// True where the stylus has hold of the map and moved it.
+bool TerrainView::moveByGrab(QPointF from, QPointF to)
+{
+    const auto& pose = stylus_.pose();
+    if (!pose || !buttons_.is_grabbing) {
+        return false;
     }
-    return anchorBesideMap(camera, pickRay(navigator_.camera(), viewport(), pixelAt(position)));
+    if (pose->mode == StylusMode::Pan) {
+        setCamera(dragged(navigator_.camera(), viewport(),
+                          {.from = pixelAt(from),
+                           .to = pixelAt(to),
+                           .grabbed_z_m = pose->proxy.z}));
+        return true;
+    }
+    if (pose->mode == StylusMode::Zoom) {
+        const double factor = std::exp((from.y() - to.y()) / -kGrabZoomPoints);
+        setCamera(zoomed(beforeZoom(factor), factor, pose->proxy, limits()));
+        return true;
+    }
+    return false;
+}
+
+void TerrainView::setGrabbing(bool is_grabbing)
+{
+    if (is_grabbing != buttons_.is_grabbing) {
+        buttons_.is_grabbing = is_grabbing;
+        moveStylus();
+    }
+}
+
+void TerrainView::moveStylus()
+{
+    const auto ground =
+        pointer_ && !ground_.isEmpty() ? groundUnder(*pointer_) : std::optional<GroundPoint>();
+    if (ground) {
+        const ScenePoint at = ground_.maps()[ground->index].frame.toScene(
+            ground->grid, ground->height_m * style_.exaggeration);
+        stylus_.aim(*ground, buttons_,
+                    metresPerPixel(navigator_.camera(), viewport(), at) * devicePixelRatioF());
+    } else if (!buttons_.is_pressing && !buttons_.is_grabbing) {
+        stylus_.lift();
+    }
+    update();
+    Q_EMIT stylusMoved();
 }
 
 void TerrainView::reportPointer()

@@ -1,14 +1,16 @@
 // The map on screen, and the hands on it.
 #pragma once
 
-#include "core/terrain/ray_cast.h"
+#include "core/session/scene_surface.h"
 #include "core/view/navigation.h"
-#include "core/view/terrain_look.h"
-#include "core/session/loaded_map.h"
 #include "ui/navigator.h"
+#include "ui/render/cursor_renderer.h"
+#include "ui/render/governed_picture.h"
 #include "ui/render/terrain_renderer.h"
+#include "ui/stylus.h"
 
 #include <QOpenGLWidget>
+#include <QTimer>
 
 #include <chrono>
 #include <memory>
@@ -19,8 +21,14 @@ class QLabel;
 
 namespace marsview {
 
+/// A map as it is to be drawn.
+struct ShownLayer {
+    LoadedMap map;
+    const ColorRamp* ramp = nullptr; // one of colorRamps(); never null
+};
+
 /// What a drag of the mouse does.
-enum class DragAction { None, Pan, Orbit };
+enum class DragAction { None, Touch, Pan, Orbit };
 
 /// A motion of the camera by one step: what keys and menu entries ask for.
 enum class NavigationStep {
@@ -36,8 +44,8 @@ enum class NavigationStep {
     TiltDown,
 };
 
-/// Hosts the renderer and turns input into motions of the camera. Draws only when something
-/// changed.
+/// Hosts the renderer and turns input into motions of the camera and of the stylus. Draws only when
+/// something changed: the terrain when it or the camera did, otherwise only the cursor over it.
 class TerrainView final : public QOpenGLWidget {
     Q_OBJECT
 
@@ -46,20 +54,23 @@ public:
     ~TerrainView() override;
 
     /// Puts these layers in place of those shown, top first; none for an empty view. All lie in one
-    /// CRS. The change becomes visible, and mapShown() is emitted, when the picture is whole. The
-    /// camera stays where the topmost layers lie alike, otherwise it goes to the new one's opening
-    /// view.
+    /// CRS. The camera stays where the topmost layers lie alike, otherwise it goes to the new one's
+    /// opening view. mapShown() follows.
     void setLayers(const std::vector<ShownLayer>& top_first);
-    /// The topmost map in the picture.
+    /// The topmost map shown; none where there is none.
     const LoadedMap& map() const noexcept { return map_; }
+    /// Everything that is shown.
+    const SceneSurface& ground() const noexcept { return ground_; }
 
     void setLook(const TerrainLook& look);
-    const TerrainLook& look() const noexcept { return look_; }
+    const TerrainLook& look() const noexcept { return style_.look; }
     void setAntialiasing(bool is_wanted);
     /// The time that a frame may take while something moves.
     void setFrameTarget(std::chrono::milliseconds target);
 
     const OrbitCamera& camera() const noexcept { return navigator_.camera(); }
+    /// Of the picture, in pixels of the frame buffer.
+    Viewport viewport() const;
     /// Jumps, within the limits.
     void setCamera(const OrbitCamera& camera);
     bool isMoving() const noexcept { return navigator_.isMoving(); }
@@ -73,17 +84,28 @@ public:
     void turnNorthUp();
     /// Flies to a place of the topmost layer; `distance_m` of 0 keeps the distance.
     void flyTo(GridPoint grid, double distance_m);
+    /// Looks at a place of the scene at once, from the same side and distance.
+    void lookAt(const ScenePoint& place);
 
-    /// The surface behind a position in widget coordinates, at full resolution.
+    /// The ground behind a position in widget coordinates, at full resolution: where it is on the
+    /// topmost map's grid, which lower maps may reach beyond.
     std::optional<RayHit> surfaceAt(QPointF position) const;
-    /// A position of the surface in widget coordinates.
+    /// A position of the topmost map's surface in widget coordinates.
     std::optional<QPointF> positionOf(GridPoint grid) const;
-    /// True when the picture shows all there is of the map and nothing moves.
+    /// A place of the scene in widget coordinates; nothing where it is behind the eye.
+    std::optional<QPointF> positionOf(const ScenePoint& place) const;
+
+    /// There is a graphics context.
+    bool isReady() const noexcept { return renderer_ != nullptr; }
+    /// True when the picture shows all there is, as well as can be, and nothing moves.
     bool isPictureComplete() const;
+    const std::optional<StylusPose>& stylus() const noexcept { return stylus_.pose(); }
+    /// The picture of the terrain alone, without cursor.
+    QImage terrainPicture();
 
 Q_SIGNALS:
-    /// There is a graphics context; nothing can be loaded for drawing before.
-    void ready(const RenderLimits& limits);
+    /// There is a graphics context.
+    void ready();
     /// There is none that will do.
     void unavailable(const QString& reason);
     void mapShown(const LoadedMap& map);
@@ -91,8 +113,12 @@ Q_SIGNALS:
     /// What is under the pointer changed; nothing where it is not over the surface.
     void pointerMoved(const std::optional<RayHit>& hit);
     void exaggerationChanged(double exaggeration);
+    /// Camera or size of the picture changed.
+    void sightChanged();
     /// The screen-space error of what is drawn, in pixels.
     void detailChanged(double pixels);
+    /// Something of stylus() changed.
+    void stylusMoved();
 
 protected:
     void initializeGL() override;
@@ -103,37 +129,61 @@ protected:
     void mouseReleaseEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void keyReleaseEvent(QKeyEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
     void leaveEvent(QEvent* event) override;
 
 private:
-    void setMap(const LoadedMap& map);
     void releaseGraphics();
-    void showPendingMap();
-    Viewport viewport() const;
+    void paintTerrain();
+    void paintCursor();
+    void refineWhenStill();
+    void finishStage();
+    void redrawTerrain();
+    void redrawWithNews();
+    bool isInHand() const noexcept;
+    PictureStage lastStage() const;
+    void goToOpeningView();
     PixelPoint pixelAt(QPointF position) const;
+    std::optional<GroundPoint> groundUnder(QPointF position) const;
     double groundAt(double east_m, double north_m) const;
-    SceneBox box() const;
     NavigationLimits limits() const;
     OrbitCamera bounded(const OrbitCamera& camera) const;
     OrbitCamera onGround(const OrbitCamera& camera) const;
     OrbitCamera beforeZoom(double factor) const;
     ScenePoint anchorAt(QPointF position, const OrbitCamera& camera) const;
+    bool moveByGrab(QPointF from, QPointF to);
+    void setGrabbing(bool is_grabbing);
+    void moveStylus();
     void reportPointer();
 
     std::unique_ptr<TerrainRenderer> renderer_;
+    std::unique_ptr<GovernedPicture> picture_;
+    std::unique_ptr<CursorRenderer> cursor_;
     Navigator navigator_;
     DrawStyle style_;
-    TerrainLook look_;
-    const ColorRamp* pending_ramp_ = nullptr;
+    std::chrono::milliseconds frame_target_{33};
+    bool has_antialiasing_ = true;
+
     LoadedMap map_;
-    LoadedMap pending_map_;
-    bool is_pending_ = false;
-    bool is_pending_sent_ = false;
+    SceneSurface ground_;
+    std::vector<TerrainLayer> layers_;
+    bool are_layers_sent_ = true;
+    bool is_at_opening_view_ = false; // nobody has moved since
+
+    PictureStage stage_ = PictureStage::Moving;
+    bool is_terrain_current_ = false; // the picture that was kept is of now
     bool is_completion_reported_ = false;
+    QTimer still_timer_; // runs out when nothing has moved for a while
+    std::chrono::steady_clock::time_point last_paint_{};
+
     DragAction drag_action_ = DragAction::None;
     QPointF drag_position_;
     double grabbed_z_m_ = 0.0;
     std::optional<QPointF> pointer_;
+    StylusButtons buttons_;
+    Stylus stylus_;
     QLabel* empty_hint_ = nullptr;
 };
 

@@ -56,7 +56,7 @@ Result<Scene> openScene(const MapOptions& options, const ColorRamp* ramp)
     }
     const Body* body = map->dataset->info().body;
     const ColorRamp& suitable = defaultColorRamp(body != nullptr ? body->name : std::string_view{});
-    (*renderer)->setLayers({terrainLayer(*map, ramp != nullptr ? *ramp : suitable)});
+    (*renderer)->setLayers({terrainLayer(*map, map->dataset->georeference().sceneFrame(), ramp != nullptr ? *ramp : suitable)});
     Scene scene{.context = std::move(context).value(),
                 .renderer = std::move(renderer).value(),
                 .map = std::move(map).value(),

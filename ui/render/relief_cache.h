@@ -34,6 +34,7 @@ public:
     std::optional<Found> find(const ReliefRequest& wanted, std::size_t top);
     /// Has the missing tiles made. Returns true when none is missing.
     bool endRound();
+    bool isLoading() const { return loader_.isLoading(); }
     /// Waits until another tile is finished. Only after endRound() returned false.
     void wait() { loader_.waitForOne(); }
 

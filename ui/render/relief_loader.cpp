@@ -63,10 +63,10 @@ std::vector<ReliefResult> ReliefLoader::take(std::size_t count_max)
     return taken;
 }
 
-bool ReliefLoader::isBusy() const
+bool ReliefLoader::isLoading() const
 {
     const std::lock_guard lock(mutex_);
-    return !wanted_.empty() || !in_work_.empty() || !finished_.empty();
+    return !wanted_.empty() || !in_work_.empty();
 }
 
 void ReliefLoader::waitForOne()

@@ -44,9 +44,10 @@ public:
     void want(std::vector<ReliefRequest> requests);
     /// At most `count_max` finished tiles, each handed out once.
     std::vector<ReliefResult> take(std::size_t count_max);
-    /// True while something is wanted, being made, or waiting to be taken.
-    bool isBusy() const;
-    /// Waits until a tile is finished. Only while isBusy().
+    /// True while something is wanted or being made.
+    bool isLoading() const;
+    /// Waits until a tile is finished. Only while something is to
+    /// come or to be taken.
     void waitForOne();
 
 private:

@@ -22,14 +22,15 @@ struct TerrainLayer {
     std::shared_ptr<const ReliefTile> relief; // of the whole map
 };
 
-/// The layer of a map by itself, in its own frame.
-inline TerrainLayer terrainLayer(const LoadedMap& map, const ColorRamp& ramp)
+/// The layer of a map that lies in the scene as `frame` says.
+inline TerrainLayer
+terrainLayer(const LoadedMap& map, const SceneFrame& frame, const ColorRamp& ramp)
 {
     return {.heightfield = {map.dataset, &map.dataset->heightfield()},
             .analysis = map.analysis,
-            .frame = map.dataset->georeference().sceneFrame(),
+            .frame = frame,
             .ramp = &ramp,
-            .tint_range = map.tint_range,
+            .tint_range = tintedRange(ramp, map.tint_range),
             .slope_max = map.slope_max,
             .relief = map.relief};
 }

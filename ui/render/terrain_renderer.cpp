@@ -579,6 +579,11 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
     return report;
 }
 
+bool TerrainRenderer::isLoading() const
+{
+    return impl_->reliefs.isLoading();
+}
+
 void TerrainRenderer::present(unsigned target)
 {
     impl_->frame_target.present(target, impl_->kept_size);

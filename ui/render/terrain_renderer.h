@@ -67,6 +67,9 @@ public:
     /// The depths between which everything is drawn.
     ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 
+    /// Shading is being made that draw() asked for.
+    bool isLoading() const;
+
     /// What draw() would take. Cheap: nothing is drawn.
     std::size_t countTriangles(const DrawRequest& request, double exaggeration);
 

@@ -1,0 +1,68 @@
+#include "ui/render/governed_picture.h"
+
+#include <algorithm>
+#include <epoxy/gl.h>
+
+namespace marsview {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSmoothSamples = 4;
+
+// Shading gives way with the surface, but never so far that it looks blurred.
+constexpr double kTexelPxMax = 2.0;
+
+// The target is for the whole frame; the rest goes to what is around the picture.
+constexpr double kPictureShare = 0.85;
+
+DetailTarget detailFor(double error_px)
+{
+    return {.error_px = error_px, .texel_px = std::min(error_px, kTexelPxMax)};
+}
+
+} // namespace
+
+GovernedPicture::GovernedPicture(TerrainRenderer& renderer)
+    : renderer_(renderer)
+    , cost_(renderer.isSoftware() ? softwareFrameCost() : gpuFrameCost())
+{}
+
+DrawReport
+GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, unsigned target)
+{
+    DrawRequest draw{
+        .camera = request.camera, .viewport = request.viewport, .is_kept = request.is_kept};
+    const double pixel_count = static_cast<double>(request.viewport.width) *
+                               static_cast<double>(request.viewport.height);
+    plan_ = {};
+    if (request.stage == PictureStage::Moving) {
+        plan_ = planFrame(cost_,
+                          {.target = target_ * kPictureShare,
+                           .pixel_count = pixel_count,
+                           .is_touching = request.is_touching},
+                          moving_plan_, [&](double error_px) {
+                              draw.detail = detailFor(error_px);
+                              return renderer_.countTriangles(draw, style.exaggeration);
+                          });
+        moving_plan_ = plan_;
+    }
+    draw.detail = detailFor(plan_.error_px);
+    draw.scale = plan_.scale;
+    // A GPU smooths edges for next to nothing.
+    const bool is_smooth = request.stage == PictureStage::Smooth || !renderer_.isSoftware();
+    draw.samples = is_smooth ? kSmoothSamples : 1;
+    const Clock::time_point begin = Clock::now();
+    const DrawReport report = renderer_.draw(draw, style, target);
+    glFinish();
+    duration_ = Clock::now() - begin;
+    if (request.stage != PictureStage::Smooth) {
+        cost_ = learned(cost_,
+                        {.triangle_count = report.triangle_count,
+                         .pixel_count = pixel_count * plan_.scale * plan_.scale},
+                        duration_);
+    }
+    return report;
+}
+
+} // namespace marsview

@@ -1,0 +1,50 @@
+// Pictures that are ready in time while something moves, and as fine as can be when nothing does.
+#pragma once
+
+#include "core/view/frame_governor.h"
+#include "ui/render/terrain_renderer.h"
+
+namespace marsview {
+
+/// How much a picture may take.
+enum class PictureStage {
+    Moving, // ready in time, as fine as that allows
+    Sharp,  // off by at most a pixel
+    Smooth, // and with smooth edges
+};
+
+/// What is to be painted.
+struct PictureRequest {
+    OrbitCamera camera;
+    Viewport viewport;
+    PictureStage stage = PictureStage::Moving;
+    bool is_touching = false; // see FrameWish
+    bool is_kept = false;     // for TerrainRenderer::present()
+};
+
+/// Chooses the detail of each picture by what the ones before took (core/view/frame_governor.h).
+/// Use with the renderer's context current; must not outlive the renderer.
+class GovernedPicture {
+public:
+    explicit GovernedPicture(TerrainRenderer& renderer);
+
+    /// The time that a frame may take while something moves.
+    void setTarget(Milliseconds target) { target_ = target; }
+
+    /// Draws into `target` and waits until it is done, so that it knows how long that took.
+    DrawReport paint(const PictureRequest& request, const DrawStyle& style, unsigned target);
+
+    /// Of the last picture.
+    const FramePlan& plan() const noexcept { return plan_; }
+    Milliseconds duration() const noexcept { return duration_; }
+
+private:
+    TerrainRenderer& renderer_;
+    Milliseconds target_{33.0};
+    FrameCost cost_;
+    FramePlan moving_plan_; // of the last picture in motion
+    FramePlan plan_;
+    Milliseconds duration_{0.0};
+};
+
+} // namespace marsview
