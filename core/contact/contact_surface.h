@@ -1,0 +1,213 @@
+// What a contact model needs to know of a surface: a seamless mesh of triangles, and a cast.
+//
+// Models are templates over this concept, so that the heightfield, whose mesh is implied by its
+// samples, and any other mesh share them and the inner loops stay inlined. All of it is called from
+// the servo thread: nothing here may allocate, lock, throw or loop without a bound.
+#pragma once
+
+#include "core/base/vec.h"
+#include "core/contact/contact.h"
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+
+namespace marsview {
+
+/// A place on the surface, kept as a feature and the position on it, so that no drift can push it
+/// through: its coordinates are computed from the mesh whenever they are asked for. Only the fields
+/// that the feature names mean something.
+template <typename S>
+struct SurfaceContact {
+    ContactFeature feature = ContactFeature::Vertex; // never Free
+    typename S::Vertex vertex{};
+    typename S::Edge edge{};
+    double along = 0.0; // 0 at the edge's first end, 1 at its second
+    typename S::Face face{};
+    std::array<double, 3> weights{}; // of the face's corners; >= 0, sum 1
+};
+
+/// An edge seen from one of its ends.
+template <typename S>
+struct SurfaceSpoke {
+    typename S::Vertex end;
+    Vec3 along; // from here to `end`, in scene metres
+};
+
+/// A face seen from its first corner: where the others are, and where the goal is.
+template <typename S>
+struct SurfaceTriangle {
+    Vec3 to_second;
+    Vec3 to_third;
+    Vec3 to_goal;
+};
+
+/// A face seen from one of its edges.
+template <typename S>
+struct SurfaceWing {
+    typename S::Face face;
+    int corner; // the one opposite the edge
+};
+
+/// What a segment through free space met.
+template <typename S>
+struct SurfaceCast {
+    std::optional<SurfaceContact<S>> contact; // nothing: the goal was reached
+    std::uint32_t cells = 0;
+};
+
+/// The mesh: vertices, edges and faces are small values. Vectors are in scene metres.
+///   goal(p)            what the models aim at for the point p; nothing where p cannot be aimed at
+///   goalPoint(g)       where that is
+///   isAbove(g)         whether it is in free space
+///   contactAt(g)       the place on the surface from where a model begins that is placed at g
+///   initialContact()   where it begins without a goal
+///   point(c)           the coordinates of a place on the surface
+///   toGoal(v, g)       from a vertex to the goal
+///   between(a, b)      from one vertex to another of the same face
+///   corners(f)         three vertices, counter-clockwise seen from free space
+///   triangle(f, g)     the same as vectors, and the goal
+///   ends(e)            the two vertices of an edge, in its order
+///   edgeBetween(a, b)  the edge between two vertices of a face
+///   wings(e)           the one or two faces of an edge
+///   fan(v)             what there is to know around a vertex, read once
+///   eachSpoke(fan, fn) calls fn with each edge of a vertex, in a fixed order
+///   wayOut(c, g)       the adjacent face over which the straight way from a place on the surface
+///                      to the goal leaves the surface, or nothing where an adjacent face is in the
+///                      way; to leave by less than rounding error is not to leave
+///   castFrom(c, f, g)  follows that way
+///   castFree(p, g)     the same from a goal reached before, which was above the surface
+///   stepsMax()         an update may take that many steps from feature to feature; several times
+///                      what crosses the whole mesh
+// clang-format off: version 14 breaks compound requirements into a line a token.
+template <typename S>
+concept ContactSurface = requires(const S& s,
+                                  const typename S::Goal& g,
+                                  typename S::Vertex v,
+                                  typename S::Edge e,
+                                  typename S::Face f,
+                                  const typename S::Fan& fan,
+                                  const SurfaceContact<S>& c,
+                                  const ScenePoint& p)
+{
+    requires std::equality_comparable<typename S::Vertex>;
+    {
+        s.goal(p)
+    }
+    noexcept->std::same_as<std::optional<typename S::Goal>>;
+    {
+        s.goalPoint(g)
+    }
+    noexcept->std::same_as<ScenePoint>;
+    {
+        s.isAbove(g)
+    }
+    noexcept->std::same_as<bool>;
+    {
+        s.contactAt(g)
+    }
+    noexcept->std::same_as<SurfaceContact<S>>;
+    {
+        s.initialContact()
+    }
+    noexcept->std::same_as<SurfaceContact<S>>;
+    {
+        s.point(c)
+    }
+    noexcept->std::same_as<ScenePoint>;
+    {
+        s.toGoal(v, g)
+    }
+    noexcept->std::same_as<Vec3>;
+    {
+        s.between(v, v)
+    }
+    noexcept->std::same_as<Vec3>;
+    {
+        s.corners(f)
+    }
+    noexcept->std::same_as<std::array<typename S::Vertex, 3>>;
+    {
+        s.triangle(f, g)
+    }
+    noexcept->std::same_as<SurfaceTriangle<S>>;
+    {
+        s.ends(e)
+    }
+    noexcept->std::same_as<std::array<typename S::Vertex, 2>>;
+    {
+        s.edgeBetween(v, v)
+    }
+    noexcept->std::same_as<typename S::Edge>;
+    {
+        s.wings(e)
+    }
+    noexcept->std::same_as<std::array<std::optional<SurfaceWing<S>>, 2>>;
+    {
+        s.fan(v)
+    }
+    noexcept->std::same_as<typename S::Fan>;
+    {
+        s.toGoal(fan, g)
+    }
+    noexcept->std::same_as<Vec3>;
+    {
+        s.eachSpoke(fan, [](const SurfaceSpoke<S>&) {})
+    }
+    noexcept;
+    {
+        s.wayOut(fan, g)
+    }
+    noexcept->std::same_as<std::optional<typename S::Face>>;
+    {
+        s.wayOut(c, g)
+    }
+    noexcept->std::same_as<std::optional<typename S::Face>>;
+    {
+        s.castFrom(c, f, g)
+    }
+    noexcept->std::same_as<SurfaceCast<S>>;
+    {
+        s.castFree(g, g)
+    }
+    noexcept->std::same_as<SurfaceCast<S>>;
+    {
+        s.stepsMax()
+    }
+    noexcept->std::same_as<std::uint32_t>;
+};
+// clang-format on
+
+/// A place within a face as the feature that it really is: a weight of 0 is an edge, two of them a
+/// vertex.
+template <typename S>
+SurfaceContact<S> contactOnFace(const S& surface,
+                                typename S::Face face,
+                                const std::array<double, 3>& weights) noexcept
+{
+    SurfaceContact<S> contact;
+    const auto corners = surface.corners(face);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        const std::size_t k = (i + 2) % 3;
+        if (weights[i] == 0.0) {
+            if (weights[j] == 0.0 || weights[k] == 0.0) {
+                contact.feature = ContactFeature::Vertex;
+                contact.vertex = corners[weights[j] == 0.0 ? k : j];
+                return contact;
+            }
+            contact.feature = ContactFeature::Edge;
+            contact.edge = surface.edgeBetween(corners[j], corners[k]);
+            const bool ends_at_k = surface.ends(contact.edge)[1] == corners[k];
+            contact.along = weights[ends_at_k ? k : j] / (weights[j] + weights[k]);
+            return contact;
+        }
+    }
+    contact.feature = ContactFeature::Face;
+    contact.face = face;
+    contact.weights = weights;
+    return contact;
+}
+
+} // namespace marsview

@@ -1,0 +1,235 @@
+#include "tests/core/contact/contact_terrain.h"
+
+#include "tests/support/fractal_terrain.h"
+#include "tests/support/reference_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace marsview::test {
+namespace {
+
+using Shape = double (*)(int column, int row);
+
+std::vector<float> shaped(int columns, int rows, Shape shape)
+{
+    std::vector<float> heights;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            heights.push_back(static_cast<float>(shape(column, row)));
+        }
+    }
+    return heights;
+}
+
+Vec3 scenePoint(const HeightfieldSurface& surface, GridPoint grid, double height_m)
+{
+    return surface.frame().toScene(grid, height_m * surface.exaggeration());
+}
+
+double cosine(const Vec3& a, const Vec3& b)
+{
+    const double lengths = length(a) * length(b);
+    return lengths > 0.0 ? dot(a, b) / lengths : 0.0;
+}
+
+} // namespace
+
+std::shared_ptr<const FilledHeightfield> filledTerrain(const Heightfield& heightfield)
+{
+    JobMonitor monitor;
+    auto pyramid =
+        std::make_shared<const MinMaxPyramid>(MinMaxPyramid::build(heightfield, monitor).value());
+    return std::make_shared<const FilledHeightfield>(
+        FilledHeightfield::build(heightfield, std::move(pyramid), monitor).value());
+}
+
+std::shared_ptr<const FilledHeightfield> filledTerrain(std::size_t columns,
+                                                       const std::vector<float>& heights)
+{
+    const std::size_t rows = heights.size() / columns;
+    SampleGrid grid = SampleGrid::create(SampleType::Float32, columns, rows).value();
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::memcpy(grid.rowData(row), heights.data() + row * columns, columns * sizeof(float));
+    }
+    const SampleStatistics statistics = grid.applyRule({}, 0, rows);
+    return filledTerrain(
+        Heightfield(std::make_shared<const SampleGrid>(std::move(grid)), statistics, {}));
+}
+
+SceneFrame unitFrame(const FilledHeightfield& terrain)
+{
+    return {.origin = {static_cast<double>(terrain.columns() - 1) / 2.0,
+                       static_cast<double>(terrain.rows() - 1) / 2.0}};
+}
+
+std::vector<NamedTerrain> syntheticTerrains()
+{
+    const auto make = [](int columns, int rows, Shape shape) {
+        return filledTerrain(static_cast<std::size_t>(columns), shaped(columns, rows, shape));
+    };
+    std::vector<NamedTerrain> terrains{
+        {"flat", make(40, 40, [](int, int) { return 5.0; })},
+        {"plane", make(40, 37, [](int c, int r) { return 0.5 * c - 0.25 * r; })},
+        {"ridge along columns", make(41, 41, [](int c, int) { return -std::abs(c - 20.0); })},
+        {"valley along columns", make(41, 41, [](int c, int) { return std::abs(c - 20.0); })},
+        {"valley along the diagonals",
+         make(41, 41, [](int c, int r) { return std::abs(c - r) * 1.0; })},
+        {"valley across the diagonals",
+         make(41, 41, [](int c, int r) { return std::abs(c + r - 40.0); })},
+        {"pyramid",
+         make(41, 41,
+              [](int c, int r) { return -std::max(std::abs(c - 20.0), std::abs(r - 20.0)); })},
+        {"pit",
+         make(41, 41,
+              [](int c, int r) { return std::max(std::abs(c - 20.0), std::abs(r - 20.0)); })},
+        {"checkerboard",
+         make(40, 40, [](int c, int r) { return (c + r) % 2 == 0 ? 20.0 : -20.0; })},
+        {"stairs of ties",
+         make(40, 40, [](int c, int r) { return std::floor((c + 2 * r) / 7.0); })},
+        {"terraces", make(40, 40,
+                          [](int c, int r) {
+                              return std::round(3.0 * std::sin(c * 0.4) * std::cos(r * 0.3));
+                          })},
+        {"cliff", make(40, 40, [](int c, int) { return c < 20 ? 0.0 : 30000.0; })},
+        {"needles",
+         make(40, 40, [](int c, int r) { return c % 5 == 2 && r % 5 == 2 ? 50.0 : 0.0; })},
+        {"holes",
+         make(40, 40, [](int c, int r) { return c % 5 == 2 && r % 5 == 2 ? -50.0 : 0.0; })},
+        {"2 × 2, saddle", make(2, 2, [](int c, int r) { return c == r ? 1.0 : 0.0; })},
+        {"2 × 2, flat", make(2, 2, [](int, int) { return 0.0; })},
+        {"2 × 30", make(2, 30, [](int c, int r) { return std::sin(r * 1.0) + c; })},
+        {"voids", make(70, 50,
+                       [](int c, int r) {
+                           const bool is_void =
+                               (c - 30) * (c - 30) + (r - 20) * (r - 20) < 150 || (c * r) % 11 == 7;
+                           return is_void ? std::numeric_limits<double>::quiet_NaN()
+                                          : 2.0 * std::sin(c * 0.3) + r * 0.2;
+                       })},
+    };
+    for (const double scale : {0.1, 1.0, 5.0, 20.0}) {
+        std::vector<float> heights = fractalHeights(130, 97, 4);
+        for (float& height : heights) {
+            height *= static_cast<float>(scale);
+        }
+        terrains.push_back({"fractal × " + std::to_string(scale), filledTerrain(130, heights)});
+        for (float& height : heights) {
+            height = std::round(height);
+        }
+        terrains.push_back(
+            {"whole fractal × " + std::to_string(scale), filledTerrain(130, heights)});
+    }
+    return terrains;
+}
+
+double bruteHeight(const HeightfieldSurface& surface, GridPoint grid)
+{
+    const FilledHeightfield& terrain = *surface.terrain();
+    const auto cell = [](double position, std::size_t samples) {
+        const double last = static_cast<double>(samples) - 2.0;
+        return static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, last));
+    };
+    const std::size_t c = cell(grid.column, terrain.columns());
+    const std::size_t r = cell(grid.row, terrain.rows());
+    const auto sample = [&](std::size_t column, std::size_t row) {
+        return static_cast<long double>(terrain.sample(column, row));
+    };
+    const long double height =
+        planeHeight({sample(c, r), sample(c + 1, r), sample(c, r + 1), sample(c + 1, r + 1)},
+                    static_cast<long double>(grid.column) - static_cast<long double>(c),
+                    static_cast<long double>(grid.row) - static_cast<long double>(r));
+    return static_cast<double>(height * static_cast<long double>(surface.exaggeration()));
+}
+
+double
+steepestCosine(const HeightfieldSurface& surface, const ScenePoint& proxy, const ScenePoint& goal)
+{
+    const FilledHeightfield& terrain = *surface.terrain();
+    const GridPoint grid = surface.frame().toGrid(proxy);
+    const Vec3 to_goal = goal - proxy;
+    // The tangent cone is the union, over the triangles that hold the proxy, of what the ways to
+    // their corners and the way up span.
+    double steepest = cosine(to_goal, {0.0, 0.0, 1.0});
+    constexpr double kOn = 1e-10; // cells: on the border of a triangle
+    const int near_c = static_cast<int>(std::floor(grid.column));
+    const int near_r = static_cast<int>(std::floor(grid.row));
+    for (int r = std::max(near_r - 1, 0);
+         r <= std::min(near_r + 1, static_cast<int>(terrain.rows()) - 2); ++r) {
+        for (int c = std::max(near_c - 1, 0);
+             c <= std::min(near_c + 1, static_cast<int>(terrain.columns()) - 2); ++c) {
+            const double u = grid.column - c;
+            const double v = grid.row - r;
+            if (u < -kOn || u > 1.0 + kOn || v < -kOn || v > 1.0 + kOn) {
+                continue;
+            }
+            for (const bool is_upper : {true, false}) {
+                if (is_upper ? u < v - kOn : u > v + kOn) {
+                    continue;
+                }
+                const std::array<std::array<int, 2>, 3> corners{
+                    {{c, r}, {c + 1, r + 1}, {is_upper ? c + 1 : c, is_upper ? r : r + 1}}};
+                for (const auto& [column, row] : corners) {
+                    const double height = terrain.sample(static_cast<std::size_t>(column),
+                                                         static_cast<std::size_t>(row));
+                    const Vec3 along =
+                        scenePoint(surface, {static_cast<double>(column), static_cast<double>(row)},
+                                   height) -
+                        proxy;
+                    // A corner where the proxy is gives no direction, only rounding error.
+                    if (std::hypot(column - grid.column, row - grid.row) > 1e-7) {
+                        steepest = std::max(steepest, cosine(to_goal, along));
+                    }
+                }
+            }
+        }
+    }
+    return steepest;
+}
+
+ScenePoint clampedGoal(const HeightfieldSurface& surface, const ScenePoint& goal)
+{
+    const GridPoint grid = surface.frame().toGrid(goal);
+    const double last_column = static_cast<double>(surface.terrain()->columns() - 1);
+    const double last_row = static_cast<double>(surface.terrain()->rows() - 1);
+    if (grid.column >= 0.0 && grid.column <= last_column && grid.row >= 0.0 &&
+        grid.row <= last_row) {
+        return goal;
+    }
+    return surface.frame().toScene(
+        {std::clamp(grid.column, 0.0, last_column), std::clamp(grid.row, 0.0, last_row)}, goal.z);
+}
+
+ScenePoint wanderingGoal(Random& random,
+                         const HeightfieldSurface& surface,
+                         const ScenePoint& last,
+                         double step_cells)
+{
+    const FilledHeightfield& terrain = *surface.terrain();
+    const double columns = static_cast<double>(terrain.columns());
+    const double rows = static_cast<double>(terrain.rows());
+    GridPoint grid = surface.frame().toGrid(last);
+    if (random.chance(0.02)) {
+        grid = {random.uniform(-0.2, 1.2) * columns, random.uniform(-0.2, 1.2) * rows};
+    } else {
+        grid.column += random.uniform(-step_cells, step_cells);
+        grid.row += random.uniform(-step_cells, step_cells);
+    }
+    if (random.chance(0.2)) {
+        grid = {std::round(grid.column * 2.0) / 2.0, std::round(grid.row * 2.0) / 2.0};
+    }
+    grid.column = std::clamp(grid.column, -0.3 * columns, 1.3 * columns);
+    grid.row = std::clamp(grid.row, -0.3 * rows, 1.3 * rows);
+    const double cell_m =
+        std::hypot(surface.frame().east_per_column, surface.frame().north_per_column);
+    double z = bruteHeight(surface, {std::clamp(grid.column, 0.0, columns - 1.0),
+                                     std::clamp(grid.row, 0.0, rows - 1.0)});
+    z += random.chance(0.1)   ? 0.0
+         : random.chance(0.2) ? random.uniform(0.0, 3.0) * cell_m
+                              : -random.uniform(0.0, 6.0) * cell_m;
+    return surface.frame().toScene(grid, z);
+}
+
+} // namespace marsview::test

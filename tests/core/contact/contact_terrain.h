@@ -1,0 +1,50 @@
+// Terrain to touch, and the truth about touching it that no contact model had a hand in.
+#pragma once
+
+#include "core/contact/heightfield_surface.h"
+#include "tests/support/random.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+
+std::shared_ptr<const FilledHeightfield> filledTerrain(std::size_t columns,
+                                                       const std::vector<float>& heights);
+
+std::shared_ptr<const FilledHeightfield> filledTerrain(const Heightfield& heightfield);
+
+/// Cells of 1 m, row 0 in the north, the origin in the middle.
+SceneFrame unitFrame(const FilledHeightfield& terrain);
+
+struct NamedTerrain {
+    std::string name;
+    std::shared_ptr<const FilledHeightfield> terrain;
+};
+
+/// Planes, ridges, valleys, peaks, checkerboards, ties, steps, fractals, maps of 2 × 2 samples.
+std::vector<NamedTerrain> syntheticTerrains();
+
+/// Height in scene metres of the surface, from the plane through three samples, in long double.
+double bruteHeight(const HeightfieldSurface& surface, GridPoint grid);
+
+/// How much closer to the goal the steepest way from `proxy` on the surface, or off it, leads at
+/// once: the largest cosine between the goal and a direction of the tangent cone of the space on
+/// and above the surface, counting no way shorter than `slack` beyond it. 0 or less at a minimum.
+/// Knows only the samples and the proxy's coordinates.
+double
+steepestCosine(const HeightfieldSurface& surface, const ScenePoint& proxy, const ScenePoint& goal);
+
+/// The goal as a model sees it: clamped to the grid.
+ScenePoint clampedGoal(const HeightfieldSurface& surface, const ScenePoint& goal);
+
+/// A goal near the surface, mostly below, with now and then a jump anywhere, beyond the border too;
+/// often on whole and half samples, where ties are.
+ScenePoint wanderingGoal(Random& random,
+                         const HeightfieldSurface& surface,
+                         const ScenePoint& last,
+                         double step_cells);
+
+} // namespace marsview::test

@@ -1,0 +1,133 @@
+#include "core/contact/heightfield_surface.h"
+#include "core/terrain/ray_cast.h"
+#include "tests/core/contact/contact_terrain.h"
+#include "tests/support/fractal_terrain.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace marsview {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(HeightfieldSurface, CastsFindWhatRaysFind)
+{
+    test::Random random;
+    for (const double scale : {0.1, 1.0, 20.0}) {
+        const auto terrain = test::filledTerrain(230, test::fractalHeights(230, 170, 9));
+        SceneFrame frame = test::unitFrame(*terrain);
+        frame.east_per_row = 0.3;
+        const HeightfieldSurface surface(terrain, frame, scale);
+        JobMonitor monitor;
+        const Heightfield& heightfield = terrain->heightfield();
+        const MinMaxPyramid pyramid = MinMaxPyramid::build(heightfield, monitor).value();
+        long hits = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const auto place = [&](double above) {
+                GridPoint grid{random.uniform(0.0, 229.0), random.uniform(0.0, 169.0)};
+                if (random.chance(0.3)) {
+                    grid = {std::round(grid.column), std::round(grid.row)};
+                }
+                return frame.toScene(grid, surface.height(grid) + above);
+            };
+            const ScenePoint from = place(random.uniform(0.01, 8.0) * scale);
+            ScenePoint to = place(random.uniform(-8.0, 8.0) * scale);
+            if (random.chance(0.5)) {
+                to = from + (to - from) * 0.02;
+            }
+            const auto start = surface.goal(from);
+            const auto goal = surface.goal(to);
+            ASSERT_TRUE(start && goal);
+            const auto cast = surface.castFree(*start, *goal);
+            // The cast of core/terrain goes another way: down from the root, through all it
+            // overlaps.
+            auto expected = castRay(heightfield, pyramid, gridRay(from, to - from, frame, scale));
+            if (expected && expected->t > 1.0) {
+                expected.reset();
+            }
+            ASSERT_EQ(cast.contact.has_value(), expected.has_value()) << i;
+            if (expected) {
+                ++hits;
+                const GridPoint at = surface.gridPoint(*cast.contact);
+                EXPECT_NEAR(at.column, expected->grid.column, 1e-7);
+                EXPECT_NEAR(at.row, expected->grid.row, 1e-7);
+            }
+        }
+        EXPECT_GT(hits, 4000);
+        EXPECT_LT(hits, 18000);
+    }
+}
+
+TEST(HeightfieldSurface, CastsPassNoEdgeAndNoVertex)
+{
+    test::Random random;
+    const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 70, 2));
+    const HeightfieldSurface surface(terrain, test::unitFrame(*terrain), 1.0);
+    for (int i = 0; i < 20000; ++i) {
+        // Through a point on a vertex or an edge, steeper than any slope, to just below it.
+        GridPoint on{std::floor(random.uniform(1.0, 88.0)), std::floor(random.uniform(1.0, 68.0))};
+        const double along = random.unit();
+        const std::size_t kind = random.below(4);
+        on.column += kind == 1 || kind == 3 ? along : 0.0;
+        on.row += kind == 2 || kind == 3 ? along : 0.0;
+        const double height = surface.height(on);
+        const Vec3 down{random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), -1.0};
+        const ScenePoint point = surface.frame().toScene(on, height);
+        const auto from = surface.goal(point - down * 9.0);
+        const auto to = surface.goal(point + down * 1e-6);
+        ASSERT_TRUE(surface.isAbove(*from));
+        ASSERT_FALSE(surface.isAbove(*to));
+        const auto cast = surface.castFree(*from, *to);
+        ASSERT_TRUE(cast.contact) << i;
+        const GridPoint at = surface.gridPoint(*cast.contact);
+        EXPECT_NEAR(at.column, on.column, 1e-6);
+        EXPECT_NEAR(at.row, on.row, 1e-6);
+    }
+}
+
+TEST(HeightfieldSurface, FreeSpaceNeedsNoLookAtCells)
+{
+    const auto terrain = test::filledTerrain(1500, test::fractalHeights(1500, 1100, 2));
+    const HeightfieldSurface surface(terrain, test::unitFrame(*terrain), 1.0);
+    const auto from = surface.goal({-740.0, 500.0, 400.0});
+    const auto to = surface.goal({740.0, -520.0, 401.0});
+    const auto cast = surface.castFree(*from, *to);
+    EXPECT_FALSE(cast.contact);
+    EXPECT_EQ(cast.cells, 0U);
+}
+
+TEST(HeightfieldSurface, HeightIsThatOfTheTriangles)
+{
+    test::Random random;
+    const auto terrain = test::filledTerrain(40, test::fractalHeights(40, 30, 2));
+    const HeightfieldSurface surface(terrain, test::unitFrame(*terrain), 2.5);
+    for (int i = 0; i < 5000; ++i) {
+        const GridPoint grid{random.uniform(0.0, 39.0), random.uniform(0.0, 29.0)};
+        EXPECT_NEAR(surface.height(grid), test::bruteHeight(surface, grid), 1e-12);
+    }
+    EXPECT_EQ(surface.height({-3.0, 90.0}), 2.5 * terrain->sample(0, 29));
+}
+
+TEST(HeightfieldSurface, TellsWhereVoidsWereFilled)
+{
+    std::vector<float> heights(std::size_t{20} * 20, 1.0F);
+    heights[5 * 20 + 5] = kNan;
+    const auto terrain = test::filledTerrain(20, heights);
+    const SceneFrame frame = test::unitFrame(*terrain);
+    const HeightfieldSurface surface(terrain, frame, 1.0);
+    const auto isOverVoid = [&](double column, double row) {
+        return surface.isOverVoid(frame.toScene({column, row}, 1.0));
+    };
+    EXPECT_TRUE(isOverVoid(5.0, 5.0));
+    EXPECT_TRUE(isOverVoid(5.5, 5.25));
+    EXPECT_TRUE(isOverVoid(4.75, 4.5));
+    EXPECT_FALSE(isOverVoid(6.0, 5.5)) << "on the edge opposite";
+    EXPECT_FALSE(isOverVoid(5.75, 4.125)) << "the other triangle of the cell";
+    EXPECT_FALSE(isOverVoid(10.0, 10.0));
+}
+
+} // namespace
+} // namespace marsview
