@@ -150,8 +150,7 @@ void SessionController::startNext()
     waiting_.pop_front();
     ++begun_count_;
     const Layer* layer = layerOf(session_, current_->layer);
-    loader_->start({.spec = current_->spec,
-                    .loaded = layer != nullptr ? layer->dataset : nullptr});
+    loader_->start({.spec = current_->spec, .loaded = layer != nullptr ? layer->dataset : nullptr});
 }
 
 void SessionController::endLoad()

@@ -4,6 +4,7 @@
 #include "core/session/session.h"
 #include "ui/load_controller.h"
 #include "ui/map_store.h"
+#include "ui/shown_layer.h"
 #include "ui/session_command.h"
 
 #include <QObject>

@@ -9,9 +9,8 @@ void Stylus::setGround(const SceneSurface& ground, double exaggeration)
     const auto is_same = [](const SceneMap& a, const SceneMap& b) {
         return a.map.dataset == b.map.dataset && a.frame == b.frame;
     };
-    const bool is_same_ground =
-        std::equal(ground.maps().begin(), ground.maps().end(), ground_.maps().begin(),
-                   ground_.maps().end(), is_same);
+    const bool is_same_ground = std::equal(ground.maps().begin(), ground.maps().end(),
+                                           ground_.maps().begin(), ground_.maps().end(), is_same);
     ground_ = ground;
     exaggeration_ = exaggeration;
     if (!is_same_ground) {
@@ -46,9 +45,8 @@ void Stylus::aim(const GroundPoint& at, const StylusButtons& buttons, double poi
                        .proxy = contact.proxy,
                        .goal = goal,
                        .is_in_contact = contact.is_in_contact,
-                       .force_n = contact.is_in_contact
-                                      ? stylusForce(contact.proxy, goal, point_m)
-                                      : Vec3{}};
+                       .force_n = contact.is_in_contact ? stylusForce(contact.proxy, goal, point_m)
+                                                        : Vec3{}};
 }
 
 void Stylus::lift()

@@ -132,9 +132,9 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
         maps.push_back(layer.map);
     }
     const LoadedMap map = maps.empty() ? LoadedMap{} : maps.front();
-    const bool is_same_place = map_ && map &&
-                               map_.dataset->georeference().sceneFrame() ==
-                                   map.dataset->georeference().sceneFrame();
+    const bool is_same_place =
+        map_ && map &&
+        map_.dataset->georeference().sceneFrame() == map.dataset->georeference().sceneFrame();
     const bool is_other_map = map.dataset != map_.dataset;
     map_ = map;
     ground_ = SceneSurface(maps);
@@ -198,8 +198,7 @@ void TerrainView::setExaggeration(double exaggeration)
     }
     const double before = style_.exaggeration;
     // A motion that is under way ends where it would have ended.
-    const OrbitCamera goal =
-        ground_.isEmpty() ? navigator_.goal() : onGround(navigator_.goal());
+    const OrbitCamera goal = ground_.isEmpty() ? navigator_.goal() : onGround(navigator_.goal());
     style_.exaggeration = exaggeration;
     stylus_.setGround(ground_, exaggeration);
     navigator_.jumpTo(reexaggerated(goal, before, exaggeration));
@@ -312,8 +311,8 @@ std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
         return std::nullopt;
     }
     const double height_m = map_.dataset->heightfield().height(grid);
-    return positionOf(map_.dataset->georeference().sceneFrame().toScene(
-        grid, height_m * style_.exaggeration));
+    return positionOf(
+        map_.dataset->georeference().sceneFrame().toScene(grid, height_m * style_.exaggeration));
 }
 
 std::optional<QPointF> TerrainView::positionOf(const ScenePoint& place) const
@@ -525,9 +524,8 @@ void TerrainView::finishStage()
 void TerrainView::goToOpeningView()
 {
     is_at_opening_view_ = true;
-    navigator_.jumpTo(
-        openingCamera(map_.dataset->georeference())
-            .value_or(homeCamera(ground_.box(style_.exaggeration), viewport())));
+    navigator_.jumpTo(openingCamera(map_.dataset->georeference())
+                          .value_or(homeCamera(ground_.box(style_.exaggeration), viewport())));
 }
 
 void TerrainView::resizeEvent(QResizeEvent* event)
@@ -734,10 +732,9 @@ bool TerrainView::moveByGrab(QPointF from, QPointF to)
         return false;
     }
     if (pose->mode == StylusMode::Pan) {
-        setCamera(dragged(navigator_.camera(), viewport(),
-                          {.from = pixelAt(from),
-                           .to = pixelAt(to),
-                           .grabbed_z_m = pose->proxy.z}));
+        setCamera(
+            dragged(navigator_.camera(), viewport(),
+                    {.from = pixelAt(from), .to = pixelAt(to), .grabbed_z_m = pose->proxy.z}));
         return true;
     }
     if (pose->mode == StylusMode::Zoom) {

@@ -7,6 +7,7 @@
 #include "ui/render/cursor_renderer.h"
 #include "ui/render/governed_picture.h"
 #include "ui/render/terrain_renderer.h"
+#include "ui/shown_layer.h"
 #include "ui/stylus.h"
 
 #include <QOpenGLWidget>
@@ -20,12 +21,6 @@
 class QLabel;
 
 namespace marsview {
-
-/// A map as it is to be drawn.
-struct ShownLayer {
-    LoadedMap map;
-    const ColorRamp* ramp = nullptr; // one of colorRamps(); never null
-};
 
 /// What a drag of the mouse does.
 enum class DragAction { None, Touch, Pan, Orbit };

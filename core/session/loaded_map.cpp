@@ -23,6 +23,10 @@ Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor&
     if (!analysis) {
         return std::move(analysis).error();
     }
+    auto filled = FilledHeightfield::build(heightfield, {*analysis, &(*analysis)->bounds}, monitor);
+    if (!filled) {
+        return std::move(filled).error();
+    }
     const HeightRange range = heightfield.range().value_or(HeightRange{});
     const HeightRange tinted = tintRange((*analysis)->means, range);
     const double slope_max = kSlopeReach / suitableExaggeration(*dataset);
@@ -31,6 +35,7 @@ Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor&
                        wholeRelief(heightfield.columns(), heightfield.rows()), slope_max));
     return LoadedMap{.dataset = std::move(dataset),
                      .analysis = std::move(analysis).value(),
+                     .filled = std::make_shared<const FilledHeightfield>(std::move(filled).value()),
                      .tint_range = tinted,
                      .slope_max = slope_max,
                      .relief = std::move(relief)};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/dataset.h"
+#include "core/terrain/filled_heightfield.h"
 #include "core/terrain/relief_tile.h"
 #include "core/terrain/surface_analysis.h"
 
@@ -13,6 +14,7 @@ namespace marsview {
 struct LoadedMap {
     std::shared_ptr<const Dataset> dataset;
     std::shared_ptr<const SurfaceAnalysis> analysis; // of the dataset's heightfield
+    std::shared_ptr<const FilledHeightfield> filled; // to be touched
     HeightRange tint_range; // over which colours are spread: all but the rarest heights
     double slope_max = 1.0; // that relief tiles are made for
     /// The relief of the whole map, the first that drawing needs.

@@ -107,26 +107,25 @@ void addCone(Triangles& triangles, const Vec3& tip, double radius_m, double heig
     };
     const auto slant = [&](int sector) {
         const double around = 2.0 * std::numbers::pi * sector / kSectors;
-        return asFloats(normalized({height_m * std::cos(around), height_m * std::sin(around),
-                                    -radius_m}));
+        return asFloats(
+            normalized({height_m * std::cos(around), height_m * std::sin(around), -radius_m}));
     };
     const Vec3 up{0.0, 0.0, 1.0};
     const Vec3 lid = tip + Vec3{0.0, 0.0, height_m};
     for (int sector = 0; sector < kSectors; ++sector) {
-        triangles.insert(
-            triangles.end(),
-            {Vertex{asFloats(tip), slant(sector), kCursorColor},
-             Vertex{asFloats(tip + rim(sector)), slant(sector), kCursorColor},
-             Vertex{asFloats(tip + rim(sector + 1)), slant(sector + 1), kCursorColor},
-             Vertex{asFloats(lid), asFloats(up), kCursorColor},
-             Vertex{asFloats(tip + rim(sector)), asFloats(up), kCursorColor},
-             Vertex{asFloats(tip + rim(sector + 1)), asFloats(up), kCursorColor}});
+        triangles.insert(triangles.end(),
+                         {Vertex{asFloats(tip), slant(sector), kCursorColor},
+                          Vertex{asFloats(tip + rim(sector)), slant(sector), kCursorColor},
+                          Vertex{asFloats(tip + rim(sector + 1)), slant(sector + 1), kCursorColor},
+                          Vertex{asFloats(lid), asFloats(up), kCursorColor},
+                          Vertex{asFloats(tip + rim(sector)), asFloats(up), kCursorColor},
+                          Vertex{asFloats(tip + rim(sector + 1)), asFloats(up), kCursorColor}});
     }
 }
 
 // A band of steady width that faces the eye. Ends relative to the eye.
-void addBand(Triangles& triangles, const Vec3& from, const Vec3& to, double from_width_m,
-             double to_width_m)
+void addBand(
+    Triangles& triangles, const Vec3& from, const Vec3& to, double from_width_m, double to_width_m)
 {
     Vec3 side = cross(to - from, from + to);
     const double side_length = length(side);

@@ -22,10 +22,10 @@ enum class CursorShape {
 /// All in scene coordinates. Sizes stay the same on screen.
 struct CursorPicture {
     CursorShape shape = CursorShape::Sphere;
-    ScenePoint position;                 // the middle of a sphere, the tip of the cone
-    std::optional<ScenePoint> goal;      // where the hand is, when the ground keeps it from there
-    std::vector<ScenePoint> shadow;      // a ring on the ground, counterclockwise; may be empty
-    double pixels_per_point = 1.0;       // of the screen
+    ScenePoint position;            // the middle of a sphere, the tip of the cone
+    std::optional<ScenePoint> goal; // where the hand is, when the ground keeps it from there
+    std::vector<ScenePoint> shadow; // a ring on the ground, counterclockwise; may be empty
+    double pixels_per_point = 1.0;  // of the screen
 };
 
 /// Every call needs the context current in which it was created, the destructor included. Leaves no

@@ -31,10 +31,12 @@ GovernedPicture::GovernedPicture(TerrainRenderer& renderer)
 DrawReport
 GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, unsigned target)
 {
-    DrawRequest draw{
-        .camera = request.camera, .viewport = request.viewport, .is_kept = request.is_kept};
-    const double pixel_count = static_cast<double>(request.viewport.width) *
-                               static_cast<double>(request.viewport.height);
+    DrawRequest draw;
+    draw.camera = request.camera;
+    draw.viewport = request.viewport;
+    draw.is_kept = request.is_kept;
+    const double pixel_count =
+        static_cast<double>(request.viewport.width) * static_cast<double>(request.viewport.height);
     plan_ = {};
     if (request.stage == PictureStage::Moving) {
         plan_ = planFrame(cost_,

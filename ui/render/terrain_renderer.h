@@ -28,9 +28,9 @@ struct DrawStyle {
 struct DrawRequest {
     OrbitCamera camera;
     Viewport viewport;
-    DetailTarget detail;
-    double scale = 1.0; // share of the viewport's width and height that is drawn, then enlarged
-    int samples = 1;    // a pixel
+    DetailTarget detail{};
+    double scale = 1.0;   // share of the viewport's width and height that is drawn, then enlarged
+    int samples = 1;      // a pixel
     bool is_kept = false; // for present()
 };
 
