@@ -1,5 +1,6 @@
 #include "core/session/loaded_map.h"
 
+#include "core/base/free_memory.h"
 #include "core/view/exaggeration.h"
 #include "core/view/scene_box.h"
 #include "core/view/tint_range.h"
@@ -33,6 +34,8 @@ Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor&
     auto relief = std::make_shared<const ReliefTile>(
         makeReliefTile(heightfield, dataset->georeference().sceneFrame(),
                        wholeRelief(heightfield.columns(), heightfield.rows()), slope_max));
+    // GDAL's blocks and the buffers of the passes: half as much again as the samples.
+    returnFreeMemory();
     return LoadedMap{.dataset = std::move(dataset),
                      .analysis = std::move(analysis).value(),
                      .filled = std::make_shared<const FilledHeightfield>(std::move(filled).value()),

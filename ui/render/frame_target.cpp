@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -55,22 +56,20 @@ void FrameTarget::begin(const Viewport& size, int samples)
     glBindFramebuffer(GL_FRAMEBUFFER, drawn_->frame.id());
 }
 
+void FrameTarget::end()
+{
+    if (drawn_->samples > 1) {
+        // Merged once, so that the many samples need not be kept.
+        Buffers merged = make(drawn_->size, 0);
+        copy(drawn_->frame.id(), drawn_->size, merged.frame.id(), merged.size);
+        drawn_ = std::move(merged);
+    }
+}
+
 void FrameTarget::present(GLuint target, const Viewport& target_size)
 {
-    MARSVIEW_CHECK(drawn_.has_value());
-    const bool is_two_steps = drawn_->samples > 1 && !isSame(drawn_->size, target_size);
-    if (is_two_steps) {
-        // Samples are merged by a copy of the same size only.
-        if (!resolved_ || !isSame(resolved_->size, drawn_->size)) {
-            resolved_.reset();
-            resolved_ = make(drawn_->size, 0);
-        }
-        copy(drawn_->frame.id(), drawn_->size, resolved_->frame.id(), resolved_->size);
-        copy(resolved_->frame.id(), resolved_->size, target, target_size);
-    } else {
-        resolved_.reset();
-        copy(drawn_->frame.id(), drawn_->size, target, target_size);
-    }
+    MARSVIEW_CHECK(drawn_.has_value() && drawn_->samples <= 1);
+    copy(drawn_->frame.id(), drawn_->size, target, target_size);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
 }
 

@@ -15,8 +15,10 @@ public:
     /// Binds a buffer of that size; `samples` of 0 or 1 is one a pixel, more are as many as the
     /// driver has up to that.
     void begin(const Viewport& size, int samples);
+    /// What was begun is drawn.
+    void end();
     /// Copies colours, smoothed where sizes differ, and depths into `target`, whose depth buffer
-    /// has 24 bits and a stencil of 8, and leaves that bound. As often as wanted after begin().
+    /// has 24 bits and a stencil of 8, and leaves that bound. As often as wanted after end().
     void present(GLuint target, const Viewport& target_size);
 
 private:
@@ -31,7 +33,6 @@ private:
     static Buffers make(const Viewport& size, int samples);
 
     std::optional<Buffers> drawn_;
-    std::optional<Buffers> resolved_; // one sample a pixel, where drawn_ has more and another size
 };
 
 } // namespace marsview

@@ -5,15 +5,15 @@
 namespace marsview {
 namespace {
 
-void allocate(
-    const GlTexture& texture, std::size_t count, GLint internal, GLenum format, GLenum type)
+GlTexture allocated(GLint internal, GLenum format, GLenum type)
 {
+    GlTexture texture;
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
     auto side = static_cast<GLsizei>(ReliefTile::kSide);
     for (GLint level = 0; level < static_cast<GLint>(ReliefTile::kLevels); ++level, side /= 2) {
-        glTexImage3D(GL_TEXTURE_2D_ARRAY, level, internal, side, side, static_cast<GLsizei>(count),
-                     0, format, type, nullptr);
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, level, internal, side, side,
+                     static_cast<GLsizei>(ReliefCache::kPageTiles), 0, format, type, nullptr);
     }
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL,
                     static_cast<GLint>(ReliefTile::kLevels) - 1);
@@ -21,16 +21,16 @@ void allocate(
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
 }
 
 } // namespace
 
 ReliefCache::ReliefCache(std::size_t tile_count, std::function<void()> notify)
     : slots_(tile_count)
+    , pages_(tile_count / kPageTiles)
     , loader_(std::move(notify))
-{
-    allocate(slopes_, tile_count, GL_RG16_SNORM, GL_RG, GL_SHORT);
-}
+{}
 
 void ReliefCache::beginRound(std::size_t upload_max)
 {
@@ -47,7 +47,7 @@ std::optional<ReliefCache::Found> ReliefCache::find(const ReliefRequest& wanted,
     bool is_missing = false;
     while (true) {
         if (const auto slot = slots_.find(key)) {
-            return Found{*slot, key.node};
+            return Found{.page = *slot / kPageTiles, .layer = *slot % kPageTiles, .node = key.node};
         }
         if (!is_missing) {
             is_missing = true;
@@ -71,45 +71,42 @@ bool ReliefCache::endRound()
     return missing_.empty();
 }
 
-void ReliefCache::bind(GLenum slope_unit, bool has_voids) const
+void ReliefCache::bind(std::size_t page, GLenum slope_unit) const
 {
     glActiveTexture(slope_unit);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, slopes_.id());
-    if (has_voids && shares_) {
-        glActiveTexture(slope_unit + 1);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, shares_->id());
-    }
+    glBindTexture(GL_TEXTURE_2D_ARRAY, pages_[page].slopes ? pages_[page].slopes->id() : 0);
+    glActiveTexture(slope_unit + 1);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, pages_[page].shares ? pages_[page].shares->id() : 0);
 }
 
 void ReliefCache::upload(const LayerNode& key, const ReliefTile& tile)
 {
-    const auto slot = slots_.find(key) ? slots_.find(key) : slots_.assign(key);
+    const auto known = slots_.find(key);
+    const auto slot = known ? known : slots_.assign(key);
     if (!slot) {
         return; // all are in this picture; it will be asked for again
     }
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, slopes_.id());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    GLint n = 0;
-    for (const ReliefTile::Level& level : tile.levels) {
-        const auto side = static_cast<GLsizei>(level.side);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, n++, 0, 0, static_cast<GLint>(*slot), side, side, 1,
-                        GL_RG, GL_SHORT, level.slopes.data());
-    }
-    if (tile.levels.front().shares.empty()) {
-        return;
-    }
-    if (!shares_) {
-        shares_.emplace();
-        allocate(*shares_, slots_.size(), GL_R8, GL_RED, GL_UNSIGNED_BYTE);
-    }
-    glBindTexture(GL_TEXTURE_2D_ARRAY, shares_->id());
+    Page& page = pages_[*slot / kPageTiles];
+    const auto send = [&](std::optional<GlTexture>& texture, GLint internal, GLenum format,
+                          GLenum type, auto data) {
+        if (!texture) {
+            texture = allocated(internal, format, type);
+        }
+        glActiveTexture(GL_TEXTURE0);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, texture->id());
+        GLint n = 0;
+        for (const ReliefTile::Level& level : tile.levels) {
+            const auto side = static_cast<GLsizei>(level.side);
+            glTexSubImage3D(GL_TEXTURE_2D_ARRAY, n++, 0, 0, static_cast<GLint>(*slot % kPageTiles),
+                            side, side, 1, format, type, data(level));
+        }
+    };
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    n = 0;
-    for (const ReliefTile::Level& level : tile.levels) {
-        const auto side = static_cast<GLsizei>(level.side);
-        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, n++, 0, 0, static_cast<GLint>(*slot), side, side, 1,
-                        GL_RED, GL_UNSIGNED_BYTE, level.shares.data());
+    send(page.slopes, GL_RG16_SNORM, GL_RG, GL_SHORT,
+         [](const ReliefTile::Level& level) { return level.slopes.data(); });
+    if (!tile.levels.front().shares.empty()) {
+        send(page.shares, GL_R8, GL_RED, GL_UNSIGNED_BYTE,
+             [](const ReliefTile::Level& level) { return level.shares.data(); });
     }
 }
 

@@ -11,18 +11,24 @@
 
 namespace marsview {
 
-/// A texture array with a layer a tile. Tiles that are missing are made in the background; the
-/// relief of a larger node around stands in for them.
+/// Texture arrays with a layer a tile, made as they are needed. Tiles that are missing are made in
+/// the background; the relief of a larger node around stands in for them.
 class ReliefCache {
 public:
     struct Found {
-        std::size_t slot = 0;
-        DetailNode node; // whose relief it is: the wanted one or one around it
+        std::size_t page = 0;
+        std::size_t layer = 0; // of the page
+        DetailNode node;       // whose relief it is: the wanted one or one around it
     };
 
+    /// Tiles of one texture array.
+    static constexpr std::size_t kPageTiles = 32;
+
+    /// `tile_count` is a multiple of kPageTiles.
     ReliefCache(std::size_t tile_count, std::function<void()> notify);
 
     std::size_t size() const noexcept { return slots_.size(); }
+    std::size_t pageCount() const noexcept { return pages_.size(); }
 
     /// Sends a tile that is there already.
     void keep(const LayerNode& key, const ReliefTile& tile) { upload(key, tile); }
@@ -38,15 +44,19 @@ public:
     /// Waits until another tile is finished. Only after endRound() returned false.
     void wait() { loader_.waitForOne(); }
 
-    /// Slopes to `slope_unit`, shares to the next one.
-    void bind(GLenum slope_unit, bool has_voids) const;
+    /// A page's slopes to `slope_unit`, its shares, if it has any, to the next one.
+    void bind(std::size_t page, GLenum slope_unit) const;
 
 private:
+    struct Page {
+        std::optional<GlTexture> slopes;
+        std::optional<GlTexture> shares; // made for the first map that has voids
+    };
+
     void upload(const LayerNode& key, const ReliefTile& tile);
 
     LruSlots<LayerNode, LayerNodeHash> slots_;
-    GlTexture slopes_;
-    std::optional<GlTexture> shares_; // made for the first map that has voids
+    std::vector<Page> pages_;
     std::vector<ReliefRequest> missing_;
     ReliefLoader loader_;
 };

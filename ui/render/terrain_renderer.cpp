@@ -39,11 +39,17 @@ struct StoreSizes {
     std::size_t atlas_columns;
     std::size_t atlas_rows;
 };
-constexpr StoreSizes kStoresInSoftware{192, 64, 32};
+constexpr StoreSizes kStoresInSoftware{128, 32, 32};
 constexpr StoreSizes kStoresOnGpu{512, 64, 64};
 
 // Relief tiles in a picture, of those in store, so that the next picture's find room.
 constexpr double kReliefShareMax = 0.75;
+
+// Software drivers keep the triangles of what is not yet flushed, some 100 bytes each.
+constexpr std::size_t kNodesPerDraw = 32;
+
+// Texture units.
+enum Unit : GLint { Heights, Ramp, Slopes, Shares, FirstCover };
 
 // An instance, as the shader takes it (TerrainAttribute).
 struct NodeInstance {
@@ -161,7 +167,7 @@ struct TerrainRenderer::Impl {
     GlVertexArray node_array;
     GlVertexArray empty_array;
     GLsizei index_count = 0;
-    std::vector<NodeInstance> batch;
+    std::vector<std::vector<NodeInstance>> batches; // one a page of relief
 
     Impl(TerrainShaders compiled,
          std::string name,
@@ -173,6 +179,7 @@ struct TerrainRenderer::Impl {
         , is_software(has_no_gpu)
         , atlas(stores.atlas_columns, stores.atlas_rows)
         , reliefs(stores.relief_tiles, std::move(notify))
+        , batches(reliefs.pageCount())
     {
         makeNodeMesh();
     }
@@ -189,7 +196,7 @@ struct TerrainRenderer::Impl {
                      const DrawRequest& request,
                      const DrawStyle& style,
                      GridPoint anchor) const;
-    void drawBatch();
+    void drawBatches();
     ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 };
 
@@ -300,12 +307,11 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
     };
     reliefs.find(request_of(layer.wholeNode()), top); // so that it is not given up
     atlas.beginRound();
-    batch.clear();
     for (const SelectedNode& selected : selection.nodes) {
         const LayerNode key{.layer = layer.number, .node = selected.node};
         std::optional<HeightAtlas::Place> slot = atlas.place(key, layer.surface);
         if (!slot) {
-            drawBatch();
+            drawBatches();
             atlas.beginRound();
             slot = atlas.place(key, layer.surface);
         }
@@ -338,25 +344,35 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         // The fraction marks a texel a sample, see the shader.
         instance.relief = {static_cast<float>(1.0 / (texel * side)),
                            coordinate(first_column, tile.column), coordinate(first_row, tile.row),
-                           static_cast<float>(relief->slot) + (tile.level == 0 ? 0.25F : 0.0F)};
-        batch.push_back(instance);
+                           static_cast<float>(relief->layer) + (tile.level == 0 ? 0.25F : 0.0F)};
+        batches[relief->page].push_back(instance);
     }
-    drawBatch();
+    drawBatches();
 }
 
-void TerrainRenderer::Impl::drawBatch()
+void TerrainRenderer::Impl::drawBatches()
 {
-    if (batch.empty()) {
-        return;
-    }
     glBindVertexArray(node_array.id());
     glBindBuffer(GL_ARRAY_BUFFER, instances.id());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(batch.size() * sizeof(NodeInstance)),
-                 batch.data(), GL_STREAM_DRAW);
-    glDrawElementsInstanced(GL_TRIANGLES, index_count, GL_UNSIGNED_SHORT, nullptr,
-                            static_cast<GLsizei>(batch.size()));
+    for (std::size_t page = 0; page < batches.size(); ++page) {
+        std::vector<NodeInstance>& batch = batches[page];
+        if (batch.empty()) {
+            continue;
+        }
+        reliefs.bind(page, GL_TEXTURE0 + Slopes);
+        for (std::size_t first = 0; first < batch.size(); first += kNodesPerDraw) {
+            const std::size_t count = std::min(kNodesPerDraw, batch.size() - first);
+            glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * sizeof(NodeInstance)),
+                         batch.data() + first, GL_STREAM_DRAW);
+            glDrawElementsInstanced(GL_TRIANGLES, index_count, GL_UNSIGNED_SHORT, nullptr,
+                                    static_cast<GLsizei>(count));
+            if (is_software && count == kNodesPerDraw) {
+                glFlush();
+            }
+        }
+        batch.clear();
+    }
     glBindBuffer(GL_ARRAY_BUFFER, 0);
-    batch.clear();
 }
 
 void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
@@ -380,11 +396,9 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
             glUniform4f(location, static_cast<GLfloat>(values)...);
         }
     };
-    enum Unit : GLint { Heights, Ramp, Slopes, Shares, FirstCover };
     atlas.bind(GL_TEXTURE0 + Heights);
     glActiveTexture(GL_TEXTURE0 + Ramp);
     glBindTexture(GL_TEXTURE_2D, layer.ramp.id());
-    reliefs.bind(GL_TEXTURE0 + Slopes, layer.hasVoids());
     glUniform1i(program.uniform("u_heights"), Heights);
     glUniform1i(program.uniform("u_ramp"), Ramp);
     glUniform1i(program.uniform("u_slopes"), Slopes);
@@ -572,6 +586,7 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
     glUseProgram(0);
     glActiveTexture(GL_TEXTURE0);
     if (!is_straight) {
+        impl.frame_target.end();
         impl.kept_size = request.viewport;
         present(target);
     }
