@@ -7,6 +7,7 @@
 #include "ui/light_popup.h"
 #include "ui/load_status.h"
 #include "ui/main_tool_bar.h"
+#include "ui/map_overlays.h"
 #include "ui/notice_bar.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
@@ -70,6 +71,11 @@ QString folderKey()
     return QStringLiteral("files/folder");
 }
 
+QString overlayKey(const QAction& action)
+{
+    return QStringLiteral("overlays/%1").arg(action.objectName());
+}
+
 QString displayKey()
 {
     return QStringLiteral("window/coordinates");
@@ -81,6 +87,7 @@ MainWindow::MainWindow(WindowOptions options, QWidget* parent)
     : QMainWindow(parent)
     , options_(options)
     , view_(new TerrainView(this))
+    , overlays_(new MapOverlays(*view_))
     , controller_(new SessionController(*view_, this))
     , actions_(std::make_unique<WindowActions>(*this, *view_, controller_->undoStack()))
     , notices_(new NoticeBar(this))
@@ -103,6 +110,8 @@ MainWindow::MainWindow(WindowOptions options, QWidget* parent)
     makeStatusBar();
     actions_->panels->addAction(docks_->datasets()->toggleViewAction());
     actions_->panels->addAction(docks_->georeferencing()->toggleViewAction());
+    actions_->panels->addSeparator();
+    actions_->panels->addActions(overlays_->visibilityActions());
     connectActions();
     connectPanels();
     connectController();
@@ -258,6 +267,9 @@ void MainWindow::restoreWindow()
     const QSettings settings;
     restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
     docks_->restore(settings);
+    for (QAction* action : overlays_->visibilityActions()) {
+        action->setChecked(settings.value(overlayKey(*action), true).toBool());
+    }
     last_folder_ = settings.value(folderKey()).toString();
     if (settings.contains(displayKey())) {
         const int display = settings.value(displayKey()).toInt();
@@ -343,7 +355,7 @@ void MainWindow::reportFailure(const QString& title, const QString& problem)
 
 void MainWindow::savePicture()
 {
-    const QImage picture = view_->grabFramebuffer();
+    const QImage picture = view_->terrainPicture();
     auto* dialog = new QFileDialog(this, tr("Save Picture"), last_folder_);
     dialog->setAcceptMode(QFileDialog::AcceptSave);
     dialog->setNameFilters({tr("PNG picture (*.png)"), tr("JPEG picture (*.jpg *.jpeg)")});
@@ -443,6 +455,9 @@ void MainWindow::closeEvent(QCloseEvent* event)
         QSettings settings;
         settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
         docks_->save(settings);
+        for (const QAction* action : overlays_->visibilityActions()) {
+            settings.setValue(overlayKey(*action), action->isChecked());
+        }
     }
     QMainWindow::closeEvent(event);
 }

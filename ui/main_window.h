@@ -15,6 +15,7 @@ class DatasetPanel;
 class GeoreferencingPanel;
 class LightPopup;
 class LoadStatus;
+class MapOverlays;
 class MainToolBar;
 class NoticeBar;
 class RecentFiles;
@@ -54,6 +55,7 @@ public:
     DatasetPanel* datasetPanel() const noexcept { return datasets_; }
     GeoreferencingPanel* georeferencingPanel() const noexcept { return georeferencing_; }
     WindowDocks* docks() const noexcept { return docks_; }
+    MapOverlays* overlays() const noexcept { return overlays_; }
     RecentFiles* recentFiles() const noexcept { return recent_; }
     const WindowActions& actionSet() const noexcept { return *actions_; }
     SessionController& controller() noexcept { return *controller_; }
@@ -103,6 +105,7 @@ private:
     WindowOptions options_;
     Preferences preferences_;
     TerrainView* view_ = nullptr;
+    MapOverlays* overlays_ = nullptr;
     SessionController* controller_ = nullptr;
     std::unique_ptr<WindowActions> actions_;
     NoticeBar* notices_ = nullptr;

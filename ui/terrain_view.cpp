@@ -137,6 +137,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
         map_.dataset->georeference().sceneFrame() == map.dataset->georeference().sceneFrame();
     const bool is_other_map = map.dataset != map_.dataset;
     map_ = map;
+    ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
     ground_ = SceneSurface(maps);
     layers_.clear();
     for (std::size_t i = 0; i < maps.size(); ++i) {
@@ -150,6 +151,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     }
     stylus_.setGround(ground_, style_.exaggeration);
     redrawTerrain();
+    Q_EMIT layersChanged();
     if (is_other_map) {
         QMetaObject::invokeMethod(
             this,
@@ -167,6 +169,7 @@ void TerrainView::setLook(const TerrainLook& look)
 {
     style_.look = look;
     redrawTerrain();
+    Q_EMIT lookChanged();
 }
 
 void TerrainView::setAntialiasing(bool is_wanted)

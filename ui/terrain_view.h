@@ -54,6 +54,8 @@ public:
     void setLayers(const std::vector<ShownLayer>& top_first);
     /// The topmost map shown; none where there is none.
     const LoadedMap& map() const noexcept { return map_; }
+    /// Its colours; null where there is no map.
+    const ColorRamp* ramp() const noexcept { return ramp_; }
     /// Everything that is shown.
     const SceneSurface& ground() const noexcept { return ground_; }
 
@@ -104,6 +106,9 @@ Q_SIGNALS:
     /// There is none that will do.
     void unavailable(const QString& reason);
     void mapShown(const LoadedMap& map);
+    /// setLayers() or setLook() took effect.
+    void layersChanged();
+    void lookChanged();
     void pictureCompleted();
     /// What is under the pointer changed; nothing where it is not over the surface.
     void pointerMoved(const std::optional<RayHit>& hit);
@@ -162,6 +167,7 @@ private:
     bool has_antialiasing_ = true;
 
     LoadedMap map_;
+    const ColorRamp* ramp_ = nullptr;
     SceneSurface ground_;
     std::vector<TerrainLayer> layers_;
     bool are_layers_sent_ = true;

@@ -134,8 +134,11 @@ void WindowDocks::save(QSettings& settings)
 
 void WindowDocks::restore(const QSettings& settings)
 {
-    window_.restoreState(settings.value(QStringLiteral("window/state")).toByteArray(),
-                         kStateVersion);
+    {
+        const QScopedValueRollback fitting(is_fitting_, true); // panels come one by one
+        window_.restoreState(settings.value(QStringLiteral("window/state")).toByteArray(),
+                             kStateVersion);
+    }
     fit();
 }
 

@@ -1,5 +1,6 @@
 #include "tests/ui/test_map.h"
 
+#include "tests/support/make_raster.h"
 #include "ui/terrain_view.h"
 
 #include <QFile>
@@ -7,6 +8,7 @@
 #include <QTextStream>
 
 #include <cmath>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -50,6 +52,21 @@ QString TestMaps::ring() const
     return write(QStringLiteral("ring.asc"), {}, [](int column, int row) {
         return std::hypot(column - 29.5, row - 19.5) < 8.0 ? std::nan("") : 100.0 + column;
     });
+}
+
+QString TestMaps::placed(const std::string& name,
+                         const std::string& srs,
+                         const std::array<double, 6>& transform) const
+{
+    constexpr std::size_t kColumns = 40;
+    std::vector<float> samples(kColumns * 30);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<float>(i % kColumns) * 20.0F - 300.0F;
+    }
+    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    recipe.srs = srs;
+    recipe.transform = transform;
+    return QString::fromStdString(test::writeVrt(rasters_, name, recipe));
 }
 
 WindowOptions testWindowOptions()

@@ -1,12 +1,15 @@
 // Small maps on disk, and windows that show them.
 #pragma once
 
+#include "tests/support/temp_folder.h"
 #include "ui/main_window.h"
 
 #include <QString>
 #include <QTemporaryDir>
 
+#include <array>
 #include <functional>
+#include <string>
 
 namespace marsview {
 
@@ -28,10 +31,23 @@ public:
     QString hill(const QString& name = QStringLiteral("hill.asc")) const;
     /// A map with a hole around its middle.
     QString ring() const;
+    /// A slope of 40 × 30 samples in any CRS.
+    QString placed(const std::string& name,
+                   const std::string& srs,
+                   const std::array<double, 6>& transform) const;
+    QString mars(const std::string& name = "mars") const
+    {
+        return placed(name, "IAU_2015:49900", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25});
+    }
+    QString moon(const std::string& name = "moon") const
+    {
+        return placed(name, "IAU_2015:30100", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25});
+    }
     QString path(const QString& name) const { return folder_.filePath(name); }
 
 private:
     QTemporaryDir folder_;
+    test::TempFolder rasters_;
 };
 
 /// Options of a window that neither remembers nor opens dialogs.

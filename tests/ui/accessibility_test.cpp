@@ -1,0 +1,159 @@
+#include "tests/ui/test_map.h"
+#include "tests/ui/widget_walk.h"
+#include "ui/dialogs/go_to_dialog.h"
+#include "ui/dialogs/preferences_dialog.h"
+#include "ui/light_popup.h"
+#include "ui/panels/georeferencing_panel.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+#include "ui/window_docks.h"
+
+#include <QAccessible>
+#include <QApplication>
+#include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace marsview {
+namespace {
+
+class AccessibilityTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        window_ = std::make_unique<MainWindow>(testWindowOptions());
+        window_->resize(1280, 800);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        window_->controller().open({maps_.mars(), maps_.hill()});
+        ASSERT_TRUE(waitUntilSettled(*window_));
+    }
+
+    static void expectNames(const QWidget& root)
+    {
+        const QList<QWidget*> controls = controlsOf(root);
+        EXPECT_GT(controls.size(), 2);
+        for (QWidget* control : controls) {
+            QAccessibleInterface* access = QAccessible::queryAccessibleInterface(control);
+            ASSERT_NE(access, nullptr) << describe(*control).toStdString();
+            EXPECT_FALSE(access->text(QAccessible::Name).trimmed().isEmpty())
+                << describe(root).toStdString() << ": " << describe(*control).toStdString();
+        }
+    }
+
+    // Goes round with the Tab key and expects to meet every control.
+    static void expectReached(const QWidget& root)
+    {
+        std::set<const QWidget*> met;
+        for (int i = 0; i < 300; ++i) {
+            QWidget* now = QApplication::focusWidget();
+            ASSERT_NE(now, nullptr);
+            if (!met.insert(now).second && i > 200) {
+                break;
+            }
+            QTest::keyClick(now, Qt::Key_Tab);
+        }
+        for (const QWidget* control : controlsOf(root)) {
+            if (control->isVisible() && control->isEnabled()) {
+                EXPECT_TRUE(met.count(control) != 0)
+                    << describe(root).toStdString() << ": " << describe(*control).toStdString();
+            }
+        }
+    }
+
+    TestMaps maps_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(AccessibilityTest, EveryControlHasAName)
+{
+    expectNames(*window_);
+    expectNames(PreferencesDialog({}, window_.get()));
+    expectNames(LightPopup(window_.get()));
+    expectNames(GoToDialog(window_->view()->map().dataset, {}, window_.get()));
+}
+
+TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheWindow)
+{
+    expectReached(*window_);
+    window_->georeferencingPanel()->edit();
+    expectReached(*window_);
+}
+
+TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
+{
+    PreferencesDialog preferences({}, window_.get());
+    preferences.show();
+    QApplication::setActiveWindow(&preferences); // there is no window manager
+    expectReached(preferences);
+    preferences.close();
+    GoToDialog go_to(window_->view()->map().dataset, {}, window_.get());
+    go_to.show();
+    QApplication::setActiveWindow(&go_to); // there is no window manager
+    expectReached(go_to);
+}
+
+TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
+{
+    std::set<const QAction*> in_menus;
+    for (const QMenu* menu : window_->menuBar()->findChildren<QMenu*>()) {
+        for (const QAction* action : menu->actions()) {
+            in_menus.insert(action);
+        }
+    }
+    const WindowActions& actions = window_->actionSet();
+    for (const QAction* action :
+         {actions.open, actions.save_picture, actions.home, actions.north, actions.light,
+          actions.exaggerate_more, actions.exaggerate_less, actions.layer.remove,
+          actions.layer.move_up, actions.layer.move_down, actions.shading->menuAction(),
+          actions.ramps->menuAction(), actions.cancel_loading}) {
+        EXPECT_TRUE(in_menus.count(action) != 0) << action->text().toStdString();
+    }
+}
+
+TEST_F(AccessibilityTest, NoTwoActionsShareAKeyWhereBothCouldBeMeant)
+{
+    QMap<QString, QString> owners;
+    for (const QMenu* menu : window_->menuBar()->findChildren<QMenu*>()) {
+        for (const QAction* action : menu->actions()) {
+            for (const QKeySequence& key : action->shortcuts()) {
+                const QString text = key.toString();
+                EXPECT_FALSE(owners.contains(text))
+                    << text.toStdString() << ": " << owners[text].toStdString() << " and "
+                    << action->text().toStdString();
+                owners[text] = action->text();
+            }
+        }
+    }
+    EXPECT_GT(owners.size(), 20);
+}
+
+TEST_F(AccessibilityTest, NoTwoEntriesOfAMenuShareALetter)
+{
+    const auto check = [](const QList<QAction*>& actions) {
+        QMap<QChar, QString> owners;
+        for (const QAction* action : actions) {
+            const QString text = action->text();
+            const auto mark = text.indexOf(QLatin1Char('&'));
+            if (action->isSeparator() || mark < 0 || mark + 1 >= text.size()) {
+                continue;
+            }
+            const QChar letter = text[mark + 1].toLower();
+            EXPECT_FALSE(owners.contains(letter))
+                << text.toStdString() << " and " << owners[letter].toStdString();
+            owners[letter] = text;
+        }
+    };
+    check(window_->menuBar()->actions());
+    for (const QMenu* menu : window_->menuBar()->findChildren<QMenu*>()) {
+        check(menu->actions());
+    }
+}
+
+} // namespace
+} // namespace marsview

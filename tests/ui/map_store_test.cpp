@@ -1,0 +1,56 @@
+#include "tests/support/make_raster.h"
+#include "ui/map_store.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace marsview {
+namespace {
+
+LoadedMap mapIn(const test::TempFolder& folder, const std::string& name)
+{
+    JobMonitor monitor;
+    const auto path =
+        test::writeVrt(folder, name, test::recipeFor(4, std::vector<float>(16, 1.0F)));
+    return {.dataset = *loadDataset({.path = path}, monitor, std::size_t{1} << 20),
+            .pyramid = nullptr,
+            .draw_data = std::make_shared<const TerrainDrawData>()};
+}
+
+TEST(MapStore, FindsWhatItKeptAndHoldsNothingItself)
+{
+    const test::TempFolder folder;
+    MapStore store;
+    const LoadedMap map = mapIn(folder, "a");
+    const std::weak_ptr<const TerrainDrawData> draw_data = map.draw_data;
+    auto kept = store.keep(map);
+    EXPECT_EQ(kept.get(), map.dataset.get());
+    EXPECT_EQ(store.find(kept).draw_data, map.draw_data);
+    EXPECT_EQ(store.count(), 1U);
+    auto copy = kept; // an undo step
+    kept.reset();
+    EXPECT_EQ(store.count(), 1U);
+    copy.reset();
+    EXPECT_EQ(store.count(), 0U);
+    EXPECT_FALSE(store.find(map.dataset));
+}
+
+TEST(MapStore, FreesAllOfAMapWithItsLastOwner)
+{
+    const test::TempFolder folder;
+    MapStore store;
+    std::weak_ptr<const TerrainDrawData> draw_data;
+    std::shared_ptr<const Dataset> kept;
+    {
+        const LoadedMap map = mapIn(folder, "a");
+        draw_data = map.draw_data;
+        kept = store.keep(map);
+    }
+    EXPECT_FALSE(draw_data.expired());
+    kept.reset();
+    EXPECT_TRUE(draw_data.expired());
+}
+
+} // namespace
+} // namespace marsview

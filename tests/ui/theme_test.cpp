@@ -1,0 +1,104 @@
+#include "ui/preferences.h"
+#include "ui/theme.h"
+
+#include <QApplication>
+#include <QSettings>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// Contrast by WCAG 2.1, from its text.
+double luminance(const QColor& color)
+{
+    const auto linear = [](double c) {
+        return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+           0.0722 * linear(color.blueF());
+}
+
+double contrast(const QColor& a, const QColor& b)
+{
+    const double x = luminance(a);
+    const double y = luminance(b);
+    return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
+
+TEST(Theme, KeepsEveryTextReadable)
+{
+    using P = QPalette;
+    for (const P& palette : {lightPalette(), darkPalette()}) {
+        for (const auto& [text, ground] : {std::pair{P::WindowText, P::Window},
+                                           {P::Text, P::Base},
+                                           {P::Text, P::AlternateBase},
+                                           {P::ButtonText, P::Button},
+                                           {P::HighlightedText, P::Highlight},
+                                           {P::ToolTipText, P::ToolTipBase},
+                                           {P::Link, P::Base},
+                                           {P::PlaceholderText, P::Base},
+                                           {P::PlaceholderText, P::Window}}) {
+            EXPECT_GE(contrast(palette.color(P::Active, text), palette.color(P::Active, ground)),
+                      4.0)
+                << text << " on " << ground;
+        }
+        for (const auto& [text, ground] : {std::pair{P::WindowText, P::Window},
+                                           {P::Text, P::Base},
+                                           {P::ButtonText, P::Button}}) {
+            EXPECT_GE(
+                contrast(palette.color(P::Disabled, text), palette.color(P::Disabled, ground)), 3.0)
+                << "disabled " << text << " on " << ground;
+            // And yet to be told from what is enabled.
+            EXPECT_GE(contrast(palette.color(P::Disabled, text), palette.color(P::Active, text)),
+                      1.8);
+        }
+        // The focus frame against what it is drawn on.
+        EXPECT_GE(contrast(palette.color(P::Highlight), palette.color(P::Window)), 3.0);
+    }
+}
+
+TEST(Theme, IsDarkWhereItIsCalledSo)
+{
+    applyTheme(Theme::Dark);
+    EXPECT_LT(luminance(QApplication::palette().color(QPalette::Window)), 0.1);
+    applyTheme(Theme::Light);
+    EXPECT_GT(luminance(QApplication::palette().color(QPalette::Window)), 0.7);
+    applyTheme(Theme::System);
+}
+
+TEST(Preferences, ComeBackAsTheyWereSaved)
+{
+    const QTemporaryDir folder;
+    QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);
+    EXPECT_EQ(preferencesFrom(settings), Preferences{});
+    for (const Theme theme : {Theme::System, Theme::Light, Theme::Dark}) {
+        for (const int rate : {20, 30, 60}) {
+            const Preferences preferences{.theme = theme,
+                                          .height_unit = HeightUnit::Feet,
+                                          .has_antialiasing = rate == 20,
+                                          .frames_per_s = rate};
+            save(preferences, settings);
+            settings.sync();
+            const QSettings again(settings.fileName(), QSettings::IniFormat);
+            EXPECT_EQ(preferencesFrom(again), preferences);
+        }
+    }
+}
+
+TEST(Preferences, AreTheUsualOnesWhereTheFileMakesNoSense)
+{
+    const QTemporaryDir folder;
+    QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);
+    settings.setValue(QStringLiteral("preferences/theme"), QStringLiteral("plaid"));
+    settings.setValue(QStringLiteral("preferences/framesPerSecond"), -3);
+    EXPECT_EQ(preferencesFrom(settings), Preferences{});
+}
+
+} // namespace
+} // namespace marsview

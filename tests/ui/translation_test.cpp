@@ -1,0 +1,185 @@
+// That everything people read went through translation: a translator marks what it is asked for,
+// and what is found without its marks was not asked for.
+
+#include "tests/ui/test_map.h"
+#include "tests/ui/widget_walk.h"
+#include "ui/dialogs/about_dialog.h"
+#include "ui/dialogs/go_to_dialog.h"
+#include "ui/dialogs/keys_dialog.h"
+#include "ui/dialogs/preferences_dialog.h"
+#include "ui/light_popup.h"
+#include "ui/panels/dataset_panel.h"
+#include "ui/panels/georeferencing_panel.h"
+#include "ui/panels/layer_model.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+
+#include <QApplication>
+#include <QLabel>
+#include <QLineEdit>
+#include <QRegularExpression>
+#include <QTest>
+#include <QTranslator>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+class MarkingTranslator final : public QTranslator {
+public:
+    bool isEmpty() const override { return false; }
+    QString translate(const char*, const char* text, const char*, int) const override
+    {
+        return QStringLiteral("⟦%1⟧").arg(QString::fromUtf8(text));
+    }
+};
+
+// What stands outside all marks.
+QString unmarked(const QString& text)
+{
+    QString rest;
+    int depth = 0;
+    for (const QChar c : text) {
+        if (c == QChar(0x27E6)) {
+            ++depth;
+        } else if (c == QChar(0x27E7)) {
+            --depth;
+        } else if (depth == 0) {
+            rest += c;
+        }
+    }
+    return rest;
+}
+
+// Things that are the same in every language: numbers and units, names of files, systems, bodies
+// and formats, versions and drivers, examples of coordinates, the core's sentences about a map.
+bool isUniversal(const QString& text, const QStringList& names)
+{
+    static const QRegularExpression kNumbers(
+        QStringLiteral("^[^\\p{L}]*(?:(?:m|km|ft|US survey ft|px|e)[^\\p{L}]*)*$"));
+    static const QRegularExpression kExample(QStringLiteral("^[0-9.,°′″ NE W]+$"));
+    return kNumbers.match(text).hasMatch() || kExample.match(text).hasMatch() ||
+           names.contains(text);
+}
+
+class TranslationTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        ASSERT_TRUE(QCoreApplication::installTranslator(&translator_));
+        window_ = std::make_unique<MainWindow>(testWindowOptions());
+        window_->resize(1280, 800);
+        window_->show();
+        mars_ = maps_.mars();
+        moon_ = maps_.moon();
+        hill_ = maps_.hill();
+        names_ = {mars_,
+                  moon_,
+                  hill_,
+                  QStringLiteral("mars.vrt"),
+                  QStringLiteral("moon.vrt"),
+                  QStringLiteral("hill.asc"),
+                  QStringLiteral("VRT"),
+                  QStringLiteral("AAIGrid")};
+        for (const Body& body : knownBodies()) {
+            names_.append(
+                QString::fromUtf8(body.name.data(), static_cast<qsizetype>(body.name.size())));
+        }
+        window_->controller().open({hill_, moon_, mars_});
+        EXPECT_TRUE(waitUntilSettled(*window_));
+        for (const Layer& layer : window_->session().layers) {
+            const RasterInfo& info = layer.dataset->info();
+            if (info.crs) {
+                names_.append(QString::fromStdString(info.crs->name()));
+            }
+            names_.append(QString::fromStdString(info.vertical_datum));
+            for (const std::string& notice : info.notices) {
+                QString sentence = QString::fromStdString(notice);
+                names_.append(QStringLiteral("• ") + sentence);
+                sentence[0] = sentence[0].toUpper();
+                names_.append(sentence);
+            }
+        }
+    }
+    void TearDown() override
+    {
+        window_.reset();
+        QCoreApplication::removeTranslator(&translator_);
+    }
+
+    void expectMarked(const QWidget& root)
+    {
+        int count = 0;
+        for (const FoundText& found : textsOf(root)) {
+            for (const QString& line : unmarked(found.text).split(QLatin1Char('\n'))) {
+                EXPECT_TRUE(isUniversal(line.trimmed(), names_))
+                    << describe(root).toStdString() << ", " << found.place.toStdString() << ": "
+                    << found.text.toStdString();
+            }
+            count += unmarked(found.text) != found.text ? 1 : 0;
+        }
+        EXPECT_GT(count, 3) << describe(root).toStdString(); // the walk found something at all
+    }
+
+    MarkingTranslator translator_;
+    TestMaps maps_;
+    QString mars_;
+    QString moon_;
+    QString hill_;
+    QStringList names_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(TranslationTest, ReachesEveryTextOfTheWindow)
+{
+    expectMarked(*window_);
+    // The panels' other faces.
+    for (std::size_t i = 0; i < window_->session().layers.size(); ++i) {
+        window_->controller().activate(window_->session().layers[i].id);
+        expectMarked(*window_);
+    }
+    window_->georeferencingPanel()->edit();
+    expectMarked(*window_);
+    const LayerModel& model = *window_->datasetPanel()->model();
+    EXPECT_FALSE(model.index(1).data(LayerModel::ReasonRole).toString().isEmpty());
+    for (int row = 0; row < 3; ++row) {
+        const QString reason = model.index(row).data(LayerModel::ReasonRole).toString();
+        EXPECT_EQ(unmarked(reason), QString()) << reason.toStdString();
+    }
+    EXPECT_TRUE(window_->undoStack().undoText().startsWith(QChar(0x27E6)));
+}
+
+TEST_F(TranslationTest, ReachesTheStatusBarWhilePointingAndLoading)
+{
+    QTest::mouseMove(window_->view(), window_->view()->rect().center());
+    window_->open(hill_);
+    QTest::qWait(50);
+    expectMarked(*window_);
+    ASSERT_TRUE(waitUntilSettled(*window_));
+}
+
+TEST_F(TranslationTest, ReachesEveryDialog)
+{
+    AboutDialog about(QString(), window_.get());
+    names_ += {QCoreApplication::applicationVersion(), QString::fromLatin1(qVersion())};
+    expectMarked(about);
+    const KeysDialog keys(window_->view()->actions(), window_.get());
+    for (const QLabel* label : keys.findChildren<QLabel*>()) {
+        if (label->font().bold()) {
+            names_.append(label->text()); // the keys, as Qt names them
+        }
+    }
+    expectMarked(keys);
+    expectMarked(PreferencesDialog({}, window_.get()));
+    expectMarked(LightPopup(window_.get()));
+    GoToDialog go_to(window_->view()->map().dataset, {}, window_.get());
+    expectMarked(go_to);
+    go_to.findChild<QLineEdit*>(QStringLiteral("coordinate"))->setText(QStringLiteral("15, 15"));
+    expectMarked(go_to);
+    go_to.findChild<QLineEdit*>(QStringLiteral("coordinate"))->setText(QStringLiteral("-50, 15"));
+    expectMarked(go_to);
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,192 @@
+// What one window leaves for the next.
+
+#include "tests/ui/test_map.h"
+#include "ui/recent_files.h"
+#include "ui/status_readout.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+#include "ui/window_docks.h"
+
+#include <QDockWidget>
+#include <QFile>
+#include <QFileDialog>
+#include <QImage>
+#include <QMenu>
+#include <QSettings>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+class WindowMemoryTest : public testing::Test {
+protected:
+    void SetUp() override { QSettings().clear(); }
+    void TearDown() override { QSettings().clear(); }
+
+    static WindowOptions remembering()
+    {
+        return {.geometry = WindowOptions::Geometry::Remembered,
+                .failures = WindowOptions::Failures::BySignalOnly};
+    }
+    static std::unique_ptr<MainWindow> makeWindow(QSize size = {})
+    {
+        auto window = std::make_unique<MainWindow>(remembering());
+        if (size.isValid()) {
+            window->resize(size);
+        }
+        window->show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(window.get()));
+        return window;
+    }
+    static QList<QAction*> recentEntries(MainWindow& window)
+    {
+        Q_EMIT window.actionSet().recent->aboutToShow();
+        return window.actionSet().recent->actions();
+    }
+
+    TestMaps maps_;
+};
+
+TEST_F(WindowMemoryTest, BringsBackSizePanelsCoordinatesAndPreferences)
+{
+    {
+        const auto window = makeWindow({1100, 650});
+        ASSERT_TRUE(openAndWait(*window, maps_.mars()));
+        window->docks()->georeferencing()->toggleViewAction()->trigger(); // opens it, or closes
+        window->docks()->georeferencing()->hide();
+        window->docks()->reveal(*window->docks()->datasets());
+        window->readout()->toggleDisplay();
+        Q_EMIT window->readout()->displayChosen(window->readout()->display());
+        window->setPreferences({.theme = Theme::Dark,
+                                .height_unit = HeightUnit::Feet,
+                                .has_antialiasing = false,
+                                .frames_per_s = 60});
+        window->close();
+    }
+    const auto window = makeWindow();
+    EXPECT_EQ(window->size(), QSize(1100, 650));
+    EXPECT_FALSE(window->docks()->georeferencing()->isVisible());
+    EXPECT_TRUE(window->docks()->datasets()->isVisible());
+    EXPECT_EQ(window->preferences().theme, Theme::Dark);
+    EXPECT_EQ(window->preferences().height_unit, HeightUnit::Feet);
+    EXPECT_EQ(window->preferences().frames_per_s, 60);
+    ASSERT_TRUE(openAndWait(*window, maps_.mars()));
+    EXPECT_EQ(window->readout()->display(), CoordinateDisplay::Map);
+    window->setPreferences({});
+}
+
+TEST_F(WindowMemoryTest, BringsBackAPanelThatOnlyLackedRoom)
+{
+    {
+        const auto window = makeWindow({1280, 800});
+        EXPECT_TRUE(window->docks()->georeferencing()->isVisible());
+        window->resize(640, 480);
+        ASSERT_TRUE(
+            QTest::qWaitFor([&] { return !window->docks()->georeferencing()->isVisible(); }, 5000));
+        window->close();
+    }
+    const auto window = makeWindow({1280, 800});
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return window->docks()->georeferencing()->isVisible(); }, 5000));
+}
+
+TEST_F(WindowMemoryTest, OpensARecentFile)
+{
+    const QString hill = maps_.hill();
+    const QString ring = maps_.ring();
+    {
+        const auto window = makeWindow();
+        ASSERT_TRUE(openAndWait(*window, hill));
+        ASSERT_TRUE(openAndWait(*window, ring));
+        window->close();
+    }
+    const auto window = makeWindow();
+    ASSERT_TRUE(waitUntilSettled(*window));
+    const QList<QAction*> entries = recentEntries(*window);
+    EXPECT_EQ(entries[0]->text(), QStringLiteral("ring.asc")); // the last opened first
+    EXPECT_EQ(entries[1]->text(), QStringLiteral("hill.asc"));
+    entries[1]->trigger();
+    ASSERT_TRUE(waitUntilSettled(*window));
+    EXPECT_EQ(window->view()->map().dataset->spec().path, hill.toStdString());
+    EXPECT_EQ(recentEntries(*window)[0]->text(), QStringLiteral("hill.asc"));
+}
+
+TEST_F(WindowMemoryTest, RemembersTenFilesAndSaysWhichAreGone)
+{
+    const auto window = makeWindow();
+    QStringList files;
+    for (int i = 0; i < 12; ++i) {
+        files.append(maps_.hill(QStringLiteral("m%1.asc").arg(i)));
+        window->recentFiles()->add(files.last());
+    }
+    EXPECT_EQ(window->recentFiles()->files().size(), 10);
+    ASSERT_TRUE(QFile::remove(files[11]));
+    const QList<QAction*> entries = recentEntries(*window);
+    EXPECT_EQ(entries[0]->text(), QStringLiteral("m10.asc"));
+    EXPECT_EQ(entries[9]->text(), QStringLiteral("m11.asc (missing)"));
+    EXPECT_FALSE(entries[9]->isEnabled());
+    entries.last()->trigger(); // Clear Menu
+    EXPECT_TRUE(window->recentFiles()->files().isEmpty());
+    EXPECT_FALSE(window->actionSet().recent->isEnabled());
+    EXPECT_TRUE(QSettings().value(QStringLiteral("files/recent")).toStringList().isEmpty());
+}
+
+TEST_F(WindowMemoryTest, LeavesNoTraceWhereItIsToldSo)
+{
+    {
+        MainWindow window(testWindowOptions());
+        window.show();
+        ASSERT_TRUE(openAndWait(window, maps_.hill()));
+        window.setPreferences({.theme = Theme::Dark});
+        window.setPreferences({});
+        window.close();
+    }
+    EXPECT_TRUE(QSettings().allKeys().isEmpty())
+        << QSettings().allKeys().join(QLatin1Char(' ')).toStdString();
+}
+
+TEST_F(WindowMemoryTest, SavesThePictureOfTheMap)
+{
+    MainWindow window(testWindowOptions());
+    window.show();
+    ASSERT_TRUE(openAndWait(window, maps_.hill()));
+    window.actionSet().save_picture->trigger();
+    auto* dialog = window.findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    const QString file = maps_.path(QStringLiteral("picture.png"));
+    Q_EMIT dialog->fileSelected(file);
+    dialog->reject();
+    const QImage picture(file);
+    EXPECT_EQ(picture.size(), window.view()->size() * window.view()->devicePixelRatioF());
+    // What is to be seen there, rather than the window around it.
+    EXPECT_EQ(picture.pixelColor(picture.rect().center()),
+              window.view()->grabFramebuffer().pixelColor(picture.rect().center()));
+    EXPECT_NE(picture.pixelColor(picture.rect().center()), picture.pixelColor(2, 2));
+}
+
+TEST_F(WindowMemoryTest, TheMapKeepsTwoThirdsAtEveryWidth)
+{
+    const auto window = makeWindow({1600, 700});
+    for (const int width : {1600, 1280, 1000, 800, 620}) {
+        window->resize(width, 600);
+        EXPECT_TRUE(QTest::qWaitFor(
+            [&] {
+                return window->width() == width && window->view()->width() * 3 >= width * 2 - 40;
+            },
+            5000))
+            << width << ": " << window->view()->width();
+    }
+    // In a narrow window the panel asked for last makes the other one go.
+    window->resize(800, 600);
+    QTest::qWait(50);
+    window->docks()->reveal(*window->docks()->georeferencing());
+    EXPECT_TRUE(window->docks()->georeferencing()->isVisible());
+    EXPECT_FALSE(window->docks()->datasets()->isVisible());
+    window->resize(1600, 600);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return window->docks()->datasets()->isVisible(); }, 5000));
+}
+
+} // namespace
+} // namespace marsview

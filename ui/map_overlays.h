@@ -1,0 +1,54 @@
+// What lies over the map, kept true to it.
+#pragma once
+
+#include <QList>
+#include <QObject>
+
+class QAction;
+
+namespace marsview {
+
+class Compass;
+class ForceMeter;
+class Legend;
+class Minimap;
+class OverlayLayout;
+class ScaleBarView;
+class TerrainView;
+
+/// Makes the overlays of a view, tells them what it shows, and takes their requests to it. A child
+/// of the view.
+class MapOverlays final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit MapOverlays(TerrainView& view);
+
+    Minimap* minimap() const noexcept { return minimap_; }
+    Compass* compass() const noexcept { return compass_; }
+    ScaleBarView* scaleBar() const noexcept { return scale_bar_; }
+    Legend* legend() const noexcept { return legend_; }
+    ForceMeter* forceMeter() const noexcept { return force_meter_; }
+
+    /// Checkable actions that show and hide the overlays which people may not want; each has an
+    /// object name to be remembered by.
+    const QList<QAction*>& visibilityActions() const noexcept { return actions_; }
+
+private:
+    void makeAction(const QString& text, const QString& name, const QList<QWidget*>& parts);
+    void showMap();
+    void showSight();
+    void showLegend();
+    void showTouch();
+
+    TerrainView& view_;
+    Minimap* minimap_ = nullptr;
+    Compass* compass_ = nullptr;
+    ScaleBarView* scale_bar_ = nullptr;
+    Legend* legend_ = nullptr;
+    ForceMeter* force_meter_ = nullptr;
+    OverlayLayout* layout_ = nullptr;
+    QList<QAction*> actions_;
+};
+
+} // namespace marsview
