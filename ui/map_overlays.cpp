@@ -94,7 +94,6 @@ void MapOverlays::makeAction(const QString& text, const QString& name, const QLi
 
 void MapOverlays::showMap()
 {
-    compass_->setVisible(bool(view_.map()));
     layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());
     if (!view_.map()) {
         minimap_->clear();
