@@ -33,6 +33,40 @@ float interpolated(GridView<const float> grid, double x, double y)
 
 } // namespace
 
+template <typename SampleCount>
+BlockMeans::Level BlockMeans::reduced(const Level& finer, const SampleCount& sample_count)
+{
+    Level level{.columns = (finer.columns + 1) / 2,
+                .rows = (finer.rows + 1) / 2,
+                .means_m = {},
+                .shares = {}};
+    level.means_m.resize(level.columns * level.rows);
+    level.shares.resize(finer.shares.empty() ? 0 : level.means_m.size());
+    for (std::size_t row = 0; row < level.rows; ++row) {
+        for (std::size_t column = 0; column < level.columns; ++column) {
+            float sum = 0.0F;
+            float weight = 0.0F;
+            float count = 0.0F;
+            for (std::size_t r = 2 * row; r < std::min(2 * row + 2, finer.rows); ++r) {
+                for (std::size_t c = 2 * column; c < std::min(2 * column + 2, finer.columns); ++c) {
+                    const std::size_t index = r * finer.columns + c;
+                    const float all = sample_count(c, r);
+                    const float there = finer.shares.empty() ? all : all * finer.shares[index];
+                    sum += there > 0.0F ? there * finer.means_m[index] : 0.0F;
+                    weight += there;
+                    count += all;
+                }
+            }
+            const std::size_t index = row * level.columns + column;
+            level.means_m[index] = weight > 0.0F ? sum / weight : kNan;
+            if (!level.shares.empty()) {
+                level.shares[index] = weight / count;
+            }
+        }
+    }
+    return level;
+}
+
 Result<BlockMeans> BlockMeans::build(const Heightfield& heightfield, JobMonitor& monitor)
 {
     const std::size_t columns = heightfield.columns();
@@ -94,45 +128,19 @@ Result<BlockMeans> BlockMeans::build(const Heightfield& heightfield, JobMonitor&
     BlockMeans means;
     means.levels_.push_back(std::move(blocks));
     while (means.levels_.back().means_m.size() > 1) {
-        means.levels_.push_back(reduced(means.levels_.back()));
+        // Blocks at the last column and row hold fewer samples, and weigh less.
+        const std::size_t side = kBlock << (means.levels_.size() - 1);
+        const auto sample_count = [&](std::size_t block_column, std::size_t block_row) {
+            return static_cast<float>(std::min(side, columns - block_column * side)) *
+                   static_cast<float>(std::min(side, rows - block_row * side));
+        };
+        means.levels_.push_back(reduced(means.levels_.back(), sample_count));
     }
     if (has_voids) {
         means.fill();
     }
     monitor.report(1.0);
     return means;
-}
-
-BlockMeans::Level BlockMeans::reduced(const Level& finer)
-{
-    Level level{.columns = (finer.columns + 1) / 2,
-                .rows = (finer.rows + 1) / 2,
-                .means_m = {},
-                .shares = {}};
-    level.means_m.resize(level.columns * level.rows);
-    level.shares.resize(finer.shares.empty() ? 0 : level.means_m.size());
-    for (std::size_t row = 0; row < level.rows; ++row) {
-        for (std::size_t column = 0; column < level.columns; ++column) {
-            float sum = 0.0F;
-            float weight = 0.0F;
-            float count = 0.0F;
-            for (std::size_t r = 2 * row; r < std::min(2 * row + 2, finer.rows); ++r) {
-                for (std::size_t c = 2 * column; c < std::min(2 * column + 2, finer.columns); ++c) {
-                    const std::size_t index = r * finer.columns + c;
-                    const float share = finer.shares.empty() ? 1.0F : finer.shares[index];
-                    sum += share > 0.0F ? share * finer.means_m[index] : 0.0F;
-                    weight += share;
-                    count += 1.0F;
-                }
-            }
-            const std::size_t index = row * level.columns + column;
-            level.means_m[index] = weight > 0.0F ? sum / weight : kNan;
-            if (!level.shares.empty()) {
-                level.shares[index] = weight / count;
-            }
-        }
-    }
-    return level;
 }
 
 // From the single block of the top, which has a mean, down: a gap takes what the level above has

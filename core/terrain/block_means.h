@@ -41,7 +41,9 @@ private:
         std::vector<float> shares; // empty: all 1
     };
 
-    static Level reduced(const Level& finer);
+    // `sample_count` of (column, row) is the number of samples, void or not, of a finer block.
+    template <typename SampleCount>
+    static Level reduced(const Level& finer, const SampleCount& sample_count);
     void fill();
 
     std::vector<Level> levels_;

@@ -1,0 +1,42 @@
+// Terrain for tests, made from formulas and random numbers.
+#pragma once
+
+#include "core/geo/scene_frame.h"
+#include "core/terrain/heightfield.h"
+#include "core/terrain/surface_analysis.h"
+#include "tests/support/random.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace marsview::test {
+
+/// Height in metres of a sample; NaN for a void.
+using HeightFunction = std::function<double(std::size_t column, std::size_t row)>;
+
+/// Samples as floats.
+Heightfield floatTerrain(std::size_t columns, std::size_t rows, const HeightFunction& height_m);
+
+/// Samples as int16, rounded to `scale`; -32768 is void.
+Heightfield int16Terrain(std::size_t columns,
+                         std::size_t rows,
+                         const ElevationScale& scale,
+                         const HeightFunction& height_m);
+
+/// Heights like mountains: octaves of interpolated noise, each half as wide and `roughness` times
+/// as high as the one before; within ±`relief_m`. Row by row.
+std::vector<double> fractalHeights(
+    Random& random, std::size_t columns, std::size_t rows, double relief_m, double roughness);
+
+/// `heights`, row by row, as a function.
+HeightFunction heightsFrom(std::vector<double> heights, std::size_t columns);
+
+/// The analysis of a heightfield that nobody cancels.
+std::shared_ptr<const SurfaceAnalysis> analysed(const Heightfield& heightfield);
+
+/// North up, around the middle of the grid.
+SceneFrame northUpFrame(std::size_t columns, std::size_t rows, double pixel_m);
+
+} // namespace marsview::test
