@@ -95,6 +95,7 @@ public:
         , samples_((DetailErrors::kNodeCells + 1) * columns_)
         , maxima_(columns_)
         , squares_(columns_)
+        , counts_((columns_ - 2) / DetailErrors::kNodeCells + 1)
         , cells_(columns_)
     {
         if (surface.heightfield().samples().hasVoids()) {
@@ -109,6 +110,7 @@ public:
         row_count_ =
             std::min(DetailErrors::kNodeCells, surface_.heightfield().rows() - 1 - first_row_) + 1;
         readSamples();
+        countSamples();
         for (std::size_t level = 1; level < level_count_; ++level) {
             std::fill(maxima_.begin(), maxima_.end(), 0.0F);
             std::fill(squares_.begin(), squares_.end(), 0.0F);
@@ -123,8 +125,9 @@ public:
                     largest = std::max(largest, maxima_[column]);
                     sum += squares_[column];
                 }
-                const auto count = static_cast<float>((end + 1 - begin) * row_count_);
-                errors[level][node] = std::max(largest / DetailErrors::kPeak, kDeviations * std::sqrt(sum / count));
+                const float mean = counts_[node] > 0.0F ? sum / counts_[node] : 0.0F;
+                errors[level][node] =
+                    std::max(largest / DetailErrors::kPeak, kDeviations * std::sqrt(mean));
             }
         }
     }
@@ -143,6 +146,23 @@ private:
                 drawn[column] =
                     std::isnan(row[column]) ? surface_.filled(column, first_row_ + i) : row[column];
             }
+        }
+    }
+
+    // The samples of each node that are not void.
+    void countSamples()
+    {
+        const std::size_t last = columns_ - 1;
+        for (std::size_t begin = 0, node = 0; begin < last;
+             begin += DetailErrors::kNodeCells, ++node) {
+            const std::size_t end = std::min(begin + DetailErrors::kNodeCells, last);
+            std::size_t count = (end + 1 - begin) * row_count_;
+            for (std::size_t i = 0; i < (drawn_.empty() ? 0 : row_count_); ++i) {
+                const float* row = samples_.data() + i * columns_;
+                count -= static_cast<std::size_t>(std::count_if(
+                    row + begin, row + end + 1, [](float height) { return std::isnan(height); }));
+            }
+            counts_[node] = static_cast<float>(count);
         }
     }
 
@@ -165,9 +185,12 @@ private:
                     [&](std::size_t column) { return surface_.height(column, end); });
             }
             const std::size_t from = std::max(begin, first_row_);
-            for (std::size_t row = from; row <= std::min(end, end_row); ++row) {
+            // The cells' last row is the next ones' first, and counts once.
+            const std::size_t to = end < end_row ? end : end_row + 1;
+            for (std::size_t row = from; row < to; ++row) {
                 cells_.compare(static_cast<float>(row - begin) / static_cast<float>(end - begin),
-                               samples_.data() + (row - first_row_) * columns_, maxima_.data(), squares_.data());
+                               samples_.data() + (row - first_row_) * columns_, maxima_.data(),
+                               squares_.data());
             }
         }
     }
@@ -177,8 +200,9 @@ private:
     std::size_t level_count_;
     std::vector<float> samples_; // NaN where void
     std::vector<float> drawn_;   // without gaps; empty where there are none
-    std::vector<float> maxima_; // of one level, by column
+    std::vector<float> maxima_;  // of one level, by column
     std::vector<float> squares_;
+    std::vector<float> counts_; // of samples that are not void, by node
     CellRow cells_;
     std::size_t first_row_ = 0;
     std::size_t row_count_ = 0;

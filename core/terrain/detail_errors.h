@@ -41,9 +41,11 @@ public:
     std::size_t columns(std::size_t level) const noexcept { return levels_[level].columns; }
     std::size_t rows(std::size_t level) const noexcept { return levels_[level].rows; }
 
-    /// The largest vertical distance in metres, over the samples in the node that are not void,
-    /// between the sample and the surface drawn at the node's level; at most 1e-6 of the map's
-    /// range is rounding. 0 at level 0.
+    /// How far the surface drawn at the node's level is from its samples, in metres. Vertical
+    /// distances are taken at the samples that are not void, within each block of kNodeCells ×
+    /// kNodeCells cells of level 0, its sides included. A block's error is 1.25 times their root
+    /// mean square, or a kPeak-th of the largest where that is more; the node's is that of its
+    /// worst block. Errors below 1e-6 of the map's range are rounding. 0 at level 0.
     float nodeError(const DetailNode& node) const noexcept
     {
         const Level& l = levels_[node.level];
