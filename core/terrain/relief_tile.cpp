@@ -152,7 +152,12 @@ private:
                 setBorder(std::vector<float>(row_.size(), kNan), row_, border_above_);
             }
             for (std::size_t i = 0; i < sums.size(); ++i) {
-                addRow(row_.data() + static_cast<std::ptrdiff_t>(i) * step_ + 1, sums[i]);
+                const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(i) * step_;
+                // The map's last texel may be narrower.
+                const std::ptrdiff_t width = std::min(step_, columns_ - first_column_ - first);
+                if (width > 0) {
+                    addRow(row_.data() + first + 1, width, sums[i]);
+                }
             }
             std::swap(row_, row_before_);
         }
@@ -162,19 +167,19 @@ private:
         row_height_ = static_cast<float>(y1 - std::max<std::ptrdiff_t>(y0, 0));
     }
 
-    // One row of samples of one texel; samples[-1] and samples[step_] are its neighbours'.
-    void addRow(const float* samples, Sums& sums) const
+    // One row of samples of one texel; samples[-1] and samples[width] are its neighbours'.
+    void addRow(const float* samples, std::ptrdiff_t width, Sums& sums) const
     {
         const BorderHeight left = between(samples[-1], samples[0]);
-        const BorderHeight right = between(samples[step_ - 1], samples[step_]);
-        const float length = static_cast<float>(step_) + right.position - left.position;
+        const BorderHeight right = between(samples[width - 1], samples[width]);
+        const float length = static_cast<float>(width) + right.position - left.position;
         const float slope = (right.height - left.height) / length;
         if (length > 0.0F && !std::isnan(slope)) {
             sums.per_column += slope;
             sums.column_count += 1.0F;
         }
         if (heightfield_.samples().hasVoids()) {
-            for (std::ptrdiff_t i = 0; i < step_; ++i) {
+            for (std::ptrdiff_t i = 0; i < width; ++i) {
                 sums.sample_count += std::isnan(samples[i]) ? 0.0F : 1.0F;
             }
         }
