@@ -121,24 +121,30 @@ void DetailSelector::visit(const DetailNode& node,
     selected.distance_m = distance_m;
     selected.parent_ranges_m = {kNever, kNever, kNever, kNever};
     selected.grandparent_ranges_m = selected.parent_ranges_m;
-    const double own_error_m = static_cast<double>(analysis_->errors.nodeError(node));
-    double error_px = pass.range_per_error * pass.target.error_px * own_error_m / distance_m;
+    // What a level is off by that is seen from `nearest_m` on.
+    const auto seen_error = [&](const DetailNode& seen, double nearest_m) {
+        const double error_m = static_cast<double>(analysis_->errors.nodeError(seen));
+        return error_m > 0.0 ? pass.range_per_error * pass.target.error_px * error_m / nearest_m
+                             : 0.0;
+    };
+    double error_px = seen_error(node, distance_m);
     if (!pass.target.has_every_sample) {
-        const std::size_t level_count = analysis_->errors.levelCount();
-        if (node.level + 1 < level_count) {
-            const DetailNode parent = ancestor(node, node.level + 1);
-            selected.parent_ranges_m = rangesOf(parent, pass);
-            const double nearest_m = static_cast<double>(*std::min_element(
-                selected.parent_ranges_m.begin(), selected.parent_ranges_m.end()));
-            if (distance_m + length(box.maximum - box.minimum) > nearest_m) {
-                const double coarse_m = static_cast<double>(analysis_->errors.nodeError(parent));
-                error_px = std::max(error_px, pass.range_per_error * pass.target.error_px *
-                                                  coarse_m / std::max(nearest_m, distance_m));
+        const double furthest_m = distance_m + length(box.maximum - box.minimum);
+        // The ranges of a level around, if there is one, to which parts of the node may give way.
+        const auto give_way = [&](std::size_t level, CornerRanges& ranges_m) {
+            if (level >= analysis_->errors.levelCount()) {
+                return;
             }
-        }
-        if (node.level + 2 < level_count) {
-            selected.grandparent_ranges_m = rangesOf(ancestor(node, node.level + 2), pass);
-        }
+            const DetailNode around = ancestor(node, level);
+            ranges_m = rangesOf(around, pass);
+            const auto nearest_m =
+                static_cast<double>(*std::min_element(ranges_m.begin(), ranges_m.end()));
+            if (furthest_m > nearest_m) {
+                error_px = std::max(error_px, seen_error(around, std::max(nearest_m, distance_m)));
+            }
+        };
+        give_way(node.level + 1, selected.parent_ranges_m);
+        give_way(node.level + 2, selected.grandparent_ranges_m);
     }
     DetailSelection& selection = pass.selection;
     selection.nodes.push_back(selected);
@@ -182,9 +188,9 @@ float DetailSelector::rangeAt(std::size_t level,
 {
     const CornerGrid& sizes = size_ranges_m_[level];
     const float by_size = sizes.values[row * (sizes.columns + 1) + column];
+    const double error_m = static_cast<double>(analysis_->errors.cornerError(level, column, row));
     const auto by_error =
-        static_cast<float>(pass.range_per_error *
-                           static_cast<double>(analysis_->errors.cornerError(level, column, row)));
+        static_cast<float>(std::min(pass.range_per_error * error_m, static_cast<double>(kNever)));
     float by_relief = 0.0F;
     if (level > kReliefLevelMin) {
         const double texel_m = cell_m_ * static_cast<double>(DetailErrors::kNodeCells << level) /
