@@ -10,6 +10,7 @@
 #include "ui/render/frame_target.h"
 #include "ui/render/gl_objects.h"
 #include "ui/render/height_atlas.h"
+#include "ui/render/node_instance.h"
 #include "ui/render/relief_cache.h"
 #include "ui/render/terrain_shaders.h"
 
@@ -50,16 +51,6 @@ constexpr std::size_t kNodesPerDraw = 32;
 
 // Texture units.
 enum Unit : GLint { Heights, Ramp, Slopes, Shares, FirstCover };
-
-// An instance, as the shader takes it (TerrainAttribute).
-struct NodeInstance {
-    std::array<float, 3> place;
-    std::array<float, 4> slot;
-    std::array<float, 4> relief;
-    std::array<float, 2> uncle;
-    CornerRanges parent;
-    CornerRanges grandparent;
-};
 
 struct Color3 {
     float red;
@@ -138,14 +129,6 @@ std::array<GLfloat, 16> asFloats(const Matrix4& matrix)
     std::transform(matrix.values.begin(), matrix.values.end(), values.begin(),
                    [](double v) { return static_cast<GLfloat>(v); });
     return values;
-}
-
-// Fraction of the height-th part of an ancestor in which a node begins.
-std::array<float, 2> placeIn(const DetailNode& node, std::size_t levels_up)
-{
-    const std::size_t parts = std::size_t{1} << levels_up;
-    return {static_cast<float>(node.column % parts) / static_cast<float>(parts),
-            static_cast<float>(node.row % parts) / static_cast<float>(parts)};
 }
 
 } // namespace
@@ -234,18 +217,7 @@ void TerrainRenderer::Impl::makeNodeMesh()
                  static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)), indices.data(),
                  GL_STATIC_DRAW);
     glBindBuffer(GL_ARRAY_BUFFER, instances.id());
-    const auto attribute = [](GLuint location, GLint count, std::size_t offset) {
-        glEnableVertexAttribArray(location);
-        glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(NodeInstance),
-                              reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL's way
-        glVertexAttribDivisor(location, 1);
-    };
-    attribute(kPlaceAttribute, 3, offsetof(NodeInstance, place));
-    attribute(kSlotAttribute, 4, offsetof(NodeInstance, slot));
-    attribute(kReliefAttribute, 4, offsetof(NodeInstance, relief));
-    attribute(kUncleAttribute, 2, offsetof(NodeInstance, uncle));
-    attribute(kParentAttribute, 4, offsetof(NodeInstance, parent));
-    attribute(kGrandparentAttribute, 4, offsetof(NodeInstance, grandparent));
+    describeNodeInstances();
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
@@ -286,10 +258,8 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
 {
     Layer& layer = *layers[index];
     const Heightfield& heightfield = *layer.source.heightfield;
-    const GridPoint eye = layer.source.frame.toGrid(eyeOf(request.camera));
-    const GridPoint anchor{
-        std::clamp(std::floor(eye.column), 0.0, static_cast<double>(heightfield.columns() - 1)),
-        std::clamp(std::floor(eye.row), 0.0, static_cast<double>(heightfield.rows() - 1))};
+    const GridPoint anchor = nodeAnchor(layer.source.frame.toGrid(eyeOf(request.camera)),
+                                        heightfield.columns(), heightfield.rows());
     const auto cover_count = static_cast<int>(std::min<std::size_t>(index, kCoversMax));
     const GlProgram& program = shaders.terrain({.mode = style.look.mode,
                                                 .has_contours = style.look.has_contours,
@@ -319,33 +289,7 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         if (!relief) {
             continue; // given up and asked for again
         }
-        const DetailNode& node = selected.node;
-        const double step = static_cast<double>(std::size_t{1} << node.level);
-        const double first_column = static_cast<double>(node.column) * kCells * step;
-        const double first_row = static_cast<double>(node.row) * kCells * step;
-        NodeInstance instance{};
-        instance.place = {static_cast<float>(first_column - anchor.column),
-                          static_cast<float>(first_row - anchor.row), static_cast<float>(step)};
-        const auto in_parent = placeIn(node, 1);
-        instance.slot = {static_cast<float>(slot->x), static_cast<float>(slot->y), in_parent[0],
-                         in_parent[1]};
-        instance.uncle = placeIn(node, 2);
-        instance.parent = selected.parent_ranges_m;
-        instance.grandparent = selected.grandparent_ranges_m;
-        // Texture coordinates of a sample: its texel, counted from the border's first.
-        const ReliefTileId tile = reliefTileOf(relief->node);
-        const double texel = static_cast<double>(std::size_t{1} << tile.level);
-        const double side = static_cast<double>(ReliefTile::kSide);
-        const auto coordinate = [&](double sample, std::size_t tile_index) {
-            const double first = static_cast<double>(tile_index * ReliefTile::kTexels) * texel;
-            return static_cast<float>(
-                ((sample - first + 0.5) / texel + static_cast<double>(ReliefTile::kBorder)) / side);
-        };
-        // The fraction marks a texel a sample, see the shader.
-        instance.relief = {static_cast<float>(1.0 / (texel * side)),
-                           coordinate(first_column, tile.column), coordinate(first_row, tile.row),
-                           static_cast<float>(relief->layer) + (tile.level == 0 ? 0.25F : 0.0F)};
-        batches[relief->page].push_back(instance);
+        batches[relief->page].push_back(nodeInstance(selected, anchor, *slot, *relief));
     }
     drawBatches();
 }

@@ -1,0 +1,52 @@
+// Drawing without a window, for tests.
+#pragma once
+
+#include "tests/support/make_terrain.h"
+#include "ui/render/egl_context.h"
+#include "ui/render/offscreen_picture.h"
+#include "ui/render/terrain_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <memory>
+
+namespace marsview::test {
+
+/// A map that can be drawn. Copies share what is large.
+struct DrawnMap {
+    std::shared_ptr<const Heightfield> field;
+    std::shared_ptr<const SurfaceAnalysis> analysis;
+    SceneFrame frame;
+
+    DrawnMap(const Heightfield& heightfield, const SceneFrame& map_frame);
+
+    TerrainLayer layer() const;
+    SceneBox box(double exaggeration) const;
+    /// Height of the ground in scene metres; NaN beside the map.
+    double ground(double east_m, double north_m, double exaggeration) const;
+};
+
+/// Colours that no terrain has.
+constexpr Rgb8 kSkyColor{255, 0, 255};
+
+/// Tests with a context and a renderer; skipped, with a sentence, where there is no OpenGL.
+class RenderTest : public testing::Test {
+protected:
+    void SetUp() override;
+    void TearDown() override;
+
+    /// One sample a pixel, under a sky of kSkyColor. Checks that OpenGL has no complaints.
+    OffscreenPicture draw(const OrbitCamera& camera,
+                          const Viewport& viewport,
+                          const DetailTarget& detail,
+                          DrawStyle style);
+
+    std::unique_ptr<EglContext> context_;       // outlives the renderer
+    std::unique_ptr<TerrainRenderer> renderer_; // null only where tests are skipped
+};
+
+bool isSky(const Picture& picture, std::size_t pixel);
+std::size_t skyPixels(const Picture& picture);
+
+} // namespace marsview::test
