@@ -91,6 +91,7 @@ void StatusReadout::setDatasets(const std::shared_ptr<const Dataset>& scene,
         display_ = is_display_wanted_ && has_wanted ? wanted_ : displays.front();
         toggle_button_->setEnabled(displays.size() > 1);
         fillMenu();
+        reserveWidths();
     }
     refresh();
 }
@@ -119,6 +120,9 @@ void StatusReadout::toggleDisplay()
 void StatusReadout::setHeightUnit(HeightUnit unit)
 {
     unit_ = unit;
+    if (scene_) {
+        reserveWidths();
+    }
     refresh();
 }
 
@@ -168,6 +172,37 @@ void StatusReadout::fillMenu()
     }
     display_button_->setText(shortened(displayName(display_, scene_->info())));
     display_button_->setFixedWidth(width + 28); // as wide in all terms, with the arrow
+}
+
+// As wide as anything that this map will show, so that nothing moves while the numbers change.
+void StatusReadout::reserveWidths()
+{
+    const QFontMetrics metrics(font());
+    QString longest = tr("pointer off the map");
+    const auto keep_longer = [&metrics](QString& kept, const QString& other) {
+        if (metrics.horizontalAdvance(other) > metrics.horizontalAdvance(kept)) {
+            kept = other;
+        }
+    };
+    const Georeference& georeference = scene_->georeference();
+    const double last_column = static_cast<double>(georeference.columns() - 1);
+    const double last_row = static_cast<double>(georeference.rows() - 1);
+    for (const CoordinateDisplay display : coordinateDisplays(scene_->info())) {
+        for (const GridPoint grid : {GridPoint{0.0, 0.0}, GridPoint{last_column, 0.0},
+                                     GridPoint{0.0, last_row}, GridPoint{last_column, last_row}}) {
+            keep_longer(longest, coordinateText(display, scene_->info(), georeference, grid));
+        }
+    }
+    coordinate_->setLongest(longest + QStringLiteral("00")); // digits differ in width
+    QString highest;
+    for (const auto& dataset : {scene_, active_}) {
+        if (dataset) {
+            const HeightRange range = dataset->heightfield().range().value_or(HeightRange{});
+            keep_longer(highest, heightText(dataset->info(), range, range.minimum_m, unit_));
+            keep_longer(highest, heightText(dataset->info(), range, range.maximum_m, unit_));
+        }
+    }
+    height_->setLongest(highest + QLatin1Char('0'));
 }
 
 QString StatusReadout::heightAt(const RayHit& hit) const

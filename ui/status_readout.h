@@ -51,6 +51,7 @@ Q_SIGNALS:
 
 private:
     void fillMenu();
+    void reserveWidths();
     void refresh();
     QString heightAt(const RayHit& hit) const;
 

@@ -122,6 +122,22 @@ TEST_F(GoToDialogTest, FliesThereAndRemembersWhatWasAsked)
     }
 }
 
+TEST_F(GoToDialogTest, ReadsAsIsUsualOnTheBodyUnlessToldOtherwise)
+{
+    const auto mars =
+        load(maps_.placed("flat", "IAU_2015:49902", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    const auto earth =
+        load(maps_.placed("earth", "EPSG:4326", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    const auto kind = [](const GoToDialog& dialog) {
+        return static_cast<D>(dialog.findChild<QComboBox*>()->currentData().toInt());
+    };
+    const GoToDialog on_mars(mars, {});
+    EXPECT_EQ(kind(on_mars), D::Planetocentric);
+    const GoToDialog on_earth(earth, on_mars.entry());
+    EXPECT_EQ(kind(on_earth), D::Planetographic);
+    EXPECT_EQ(kind(GoToDialog(earth, {.display = D::Map, .text = {}})), D::Map);
+}
+
 TEST_F(GoToDialogTest, OffersMapCoordinatesOnlyWhereThereAreNoOthers)
 {
     GoToDialog dialog(load(maps_.hill()), {});

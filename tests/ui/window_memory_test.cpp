@@ -1,12 +1,16 @@
 // What one window leaves for the next.
 
 #include "tests/ui/test_map.h"
+#include "ui/dialogs/preferences_dialog.h"
 #include "ui/recent_files.h"
 #include "ui/status_readout.h"
 #include "ui/terrain_view.h"
+#include "ui/theme.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
 
+#include <QApplication>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
 #include <QFileDialog>
@@ -131,6 +135,27 @@ TEST_F(WindowMemoryTest, RemembersTenFilesAndSaysWhichAreGone)
     EXPECT_TRUE(window->recentFiles()->files().isEmpty());
     EXPECT_FALSE(window->actionSet().recent->isEnabled());
     EXPECT_TRUE(QSettings().value(QStringLiteral("files/recent")).toStringList().isEmpty());
+}
+
+TEST_F(WindowMemoryTest, AppliesPreferencesWhileTheDialogIsOpen)
+{
+    MainWindow window(testWindowOptions());
+    window.show();
+    window.actionSet().preferences->trigger();
+    auto* dialog = window.findChild<PreferencesDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    const QList<QComboBox*> boxes = dialog->findChildren<QComboBox*>();
+    boxes[0]->setCurrentIndex(2);
+    EXPECT_EQ(window.preferences().theme, Theme::Dark);
+    EXPECT_EQ(QApplication::palette().color(QPalette::Window),
+              darkPalette().color(QPalette::Window));
+    boxes[1]->setCurrentIndex(1);
+    EXPECT_EQ(window.preferences().height_unit, HeightUnit::Feet);
+    // Enter leaves; it takes nothing back.
+    QTest::keyClick(boxes[1], Qt::Key_Return);
+    EXPECT_EQ(window.preferences().height_unit, HeightUnit::Feet);
+    EXPECT_FALSE(dialog->isVisible());
+    window.setPreferences({});
 }
 
 TEST_F(WindowMemoryTest, LeavesNoTraceWhereItIsToldSo)

@@ -100,8 +100,8 @@ GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
                        QWidget* parent)
     : QDialog(parent)
     , dataset_(std::move(dataset))
-    , kind_(new QComboBox(this))
     , field_(new QLineEdit(last.text, this))
+    , kind_(new QComboBox(this))
     , answer_(new QLabel(this))
 {
     setWindowTitle(tr("Go to Coordinate"));
@@ -109,7 +109,8 @@ GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
     for (const CoordinateDisplay display : coordinateDisplays(dataset_->info())) {
         kind_->addItem(kindName(display, dataset_->info()), static_cast<int>(display));
     }
-    kind_->setCurrentIndex(std::max(0, kind_->findData(static_cast<int>(last.display))));
+    const int wanted = last.display ? kind_->findData(static_cast<int>(*last.display)) : 0;
+    kind_->setCurrentIndex(std::max(0, wanted)); // the usual one comes first
     kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     kind_->setMinimumContentsLength(30);
     field_->setAccessibleName(tr("Coordinate"));
@@ -141,14 +142,19 @@ GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
 
 GoToEntry GoToDialog::entry() const
 {
-    return {.display = static_cast<CoordinateDisplay>(kind_->currentData().toInt()),
+    return {.display = kind_->currentIndex() > 0 ? std::optional(display()) : std::nullopt,
             .text = field_->text().trimmed()};
+}
+
+CoordinateDisplay GoToDialog::display() const
+{
+    return static_cast<CoordinateDisplay>(kind_->currentData().toInt());
 }
 
 void GoToDialog::check()
 {
     const GoToEntry now = entry();
-    const bool is_map = now.display == CoordinateDisplay::Map;
+    const bool is_map = display() == CoordinateDisplay::Map;
     // Examples are the same in every language.
     field_->setPlaceholderText(is_map ? QStringLiteral("562345.5, 5117890")
                                       : QStringLiteral("18.65 N 226.2 E, 18°39′ N 133°48′ W"));
@@ -159,7 +165,7 @@ void GoToDialog::check()
         go_button_->setEnabled(false);
         return;
     }
-    const Result<GridPoint> place = placeOnMap(*dataset_, now.display, now.text);
+    const Result<GridPoint> place = placeOnMap(*dataset_, display(), now.text);
     go_button_->setEnabled(place.has_value());
     if (!place) {
         QString problem = QString::fromStdString(place.error().message);
@@ -169,7 +175,7 @@ void GoToDialog::check()
     }
     const double height_m = dataset_->heightfield().height(*place);
     const QString where =
-        coordinateText(now.display, dataset_->info(), dataset_->georeference(), *place);
+        coordinateText(display(), dataset_->info(), dataset_->georeference(), *place);
     //: %1 is a position, %2 the height there
     answer_->setText(
         std::isfinite(height_m)
@@ -184,7 +190,7 @@ void GoToDialog::check()
 void GoToDialog::go()
 {
     const GoToEntry now = entry();
-    if (const auto place = placeOnMap(*dataset_, now.display, now.text)) {
+    if (const auto place = placeOnMap(*dataset_, display(), now.text)) {
         Q_EMIT placeChosen(*place);
         accept();
     }

@@ -8,6 +8,7 @@
 #include <QDialog>
 
 #include <memory>
+#include <optional>
 
 class QComboBox;
 class QLabel;
@@ -18,7 +19,9 @@ namespace marsview {
 
 /// What was asked for last, to begin with the next time.
 struct GoToEntry {
-    CoordinateDisplay display = CoordinateDisplay::Planetocentric;
+    /// Nothing for what is usual on the map, whichever that is: what is planetocentric on Mars must
+    /// not become geocentric on the Earth.
+    std::optional<CoordinateDisplay> display;
     QString text;
 };
 
@@ -42,12 +45,13 @@ Q_SIGNALS:
     void placeChosen(GridPoint grid);
 
 private:
+    CoordinateDisplay display() const;
     void check();
     void go();
 
     std::shared_ptr<const Dataset> dataset_;
+    QLineEdit* field_ = nullptr; // first: what is created first has the focus first
     QComboBox* kind_ = nullptr;
-    QLineEdit* field_ = nullptr;
     QLabel* answer_ = nullptr;
     QPushButton* go_button_ = nullptr;
 };

@@ -316,8 +316,10 @@ void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
     const bool is_geographic = info.crs && info.crs->kind() == CrsKind::Geographic;
     const QString unit =
         is_geographic ? QStringLiteral("°")
-                      : QLatin1Char(' ') + (info.crs ? QString::fromStdString(info.crs->unitName())
-                                                     : tr("map units"));
+                      : QLatin1Char(' ') + (!info.crs ? tr("map units")
+                                            : info.crs->unit() == 1.0
+                                                ? QStringLiteral("m")
+                                                : QString::fromStdString(info.crs->unitName()));
     const QString width = number(transform.pixelWidth());
     const QString height = number(transform.pixelHeight());
     const auto metres = [](double value) { return shortNumberText(value, 6); };
@@ -342,11 +344,18 @@ void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
     }
     const std::vector<CoordinateDisplay> displays = coordinateDisplays(info);
     if (const auto place = geographicExtent(georeference)) {
-        const auto longitude = [](Angle angle) { return shortNumberText(angle.degrees(), 6); };
+        // A thousandth of the shorter side, so that the noise of a projection is not told.
+        const double side = std::min((place->east - place->west).degrees(),
+                                     (place->north - place->south).degrees());
+        const int decimals = decimalsFor(side / 100.0, 7);
+        const auto longitude = [decimals](Angle angle) {
+            return numberText(angle.degrees(), decimals);
+        };
         const auto latitude = [&](Angle angle) {
             const bool is_graphic = displays.front() == CoordinateDisplay::Planetographic;
-            return shortNumberText(
-                (is_graphic ? info.crs->ellipsoid()->planetographic(angle) : angle).degrees(), 6);
+            return numberText(
+                (is_graphic ? info.crs->ellipsoid()->planetographic(angle) : angle).degrees(),
+                decimals);
         };
         //: Longitudes from %1 to %2 and latitudes from %3 to %4; %5 is the kind of latitude
         addFact(tr("Longitude, latitude"),
