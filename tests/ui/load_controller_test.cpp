@@ -51,8 +51,8 @@ TEST(LoadController, DeliversAMapWithAllItsParts)
     EXPECT_TRUE(controller.isLoading());
     ASSERT_TRUE(QTest::qWaitFor([&] { return !controller.isLoading(); }, kTimeout));
     ASSERT_TRUE(loaded);
-    EXPECT_TRUE(loaded.pyramid);
-    EXPECT_TRUE(loaded.draw_data);
+    EXPECT_TRUE(loaded.analysis);
+    EXPECT_TRUE(loaded.relief);
 }
 
 TEST(LoadController, TellsWhyAFileCannotBeOpened)

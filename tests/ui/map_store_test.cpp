@@ -15,7 +15,7 @@ LoadedMap mapIn(const test::TempFolder& folder, const std::string& name)
         test::writeVrt(folder, name, test::recipeFor(4, std::vector<float>(16, 1.0F)));
     return {.dataset = *loadDataset({.path = path}, monitor, std::size_t{1} << 20),
             .pyramid = nullptr,
-            .draw_data = std::make_shared<const TerrainDrawData>()};
+            .relief = std::make_shared<const ReliefTile>()};
 }
 
 TEST(MapStore, FindsWhatItKeptAndHoldsNothingItself)
@@ -23,10 +23,10 @@ TEST(MapStore, FindsWhatItKeptAndHoldsNothingItself)
     const test::TempFolder folder;
     MapStore store;
     const LoadedMap map = mapIn(folder, "a");
-    const std::weak_ptr<const TerrainDrawData> draw_data = map.draw_data;
+    const std::weak_ptr<const ReliefTile> relief = map.relief;
     auto kept = store.keep(map);
     EXPECT_EQ(kept.get(), map.dataset.get());
-    EXPECT_EQ(store.find(kept).draw_data, map.draw_data);
+    EXPECT_EQ(store.find(kept).relief, map.relief);
     EXPECT_EQ(store.count(), 1U);
     auto copy = kept; // an undo step
     kept.reset();
@@ -40,16 +40,16 @@ TEST(MapStore, FreesAllOfAMapWithItsLastOwner)
 {
     const test::TempFolder folder;
     MapStore store;
-    std::weak_ptr<const TerrainDrawData> draw_data;
+    std::weak_ptr<const ReliefTile> relief;
     std::shared_ptr<const Dataset> kept;
     {
         const LoadedMap map = mapIn(folder, "a");
-        draw_data = map.draw_data;
+        relief = map.relief;
         kept = store.keep(map);
     }
-    EXPECT_FALSE(draw_data.expired());
+    EXPECT_FALSE(relief.expired());
     kept.reset();
-    EXPECT_TRUE(draw_data.expired());
+    EXPECT_TRUE(relief.expired());
 }
 
 } // namespace
