@@ -3,12 +3,12 @@
 
 #include "core/session/scene_surface.h"
 #include "core/view/navigation.h"
+#include "haptics/interaction/stylus.h"
 #include "ui/navigator.h"
 #include "ui/render/cursor_renderer.h"
 #include "ui/render/governed_picture.h"
 #include "ui/render/terrain_renderer.h"
 #include "ui/shown_layer.h"
-#include "ui/stylus.h"
 
 #include <QOpenGLWidget>
 #include <QTimer>

@@ -6,6 +6,7 @@
 #include "core/session/scene_surface.h"
 #include "haptics/interaction/mouse_stylus.h"
 
+#include <cstddef>
 #include <optional>
 
 namespace marsview {
@@ -19,19 +20,20 @@ struct StylusPose {
     Vec3 force_n{}; // on the hand
 };
 
-/// For the GUI thread: an update takes microseconds.
+/// In contact while it presses, free while it hovers; a grab keeps it as it was. The proxy is never
+/// below the ground. For the GUI thread: an update takes microseconds.
 class Stylus {
 public:
-    /// The ground it moves over from now on. A proxy in contact stays on the same piece of ground
-    /// where only the exaggeration changes.
+    /// The ground it moves over from now on. Where only the exaggeration changes, the stylus stays
+    /// over or on the same piece of ground and moves with it; otherwise it is lifted.
     void setGround(const SceneSurface& ground, double exaggeration);
 
-    /// The pointer is over this point of the ground, where a point of the screen is `point_m` long.
-    /// While grabbed, goal and proxy stay where they are.
+    /// The pointer is over this point of the ground, where a point of the screen is `point_m` > 0
+    /// long. While grabbed, goal and proxy stay where they are.
     void aim(const GroundPoint& at, const StylusButtons& buttons, double point_m);
     /// The pointer is over no ground, or has left.
     void lift();
-    /// Presses deeper (factor > 1) or less deep, within bounds.
+    /// Presses deeper (factor > 1) or less deep from the next aim on, within bounds.
     void deepen(double factor);
 
     /// Nothing while lifted.
@@ -41,12 +43,17 @@ private:
     using Model = ProxyGraph<HeightfieldSurface>;
 
     HeightfieldSurface surfaceOf(std::size_t index) const;
+    ScenePoint aimedGround() const;
+    void press(const ScenePoint& goal);
+    bool isOnItsMap(const ScenePoint& proxy) const;
+    void updatePose(StylusMode mode, const ScenePoint& goal);
 
     SceneSurface ground_;
     double exaggeration_ = 1.0;
     StylusReach reach_;
-    std::size_t index_ = 0;      // of the map that model_ is about
-    std::optional<Model> model_; // nothing until something is aimed at
+    GroundPoint at_; // aimed at last
+    double point_m_ = 1.0;
+    std::optional<Model> model_; // of the map aimed at; while in contact
     std::optional<StylusPose> pose_;
 };
 
