@@ -147,10 +147,14 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     empty_hint_->setVisible(!map_);
     if (map_ && !is_same_place) {
         style_.exaggeration = suitableExaggeration(*map_.dataset);
+    }
+    // Before the camera moves, which aims the stylus.
+    stylus_.setGround(ground_, style_.exaggeration);
+    if (map_ && !is_same_place) {
         goToOpeningView();
     }
-    stylus_.setGround(ground_, style_.exaggeration);
     redrawTerrain();
+    moveStylus();
     Q_EMIT layersChanged();
     if (is_other_map) {
         QMetaObject::invokeMethod(
@@ -158,7 +162,6 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
             [this] {
                 Q_EMIT mapShown(map_);
                 Q_EMIT exaggerationChanged(style_.exaggeration);
-                moveStylus();
                 reportPointer();
             },
             Qt::QueuedConnection);
@@ -314,11 +317,11 @@ std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
         return std::nullopt;
     }
     const double height_m = map_.dataset->heightfield().height(grid);
-    return positionOf(
+    return positionOfPlace(
         map_.dataset->georeference().sceneFrame().toScene(grid, height_m * style_.exaggeration));
 }
 
-std::optional<QPointF> TerrainView::positionOf(const ScenePoint& place) const
+std::optional<QPointF> TerrainView::positionOfPlace(const ScenePoint& place) const
 {
     const auto pixel = project(navigator_.camera(), viewport(), place);
     if (!pixel || !std::isfinite(pixel->x)) {
@@ -334,12 +337,10 @@ bool TerrainView::isPictureComplete() const
 
 QImage TerrainView::terrainPicture()
 {
-    const bool was_lifted = !stylus_.pose().has_value();
-    stylus_.lift();
+    is_cursor_shown_ = false;
     QImage picture = grabFramebuffer();
-    if (!was_lifted) {
-        moveStylus();
-    }
+    is_cursor_shown_ = true;
+    update(); // what was grabbed may come on screen
     return picture;
 }
 
@@ -348,9 +349,7 @@ void TerrainView::initializeGL()
     connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &TerrainView::releaseGraphics);
     const auto refuse = [this](const Error& error) {
         renderer_.reset();
-        const QString reason = QString::fromStdString(error.message);
-        QMetaObject::invokeMethod(
-            this, [this, reason] { Q_EMIT unavailable(reason); }, Qt::QueuedConnection);
+        reportUnavailable(QString::fromStdString(error.message));
     };
     auto renderer = TerrainRenderer::create([this] {
         QMetaObject::invokeMethod(this, &TerrainView::redrawWithNews, Qt::QueuedConnection);
@@ -373,6 +372,24 @@ void TerrainView::initializeGL()
     // What follows may open dialogs, which is not for the middle of painting.
     QMetaObject::invokeMethod(
         this, [this] { Q_EMIT ready(); }, Qt::QueuedConnection);
+}
+
+void TerrainView::paintEvent(QPaintEvent* event)
+{
+    QOpenGLWidget::paintEvent(event);
+    // Without a context the base class never calls initializeGL().
+    if (!isValid() && !std::exchange(is_context_missing_, true)) {
+        reportUnavailable(
+            tr("no OpenGL context can be created; install the graphics driver, or Mesa's "
+               "software one (libgl1-mesa-dri)"));
+    }
+}
+
+// Later: who hears of it may open dialogs, which is not for the middle of painting.
+void TerrainView::reportUnavailable(const QString& reason)
+{
+    QMetaObject::invokeMethod(
+        this, [this, reason] { Q_EMIT unavailable(reason); }, Qt::QueuedConnection);
 }
 
 void TerrainView::releaseGraphics()
@@ -424,7 +441,7 @@ void TerrainView::paintTerrain()
 void TerrainView::paintCursor()
 {
     const auto& pose = stylus_.pose();
-    if (!pose) {
+    if (!pose || !is_cursor_shown_) {
         return;
     }
     CursorPicture cursor{.shape = CursorShape::Sphere,
@@ -548,6 +565,7 @@ void TerrainView::mousePressEvent(QMouseEvent* event)
     }
     navigator_.stop();
     drag_action_ = dragActionFor(*event);
+    drag_button_ = event->button();
     drag_position_ = event->position();
     pointer_ = event->position();
     grabbed_z_m_ = anchorAt(drag_position_, navigator_.camera()).z;
@@ -587,7 +605,7 @@ void TerrainView::mouseMoveEvent(QMouseEvent* event)
 
 void TerrainView::mouseReleaseEvent(QMouseEvent* event)
 {
-    if (event->buttons() == Qt::NoButton) {
+    if (event->button() == drag_button_ || event->buttons() == Qt::NoButton) {
         drag_action_ = DragAction::None;
         buttons_.is_pressing = false;
         moveStylus();
@@ -735,9 +753,8 @@ bool TerrainView::moveByGrab(QPointF from, QPointF to)
         return false;
     }
     if (pose->mode == StylusMode::Pan) {
-        setCamera(
-            dragged(navigator_.camera(), viewport(),
-                    {.from = pixelAt(from), .to = pixelAt(to), .grabbed_z_m = pose->proxy.z}));
+        setCamera(dragged(navigator_.camera(), viewport(),
+                          {.from = pixelAt(from), .to = pixelAt(to), .grabbed_z_m = grabbed_z_m_}));
         return true;
     }
     if (pose->mode == StylusMode::Zoom) {
@@ -763,8 +780,12 @@ void TerrainView::moveStylus()
     if (ground) {
         const ScenePoint at = ground_.maps()[ground->index].frame.toScene(
             ground->grid, ground->height_m * style_.exaggeration);
+        const bool was_panning = stylus_.pose() && stylus_.pose()->mode == StylusMode::Pan;
         stylus_.aim(*ground, buttons_,
                     metresPerPixel(navigator_.camera(), viewport(), at) * devicePixelRatioF());
+        if (!was_panning && stylus_.pose()->mode == StylusMode::Pan) {
+            grabbed_z_m_ = at.z; // what is under the pointer stays under it
+        }
     } else if (!buttons_.is_pressing && !buttons_.is_grabbing) {
         stylus_.lift();
     }

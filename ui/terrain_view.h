@@ -90,7 +90,7 @@ public:
     /// A position of the topmost map's surface in widget coordinates.
     std::optional<QPointF> positionOf(GridPoint grid) const;
     /// A place of the scene in widget coordinates; nothing where it is behind the eye.
-    std::optional<QPointF> positionOf(const ScenePoint& place) const;
+    std::optional<QPointF> positionOfPlace(const ScenePoint& place) const;
 
     /// There is a graphics context.
     bool isReady() const noexcept { return renderer_ != nullptr; }
@@ -123,6 +123,7 @@ Q_SIGNALS:
 protected:
     void initializeGL() override;
     void paintGL() override;
+    void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
@@ -135,6 +136,7 @@ protected:
     void leaveEvent(QEvent* event) override;
 
 private:
+    void reportUnavailable(const QString& reason);
     void releaseGraphics();
     void paintTerrain();
     void paintCursor();
@@ -176,12 +178,15 @@ private:
     PictureStage stage_ = PictureStage::Moving;
     bool is_terrain_current_ = false; // the picture that was kept is of now
     bool is_completion_reported_ = false;
+    bool is_context_missing_ = false;
+    bool is_cursor_shown_ = true;
     QTimer still_timer_; // runs out when nothing has moved for a while
     std::chrono::steady_clock::time_point last_paint_{};
 
     DragAction drag_action_ = DragAction::None;
+    Qt::MouseButton drag_button_ = Qt::NoButton;
     QPointF drag_position_;
-    double grabbed_z_m_ = 0.0;
+    double grabbed_z_m_ = 0.0; // of what the drag, or the stylus, has hold of
     std::optional<QPointF> pointer_;
     StylusButtons buttons_;
     Stylus stylus_;

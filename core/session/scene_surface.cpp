@@ -98,6 +98,16 @@ double SceneSurface::height(double east_m, double north_m) const
     return std::numeric_limits<double>::quiet_NaN();
 }
 
+std::optional<std::size_t> SceneSurface::mapAt(double east_m, double north_m) const
+{
+    for (std::size_t index = 0; index < maps_.size(); ++index) {
+        if (!std::isnan(heightOf(maps_[index], east_m, north_m))) {
+            return index;
+        }
+    }
+    return std::nullopt;
+}
+
 SceneBox SceneSurface::box(double exaggeration) const
 {
     SceneBox box;

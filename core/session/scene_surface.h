@@ -42,6 +42,8 @@ public:
     /// Height of the ground in metres; NaN where there is none. The outermost samples are ground,
     /// whatever rounding makes of a place on them.
     double height(double east_m, double north_m) const;
+    /// The map whose surface that is; nothing where there is no ground.
+    std::optional<std::size_t> mapAt(double east_m, double north_m) const;
     /// Around all maps.
     SceneBox box(double exaggeration) const;
     /// The smallest side of a pixel in metres.

@@ -1,7 +1,7 @@
 #include "haptics/interaction/stylus.h"
 
 #include <algorithm>
-#include <utility>
+#include <optional>
 
 namespace marsview {
 
@@ -75,21 +75,36 @@ ScenePoint Stylus::aimedGround() const
 
 void Stylus::press(const ScenePoint& goal)
 {
-    constexpr int kHalvings = 20;
+    constexpr int kHalvings = 10;
     const ScenePoint ground = aimedGround();
     if (!model_) {
-        // Straight from above, so that nothing beside the place is in the way.
         model_.emplace(surfaceOf(at_.index));
-        model_->place(goal);
-    } else {
-        model_->update(goal);
+        model_->place(goal); // from straight above: nothing beside the place is in the way
     }
-    // A map's own surface goes on below the maps that cover it, and over its voids through which
-    // lower ones are seen. There the proxy must not slide: it is pressed less deep.
+    ScenePoint proxy = model_->update(goal).proxy;
+    // A map's surface goes on below the maps that cover it, and across its voids, through which
+    // lower ones are seen. The proxy must not slide there: it is pressed less deep.
     Vec3 depth = goal - ground;
-    for (int i = 0; i < kHalvings && !isOnItsMap(model_->place({})); ++i) {
+    for (int i = 0; i < kHalvings && !isOnItsMap(proxy); ++i) {
         depth = depth * 0.5;
+        proxy = model_->place(ground + depth).proxy;
     }
+}
+
+bool Stylus::isOnItsMap(const ScenePoint& proxy) const
+{
+    return ground_.mapAt(proxy.x, proxy.y).value_or(at_.index) == at_.index;
+}
+
+void Stylus::updatePose(StylusMode mode, const ScenePoint& goal)
+{
+    const auto contact = model_ ? model_->contact() : std::nullopt;
+    const ScenePoint proxy = contact ? model_->surface().point(*contact) : goal;
+    pose_ = StylusPose{.mode = mode,
+                       .proxy = proxy,
+                       .goal = goal,
+                       .is_in_contact = contact.has_value(),
+                       .force_n = contact ? stylusForce(proxy, goal, point_m_) : Vec3{}};
 }
 
 } // namespace marsview

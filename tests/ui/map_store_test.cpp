@@ -13,9 +13,10 @@ LoadedMap mapIn(const test::TempFolder& folder, const std::string& name)
     JobMonitor monitor;
     const auto path =
         test::writeVrt(folder, name, test::recipeFor(4, std::vector<float>(16, 1.0F)));
-    return {.dataset = *loadDataset({.path = path}, monitor, std::size_t{1} << 20),
-            .pyramid = nullptr,
-            .relief = std::make_shared<const ReliefTile>()};
+    LoadedMap map;
+    map.dataset = *loadDataset({.path = path}, monitor, std::size_t{1} << 20);
+    map.relief = std::make_shared<const ReliefTile>();
+    return map;
 }
 
 TEST(MapStore, FindsWhatItKeptAndHoldsNothingItself)
