@@ -127,6 +127,12 @@ TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
             session = removed(before, id);
             EXPECT_EQ(session.layers.size(), before.layers.size() - (is_there ? 1 : 0));
             EXPECT_EQ(layerOf(session, id), nullptr);
+            if (before.active != id) {
+                EXPECT_EQ(session.active, before.active);
+            } else if (is_there && !session.layers.empty()) {
+                EXPECT_EQ(indexOf(session, session.active),
+                          std::min(index, session.layers.size() - 1));
+            }
             break;
         case 2: {
             const std::size_t to = random.below(before.layers.size() + 2);
