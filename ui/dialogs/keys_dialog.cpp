@@ -19,8 +19,11 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent)
     grid->setHorizontalSpacing(20);
     grid->setVerticalSpacing(3);
     grid->setColumnMinimumWidth(2, 24);
-    const std::array<std::array<QString, 2>, 6> mouse{{
-        {tr("Left drag, Shift+drag"), tr("Pan")},
+    const std::array<std::array<QString, 2>, 9> mouse{{
+        {tr("Left drag"), tr("Touch the ground")},
+        {tr("Wheel while touching"), tr("Press deeper or less deep")},
+        {tr("Space held"), tr("Grab: pan on the ground, zoom in the air")},
+        {tr("Shift+drag"), tr("Pan")},
         {tr("Right or middle drag"), tr("Turn and tilt")},
         {tr("Wheel"), tr("Zoom to the pointer")},
         {tr("Ctrl+wheel"), tr("Zoom finely")},
