@@ -23,6 +23,14 @@ CoverTexture::CoverTexture(const Heightfield& heightfield, const BlockMeans& mea
         }
         columns = means.means(level).columns();
         rows = means.means(level).rows();
+        // Texels are blocks, and the last ones may reach beyond the last samples.
+        const auto block = static_cast<double>(BlockMeans::kBlock << level);
+        const double width = static_cast<double>(columns) * block; // samples
+        const double height = static_cast<double>(rows) * block;
+        placement_ = {.column_scale = static_cast<double>(heightfield.columns() - 1) / width,
+                      .row_scale = static_cast<double>(heightfield.rows() - 1) / height,
+                      .column_offset = 0.5 / width,
+                      .row_offset = 0.5 / height};
     }
     std::vector<std::uint8_t> shares(columns * rows);
     for (std::size_t row = 0; row < rows; ++row) {

@@ -406,6 +406,9 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         set(("u_cover_linear" + element).c_str(), right.column - at.column, down.column - at.column,
             right.row - at.row, down.row - at.row);
         set(("u_cover_offset" + element).c_str(), at.column, at.row);
+        const CoverTexture::Placement& to = cover.cover.placement();
+        set(("u_cover_texture" + element).c_str(), to.column_scale, to.row_scale, to.column_offset,
+            to.row_offset);
     }
 }
 

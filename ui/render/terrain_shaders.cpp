@@ -125,20 +125,28 @@ bool isInHole(vec2 place)
 
 #if COVERS > 0
 uniform sampler2D u_cover[COVERS];
-uniform vec4 u_cover_linear[COVERS]; // sample relative to the anchor to the cover's texture
+uniform vec4 u_cover_linear[COVERS]; // sample relative to the anchor to a share of the cover
 uniform vec2 u_cover_offset[COVERS];
+uniform vec4 u_cover_texture[COVERS]; // that share to the cover's texture: × xy + zw
 
+bool isUnder(sampler2D cover, vec4 linear, vec2 offset, vec4 to_texture)
+{
+    vec2 place = vec2(dot(linear.xy, v_sample), dot(linear.zw, v_sample)) + offset;
+    return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, vec2(1.0))) &&
+           texture(cover, place * to_texture.xy + to_texture.zw).r >= 0.5;
+}
+
+// Samplers of an array can be chosen by constants only.
 bool isCovered()
 {
-    for (int i = 0; i < COVERS; ++i) {
-        vec2 place = vec2(dot(u_cover_linear[i].xy, v_sample), dot(u_cover_linear[i].zw, v_sample)) +
-                     u_cover_offset[i];
-        if (all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, vec2(1.0))) &&
-            texture(u_cover[i], place).r >= 0.5) {
-            return true;
-        }
-    }
-    return false;
+    return isUnder(u_cover[0], u_cover_linear[0], u_cover_offset[0], u_cover_texture[0])
+#if COVERS > 1
+        || isUnder(u_cover[1], u_cover_linear[1], u_cover_offset[1], u_cover_texture[1])
+#endif
+#if COVERS > 2
+        || isUnder(u_cover[2], u_cover_linear[2], u_cover_offset[2], u_cover_texture[2])
+#endif
+        ;
 }
 #endif
 

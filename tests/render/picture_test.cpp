@@ -1,0 +1,239 @@
+// What pictures with less detail show, against the surface and the picture with all of it.
+
+#include "core/session/loaded_map.h"
+#include "core/view/navigation.h"
+#include "core/view/picture_error.h"
+#include "tests/render/render_fixture.h"
+#include "tests/support/shared_data.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+// A map from a file.
+struct LoadedTestMap {
+    LoadedMap map;
+
+    explicit LoadedTestMap(const std::filesystem::path& path)
+    {
+        JobMonitor monitor;
+        auto dataset = loadDataset({path.string(), 1, {}}, monitor, std::size_t{1} << 30);
+        map = prepareMap(std::move(dataset).value(), monitor).value();
+    }
+
+    const Heightfield& field() const { return map.dataset->heightfield(); }
+    SceneFrame frame() const { return map.dataset->georeference().sceneFrame(); }
+    SceneBox box(double exaggeration) const
+    {
+        return sceneBox(frame(), field().columns(), field().rows(), field().range().value(),
+                        exaggeration);
+    }
+    double ground(double east_m, double north_m, double exaggeration) const
+    {
+        return field().height(frame().toGrid({east_m, north_m, 0.0})) * exaggeration;
+    }
+};
+
+// Views of a map: the whole of it, and nearer and nearer to a place in it.
+std::vector<OrbitCamera> views(const LoadedTestMap& map, double exaggeration, const Viewport& size)
+{
+    const SceneBox box = map.box(exaggeration);
+    const OrbitCamera home = homeCamera(box, size);
+    std::vector<OrbitCamera> cameras{home};
+    const Georeference& georeference = map.map.dataset->georeference();
+    const NavigationLimits limits = navigationLimits(
+        box, std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
+    const auto ground = [&](double east_m, double north_m) {
+        return map.ground(east_m, north_m, exaggeration);
+    };
+    for (const double nearness : {0.3, 0.08, 0.02}) {
+        for (const double tilt_deg : {0.0, 45.0, 78.0}) {
+            OrbitCamera camera = home;
+            camera.target.x = box.minimum.x + 0.43 * (box.maximum.x - box.minimum.x);
+            camera.target.y = box.minimum.y + 0.58 * (box.maximum.y - box.minimum.y);
+            camera.target.z = ground(camera.target.x, camera.target.y);
+            camera.distance_m = nearness * home.distance_m;
+            camera.tilt = Angle::degrees(tilt_deg);
+            camera.azimuth = Angle::degrees(40.0);
+            cameras.push_back(constrained(camera, limits, ground));
+        }
+    }
+    return cameras;
+}
+
+class PictureTest : public RenderTest {
+protected:
+    // At 1 pixel, nearly all of the picture is within it, and none is far off.
+    void expectWithinOnePixel(const std::string& name, const LoadedTestMap& map)
+    {
+        renderer_->setLayers({terrainLayer(map.map, defaultColorRamp(""))});
+        const Viewport size{.width = 640, .height = 400};
+        const double suitable = suitableExaggeration(*map.map.dataset);
+        for (const double exaggeration : {1.0, std::max(suitable, 3.0)}) {
+            int view = 0;
+            for (const OrbitCamera& camera : views(map, exaggeration, size)) {
+                DrawStyle style;
+                style.exaggeration = exaggeration;
+                const OffscreenPicture picture = draw(camera, size, {.error_px = 1.0}, style);
+                const SceneFrame frame = map.frame();
+                const PictureError error = measurePictureError({map.field(), frame, exaggeration},
+                                                               camera, size, picture.depths_m, 1.0);
+                std::printf(
+                    "%s ×%g view %d: %zu triangles, within %.4f, mean %.3f, "
+                    "99%% %.3f, max %.2f px\n",
+                    name.c_str(), exaggeration, view, picture.report.triangle_count,
+                    error.share_within, error.mean_px, error.p99_px, error.max_px);
+                EXPECT_GT(error.pixel_count, 1000U);
+                EXPECT_GE(error.share_within, 0.99) << view;
+                EXPECT_LE(error.max_px, 4.0) << view;
+                ++view;
+            }
+        }
+    }
+
+    // Pictures with detail chosen look like those with every sample. Without several samples a
+    // pixel, rims that are off by a part of a pixel differ: up to 2.1 % in the whole of Mars.
+    void expectSameColors(const std::string& name, const LoadedTestMap& map)
+    {
+        renderer_->setLayers({terrainLayer(map.map, defaultColorRamp(""))});
+        const Viewport size{.width = 640, .height = 400};
+        DrawStyle style;
+        style.exaggeration = suitableExaggeration(*map.map.dataset);
+        int view = 0;
+        for (const OrbitCamera& camera : views(map, style.exaggeration, size)) {
+            const Picture lod = draw(camera, size, {.error_px = 1.0}, style).colors;
+            const Picture full = draw(camera, size, {.has_every_sample = true}, style).colors;
+            std::size_t different = 0;
+            double sum = 0.0;
+            for (std::size_t i = 0; i < lod.rgb.size(); i += 3) {
+                int largest = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    largest = std::max(largest, std::abs(lod.rgb[i + k] - full.rgb[i + k]));
+                }
+                sum += largest;
+                different += largest > 16 ? 1U : 0U;
+            }
+            const double pixels = static_cast<double>(lod.rgb.size()) / 3.0;
+            std::printf("%s view %d: mean difference %.3f of 255, %.3f %% of pixels above 16\n",
+                        name.c_str(), view, sum / pixels,
+                        100.0 * static_cast<double>(different) / pixels);
+            EXPECT_LT(sum / pixels, 2.0) << view;
+            EXPECT_LT(static_cast<double>(different) / pixels, 0.03) << view;
+            ++view;
+        }
+    }
+};
+
+TEST_F(PictureTest, OfMarsIsWithinOnePixel)
+{
+    expectWithinOnePixel("Mars", LoadedTestMap(bundledSamples() / "mars_mola_4ppd.tif"));
+}
+
+TEST_F(PictureTest, OfMountStHelensIsWithinOnePixel)
+{
+    expectWithinOnePixel("Helens", LoadedTestMap(bundledSamples() / "mount_st_helens_30m.tif"));
+}
+
+TEST_F(PictureTest, OfTheMoonIsWithinOnePixel)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    expectWithinOnePixel(
+        "Moon", LoadedTestMap(sharedData() / "derived/moon_gld100_64ppd_crop_8192x4096.tif"));
+}
+
+TEST_F(PictureTest, HasTheColorsOfThePictureWithEverySample)
+{
+    expectSameColors("Mars", LoadedTestMap(bundledSamples() / "mars_mola_4ppd.tif"));
+    expectSameColors("Helens", LoadedTestMap(bundledSamples() / "mount_st_helens_30m.tif"));
+}
+
+// A ray that comes in above the highest ground, or begins above the ground, and that passes below
+// the lowest over the map, has crossed the surface on the way, whatever detail it is drawn in.
+bool crossesGround(const Ray& ray, const DrawnMap& map, double exaggeration)
+{
+    const HeightRange range = map.field->range().value();
+    const auto isOverMap = [&](double height_m) {
+        const double t = (height_m - ray.origin.z) / ray.direction.z;
+        const GridPoint grid = map.frame.toGrid(ray.at(std::max(t, 0.0)));
+        constexpr double kMargin = 0.01; // samples, for rounding
+        return grid.column > kMargin && grid.row > kMargin &&
+               grid.column < static_cast<double>(map.field->columns() - 1) - kMargin &&
+               grid.row < static_cast<double>(map.field->rows() - 1) - kMargin;
+    };
+    return ray.direction.z < 0.0 && isOverMap(range.maximum_m * exaggeration) &&
+           isOverMap(range.minimum_m * exaggeration);
+}
+
+TEST_F(PictureTest, HasNoCracks)
+{
+    Random random;
+    const auto fractal = heightsFrom(fractalHeights(random, 1100, 1000, 2500.0, 0.52), 1100);
+    std::vector<DrawnMap> maps;
+    maps.emplace_back(floatTerrain(1100, 1000, fractal), northUpFrame(1100, 1000, 30.0));
+    maps.emplace_back(
+        floatTerrain(1025, 900,
+                     [](std::size_t c, std::size_t r) { return c < 600 && r > 77 ? 0.0 : 4000.0; }),
+        northUpFrame(1025, 900, 30.0));
+    maps.emplace_back(int16Terrain(1100, 1000, {},
+                                   [&](std::size_t c, std::size_t r) {
+                                       return c + 2 * r > 1500 ? 0.0 : fractal(c, r);
+                                   }),
+                      SceneFrame{.origin = {550.0, 500.0},
+                                 .east_per_column = 24.0,
+                                 .east_per_row = -15.0,
+                                 .north_per_column = 18.0,
+                                 .north_per_row = 22.0});
+    std::size_t looked_at = 0;
+    for (const DrawnMap& map : maps) {
+        renderer_->setLayers({map.layer()});
+        for (int i = 0; i < 40; ++i) {
+            constexpr std::array<double, 5> kExaggerations{0.1, 1.0, 2.0, 5.0, 30.0};
+            constexpr std::array<double, 3> kErrors{1.0, 2.0, 8.0};
+            DrawStyle style;
+            style.exaggeration = kExaggerations.at(random.below(kExaggerations.size()));
+            style.look.mode = ShadingMode::Hillshade;
+            const SceneBox box = map.box(style.exaggeration);
+            OrbitCamera camera;
+            camera.target = {random.uniform(box.minimum.x, box.maximum.x),
+                             random.uniform(box.minimum.y, box.maximum.y), 0.0};
+            const double ground = map.ground(camera.target.x, camera.target.y, style.exaggeration);
+            camera.target.z = std::isnan(ground) ? 0.0 : ground;
+            camera.distance_m = box.extent_m() * std::pow(10.0, random.uniform(-2.0, 0.2));
+            camera.tilt = Angle::degrees(i % 4 == 0 ? 0.0 : random.uniform(0.0, 80.0));
+            camera.azimuth = Angle::degrees(random.uniform(0.0, 360.0));
+            const ScenePoint eye = eyeOf(camera);
+            const double below = map.ground(eye.x, eye.y, style.exaggeration);
+            if (eye.z < box.maximum.z &&
+                !(eye.z > below + 0.3 * camera.distance_m && camera.distance_m > 300.0)) {
+                continue; // within the mountains
+            }
+            const Viewport size{.width = 300, .height = 220};
+            const double error_px = kErrors.at(random.below(kErrors.size()));
+            const OffscreenPicture picture = draw(camera, size, {.error_px = error_px}, style);
+            std::size_t cracks = 0;
+            for (std::size_t p = 0; p < picture.colors.rgb.size() / 3; ++p) {
+                const PixelPoint pixel{static_cast<double>(p % 300) + 0.5,
+                                       static_cast<double>(p / 300) + 0.5};
+                if (crossesGround(pickRay(camera, size, pixel), map, style.exaggeration)) {
+                    ++looked_at;
+                    cracks += isSky(picture.colors, p) ? 1U : 0U;
+                }
+            }
+            EXPECT_EQ(cracks, 0U) << "shot " << i << ", error " << error_px << " px, exaggeration "
+                                  << style.exaggeration << ", tilt " << camera.tilt.degrees();
+        }
+    }
+    EXPECT_GT(looked_at, 1000000U);
+    std::printf("%zu pixels without a crack\n", looked_at);
+}
+
+} // namespace
+} // namespace marsview::test
