@@ -36,6 +36,9 @@ HeightRange tintRange(const BlockMeans& means, const HeightRange& all)
     const float low = heights[static_cast<std::size_t>(rare)];
     std::nth_element(heights.begin(), heights.end() - 1 - rare, heights.end());
     const float high = *(heights.end() - 1 - rare);
+    if (!(low < high)) {
+        return all; // a hill in a plain is all that there is to see
+    }
     return {.minimum_m = static_cast<double>(low), .maximum_m = static_cast<double>(high)};
 }
 
