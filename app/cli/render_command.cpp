@@ -5,12 +5,14 @@
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace marsview {
@@ -36,12 +38,26 @@ struct Options {
     bool has_contours = false;
 };
 
+// CLI11 reads "nan" and "inf" as numbers, and its ranges let NaN through.
+CLI::Validator finiteNumber()
+{
+    return {[](std::string& text) {
+                double value = 0.0;
+                const bool is_number = CLI::detail::lexical_cast(text, value);
+                return is_number && !std::isfinite(value) ? text + " is no finite number"
+                                                          : std::string();
+            },
+            ""};
+}
+
 Result<Viewport> sizeFrom(const std::string& text)
 {
     Viewport size;
-    int read = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%n", &size.width, &size.height, &read) != 2 || // NOLINT
-        static_cast<std::size_t>(read) != text.size()) {
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool has_cross = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+    const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
+    if (!has_cross || height.ec != std::errc{} || height.ptr != end) {
         return Error{ErrorCode::Invalid,
                      fmt::format("--size: \"{}\" is no size; write it as 1280x800", text)};
     }
@@ -139,20 +155,27 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->capture_default_str();
     command->add_option("--look-at", options->look_at, "X,Y in the middle of the picture, map CRS")
         ->delimiter(',')
-        ->expected(2);
+        ->expected(2)
+        ->check(finiteNumber());
     command->add_option("--distance", options->distance_m, "of the eye from there, metres")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--azimuth", options->azimuth_deg,
-                        "heading of the view, degrees clockwise from north");
+        ->check(CLI::PositiveNumber)
+        ->check(finiteNumber());
+    command
+        ->add_option("--azimuth", options->azimuth_deg,
+                     "heading of the view, degrees clockwise from north")
+        ->check(finiteNumber());
     command->add_option("--tilt", options->tilt_deg, "0 looks straight down, at most 85 degrees")
-        ->check(CLI::Range(0.0, 85.0));
+        ->check(CLI::Range(0.0, 85.0))
+        ->check(finiteNumber());
     command->add_option("--exaggeration", options->exaggeration, "of heights")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::PositiveNumber)
+        ->check(finiteNumber());
     auto* error = command
                       ->add_option("--error-px", options->error_px,
                                    "how far off the surface may be, in pixels")
                       ->capture_default_str()
-                      ->check(CLI::PositiveNumber);
+                      ->check(CLI::PositiveNumber)
+                      ->check(finiteNumber());
     command->add_flag("--full", options->is_full, "draw every sample")->excludes(error);
     command->add_option("--samples", options->samples, "a pixel, against jagged edges")
         ->capture_default_str()
@@ -171,7 +194,8 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
                      "azimuth,altitude where the light comes from, degrees")
         ->delimiter(',')
         ->expected(2)
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(finiteNumber());
     command->add_flag("--contours", options->has_contours, "draw contour lines");
     command->callback([options, &run] { run = [options] { return runRender(*options); }; });
 }

@@ -39,14 +39,15 @@ Status writePng(const Picture& picture, const std::string& path)
         return refusal();
     }
     const std::string unfinished = path + ".part";
+    std::error_code error;
     {
         const GDALDatasetUniquePtr written(
             png->CreateCopy(unfinished.c_str(), source.get(), FALSE, nullptr, nullptr, nullptr));
-        if (!written || messages.hasFailed()) {
+        if (!written) {
+            std::filesystem::remove(unfinished, error); // of a full disk, say
             return refusal();
         }
     }
-    std::error_code error;
     if (messages.hasFailed()) {
         std::filesystem::remove(unfinished, error);
         return refusal();

@@ -1,0 +1,336 @@
+#include "tests/cli/run_cli.h"
+#include "tests/support/gdal_tools.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+#include "ui/render/egl_context.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace marsview::test {
+namespace {
+
+std::string mars()
+{
+    return (bundledSamples() / "mars_mola_4ppd.tif").string();
+}
+
+std::string helens()
+{
+    return (bundledSamples() / "mount_st_helens_30m.tif").string();
+}
+
+class RenderCommand : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        const auto context = EglContext::create();
+        if (!context) {
+            GTEST_SKIP() << context.error().message;
+        }
+    }
+
+    // The program's answer to `render`, without a display server to ask.
+    ProgramOutput render(const std::vector<std::string>& options) const
+    {
+        std::vector<std::string> arguments{
+            "env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", MARSVIEW_CLI, "render"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return runProgram(arguments);
+    }
+
+    // The bytes of a picture's bands, one after the other, as GDAL reads them.
+    std::string pixels(const std::string& png) const
+    {
+        const std::string raw = png + ".raw";
+        runTool({"gdal_translate", "-q", "-of", "ENVI", "-co", "INTERLEAVE=BSQ", png, raw});
+        return readFile(raw);
+    }
+
+    // One sentence that names what is wrong, and no picture.
+    void expectRefusal(const std::vector<std::string>& options, const std::string& named) const
+    {
+        const ProgramOutput output = render(options);
+        EXPECT_TRUE(output.exit_status == 1 || output.exit_status == 2)
+            << output.exit_status << ": " << output.err;
+        EXPECT_EQ(output.out, "");
+        EXPECT_TRUE(output.err.starts_with("marsview-cli: ")) << output.err;
+        EXPECT_NE(output.err.find(named), std::string::npos) << output.err;
+        if (output.exit_status == 1) {
+            EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+        }
+        // Each by itself, so that one failure is one.
+        EXPECT_FALSE(std::filesystem::remove(folder_.file("no.png")));
+        EXPECT_FALSE(std::filesystem::exists(folder_.file("no.png.part")));
+    }
+
+    TempFolder folder_;
+};
+
+struct Difference {
+    double mean = 0.0;
+    double share = 0.0; // of bytes that differ by more than 16
+};
+
+Difference difference(const std::string& a, const std::string& b)
+{
+    EXPECT_EQ(a.size(), b.size());
+    double sum = 0.0;
+    std::size_t above = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        const int off =
+            std::abs(static_cast<unsigned char>(a[i]) - static_cast<unsigned char>(b[i]));
+        sum += off;
+        above += off > 16 ? 1U : 0U;
+    }
+    const auto count = static_cast<double>(a.size());
+    return {.mean = sum / count, .share = static_cast<double>(above) / count};
+}
+
+} // namespace
+
+TEST_F(RenderCommand, WritesAPngOfTheSizeAskedFor)
+{
+    for (const auto& [width, height] : {std::pair{640, 400}, {1, 1}, {33, 500}}) {
+        const std::string png = folder_.file(fmt::format("{}.png", width));
+        const ProgramOutput output =
+            render({mars(), "-o", png, "--size", fmt::format("{}x{}", width, height)});
+        ASSERT_EQ(output.exit_status, 0) << output.err;
+        EXPECT_EQ(output.out, "");
+        const nlohmann::json info = gdalInfo(png);
+        EXPECT_EQ(info["driverShortName"], "PNG");
+        EXPECT_EQ(info["size"], (nlohmann::json{width, height}));
+        EXPECT_EQ(info["bands"].size(), 3U);
+        EXPECT_FALSE(std::filesystem::exists(png + ".part"));
+    }
+}
+
+TEST_F(RenderCommand, ShowsTheWholeMapUnlessToldWhereToLook)
+{
+    const std::string whole = folder_.file("whole.png");
+    ASSERT_EQ(render({helens(), "-o", whole, "--size", "400x300"}).exit_status, 0);
+    const std::string bytes = pixels(whole);
+    ASSERT_EQ(bytes.size(), 400U * 300U * 3U);
+    // Sky on the border on all sides, ground in the middle: the map lies within the picture.
+    const auto at = [&](std::size_t x, std::size_t y, std::size_t band) {
+        return static_cast<int>(static_cast<unsigned char>(bytes[(band * 300 + y) * 400 + x]));
+    };
+    const auto isSkyLike = [&](std::size_t x,
+                               std::size_t y) { // dark and blue, the darkest there is
+        return at(x, y, 0) < 45 && at(x, y, 1) < 50 && at(x, y, 2) < 60 &&
+               at(x, y, 2) > at(x, y, 0);
+    };
+    for (std::size_t x = 0; x < 400; ++x) {
+        EXPECT_TRUE(isSkyLike(x, 0) && isSkyLike(x, 299)) << x;
+    }
+    for (std::size_t y = 0; y < 300; ++y) {
+        EXPECT_TRUE(isSkyLike(0, y) && isSkyLike(399, y)) << y;
+    }
+    EXPECT_FALSE(isSkyLike(200, 150));
+
+    const std::string near = folder_.file("near.png");
+    ASSERT_EQ(
+        render({helens(), "-o", near, "--size", "400x300", "--tilt", "0", "--distance", "3000"})
+            .exit_status,
+        0);
+    EXPECT_GT(difference(bytes, pixels(near)).mean, 1.0);
+}
+
+// A table mountain of 11 x 11 samples in a plain is in the middle of the picture, and nowhere else.
+TEST_F(RenderCommand, LooksAtThePlaceOnTheMap)
+{
+    constexpr std::size_t kColumns = 300;
+    constexpr std::size_t kRows = 200;
+    std::vector<float> heights(kColumns * kRows);
+    for (std::size_t row = 45; row <= 55; ++row) {
+        for (std::size_t column = 205; column <= 215; ++column) {
+            heights[row * kColumns + column] = 1.0F;
+        }
+    }
+    RasterRecipe recipe = recipeFor(kColumns, heights);
+    recipe.transform = {500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0};
+    recipe.srs = "EPSG:32610";
+    const std::string map = writeRaster(folder_, "mountain.tif", "GTiff", recipe);
+    const auto middleOf = [&](const std::string& place) {
+        const std::string png = folder_.file("place.png");
+        const ProgramOutput output =
+            render({map, "-o", png, "--size", "101x101", "--tilt", "0", "--distance", "1500",
+                    "--exaggeration", "1", fmt::format("--look-at={}", place)});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        const std::string bytes = pixels(png);
+        const std::size_t middle = 50 * 101 + 50;
+        return std::array<char, 3>{bytes.at(middle), bytes.at(101 * 101 + middle),
+                                   bytes.at(2 * 101 * 101 + middle)};
+    };
+    // Coordinates of the middle of pixel (210, 50), and of places 10 pixels away from it.
+    const auto place = [](double column, double row) {
+        return fmt::format("{},{}", 500000.0 + 30.0 * (column + 0.5),
+                           4000000.0 - 30.0 * (row + 0.5));
+    };
+    const auto mountain = middleOf(place(210, 50));
+    for (const auto& [column, row] : {
+             std::pair{200.0, 50.0},
+             {220.0, 50.0},
+             {210.0, 60.0},
+         }) {
+        EXPECT_NE(middleOf(place(column, row)), mountain) << column << ", " << row;
+    }
+    EXPECT_EQ(middleOf(place(214, 54)), mountain);
+}
+
+TEST_F(RenderCommand, RefusesPlacesBesideTheMap)
+{
+    const std::string png = folder_.file("no.png");
+    expectRefusal({mars(), "-o", png, "--look-at", "1e9,0"}, "--look-at");
+    expectRefusal({mars(), "-o", png, "--look-at", "0,-1e9"}, "--look-at");
+    expectRefusal({mars(), "-o", png, "--look-at", "nan,nan"}, "--look-at");
+    expectRefusal({mars(), "-o", png, "--look-at", "0"}, "--look-at");
+    expectRefusal({mars(), "-o", png, "--look-at", "here,there"}, "--look-at");
+}
+
+TEST_F(RenderCommand, RefusesWhatIsNoSize)
+{
+    const std::string png = folder_.file("no.png");
+    for (const char* size : {"",
+                             "800",
+                             "x",
+                             "800x",
+                             "x600",
+                             "800x600x3",
+                             "800x600px",
+                             "800X600",
+                             "0x600",
+                             "800x-1",
+                             "-800x600",
+                             "17000x10",
+                             "10x17000",
+                             "1.5x2",
+                             " 8x8",
+                             "8 x 8",
+                             "8x 8",
+                             "+8x8",
+                             "4294967297x4294967297",
+                             "99999999999999999999x1",
+                             "0x10x10",
+                             "nanx1"}) {
+        SCOPED_TRACE(size);
+        expectRefusal({mars(), "-o", png, fmt::format("--size={}", size)}, "--size");
+    }
+}
+
+TEST_F(RenderCommand, RefusesNumbersOutOfRange)
+{
+    const std::string png = folder_.file("no.png");
+    for (const auto& [option, values] :
+         std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"--tilt", {"-1", "86", "nan", "steep"}},
+             {"--distance", {"0", "-5", "nan", "inf"}},
+             {"--exaggeration", {"0", "-1", "nan", "inf"}},
+             {"--error-px", {"0", "-1", "nan", "inf"}},
+             {"--azimuth", {"nan", "inf", "north"}},
+             {"--samples", {"0", "17", "2.5"}},
+             {"--light", {"1", "nan,45", "10,inf"}},
+             {"--shading", {"", "rainbow"}},
+             {"--ramp", {"none-such"}}}) {
+        for (const std::string& value : values) {
+            SCOPED_TRACE(option + " " + value);
+            expectRefusal({mars(), "-o", png, fmt::format("{}={}", option, value)}, option);
+        }
+    }
+    expectRefusal({mars(), "-o", png, "--full", "--error-px", "2"}, "--full");
+    expectRefusal({mars()}, "--output");
+}
+
+TEST_F(RenderCommand, TakesTheSmallestAndTheLargestNumbersThatItAllows)
+{
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--error-px", "1e-300"},
+                                               {"--error-px", "1e300"},
+                                               {"--exaggeration", "1e-6"},
+                                               {"--exaggeration", "1e6"},
+                                               {"--distance", "1e-9"},
+                                               {"--distance", "1e30"},
+                                               {"--azimuth", "-7200"},
+                                               {"--tilt", "85"},
+                                               {"--samples", "16"},
+                                               {"--light", "-90,-45"}}) {
+        SCOPED_TRACE(options[0] + " " + options[1]);
+        const std::string png = folder_.file("yes.png");
+        std::vector<std::string> arguments{helens(), "-o", png, "--size", "60x40"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProgramOutput output = render(arguments);
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        EXPECT_EQ(gdalInfo(png)["size"], (nlohmann::json{60, 40}));
+        std::filesystem::remove(png);
+    }
+}
+
+TEST_F(RenderCommand, NamesTheFileThatCannotBeWritten)
+{
+    const std::string nowhere = folder_.file("missing/picture.png");
+    expectRefusal({helens(), "--size", "40x30", "-o", nowhere}, nowhere);
+    // A folder of that name is in the way, and stays.
+    const std::string taken = folder_.file("taken");
+    std::filesystem::create_directory(taken);
+    expectRefusal({helens(), "--size", "40x30", "-o", taken}, taken);
+    EXPECT_TRUE(std::filesystem::is_directory(taken));
+    EXPECT_FALSE(std::filesystem::exists(taken + ".part"));
+}
+
+TEST_F(RenderCommand, LeavesThePictureThatWasThereWhereItFails)
+{
+    const std::string png = folder_.write("no-map.png", "not a picture");
+    const ProgramOutput output = render({folder_.file("missing.tif"), "-o", png});
+    EXPECT_EQ(output.exit_status, 1);
+    EXPECT_EQ(readFile(png), "not a picture");
+}
+
+TEST_F(RenderCommand, DrawsTheSameWithEverySampleAndWithinAPixel)
+{
+    const auto draw = [&](const std::string& name, const std::vector<std::string>& options) {
+        const std::string png = folder_.file(name);
+        std::vector<std::string> arguments{helens(), "-o", png, "--size", "500x350"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        EXPECT_EQ(render(arguments).exit_status, 0);
+        return pixels(png);
+    };
+    const std::string full = draw("full.png", {"--full"});
+    const Difference fine = difference(full, draw("fine.png", {"--error-px", "1"}));
+    const Difference coarse = difference(full, draw("coarse.png", {"--error-px", "30"}));
+    EXPECT_LT(fine.mean, 1.0);
+    EXPECT_LT(fine.share, 0.01);
+    EXPECT_GT(coarse.mean, fine.mean) << "the option has to do something";
+    // The same command draws the same picture.
+    EXPECT_EQ(full, draw("again.png", {"--full"}));
+}
+
+TEST_F(RenderCommand, DrawsWithEveryShadingAndRamp)
+{
+    std::vector<std::string> seen;
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{},
+                                               {"--shading", "hillshade"},
+                                               {"--shading", "slope"},
+                                               {"--contours"},
+                                               {"--light", "90,20"},
+                                               {"--exaggeration", "4"},
+                                               {"--azimuth", "90"}}) {
+        const std::string png = folder_.file("one.png");
+        std::vector<std::string> arguments{helens(), "-o", png, "--size", "160x120"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        ASSERT_EQ(render(arguments).exit_status, 0);
+        seen.push_back(pixels(png));
+        for (std::size_t i = 0; i + 1 < seen.size(); ++i) {
+            EXPECT_NE(seen[i], seen.back()) << i << " and " << seen.size() - 1;
+        }
+    }
+}
+
+} // namespace marsview::test
