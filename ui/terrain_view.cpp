@@ -21,12 +21,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// After so long without a motion the picture becomes sharp.
-constexpr milliseconds kStillAfter{120};
-
-// While shading is still being made, a sharp picture is drawn again at most this often.
-constexpr milliseconds kNewsInterval{250};
-
 // The shadow of the cursor: radius on screen, and how many sides it has.
 constexpr double kShadowPoints = 9.0;
 constexpr int kShadowSides = 24;

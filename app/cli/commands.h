@@ -11,6 +11,8 @@ namespace marsview {
 /// What the chosen command does once the arguments are parsed.
 using CommandAction = std::function<Status()>;
 
+/// `bench` is the group of commands that measure.
+void addBenchViewCommand(CLI::App& bench, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
 void addRenderCommand(CLI::App& app, CommandAction& run);
 /// `has_stdin` tells beforehand whether `--stdin` is among the arguments: the position options then

@@ -15,10 +15,17 @@ namespace {
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
 
+void addVersionTo(CLI::App& app)
+{
+    app.set_version_flag("--version", MARSVIEW_VERSION);
+    for (CLI::App* command : app.get_subcommands({})) {
+        addVersionTo(*command);
+    }
+}
+
 int run(int argc, char** argv)
 {
     CLI::App app("Explore very large topographic maps from scripts", "marsview-cli");
-    app.set_version_flag("--version", MARSVIEW_VERSION);
     app.require_subcommand(1);
     const bool has_stdin =
         std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--stdin"; });
@@ -26,9 +33,10 @@ int run(int argc, char** argv)
     marsview::addInfoCommand(app, action);
     marsview::addSampleCommand(app, action, has_stdin);
     marsview::addRenderCommand(app, action);
-    for (CLI::App* command : app.get_subcommands({})) {
-        command->set_version_flag("--version", MARSVIEW_VERSION);
-    }
+    CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
+    bench->require_subcommand(1);
+    marsview::addBenchViewCommand(*bench, action);
+    addVersionTo(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

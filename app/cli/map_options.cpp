@@ -13,6 +13,11 @@ void MapOptions::addTo(CLI::App& command)
 {
     command.add_option("DEM", path, "elevation map: a file, a label, or a GDAL dataset name")
         ->required();
+    addOverridesTo(command);
+}
+
+void MapOptions::addOverridesTo(CLI::App& command)
+{
     const std::string group = "Instead of what the file says";
     command.add_option("--band", band, "band to read, counted from 1")->group(group);
     command.add_option("--crs", crs, "EPSG:… or IAU_2015:… code, PROJ string or WKT")->group(group);

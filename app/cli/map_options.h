@@ -27,6 +27,8 @@ struct MapOptions {
     std::string latitude; // "planetocentric", "planetographic", or empty for the body's custom
 
     void addTo(CLI::App& command);
+    /// All but the map itself.
+    void addOverridesTo(CLI::App& command);
     RasterOverrides overrides() const;
     /// How bare latitudes are meant for a map of that body (null: of no known one).
     LatitudeKind latitudeKind(const Body* of_body) const;

@@ -5,20 +5,16 @@
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace marsview {
 namespace {
-
-constexpr int kSideMax = 16384;
 
 struct Options {
     MapOptions map;
@@ -48,24 +44,6 @@ CLI::Validator finiteNumber()
                                                           : std::string();
             },
             ""};
-}
-
-Result<Viewport> sizeFrom(const std::string& text)
-{
-    Viewport size;
-    const char* const end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.width);
-    const bool has_cross = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
-    const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
-    if (!has_cross || height.ec != std::errc{} || height.ptr != end) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("--size: \"{}\" is no size; write it as 1280x800", text)};
-    }
-    if (size.width < 1 || size.height < 1 || size.width > kSideMax || size.height > kSideMax) {
-        return Error{ErrorCode::OutOfRange, fmt::format("--size: {} is outside 1x1 to {}x{} pixels",
-                                                        text, kSideMax, kSideMax)};
-    }
-    return size;
 }
 
 Result<OrbitCamera> cameraFrom(const Options& options,

@@ -4,9 +4,17 @@
 #include "core/view/color_ramp.h"
 
 #include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <system_error>
 #include <utility>
 
 namespace marsview {
+namespace {
+
+constexpr int kSideMax = 16384;
+
+} // namespace
 
 SceneBox Scene::box(double with_exaggeration) const
 {
@@ -32,14 +40,15 @@ OrbitCamera Scene::bounded(const OrbitCamera& camera, double with_exaggeration) 
         [&](double east_m, double north_m) { return ground(east_m, north_m, with_exaggeration); });
 }
 
-Result<Scene> openScene(const MapOptions& options, const ColorRamp* ramp)
+Result<Scene>
+openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify)
 {
     // First what fails at once.
     Result<std::unique_ptr<EglContext>> context = EglContext::create();
     if (!context) {
         return std::move(context).error();
     }
-    Result<std::unique_ptr<TerrainRenderer>> renderer = TerrainRenderer::create({});
+    Result<std::unique_ptr<TerrainRenderer>> renderer = TerrainRenderer::create(std::move(notify));
     if (!renderer) {
         return std::move(renderer).error();
     }
@@ -56,13 +65,32 @@ Result<Scene> openScene(const MapOptions& options, const ColorRamp* ramp)
     }
     const Body* body = map->dataset->info().body;
     const ColorRamp& suitable = defaultColorRamp(body != nullptr ? body->name : std::string_view{});
-    (*renderer)->setLayers({terrainLayer(*map, map->dataset->georeference().sceneFrame(), ramp != nullptr ? *ramp : suitable)});
+    (*renderer)->setLayers({terrainLayer(*map, map->dataset->georeference().sceneFrame(),
+                                         ramp != nullptr ? *ramp : suitable)});
     Scene scene{.context = std::move(context).value(),
                 .renderer = std::move(renderer).value(),
                 .map = std::move(map).value(),
                 .exaggeration = 1.0};
     scene.exaggeration = suitableExaggeration(*scene.map.dataset);
     return scene;
+}
+
+Result<Viewport> sizeFrom(const std::string& text)
+{
+    Viewport size;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool has_cross = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+    const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
+    if (!has_cross || height.ec != std::errc{} || height.ptr != end) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("--size: \"{}\" is no size; write it as 1280x800", text)};
+    }
+    if (size.width < 1 || size.height < 1 || size.width > kSideMax || size.height > kSideMax) {
+        return Error{ErrorCode::OutOfRange, fmt::format("--size: {} is outside 1x1 to {}x{} pixels",
+                                                        text, kSideMax, kSideMax)};
+    }
+    return size;
 }
 
 } // namespace marsview

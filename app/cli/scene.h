@@ -7,7 +7,9 @@
 #include "ui/render/egl_context.h"
 #include "ui/render/terrain_renderer.h"
 
+#include <functional>
 #include <memory>
+#include <string>
 
 namespace marsview {
 
@@ -26,7 +28,12 @@ struct Scene {
     OrbitCamera bounded(const OrbitCamera& camera, double with_exaggeration) const;
 };
 
-/// Reads and analyses the map, showing progress. `ramp` is null for the one that suits the body.
-Result<Scene> openScene(const MapOptions& options, const ColorRamp* ramp);
+/// Reads and analyses the map, showing progress. `ramp` is null for the one that suits the body;
+/// `notify` is TerrainRenderer's.
+Result<Scene>
+openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify = {});
+
+/// The size that the option --size says: "1280x800".
+Result<Viewport> sizeFrom(const std::string& text);
 
 } // namespace marsview

@@ -1,6 +1,6 @@
 // The program with the window: reads the command line and puts the parts together.
 
-#include "app/gui/sample_map.h"
+#include "core/session/sample_map.h"
 #include "ui/graphics_check.h"
 #include "ui/main_window.h"
 #include "ui/picture_taker.h"
@@ -100,7 +100,8 @@ int runWindow(QApplication& application, const Options& options)
     if (options.size.isValid()) {
         window.resize(options.size);
     }
-    const QString sample = marsview::sampleMapFor(QCoreApplication::applicationDirPath());
+    const QString sample = QString::fromStdString(
+        marsview::sampleMapFor(QCoreApplication::applicationDirPath().toStdString()).string());
     if (options.is_map_given) {
         window.open(QString::fromStdString(options.map));
     } else if (!sample.isEmpty()) {

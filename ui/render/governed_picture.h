@@ -4,7 +4,15 @@
 #include "core/view/frame_governor.h"
 #include "ui/render/terrain_renderer.h"
 
+#include <chrono>
+
 namespace marsview {
+
+/// After so long without a motion the picture becomes sharp.
+inline constexpr std::chrono::milliseconds kStillAfter{120};
+
+/// While shading is still being made, a sharp picture is drawn again at most this often.
+inline constexpr std::chrono::milliseconds kNewsInterval{250};
 
 /// How much a picture may take.
 enum class PictureStage {

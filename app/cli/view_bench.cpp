@@ -1,0 +1,309 @@
+#include "app/cli/view_bench.h"
+
+#include "app/cli/long_job.h"
+#include "app/cli/machine.h"
+#include "core/base/check.h"
+#include "ui/render/gl_objects.h"
+#include "ui/render/governed_picture.h"
+#include "ui/render/offscreen_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A difference that the eye sees between neighbouring areas, of 255.
+constexpr int kVisibleLevels = 8;
+
+// The renderer's word from its threads that shading has come. It may outlive the bench.
+class News {
+public:
+    void tell()
+    {
+        {
+            const std::lock_guard lock(mutex_);
+            has_news_ = true;
+        }
+        has_come_.notify_all();
+    }
+    // Waits until something was told since the last call, or the time is over.
+    void waitUntil(Clock::time_point end)
+    {
+        std::unique_lock lock(mutex_);
+        has_come_.wait_until(lock, end, [this] { return has_news_; });
+        has_news_ = false;
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable has_come_;
+    bool has_news_ = false;
+};
+
+// A frame buffer as that of the window.
+struct WindowBuffer {
+    GlFramebuffer frame;
+    GlRenderbuffer color;
+    GlRenderbuffer depth;
+
+    explicit WindowBuffer(const Viewport& size)
+    {
+        glBindRenderbuffer(GL_RENDERBUFFER, color.id());
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
+        glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size.width, size.height);
+        glBindRenderbuffer(GL_RENDERBUFFER, 0);
+        glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                  color.id());
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                                  depth.id());
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    }
+    bool isComplete() const
+    {
+        glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
+        const bool is_complete =
+            glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        return is_complete;
+    }
+};
+
+ColorDifference differenceOf(const Picture& a, const Picture& b)
+{
+    MARSVIEW_CHECK(a.rgb.size() == b.rgb.size());
+    ColorDifference difference;
+    double sum = 0.0;
+    std::size_t visible = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
+        int most = 0;
+        for (std::size_t channel = i; channel < i + 3; ++channel) {
+            const int levels = std::abs(int{a.rgb[channel]} - int{b.rgb[channel]});
+            sum += levels;
+            most = std::max(most, levels);
+        }
+        visible += most > kVisibleLevels ? 1U : 0U;
+    }
+    const auto values = static_cast<double>(a.rgb.size());
+    difference.mean_levels = sum / values;
+    difference.share_visible = 3.0 * static_cast<double>(visible) / values;
+    return difference;
+}
+
+// Draws one map as ui/terrain_view.cpp does.
+class Bench {
+public:
+    Bench(const Scene& scene, const ViewBenchOptions& options, News& news, JobMonitor& monitor)
+        : scene_(scene)
+        , options_(options)
+        , news_(news)
+        , monitor_(monitor)
+        , buffer_(options.viewport)
+        , picture_(*scene.renderer)
+        , ground_{.box = scene.box(scene.exaggeration),
+                  .pixel_m = std::min(scene.map.dataset->georeference().pixelWidthMetres(),
+                                      scene.map.dataset->georeference().pixelHeightMetres()),
+                  .height = [this](double east_m, double north_m) {
+                      return scene_.ground(east_m, north_m, scene_.exaggeration);
+                  }}
+    {
+        picture_.setTarget(options.target);
+        style_.exaggeration = scene.exaggeration;
+    }
+    Bench(const Bench&) = delete;
+    Bench& operator=(const Bench&) = delete;
+
+    bool canDraw() const { return buffer_.isComplete(); }
+
+    OrbitCamera camera(Flight flight, double t) const
+    {
+        return scene_.bounded(cameraOn(flight, t, ground_, options_.viewport), scene_.exaggeration);
+    }
+
+    DrawReport paint(const OrbitCamera& camera, PictureStage stage)
+    {
+        return picture_.paint({.camera = camera,
+                               .viewport = options_.viewport,
+                               .stage = stage,
+                               .is_touching = false,
+                               .is_kept = true},
+                              style_, buffer_.frame.id());
+    }
+
+    // Draws until all shading is there, as often as the window would.
+    DrawReport paintWhole(const OrbitCamera& camera, PictureStage stage)
+    {
+        DrawReport report = paint(camera, stage);
+        Clock::time_point last = Clock::now();
+        while (!report.is_complete && !monitor_.isCancelled()) {
+            while (scene_.renderer->isLoading() && Clock::now() < last + kNewsInterval) {
+                news_.waitUntil(last + kNewsInterval);
+            }
+            report = paint(camera, stage);
+            last = Clock::now();
+        }
+        return report;
+    }
+
+    FlightResult fly(Flight flight)
+    {
+        FlightResult result;
+        result.flight = flight;
+        OrbitCamera last;
+        for (int i = 0; i < options_.frame_count && !monitor_.isCancelled(); ++i) {
+            const Clock::time_point begin = Clock::now();
+            const Milliseconds processor_begin = processorTime();
+            last = camera(flight, momentOf(i));
+            const DrawReport report = paint(last, PictureStage::Moving);
+            result.frames.push_back({.wall = Clock::now() - begin,
+                                     .processor = processorTime() - processor_begin,
+                                     .triangle_count = report.triangle_count,
+                                     .plan = picture_.plan(),
+                                     .is_complete = report.is_complete});
+        }
+        const Clock::time_point stop = Clock::now();
+        std::this_thread::sleep_until(stop + kStillAfter);
+        result.sharp_triangle_count = paintWhole(last, PictureStage::Sharp).triangle_count;
+        result.sharp_after = Clock::now() - stop;
+        paintWhole(last, PictureStage::Smooth);
+        result.smooth_after = Clock::now() - stop;
+        return result;
+    }
+
+    Result<RestingPose> rest(const OrbitCamera& camera)
+    {
+        DrawRequest request{.camera = camera, .viewport = options_.viewport};
+        request.detail = {.error_px = options_.error_px, .texel_px = 1.0};
+        const Result<OffscreenPicture> picture =
+            drawOffscreen(*scene_.renderer, request, style_, DepthUse::Yes);
+        if (!picture) {
+            return picture.error();
+        }
+        const Heightfield& heightfield = scene_.map.dataset->heightfield();
+        const SceneFrame& frame = scene_.map.dataset->georeference().sceneFrame();
+        RestingPose pose{.camera = camera,
+                         .triangle_count = picture->report.triangle_count,
+                         .error_bound_px = picture->report.error_px,
+                         .error = measurePictureError({heightfield, frame, scene_.exaggeration},
+                                                      camera, options_.viewport, picture->depths_m,
+                                                      options_.error_px),
+                         .difference = std::nullopt};
+        const std::size_t all = scene_.map.dataset->info().triangleCount();
+        if (options_.is_full || all <= kFullTrianglesMax) {
+            request.detail.has_every_sample = true;
+            const Result<OffscreenPicture> full =
+                drawOffscreen(*scene_.renderer, request, style_, DepthUse::No);
+            if (!full) {
+                return full.error();
+            }
+            pose.difference = differenceOf(picture->colors, full->colors);
+            pose.difference->full_triangle_count = full->report.triangle_count;
+        }
+        return pose;
+    }
+
+private:
+    double momentOf(int frame) const
+    {
+        return options_.frame_count > 1 ? frame / (options_.frame_count - 1.0) : 0.0;
+    }
+
+    const Scene& scene_;
+    const ViewBenchOptions& options_;
+    News& news_;
+    JobMonitor& monitor_;
+    WindowBuffer buffer_;
+    GovernedPicture picture_;
+    FlightGround ground_;
+    DrawStyle style_;
+};
+
+} // namespace
+
+double quantile(std::vector<double> values, double share)
+{
+    if (values.empty()) {
+        return 0.0;
+    }
+    const auto place =
+        values.begin() +
+        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions& options)
+{
+    forgetPeakMemory();
+    const Clock::time_point begin = Clock::now();
+    const auto news = std::make_shared<News>();
+    Result<Scene> scene = openScene(map, nullptr, [news] { news->tell(); });
+    if (!scene) {
+        return std::move(scene).error();
+    }
+    const RasterInfo& info = scene->map.dataset->info();
+    LongJob job("flying");
+    Bench bench(*scene, options, *news, job.monitor());
+    if (!bench.canDraw()) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("{} × {} pixels: this driver has no frame buffer of that size",
+                                 options.viewport.width, options.viewport.height)};
+    }
+    ViewBenchResult result;
+    result.path = map.path;
+    result.driver = scene->renderer->driver();
+    result.columns = info.columns;
+    result.rows = info.rows;
+    result.triangle_count = info.triangleCount();
+    result.exaggeration = scene->exaggeration;
+    const OrbitCamera opening = bench.camera(Flight::Orbit, 0.0);
+    bench.paint(opening, PictureStage::Moving);
+    result.first_picture = Clock::now() - begin;
+    bench.paintWhole(opening, PictureStage::Sharp);
+    result.sharp_picture = Clock::now() - begin;
+    result.peak_memory_loaded_bytes = peakMemoryBytes();
+    const std::size_t step_count =
+        kFlights.size() * static_cast<std::size_t>(1 + options.pose_count);
+    std::size_t step = 0;
+    const auto goOn = [&] {
+        job.monitor().report(static_cast<double>(++step) / static_cast<double>(step_count));
+        return !job.monitor().isCancelled();
+    };
+    const Error cancelled{ErrorCode::Cancelled,
+                          fmt::format("{}: measuring was cancelled", map.path)};
+    for (const Flight flight : kFlights) {
+        result.flights.push_back(bench.fly(flight));
+        if (!goOn()) {
+            return cancelled;
+        }
+    }
+    result.peak_memory_flown_bytes = peakMemoryBytes();
+    // Last, as these pictures are no part of what the window draws.
+    for (FlightResult& flight : result.flights) {
+        for (int i = 0; i < options.pose_count; ++i) {
+            Result<RestingPose> pose =
+                bench.rest(bench.camera(flight.flight, (i + 0.5) / options.pose_count));
+            if (!pose) {
+                return std::move(pose).error();
+            }
+            flight.poses.push_back(*pose);
+            if (!goOn()) {
+                return cancelled;
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace marsview
