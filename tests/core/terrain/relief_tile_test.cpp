@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 namespace marsview {
@@ -130,13 +131,18 @@ void expectTrueSlopes(const Heightfield& field, const SceneFrame& frame, const R
     ASSERT_EQ(finest.side, ReliefTile::kSide);
     ASSERT_TRUE(finest.shares.empty());
     std::size_t compared = 0;
+    std::map<std::array<std::size_t, 2>, Slope> known; // texels beside the map share theirs
     for (std::size_t j = 0; j < finest.side; ++j) {
         for (std::size_t i = 0; i < finest.side; ++i) {
             const auto samples =
                 samplesOf(field, id, nearestOnMap(i, id.column, id.level, field.columns()),
                           nearestOnMap(j, id.row, id.level, field.rows()));
             ASSERT_TRUE(samples);
-            const Slope slope = trueSlope(field, frame, *samples);
+            const auto [entry, is_new] = known.try_emplace({samples->x0, samples->y0});
+            if (is_new) {
+                entry->second = trueSlope(field, frame, *samples);
+            }
+            const Slope& slope = entry->second;
             ASSERT_NEAR(slopeAt(finest, i, j, 0) * kSlopeMax, slope.east, 1.0 / 32767.0 * kSlopeMax)
                 << i << ", " << j;
             ASSERT_NEAR(slopeAt(finest, i, j, 1) * kSlopeMax, slope.north,
