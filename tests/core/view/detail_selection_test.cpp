@@ -313,7 +313,8 @@ std::size_t triangleCount(const Map& map, const DetailNode& node)
     std::size_t columns = 0;
     std::size_t rows = 0;
     for (std::size_t i = 0; i < kNode; ++i) {
-        columns += vertexAt(map, node, i, 0).column < vertexAt(map, node, i + 1, 0).column ? 1U : 0U;
+        columns +=
+            vertexAt(map, node, i, 0).column < vertexAt(map, node, i + 1, 0).column ? 1U : 0U;
         rows += vertexAt(map, node, 0, i).row < vertexAt(map, node, 0, i + 1).row ? 1U : 0U;
     }
     return 2 * columns * rows;
