@@ -146,8 +146,8 @@ public:
                 flush();
                 place = atlas_.place(key, surface);
             }
-            batch.push_back(
-                nodeInstance(selected, anchor, *place, {.slot = 0, .node = selected.relief}));
+            batch.push_back(nodeInstance(selected, anchor, *place,
+                                         {.page = 0, .layer = 0, .node = selected.relief}));
         }
         flush();
         return vertices;

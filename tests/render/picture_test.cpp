@@ -74,7 +74,8 @@ protected:
     // At 1 pixel, nearly all of the picture is within it, and none is far off.
     void expectWithinOnePixel(const std::string& name, const LoadedTestMap& map)
     {
-        renderer_->setLayers({terrainLayer(map.map, defaultColorRamp(""))});
+        renderer_->setLayers({terrainLayer(map.map, map.map.dataset->georeference().sceneFrame(),
+                                           defaultColorRamp(""))});
         const Viewport size{.width = 640, .height = 400};
         const double suitable = suitableExaggeration(*map.map.dataset);
         for (const double exaggeration : {1.0, std::max(suitable, 3.0)}) {
@@ -103,7 +104,8 @@ protected:
     // pixel, rims that are off by a part of a pixel differ: up to 2.1 % in the whole of Mars.
     void expectSameColors(const std::string& name, const LoadedTestMap& map)
     {
-        renderer_->setLayers({terrainLayer(map.map, defaultColorRamp(""))});
+        renderer_->setLayers({terrainLayer(map.map, map.map.dataset->georeference().sceneFrame(),
+                                           defaultColorRamp(""))});
         const Viewport size{.width = 640, .height = 400};
         DrawStyle style;
         style.exaggeration = suitableExaggeration(*map.map.dataset);

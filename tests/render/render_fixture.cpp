@@ -1,5 +1,6 @@
 #include "tests/render/render_fixture.h"
 
+#include "core/view/exaggeration.h"
 #include "core/view/tint_range.h"
 
 #include <epoxy/gl.h>
@@ -14,11 +15,17 @@ DrawnMap::DrawnMap(const Heightfield& heightfield, const SceneFrame& map_frame)
 
 TerrainLayer DrawnMap::layer() const
 {
+    const HeightRange range = field->range().value_or(HeightRange{});
+    const double slope_max =
+        16.0 / defaultExaggeration(box(1.0).extent_m(), range.maximum_m - range.minimum_m);
     return {.heightfield = field,
             .analysis = analysis,
             .frame = frame,
             .ramp = &defaultColorRamp(""),
-            .tint_range = tintRange(analysis->means, field->range().value_or(HeightRange{}))};
+            .tint_range = tintRange(analysis->means, range),
+            .slope_max = slope_max,
+            .relief = std::make_shared<const ReliefTile>(makeReliefTile(
+                *field, frame, wholeRelief(field->columns(), field->rows()), slope_max))};
 }
 
 SceneBox DrawnMap::box(double exaggeration) const

@@ -91,7 +91,7 @@ TEST_F(TerrainViewTest, OrbitsWithTheRightAndMiddleButtons)
 TEST_F(TerrainViewTest, PansWithTheLeftButtonAndShift)
 {
     for (const auto& [button, modifiers] :
-         {std::pair{Qt::LeftButton, Qt::KeyboardModifiers(Qt::NoModifier)},
+         {std::pair{Qt::LeftButton, Qt::KeyboardModifiers(Qt::ShiftModifier)},
           std::pair{Qt::RightButton, Qt::KeyboardModifiers(Qt::ShiftModifier)}}) {
         const auto grabbed = view().surfaceAt(middle());
         ASSERT_TRUE(grabbed);

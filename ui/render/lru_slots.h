@@ -21,7 +21,13 @@ public:
     std::size_t size() const noexcept { return slots_.size(); }
 
     /// Slots used from now on are safe until the next call.
-    void beginRound() noexcept { ++round_; }
+    void beginRound() noexcept
+    {
+        ++round_;
+        used_count_ = 0;
+    }
+    /// Slots used since then.
+    std::size_t usedCount() const noexcept { return used_count_; }
 
     /// The key's slot, which counts as used in this round. Nothing where it has none.
     std::optional<std::size_t> find(const Key& key)
@@ -30,7 +36,9 @@ public:
         if (known == places_.end()) {
             return std::nullopt;
         }
-        slots_[known->second].last_round = round_;
+        Slot& slot = slots_[known->second];
+        used_count_ += slot.last_round != round_ ? 1 : 0;
+        slot.last_round = round_;
         return known->second;
     }
 
@@ -51,6 +59,7 @@ public:
             places_.erase(*slot.key);
         }
         slot = {.key = key, .last_round = round_};
+        ++used_count_;
         places_[key] = oldest;
         return oldest;
     }
@@ -70,6 +79,7 @@ private:
     std::vector<Slot> slots_;
     std::unordered_map<Key, std::size_t, Hash> places_;
     std::uint64_t round_ = 1;
+    std::size_t used_count_ = 0;
 };
 
 } // namespace marsview

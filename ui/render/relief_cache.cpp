@@ -54,7 +54,8 @@ std::optional<ReliefCache::Found> ReliefCache::find(const ReliefRequest& wanted,
             const bool is_known =
                 std::any_of(missing_.begin(), missing_.end(),
                             [&](const ReliefRequest& other) { return other.key == key; });
-            if (!is_known) {
+            // What would find no room is not asked for: the larger one stays.
+            if (!is_known && slots_.usedCount() + missing_.size() < slots_.size()) {
                 missing_.push_back(wanted);
             }
         }

@@ -41,8 +41,8 @@ public:
     /// Has the missing tiles made. Returns true when none is missing.
     bool endRound();
     bool isLoading() const { return loader_.isLoading(); }
-    /// Waits until another tile is finished. Only after endRound() returned false.
-    void wait() { loader_.waitForOne(); }
+    /// Waits until all that is missing is made. After endRound().
+    void waitForAll() { loader_.waitForAll(); }
 
     /// A page's slopes to `slope_unit`, its shares, if it has any, to the next one.
     void bind(std::size_t page, GLenum slope_unit) const;

@@ -69,10 +69,10 @@ bool ReliefLoader::isLoading() const
     return !wanted_.empty() || !in_work_.empty();
 }
 
-void ReliefLoader::waitForOne()
+void ReliefLoader::waitForAll()
 {
     std::unique_lock lock(mutex_);
-    has_result_.wait(lock, [this] { return !finished_.empty(); });
+    has_result_.wait(lock, [this] { return wanted_.empty() && in_work_.empty(); });
 }
 
 void ReliefLoader::run()

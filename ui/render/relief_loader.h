@@ -46,9 +46,8 @@ public:
     std::vector<ReliefResult> take(std::size_t count_max);
     /// True while something is wanted or being made.
     bool isLoading() const;
-    /// Waits until a tile is finished. Only while something is to
-    /// come or to be taken.
-    void waitForOne();
+    /// Waits until nothing is wanted or being made.
+    void waitForAll();
 
 private:
     void run();

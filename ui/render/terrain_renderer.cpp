@@ -46,6 +46,9 @@ constexpr StoreSizes kStoresOnGpu{512, 64, 64};
 // Relief tiles in a picture, of those in store, so that the next picture's find room.
 constexpr double kReliefShareMax = 0.75;
 
+// Around an eye inside a map's box texels stay large however coarse they may be.
+constexpr int kCoarserMax = 12;
+
 // Software drivers keep the triangles of what is not yet flushed, some 100 bytes each.
 constexpr std::size_t kNodesPerDraw = 32;
 
@@ -141,6 +144,7 @@ struct TerrainRenderer::Impl {
     ReliefCache reliefs;
     FrameTarget frame_target;
     Viewport kept_size;
+    std::size_t uploads_max = kUploadsPerFrame; // in the next picture
     std::vector<std::unique_ptr<Layer>> layers; // uppermost first
     std::uint32_t next_layer_number = 0;
 
@@ -240,11 +244,11 @@ TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double e
     const auto room = static_cast<std::size_t>(
         kReliefShareMax * static_cast<double>(reliefs.size()) / static_cast<double>(layers.size()));
     DetailTarget target = request.detail;
-    while (true) {
+    for (int i = 0;; ++i) {
         DetailSelection selection = layer.selector.select(
             {.camera = request.camera, .viewport = request.viewport, .exaggeration = exaggeration},
             target);
-        if (reliefCount(selection) <= room) {
+        if (reliefCount(selection) <= room || i == kCoarserMax) {
             return selection;
         }
         target.texel_px *= 1.4;
@@ -499,7 +503,7 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
 {
     Impl& impl = *impl_;
     DrawReport report;
-    impl.reliefs.beginRound(kUploadsPerFrame);
+    impl.reliefs.beginRound(std::exchange(impl.uploads_max, kUploadsPerFrame));
     std::vector<DetailSelection> selections;
     for (const auto& layer : impl.layers) {
         selections.push_back(impl.select(*layer, request, style.exaggeration));
@@ -571,7 +575,8 @@ TerrainRenderer::drawComplete(const DrawRequest& request, const DrawStyle& style
 {
     DrawReport report = draw(request, style, target);
     while (!report.is_complete) {
-        impl_->reliefs.wait();
+        impl_->reliefs.waitForAll();
+        impl_->uploads_max = impl_->reliefs.size();
         report = draw(request, style, target);
     }
     return report;
