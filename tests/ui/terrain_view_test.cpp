@@ -108,13 +108,13 @@ TEST_F(TerrainViewTest, PansWithTheLeftButtonAndShift)
 
 TEST_F(TerrainViewTest, ZoomsToThePointerWithTheWheel)
 {
-    const QPointF pointer = *view().positionOf({20.0, 12.0});
+    const QPointF pointer = *view().positionOf(GridPoint{20.0, 12.0});
     const double before = view().camera().distance_m;
     wheel(pointer, 240);
     ASSERT_TRUE(rest());
     const double after = view().camera().distance_m;
     EXPECT_LT(after, 0.75 * before);
-    const auto now = view().positionOf({20.0, 12.0});
+    const auto now = view().positionOf(GridPoint{20.0, 12.0});
     ASSERT_TRUE(now);
     EXPECT_NEAR(now->x(), pointer.x(), 0.5);
     EXPECT_NEAR(now->y(), pointer.y(), 0.5);
@@ -214,7 +214,7 @@ TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
 
 TEST_F(TerrainViewTest, FliesToWhereItIsDoubleClicked)
 {
-    const QPointF pointer = *view().positionOf({20.0, 12.0});
+    const QPointF pointer = *view().positionOf(GridPoint{20.0, 12.0});
     const double before = view().camera().distance_m;
     QTest::mouseDClick(&view(), Qt::LeftButton, {}, pointer.toPoint());
     EXPECT_TRUE(view().isMoving());
@@ -299,7 +299,7 @@ TEST_F(TerrainViewTest, ShowsSkyThroughHoles)
     EXPECT_NEAR(in_hole.red(), beside.red(), 2);
     EXPECT_NEAR(in_hole.green(), beside.green(), 2);
     EXPECT_NEAR(in_hole.blue(), beside.blue(), 2);
-    const auto ground = view().positionOf({10.0, 20.0});
+    const auto ground = view().positionOf(GridPoint{10.0, 20.0});
     ASSERT_TRUE(ground);
     EXPECT_GT(colorAt(*ground).lightness(), sky.lightness() + 20);
 }

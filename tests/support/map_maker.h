@@ -1,0 +1,36 @@
+// Maps of any shape and place, prepared as the program prepares them.
+#pragma once
+
+#include "core/session/loaded_map.h"
+#include "tests/support/make_raster.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace marsview::test {
+
+/// Loads and prepares a file; fails the test, and throws, where that cannot be.
+LoadedMap loadedMap(const std::string& path);
+
+/// Makes maps in a folder that vanishes with the object.
+class MapMaker {
+public:
+    using Height = std::function<double(std::size_t column, std::size_t row)>; // NaN for void
+
+    struct Place {
+        std::size_t columns = 20;
+        std::size_t rows = 15;
+        std::array<double, 6> transform{500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0}; // GDAL's order
+        std::string srs{}; // anything OGR understands; empty for none
+    };
+
+    LoadedMap make(const Place& place, const Height& height);
+
+private:
+    TempFolder folder_;
+    int count_ = 0;
+};
+
+} // namespace marsview::test
