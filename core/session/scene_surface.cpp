@@ -7,41 +7,47 @@
 namespace marsview {
 namespace {
 
-// A ray may pass this many covered surfaces of one map.
-constexpr int kCoveredMax = 64;
+// A ray may pass this many covered surfaces of one map: more than a picture has columns.
+constexpr int kCoveredMax = 4096;
 
 // Behind a covered hit the ray starts again this share of its way further on.
 constexpr double kStep = 1e-9;
+
+// What to add to the map coordinate x of `map` to come to the turn of longitude on which `scene`
+// has the same place.
+double turnsBetween(const Georeference& scene, const Georeference& map, GridPoint centre)
+{
+    const auto turn = scene.crs() ? scene.crs()->turn() : std::nullopt;
+    const auto place = turn ? map.toGeographic(centre) : std::nullopt;
+    const auto there = place ? scene.toGrid(*place) : std::nullopt;
+    return there ? *turn * std::round((scene.toMap(*there).x - map.toMap(centre).x) / *turn) : 0.0;
+}
 
 } // namespace
 
 SceneFrame frameWithin(const Georeference& scene, const Georeference& map)
 {
-    const auto onto_scene = [&](GridPoint grid) { return scene.toGrid(map.toMap(grid)); };
     const GridPoint centre{static_cast<double>(map.columns() - 1) / 2.0,
                            static_cast<double>(map.rows() - 1) / 2.0};
-    GridPoint there = onto_scene(centre);
-    if (const auto place = map.toGeographic(centre)) {
-        // The same place, by the turn of longitude on which the scene's map has it.
-        there = scene.toGrid(*place).value_or(there);
-    }
-    const SceneFrame& frame = scene.sceneFrame();
-    const GridPoint plain = onto_scene(centre);
-    const auto slope = [&](GridPoint grid) {
-        const GridPoint moved = onto_scene(grid);
-        return frame.toScene({frame.origin.column + moved.column - plain.column,
-                              frame.origin.row + moved.row - plain.row},
-                             0.0);
+    const double turns_x = turnsBetween(scene, map, centre);
+    const auto onto_scene = [&](GridPoint grid) {
+        const MapPoint at = map.toMap(grid);
+        // Not Georeference::toGrid(), which rounds: samples of the map may be much smaller.
+        return scene.sceneFrame().toScene(scene.transform().toGrid({at.x + turns_x, at.y}), 0.0);
     };
-    const ScenePoint column = slope({centre.column + 1.0, centre.row});
-    const ScenePoint row = slope({centre.column, centre.row + 1.0});
+    // Slopes over all of the map, as their errors are multiplied by its columns.
+    const double last_column = static_cast<double>(map.columns() - 1);
+    const double last_row = static_cast<double>(map.rows() - 1);
+    const ScenePoint first = onto_scene({0.0, 0.0});
+    const Vec3 column = (onto_scene({last_column, 0.0}) - first) * (1.0 / last_column);
+    const Vec3 row = (onto_scene({0.0, last_row}) - first) * (1.0 / last_row);
     SceneFrame result{.origin = {},
                       .east_per_column = column.x,
                       .east_per_row = row.x,
                       .north_per_column = column.y,
                       .north_per_row = row.y};
     // The centre lies where the scene has it.
-    const ScenePoint at = frame.toScene(there, 0.0);
+    const ScenePoint at = onto_scene(centre);
     const GridPoint back = result.toGrid({-at.x, -at.y, 0.0});
     result.origin = {centre.column + back.column, centre.row + back.row};
     return result;
