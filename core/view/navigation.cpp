@@ -160,6 +160,12 @@ Fit fitBetween(const std::array<ScenePoint, 8>& points,
     return {.across = (positive - negative) / 2.0, .depth = -(positive + negative) / (2.0 * slope)};
 }
 
+// How far a line that goes north and down, and through the box, has come where it leaves it.
+double exitFrom(const SceneBox& box, const ScenePoint& from, const Vec3& forward)
+{
+    return std::min((box.maximum.y - from.y) / forward.y, (box.minimum.z - from.z) / forward.z);
+}
+
 } // namespace
 
 NavigationLimits navigationLimits(const SceneBox& box, double pixel_m)
@@ -261,10 +267,9 @@ OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, Angle fiel
     const Fit upward = fitBetween(corners, axes.up, axes.forward, slope);
     const ScenePoint eye = axes.right * across.across + axes.up * upward.across +
                            axes.forward * std::min(across.depth, upward.depth);
-    // The target lies on the map's mean level; the eye is above it because all of the box is in
-    // sight of a camera that looks down.
-    const double distance_m =
-        std::max((box.centre().z - eye.z) / axes.forward.z, 1e-3 * box.diagonal_m());
+    // The target lies where the axis leaves the box: constrained() would lower one that hangs high
+    // over the ground, beside a cliff, and part of the map would leave the picture at the top.
+    const double distance_m = std::max(exitFrom(box, eye, axes.forward), 1e-3 * box.diagonal_m());
     camera.distance_m = distance_m;
     camera.target = eye + axes.forward * distance_m;
     return camera;

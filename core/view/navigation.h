@@ -63,7 +63,8 @@ OrbitCamera panned(OrbitCamera camera, double right_share, double forward_share)
 /// The same picture, turned about a point of the view axis at `distance_m` from the eye.
 OrbitCamera retargeted(OrbitCamera camera, double distance_m);
 
-/// The whole box in the picture, seen from the south at 40° from straight down.
+/// The whole box in the picture, seen from the south at 40° from straight down. constrained()
+/// leaves it alone unless the box is many times as high as wide.
 OrbitCamera
 homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view = Angle::degrees(40));
 

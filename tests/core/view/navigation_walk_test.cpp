@@ -1,18 +1,23 @@
-// Thousands of random inputs in a row, put together from the pure functions as the view does it.
+// More than a million random inputs, put together from the pure functions as the view does it.
 
+#include "core/raster/raster_file.h"
+#include "core/session/dataset.h"
 #include "core/terrain/ray_cast.h"
 #include "core/view/exaggeration.h"
 #include "core/view/navigation.h"
 #include "tests/support/random.h"
+#include "tests/support/shared_data.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -21,27 +26,36 @@ namespace {
 constexpr std::size_t kColumns = 97;
 constexpr std::size_t kRows = 65;
 constexpr double kCell = 30.0;
-constexpr Viewport kViewport{1000, 600};
-constexpr int kInputs = 8000; // per terrain
+constexpr int kInputs = 175000; // per terrain; about six cameras each
 
 using Height = std::function<double(double column, double row)>; // NaN for void
 
 class Walk {
 public:
     explicit Walk(const Height& height)
-        : heightfield_(heightfieldOf(height))
+        : Walk(heightfieldOf(height),
+               {.origin = {(kColumns - 1) / 2.0, (kRows - 1) / 2.0},
+                .east_per_column = kCell,
+                .north_per_row = -kCell},
+               kCell)
+    {}
+    Walk(Heightfield heightfield, const SceneFrame& frame, double pixel_m)
+        : heightfield_(std::move(heightfield))
+        , frame_(frame)
+        , pixel_m_(pixel_m)
     {
         JobMonitor monitor;
         pyramid_ =
             std::make_unique<MinMaxPyramid>(MinMaxPyramid::build(heightfield_, monitor).value());
-        camera_ = bounded(homeCamera(box(), kViewport));
+        camera_ = bounded(homeCamera(box(), viewport_));
     }
 
-    const OrbitCamera& camera() const { return camera_; }
+    int stretchesInPlace() const { return stretches_in_place_; }
+    int homes() const { return homes_; }
 
     void doSomething()
     {
-        switch (random_.below(9)) {
+        switch (random_.below(11)) {
         case 0:
             moveTo(orbited(onGround(), angle(180.0), angle(20.0)));
             break;
@@ -54,7 +68,7 @@ public:
         case 2: {
             const Drag drag{
                 .from = pixel(), .to = pixel(), .grabbed_z_m = anchorAt(pixel(), camera_).z};
-            camera_ = bounded(dragged(camera_, kViewport, drag));
+            camera_ = bounded(dragged(camera_, viewport_, drag));
             break;
         }
         case 3:
@@ -67,22 +81,69 @@ public:
         case 6:
             moveTo(orbited(onGround(), {}, Angle::degrees(45.0)));
             break;
-        case 7: { // not so high that the map becomes a needle
-            const double before = exaggeration_;
-            const OrbitCamera goal = onGround();
-            exaggeration_ =
-                std::clamp(steppedExaggeration(before, random_.chance(0.5) ? 1 : -1), 0.1, 100.0);
-            camera_ = bounded(reexaggerated(goal, before, exaggeration_));
+        case 7:
+            stretch();
             break;
-        }
         case 8:
-            if (const auto hit = cast(pickRay(camera_, kViewport, pixel()))) {
+            if (const auto hit = cast(pickRay(camera_, viewport_, pixel()))) {
                 OrbitCamera goal = onGround();
                 goal.target = pointOf(*hit);
                 goal.distance_m *= 0.3;
                 moveTo(goal);
             }
             break;
+        case 9: // a window of any shape, from twice as high as wide
+            viewport_.height = 100 + static_cast<int>(random_.below(900));
+            viewport_.width = viewport_.height / 2 + static_cast<int>(random_.below(2500));
+            break;
+        case 10:
+            if (random_.chance(0.05)) {
+                goHome();
+            }
+            break;
+        }
+    }
+
+    // Not so high that the map becomes a needle. The ground in the middle of the picture stays
+    // there, unless the eye would come too low.
+    void stretch()
+    {
+        const double before = exaggeration_;
+        const OrbitCamera goal = onGround();
+        const double ground_m = groundAt(goal.target.x, goal.target.y) / before;
+        exaggeration_ =
+            std::clamp(steppedExaggeration(before, random_.chance(0.5) ? 1 : -1), 0.1, 100.0);
+        const OrbitCamera wanted = reexaggerated(goal, before, exaggeration_);
+        camera_ = bounded(wanted);
+        if (!std::isfinite(ground_m) || length(camera_.target - wanted.target) > 0.0 ||
+            camera_.tilt != wanted.tilt ||
+            std::abs(goal.target.z - ground_m * before) > 1e-6 * goal.distance_m) {
+            return;
+        }
+        ++stretches_in_place_;
+        const ScenePoint ground{goal.target.x, goal.target.y, ground_m * before};
+        const auto was = project(goal, viewport_, ground);
+        const auto is = project(camera_, viewport_, {ground.x, ground.y, ground_m * exaggeration_});
+        ASSERT_TRUE(was && is);
+        ASSERT_NEAR(is->x, was->x, 0.5);
+        ASSERT_NEAR(is->y, was->y, 0.5);
+    }
+
+    void goHome()
+    {
+        camera_ = bounded(homeCamera(box(), viewport_));
+        const double height_m = box().maximum.z - box().minimum.z;
+        if (height_m > 5.0 * box().extent_m()) {
+            return; // over a needle, constrained() lowers the target
+        }
+        ++homes_;
+        for (const ScenePoint& corner : box().corners()) {
+            const auto at = project(camera_, viewport_, corner);
+            ASSERT_TRUE(at);
+            ASSERT_GE(at->x, -0.5);
+            ASSERT_LE(at->x, viewport_.width + 0.5);
+            ASSERT_GE(at->y, -0.5);
+            ASSERT_LE(at->y, viewport_.height + 0.5);
         }
     }
 
@@ -132,14 +193,14 @@ public:
         const double target_ground_z = groundAt(c.target.x, c.target.y);
         if (std::isfinite(target_ground_z)) {
             const ScenePoint seen{c.target.x, c.target.y, std::min(c.target.z, target_ground_z)};
-            const auto at = project(c, kViewport, seen);
+            const auto at = project(c, viewport_, seen);
             ASSERT_TRUE(at);
-            ASSERT_NEAR(at->x, 500.0, 1e-3);
+            ASSERT_NEAR(at->x, viewport_.width / 2.0, 1e-3);
             if (c.target.z >= target_ground_z) {
-                ASSERT_GT(at->y, 299.9);
-                ASSERT_LT(at->y, 0.876 * 600.0);
+                ASSERT_GT(at->y, 0.4998 * viewport_.height);
+                ASSERT_LT(at->y, 0.876 * viewport_.height);
             }
-        } else {
+        } else if (over_voids_++ % 16 == 0) { // which takes long
             ASSERT_TRUE(isSurfaceSeen());
         }
     }
@@ -162,9 +223,10 @@ private:
 
     SceneBox box() const
     {
-        return sceneBox(frame_, kColumns, kRows, *heightfield_.range(), exaggeration_);
+        return sceneBox(frame_, heightfield_.columns(), heightfield_.rows(), *heightfield_.range(),
+                        exaggeration_);
     }
-    NavigationLimits limits() const { return navigationLimits(box(), kCell); }
+    NavigationLimits limits() const { return navigationLimits(box(), pixel_m_); }
     double groundAt(double east_m, double north_m) const
     {
         return heightfield_.height(frame_.toGrid({east_m, north_m, 0.0})) * exaggeration_;
@@ -193,29 +255,31 @@ private:
     }
     ScenePoint anchorAt(PixelPoint at, const OrbitCamera& camera) const
     {
-        const Ray ray = pickRay(camera_, kViewport, at);
+        const Ray ray = pickRay(camera_, viewport_, at);
         const auto hit = cast(ray);
         return hit ? pointOf(*hit) : anchorBesideMap(camera, ray);
     }
     // Pixels find cells that are larger than the picture, samples find what pixels miss.
     bool isSurfaceSeen() const
     {
-        for (int y = 5; y < kViewport.height; y += 10) {
-            for (int x = 5; x < kViewport.width; x += 10) {
-                if (cast(pickRay(camera_, kViewport,
-                                 {static_cast<double>(x), static_cast<double>(y)}))) {
-                    return true;
+        for (const int step : {100, 10}) {
+            for (int y = 5; y < viewport_.height; y += step) {
+                for (int x = 5; x < viewport_.width; x += step) {
+                    if (cast(pickRay(camera_, viewport_,
+                                     {static_cast<double>(x), static_cast<double>(y)}))) {
+                        return true;
+                    }
                 }
             }
         }
-        for (std::size_t row = 0; row < kRows; ++row) {
-            for (std::size_t column = 0; column < kColumns; ++column) {
+        for (std::size_t row = 0; row < heightfield_.rows(); ++row) {
+            for (std::size_t column = 0; column < heightfield_.columns(); ++column) {
                 const double height_m = heightfield_.sample(column, row) * exaggeration_;
                 const ScenePoint p = frame_.toScene(
                     {static_cast<double>(column), static_cast<double>(row)}, height_m);
-                const auto at = project(camera_, kViewport, p);
-                if (std::isfinite(height_m) && at && at->x > 0.0 && at->x < kViewport.width &&
-                    at->y > 0.0 && at->y < kViewport.height) {
+                const auto at = project(camera_, viewport_, p);
+                if (std::isfinite(height_m) && at && at->x > 0.0 && at->x < viewport_.width &&
+                    at->y > 0.0 && at->y < viewport_.height) {
                     return true;
                 }
             }
@@ -232,7 +296,10 @@ private:
             expectAllIsWell();
         }
     }
-    PixelPoint pixel() { return {random_.uniform(0.0, 1000.0), random_.uniform(0.0, 600.0)}; }
+    PixelPoint pixel()
+    {
+        return {random_.uniform(0.0, viewport_.width), random_.uniform(0.0, viewport_.height)};
+    }
     Angle angle(double degrees_max)
     {
         return Angle::degrees(random_.uniform(-degrees_max, degrees_max));
@@ -240,9 +307,12 @@ private:
 
     test::Random random_;
     Heightfield heightfield_;
-    SceneFrame frame_{.origin = {(kColumns - 1) / 2.0, (kRows - 1) / 2.0},
-                      .east_per_column = kCell,
-                      .north_per_row = -kCell};
+    SceneFrame frame_;
+    double pixel_m_;
+    Viewport viewport_{1000, 600};
+    int stretches_in_place_ = 0;
+    int homes_ = 0;
+    mutable int over_voids_ = 0;
     std::unique_ptr<MinMaxPyramid> pyramid_;
     double exaggeration_ = 1.0;
     OrbitCamera camera_;
@@ -253,22 +323,50 @@ struct Terrain {
     Height height;
 };
 
+void walkAround(Walk& walk)
+{
+    for (int i = 0; i < kInputs; ++i) {
+        walk.doSomething();
+        walk.expectAllIsWell();
+        if (i % 1000 == 0) {
+            walk.zoomOutCompletely();
+        }
+        if (testing::Test::HasFailure()) {
+            FAIL() << "input " << i;
+        }
+    }
+    std::printf("%d changes of exaggeration in place, %d times home\n", walk.stretchesInPlace(),
+                walk.homes());
+    EXPECT_GT(walk.stretchesInPlace(), kInputs / 100);
+    EXPECT_GT(walk.homes(), kInputs / 1000);
+}
+
 class NavigationWalk : public testing::TestWithParam<Terrain> {};
 
 TEST_P(NavigationWalk, NeverLosesTheMapNorEntersTheGround)
 {
     Walk walk(GetParam().height);
-    for (int i = 0; i < kInputs; ++i) {
-        walk.doSomething();
-        walk.expectAllIsWell();
-        if (i % 100 == 0) {
-            walk.zoomOutCompletely();
-        }
-        if (HasFailure()) {
-            FAIL() << "input " << i;
-        }
-    }
+    walkAround(walk);
 }
+
+class NavigationWalkOnMaps : public testing::TestWithParam<const char*> {};
+
+TEST_P(NavigationWalkOnMaps, NeverLosesTheMapNorEntersTheGround)
+{
+    JobMonitor monitor;
+    const auto dataset = loadDataset({(test::bundledSamples() / GetParam()).string(), 1, {}},
+                                     monitor, defaultMemoryBudget());
+    ASSERT_TRUE(dataset);
+    const Georeference& georeference = (*dataset)->georeference();
+    Walk walk((*dataset)->heightfield(), georeference.sceneFrame(),
+              std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
+    walkAround(walk);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled,
+                         NavigationWalkOnMaps,
+                         testing::Values("mars_mola_4ppd.tif", "mount_st_helens_30m.tif"),
+                         [](const auto& map) { return std::string(map.param).substr(0, 4); });
 
 double roughness(double column, double row)
 {
