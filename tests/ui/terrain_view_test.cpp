@@ -88,7 +88,7 @@ TEST_F(TerrainViewTest, OrbitsWithTheRightAndMiddleButtons)
     }
 }
 
-TEST_F(TerrainViewTest, PansWithTheLeftButtonAndShift)
+TEST_F(TerrainViewTest, PansWithShift)
 {
     for (const auto& [button, modifiers] :
          {std::pair{Qt::LeftButton, Qt::KeyboardModifiers(Qt::ShiftModifier)},
