@@ -11,6 +11,7 @@ constexpr std::array kScales{1.0, 0.85, 0.7, 0.6, kScaleMin};
 
 constexpr double kLearningRate = 0.25;
 constexpr double kSurpriseMax = 3.0;  // times the prediction
+constexpr double kCommonShare = 0.2;  // that every term takes of a surprise, beside its own
 constexpr double kFinerMargin = 0.85; // of the target, for a plan finer than the last
 
 } // namespace
@@ -38,17 +39,24 @@ FrameCost gpuFrameCost()
 FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds taken)
 {
     const Milliseconds expected = cost.predicted(load);
-    const Milliseconds counted =
-        std::clamp(taken, expected / kSurpriseMax, expected * kSurpriseMax);
-    const double ratio = counted / expected; // 1/3 … 3
-    // A term that makes up a share of the prediction moves by that share of the learning rate.
-    const auto moved = [&](Milliseconds term, Milliseconds part) {
-        return term * (1.0 + kLearningRate * (part / expected) * (ratio - 1.0));
+    const double ratio = std::clamp(taken / expected, 1.0 / kSurpriseMax, kSurpriseMax);
+    const double believed = ratio > 1.0 ? std::max(1.0, std::min(ratio, cost.last_ratio))
+                                        : std::min(1.0, std::max(ratio, cost.last_ratio));
+    const std::array shares{cost.base / expected,
+                            cost.per_triangle * static_cast<double>(load.triangle_count) / expected,
+                            cost.per_pixel * load.pixel_count / expected};
+    double norm = 0.0;
+    for (const double share : shares) {
+        norm += share * (share + kCommonShare);
+    }
+    // With the norm, the prediction for this load moves by the learning rate.
+    const auto moved = [&](Milliseconds term, double share) {
+        return term * (1.0 + kLearningRate * (share + kCommonShare) / norm * (believed - 1.0));
     };
-    return {.base = moved(cost.base, cost.base),
-            .per_triangle = moved(cost.per_triangle,
-                                  cost.per_triangle * static_cast<double>(load.triangle_count)),
-            .per_pixel = moved(cost.per_pixel, cost.per_pixel * load.pixel_count)};
+    return {.base = moved(cost.base, shares[0]),
+            .per_triangle = moved(cost.per_triangle, shares[1]),
+            .per_pixel = moved(cost.per_pixel, shares[2]),
+            .last_ratio = ratio};
 }
 
 FramePlan planFrame(const FrameCost& cost,

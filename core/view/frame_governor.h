@@ -24,6 +24,7 @@ struct FrameCost {
     Milliseconds base{2.0};
     Milliseconds per_triangle{1e-4};
     Milliseconds per_pixel{1e-5};
+    double last_ratio = 1.0; // time over prediction of the last frame, 1/3 … 3
 
     Milliseconds predicted(const FrameLoad& load) const;
 };
@@ -32,10 +33,11 @@ struct FrameCost {
 FrameCost softwareFrameCost();
 FrameCost gpuFrameCost();
 
-/// The cost after a frame of that load took that long. Each term takes the share of the surprise
-/// that it has in the prediction (normalised least mean squares); a single slow frame, as when
-/// another program gets the processor, counts as at most three times the prediction. All terms stay
-/// positive.
+/// The cost after a frame of that load took that long (normalised least mean squares). A surprise
+/// counts as far as the frame before agrees with it, so that a single slow frame, as when another
+/// program gets the processor, changes nothing. Each term takes the share of it that it has in the
+/// prediction, and all take some: where few triangles are drawn because they were slow, they would
+/// otherwise be believed to be slow for ever. All terms stay positive.
 FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds taken);
 
 /// How fine a frame is drawn.

@@ -1,0 +1,214 @@
+// A fake clock: frames take what a made-up machine takes for them.
+#include "core/view/frame_governor.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kPixels = 1280.0 * 800.0;
+constexpr Milliseconds kTarget{33.0};
+constexpr std::array kSteps{1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0};
+
+// What a scene has to draw: in many terrains triangles fall with about this power of the error.
+struct FakeScene {
+    double sharp_triangles = 3e5;
+
+    std::size_t triangles(double error_px) const
+    {
+        return static_cast<std::size_t>(sharp_triangles / std::pow(error_px, 1.3));
+    }
+};
+
+// A machine, a scene, and the governor between them, used as ui/render/governed_picture.cpp does.
+struct Loop {
+    FrameCost machine;
+    FakeScene scene;
+    FrameCost belief = softwareFrameCost();
+    FramePlan plan{};
+    bool is_touching = false;
+
+    Milliseconds timeOf(const FramePlan& of) const
+    {
+        return machine.predicted({.triangle_count = scene.triangles(of.error_px),
+                                  .pixel_count = kPixels * of.scale * of.scale});
+    }
+    Milliseconds frame(double slowness = 1.0)
+    {
+        plan = planFrame(belief,
+                         {.target = kTarget, .pixel_count = kPixels, .is_touching = is_touching},
+                         plan, [this](double error_px) { return scene.triangles(error_px); });
+        const Milliseconds taken = timeOf(plan) * slowness;
+        belief = learned(belief,
+                         {.triangle_count = scene.triangles(plan.error_px),
+                          .pixel_count = kPixels * plan.scale * plan.scale},
+                         taken);
+        return taken;
+    }
+    void frames(int count)
+    {
+        for (int i = 0; i < count; ++i) {
+            frame();
+        }
+    }
+};
+
+Loop randomLoop(Random& random)
+{
+    const auto spread = [&random](double low, double high) {
+        return low * std::pow(high / low, random.uniform(0.0, 1.0));
+    };
+    Loop loop;
+    loop.machine = {.base = Milliseconds(spread(0.3, 8.0)),
+                    .per_triangle = Milliseconds(spread(3e-6, 6e-4)),
+                    .per_pixel = Milliseconds(spread(1e-6, 3e-5))};
+    loop.scene.sharp_triangles = spread(1e4, 3e6);
+    return loop;
+}
+
+// Steps of the plan from the finest, 0, to the coarsest.
+int stepOf(const FramePlan& plan)
+{
+    const auto errors = std::count_if(kSteps.begin(), kSteps.end(),
+                                      [&](double error_px) { return error_px < plan.error_px; });
+    return static_cast<int>(errors) + (plan.scale < 1.0 ? 1 : 0);
+}
+
+} // namespace
+
+TEST(FrameGovernor, ComesToTheTargetOnMachinesOtherThanBelieved)
+{
+    Random random;
+    for (int i = 0; i < 500; ++i) {
+        Loop loop = randomLoop(random);
+        loop.frames(150);
+        const bool is_coarsest =
+            loop.plan == FramePlan{.error_px = kErrorPxMax, .scale = kScaleMin};
+        EXPECT_TRUE(loop.timeOf(loop.plan) <= kTarget * 1.1 || is_coarsest)
+            << i << ": " << loop.timeOf(loop.plan).count() << " ms";
+        // Nor is it coarser than it needs to be: two steps finer would be too slow.
+        if (loop.plan.scale == 1.0 && stepOf(loop.plan) >= 2) {
+            const double finer_px = kSteps[static_cast<std::size_t>(stepOf(loop.plan) - 2)];
+            EXPECT_GT(loop.timeOf({.error_px = finer_px, .scale = 1.0}), kTarget * 0.65)
+                << i << ": at " << loop.plan.error_px << " px";
+        }
+    }
+}
+
+TEST(FrameGovernor, SettlesWhereTheLoadIsConstant)
+{
+    Random random;
+    for (int i = 0; i < 500; ++i) {
+        Loop loop = randomLoop(random);
+        loop.frames(500); // at most 17 s
+        int changes = 0;
+        for (int frame = 0; frame < 300; ++frame) {
+            const FramePlan before = loop.plan;
+            loop.frame();
+            changes += loop.plan == before ? 0 : 1;
+        }
+        EXPECT_EQ(changes, 0) << i;
+    }
+}
+
+TEST(FrameGovernor, HardlyStirsWhereFramesVaryByATenth)
+{
+    Random random;
+    int changes = 0;
+    constexpr int kLoops = 200;
+    constexpr int kFrames = 300;
+    for (int i = 0; i < kLoops; ++i) {
+        Loop loop = randomLoop(random);
+        loop.frames(150);
+        for (int frame = 0; frame < kFrames; ++frame) {
+            const FramePlan before = loop.plan;
+            loop.frame(random.uniform(0.9, 1.1));
+            changes += loop.plan == before ? 0 : 1;
+        }
+    }
+    EXPECT_LE(changes, kLoops * kFrames / 100) << "less than one in a hundred frames";
+}
+
+TEST(FrameGovernor, ForgivesASingleSlowFrame)
+{
+    Random random;
+    for (int i = 0; i < 200; ++i) {
+        Loop loop = randomLoop(random);
+        loop.frames(150);
+        const int settled = stepOf(loop.plan);
+        loop.frame(25.0);
+        int coarsest = 0;
+        for (int frame = 0; frame < 20; ++frame) {
+            loop.frame();
+            coarsest = std::max(coarsest, stepOf(loop.plan));
+        }
+        EXPECT_LE(coarsest, settled + 2) << i;
+        EXPECT_LE(stepOf(loop.plan), settled + 1) << i;
+    }
+}
+
+TEST(FrameGovernor, FollowsAChangeOfLoadWithinAThirdOfASecond)
+{
+    Loop loop;
+    loop.machine = softwareFrameCost();
+    loop.scene.sharp_triangles = 5e4;
+    loop.frames(20);
+    EXPECT_EQ(loop.plan.error_px, 1.0);
+    loop.scene.sharp_triangles = 4e5;
+    for (int frame = 0; frame < 3; ++frame) {
+        loop.frame();
+    }
+    EXPECT_LE(loop.timeOf(loop.plan), kTarget * 1.1) << "predicted, not found out";
+    // Half the machine goes to another program.
+    loop.machine = {loop.machine.base * 2.0, loop.machine.per_triangle * 2.0,
+                    loop.machine.per_pixel * 2.0};
+    loop.frames(10);
+    EXPECT_LE(loop.timeOf(loop.plan), kTarget * 1.2);
+}
+
+TEST(FrameGovernor, KeepsTheSurfaceSharpUnderTheHandWhilePixelsCanGiveWay)
+{
+    Random random;
+    for (int i = 0; i < 500; ++i) {
+        Loop loop = randomLoop(random);
+        loop.is_touching = true;
+        loop.frames(150);
+        const bool is_feasible =
+            loop.timeOf({.error_px = 1.0, .scale = kScaleMin}) <= kTarget * 0.7;
+        if (is_feasible) {
+            EXPECT_EQ(loop.plan.error_px, 1.0) << i;
+        }
+        if (loop.plan.error_px > 1.0) {
+            EXPECT_EQ(loop.plan.scale, kScaleMin) << i << ": pixels give way first";
+        }
+    }
+}
+
+TEST(FrameGovernor, StaysWithinItsBoundsWhateverFramesTake)
+{
+    Random random;
+    for (int i = 0; i < 200; ++i) {
+        Loop loop = randomLoop(random);
+        for (int frame = 0; frame < 200; ++frame) {
+            loop.is_touching = random.uniform(0.0, 1.0) < 0.3;
+            loop.scene.sharp_triangles = std::pow(10.0, random.uniform(0.0, 8.0));
+            loop.frame(std::pow(10.0, random.uniform(-6.0, 6.0)));
+            ASSERT_GE(loop.plan.error_px, 1.0);
+            ASSERT_LE(loop.plan.error_px, kErrorPxMax);
+            ASSERT_GE(loop.plan.scale, kScaleMin);
+            ASSERT_LE(loop.plan.scale, 1.0);
+            for (const Milliseconds term :
+                 {loop.belief.base, loop.belief.per_triangle, loop.belief.per_pixel}) {
+                ASSERT_TRUE(std::isfinite(term.count()) && term.count() > 0.0);
+            }
+        }
+    }
+}
+
+} // namespace marsview::test
