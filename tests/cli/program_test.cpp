@@ -41,7 +41,7 @@ TEST(Program, RefusesWrongUsageWithStatusTwo)
 TEST(Program, AnswersHelpAndVersionEverywhere)
 {
     for (const std::vector<std::string>& command :
-         {std::vector<std::string>{}, {"info"}, {"sample"}}) {
+         {std::vector<std::string>{}, {"info"}, {"sample"}, {"bench"}, {"bench", "view"}}) {
         for (const char* option : {"--help", "--version"}) {
             std::vector<std::string> arguments = command;
             arguments.emplace_back(option);
