@@ -25,6 +25,9 @@ using std::chrono::milliseconds;
 constexpr double kShadowPoints = 9.0;
 constexpr int kShadowSides = 24;
 
+// No part of the cursor is further from its place and its shadow than this.
+constexpr double kCursorReachPoints = 32.0;
+
 // Grabbed in free space, so many points of the hand zoom by a factor of e.
 constexpr double kGrabZoomPoints = 160.0;
 
@@ -470,8 +473,39 @@ void TerrainView::paintCursor()
             }
         }
     }
+    renderer_->presentDepth(defaultFramebufferObject(), areaOf(cursor));
     cursor_->draw(cursor, navigator_.camera(), viewport(),
                   renderer_->clip(navigator_.camera(), style_.exaggeration));
+}
+
+// Where the cursor may be hidden by the ground.
+PixelArea TerrainView::areaOf(const CursorPicture& cursor) const
+{
+    const double reach = kCursorReachPoints * devicePixelRatioF();
+    std::vector<ScenePoint> points = cursor.shadow;
+    points.push_back(cursor.position);
+    const Viewport size = viewport();
+    double left = size.width;
+    double right = 0.0;
+    double top = size.height;
+    double bottom = 0.0;
+    for (const ScenePoint& point : points) {
+        if (const auto pixel = project(navigator_.camera(), size, point)) {
+            left = std::min(left, pixel->x - reach);
+            right = std::max(right, pixel->x + reach);
+            top = std::min(top, pixel->y - reach);
+            bottom = std::max(bottom, pixel->y + reach);
+        }
+    }
+    const auto inside = [](double value, int limit) {
+        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+    };
+    const int first_column = inside(std::floor(left), size.width);
+    const int first_row = inside(size.height - std::ceil(bottom), size.height);
+    return {.left = first_column,
+            .bottom = first_row,
+            .width = std::max(0, inside(std::ceil(right), size.width) - first_column),
+            .height = std::max(0, inside(size.height - std::floor(top), size.height) - first_row)};
 }
 
 // Something of the picture changed: first what is ready in time.

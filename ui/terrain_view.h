@@ -140,6 +140,7 @@ private:
     void releaseGraphics();
     void paintTerrain();
     void paintCursor();
+    PixelArea areaOf(const CursorPicture& cursor) const;
     void refineWhenStill();
     void finishStage();
     void redrawTerrain();

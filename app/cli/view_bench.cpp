@@ -133,12 +133,15 @@ public:
 
     DrawReport paint(const OrbitCamera& camera, PictureStage stage)
     {
-        return picture_.paint({.camera = camera,
-                               .viewport = options_.viewport,
-                               .stage = stage,
-                               .is_touching = false,
-                               .is_kept = true},
-                              style_, buffer_.frame.id());
+        const DrawReport report = picture_.paint({.camera = camera,
+                                                  .viewport = options_.viewport,
+                                                  .stage = stage,
+                                                  .is_touching = false,
+                                                  .is_kept = true},
+                                                 style_, buffer_.frame.id());
+        scene_.renderer->presentDepth(buffer_.frame.id(), cursorArea());
+        glFinish();
+        return report;
     }
 
     // Draws until all shading is there, as often as the window would.
@@ -214,6 +217,17 @@ public:
     }
 
 private:
+    // As large as that of a cursor in the middle of the picture.
+    PixelArea cursorArea() const
+    {
+        constexpr int kSide = 64;
+        const Viewport& size = options_.viewport;
+        return {.left = std::max(0, (size.width - kSide) / 2),
+                .bottom = std::max(0, (size.height - kSide) / 2),
+                .width = std::min(kSide, size.width),
+                .height = std::min(kSide, size.height)};
+    }
+
     double momentOf(int frame) const
     {
         return options_.frame_count > 1 ? frame / (options_.frame_count - 1.0) : 0.0;

@@ -9,6 +9,14 @@
 
 namespace marsview {
 
+/// A part of a picture, in pixels from the lower left as OpenGL counts them.
+struct PixelArea {
+    int left = 0;
+    int bottom = 0;
+    int width = 0;
+    int height = 0;
+};
+
 /// A frame buffer with colour and depth that is kept between frames of the same kind.
 class FrameTarget {
 public:
@@ -17,9 +25,12 @@ public:
     void begin(const Viewport& size, int samples);
     /// What was begun is drawn.
     void end();
-    /// Copies colours, smoothed where sizes differ, and depths into `target`, whose depth buffer
-    /// has 24 bits and a stencil of 8, and leaves that bound. As often as wanted after end().
+    /// Copies colours, smoothed where sizes differ, into `target` and leaves that bound. As often
+    /// as wanted after end().
     void present(GLuint target, const Viewport& target_size);
+    /// The same for the depths in a part of `target`, whose depth buffer has 24 bits and a stencil
+    /// of 8.
+    void presentDepth(GLuint target, const Viewport& target_size, const PixelArea& area);
 
 private:
     struct Buffers {

@@ -35,6 +35,7 @@ GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, un
     draw.camera = request.camera;
     draw.viewport = request.viewport;
     draw.is_kept = request.is_kept;
+    draw.is_hasty = request.stage == PictureStage::Moving;
     const double pixel_count =
         static_cast<double>(request.viewport.width) * static_cast<double>(request.viewport.height);
     plan_ = {};

@@ -72,10 +72,13 @@ bool ReliefCache::endRound()
     return missing_.empty();
 }
 
-void ReliefCache::bind(std::size_t page, GLenum slope_unit) const
+void ReliefCache::bind(std::size_t page, GLenum slope_unit, Mixing mixing) const
 {
     glActiveTexture(slope_unit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, pages_[page].slopes ? pages_[page].slopes->id() : 0);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER,
+                    mixing == Mixing::OneLevel ? GL_LINEAR_MIPMAP_NEAREST
+                                               : GL_LINEAR_MIPMAP_LINEAR);
     glActiveTexture(slope_unit + 1);
     glBindTexture(GL_TEXTURE_2D_ARRAY, pages_[page].shares ? pages_[page].shares->id() : 0);
 }

@@ -44,8 +44,11 @@ public:
     /// Waits until all that is missing is made. After endRound().
     void waitForAll() { loader_.waitForAll(); }
 
+    /// Whether two levels of the texture are mixed.
+    enum class Mixing { OneLevel, TwoLevels };
+
     /// A page's slopes to `slope_unit`, its shares, if it has any, to the next one.
-    void bind(std::size_t page, GLenum slope_unit) const;
+    void bind(std::size_t page, GLenum slope_unit, Mixing mixing) const;
 
 private:
     struct Page {

@@ -67,6 +67,28 @@ Color3 asFloats(Rgb8 color)
             static_cast<float>(color.blue) / 255.0F};
 }
 
+// The ramp so fine that a pixel needs no more than the nearest texel: between two of them colours
+// differ by less than what a screen shows. Mixing two takes a fifth of a pixel's time in software.
+std::vector<Rgb8> rampTexels(const ColorRamp& ramp)
+{
+    const auto colors = sampledRamp(ramp);
+    std::vector<Rgb8> texels;
+    texels.reserve(kRampTexels);
+    for (std::size_t i = 0; i < kRampTexels; ++i) {
+        const double place =
+            static_cast<double>(i * (colors.size() - 1)) / static_cast<double>(kRampTexels - 1);
+        const std::size_t below = std::min(static_cast<std::size_t>(place), colors.size() - 2);
+        const double share = place - static_cast<double>(below);
+        const auto mixed = [share](std::uint8_t a, std::uint8_t b) {
+            return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
+        };
+        const Rgb8& a = colors[below];
+        const Rgb8& b = colors[below + 1];
+        texels.push_back({mixed(a.red, b.red), mixed(a.green, b.green), mixed(a.blue, b.blue)});
+    }
+    return texels;
+}
+
 // A map with what drawing it needs.
 struct Layer {
     TerrainLayer source;
@@ -103,15 +125,15 @@ struct Layer {
 
     void sendRamp() const
     {
-        const auto colors = sampledRamp(*source.ramp);
+        const std::vector<Rgb8> colors = rampTexels(*source.ramp);
         static_assert(sizeof(Rgb8) == 3);
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, ramp.id());
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, static_cast<GLsizei>(colors.size()), 1, 0, GL_RGB,
                      GL_UNSIGNED_BYTE, colors.data());
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     }
 };
@@ -183,7 +205,7 @@ struct TerrainRenderer::Impl {
                      const DrawRequest& request,
                      const DrawStyle& style,
                      GridPoint anchor) const;
-    void drawBatches();
+    void drawBatches(bool is_hasty);
     ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 };
 
@@ -285,7 +307,7 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         const LayerNode key{.layer = layer.number, .node = selected.node};
         std::optional<HeightAtlas::Place> slot = atlas.place(key, layer.surface);
         if (!slot) {
-            drawBatches();
+            drawBatches(request.is_hasty);
             atlas.beginRound();
             slot = atlas.place(key, layer.surface);
         }
@@ -295,10 +317,10 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         }
         batches[relief->page].push_back(nodeInstance(selected, anchor, *slot, *relief));
     }
-    drawBatches();
+    drawBatches(request.is_hasty);
 }
 
-void TerrainRenderer::Impl::drawBatches()
+void TerrainRenderer::Impl::drawBatches(bool is_hasty)
 {
     glBindVertexArray(node_array.id());
     glBindBuffer(GL_ARRAY_BUFFER, instances.id());
@@ -307,7 +329,9 @@ void TerrainRenderer::Impl::drawBatches()
         if (batch.empty()) {
             continue;
         }
-        reliefs.bind(page, GL_TEXTURE0 + Slopes);
+        reliefs.bind(page, GL_TEXTURE0 + Slopes,
+                     is_hasty && is_software ? ReliefCache::Mixing::OneLevel
+                                             : ReliefCache::Mixing::TwoLevels);
         for (std::size_t first = 0; first < batch.size(); first += kNodesPerDraw) {
             const std::size_t count = std::min(kNodesPerDraw, batch.size() - first);
             glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * sizeof(NodeInstance)),
@@ -554,6 +578,11 @@ void TerrainRenderer::present(unsigned target)
 {
     impl_->frame_target.present(target, impl_->kept_size);
     glViewport(0, 0, impl_->kept_size.width, impl_->kept_size.height);
+}
+
+void TerrainRenderer::presentDepth(unsigned target, const PixelArea& area)
+{
+    impl_->frame_target.presentDepth(target, impl_->kept_size, area);
 }
 
 std::size_t TerrainRenderer::countTriangles(const DrawRequest& request, double exaggeration)

@@ -101,8 +101,9 @@ const float kDirect = 0.84;
 
 vec3 rampColor(float share)
 {
-    // The middles of the first and the last of the ramp's 256 colours.
-    return texture(u_ramp, vec2(clamp(share, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
+    // The ends lie in the middles of the first and the last texel.
+    return texture(u_ramp, vec2(clamp(share, 0.0, 1.0) * (1.0 - 1.0 / RAMP_TEXELS) +
+                                0.5 / RAMP_TEXELS, 0.5)).rgb;
 }
 
 #ifdef VOIDS
@@ -228,9 +229,10 @@ void main()
 Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
 {
     const std::string fragment = fmt::format(
-        "#version 330 core\n#define MODE {}\n#define COVERS {}\n{}{}{}", static_cast<int>(key.mode),
-        key.cover_count, key.has_contours ? "#define CONTOURS\n" : "",
-        key.has_voids ? "#define VOIDS\n" : "", kTerrainFragment);
+        "#version 330 core\n#define RAMP_TEXELS {}.0\n#define MODE {}\n#define COVERS {}\n{}{}{}",
+        kRampTexels, static_cast<int>(key.mode), key.cover_count,
+        key.has_contours ? "#define CONTOURS\n" : "", key.has_voids ? "#define VOIDS\n" : "",
+        kTerrainFragment);
     return GlProgram::create(kTerrainVertex, fragment.c_str());
 }
 
