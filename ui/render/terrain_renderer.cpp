@@ -30,8 +30,8 @@ namespace {
 constexpr int kCells = static_cast<int>(DetailErrors::kNodeCells);
 constexpr int kSide = kCells + 1;
 
-// How many tiles are sent to the driver per frame: a millisecond each in software.
-constexpr std::size_t kUploadsPerFrame = 8;
+// How many tiles are sent to the driver for a picture in motion: a millisecond each in software.
+constexpr std::size_t kHastyUploads = 8;
 
 // What is held at the driver's. In software it is the processor's memory: a window of 1280 × 800
 // shows some 60 tiles of 0.4 MB and some 500 nodes of 4 kB; a GPU has more pixels to fill.
@@ -166,7 +166,6 @@ struct TerrainRenderer::Impl {
     ReliefCache reliefs;
     FrameTarget frame_target;
     Viewport kept_size;
-    std::size_t uploads_max = kUploadsPerFrame; // in the next picture
     std::vector<std::unique_ptr<Layer>> layers; // uppermost first
     std::uint32_t next_layer_number = 0;
 
@@ -527,7 +526,7 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
 {
     Impl& impl = *impl_;
     DrawReport report;
-    impl.reliefs.beginRound(std::exchange(impl.uploads_max, kUploadsPerFrame));
+    impl.reliefs.beginRound(request.is_hasty ? kHastyUploads : impl.reliefs.size());
     std::vector<DetailSelection> selections;
     for (const auto& layer : impl.layers) {
         selections.push_back(impl.select(*layer, request, style.exaggeration));
@@ -605,7 +604,6 @@ TerrainRenderer::drawComplete(const DrawRequest& request, const DrawStyle& style
     DrawReport report = draw(request, style, target);
     while (!report.is_complete) {
         impl_->reliefs.waitForAll();
-        impl_->uploads_max = impl_->reliefs.size();
         report = draw(request, style, target);
     }
     return report;

@@ -33,7 +33,8 @@ struct DrawRequest {
     double scale = 1.0;   // share of the viewport's width and height that is drawn, then enlarged
     int samples = 1;      // a pixel
     bool is_kept = false; // for present()
-    /// Shading from the nearest level of its texture, where mixing two would cost time.
+    /// For pictures in motion: takes up only some of the shading that has come, and, in software,
+    /// from the nearest level of its texture instead of two.
     bool is_hasty = false;
 };
 
