@@ -42,11 +42,10 @@ public:
         look();
     }
 
-    const Stylus& stylus() const { return stylus_; }
-
     void look()
     {
         camera_ = homeCamera(ground_.box(exaggeration_), kViewport);
+        camera_.target = ground_.box(exaggeration_).centre();
         camera_.azimuth = Angle::degrees(random_.uniform(-180.0, 180.0));
         camera_.tilt = Angle::degrees(random_.uniform(0.0, 80.0));
         camera_.distance_m *= std::exp(random_.uniform(-4.0, 0.0));
@@ -191,9 +190,6 @@ public:
         }
     }
 
-    StylusButtons& buttons() { return buttons_; }
-    PixelPoint& pixel() { return pixel_; }
-    OrbitCamera& camera() { return camera_; }
     int aims() const { return aims_; }
 
 private:
@@ -334,14 +330,16 @@ TEST(Stylus, IsLiftedUntilItIsAimed)
 
 TEST(Stylus, IsLiftedByAnotherGround)
 {
-    Hand hand(scene("Plane"), 1.0);
-    ASSERT_TRUE(hand.aim());
-    Stylus stylus = hand.stylus();
+    Stylus stylus;
     stylus.setGround(scene("Plane"), 1.0);
-    EXPECT_FALSE(stylus.pose());
-    stylus = hand.stylus();
-    stylus.setGround({}, 1.0);
-    EXPECT_FALSE(stylus.pose());
+    for (const SceneSurface& other : {scene("Plane"), SceneSurface()}) {
+        stylus.setGround(scene("Flat"), 1.0);
+        stylus.aim({.index = 0, .grid = {5.0, 7.0}, .height_m = 1234.5}, {.is_pressing = true},
+                   1.0);
+        ASSERT_TRUE(stylus.pose());
+        stylus.setGround(other, 1.0);
+        EXPECT_FALSE(stylus.pose());
+    }
 }
 
 // Hovering from one side of a wall to the other, and letting go behind one.
