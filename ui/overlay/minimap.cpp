@@ -25,6 +25,7 @@ constexpr double kKeyStep = 1.0 / 20.0; // of the map's longer side
 constexpr double kKeyStepFine = 1.0 / 100.0;
 
 constexpr double kWedgeShortest = 20.0;
+constexpr double kWedgeLongest = 48.0;     // shows the direction, not the sight: the footprint does
 constexpr double kFootprintSmallest = 7.0; // below, a ring shows where it is
 
 QColor footprintColor()
@@ -329,7 +330,8 @@ void Minimap::drawCamera(QPainter& painter) const
         drawContrasting(painter, path, footprintColor(), 1.3);
     }
 
-    const double reach = std::max(kWedgeShortest, wedge.length_m * pixels_per_metre_);
+    const double reach =
+        std::clamp(wedge.length_m * pixels_per_metre_, kWedgeShortest, kWedgeLongest);
     const auto end = [&](const Vec3& direction) {
         return eye + QPointF(direction.x, -direction.y) * reach;
     };
