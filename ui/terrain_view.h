@@ -145,7 +145,6 @@ private:
     void finishStage();
     void redrawTerrain();
     void redrawWithNews();
-    bool isInHand() const noexcept;
     PictureStage lastStage() const;
     void goToOpeningView();
     PixelPoint pixelAt(QPointF position) const;
