@@ -309,6 +309,7 @@ Status runBenchView(const Options& given)
     } else {
         printForPeople(options, results);
     }
+    std::fflush(stdout); // before what is said about it
     for (const ViewBenchResult& result : results) {
         if (!options.bench.is_full && result.triangle_count > kFullTrianglesMax) {
             std::fprintf(stderr,
@@ -348,6 +349,10 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
         ->add_option("--error-px", options->bench.error_px,
                      "how far off the surface may be at rest, in pixels")
         ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--exaggeration", options->bench.exaggeration,
+                     "of heights, by default what suits each map")
         ->check(CLI::PositiveNumber);
     command->add_flag("--full", options->bench.is_full,
                       "compare with pictures of every sample even of large maps");

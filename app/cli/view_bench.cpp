@@ -266,6 +266,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     if (!scene) {
         return std::move(scene).error();
     }
+    scene->exaggeration = options.exaggeration.value_or(scene->exaggeration);
     const RasterInfo& info = scene->map.dataset->info();
     LongJob job("flying");
     Bench bench(*scene, options, *news, job.monitor());

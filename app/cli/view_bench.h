@@ -17,10 +17,11 @@ namespace marsview {
 struct ViewBenchOptions {
     Viewport viewport{1280, 800};
     Milliseconds target{33.0};
-    int frame_count = 120; // of a flight
-    int pose_count = 5;    // of a flight, at which the error is measured
-    double error_px = 1.0; // at rest
-    bool is_full = false;  // compare with pictures of every sample however many there are
+    int frame_count = 120;              // of a flight
+    int pose_count = 5;                 // of a flight, at which the error is measured
+    double error_px = 1.0;              // at rest
+    std::optional<double> exaggeration; // by default what suits each map
+    bool is_full = false; // compare with pictures of every sample however many there are
 };
 
 /// A frame of a flight.

@@ -130,6 +130,7 @@ TEST(BenchViewCommand, RefusesWhatItCannotMeasure)
                                                     {"--frames", "many"},
                                                     {"--target-ms", "-1"},
                                                     {"--error-px", "0"},
+                                                    {"--exaggeration", "0"},
                                                     {"--poses", "-1"},
                                                     {"--colour"}}) {
         std::vector<std::string> arguments{"bench", "view", mars()};
