@@ -123,7 +123,9 @@ void TerrainView::paintTerrain()
     is_terrain_current_ = true;
     Q_EMIT detailChanged(report.error_px);
     if (stage_ == PictureStage::Moving) {
-        still_timer_.start(kStillAfter);
+        if (!still_timer_.isActive()) { // news of shading is no motion
+            still_timer_.start(kStillAfter);
+        }
     } else if (report.is_complete) {
         // Input that came meanwhile goes first.
         QMetaObject::invokeMethod(this, &TerrainView::finishStage, Qt::QueuedConnection);
@@ -207,6 +209,7 @@ PixelArea TerrainView::areaOf(const CursorPicture& cursor) const
 void TerrainView::redrawTerrain()
 {
     stage_ = PictureStage::Moving;
+    still_timer_.stop();
     is_terrain_current_ = false;
     is_completion_reported_ = false;
     update();

@@ -15,7 +15,7 @@
 // Two levels of giving way are enough in any node: ranges grow by DetailErrors::kGrowth from one
 // level to the next and are no less than kRangePerSize times the size of the nodes. With node k
 // drawn because its parent, of size s, was too near, any point of it is nearer than
-// 1.3 R(k+1) + s, and R(k+3) >= 2.25 max(R(k+1), 1.25 s) is more than that.
+// 1.2 R(k+1) + s <= 2.2 R(k+1), and R(k+3) >= 2.25 R(k+1) is more than that.
 #pragma once
 
 #include "core/geo/scene_frame.h"
@@ -33,7 +33,7 @@ namespace marsview {
 inline constexpr double kMorphEnd = 1.2;
 
 /// Least range of a level, in diagonals of its nodes.
-inline constexpr double kRangePerSize = 1.25;
+inline constexpr double kRangePerSize = 1.0;
 
 /// Texels along a side of the relief of a node; see SelectedNode::relief.
 inline constexpr std::size_t kReliefTexels = 256;
