@@ -62,38 +62,32 @@ FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds tak
 FramePlan planFrame(const FrameCost& cost,
                     const FrameWish& wish,
                     const FramePlan& last,
-                    const std::function<std::size_t(double error_px)>& triangles)
+                    const std::function<std::size_t(const FramePlan&)>& triangles)
 {
-    const auto is_finer = [&](const FramePlan& plan) {
-        return plan.error_px < last.error_px || plan.scale > last.scale;
-    };
-    const auto fits = [&](const FramePlan& plan, std::size_t triangle_count) {
+    const auto fits = [&](const FramePlan& plan) {
         const Milliseconds time =
-            cost.predicted({.triangle_count = triangle_count,
+            cost.predicted({.triangle_count = triangles(plan),
                             .pixel_count = wish.pixel_count * plan.scale * plan.scale});
-        return time <= wish.target * (is_finer(plan) ? kFinerMargin : 1.0);
+        const bool is_finer = plan.error_px < last.error_px || plan.scale > last.scale;
+        return time <= wish.target * (is_finer ? kFinerMargin : 1.0);
     };
     if (wish.is_touching) {
-        const std::size_t sharp = triangles(kErrorsPx.front());
         for (const double scale : kScales) {
             const FramePlan plan{.error_px = kErrorsPx.front(), .scale = scale};
-            if (fits(plan, sharp)) {
+            if (fits(plan)) {
                 return plan;
             }
         }
     }
-    const double first_scale = wish.is_touching ? kScaleMin : 1.0;
-    std::size_t coarsest = 0;
     for (const double error_px : kErrorsPx) {
-        coarsest = triangles(error_px);
-        const FramePlan plan{.error_px = error_px, .scale = first_scale};
-        if (fits(plan, coarsest)) {
+        const FramePlan plan{.error_px = error_px, .scale = wish.is_touching ? kScaleMin : 1.0};
+        if (fits(plan)) {
             return plan;
         }
     }
     for (const double scale : kScales) {
         const FramePlan plan{.error_px = kErrorPxMax, .scale = scale};
-        if (fits(plan, coarsest)) {
+        if (fits(plan)) {
             return plan;
         }
     }

@@ -60,11 +60,11 @@ struct FrameWish {
 
 /// The finest plan that is predicted to take at most the target: the error gives way first, up to 8
 /// pixels, then the size of the picture. A plan finer than the last one is taken only where it
-/// leaves a margin, so that nothing flickers at the limit. `triangles(error_px)` counts what would
-/// be drawn and falls with the error.
+/// leaves a margin, so that nothing flickers at the limit. `triangles(plan)` counts what would
+/// be drawn; coarser plans have no more.
 FramePlan planFrame(const FrameCost& cost,
                     const FrameWish& wish,
                     const FramePlan& last,
-                    const std::function<std::size_t(double error_px)>& triangles);
+                    const std::function<std::size_t(const FramePlan&)>& triangles);
 
 } // namespace marsview

@@ -16,9 +16,11 @@ constexpr double kTexelPxMax = 2.0;
 // The target is for the whole frame; the rest goes to what is around the picture.
 constexpr double kPictureShare = 0.85;
 
-DetailTarget detailFor(double error_px)
+DetailTarget detailFor(const FramePlan& plan)
 {
-    return {.error_px = error_px, .texel_px = std::min(error_px, kTexelPxMax)};
+    // Texels need not be finer than the pixels that are drawn.
+    return {.error_px = plan.error_px,
+            .texel_px = std::min(plan.error_px, kTexelPxMax) / plan.scale};
 }
 
 } // namespace
@@ -44,13 +46,13 @@ GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, un
                           {.target = target_ * kPictureShare,
                            .pixel_count = pixel_count,
                            .is_touching = request.is_touching},
-                          moving_plan_, [&](double error_px) {
-                              draw.detail = detailFor(error_px);
+                          moving_plan_, [&](const FramePlan& plan) {
+                              draw.detail = detailFor(plan);
                               return renderer_.countTriangles(draw, style.exaggeration);
                           });
         moving_plan_ = plan_;
     }
-    draw.detail = detailFor(plan_.error_px);
+    draw.detail = detailFor(plan_);
     draw.scale = plan_.scale;
     // A GPU smooths edges for next to nothing.
     const bool is_smooth = request.stage == PictureStage::Smooth || !renderer_.isSoftware();

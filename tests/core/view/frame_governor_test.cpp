@@ -43,7 +43,7 @@ struct Loop {
     {
         plan = planFrame(belief,
                          {.target = kTarget, .pixel_count = kPixels, .is_touching = is_touching},
-                         plan, [this](double error_px) { return scene.triangles(error_px); });
+                         plan, [this](const FramePlan& p) { return scene.triangles(p.error_px); });
         const Milliseconds taken = timeOf(plan) * slowness;
         belief = learned(belief,
                          {.triangle_count = scene.triangles(plan.error_px),
