@@ -228,10 +228,13 @@ void MainWindow::connectController()
     connect(controller_, &SessionController::loadProgressed, this,
             [this](const LoadReport& report) {
                 load_status_->showReport(report);
+                //: Shown in the middle of the window while the first map comes; %1 is a file
+                view_->setHint(tr("Opening %1…").arg(QFileInfo(report.file).fileName()));
                 actions_->cancel_loading->setEnabled(true);
             });
     connect(controller_, &SessionController::loadingEnded, this, [this] {
         load_status_->hide();
+        view_->setHint({});
         actions_->cancel_loading->setEnabled(false);
         settleIfIdle();
     });
@@ -355,8 +358,14 @@ void MainWindow::reportFailure(const QString& title, const QString& problem)
 
 void MainWindow::savePicture()
 {
-    const QImage picture = view_->terrainPicture();
+    QImage picture = view_->terrainPicture();
+    overlays_->paintOver(picture);
+    const Layer* active = activeLayer(session());
+    const QString name = active != nullptr
+                             ? QFileInfo(QString::fromStdString(active->name)).completeBaseName()
+                             : tr("map");
     auto* dialog = new QFileDialog(this, tr("Save Picture"), last_folder_);
+    dialog->selectFile(name + QStringLiteral(".png"));
     dialog->setAcceptMode(QFileDialog::AcceptSave);
     dialog->setNameFilters({tr("PNG picture (*.png)"), tr("JPEG picture (*.jpg *.jpeg)")});
     dialog->setDefaultSuffix(QStringLiteral("png"));

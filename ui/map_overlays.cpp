@@ -13,6 +13,7 @@
 
 #include <QAction>
 #include <QImage>
+#include <QPainter>
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,8 @@ namespace {
 // Twice what the minimap is wide on a screen with two pixels a point.
 constexpr std::size_t kPreviewSideMax = 640;
 
-QImage previewOf(const LoadedMap& map, const ColorRamp& ramp, const TerrainLook& look,
-                 double exaggeration)
+QImage
+previewOf(const LoadedMap& map, const ColorRamp& ramp, const TerrainLook& look, double exaggeration)
 {
     const BlockMeans& means = map.analysis->means;
     std::size_t level = 0;
@@ -33,9 +34,8 @@ QImage previewOf(const LoadedMap& map, const ColorRamp& ramp, const TerrainLook&
     }
     const GridView<const float> heights = means.means(level);
     const Georeference& georeference = map.dataset->georeference();
-    const SceneFrame frame =
-        previewFrame(georeference.sceneFrame(), georeference.columns(), georeference.rows(),
-                     heights.columns(), heights.rows());
+    const SceneFrame frame = previewFrame(georeference.sceneFrame(), georeference.columns(),
+                                          georeference.rows(), heights.columns(), heights.rows());
     const MapPreview preview = mapPreview(heights, frame,
                                           {.ramp = sampledRamp(ramp),
                                            .tint_range = tintedRange(ramp, map.tint_range),
@@ -92,6 +92,17 @@ void MapOverlays::makeAction(const QString& text, const QString& name, const QLi
     actions_.append(action);
 }
 
+void MapOverlays::paintOver(QImage& picture) const
+{
+    picture.setDevicePixelRatio(view_.devicePixelRatioF());
+    QPainter painter(&picture);
+    for (QWidget* part : std::initializer_list<QWidget*>{legend_, compass_, scale_bar_}) {
+        if (part->isVisible()) {
+            part->render(&painter, part->pos(), QRegion(), QWidget::DrawChildren);
+        }
+    }
+}
+
 void MapOverlays::showMap()
 {
     layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());
@@ -122,13 +133,12 @@ void MapOverlays::showLegend()
 {
     const LoadedMap& map = view_.map();
     const TerrainLook& look = view_.look();
-    legend_->setContent(
-        {.mode = look.mode,
-         .ramp = view_.ramp(),
-         .range = tintedRange(*view_.ramp(), map.tint_range),
-         .contour_interval_m = contourInterval(
-             look, map.dataset->heightfield().range().value_or(HeightRange{}),
-             metresPerPixel(view_.camera(), view_.viewport()))});
+    legend_->setContent({.mode = look.mode,
+                         .ramp = view_.ramp(),
+                         .range = tintedRange(*view_.ramp(), map.tint_range),
+                         .contour_interval_m = contourInterval(
+                             look, map.dataset->heightfield().range().value_or(HeightRange{}),
+                             metresPerPixel(view_.camera(), view_.viewport()))});
 }
 
 void MapOverlays::showTouch()

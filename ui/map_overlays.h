@@ -5,6 +5,7 @@
 #include <QObject>
 
 class QAction;
+class QImage;
 
 namespace marsview {
 
@@ -29,6 +30,10 @@ public:
     ScaleBarView* scaleBar() const noexcept { return scale_bar_; }
     Legend* legend() const noexcept { return legend_; }
     ForceMeter* forceMeter() const noexcept { return force_meter_; }
+
+    /// Puts what explains the map into a picture of the view: legend, compass and scale bar, as far
+    /// as they are to be seen.
+    void paintOver(QImage& picture) const;
 
     /// Checkable actions that show and hide the overlays which people may not want; each has an
     /// object name to be remembered by.

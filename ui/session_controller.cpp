@@ -348,11 +348,19 @@ void SessionController::revealWhatCame()
 
 void SessionController::goTo(LayerId id)
 {
+    const auto is_shown = [&] {
+        const auto shown = shownLayers(session_);
+        return std::find(shown.begin(), shown.end(), layerOf(session_, id)) != shown.end();
+    };
+    if (const Layer* hidden = layerOf(session_, id); hidden != nullptr && !is_shown()) {
+        // On top and visible it is the scene.
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Show %1").arg(nameOf(*hidden)),
+               activated(moved(withVisibility(session_, id, true), id, 0), id));
+    }
     const Layer* layer = layerOf(session_, id);
     const Dataset* scene = view_.map().dataset.get();
-    const auto shown = shownLayers(session_);
-    if (layer == nullptr || scene == nullptr ||
-        std::find(shown.begin(), shown.end(), layer) == shown.end()) {
+    if (layer == nullptr || scene == nullptr || !is_shown()) {
         return;
     }
     if (const auto centre = onGridOf(*scene, *layer->dataset, placeOn(*layer->dataset, 0.5, 0.5))) {

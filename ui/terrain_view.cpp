@@ -39,8 +39,7 @@ TerrainView::TerrainView(QWidget* parent)
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(160, 120);
-    //: Shown in the middle of the window while no map is open. DEM = digital elevation model.
-    empty_hint_->setText(tr("Drop a DEM here or press Ctrl+O"));
+    setHint({});
     empty_hint_->setObjectName(QStringLiteral("emptyHint"));
     empty_hint_->setAlignment(Qt::AlignCenter);
     empty_hint_->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -83,6 +82,10 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
         map_ && map &&
         map_.dataset->georeference().sceneFrame() == map.dataset->georeference().sceneFrame();
     const bool is_other_map = map.dataset != map_.dataset;
+    if (map_ && is_other_map) {
+        rememberSight();
+    }
+    const SceneSurface before = ground_;
     map_ = map;
     ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
     ground_ = SceneSurface(maps);
@@ -92,12 +95,16 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     }
     are_layers_sent_ = false;
     empty_hint_->setVisible(!map_);
+    const std::optional<Sight> sight =
+        map_ && !is_same_place ? sightToGoOnWith(before) : std::optional<Sight>();
     if (map_ && !is_same_place) {
-        style_.exaggeration = suitableExaggeration(*map_.dataset);
+        style_.exaggeration = sight ? sight->exaggeration : suitableExaggeration(*map_.dataset);
     }
     // Before the camera moves, which aims the stylus.
     stylus_.setGround(ground_, style_.exaggeration);
-    if (map_ && !is_same_place) {
+    if (sight) {
+        setCamera(sight->camera);
+    } else if (map_ && !is_same_place) {
         goToOpeningView();
     }
     redrawTerrain();
@@ -113,6 +120,44 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
             },
             Qt::QueuedConnection);
     }
+}
+
+void TerrainView::rememberSight()
+{
+    std::erase_if(sights_, [this](const Sight& sight) {
+        const auto dataset = sight.dataset.lock();
+        return !dataset || dataset == map_.dataset;
+    });
+    sights_.push_back({.dataset = map_.dataset,
+                       .camera = navigator_.goal(),
+                       .exaggeration = style_.exaggeration});
+}
+
+// Where one of the maps was in the picture before, the same piece of it stays in sight. Otherwise a
+// map that was shown once is seen again as it was left.
+std::optional<TerrainView::Sight> TerrainView::sightToGoOnWith(const SceneSurface& before) const
+{
+    for (const SceneMap& now : ground_.maps()) {
+        for (const SceneMap& then : before.maps()) {
+            if (now.map.dataset == then.map.dataset) {
+                OrbitCamera camera = navigator_.goal();
+                camera.target =
+                    now.frame.toScene(then.frame.toGrid(camera.target), camera.target.z);
+                return Sight{
+                    .dataset = map_.dataset, .camera = camera, .exaggeration = style_.exaggeration};
+            }
+        }
+    }
+    const auto known = std::find_if(sights_.begin(), sights_.end(), [this](const Sight& sight) {
+        return sight.dataset.lock() == map_.dataset;
+    });
+    return known != sights_.end() ? std::optional(*known) : std::nullopt;
+}
+
+void TerrainView::setHint(const QString& hint)
+{
+    //: Shown in the middle of the window while no map is open. DEM = digital elevation model.
+    empty_hint_->setText(hint.isEmpty() ? tr("Drop a DEM here or press Ctrl+O") : hint);
 }
 
 void TerrainView::setLook(const TerrainLook& look)

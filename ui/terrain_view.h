@@ -49,8 +49,9 @@ public:
     ~TerrainView() override;
 
     /// Puts these layers in place of those shown, top first; none for an empty view. All lie in one
-    /// CRS. The camera stays where the topmost layers lie alike, otherwise it goes to the new one's
-    /// opening view. mapShown() follows.
+    /// CRS. What is in sight stays there if one of its maps does, and a map that was shown before
+    /// is seen as it was left; otherwise the camera goes to the new one's opening view. mapShown()
+    /// follows.
     void setLayers(const std::vector<ShownLayer>& top_first);
     /// The topmost map shown; none where there is none.
     const LoadedMap& map() const noexcept { return map_; }
@@ -59,6 +60,8 @@ public:
     /// Everything that is shown.
     const SceneSurface& ground() const noexcept { return ground_; }
 
+    /// What is said in the middle while nothing is shown; empty: how to open a map.
+    void setHint(const QString& hint);
     void setLook(const TerrainLook& look);
     const TerrainLook& look() const noexcept { return style_.look; }
     void setAntialiasing(bool is_wanted);
@@ -136,6 +139,15 @@ protected:
     void leaveEvent(QEvent* event) override;
 
 private:
+    // How a map was looked at.
+    struct Sight {
+        std::weak_ptr<const Dataset> dataset; // the topmost
+        OrbitCamera camera;
+        double exaggeration = 1.0;
+    };
+
+    void rememberSight();
+    std::optional<Sight> sightToGoOnWith(const SceneSurface& before) const;
     void reportUnavailable(const QString& reason);
     void releaseGraphics();
     void paintTerrain();
@@ -173,6 +185,7 @@ private:
     SceneSurface ground_;
     std::vector<TerrainLayer> layers_;
     bool are_layers_sent_ = true;
+    std::vector<Sight> sights_;       // of maps that somebody still holds
     bool is_at_opening_view_ = false; // nobody has moved since
 
     PictureStage stage_ = PictureStage::Moving;

@@ -234,7 +234,7 @@ void WindowActions::showSession(const Session& session)
          {layer.rename, layer.remove, toggle_visibility, override_georeferencing}) {
         action->setEnabled(active != nullptr);
     }
-    layer.go_to->setEnabled(active != nullptr && states[index] == LayerState::Shown);
+    layer.go_to->setEnabled(active != nullptr);
     layer.move_up->setEnabled(active != nullptr && index > 0);
     layer.move_down->setEnabled(active != nullptr && index + 1 < session.layers.size());
     toggle_visibility->setChecked(active != nullptr && active->is_visible);

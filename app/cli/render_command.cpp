@@ -5,6 +5,8 @@
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -46,6 +48,26 @@ CLI::Validator finiteNumber()
             ""};
 }
 
+CLI::Validator positiveNumber()
+{
+    return {[](std::string& text) {
+                double value = 0.0;
+                const bool is_number = CLI::detail::lexical_cast(text, value);
+                return is_number && !(std::isfinite(value) && value > 0.0)
+                           ? text + " is no positive number"
+                           : std::string();
+            },
+            ""};
+}
+
+bool hasPngName(const std::string& path)
+{
+    std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
+    std::transform(end.begin(), end.end(), end.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return end == ".png";
+}
+
 Result<OrbitCamera> cameraFrom(const Options& options,
                                const Scene& scene,
                                double exaggeration,
@@ -79,6 +101,11 @@ Result<OrbitCamera> cameraFrom(const Options& options,
 
 Status runRender(const Options& options)
 {
+    if (!hasPngName(options.output)) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: pictures are written as PNG; choose a name that ends in .png",
+                                 options.output)};
+    }
     const Result<Viewport> viewport = sizeFrom(options.size);
     if (!viewport) {
         return viewport.error();
@@ -136,8 +163,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->expected(2)
         ->check(finiteNumber());
     command->add_option("--distance", options->distance_m, "of the eye from there, metres")
-        ->check(CLI::PositiveNumber)
-        ->check(finiteNumber());
+        ->check(positiveNumber());
     command
         ->add_option("--azimuth", options->azimuth_deg,
                      "heading of the view, degrees clockwise from north")
@@ -146,14 +172,12 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->check(CLI::Range(0.0, 85.0))
         ->check(finiteNumber());
     command->add_option("--exaggeration", options->exaggeration, "of heights")
-        ->check(CLI::PositiveNumber)
-        ->check(finiteNumber());
+        ->check(positiveNumber());
     auto* error = command
                       ->add_option("--error-px", options->error_px,
                                    "how far off the surface may be, in pixels")
                       ->capture_default_str()
-                      ->check(CLI::PositiveNumber)
-                      ->check(finiteNumber());
+                      ->check(positiveNumber());
     command->add_flag("--full", options->is_full, "draw every sample")->excludes(error);
     command->add_option("--samples", options->samples, "a pixel, against jagged edges")
         ->capture_default_str()

@@ -291,7 +291,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     const std::size_t step_count =
         kFlights.size() * static_cast<std::size_t>(1 + options.pose_count);
     std::size_t step = 0;
-    const auto goOn = [&] {
+    const auto go_on = [&] {
         job.monitor().report(static_cast<double>(++step) / static_cast<double>(step_count));
         return !job.monitor().isCancelled();
     };
@@ -299,7 +299,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
                           fmt::format("{}: measuring was cancelled", map.path)};
     for (const Flight flight : kFlights) {
         result.flights.push_back(bench.fly(flight));
-        if (!goOn()) {
+        if (!go_on()) {
             return cancelled;
         }
     }
@@ -313,7 +313,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
                 return std::move(pose).error();
             }
             flight.poses.push_back(*pose);
-            if (!goOn()) {
+            if (!go_on()) {
                 return cancelled;
             }
         }

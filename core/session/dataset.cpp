@@ -69,6 +69,7 @@ loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_byt
                      fmt::format("{}: holds no height, all of its {} samples are void", spec.path,
                                  samples->statistics.sample_count)};
     }
+    noteSuspiciousSamples(*info, samples->statistics);
     return std::shared_ptr<const Dataset>(new Dataset(
         spec, std::move(file_info), std::move(info).value(),
         std::make_shared<const SampleGrid>(std::move(samples->grid)), samples->statistics));

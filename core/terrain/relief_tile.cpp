@@ -278,7 +278,7 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
     const TexelSpan columns = texelsOnMap(id.column, id.level, heightfield.columns());
     const TexelSpan rows = texelsOnMap(id.row, id.level, heightfield.rows());
     // Of a texel, the samples on the map: fewer at its last column and row.
-    const auto samplesOf = [&](std::size_t texel, std::size_t tile, std::size_t samples) {
+    const auto samples_of = [&](std::size_t texel, std::size_t tile, std::size_t samples) {
         const std::size_t step = std::size_t{1} << id.level;
         const std::size_t first = (tile * ReliefTile::kTexels + texel - ReliefTile::kBorder) * step;
         return static_cast<float>(std::min(step, samples - first));
@@ -289,13 +289,13 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
     finest.slopes.resize(2 * finest.side * finest.side);
     finest.shares.resize(has_voids ? finest.side * finest.side : 0);
     TileMaker(heightfield, id).run([&](std::size_t row, const std::vector<Sums>& sums) {
-        const float row_samples = samplesOf(row, id.row, heightfield.rows());
+        const float row_samples = samples_of(row, id.row, heightfield.rows());
         for (std::size_t column = columns.begin; column < columns.end; ++column) {
             const Sums& texel = sums[column];
             const std::size_t at = row * finest.side + column;
             const float share =
                 has_voids ? texel.sample_count /
-                                (row_samples * samplesOf(column, id.column, heightfield.columns()))
+                                (row_samples * samples_of(column, id.column, heightfield.columns()))
                           : 1.0F;
             const float weight_c = texel.column_count > 0.0F ? share / texel.column_count : 0.0F;
             const float weight_r = texel.row_count > 0.0F ? share / texel.row_count : 0.0F;

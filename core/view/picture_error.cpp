@@ -23,8 +23,9 @@ PictureError measurePictureError(const DrawnScene& scene,
         if (!std::isfinite(depths_m[i])) {
             continue;
         }
+        const std::size_t row = i / width;
         const PixelPoint pixel{static_cast<double>(i % width) + 0.5,
-                               static_cast<double>(i / width) + 0.5};
+                               static_cast<double>(row) + 0.5};
         const Ray ray = pickRay(camera, viewport, pixel);
         ScenePoint point = ray.at(depths_m[i] / dot(ray.direction, forward));
         const double height_m = scene.heightfield.height(scene.frame.toGrid(point));

@@ -456,7 +456,7 @@ TEST(Legend, SaysWhatColoursAndLinesMean)
               "Legend: height from -8068 m to 21171 m, contour lines every 500 m");
     EXPECT_FALSE(legend.sizeHint().isEmpty());
     EXPECT_EQ(name({.mode = ShadingMode::Slope, .ramp = ramp, .range = mars}),
-              "Legend: slope from 0° to 60°");
+              "Legend: slope from 0° to 40°");
     EXPECT_EQ(name({.mode = ShadingMode::Hillshade, .ramp = ramp, .contour_interval_m = 2000.0}),
               "Legend: contour lines every 2 km");
     EXPECT_FALSE(legend.sizeHint().isEmpty());

@@ -109,8 +109,9 @@ QString Legend::summary() const
 {
     QString text;
     if (hasRamp()) {
-        // A hundredth of the range is what colours can tell.
-        const double step = roundNumberAbove((high_ - low_) / 100.0);
+        // Whole degrees; of heights a hundredth of the range is what colours can tell.
+        const double step =
+            content_.mode == ShadingMode::Slope ? 1.0 : roundNumberAbove((high_ - low_) / 100.0);
         const QString low = numberText(low_, step);
         const QString high = numberText(high_, step);
         text = content_.mode == ShadingMode::Slope

@@ -138,7 +138,9 @@ QWidget* GeoreferencingPanel::makeFieldsPage()
     auto* hint = makeFact(content);
     hint->setText(tr("Empty fields stay as the file has them. Nothing is written to the file."));
     layout->addWidget(hint);
+    // The dock is narrow: names stand over their fields, and no field asks for width.
     auto* form = new QFormLayout;
+    form->setRowWrapPolicy(QFormLayout::WrapAllRows);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     const auto make_field = [content](const QString& name, const char* object_name) {
         auto* field = new QLineEdit(content);
@@ -155,6 +157,8 @@ QWidget* GeoreferencingPanel::makeFieldsPage()
     body_ = new QComboBox(content);
     body_->setAccessibleName(tr("Body"));
     body_->setObjectName(QStringLiteral("body"));
+    body_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    body_->setMinimumContentsLength(6);
     body_->addItem(tr("As in the file"));
     for (const Body& body : knownBodies()) {
         body_->addItem(fromStd(body.name), fromStd(body.name));
@@ -185,10 +189,13 @@ QWidget* GeoreferencingPanel::makeFieldsPage()
     layout->addLayout(grid);
 
     auto* heights = new QFormLayout;
+    heights->setRowWrapPolicy(QFormLayout::WrapAllRows);
     heights->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     unit_ = new QComboBox(content);
     unit_->setAccessibleName(tr("Height unit"));
     unit_->setObjectName(QStringLiteral("unit"));
+    unit_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    unit_->setMinimumContentsLength(6);
     unit_->addItem(tr("As in the file"));
     for (const char* unit : {"m", "km", "ft", "US survey ft"}) {
         unit_->addItem(QLatin1String(unit), QLatin1String(unit));
@@ -220,6 +227,10 @@ QWidget* GeoreferencingPanel::makeFieldsPage()
     buttons->addWidget(apply_button, 0, 0);
     buttons->addWidget(back_button, 0, 1);
     buttons->addWidget(reset_button, 1, 0, 1, 2);
+    for (QPushButton* button : {apply_button, back_button}) {
+        button->setMinimumWidth(0);
+        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    }
     layout->addLayout(buttons);
     layout->addStretch(1);
     for (QLineEdit* field : content->findChildren<QLineEdit*>()) {

@@ -43,7 +43,7 @@ out vec4 v_color;
 void main()
 {
     const vec3 kLight = vec3(-0.45, 0.45, 0.77);
-    float lit = dot(a_normal, a_normal) > 0.0 ? 0.45 + 0.65 * max(dot(a_normal, kLight), 0.0) : 1.0;
+    float lit = dot(a_normal, a_normal) > 0.0 ? 0.62 + 0.5 * max(dot(a_normal, kLight), 0.0) : 1.0;
     v_color = vec4(a_color.rgb * lit, a_color.a);
     gl_Position = u_clip_from_eye * vec4(a_from_eye, 1.0);
     gl_Position.z -= u_lift * gl_Position.w;

@@ -162,7 +162,8 @@ float contour()
     float nearest = floor(line + 0.5);
     float width = abs(nearest - 5.0 * floor(nearest / 5.0 + 0.5)) < 0.25 ? 1.8 : 1.0;
     float ink = clamp(0.5 * width + 0.5 - abs(line - nearest) / per_pixel, 0.0, 1.0);
-    return ink * clamp(2.0 - 4.0 * per_pixel, 0.0, 1.0); // fades where lines run together
+    // Where lines run together their mean darkness is left.
+    return mix(ink, 0.4, clamp(4.0 * per_pixel - 1.0, 0.0, 1.0));
 }
 #endif
 
@@ -196,7 +197,7 @@ void main()
     vec3 surface = vec3(0.92 * shade);
 #else
     float steep = atan(length(slope) * u_slope_unit_true);
-    vec3 surface = rampColor(steep / radians(60.0)) * (0.6 + 0.4 * shade);
+    vec3 surface = rampColor(steep / radians(40.0)) * (0.75 + 0.35 * shade);
 #endif
 #ifdef CONTOURS
     surface = mix(surface, vec3(0.08, 0.07, 0.06), 0.7 * ink);
