@@ -85,6 +85,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     if (map_ && is_other_map) {
         rememberSight();
     }
+    const bool is_suited = map_ && style_.exaggeration == suitableExaggeration(*map_.dataset);
     const SceneSurface before = ground_;
     map_ = map;
     ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
@@ -95,16 +96,27 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     }
     are_layers_sent_ = false;
     empty_hint_->setVisible(!map_);
-    const std::optional<Sight> sight =
-        map_ && !is_same_place ? sightToGoOnWith(before) : std::optional<Sight>();
-    if (map_ && !is_same_place) {
-        style_.exaggeration = sight ? sight->exaggeration : suitableExaggeration(*map_.dataset);
+    const bool is_other_place = map_ && !is_same_place;
+    std::optional<Sight> sight;
+    if (is_other_place) {
+        sight = sightToGoOnWith(before);
+    } else if (map_ && is_suited) {
+        // The same place may have other heights now, as when its voids were told of.
+        const double suitable = suitableExaggeration(*map_.dataset);
+        sight = Sight{.dataset = map_.dataset,
+                      .camera = reexaggerated(navigator_.goal(), style_.exaggeration, suitable),
+                      .exaggeration = suitable};
+    }
+    if (sight) {
+        style_.exaggeration = sight->exaggeration;
+    } else if (is_other_place) {
+        style_.exaggeration = suitableExaggeration(*map_.dataset);
     }
     // Before the camera moves, which aims the stylus.
     stylus_.setGround(ground_, style_.exaggeration);
-    if (sight) {
+    if (sight && sight->camera != navigator_.goal()) {
         setCamera(sight->camera);
-    } else if (map_ && !is_same_place) {
+    } else if (is_other_place && !sight) {
         goToOpeningView();
     }
     redrawTerrain();

@@ -336,5 +336,73 @@ TEST_F(LayersTest, AllHiddenIsAnEmptyView)
     EXPECT_TRUE(window_->actionSet().home->isEnabled());
 }
 
+TEST_F(LayersTest, AMapOnTopKeepsWhatIsInSight)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    TerrainView& view = *window_->view();
+    view.setExaggeration(2.0);
+    view.flyTo({.column = 30.0, .row = 20.0}, 4e5);
+    ASSERT_TRUE(settle());
+    const GeographicPoint place =
+        *view.map().dataset->georeference().toGeographic({.column = 30.0, .row = 20.0});
+    const QPointF before = *view.positionOf(GridPoint{.column = 30.0, .row = 20.0});
+    // Overlaps the lower right of the first, whose scene it takes over.
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.placed("corner", "IAU_2015:49900", {15.0, 0.1, 0.0, 16.0, 0.0, -0.1})));
+    EXPECT_EQ(view.exaggeration(), 2.0);
+    const QPointF after = *view.positionOf(*view.map().dataset->georeference().toGrid(place));
+    // The heights of the two differ there; sideways nothing moves.
+    EXPECT_NEAR(after.x(), before.x(), 2.0);
+}
+
+TEST_F(LayersTest, AMapShownBeforeIsSeenAsItWasLeft)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    TerrainView& view = *window_->view();
+    view.setExaggeration(3.0);
+    view.flyTo({.column = 10.0, .row = 8.0}, 3e5);
+    ASSERT_TRUE(settle());
+    const OrbitCamera left = view.camera();
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    ASSERT_NE(view.camera(), left);
+    window_->undoStack().undo();
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(view.exaggeration(), 3.0);
+    EXPECT_NEAR(length(view.camera().target - left.target), 0.0, 1.0);
+    EXPECT_NEAR(view.camera().distance_m, left.distance_m, 1.0);
+}
+
+TEST_F(LayersTest, GoingToALayerThatWaitsShowsIt)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    const LayerId mars = id(1);
+    controller().goTo(mars);
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(shown(), maps_.mars().toStdString());
+    EXPECT_EQ(id(0), mars);
+    window_->undoStack().undo();
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(shown(), maps_.moon().toStdString());
+}
+
+TEST_F(LayersTest, ToldOfItsVoidsAMapIsExaggeratedForWhatIsLeft)
+{
+    const QString file = maps_.write(QStringLiteral("pit.asc"), {}, [](int column, int row) {
+        return column < 5 ? -32767.0 : 100.0 + column + row;
+    });
+    ASSERT_TRUE(openAndWait(*window_, file));
+    const TerrainView& view = *window_->view();
+    const double flat = view.exaggeration();
+    EXPECT_FALSE(view.map().dataset->info().notices.empty());
+    RasterOverrides overrides;
+    overrides.nodata = -32767.0;
+    controller().overrideGeoreferencing(id(0), overrides);
+    ASSERT_TRUE(waitForLoads());
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(view.map().dataset->heightfield().range()->minimum_m, 105.0);
+    EXPECT_GT(view.exaggeration(), flat);
+}
+
 } // namespace
 } // namespace marsview
