@@ -2,6 +2,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/machine.h"
+#include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "app/cli/view_bench.h"
 #include "core/session/sample_map.h"
@@ -336,7 +337,7 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
         ->capture_default_str();
     command->add_option("--target-ms", options->target_ms, "time for a frame while moving")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(positiveNumber());
     command->add_option("--frames", options->bench.frame_count, "of each flight")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
@@ -349,11 +350,11 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
         ->add_option("--error-px", options->bench.error_px,
                      "how far off the surface may be at rest, in pixels")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(positiveNumber());
     command
         ->add_option("--exaggeration", options->bench.exaggeration,
                      "of heights, by default what suits each map")
-        ->check(CLI::PositiveNumber);
+        ->check(positiveNumber());
     command->add_flag("--full", options->bench.is_full,
                       "compare with pictures of every sample even of large maps");
     command->add_flag("--json", options->is_json, "for machines, with every frame");

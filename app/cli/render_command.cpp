@@ -1,6 +1,7 @@
 // marsview-cli render: one picture of the terrain, without a window.
 
 #include "app/cli/commands.h"
+#include "app/cli/number_checks.h"
 #include "app/cli/scene.h"
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
@@ -35,30 +36,6 @@ struct Options {
     std::vector<double> light_deg{315.0, 45.0};
     bool has_contours = false;
 };
-
-// CLI11 reads "nan" and "inf" as numbers, and its ranges let NaN through.
-CLI::Validator finiteNumber()
-{
-    return {[](std::string& text) {
-                double value = 0.0;
-                const bool is_number = CLI::detail::lexical_cast(text, value);
-                return is_number && !std::isfinite(value) ? text + " is no finite number"
-                                                          : std::string();
-            },
-            ""};
-}
-
-CLI::Validator positiveNumber()
-{
-    return {[](std::string& text) {
-                double value = 0.0;
-                const bool is_number = CLI::detail::lexical_cast(text, value);
-                return is_number && !(std::isfinite(value) && value > 0.0)
-                           ? text + " is no positive number"
-                           : std::string();
-            },
-            ""};
-}
 
 bool hasPngName(const std::string& path)
 {
@@ -140,7 +117,7 @@ Status runRender(const Options& options)
     }
     Status written = writePng(picture->colors, options.output);
     if (written) {
-        std::fprintf(stderr, "%s: %zu triangles, off by at most %.2g pixels\n",
+        std::fprintf(stderr, "%s: %zu triangles, 99 %% of the pixels within %.2g pixels\n",
                      options.output.c_str(), picture->report.triangle_count,
                      picture->report.error_px);
     }

@@ -3,7 +3,7 @@
 #include "app/cli/long_job.h"
 #include "app/cli/machine.h"
 #include "core/base/check.h"
-#include "ui/render/gl_objects.h"
+#include "ui/render/frame_buffer.h"
 #include "ui/render/governed_picture.h"
 #include "ui/render/offscreen_picture.h"
 
@@ -48,36 +48,6 @@ private:
     std::mutex mutex_;
     std::condition_variable has_come_;
     bool has_news_ = false;
-};
-
-// A frame buffer as that of the window.
-struct WindowBuffer {
-    GlFramebuffer frame;
-    GlRenderbuffer color;
-    GlRenderbuffer depth;
-
-    explicit WindowBuffer(const Viewport& size)
-    {
-        glBindRenderbuffer(GL_RENDERBUFFER, color.id());
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
-        glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
-        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size.width, size.height);
-        glBindRenderbuffer(GL_RENDERBUFFER, 0);
-        glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                                  color.id());
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                                  depth.id());
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    }
-    bool isComplete() const
-    {
-        glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
-        const bool is_complete =
-            glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        return is_complete;
-    }
 };
 
 ColorDifference differenceOf(const Picture& a, const Picture& b)
@@ -138,8 +108,8 @@ public:
                                                   .stage = stage,
                                                   .is_touching = false,
                                                   .is_kept = true},
-                                                 style_, buffer_.frame.id());
-        scene_.renderer->presentDepth(buffer_.frame.id(), cursorArea());
+                                                 style_, buffer_.id());
+        scene_.renderer->presentDepth(buffer_.id(), cursorArea());
         glFinish();
         return report;
     }
@@ -237,7 +207,7 @@ private:
     const ViewBenchOptions& options_;
     News& news_;
     JobMonitor& monitor_;
-    WindowBuffer buffer_;
+    FrameBuffer buffer_; // as that of the window
     GovernedPicture picture_;
     FlightGround ground_;
     DrawStyle style_;

@@ -24,7 +24,7 @@ Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor&
     if (!analysis) {
         return std::move(analysis).error();
     }
-    auto filled = FilledHeightfield::build(heightfield, {*analysis, &(*analysis)->bounds}, monitor);
+    auto filled = FilledHeightfield::build(heightfield, *analysis, monitor);
     if (!filled) {
         return std::move(filled).error();
     }

@@ -9,7 +9,6 @@
 #include "core/base/result.h"
 #include "core/terrain/drawn_surface.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -23,7 +22,7 @@ struct DetailNode {
     bool operator==(const DetailNode&) const = default;
 };
 
-/// The measured errors, node by node. Immutable; any thread. Takes 1/128 of a byte a sample.
+/// The measured errors, node by node. Immutable; any thread. Takes about 1/96 of a byte a sample.
 class DetailErrors {
 public:
     static constexpr std::size_t kNodeCells = 32;
@@ -31,7 +30,7 @@ public:
     /// No sample is further off than kPeak times the error of its node.
     static constexpr float kPeak = 4.0F;
 
-    /// How much a corner's error grows at least from one level to the next. See cornerErrors.
+    /// How much a corner's error grows at least from one level to the next. See cornerError.
     static constexpr float kGrowth = 1.5F;
 
     /// Compares every sample with every level, on all cores. Only Cancelled can go wrong.

@@ -4,7 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/terrain/heightfield.h"
-#include "core/terrain/min_max_pyramid.h"
+#include "core/terrain/surface_analysis.h"
 
 #include <array>
 #include <cstddef>
@@ -13,10 +13,10 @@
 
 namespace marsview {
 
-/// A heightfield whose void samples have a height too: a smooth function of their position, made of
-/// the means of the samples around, within the range of the map. Samples that are not void keep
-/// theirs to the bit. Immutable; any thread. Shares the samples and the pyramid; without voids it
-/// holds nothing else, with voids about 1/16 byte a sample.
+/// A heightfield whose void samples have a height too: that which BlockMeans fills in, within the
+/// range of the map, so that the hand finds what the eye sees at the rim of a hole. Samples that
+/// are not void keep theirs to the bit. Immutable; any thread. Shares the samples and the analysis;
+/// with voids it holds a bound for each node besides.
 class FilledHeightfield {
     // Calls `function(at)`, where at(column, row) is a sample's height. The type of the samples is
     // looked up once, which for the servo thread is half the cost of reading them.
@@ -36,10 +36,10 @@ class FilledHeightfield {
     }
 
 public:
-    /// `pyramid` was built from `heightfield`. Reads every sample once, if any is void. Only
+    /// `analysis` was made from `heightfield`. Looks at every sample once, if any is void. Only
     /// Cancelled can go wrong.
     static Result<FilledHeightfield> build(const Heightfield& heightfield,
-                                           std::shared_ptr<const MinMaxPyramid> pyramid,
+                                           std::shared_ptr<const SurfaceAnalysis> analysis,
                                            JobMonitor& monitor);
 
     std::size_t columns() const noexcept { return heightfield_.columns(); }
@@ -81,32 +81,31 @@ public:
     }
 
     /// The nodes of the hierarchy are those of MinMaxPyramid.
-    std::size_t levelCount() const noexcept { return pyramid_->levelCount(); }
+    std::size_t levelCount() const noexcept { return analysis_->bounds.levelCount(); }
     /// No filled sample of the node is higher; in metres.
     double maximum(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
-        return static_cast<double>(maxima_.empty()
-                                       ? pyramid_->bounds(level, column, row).maximum_m
-                                       : maxima_[level][row * pyramid_->columns(level) + column]);
+        return static_cast<double>(
+            maxima_.empty() ? analysis_->bounds.bounds(level, column, row).maximum_m
+                            : maxima_[level][row * analysis_->bounds.columns(level) + column]);
     }
 
 private:
-    FilledHeightfield(const Heightfield& heightfield, std::shared_ptr<const MinMaxPyramid> pyramid)
+    FilledHeightfield(const Heightfield& heightfield,
+                      std::shared_ptr<const SurfaceAnalysis> analysis)
         : heightfield_(heightfield)
-        , pyramid_(std::move(pyramid))
+        , analysis_(std::move(analysis))
+        , range_(heightfield.range().value_or(HeightRange{}))
     {}
 
     double fillAt(std::size_t column, std::size_t row) const noexcept;
-    bool buildMeans(JobMonitor& monitor);
     bool buildMaxima(JobMonitor& monitor);
 
     Heightfield heightfield_;
-    std::shared_ptr<const MinMaxPyramid> pyramid_;
-    // Both empty where no sample is void.
-    std::size_t mean_columns_ = 0;
-    std::size_t mean_rows_ = 0;
-    std::vector<float> means_;               // of blocks of samples, in metres
-    std::vector<std::vector<float>> maxima_; // a level each, as in the pyramid
+    std::shared_ptr<const SurfaceAnalysis> analysis_;
+    HeightRange range_;
+    // A level each, as in the analysis' bounds; empty where no sample is void.
+    std::vector<std::vector<float>> maxima_;
 };
 
 } // namespace marsview

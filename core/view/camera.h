@@ -86,4 +86,9 @@ Ray pickRay(const OrbitCamera& camera, const Viewport& viewport, PixelPoint pixe
 std::optional<PixelPoint>
 project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& point);
 
+/// Scene metres that a pixel is wide at the target, and at another point; across the view, so that
+/// neither tilt nor exaggeration matters. Negative behind the eye.
+double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport);
+double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at);
+
 } // namespace marsview

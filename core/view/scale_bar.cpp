@@ -7,12 +7,6 @@
 
 namespace marsview {
 
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport)
-{
-    return 2.0 * camera.distance_m * std::tan(camera.field_of_view.radians() / 2.0) /
-           viewport.height;
-}
-
 std::optional<ScaleBar> scaleBar(double metres_per_pixel, double width_max_px)
 {
     constexpr double kShortest = 1e-300; // metres

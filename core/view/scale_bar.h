@@ -7,10 +7,6 @@
 
 namespace marsview {
 
-/// Metres of the scene that a pixel covers at the camera's target, across the view: level, so that
-/// neither tilt nor exaggeration matters.
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport);
-
 struct ScaleBar {
     double length_m = 0.0; // 1, 2 or 5 times a power of ten
     double width_px = 0.0; // how long that is in the picture

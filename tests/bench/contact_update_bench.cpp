@@ -38,10 +38,8 @@ std::shared_ptr<const FilledHeightfield> terrainOf(const std::vector<float>& hei
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid)), statistics,
                                   {.gain = gain});
     JobMonitor monitor;
-    auto pyramid =
-        std::make_shared<const MinMaxPyramid>(MinMaxPyramid::build(heightfield, monitor).value());
     return std::make_shared<const FilledHeightfield>(
-        FilledHeightfield::build(heightfield, std::move(pyramid), monitor).value());
+        FilledHeightfield::build(heightfield, *analyse(heightfield, monitor), monitor).value());
 }
 
 const std::shared_ptr<const FilledHeightfield>& floatTerrain()

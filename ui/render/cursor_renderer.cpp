@@ -273,10 +273,4 @@ void CursorRenderer::draw(const CursorPicture& cursor,
     glUseProgram(0);
 }
 
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at)
-{
-    const double depth_m = dot(at - eyeOf(camera), axesOf(camera).forward);
-    return 2.0 * depth_m * std::tan(camera.field_of_view.radians() / 2.0) / viewport.height;
-}
-
 } // namespace marsview

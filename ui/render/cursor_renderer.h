@@ -51,8 +51,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Scene metres that a pixel is wide at a point: the scale at which things of a steady size on
-/// screen are drawn there.
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at);
-
 } // namespace marsview

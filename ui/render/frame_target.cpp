@@ -26,43 +26,23 @@ void copy(
 
 } // namespace
 
-FrameTarget::Buffers FrameTarget::make(const Viewport& size, int samples)
-{
-    Buffers buffers{.size = size, .samples = samples, .frame = {}, .color = {}, .depth = {}};
-    GLint samples_max = 0;
-    glGetIntegerv(GL_MAX_SAMPLES, &samples_max);
-    const GLsizei count = samples > 1 ? std::min(samples, samples_max) : 0;
-    glBindRenderbuffer(GL_RENDERBUFFER, buffers.color.id());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, size.width, size.height);
-    glBindRenderbuffer(GL_RENDERBUFFER, buffers.depth.id());
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH24_STENCIL8, size.width,
-                                     size.height);
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, buffers.frame.id());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                              buffers.color.id());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              buffers.depth.id());
-    return buffers;
-}
-
 void FrameTarget::begin(const Viewport& size, int samples)
 {
-    if (!drawn_ || !isSame(drawn_->size, size) || drawn_->samples != samples) {
+    if (!drawn_ || !isSame(drawn_->size(), size) || drawn_->samples() != samples) {
         drawn_.reset(); // first, so that both are never held
-        drawn_ = make(size, samples);
+        drawn_.emplace(size, samples);
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, drawn_->frame.id());
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_->id());
 }
 
 void FrameTarget::end()
 {
-    if (drawn_->samples > 1) {
+    if (drawn_->samples() > 1) {
         // Merged once, so that the many samples need not be kept.
-        Buffers merged = make(drawn_->size, 0);
+        FrameBuffer merged(drawn_->size());
         for (const GLbitfield part :
              std::array<GLbitfield, 2>{GL_COLOR_BUFFER_BIT, GL_DEPTH_BUFFER_BIT}) {
-            copy(drawn_->frame.id(), drawn_->size, merged.frame.id(), merged.size, part);
+            copy(drawn_->id(), drawn_->size(), merged.id(), merged.size(), part);
         }
         drawn_ = std::move(merged);
     }
@@ -70,17 +50,17 @@ void FrameTarget::end()
 
 void FrameTarget::present(GLuint target, const Viewport& target_size)
 {
-    MARSVIEW_CHECK(drawn_.has_value() && drawn_->samples <= 1);
-    copy(drawn_->frame.id(), drawn_->size, target, target_size, GL_COLOR_BUFFER_BIT);
+    MARSVIEW_CHECK(drawn_.has_value() && drawn_->samples() <= 1);
+    copy(drawn_->id(), drawn_->size(), target, target_size, GL_COLOR_BUFFER_BIT);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
 }
 
 void FrameTarget::presentDepth(GLuint target, const Viewport& target_size, const PixelArea& area)
 {
-    MARSVIEW_CHECK(drawn_.has_value() && drawn_->samples <= 1);
+    MARSVIEW_CHECK(drawn_.has_value() && drawn_->samples() <= 1);
     glEnable(GL_SCISSOR_TEST);
     glScissor(area.left, area.bottom, area.width, area.height);
-    copy(drawn_->frame.id(), drawn_->size, target, target_size, GL_DEPTH_BUFFER_BIT);
+    copy(drawn_->id(), drawn_->size(), target, target_size, GL_DEPTH_BUFFER_BIT);
     glDisable(GL_SCISSOR_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
 }

@@ -2,8 +2,7 @@
 // pixel.
 #pragma once
 
-#include "core/view/camera.h"
-#include "ui/render/gl_objects.h"
+#include "ui/render/frame_buffer.h"
 
 #include <optional>
 
@@ -33,17 +32,7 @@ public:
     void presentDepth(GLuint target, const Viewport& target_size, const PixelArea& area);
 
 private:
-    struct Buffers {
-        Viewport size;
-        int samples = 0;
-        GlFramebuffer frame;
-        GlRenderbuffer color;
-        GlRenderbuffer depth;
-    };
-
-    static Buffers make(const Viewport& size, int samples);
-
-    std::optional<Buffers> drawn_;
+    std::optional<FrameBuffer> drawn_;
 };
 
 } // namespace marsview

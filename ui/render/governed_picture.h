@@ -17,7 +17,7 @@ inline constexpr std::chrono::milliseconds kNewsInterval{250};
 /// How much a picture may take.
 enum class PictureStage {
     Moving, // ready in time, as fine as that allows
-    Sharp,  // off by at most a pixel
+    Sharp,  // a threshold of one pixel
     Smooth, // and with smooth edges
 };
 

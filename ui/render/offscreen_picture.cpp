@@ -1,6 +1,6 @@
 #include "ui/render/offscreen_picture.h"
 
-#include "ui/render/gl_objects.h"
+#include "ui/render/frame_buffer.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -43,19 +43,8 @@ Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
                      fmt::format("{} × {} pixels: this driver draws at most {} a side", size.width,
                                  size.height, side_max)};
     }
-    const GlFramebuffer frame;
-    const GlRenderbuffer color;
-    const GlRenderbuffer depth;
-    glBindRenderbuffer(GL_RENDERBUFFER, color.id());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size.width, size.height);
-    glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size.width, size.height);
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color.id());
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                              depth.id());
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    const FrameBuffer frame(size);
+    if (!frame.isComplete()) {
         return Error{ErrorCode::OutOfRange,
                      fmt::format("{} × {} pixels: this driver has no frame buffer of that size",
                                  size.width, size.height)};

@@ -403,9 +403,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     set("u_slope_unit_true", layer.source.slope_max);
 
     const HeightRange range = heightfield.range().value_or(HeightRange{});
-    const double pixel_m = 2.0 * request.camera.distance_m *
-                           std::tan(request.camera.field_of_view.radians() / 2.0) /
-                           request.viewport.height;
+    const double pixel_m = metresPerPixel(request.camera, request.viewport);
     const double interval_m = contourInterval(look, range, pixel_m);
     if (interval_m > 0.0) {
         // Lines are counted in fives, so a multiple of five intervals may be left out.

@@ -42,7 +42,7 @@ struct DrawRequest {
 struct DrawReport {
     std::size_t triangle_count = 0;
     std::size_t node_count = 0;
-    double error_px = 0.0;   // the surface is off by at most this
+    double error_px = 0.0;   // of 99 in 100 pixels; see core/view/detail_selection.h
     bool is_complete = true; // shading included; otherwise draw again when told
 };
 

@@ -41,10 +41,8 @@ double cosine(const Vec3& a, const Vec3& b)
 std::shared_ptr<const FilledHeightfield> filledTerrain(const Heightfield& heightfield)
 {
     JobMonitor monitor;
-    auto pyramid =
-        std::make_shared<const MinMaxPyramid>(MinMaxPyramid::build(heightfield, monitor).value());
     return std::make_shared<const FilledHeightfield>(
-        FilledHeightfield::build(heightfield, std::move(pyramid), monitor).value());
+        FilledHeightfield::build(heightfield, *analyse(heightfield, monitor), monitor).value());
 }
 
 std::shared_ptr<const FilledHeightfield> filledTerrain(std::size_t columns,

@@ -25,9 +25,7 @@ FilledHeightfield filled(std::size_t columns, const std::vector<float>& heights)
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid)), statistics,
                                   {});
     JobMonitor monitor;
-    auto pyramid =
-        std::make_shared<const MinMaxPyramid>(MinMaxPyramid::build(heightfield, monitor).value());
-    return FilledHeightfield::build(heightfield, pyramid, monitor).value();
+    return FilledHeightfield::build(heightfield, *analyse(heightfield, monitor), monitor).value();
 }
 
 bool isInDisc(std::size_t column, std::size_t row)
@@ -117,10 +115,9 @@ TEST(FilledHeightfield, StopsWhenCancelled)
     test::Random random;
     const FilledHeightfield terrain = filled(130, holed(random, 130, 100));
     JobMonitor monitor;
-    auto pyramid = std::make_shared<const MinMaxPyramid>(
-        MinMaxPyramid::build(terrain.heightfield(), monitor).value());
+    const auto analysis = *analyse(terrain.heightfield(), monitor);
     monitor.cancel();
-    const auto cancelled = FilledHeightfield::build(terrain.heightfield(), pyramid, monitor);
+    const auto cancelled = FilledHeightfield::build(terrain.heightfield(), analysis, monitor);
     ASSERT_FALSE(cancelled);
     EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
 }
