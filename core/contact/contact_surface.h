@@ -35,12 +35,21 @@ struct SurfaceSpoke {
     Vec3 along; // from here to `end`, in scene metres
 };
 
-/// A face seen from its first corner: where the others are, and where the goal is.
-template <typename S>
-struct SurfaceTriangle {
-    Vec3 to_second;
-    Vec3 to_third;
-    Vec3 to_goal;
+/// The goal's foot on the plane of a face (equation 2 of the paper) and the side of the plane on
+/// which the goal is. All of it is linear in the goal, with coefficients that are the face's alone:
+/// what holds at two goals holds at every goal between them.
+struct SurfaceFoot {
+    /// Of the face's corners, times the plane's `scale`; their sum is `scale`. Negative: the foot
+    /// lies beyond the edge opposite the corner.
+    std::array<double, 3> weights;
+    /// Positive: the goal is in front of the plane, in free space; the distance from it in metres,
+    /// times a factor that is the face's.
+    double above;
+
+    bool isInside() const noexcept
+    {
+        return weights[0] >= 0.0 && weights[1] >= 0.0 && weights[2] >= 0.0;
+    }
 };
 
 /// A face seen from one of its edges.
@@ -57,7 +66,17 @@ struct SurfaceCast {
     std::uint32_t cells = 0;
 };
 
+/// What lies before the goal on its way: the ends of straight legs.
+template <typename S>
+struct SurfaceLegs {
+    static constexpr std::size_t kLegsMax = 5;
+    std::array<typename S::Goal, kLegsMax> ends;
+    std::size_t count = 0;
+};
+
 /// The mesh: vertices, edges and faces are small values. Vectors are in scene metres.
+///   kIsBorderWall      whether goals are kept above and below the mesh, so that its border stops
+///                      the proxy; otherwise it falls off there
 ///   goal(p)            what the models aim at for the point p; nothing where p cannot be aimed at
 ///   goalPoint(g)       where that is
 ///   isAbove(g)         whether it is in free space
@@ -67,17 +86,32 @@ struct SurfaceCast {
 ///   toGoal(v, g)       from a vertex to the goal
 ///   between(a, b)      from one vertex to another of the same face
 ///   corners(f)         three vertices, counter-clockwise seen from free space
-///   triangle(f, g)     the same as vectors, and the goal
+///   facePlane(f)       the plane of a face: `scale` > 0, the square of the face's area times a
+///                      factor that is the same for all faces; foot(g); and error(g), below which
+///                      a weight of that foot is nothing but rounding
 ///   ends(e)            the two vertices of an edge, in its order
 ///   edgeBetween(a, b)  the edge between two vertices of a face
+///   edgeOf(f, i)       the edge of a face opposite its corner i (0 to 2)
+///   across(f, i)       what is beyond that edge: the face there, seen from the edge; nothing at
+///                      the border of the mesh
+///   bend(e)            positive: a valley, free space fills less than half the angle around the
+///                      edge; 0: flat; negative: a ridge. Decided without rounding error where
+///                      three coplanar points are told from others. At the border of the mesh a
+///                      valley where kIsBorderWall, else a ridge
 ///   wings(e)           the one or two faces of an edge
 ///   fan(v)             what there is to know around a vertex, read once
 ///   eachSpoke(fan, fn) calls fn with each edge of a vertex, in a fixed order
+///   eachSector(fan, fn) calls fn(f, a, b) with each face of a vertex and its two spokes
 ///   wayOut(c, g)       the adjacent face over which the straight way from a place on the surface
 ///                      to the goal leaves the surface, or nothing where an adjacent face is in the
 ///                      way; to leave by less than rounding error is not to leave
 ///   castFrom(c, f, g)  follows that way
 ///   castFree(p, g)     the same from a goal reached before, which was above the surface
+///   along(g, h, t)     the goal at the share t of the straight way from g to h; g and h exactly at
+///                      0 and 1
+///   legs(p, q)         how the goal moves while what is aimed at moves straight from p to q, both
+///                      of which can be aimed at: the ends of at most kLegsMax straight legs, the
+///                      last of which is goal(q)
 ///   stepsMax()         an update may take that many steps from feature to feature; several times
 ///                      what crosses the whole mesh
 // clang-format off: version 14 breaks compound requirements into a line a token.
@@ -129,9 +163,39 @@ concept ContactSurface = requires(const S& s,
     }
     noexcept->std::same_as<std::array<typename S::Vertex, 3>>;
     {
-        s.triangle(f, g)
+        s.facePlane(f).foot(g)
     }
-    noexcept->std::same_as<SurfaceTriangle<S>>;
+    noexcept->std::same_as<SurfaceFoot>;
+    {
+        s.facePlane(f).error(g)
+    }
+    noexcept->std::same_as<double>;
+    {
+        s.facePlane(f).scale
+        } -> std::convertible_to<double>;
+    {
+        s.edgeOf(f, 0)
+    }
+    noexcept->std::same_as<typename S::Edge>;
+    {
+        s.across(f, 0)
+    }
+    noexcept->std::same_as<std::optional<SurfaceWing<S>>>;
+    {
+        s.bend(e)
+    }
+    noexcept->std::same_as<int>;
+    {
+        s.along(g, g, 0.5)
+    }
+    noexcept->std::same_as<typename S::Goal>;
+    {
+        s.legs(p, p)
+    }
+    noexcept->std::same_as<SurfaceLegs<S>>;
+    {
+        S::kIsBorderWall
+        } -> std::convertible_to<bool>;
     {
         s.ends(e)
     }
@@ -154,6 +218,11 @@ concept ContactSurface = requires(const S& s,
     noexcept->std::same_as<Vec3>;
     {
         s.eachSpoke(fan, [](const SurfaceSpoke<S>&) {})
+    }
+    noexcept;
+    {
+        s.eachSector(fan,
+                     [](const typename S::Face&, const SurfaceSpoke<S>&, const SurfaceSpoke<S>&) {})
     }
     noexcept;
     {

@@ -2,16 +2,100 @@
 #pragma once
 
 #include "core/contact/contact_surface.h"
+#include "core/contact/scene_heights.h"
 #include "core/geo/scene_frame.h"
 #include "core/terrain/filled_heightfield.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 
 namespace marsview {
+
+struct HeightfieldVertex {
+    std::int32_t column = 0;
+    std::int32_t row = 0;
+    bool operator==(const HeightfieldVertex&) const = default;
+};
+/// From `first` one column to the right, one row down, or both.
+struct HeightfieldEdge {
+    enum class Kind : std::uint8_t { AlongRow, AlongColumn, Diagonal };
+    HeightfieldVertex first;
+    Kind kind = Kind::AlongRow;
+};
+/// The half of the cell (column, row) right above or left below its diagonal.
+struct HeightfieldFace {
+    std::int32_t column = 0;
+    std::int32_t row = 0;
+    bool is_upper = false;
+};
+struct HeightfieldGoal {
+    GridPoint grid; // within the outermost samples
+    ScenePoint scene;
+};
+/// A sample and those at the ends of its edges, read once.
+struct HeightfieldFan {
+    HeightfieldVertex vertex;
+    double height; // in scene metres
+    std::array<double, 6> around;
+    std::array<bool, 6> exists;
+};
+/// What a step of a column and of a row is long: the inverse of the matrix of their dot products.
+struct HeightfieldMetric {
+    double columns;
+    double mixed;
+    double rows;
+};
+/// z = height + per_column × columns + per_row × rows around the face's upper left sample. The
+/// normal in grid coordinates and metres is (-per_column, -per_row, 1).
+struct HeightfieldPlane {
+    HeightfieldVertex origin;
+    double height;
+    double per_column;
+    double per_row;
+    double foot_columns; // from the goal to its foot, for each metre above the plane, times scale
+    double foot_rows;
+    double scale; // the normal's length squared, in the metric of the map
+    bool is_upper;
+    int third_corner;
+    int lower_right_corner;
+
+    SurfaceFoot foot(const HeightfieldGoal& goal) const noexcept
+    {
+        const double columns = goal.grid.column - static_cast<double>(origin.column);
+        const double rows = goal.grid.row - static_cast<double>(origin.row);
+        const double above = (goal.scene.z - height) - (per_column * columns + per_row * rows);
+        const double u = scale * columns + above * foot_columns;
+        const double v = scale * rows + above * foot_rows;
+        SurfaceFoot foot;
+        foot.weights[0] = scale - (is_upper ? u : v);
+        foot.weights[static_cast<std::size_t>(third_corner)] = is_upper ? u - v : v - u;
+        foot.weights[static_cast<std::size_t>(lower_right_corner)] = is_upper ? v : u;
+        foot.above = above;
+        return foot;
+    }
+    double error(const HeightfieldGoal& goal) const noexcept
+    {
+        constexpr double kTolerance = 8.0 * std::numeric_limits<double>::epsilon();
+        const double columns = std::abs(goal.grid.column - static_cast<double>(origin.column));
+        const double rows = std::abs(goal.grid.row - static_cast<double>(origin.row));
+        const double up = std::abs(goal.scene.z - height) + std::abs(per_column) * columns +
+                          std::abs(per_row) * rows;
+        return kTolerance * (scale * (1.0 + columns + rows) +
+                             up * (std::abs(foot_columns) + std::abs(foot_rows)));
+    }
+};
+
+template <typename Heights>
+class BasicHeightfieldSurface;
+
+template <typename Heights>
+class HeightfieldCast;
 
 /// Sample (c, r) lies at frame.toScene({c, r}, exaggeration × height). Cells are cut as in
 /// core/terrain/triangulation.h; voids are filled (FilledHeightfield). The frame may be rotated,
@@ -19,64 +103,68 @@ namespace marsview {
 /// coordinates, to the grid.
 ///
 /// A small immutable value that shares the terrain: cheap to copy and to make anew for another
-/// exaggeration. Any thread; allocates nothing once made.
-class HeightfieldSurface {
+/// exaggeration. Any thread; allocates nothing once made. `Heights` reads the samples
+/// (scene_heights.h); a model over PlainHeights moves as one over FilledHeights does, faster.
+template <typename Heights>
+class BasicHeightfieldSurface {
 public:
-    struct Vertex {
-        std::int32_t column = 0;
-        std::int32_t row = 0;
-        bool operator==(const Vertex&) const = default;
-    };
-    /// From `first` one column to the right, one row down, or both.
-    struct Edge {
-        enum class Kind : std::uint8_t { AlongRow, AlongColumn, Diagonal };
-        Vertex first;
-        Kind kind = Kind::AlongRow;
-    };
-    /// The half of the cell (column, row) right above or left below its diagonal.
-    struct Face {
-        std::int32_t column = 0;
-        std::int32_t row = 0;
-        bool is_upper = false;
-    };
-    struct Goal {
-        GridPoint grid; // within the outermost samples
-        ScenePoint scene;
-    };
-    /// A sample and those at the ends of its edges, read once.
-    struct Fan {
-        Vertex vertex;
-        double height; // in scene metres
-        std::array<double, 6> around;
-        std::array<bool, 6> exists;
-    };
-    using Contact = SurfaceContact<HeightfieldSurface>;
-    using Cast = SurfaceCast<HeightfieldSurface>;
-    using Spoke = SurfaceSpoke<HeightfieldSurface>;
-    using Wing = SurfaceWing<HeightfieldSurface>;
+    using Vertex = HeightfieldVertex;
+    using Edge = HeightfieldEdge;
+    using Face = HeightfieldFace;
+    using Goal = HeightfieldGoal;
+    using Fan = HeightfieldFan;
+    using Contact = SurfaceContact<BasicHeightfieldSurface>;
+    using Cast = SurfaceCast<BasicHeightfieldSurface>;
+    using Spoke = SurfaceSpoke<BasicHeightfieldSurface>;
+    using Wing = SurfaceWing<BasicHeightfieldSurface>;
 
+    using Plane = HeightfieldPlane;
+
+    static constexpr bool kIsBorderWall = true;
     /// Coordinates beyond this, in metres, are not aimed at, like those that are not finite.
     static constexpr double kGoalMaxM = 1e12;
 
     /// `exaggeration` > 0 and finite; the frame is invertible. The terrain has fewer than 2^30
-    /// columns and rows.
-    HeightfieldSurface(std::shared_ptr<const FilledHeightfield> terrain,
-                       const SceneFrame& frame,
-                       double exaggeration);
+    /// columns and rows, and samples that `Heights` can read.
+    BasicHeightfieldSurface(std::shared_ptr<const FilledHeightfield> terrain,
+                            const SceneFrame& frame,
+                            double exaggeration);
 
     const std::shared_ptr<const FilledHeightfield>& terrain() const noexcept { return terrain_; }
     const SceneFrame& frame() const noexcept { return frame_; }
     double exaggeration() const noexcept { return exaggeration_; }
 
     /// Height of the surface in scene metres at a grid position; the nearest one inside is taken.
-    double height(GridPoint grid) const noexcept;
+    double height(GridPoint grid) const noexcept { return heightAt(cellOf(grid)); }
     /// Whether a void sample has a say in the surface below or at `point`.
     bool isOverVoid(const ScenePoint& point) const noexcept;
 
-    std::optional<Goal> goal(const ScenePoint& point) const noexcept;
+    std::optional<Goal> goal(const ScenePoint& point) const noexcept
+    {
+        if (!isWithinReach(point)) {
+            return std::nullopt;
+        }
+        return clamped(frame_.toGrid(point), point);
+    }
     ScenePoint goalPoint(const Goal& goal) const noexcept { return goal.scene; }
     bool isAbove(const Goal& goal) const noexcept { return goal.scene.z > height(goal.grid); }
-    Contact contactAt(const Goal& goal) const noexcept;
+    Goal along(const Goal& from, const Goal& to, double share) const noexcept
+    {
+        if (share >= 1.0) {
+            return to;
+        }
+        const double c = from.grid.column + share * (to.grid.column - from.grid.column);
+        const double r = from.grid.row + share * (to.grid.row - from.grid.row);
+        return {{c, r}, from.scene + (to.scene - from.scene) * share};
+    }
+    SurfaceLegs<BasicHeightfieldSurface> legs(const ScenePoint& from,
+                                              const ScenePoint& to) const noexcept;
+
+    Contact contactAt(const Goal& goal) const noexcept
+    {
+        const InCell at = cellOf(goal.grid);
+        return contactIn(at, at.u >= at.v);
+    }
     /// The sample in the middle.
     Contact initialContact() const noexcept;
 
@@ -99,7 +187,7 @@ public:
         return face.is_upper != is_mirrored_ ? std::array{upper_left, lower_right, third}
                                              : std::array{upper_left, third, lower_right};
     }
-    SurfaceTriangle<HeightfieldSurface> triangle(Face face, const Goal& goal) const noexcept;
+    Plane facePlane(Face face) const noexcept;
     std::array<Vertex, 2> ends(Edge edge) const noexcept
     {
         return {edge.first,
@@ -113,6 +201,9 @@ public:
                                     : a.column == b.column ? Edge::Kind::AlongColumn
                                                            : Edge::Kind::Diagonal};
     }
+    Edge edgeOf(Face face, int corner) const noexcept;
+    std::optional<Wing> across(Face face, int corner) const noexcept;
+    int bend(Edge edge) const noexcept;
     std::array<std::optional<Wing>, 2> wings(Edge edge) const noexcept;
 
     Fan fan(Vertex v) const noexcept;
@@ -121,9 +212,19 @@ public:
     {
         for (std::size_t i = 0; i < 6; ++i) {
             if (fan.exists[i]) {
-                function(
-                    Spoke{{fan.vertex.column + kSpokes[i].column, fan.vertex.row + kSpokes[i].row},
-                          {spokes_[i].x, spokes_[i].y, fan.around[i] - fan.height}});
+                function(spoke(fan, i));
+            }
+        }
+    }
+    template <typename F>
+    void eachSector(const Fan& fan, F&& function) const noexcept
+    {
+        for (std::size_t i = 0; i < 6; ++i) {
+            const std::size_t next = (i + 1) % 6;
+            if (fan.exists[i] && fan.exists[next]) {
+                const auto& [columns, rows, is_upper] = kSectors[i];
+                function(Face{fan.vertex.column + columns, fan.vertex.row + rows, is_upper},
+                         spoke(fan, i), spoke(fan, next));
             }
         }
     }
@@ -153,30 +254,73 @@ private:
         double u;
         double v;
     };
-    friend class HeightfieldCast;
+    friend class HeightfieldCast<Heights>;
 
     // Around a sample: to the right, right below, below, left, left above, above.
     static constexpr std::array<Vertex, 6> kSpokes{
         {{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}}};
+    // The face between a spoke and the next.
+    static constexpr std::array<Face, 6> kSectors{{{0, 0, true},
+                                                   {0, 0, false},
+                                                   {-1, 0, true},
+                                                   {-1, -1, false},
+                                                   {-1, -1, true},
+                                                   {0, -1, false}}};
 
+    // Whether the goal is above a plane by more than rounding error. The plane's height at the goal
+    // is the sum of the last three.
+    static bool isAbovePlane(double goal, double base, double across, double down) noexcept
+    {
+        constexpr double kTolerance = 16.0 * std::numeric_limits<double>::epsilon();
+        const double magnitude =
+            std::abs(goal) + std::abs(base) + std::abs(across) + std::abs(down);
+        return goal - (base + across + down) > kTolerance * magnitude;
+    }
+
+    static bool isWithinReach(const ScenePoint& point) noexcept
+    {
+        return std::abs(point.x) <= kGoalMaxM && std::abs(point.y) <= kGoalMaxM &&
+               std::abs(point.z) <= kGoalMaxM;
+    }
+    std::optional<Goal> clamped(GridPoint grid, const ScenePoint& point) const noexcept
+    {
+        if (!std::isfinite(grid.column) || !std::isfinite(grid.row)) {
+            return std::nullopt;
+        }
+        Goal goal{{std::clamp(grid.column, 0.0, static_cast<double>(last_column_)),
+                   std::clamp(grid.row, 0.0, static_cast<double>(last_row_))},
+                  point};
+        if (!(goal.grid == grid)) {
+            goal.scene = frame_.toScene(goal.grid, point.z);
+        }
+        return goal;
+    }
     Vec3 offset(double columns, double rows, double up) const noexcept
     {
         return {columns * column_.x + rows * row_.x, columns * column_.y + rows * row_.y, up};
     }
-    double heightOf(Vertex v) const noexcept
+    Spoke spoke(const Fan& fan, std::size_t i) const noexcept
     {
-        return exaggeration_ * terrain_->sample(static_cast<std::size_t>(v.column),
-                                                static_cast<std::size_t>(v.row));
+        return {{fan.vertex.column + kSpokes[i].column, fan.vertex.row + kSpokes[i].row},
+                {spokes_[i].x, spokes_[i].y, fan.around[i] - fan.height}};
     }
+    double heightOf(Vertex v) const noexcept { return heights_.at(v.column, v.row); }
     CellHeights cellHeights(std::int32_t column, std::int32_t row) const noexcept
     {
-        const CellHeights z =
-            terrain_->cell(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
-        return {exaggeration_ * z.upper_left, exaggeration_ * z.upper_right,
-                exaggeration_ * z.lower_left, exaggeration_ * z.lower_right};
+        return {heights_.at(column, row), heights_.at(column + 1, row),
+                heights_.at(column, row + 1), heights_.at(column + 1, row + 1)};
     }
-    InCell cellOf(GridPoint grid) const noexcept;
+    InCell cellOf(GridPoint grid) const noexcept
+    {
+        const double c = std::clamp(grid.column, 0.0, static_cast<double>(last_column_));
+        const double r = std::clamp(grid.row, 0.0, static_cast<double>(last_row_));
+        // The last sample belongs to the last cell.
+        const auto column = std::min(static_cast<std::int32_t>(c), last_column_ - 1);
+        const auto row = std::min(static_cast<std::int32_t>(r), last_row_ - 1);
+        return {column, row, c - static_cast<double>(column), r - static_cast<double>(row)};
+    }
     InCell within(const Contact& contact, Face face) const noexcept;
+    Face someFaceOf(const Contact& contact) const noexcept;
     double heightAt(const InCell& at) const noexcept
     {
         return heightInCell(cellHeights(at.column, at.row), at.u, at.v);
@@ -184,17 +328,312 @@ private:
     Contact contactIn(const InCell& at, bool is_upper) const noexcept;
 
     std::shared_ptr<const FilledHeightfield> terrain_;
+    Heights heights_;
     SceneFrame frame_;
     double exaggeration_;
     std::int32_t last_column_;
     std::int32_t last_row_;
     bool is_mirrored_;
+    // Where corners() puts the sample that is neither upper left nor lower right, and lower right.
+    std::array<int, 2> third_corner_; // of lower and upper faces
+    std::array<int, 2> lower_right_corner_;
     Vec3 column_; // one column to the right, horizontally
     Vec3 row_;
     std::array<Vec3, 6> spokes_;
+    HeightfieldMetric metric_;
     std::uint32_t steps_max_;
 };
 
+template <typename Heights>
+HeightfieldPlane BasicHeightfieldSurface<Heights>::facePlane(Face face) const noexcept
+{
+    const double upper_left = heights_.at(face.column, face.row);
+    const double lower_right = heights_.at(face.column + 1, face.row + 1);
+    const double third = heights_.at(face.is_upper ? face.column + 1 : face.column,
+                                     face.is_upper ? face.row : face.row + 1);
+    HeightfieldPlane plane;
+    plane.origin = {face.column, face.row};
+    plane.height = upper_left;
+    plane.per_column = face.is_upper ? third - upper_left : lower_right - third;
+    plane.per_row = face.is_upper ? lower_right - third : third - upper_left;
+    plane.foot_columns = metric_.columns * plane.per_column + metric_.mixed * plane.per_row;
+    plane.foot_rows = metric_.mixed * plane.per_column + metric_.rows * plane.per_row;
+    plane.scale = 1.0 + plane.per_column * plane.foot_columns + plane.per_row * plane.foot_rows;
+    plane.is_upper = face.is_upper;
+    plane.third_corner = third_corner_[face.is_upper ? 1 : 0];
+    plane.lower_right_corner = lower_right_corner_[face.is_upper ? 1 : 0];
+    return plane;
+}
+
+template <typename Heights>
+HeightfieldEdge BasicHeightfieldSurface<Heights>::edgeOf(Face face, int corner) const noexcept
+{
+    if (corner == third_corner_[face.is_upper ? 1 : 0]) {
+        return {{face.column, face.row}, Edge::Kind::Diagonal};
+    }
+    if (corner == 0) {
+        return face.is_upper ? Edge{{face.column + 1, face.row}, Edge::Kind::AlongColumn}
+                             : Edge{{face.column, face.row + 1}, Edge::Kind::AlongRow};
+    }
+    return {{face.column, face.row},
+            face.is_upper ? Edge::Kind::AlongRow : Edge::Kind::AlongColumn};
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::across(Face face, int corner) const noexcept
+    -> std::optional<Wing>
+{
+    const std::size_t other = face.is_upper ? 0 : 1;
+    if (corner == third_corner_[face.is_upper ? 1 : 0]) {
+        return Wing{{face.column, face.row, !face.is_upper}, third_corner_[other]};
+    }
+    const bool is_forward = corner == 0; // to the right of upper faces, below lower ones
+    const std::int32_t step = is_forward ? 1 : -1;
+    const Face beyond{face.column + (face.is_upper == is_forward ? step : 0),
+                      face.row + (face.is_upper == is_forward ? 0 : step), !face.is_upper};
+    if (beyond.column < 0 || beyond.row < 0 || beyond.column >= last_column_ ||
+        beyond.row >= last_row_) {
+        return std::nullopt;
+    }
+    return Wing{beyond, is_forward ? lower_right_corner_[other] : 0};
+}
+
+template <typename Heights>
+int BasicHeightfieldSurface<Heights>::bend(Edge edge) const noexcept
+{
+    // The faces of an edge make a parallelogram of which it is a diagonal. The plane through one
+    // of them continues to the other's far corner.
+    const auto [from, to] = ends(edge);
+    Vertex one{};
+    Vertex other{};
+    switch (edge.kind) {
+    case Edge::Kind::AlongRow:
+        one = {to.column, to.row + 1};
+        other = {from.column, from.row - 1};
+        break;
+    case Edge::Kind::AlongColumn:
+        one = {to.column + 1, to.row};
+        other = {from.column - 1, from.row};
+        break;
+    case Edge::Kind::Diagonal:
+        one = {to.column, from.row};
+        other = {from.column, to.row};
+        break;
+    }
+    if (one.row > last_row_ || one.column > last_column_ || other.row < 0 || other.column < 0) {
+        return 1;
+    }
+    const double edge_sum = heightOf(from) + heightOf(to);
+    const double far_sum = heightOf(one) + heightOf(other);
+    const double difference = far_sum - edge_sum;
+    constexpr double kTolerance = 4.0 * std::numeric_limits<double>::epsilon();
+    if (std::abs(difference) <= kTolerance * (std::abs(edge_sum) + std::abs(far_sum))) {
+        return 0;
+    }
+    return difference > 0.0 ? 1 : -1;
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::contactIn(const InCell& at, bool is_upper) const noexcept
+    -> Contact
+{
+    // Zero exactly where the place is on an edge. Rounding may have put it beyond the diagonal.
+    const double upper_left = 1.0 - (is_upper ? at.u : at.v);
+    const double lower_right = is_upper ? at.v : at.u;
+    const double third = std::max(is_upper ? at.u - at.v : at.v - at.u, 0.0);
+    const Face face{at.column, at.row, is_upper};
+    return contactOnFace(*this, face,
+                         is_upper != is_mirrored_ ? std::array{upper_left, lower_right, third}
+                                                  : std::array{upper_left, third, lower_right});
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::wings(Edge edge) const noexcept
+    -> std::array<std::optional<Wing>, 2>
+{
+    const auto [column, row] = edge.first;
+    std::array<std::optional<Wing>, 2> wings;
+    switch (edge.kind) {
+    case Edge::Kind::AlongRow:
+        if (row < last_row_) {
+            wings[0] = Wing{{column, row, true}, lower_right_corner_[1]};
+        }
+        if (row > 0) {
+            wings[1] = Wing{{column, row - 1, false}, 0};
+        }
+        break;
+    case Edge::Kind::AlongColumn:
+        if (column < last_column_) {
+            wings[0] = Wing{{column, row, false}, lower_right_corner_[0]};
+        }
+        if (column > 0) {
+            wings[1] = Wing{{column - 1, row, true}, 0};
+        }
+        break;
+    case Edge::Kind::Diagonal:
+        wings[0] = Wing{{column, row, true}, third_corner_[1]};
+        wings[1] = Wing{{column, row, false}, third_corner_[0]};
+        break;
+    }
+    return wings;
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::within(const Contact& contact, Face face) const noexcept
+    -> InCell
+{
+    InCell at{face.column, face.row, 0.0, 0.0};
+    switch (contact.feature) {
+    case ContactFeature::Vertex:
+        at.u = static_cast<double>(contact.vertex.column - face.column);
+        at.v = static_cast<double>(contact.vertex.row - face.row);
+        break;
+    case ContactFeature::Edge:
+        at.u = static_cast<double>(contact.edge.first.column - face.column) +
+               (contact.edge.kind != Edge::Kind::AlongColumn ? contact.along : 0.0);
+        at.v = static_cast<double>(contact.edge.first.row - face.row) +
+               (contact.edge.kind != Edge::Kind::AlongRow ? contact.along : 0.0);
+        break;
+    default: {
+        const std::size_t kind = face.is_upper ? 1 : 0;
+        const double third = contact.weights[static_cast<std::size_t>(third_corner_[kind])];
+        const double lower_right =
+            contact.weights[static_cast<std::size_t>(lower_right_corner_[kind])];
+        at.u = std::min(lower_right + (face.is_upper ? third : 0.0), 1.0);
+        at.v = std::min(lower_right + (face.is_upper ? 0.0 : third), 1.0);
+        break;
+    }
+    }
+    return at;
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::someFaceOf(const Contact& contact) const noexcept -> Face
+{
+    if (contact.feature == ContactFeature::Face) {
+        return contact.face;
+    }
+    if (contact.feature == ContactFeature::Edge) {
+        const auto wings = this->wings(contact.edge);
+        return wings[0] ? wings[0]->face : wings[1]->face;
+    }
+    const std::int32_t column = std::min(contact.vertex.column, last_column_ - 1);
+    const std::int32_t row = std::min(contact.vertex.row, last_row_ - 1);
+    return {column, row, contact.vertex.column - column >= contact.vertex.row - row};
+}
+
+template <typename Heights>
+GridPoint BasicHeightfieldSurface<Heights>::gridPoint(const Contact& contact) const noexcept
+{
+    const InCell at = within(contact, someFaceOf(contact));
+    return {static_cast<double>(at.column) + at.u, static_cast<double>(at.row) + at.v};
+}
+
+template <typename Heights>
+ScenePoint BasicHeightfieldSurface<Heights>::point(const Contact& contact) const noexcept
+{
+    const InCell at = within(contact, someFaceOf(contact));
+    return frame_.toScene(
+        {static_cast<double>(at.column) + at.u, static_cast<double>(at.row) + at.v}, heightAt(at));
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::fan(Vertex v) const noexcept -> Fan
+{
+    const bool has_right = v.column < last_column_;
+    const bool has_below = v.row < last_row_;
+    const bool has_left = v.column > 0;
+    const bool has_above = v.row > 0;
+    // What does not exist is read from inside and not used.
+    const std::int32_t right = v.column + (has_right ? 1 : 0);
+    const std::int32_t below = v.row + (has_below ? 1 : 0);
+    const std::int32_t left = v.column - (has_left ? 1 : 0);
+    const std::int32_t above = v.row - (has_above ? 1 : 0);
+    return {
+        v,
+        heightOf(v),
+        {heights_.at(right, v.row), heights_.at(right, below), heights_.at(v.column, below),
+         heights_.at(left, v.row), heights_.at(left, above), heights_.at(v.column, above)},
+        {has_right, has_right && has_below, has_below, has_left, has_left && has_above, has_above}};
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::wayOut(const Fan& fan, const Goal& goal) const noexcept
+    -> std::optional<Face>
+{
+    // The face over which the way begins, from above, tells the quadrant and the side of the
+    // diagonal. Along an edge either face will do, straight up any will.
+    const auto [column, row] = fan.vertex;
+    const double columns = goal.grid.column - static_cast<double>(column);
+    const double rows = goal.grid.row - static_cast<double>(row);
+    const bool is_right = columns > 0.0 || (columns == 0.0 && column < last_column_);
+    const bool is_below = rows > 0.0 || (rows == 0.0 && row < last_row_);
+    const bool is_upper = is_right == is_below ? columns >= rows : is_below;
+    const auto& [right, right_below, below, left, left_above, above] = fan.around;
+    double across = 0.0;
+    double down = 0.0;
+    if (is_right && is_below) {
+        across = is_upper ? right - fan.height : right_below - below;
+        down = is_upper ? right_below - right : below - fan.height;
+    } else if (is_right) {
+        across = right - fan.height;
+        down = fan.height - above;
+    } else if (is_below) {
+        across = fan.height - left;
+        down = below - fan.height;
+    } else {
+        across = is_upper ? above - left_above : fan.height - left;
+        down = is_upper ? fan.height - above : left - left_above;
+    }
+    if (!isAbovePlane(goal.scene.z, fan.height, across * columns, down * rows)) {
+        return std::nullopt;
+    }
+    return Face{is_right ? column : column - 1, is_below ? row : row - 1, is_upper};
+}
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::wayOut(const Contact& contact,
+                                              const Goal& goal) const noexcept
+    -> std::optional<Face>
+{
+    if (contact.feature == ContactFeature::Vertex) {
+        return wayOut(fan(contact.vertex), goal);
+    }
+    Face face = contact.face;
+    if (contact.feature == ContactFeature::Edge) {
+        const auto [column, row] = contact.edge.first;
+        const double columns = goal.grid.column - static_cast<double>(column);
+        const double rows = goal.grid.row - static_cast<double>(row);
+        const auto wings = this->wings(contact.edge);
+        const double to_first = contact.edge.kind == Edge::Kind::AlongRow      ? rows
+                                : contact.edge.kind == Edge::Kind::AlongColumn ? columns
+                                                                               : columns - rows;
+        const bool is_first = wings[0] && (to_first >= 0.0 || !wings[1]);
+        face = is_first ? wings[0]->face : wings[1]->face;
+    }
+    const CellHeights z = cellHeights(face.column, face.row);
+    const double u = goal.grid.column - static_cast<double>(face.column);
+    const double v = goal.grid.row - static_cast<double>(face.row);
+    const double across =
+        u * (face.is_upper ? z.upper_right - z.upper_left : z.lower_right - z.lower_left);
+    const double down =
+        v * (face.is_upper ? z.lower_right - z.upper_right : z.lower_left - z.upper_left);
+    return isAbovePlane(goal.scene.z, z.upper_left, across, down) ? std::optional(face)
+                                                                  : std::nullopt;
+}
+
+// Compiled once, in heightfield_surface.cpp and heightfield_cast.cpp.
+extern template class BasicHeightfieldSurface<FilledHeights>;
+extern template class BasicHeightfieldSurface<PlainHeights<std::int16_t>>;
+extern template class BasicHeightfieldSurface<PlainHeights<float>>;
+
+/// Any terrain. PlainHeightfieldSurface is faster where PlainHeights<T>::canRead(terrain).
+using HeightfieldSurface = BasicHeightfieldSurface<FilledHeights>;
+template <typename T>
+using PlainHeightfieldSurface = BasicHeightfieldSurface<PlainHeights<T>>;
+
 static_assert(ContactSurface<HeightfieldSurface>);
+static_assert(ContactSurface<PlainHeightfieldSurface<std::int16_t>>);
+static_assert(ContactSurface<PlainHeightfieldSurface<float>>);
 
 } // namespace marsview

@@ -68,6 +68,8 @@ public:
                 contact_ = surface_.contactAt(*g);
                 minimise(*g);
             }
+        } else {
+            counters_.refused = 1;
         }
         return state();
     }
@@ -89,6 +91,8 @@ public:
             if (!free_) {
                 minimise(*g);
             }
+        } else {
+            counters_.refused = 1;
         }
         return state();
     }
@@ -109,7 +113,7 @@ private:
     // The goal projected onto the plane of a face.
     struct Foot {
         std::array<double, 3> weights; // of the corners; negative: beyond the edge opposite
-        double normal_squared;
+        double scale;
 
         bool isInside() const
         {
@@ -280,7 +284,7 @@ private:
             }
             const Foot candidate = footOn(wing->face, goal);
             const double weight = candidate.weights[static_cast<std::size_t>(wing->corner)];
-            const double descent_squared = weight * weight * candidate.normal_squared;
+            const double descent_squared = weight * weight * candidate.scale;
             if (weight > 0.0 && descent_squared > steepest) {
                 steepest = descent_squared;
                 into = wing;
@@ -360,19 +364,14 @@ private:
 
     Foot footOn(const Face& face, const Goal& goal) const noexcept
     {
-        const auto [a, b, to_goal] = surface_.triangle(face, goal);
-        // Through the normal, not through the edges' Gram determinant, which cancels on steep
-        // faces.
-        const Vec3 normal = cross(a, b);
-        const double normal_squared = dot(normal, normal);
+        const auto plane = surface_.facePlane(face);
+        const SurfaceFoot scaled = plane.foot(goal);
         Foot foot{};
-        foot.normal_squared = normal_squared;
-        foot.weights[1] = dot(cross(to_goal, b), normal) / normal_squared;
-        foot.weights[2] = dot(cross(a, to_goal), normal) / normal_squared;
-        foot.weights[0] = dot(cross(b - a, to_goal - a), normal) / normal_squared;
-        const double error = std::max(
-            kShareMin, kFootError * std::sqrt(dot(to_goal, to_goal) *
-                                              std::max(dot(a, a), dot(b, b)) / normal_squared));
+        foot.scale = plane.scale;
+        for (std::size_t i = 0; i < 3; ++i) {
+            foot.weights[i] = scaled.weights[i] / plane.scale;
+        }
+        const double error = std::max(kShareMin, plane.error(goal) / plane.scale);
         for (double& weight : foot.weights) {
             weight = std::abs(weight) <= error ? 0.0 : weight;
         }

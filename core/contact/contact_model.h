@@ -1,0 +1,62 @@
+// Any contact model over any surface: what a program holds that lets its user choose.
+#pragma once
+
+#include "core/contact/contact.h"
+#include "core/contact/heightfield_surface.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+namespace marsview {
+
+enum class ContactModelKind : std::uint8_t {
+    ProxyGraph,       // proxy_graph.h
+    SurfaceWalk,      // surface_walk.h
+    ContinuousWalk,   // continuous_walk.h
+    GodObject,        // god_object.h, constraints kept within an update
+    GodObjectRelease, // god_object.h, constraints released
+    VirtualProxy,     // virtual_proxy.h
+};
+
+inline constexpr std::array kContactModelKinds{
+    ContactModelKind::ProxyGraph,       ContactModelKind::SurfaceWalk,
+    ContactModelKind::ContinuousWalk,   ContactModelKind::GodObject,
+    ContactModelKind::GodObjectRelease, ContactModelKind::VirtualProxy,
+};
+
+/// The model's name on the command line and in settings files, "proxy-graph".
+std::string_view contactModelName(ContactModelKind kind) noexcept;
+std::optional<ContactModelKind> contactModelKind(std::string_view name) noexcept;
+
+struct ContactModelOptions {
+    double radius_m = 1.0; // > 0, of VirtualProxy's sphere
+};
+
+/// A contact model at work. For one thread at a time; `place` and `update` are for the servo
+/// thread.
+class ContactModel {
+public:
+    virtual ~ContactModel() = default;
+    ContactModel(const ContactModel&) = delete;
+    ContactModel& operator=(const ContactModel&) = delete;
+
+    /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
+    /// it, and minimises from there. A goal that is not finite changes nothing.
+    virtual ContactState place(const ScenePoint& goal) noexcept = 0;
+    /// Moves the proxy towards the goal. The first update places it. A goal that is not finite
+    /// changes nothing but is counted (ContactCounters::refused).
+    virtual ContactState update(const ScenePoint& goal) noexcept = 0;
+
+protected:
+    ContactModel() = default;
+};
+
+/// Allocates; the model shares what the surface shares.
+std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
+                                               const HeightfieldSurface& surface,
+                                               const ContactModelOptions& options = {});
+
+} // namespace marsview
