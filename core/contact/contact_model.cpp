@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/contact/proxy_graph.h"
+#include "core/contact/surface_walk.h"
 
 #include <algorithm>
 #include <iterator>
@@ -35,6 +36,8 @@ make(ContactModelKind kind, const S& surface, const ContactModelOptions& /*optio
     switch (kind) {
     case ContactModelKind::ProxyGraph:
         return std::make_unique<Held<ProxyGraph<S>>>(surface);
+    case ContactModelKind::SurfaceWalk:
+        return std::make_unique<Held<SurfaceWalk<S>>>(surface);
     default:
         break;
     }

@@ -4,6 +4,7 @@
 
 #include "core/contact/contact.h"
 #include "core/contact/contact_surface.h"
+#include "core/contact/point_proxy.h"
 
 #include <algorithm>
 #include <array>
@@ -14,9 +15,9 @@
 
 namespace marsview {
 
-/// Holds a proxy that cannot pass through a surface and moves it as close to the goal as it gets
-/// without ever moving away: straight through free space, then down the distance along the mesh's
-/// edges, from vertex to vertex, to a minimum on a vertex, edge or face.
+/// Moves the proxy as close to the goal as it gets without ever moving away: down the distance
+/// along the mesh's edges, from vertex to vertex, to a minimum on a vertex, edge or face, and
+/// straight through free space where the way to the goal leaves the surface.
 ///
 /// Differences from the paper, all of which make it follow the goal more closely:
 /// - A descent that begins within a face or edge (where a cast landed, or where the last update
@@ -24,92 +25,30 @@ namespace marsview {
 ///   vertex, which may lie farther from the goal, in another basin.
 /// - A vertex is left for the next one only where the goal projects beyond the whole edge.
 /// - A loop of far-edge steps ends with such a walk from the far edge, so that the end is a
-/// minimum. Far-edge steps are thus the only ones that may increase the distance to the goal.
-///
-/// A value, for one thread at a time. `update` and `place` allocate, lock and throw nothing and are
-/// bounded by S::stepsMax(): they are for the servo thread.
+///   minimum. Far-edge steps are thus the only ones that may increase the distance to the goal.
 template <ContactSurface S>
-class ProxyGraph {
+class ProxyGraphDescent {
 public:
-    /// The proxy begins at S::initialContact(); the first update places it.
-    explicit ProxyGraph(S surface) noexcept
-        : surface_(std::move(surface))
-        , contact_(surface_.initialContact())
-    {}
-
-    const S& surface() const noexcept { return surface_; }
-
-    /// Another surface with the same mesh, such as another exaggeration. In contact, the proxy
-    /// stays where it is on the mesh and moves with it. A free proxy keeps its scene coordinates;
-    /// if it would be below the surface, it is put onto it, straight above.
-    void setSurface(S surface) noexcept
-    {
-        surface_ = std::move(surface);
-        if (free_) {
-            free_ = surface_.goal(surface_.goalPoint(*free_));
-            if (free_ && !surface_.isAbove(*free_)) {
-                contact_ = surface_.contactAt(*free_);
-                free_.reset();
-            }
-        }
-    }
-
-    /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
-    /// the goal, and minimises from there. A goal that is not finite changes nothing.
-    ContactState place(const ScenePoint& goal) noexcept
-    {
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            is_placed_ = true;
-            if (surface_.isAbove(*g)) {
-                free_ = g;
-            } else {
-                free_.reset();
-                contact_ = surface_.contactAt(*g);
-                minimise(*g);
-            }
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
-    /// Moves the proxy towards the goal. A goal that is not finite changes nothing: the proxy, and
-    /// whether it is in contact, are those of the last update.
-    ContactState update(const ScenePoint& goal) noexcept
-    {
-        if (!is_placed_) {
-            return place(goal);
-        }
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            if (free_) {
-                const auto from = *free_;
-                ++counters_.casts;
-                take(surface_.castFree(from, *g), *g);
-            }
-            if (!free_) {
-                minimise(*g);
-            }
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
-    /// Where the proxy touches; nothing while it is free.
-    std::optional<SurfaceContact<S>> contact() const noexcept
-    {
-        return free_ ? std::nullopt : std::optional(contact_);
-    }
-
-private:
     using Goal = typename S::Goal;
     using Vertex = typename S::Vertex;
     using Edge = typename S::Edge;
     using Face = typename S::Face;
     using Contact = SurfaceContact<S>;
 
+    ProxyGraphDescent(const S& surface, ContactCounters& counters) noexcept
+        : surface_(surface)
+        , counters_(counters)
+    {}
+
+    bool descend(Contact& contact, const Goal& goal) noexcept
+    {
+        contact_ = contact;
+        minimise(goal);
+        contact = contact_;
+        return is_free_;
+    }
+
+private:
     // The goal projected onto the plane of a face.
     struct Foot {
         std::array<double, 3> weights; // of the corners; negative: beyond the edge opposite
@@ -140,27 +79,6 @@ private:
     static constexpr double kShareMin = 1e-12;  // of the edge
     static constexpr double kCosineMin = 1e-13; // between edge and goal
     static constexpr double kFootError = 4e-15; // of the distance to the goal, times the slope
-
-    ContactState state() const noexcept
-    {
-        ContactState state;
-        state.is_in_contact = !free_;
-        state.feature = free_ ? ContactFeature::Free : contact_.feature;
-        state.proxy = free_ ? surface_.goalPoint(*free_) : surface_.point(contact_);
-        state.counters = counters_;
-        return state;
-    }
-
-    void take(const SurfaceCast<S>& cast, const Goal& goal) noexcept
-    {
-        counters_.cells += cast.cells;
-        if (cast.contact) {
-            contact_ = *cast.contact;
-            free_.reset();
-        } else {
-            free_ = goal;
-        }
-    }
 
     // What one update remembers while it descends.
     struct Descent {
@@ -205,7 +123,10 @@ private:
             return false;
         }
         ++counters_.casts;
-        take(surface_.castFrom(contact_, *over, goal), goal);
+        const SurfaceCast<S> cast = surface_.castFrom(contact_, *over, goal);
+        counters_.cells += cast.cells;
+        is_free_ = !cast.contact;
+        contact_ = cast.contact.value_or(contact_);
         return true;
     }
 
@@ -217,7 +138,7 @@ private:
         const Vertex here = contact_.vertex;
         const auto fan = surface_.fan(here);
         if (leaves(surface_.wayOut(fan, goal), goal)) {
-            return free_.has_value();
+            return is_free_;
         }
         const Vec3 to_goal = surface_.toGoal(fan, goal);
         // The largest squared cosine times |to_goal|², which is the paper's edge gradient, of those
@@ -271,7 +192,7 @@ private:
         }
         contact_.along = along;
         if (leaves(surface_.wayOut(contact_, goal), goal)) {
-            return free_.has_value();
+            return is_free_;
         }
         // A foot on the inner side of a face means that the way into it leads closer: the same
         // number decides it as decides, within that face, whether its foot is outside.
@@ -349,7 +270,7 @@ private:
         descent.origin.reset();
         ++counters_.faces;
         if (leaves(surface_.wayOut(contact_, goal), goal)) {
-            return free_.has_value();
+            return is_free_;
         }
         const Foot foot = footOn(contact_.face, goal);
         if (foot.isInside()) {
@@ -402,11 +323,14 @@ private:
         return exit;
     }
 
-    S surface_;
-    std::optional<Goal> free_; // where the proxy is while free
-    Contact contact_;          // where it is otherwise
-    ContactCounters counters_;
-    bool is_placed_ = false;
+    const S& surface_;
+    ContactCounters& counters_;
+    Contact contact_;
+    bool is_free_ = false;
 };
+
+/// The contact model of the paper.
+template <ContactSurface S>
+using ProxyGraph = PointProxy<S, ProxyGraphDescent<S>>;
 
 } // namespace marsview
