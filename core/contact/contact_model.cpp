@@ -1,6 +1,7 @@
 #include "core/contact/contact_model.h"
 
 #include "core/base/check.h"
+#include "core/contact/continuous_walk.h"
 #include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
 
@@ -38,6 +39,8 @@ make(ContactModelKind kind, const S& surface, const ContactModelOptions& /*optio
         return std::make_unique<Held<ProxyGraph<S>>>(surface);
     case ContactModelKind::SurfaceWalk:
         return std::make_unique<Held<SurfaceWalk<S>>>(surface);
+    case ContactModelKind::ContinuousWalk:
+        return std::make_unique<Held<ContinuousWalk<S>>>(surface);
     default:
         break;
     }
