@@ -397,6 +397,9 @@ private:
         if (event.which == kToFrom || event.which == kToTo) {
             contact_.feature = ContactFeature::Vertex;
             contact_.vertex = event.which == kToFrom ? from : to;
+            if (!is_stuck) {
+                return arriveAtVertex(length_squared, end);
+            }
         } else {
             contact_.along = std::clamp((first_along + event.share * (last_along - first_along)) /
                                             length_squared,
@@ -421,55 +424,63 @@ private:
         return leave(over, end);
     }
 
+    // Along an edge: the vertex at its end may be no minimum, where the valley goes on downward.
+    bool arriveAtVertex(double length_squared, const Goal& end) noexcept
+    {
+        const auto fan = surface_.fan(contact_.vertex);
+        const Vec3 to_goal = surface_.toGoal(fan, goal_);
+        const double squared = dot(to_goal, to_goal);
+        bool is_minimum = true;
+        surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
+            is_minimum = is_minimum && !leads(dot(to_goal, spoke.along), spoke.along, squared);
+        });
+        if (is_minimum) {
+            return restAtVertex(fan, end);
+        }
+        ++counters_.vertices;
+        nudge(length_squared, end);
+        descend();
+        return false;
+    }
+
     bool atVertex(const Goal& end) noexcept
     {
+        return restAtVertex(surface_.fan(contact_.vertex), end);
+    }
+
+    bool restAtVertex(const typename S::Fan& fan, const Goal& end) noexcept
+    {
         ++counters_.vertices;
-        const Vertex here = contact_.vertex;
-        const auto fan = surface_.fan(here);
+        const Vec3 first = surface_.toGoal(fan, goal_);
         const Vec3 last = surface_.toGoal(fan, end);
         const double last_squared = dot(last, last);
-        bool is_within = true;
-        surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
-            is_within = is_within && !leads(dot(last, spoke.along), spoke.along, last_squared);
-        });
-        if (is_within) {
-            if (const auto over = surface_.wayOut(fan, end)) {
-                return leave(*over, end);
-            }
-            goal_ = end;
-            return true;
-        }
-        const Vec3 first = surface_.toGoal(fan, goal_);
-        const double first_squared = dot(first, first);
         Event event;
         Vertex towards{};
         double length_squared = 0.0;
-        bool is_unstable = false;
         surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
-            const double end_value = dot(last, spoke.along);
-            const double begin_value = dot(first, spoke.along);
-            is_unstable = is_unstable || leads(begin_value, spoke.along, first_squared);
-            if (leads(end_value, spoke.along, last_squared)) {
+            const double at_end = dot(last, spoke.along);
+            if (leads(at_end, spoke.along, last_squared)) {
                 const double share = event.share;
-                event.consider(begin_value, end_value, 0);
+                event.consider(dot(first, spoke.along), at_end, 0);
                 if (event.share < share) {
                     towards = spoke.end;
                     length_squared = dot(spoke.along, spoke.along);
                 }
             }
         });
-        if (is_unstable) {
-            const Vec3 edge = surface_.between(here, towards);
-            nudge(dot(edge, edge), end);
-            descend();
-            return false;
+        if (event.which < 0) {
+            if (const auto over = surface_.wayOut(fan, end)) {
+                return leave(*over, end);
+            }
+            goal_ = end;
+            return true;
         }
         if (isStuckAt(event, end)) {
             unstick(length_squared, end);
             return false;
         }
+        contact_.edge = surface_.edgeBetween(contact_.vertex, towards);
         contact_.feature = ContactFeature::Edge;
-        contact_.edge = surface_.edgeBetween(here, towards);
         return false;
     }
 
