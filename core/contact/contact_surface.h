@@ -35,11 +35,11 @@ struct SurfaceSpoke {
     Vec3 along; // from here to `end`, in scene metres
 };
 
-/// The goal's foot on the plane of a face (equation 2 of the paper) and the side of the plane on
+/// The goal's foot on the plane of a facet (equation 2 of the paper) and the side of the plane on
 /// which the goal is. All of it is linear in the goal, with coefficients that are the face's alone:
 /// what holds at two goals holds at every goal between them.
 struct SurfaceFoot {
-    /// Of the face's corners, times the plane's `scale`; their sum is `scale`. Negative: the foot
+    /// Of the face's corners, times the facet's `scale`; their sum is `scale`. Negative: the foot
     /// lies beyond the edge opposite the corner.
     std::array<double, 3> weights;
     /// Positive: the goal is in front of the plane, in free space; the distance from it in metres,
@@ -74,7 +74,13 @@ struct SurfaceLegs {
     std::size_t count = 0;
 };
 
-/// The mesh: vertices, edges and faces are small values. Vectors are in scene metres.
+/// The mesh: vertices, edges and faces are small values. Vectors are in scene metres. A facet is a
+/// face that a walk is on, with what it needs of it read once:
+///   vertices           its corners, counter-clockwise seen from free space
+///   foot(g), scale     the foot of the goal on its plane; `scale` > 0 is the square of the face's
+///                      area times a factor that is the same for all faces
+///   error(g)           a weight of that foot that is less is nothing but rounding
+///
 ///   kIsBorderWall      whether goals are kept above and below the mesh, so that its border stops
 ///                      the proxy; otherwise it falls off there
 ///   goal(p)            what the models aim at for the point p; nothing where p cannot be aimed at
@@ -86,18 +92,17 @@ struct SurfaceLegs {
 ///   toGoal(v, g)       from a vertex to the goal
 ///   between(a, b)      from one vertex to another of the same face
 ///   corners(f)         three vertices, counter-clockwise seen from free space
-///   facePlane(f)       the plane of a face: `scale` > 0, the square of the face's area times a
-///                      factor that is the same for all faces; foot(g); and error(g), below which
-///                      a weight of that foot is nothing but rounding
+///   facet(f, i)        the face for walking, its corner i (0 to 2) first
+///   rotated(t, i)      the same facet, its corner i first
+///   faceOf(t)          the face of a facet
+///   beyond(t, i)       the facet beyond the edge opposite corner i of another, its first corner
+///                      the one opposite that edge, so that its second is corner i + 2 of the
+///                      other; nothing at the border of the mesh
+///   bend(t, i, u)      how the surface bends there, u = beyond(t, i). Positive: a valley, free
+///                      space fills less than half the angle around the edge; 0: flat, to
+///                      rounding; negative: a ridge
 ///   ends(e)            the two vertices of an edge, in its order
 ///   edgeBetween(a, b)  the edge between two vertices of a face
-///   edgeOf(f, i)       the edge of a face opposite its corner i (0 to 2)
-///   across(f, i)       what is beyond that edge: the face there, seen from the edge; nothing at
-///                      the border of the mesh
-///   bend(e)            positive: a valley, free space fills less than half the angle around the
-///                      edge; 0: flat; negative: a ridge. Decided without rounding error where
-///                      three coplanar points are told from others. At the border of the mesh a
-///                      valley where kIsBorderWall, else a ridge
 ///   wings(e)           the one or two faces of an edge
 ///   fan(v)             what there is to know around a vertex, read once
 ///   eachSpoke(fan, fn) calls fn with each edge of a vertex, in a fixed order
@@ -122,6 +127,7 @@ concept ContactSurface = requires(const S& s,
                                   typename S::Edge e,
                                   typename S::Face f,
                                   const typename S::Fan& fan,
+                                  const typename S::Facet& facet,
                                   const SurfaceContact<S>& c,
                                   const ScenePoint& p)
 {
@@ -163,28 +169,39 @@ concept ContactSurface = requires(const S& s,
     }
     noexcept->std::same_as<std::array<typename S::Vertex, 3>>;
     {
-        s.facePlane(f).foot(g)
+        s.facet(f, std::size_t{0})
+    }
+    noexcept->std::same_as<typename S::Facet>;
+    {
+        s.rotated(facet, std::size_t{0})
+    }
+    noexcept->std::same_as<typename S::Facet>;
+    {
+        s.faceOf(facet)
+    }
+    noexcept->std::same_as<typename S::Face>;
+    {
+        s.beyond(facet, std::size_t{0})
+    }
+    noexcept->std::same_as<std::optional<typename S::Facet>>;
+    {
+        s.bend(facet, std::size_t{0}, facet)
+    }
+    noexcept->std::same_as<int>;
+    {
+        facet.vertices
+        } -> std::convertible_to<std::array<typename S::Vertex, 3>>;
+    {
+        facet.scale
+        } -> std::convertible_to<double>;
+    {
+        facet.foot(g)
     }
     noexcept->std::same_as<SurfaceFoot>;
     {
-        s.facePlane(f).error(g)
+        facet.error(g)
     }
     noexcept->std::same_as<double>;
-    {
-        s.facePlane(f).scale
-        } -> std::convertible_to<double>;
-    {
-        s.edgeOf(f, 0)
-    }
-    noexcept->std::same_as<typename S::Edge>;
-    {
-        s.across(f, 0)
-    }
-    noexcept->std::same_as<std::optional<SurfaceWing<S>>>;
-    {
-        s.bend(e)
-    }
-    noexcept->std::same_as<int>;
     {
         s.along(g, g, 0.5)
     }

@@ -136,6 +136,7 @@ private:
     using Vertex = typename S::Vertex;
     using Edge = typename S::Edge;
     using Face = typename S::Face;
+    using Facet = typename S::Facet;
     using Contact = SurfaceContact<S>;
     using Descent = SteepestDescent<S>;
 
@@ -260,136 +261,139 @@ private:
         descend();
     }
 
-    bool onFace(const Goal& end) noexcept
+    bool onFace(const Goal& end) noexcept { return onFacet(surface_.facet(contact_.face, 0), end); }
+
+    bool onEdge(const Goal& end) noexcept
     {
-        const Face face = contact_.face;
-        const auto plane = surface_.facePlane(face);
-        const SurfaceFoot last = plane.foot(end);
-        if (last.above <= 0.0 && last.isInside()) {
-            goal_ = end;
-            return settleOnFace(plane, last);
+        const auto wings = surface_.wings(contact_.edge);
+        const auto facetOf = [this](const SurfaceWing<S>& wing) {
+            return surface_.facet(wing.face, static_cast<std::size_t>(wing.corner));
+        };
+        if (wings[0] && wings[1]) {
+            return onEdge(facetOf(*wings[0]), facetOf(*wings[1]), end);
         }
-        ++counters_.faces;
-        const SurfaceFoot first = plane.foot(goal_);
-        Event event;
-        for (int i = 0; i < 3; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            event.consider(-first.weights[k], -last.weights[k], i);
-        }
-        constexpr int kRise = 3;
-        event.consider(first.above, last.above, kRise);
-        const auto weights = weightsBetween(first, last, event.share);
-        if (event.which == kRise) {
-            contact_.weights = weights;
-            if (const auto over = surface_.wayOut(contact_, end)) {
-                advance(event.share, end);
-                return leave(*over, end);
-            }
-            // Above the plane by no more than rounding.
-            if (last.isInside()) {
-                goal_ = end;
-                return settleOnFace(plane, last);
-            }
-            event = {};
-            for (int i = 0; i < 3; ++i) {
-                const auto k = static_cast<std::size_t>(i);
-                event.consider(-first.weights[k], -last.weights[k], i);
-            }
-        }
-        const bool is_stuck = isStuckAt(event, end);
-        return cross(face, event.which, weightsBetween(first, last, event.share), is_stuck, end);
+        return onEdge(facetOf(wings[0] ? *wings[0] : *wings[1]), std::nullopt, end);
     }
 
-    // The foot has reached the edge of the face opposite `corner`.
-    bool cross(Face face,
-               int corner,
-               const std::array<double, 3>& weights,
-               bool is_stuck,
-               const Goal& end) noexcept
+    // Each of these follows the goal while the proxy rests on that kind of feature, and over as
+    // many of the kind as it comes to. True where the goal is at the end, at a minimum; otherwise
+    // contact_ tells where to go on.
+    bool onFacet(Facet facet, const Goal& end) noexcept
     {
-        const auto i = static_cast<std::size_t>(corner);
+        constexpr int kRise = 3;
+        while (true) {
+            const SurfaceFoot last = facet.foot(end);
+            if (last.above <= 0.0 && last.isInside()) {
+                goal_ = end;
+                return settleOnFacet(facet, last);
+            }
+            ++counters_.faces;
+            const SurfaceFoot first = facet.foot(goal_);
+            Event event;
+            event.consider(-first.weights[0], -last.weights[0], 0);
+            event.consider(-first.weights[1], -last.weights[1], 1);
+            event.consider(-first.weights[2], -last.weights[2], 2);
+            if (last.above > 0.0) {
+                const Event over_edge = event;
+                event.consider(first.above, last.above, kRise);
+                if (event.which == kRise) {
+                    restOnFacet(facet, footBetween(first, last, event.share));
+                    if (const auto over = surface_.wayOut(contact_, end)) {
+                        advance(event.share, end);
+                        return leave(*over, end);
+                    }
+                    // Above the plane by no more than rounding.
+                    event = over_edge;
+                    if (event.which < 0) {
+                        goal_ = end;
+                        return settleOnFacet(facet, last);
+                    }
+                }
+            }
+            // The foot reaches the edge opposite that corner.
+            const auto i = static_cast<std::size_t>(event.which);
+            const bool is_stuck = isStuckAt(event, end);
+            const auto beyond = surface_.beyond(facet, i);
+            const int bend = beyond ? surface_.bend(facet, i, *beyond) : S::kIsBorderWall ? 1 : -1;
+            if (bend > 0 && !is_stuck) {
+                return onEdge(rotated(facet, i), beyond, end);
+            }
+            if (bend == 0 && !is_stuck) {
+                facet = *beyond;
+                if (events_ == 0) {
+                    restOnFacet(facet, facet.foot(goal_));
+                    return false;
+                }
+                --events_;
+                continue;
+            }
+            // A ridge.
+            fall(facet, i, footBetween(first, last, event.share), beyond, is_stuck, end);
+            return false;
+        }
+    }
+
+    // Falls from the edge opposite corner i, where `foot` is.
+    void fall(const Facet& facet,
+              std::size_t i,
+              const SurfaceFoot& foot,
+              const std::optional<Facet>& beyond,
+              bool is_stuck,
+              const Goal& end) noexcept
+    {
         const std::size_t j = (i + 1) % 3;
         const std::size_t k = (i + 2) % 3;
-        const double sum = weights[j] + weights[k];
-        const double share = sum > 0.0 ? weights[k] / sum : 0.5; // from corner j to corner k
-        const Edge edge = surface_.edgeOf(face, corner);
-        const auto wing = surface_.across(face, corner);
-        const int bend = surface_.bend(edge);
-        if (bend > 0 && !is_stuck) {
-            contact_.feature = ContactFeature::Edge;
-            contact_.edge = edge;
-            return false;
-        }
-        if (bend == 0 && wing && !is_stuck) {
-            contact_.feature = ContactFeature::Face;
-            contact_.face = wing->face;
-            return false;
-        }
-        // A ridge.
-        const auto corners = surface_.corners(face);
-        const Vec3 along = surface_.between(corners[j], corners[k]);
+        const Vec3 edge = surface_.between(facet.vertices[j], facet.vertices[k]);
         if (is_stuck) {
             nudge_ *= 2.0;
             still_ = 0;
         }
-        nudge(dot(along, along), end);
-        if (wing && !is_stuck) {
-            const auto there = static_cast<std::size_t>(wing->corner);
-            std::array<double, 3> at{};
-            at[(there + 1) % 3] = share;
-            at[(there + 2) % 3] = 1.0 - share;
-            is_free_ = Descent(surface_, counters_).descendInto(contact_, wing->face, at, goal_);
-            return false;
+        nudge(dot(edge, edge), end);
+        const double at_j = std::max(foot.weights[j], 0.0);
+        const double at_k = std::max(foot.weights[k], 0.0);
+        const double share = at_j + at_k > 0.0 ? at_k / (at_j + at_k) : 0.5; // from j to k
+        Descent descent(surface_, counters_);
+        if (beyond && !is_stuck) {
+            is_free_ = descent.descendOver(contact_, *beyond, 1.0 - share, goal_);
+            return;
         }
-        contact_.feature = ContactFeature::Edge;
-        contact_.edge = edge;
-        contact_.along = surface_.ends(edge)[0] == corners[j] ? share : 1.0 - share;
-        descend();
-        return false;
+        restOnEdge(facet.vertices[j], facet.vertices[k], share);
+        is_free_ = descent.descend(contact_, goal_);
     }
 
-    bool onEdge(const Goal& end) noexcept
+    // The edge is the one opposite the first corner of both facets.
+    bool onEdge(const Facet& left, const std::optional<Facet>& right, const Goal& end) noexcept
     {
-        const auto [from, to] = surface_.ends(contact_.edge);
+        constexpr int kToRight = 1;
+        constexpr int kToFrom = 2;
+        constexpr int kToTo = 3;
+        const Vertex from = left.vertices[1];
+        const Vertex to = left.vertices[2];
         const Vec3 edge = surface_.between(from, to);
         const double length_squared = dot(edge, edge);
         const double last_along = dot(surface_.toGoal(from, end), edge);
-        const auto wings = surface_.wings(contact_.edge);
-        std::array<SurfaceFoot, 2> last{};
-        std::array<double, 2> errors{};
-        bool is_within = last_along >= 0.0 && last_along <= length_squared;
-        for (std::size_t w = 0; w < 2; ++w) {
-            if (wings[w]) {
-                const auto plane = surface_.facePlane(wings[w]->face);
-                last[w] = plane.foot(end);
-                const double weight = last[w].weights[static_cast<std::size_t>(wings[w]->corner)];
-                if (weight > 0.0) {
-                    errors[w] = std::max(Descent::kShareMin * plane.scale, plane.error(end));
-                    is_within = is_within && weight <= errors[w];
-                }
-            }
-        }
-        if (is_within) {
-            contact_.along = last_along / length_squared;
+        const double last_left = inward(left, end);
+        const double last_right = right ? inward(*right, end) : 0.0;
+        if (last_along >= 0.0 && last_along <= length_squared && last_left <= 0.0 &&
+            last_right <= 0.0) {
+            restOnEdge(from, to, last_along / length_squared);
             if (const auto over = surface_.wayOut(contact_, end)) {
-                return leaveFromEdge(*over, from, edge, end);
+                // The goal has passed through the edge itself. It was nearest to it somewhere on
+                // its way: there the proxy lets go.
+                const double at = dot(surface_.toGoal(from, goal_), edge) / length_squared;
+                restOnEdge(from, to, std::clamp(at, 0.0, 1.0));
+                return leave(*over, end);
             }
             goal_ = end;
             return settleOnEdge();
         }
-        constexpr int kToFrom = 2;
-        constexpr int kToTo = 3;
         const double first_along = dot(surface_.toGoal(from, goal_), edge);
         Event event;
-        for (std::size_t w = 0; w < 2; ++w) {
-            if (wings[w]) {
-                const auto corner = static_cast<std::size_t>(wings[w]->corner);
-                if (last[w].weights[corner] > errors[w]) {
-                    const auto first = surface_.facePlane(wings[w]->face).foot(goal_);
-                    event.consider(first.weights[corner], last[w].weights[corner],
-                                   static_cast<int>(w));
-                }
-            }
+        if (last_left > 0.0) {
+            event.consider(left.foot(goal_).weights[0], last_left, 0);
+        }
+        if (last_right > 0.0) {
+            event.consider(right->foot(goal_).weights[0], last_right, kToRight);
         }
         event.consider(-first_along, -last_along, kToFrom);
         event.consider(first_along - length_squared, last_along - length_squared, kToTo);
@@ -400,14 +404,12 @@ private:
             if (!is_stuck) {
                 return arriveAtVertex(length_squared, end);
             }
+        } else if (!is_stuck) {
+            contact_.feature = ContactFeature::Face;
+            contact_.face = surface_.faceOf(event.which == kToRight ? *right : left);
         } else {
-            contact_.along = std::clamp((first_along + event.share * (last_along - first_along)) /
-                                            length_squared,
-                                        0.0, 1.0);
-            if (!is_stuck) {
-                contact_.feature = ContactFeature::Face;
-                contact_.face = wings[static_cast<std::size_t>(event.which)]->face;
-            }
+            const double at = first_along + event.share * (last_along - first_along);
+            restOnEdge(from, to, std::clamp(at / length_squared, 0.0, 1.0));
         }
         if (is_stuck) {
             unstick(length_squared, end);
@@ -415,13 +417,35 @@ private:
         return false;
     }
 
-    // The goal has passed through the edge itself.
-    bool leaveFromEdge(Face over, Vertex from, const Vec3& edge, const Goal& end) noexcept
+    // How far inside the edge opposite the facet's first corner the foot of the goal is, times
+    // something; 0 where it is outside, or inside by no more than rounding error.
+    static double inward(const Facet& facet, const Goal& goal) noexcept
     {
-        // It was nearest to the edge somewhere on its way: there it lets go.
-        const Vec3 at = surface_.toGoal(from, goal_);
-        contact_.along = std::clamp(dot(at, edge) / dot(edge, edge), 0.0, 1.0);
-        return leave(over, end);
+        const double weight = facet.foot(goal).weights[0];
+        return weight > 0.0 && Descent::isInward(weight, facet, goal) ? weight : 0.0;
+    }
+
+    Facet rotated(const Facet& facet, std::size_t first) const noexcept
+    {
+        if (first == 0) {
+            return facet;
+        }
+        return surface_.rotated(facet, first);
+    }
+
+    void restOnEdge(Vertex from, Vertex to, double share) noexcept
+    {
+        contact_.feature = ContactFeature::Edge;
+        contact_.edge = surface_.edgeBetween(from, to);
+        contact_.along = surface_.ends(contact_.edge)[0] == from ? share : 1.0 - share;
+    }
+
+    // The foot is inside the facet, but for rounding.
+    void restOnFacet(const Facet& facet, const SurfaceFoot& foot) noexcept
+    {
+        contact_.feature = ContactFeature::Face;
+        contact_.face = surface_.faceOf(facet);
+        contact_.weights = Descent::weightsOnFace(surface_, contact_.face, facet, foot);
     }
 
     // Along an edge: the vertex at its end may be no minimum, where the valley goes on downward.
@@ -496,36 +520,23 @@ private:
                    Descent::kCosineMin * Descent::kCosineMin * goal_squared * length_squared;
     }
 
-    static std::array<double, 3>
-    weightsBetween(const SurfaceFoot& first, const SurfaceFoot& last, double share) noexcept
+    static SurfaceFoot
+    footBetween(const SurfaceFoot& first, const SurfaceFoot& last, double share) noexcept
     {
-        std::array<double, 3> weights{};
-        double sum = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            weights[i] =
-                std::max(first.weights[i] + share * (last.weights[i] - first.weights[i]), 0.0);
-            sum += weights[i];
-        }
-        for (double& weight : weights) {
-            weight /= sum;
-        }
-        return weights;
+        const auto between = [share](double a, double b) { return a + share * (b - a); };
+        return {{between(first.weights[0], last.weights[0]),
+                 between(first.weights[1], last.weights[1]),
+                 between(first.weights[2], last.weights[2])},
+                between(first.above, last.above)};
     }
 
     // The end of an update: the contact is told where it is. What lies within rounding of the
     // border of its feature may not be a minimum; from there one last descent is made.
-    template <typename Plane>
-    bool settleOnFace(const Plane& plane, const SurfaceFoot& foot) noexcept
+    bool settleOnFacet(const Facet& facet, const SurfaceFoot& foot) noexcept
     {
-        const double sum = foot.weights[0] + foot.weights[1] + foot.weights[2];
-        const double inverse = 1.0 / sum;
-        contact_.weights = {foot.weights[0] * inverse, foot.weights[1] * inverse,
-                            foot.weights[2] * inverse};
-        constexpr double kClearly = 1e-6;
-        const double least =
-            std::min({contact_.weights[0], contact_.weights[1], contact_.weights[2]});
-        if (least < kClearly &&
-            least * plane.scale <= std::max(Descent::kShareMin * plane.scale, plane.error(goal_))) {
+        const auto& [first, second, third] = foot.weights;
+        restOnFacet(facet, foot);
+        if (!Descent::isInward(std::min({first, second, third}), facet, goal_)) {
             contact_ = contactOnFace(surface_, contact_.face, contact_.weights);
             descend();
         }

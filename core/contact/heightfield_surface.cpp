@@ -27,6 +27,7 @@ BasicHeightfieldSurface<Heights>::BasicHeightfieldSurface(
     last_column_ = static_cast<std::int32_t>(terrain_->columns() - 1);
     last_row_ = static_cast<std::int32_t>(terrain_->rows() - 1);
     is_mirrored_ = determinant > 0.0; // rows count downward, so the usual frame is negative
+    turn_ = is_mirrored_ ? 1.0 : -1.0;
     third_corner_ = is_mirrored_ ? std::array{2, 1} : std::array{1, 2};
     lower_right_corner_ = is_mirrored_ ? std::array{1, 2} : std::array{2, 1};
     metric_ = {dot(row_, row_) / (determinant * determinant),

@@ -51,40 +51,42 @@ struct HeightfieldMetric {
     double mixed;
     double rows;
 };
-/// z = height + per_column × columns + per_row × rows around the face's upper left sample. The
-/// normal in grid coordinates and metres is (-per_column, -per_row, 1).
-struct HeightfieldPlane {
-    HeightfieldVertex origin;
-    double height;
+/// A face as walks see it: which corner comes first is theirs to say (contact_surface.h). Its plane
+/// is z = heights[0] + per_column × columns + per_row × rows around the first corner.
+struct HeightfieldFacet {
+    std::array<HeightfieldVertex, 3> vertices; // counter-clockwise seen from free space
+    std::array<double, 3> heights;
+    double scale; // the normal's length squared, in the metric of the map, where its z is 1
+    // The first corner and the ways from it to the others, in columns and rows.
+    double column;
+    double row;
+    double second_columns;
+    double second_rows;
+    double third_columns;
+    double third_rows;
+    double turn; // the determinant of these ways: 1 or -1
     double per_column;
     double per_row;
     double foot_columns; // from the goal to its foot, for each metre above the plane, times scale
     double foot_rows;
-    double scale; // the normal's length squared, in the metric of the map
-    bool is_upper;
-    int third_corner;
-    int lower_right_corner;
 
     SurfaceFoot foot(const HeightfieldGoal& goal) const noexcept
     {
-        const double columns = goal.grid.column - static_cast<double>(origin.column);
-        const double rows = goal.grid.row - static_cast<double>(origin.row);
-        const double above = (goal.scene.z - height) - (per_column * columns + per_row * rows);
+        const double columns = goal.grid.column - column;
+        const double rows = goal.grid.row - row;
+        const double above = (goal.scene.z - heights[0]) - (per_column * columns + per_row * rows);
         const double u = scale * columns + above * foot_columns;
         const double v = scale * rows + above * foot_rows;
-        SurfaceFoot foot;
-        foot.weights[0] = scale - (is_upper ? u : v);
-        foot.weights[static_cast<std::size_t>(third_corner)] = is_upper ? u - v : v - u;
-        foot.weights[static_cast<std::size_t>(lower_right_corner)] = is_upper ? v : u;
-        foot.above = above;
-        return foot;
+        const double second = turn * (u * third_rows - v * third_columns);
+        const double third = turn * (v * second_columns - u * second_rows);
+        return {{scale - second - third, second, third}, above};
     }
     double error(const HeightfieldGoal& goal) const noexcept
     {
-        constexpr double kTolerance = 8.0 * std::numeric_limits<double>::epsilon();
-        const double columns = std::abs(goal.grid.column - static_cast<double>(origin.column));
-        const double rows = std::abs(goal.grid.row - static_cast<double>(origin.row));
-        const double up = std::abs(goal.scene.z - height) + std::abs(per_column) * columns +
+        constexpr double kTolerance = 16.0 * std::numeric_limits<double>::epsilon();
+        const double columns = std::abs(goal.grid.column - column);
+        const double rows = std::abs(goal.grid.row - row);
+        const double up = std::abs(goal.scene.z - heights[0]) + std::abs(per_column) * columns +
                           std::abs(per_row) * rows;
         return kTolerance * (scale * (1.0 + columns + rows) +
                              up * (std::abs(foot_columns) + std::abs(foot_rows)));
@@ -118,7 +120,7 @@ public:
     using Spoke = SurfaceSpoke<BasicHeightfieldSurface>;
     using Wing = SurfaceWing<BasicHeightfieldSurface>;
 
-    using Plane = HeightfieldPlane;
+    using Facet = HeightfieldFacet;
 
     static constexpr bool kIsBorderWall = true;
     /// Coordinates beyond this, in metres, are not aimed at, like those that are not finite.
@@ -187,7 +189,40 @@ public:
         return face.is_upper != is_mirrored_ ? std::array{upper_left, lower_right, third}
                                              : std::array{upper_left, third, lower_right};
     }
-    Plane facePlane(Face face) const noexcept;
+    Facet facet(Face face, std::size_t first) const noexcept
+    {
+        const auto [a, b, c] = corners(face);
+        const std::array<Vertex, 5> around{a, b, c, a, b};
+        return facetOf({around[first], around[first + 1], around[first + 2]});
+    }
+    Facet rotated(const Facet& facet, std::size_t first) const noexcept
+    {
+        const std::size_t second = (first + 1) % 3;
+        const std::size_t third = (first + 2) % 3;
+        return facetOf({facet.vertices[first], facet.vertices[second], facet.vertices[third]},
+                       {facet.heights[first], facet.heights[second], facet.heights[third]});
+    }
+    std::optional<Facet> beyond(const Facet& facet, std::size_t opposite) const noexcept;
+    int bend(const Facet& facet, std::size_t opposite, const Facet& beyond) const noexcept
+    {
+        const double edge_sum =
+            facet.heights[(opposite + 1) % 3] + facet.heights[(opposite + 2) % 3];
+        const double far_sum = facet.heights[opposite] + beyond.heights[0];
+        const double difference = far_sum - edge_sum;
+        constexpr double kTolerance = 4.0 * std::numeric_limits<double>::epsilon();
+        if (std::abs(difference) <= kTolerance * (std::abs(edge_sum) + std::abs(far_sum))) {
+            return 0;
+        }
+        return difference > 0.0 ? 1 : -1;
+    }
+    Face faceOf(const Facet& facet) const noexcept
+    {
+        const auto& [a, b, c] = facet.vertices;
+        const std::int32_t column = std::min({a.column, b.column, c.column});
+        const std::int32_t row = std::min({a.row, b.row, c.row});
+        // The upper face has two corners in its upper row.
+        return {column, row, a.row + b.row + c.row == 3 * row + 1};
+    }
     std::array<Vertex, 2> ends(Edge edge) const noexcept
     {
         return {edge.first,
@@ -201,9 +236,6 @@ public:
                                     : a.column == b.column ? Edge::Kind::AlongColumn
                                                            : Edge::Kind::Diagonal};
     }
-    Edge edgeOf(Face face, int corner) const noexcept;
-    std::optional<Wing> across(Face face, int corner) const noexcept;
-    int bend(Edge edge) const noexcept;
     std::array<std::optional<Wing>, 2> wings(Edge edge) const noexcept;
 
     Fan fan(Vertex v) const noexcept;
@@ -304,6 +336,13 @@ private:
         return {{fan.vertex.column + kSpokes[i].column, fan.vertex.row + kSpokes[i].row},
                 {spokes_[i].x, spokes_[i].y, fan.around[i] - fan.height}};
     }
+    Facet facetOf(const std::array<Vertex, 3>& vertices,
+                  const std::array<double, 3>& heights) const noexcept;
+    Facet facetOf(const std::array<Vertex, 3>& vertices) const noexcept
+    {
+        return facetOf(vertices,
+                       {heightOf(vertices[0]), heightOf(vertices[1]), heightOf(vertices[2])});
+    }
     double heightOf(Vertex v) const noexcept { return heights_.at(v.column, v.row); }
     CellHeights cellHeights(std::int32_t column, std::int32_t row) const noexcept
     {
@@ -334,6 +373,7 @@ private:
     std::int32_t last_column_;
     std::int32_t last_row_;
     bool is_mirrored_;
+    double turn_; // of a face's corners, in columns and rows: 1 or -1
     // Where corners() puts the sample that is neither upper left nor lower right, and lower right.
     std::array<int, 2> third_corner_; // of lower and upper faces
     std::array<int, 2> lower_right_corner_;
@@ -345,92 +385,49 @@ private:
 };
 
 template <typename Heights>
-HeightfieldPlane BasicHeightfieldSurface<Heights>::facePlane(Face face) const noexcept
+HeightfieldFacet
+BasicHeightfieldSurface<Heights>::facetOf(const std::array<Vertex, 3>& vertices,
+                                          const std::array<double, 3>& heights) const noexcept
 {
-    const double upper_left = heights_.at(face.column, face.row);
-    const double lower_right = heights_.at(face.column + 1, face.row + 1);
-    const double third = heights_.at(face.is_upper ? face.column + 1 : face.column,
-                                     face.is_upper ? face.row : face.row + 1);
-    HeightfieldPlane plane;
-    plane.origin = {face.column, face.row};
-    plane.height = upper_left;
-    plane.per_column = face.is_upper ? third - upper_left : lower_right - third;
-    plane.per_row = face.is_upper ? lower_right - third : third - upper_left;
-    plane.foot_columns = metric_.columns * plane.per_column + metric_.mixed * plane.per_row;
-    plane.foot_rows = metric_.mixed * plane.per_column + metric_.rows * plane.per_row;
-    plane.scale = 1.0 + plane.per_column * plane.foot_columns + plane.per_row * plane.foot_rows;
-    plane.is_upper = face.is_upper;
-    plane.third_corner = third_corner_[face.is_upper ? 1 : 0];
-    plane.lower_right_corner = lower_right_corner_[face.is_upper ? 1 : 0];
-    return plane;
+    const auto& [first, second, third] = vertices;
+    Facet facet;
+    facet.vertices = vertices;
+    facet.heights = heights;
+    facet.column = static_cast<double>(first.column);
+    facet.row = static_cast<double>(first.row);
+    facet.second_columns = static_cast<double>(second.column - first.column);
+    facet.second_rows = static_cast<double>(second.row - first.row);
+    facet.third_columns = static_cast<double>(third.column - first.column);
+    facet.third_rows = static_cast<double>(third.row - first.row);
+    facet.turn = turn_;
+    const double to_second = heights[1] - heights[0];
+    const double to_third = heights[2] - heights[0];
+    facet.per_column = turn_ * (to_second * facet.third_rows - to_third * facet.second_rows);
+    facet.per_row = turn_ * (to_third * facet.second_columns - to_second * facet.third_columns);
+    facet.foot_columns = metric_.columns * facet.per_column + metric_.mixed * facet.per_row;
+    facet.foot_rows = metric_.mixed * facet.per_column + metric_.rows * facet.per_row;
+    facet.scale = 1.0 + facet.per_column * facet.foot_columns + facet.per_row * facet.foot_rows;
+    return facet;
 }
 
+// The two faces of an edge make a parallelogram.
 template <typename Heights>
-HeightfieldEdge BasicHeightfieldSurface<Heights>::edgeOf(Face face, int corner) const noexcept
+auto BasicHeightfieldSurface<Heights>::beyond(const Facet& facet,
+                                              std::size_t opposite) const noexcept
+    -> std::optional<Facet>
 {
-    if (corner == third_corner_[face.is_upper ? 1 : 0]) {
-        return {{face.column, face.row}, Edge::Kind::Diagonal};
-    }
-    if (corner == 0) {
-        return face.is_upper ? Edge{{face.column + 1, face.row}, Edge::Kind::AlongColumn}
-                             : Edge{{face.column, face.row + 1}, Edge::Kind::AlongRow};
-    }
-    return {{face.column, face.row},
-            face.is_upper ? Edge::Kind::AlongRow : Edge::Kind::AlongColumn};
-}
-
-template <typename Heights>
-auto BasicHeightfieldSurface<Heights>::across(Face face, int corner) const noexcept
-    -> std::optional<Wing>
-{
-    const std::size_t other = face.is_upper ? 0 : 1;
-    if (corner == third_corner_[face.is_upper ? 1 : 0]) {
-        return Wing{{face.column, face.row, !face.is_upper}, third_corner_[other]};
-    }
-    const bool is_forward = corner == 0; // to the right of upper faces, below lower ones
-    const std::int32_t step = is_forward ? 1 : -1;
-    const Face beyond{face.column + (face.is_upper == is_forward ? step : 0),
-                      face.row + (face.is_upper == is_forward ? 0 : step), !face.is_upper};
-    if (beyond.column < 0 || beyond.row < 0 || beyond.column >= last_column_ ||
-        beyond.row >= last_row_) {
+    const std::size_t next = (opposite + 1) % 3;
+    const std::size_t last = (opposite + 2) % 3;
+    const Vertex here = facet.vertices[opposite];
+    const Vertex a = facet.vertices[last];
+    const Vertex b = facet.vertices[next];
+    const Vertex there{a.column + b.column - here.column, a.row + b.row - here.row};
+    // Unsigned, so that what is negative is too large.
+    if (static_cast<std::uint32_t>(there.column) > static_cast<std::uint32_t>(last_column_) ||
+        static_cast<std::uint32_t>(there.row) > static_cast<std::uint32_t>(last_row_)) {
         return std::nullopt;
     }
-    return Wing{beyond, is_forward ? lower_right_corner_[other] : 0};
-}
-
-template <typename Heights>
-int BasicHeightfieldSurface<Heights>::bend(Edge edge) const noexcept
-{
-    // The faces of an edge make a parallelogram of which it is a diagonal. The plane through one
-    // of them continues to the other's far corner.
-    const auto [from, to] = ends(edge);
-    Vertex one{};
-    Vertex other{};
-    switch (edge.kind) {
-    case Edge::Kind::AlongRow:
-        one = {to.column, to.row + 1};
-        other = {from.column, from.row - 1};
-        break;
-    case Edge::Kind::AlongColumn:
-        one = {to.column + 1, to.row};
-        other = {from.column - 1, from.row};
-        break;
-    case Edge::Kind::Diagonal:
-        one = {to.column, from.row};
-        other = {from.column, to.row};
-        break;
-    }
-    if (one.row > last_row_ || one.column > last_column_ || other.row < 0 || other.column < 0) {
-        return 1;
-    }
-    const double edge_sum = heightOf(from) + heightOf(to);
-    const double far_sum = heightOf(one) + heightOf(other);
-    const double difference = far_sum - edge_sum;
-    constexpr double kTolerance = 4.0 * std::numeric_limits<double>::epsilon();
-    if (std::abs(difference) <= kTolerance * (std::abs(edge_sum) + std::abs(far_sum))) {
-        return 0;
-    }
-    return difference > 0.0 ? 1 : -1;
+    return facetOf({there, a, b}, {heightOf(there), facet.heights[last], facet.heights[next]});
 }
 
 template <typename Heights>

@@ -285,14 +285,14 @@ private:
 
     Foot footOn(const Face& face, const Goal& goal) const noexcept
     {
-        const auto plane = surface_.facePlane(face);
-        const SurfaceFoot scaled = plane.foot(goal);
+        const auto facet = surface_.facet(face, 0);
+        const SurfaceFoot scaled = facet.foot(goal);
         Foot foot{};
-        foot.scale = plane.scale;
+        foot.scale = facet.scale;
         for (std::size_t i = 0; i < 3; ++i) {
-            foot.weights[i] = scaled.weights[i] / plane.scale;
+            foot.weights[i] = scaled.weights[i] / facet.scale;
         }
-        const double error = std::max(kShareMin, plane.error(goal) / plane.scale);
+        const double error = std::max(kShareMin, facet.error(goal) / facet.scale);
         for (double& weight : foot.weights) {
             weight = std::abs(weight) <= error ? 0.0 : weight;
         }

@@ -28,6 +28,7 @@ public:
     using Vertex = typename S::Vertex;
     using Edge = typename S::Edge;
     using Face = typename S::Face;
+    using Facet = typename S::Facet;
     using Contact = SurfaceContact<S>;
     using Weights = std::array<double, 3>;
 
@@ -37,6 +38,37 @@ public:
     // vertex, so that the two cannot contradict each other.
     static constexpr double kShareMin = 1e-12;
     static constexpr double kCosineMin = 1e-13;
+
+    /// Whether a foot of that weight is inside the edge opposite, by more than rounding error.
+    static bool isInward(double weight, const Facet& facet, const Goal& goal) noexcept
+    {
+        constexpr double kClearly = 1e-6; // of the scale: far more than any rounding error
+        return weight > kClearly * facet.scale ||
+               weight > std::max(kShareMin * facet.scale, facet.error(goal));
+    }
+
+    /// The weights of a face's corners at a foot; what is negative counts as 0.
+    static Weights weightsOnFace(const S& surface,
+                                 const Face& face,
+                                 const Facet& facet,
+                                 const SurfaceFoot& foot) noexcept
+    {
+        const auto corners = surface.corners(face);
+        const std::size_t first = corners[0] == facet.vertices[0]   ? 0
+                                  : corners[1] == facet.vertices[0] ? 1
+                                                                    : 2;
+        Weights weights{};
+        double sum = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            weights[(first + i) % 3] = std::max(foot.weights[i], 0.0);
+            sum += weights[(first + i) % 3];
+        }
+        const double inverse = 1.0 / sum;
+        for (double& weight : weights) {
+            weight *= inverse;
+        }
+        return weights;
+    }
 
     SteepestDescent(const S& surface, ContactCounters& counters) noexcept
         : surface_(surface)
@@ -51,23 +83,14 @@ public:
         return run(contact, goal, Step::Goes);
     }
 
-    /// The same, beginning with a walk into `face` from a place on it.
-    bool descendInto(Contact& contact, Face face, const Weights& weights, const Goal& goal) noexcept
+    /// The same, beginning with a walk over `facet` from its edge opposite its first corner, at
+    /// the share `share` of the way from its second corner to its third.
+    bool descendOver(Contact& contact, const Facet& facet, double share, const Goal& goal) noexcept
     {
-        const auto plane = surface_.facePlane(face);
-        return run(contact, goal, walk(contact, face, weights, plane, plane.foot(goal), goal));
-    }
-
-    /// Follows the straight way to the goal that leaves the surface over `over`, down again to a
-    /// local minimum where it meets the surface.
-    bool leave(Contact& contact, Face over, const Goal& goal) noexcept
-    {
-        return run(contact, goal, fly(contact, over, goal));
+        return run(contact, goal, cross(contact, facet, share, facet.foot(goal), goal));
     }
 
 private:
-    using Plane = decltype(std::declval<const S&>().facePlane(std::declval<Face>()));
-
     enum class Step : std::uint8_t {
         Goes, // the contact is where the next step begins
         Ends, // it is a local minimum
@@ -170,14 +193,12 @@ private:
             });
         if (into) {
             // On steep faces the products above cancel: the plane decides.
-            const auto plane = surface_.facePlane(*into);
-            const SurfaceFoot foot = plane.foot(goal);
             const auto corners = surface_.corners(*into);
             const std::size_t at = corners[0] == here ? 0 : corners[1] == here ? 1 : 2;
-            if (foot.weights[(at + 1) % 3] > 0.0 && foot.weights[(at + 2) % 3] > 0.0) {
-                Weights weights{};
-                weights[at] = 1.0;
-                return walk(contact, *into, weights, plane, foot, goal);
+            const Facet facet = surface_.facet(*into, at);
+            const SurfaceFoot foot = facet.foot(goal);
+            if (foot.weights[1] > 0.0 && foot.weights[2] > 0.0) {
+                return walk(contact, facet, {1.0, 0.0, 0.0}, foot, goal);
             }
         }
         return slide(contact, here, *along, along_share, squared);
@@ -214,34 +235,28 @@ private:
         }
         // A foot on the inner side of a face means that the way into it leads closer: the same
         // number decides it as decides, within that face, whether its foot is outside.
-        std::optional<SurfaceWing<S>> into;
-        std::optional<Plane> plane;
+        std::optional<Facet> into;
         SurfaceFoot foot{};
         double steepest = 0.0;
         for (const auto& wing : surface_.wings(contact.edge)) {
             if (!wing) {
                 continue;
             }
-            const Plane candidate = surface_.facePlane(wing->face);
+            const Facet candidate =
+                surface_.facet(wing->face, static_cast<std::size_t>(wing->corner));
             const SurfaceFoot its_foot = candidate.foot(goal);
-            const double weight = its_foot.weights[static_cast<std::size_t>(wing->corner)];
+            const double weight = its_foot.weights[0];
             if (weight > 0.0 && weight * weight > steepest * candidate.scale &&
                 isInward(weight, candidate, goal)) {
                 steepest = weight * weight / candidate.scale;
-                into = wing;
-                plane = candidate;
+                into = candidate;
                 foot = its_foot;
             }
         }
         const auto [from, to] = surface_.ends(contact.edge);
         if (into) {
-            const auto corners = surface_.corners(into->face);
-            const auto corner = static_cast<std::size_t>(into->corner);
-            Weights weights{};
-            weights[(corner + 1) % 3] =
-                corners[(corner + 1) % 3] == from ? 1.0 - contact.along : contact.along;
-            weights[(corner + 2) % 3] = 1.0 - weights[(corner + 1) % 3];
-            return walk(contact, into->face, weights, *plane, foot, goal);
+            const double share = into->vertices[1] == from ? contact.along : 1.0 - contact.along;
+            return cross(contact, *into, share, foot, goal);
         }
         const Vec3 edge = surface_.between(from, to);
         const Vec3 to_goal = surface_.toGoal(from, goal);
@@ -262,120 +277,141 @@ private:
         if (const auto over = surface_.wayOut(contact, goal)) {
             return fly(contact, *over, goal);
         }
-        const Plane plane = surface_.facePlane(contact.face);
-        return walk(contact, contact.face, contact.weights, plane, plane.foot(goal), goal);
+        const Facet facet = surface_.facet(contact.face, 0);
+        return walk(contact, facet, contact.weights, facet.foot(goal), goal);
     }
 
-    // Straight towards the foot, from face to face as long as the next one leads closer.
+    // From a place on a facet straight towards the foot.
     Step walk(Contact& contact,
-              Face face,
-              Weights at,
-              Plane plane,
-              SurfaceFoot foot,
+              const Facet& facet,
+              const Weights& at,
+              const SurfaceFoot& foot,
               const Goal& goal) noexcept
     {
-        for (;; --steps_) {
+        if (foot.isInside()) {
             ++counters_.faces;
-            if (foot.isInside()) {
-                return settle(contact, face, plane, foot, goal);
-            }
-            const Exit exit = exitTowards(at, foot, plane.scale);
-            const std::size_t i = exit.corner;
-            const std::size_t j = (i + 1) % 3;
-            const std::size_t k = (i + 2) % 3;
-            if (!(exit.share > kShareMin && exit.share < 1.0 - kShareMin)) {
-                contact.feature = ContactFeature::Vertex;
-                contact.vertex = surface_.corners(face)[exit.share > 0.5 ? k : j];
-                return Step::Goes;
-            }
-            const auto wing = surface_.across(face, static_cast<int>(i));
-            if (!wing || steps_ <= 1) {
-                return stopAtEdge(contact, face, exit);
-            }
-            const Plane next = surface_.facePlane(wing->face);
-            const SurfaceFoot next_foot = next.foot(goal);
-            const auto corner = static_cast<std::size_t>(wing->corner);
-            if (!isInward(next_foot.weights[corner], next, goal)) {
-                return stopAtEdge(contact, face, exit);
-            }
-            at[corner] = 0.0;
-            at[(corner + 1) % 3] = exit.share; // the edge runs the other way around
-            at[(corner + 2) % 3] = 1.0 - exit.share;
-            face = wing->face;
-            plane = next;
-            foot = next_foot;
-            if (foot.above > 0.0) { // over a sharp ridge
-                contact = contactOnFace(surface_, face, at);
-                return Step::Goes;
+            return settle(contact, facet, foot, goal);
+        }
+        double earliest = std::numeric_limits<double>::infinity();
+        std::size_t i = 0;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            if (foot.weights[corner] < 0.0) {
+                const double begin = at[corner] * facet.scale;
+                const double time = begin / (begin - foot.weights[corner]);
+                if (time < earliest) {
+                    earliest = time;
+                    i = corner;
+                }
             }
         }
+        const std::size_t j = (i + 1) % 3;
+        const std::size_t k = (i + 2) % 3;
+        const auto weightAt = [&](std::size_t corner) {
+            const double begin = at[corner] * facet.scale;
+            return begin + earliest * (foot.weights[corner] - begin);
+        };
+        const double of_k = weightAt(k);
+        return goBeyond(contact, facet, i, of_k / (of_k + weightAt(j)), goal);
     }
 
-    // Whether a foot of that weight is inside the edge opposite, by more than rounding error.
-    static bool isInward(double weight, const Plane& plane, const Goal& goal) noexcept
+    // A walk leaves a facet over the edge opposite corner i, at the share `share` of the way from
+    // corner i + 1 to corner i + 2.
+    Step goBeyond(Contact& contact,
+                  const Facet& facet,
+                  std::size_t i,
+                  double share,
+                  const Goal& goal) noexcept
     {
-        constexpr double kClearly = 1e-6; // of the scale: far more than any rounding error
-        return weight > kClearly * plane.scale ||
-               weight > std::max(kShareMin * plane.scale, plane.error(goal));
+        ++counters_.faces;
+        if (!(share > kShareMin && share < 1.0 - kShareMin)) {
+            return stopAtVertex(contact, facet.vertices[(i + (share > 0.5 ? 2 : 1)) % 3]);
+        }
+        const auto next = surface_.beyond(facet, i);
+        if (next) {
+            const SurfaceFoot foot = next->foot(goal);
+            if (foot.above <= 0.0 && isInward(foot.weights[0], *next, goal)) {
+                return cross(contact, *next, 1.0 - share, foot, goal);
+            }
+        }
+        return stopAtEdge(contact, facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3], share);
+    }
+
+    // From facet to facet, each entered over the edge opposite its first corner, as long as the
+    // next one leads closer. The foot is on the inner side of that edge.
+    Step cross(Contact& contact,
+               Facet facet,
+               double share, // of the way from its second corner to its third
+               SurfaceFoot foot,
+               const Goal& goal) noexcept
+    {
+        while (true) {
+            ++counters_.faces;
+            const auto& [ahead, second, third] = foot.weights;
+            if (second >= 0.0 && third >= 0.0) {
+                return settle(contact, facet, foot, goal);
+            }
+            // The sign tells on which side of the corner ahead the way passes: over the edge from
+            // it to the third corner, or to the second.
+            const double side = (1.0 - share) * third - share * second;
+            const bool is_third = side >= 0.0;
+            const double of_ahead = (is_third ? 1.0 - share : share) * ahead;
+            const double of_ahead_share = of_ahead / (of_ahead + std::abs(side));
+            const Vertex beside = facet.vertices[is_third ? 2 : 1];
+            if (!(of_ahead_share > kShareMin && of_ahead_share < 1.0 - kShareMin)) {
+                return stopAtVertex(contact, of_ahead_share > 0.5 ? facet.vertices[0] : beside);
+            }
+            const auto next = surface_.beyond(facet, is_third ? 1 : 2);
+            if (!next || steps_ <= 1) {
+                return stopAtEdge(contact, facet.vertices[0], beside, 1.0 - of_ahead_share);
+            }
+            foot = next->foot(goal);
+            // Above the next plane, over a sharp ridge, the proxy may let go.
+            if (foot.above > 0.0 || !isInward(foot.weights[0], *next, goal)) {
+                return stopAtEdge(contact, facet.vertices[0], beside, 1.0 - of_ahead_share);
+            }
+            // The next facet's second corner is the one ahead, or the one beside.
+            share = is_third ? 1.0 - of_ahead_share : of_ahead_share;
+            facet = *next;
+            --steps_;
+        }
     }
 
     Step settle(Contact& contact,
-                Face face,
-                const Plane& plane,
-                SurfaceFoot foot,
+                const Facet& facet,
+                const SurfaceFoot& foot,
                 const Goal& goal) const noexcept
     {
-        Weights weights = foot.weights;
-        for (double& weight : weights) {
-            weight = isInward(weight, plane, goal) ? weight : 0.0;
-        }
-        const double sum = weights[0] + weights[1] + weights[2];
-        for (double& weight : weights) {
-            weight /= sum;
-        }
         const bool was_here = contact.feature == ContactFeature::Face;
-        contact = contactOnFace(surface_, face, weights);
+        contact = contactOnFacet(facet, foot, goal);
         // From an edge, a face on its other side may lead closer. A ridge may have been crossed.
         return contact.feature == ContactFeature::Face && (was_here || foot.above <= 0.0)
                    ? Step::Ends
                    : Step::Goes;
     }
 
-    // The way within a face to a foot outside leaves through the edge opposite `corner`, at the
-    // share of that edge from the corner after to the one before.
-    struct Exit {
-        std::size_t corner;
-        double share;
-    };
-
-    static Exit exitTowards(const Weights& at, const SurfaceFoot& foot, double scale) noexcept
+    Contact
+    contactOnFacet(const Facet& facet, const SurfaceFoot& foot, const Goal& goal) const noexcept
     {
-        double earliest = std::numeric_limits<double>::infinity();
-        std::size_t corner = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (foot.weights[i] < 0.0) {
-                const double time = at[i] * scale / (at[i] * scale - foot.weights[i]);
-                if (time < earliest) {
-                    earliest = time;
-                    corner = i;
-                }
-            }
+        SurfaceFoot inside = foot;
+        for (double& weight : inside.weights) {
+            weight = isInward(weight, facet, goal) ? weight : 0.0;
         }
-        const std::size_t j = (corner + 1) % 3;
-        const std::size_t k = (corner + 2) % 3;
-        const double weight_j = at[j] * scale + earliest * (foot.weights[j] - at[j] * scale);
-        const double weight_k = at[k] * scale + earliest * (foot.weights[k] - at[k] * scale);
-        return {corner, weight_k / (weight_j + weight_k)};
+        const Face face = surface_.faceOf(facet);
+        return contactOnFace(surface_, face, weightsOnFace(surface_, face, facet, inside));
     }
 
-    Step stopAtEdge(Contact& contact, Face face, const Exit& exit) const noexcept
+    static Step stopAtVertex(Contact& contact, Vertex vertex) noexcept
     {
-        const auto corners = surface_.corners(face);
+        contact.feature = ContactFeature::Vertex;
+        contact.vertex = vertex;
+        return Step::Goes;
+    }
+
+    Step stopAtEdge(Contact& contact, Vertex from, Vertex to, double share) const noexcept
+    {
         contact.feature = ContactFeature::Edge;
-        contact.edge = surface_.edgeOf(face, static_cast<int>(exit.corner));
-        contact.along = surface_.ends(contact.edge)[0] == corners[(exit.corner + 1) % 3]
-                            ? exit.share
-                            : 1.0 - exit.share;
+        contact.edge = surface_.edgeBetween(from, to);
+        contact.along = surface_.ends(contact.edge)[0] == from ? share : 1.0 - share;
         return Step::Goes;
     }
 
