@@ -95,12 +95,12 @@ struct SurfaceLegs {
 ///   facet(f, i)        the face for walking, its corner i (0 to 2) first
 ///   rotated(t, i)      the same facet, its corner i first
 ///   faceOf(t)          the face of a facet
-///   beyond(t, i)       the facet beyond the edge opposite corner i of another, its first corner
-///                      the one opposite that edge, so that its second is corner i + 2 of the
-///                      other; nothing at the border of the mesh
-///   bend(t, i, u)      how the surface bends there, u = beyond(t, i). Positive: a valley, free
-///                      space fills less than half the angle around the edge; 0: flat, to
-///                      rounding; negative: a ridge
+///   hasBeyond(t, i)    whether there is a face beyond the edge opposite corner i of a facet
+///   beyond(t, i)       that face, if so; its first corner is opposite that edge, so that its
+///                      second is corner i + 2 of the other
+///   bend(t, i)         how the surface bends there, if so. Positive: a valley, free space fills
+///                      less than half the angle around the edge; 0: flat, to rounding; negative:
+///                      a ridge
 ///   ends(e)            the two vertices of an edge, in its order
 ///   edgeBetween(a, b)  the edge between two vertices of a face
 ///   wings(e)           the one or two faces of an edge
@@ -183,9 +183,13 @@ concept ContactSurface = requires(const S& s,
     {
         s.beyond(facet, std::size_t{0})
     }
-    noexcept->std::same_as<std::optional<typename S::Facet>>;
+    noexcept->std::same_as<typename S::Facet>;
     {
-        s.bend(facet, std::size_t{0}, facet)
+        s.hasBeyond(facet, std::size_t{0})
+    }
+    noexcept->std::same_as<bool>;
+    {
+        s.bend(facet, std::size_t{0})
     }
     noexcept->std::same_as<int>;
     {

@@ -313,13 +313,15 @@ private:
             // The foot reaches the edge opposite that corner.
             const auto i = static_cast<std::size_t>(event.which);
             const bool is_stuck = isStuckAt(event, end);
-            const auto beyond = surface_.beyond(facet, i);
-            const int bend = beyond ? surface_.bend(facet, i, *beyond) : S::kIsBorderWall ? 1 : -1;
+            const bool has_beyond = surface_.hasBeyond(facet, i);
+            const int bend = has_beyond ? surface_.bend(facet, i) : S::kIsBorderWall ? 1 : -1;
             if (bend > 0 && !is_stuck) {
-                return onEdge(rotated(facet, i), beyond, end);
+                return onEdge(rotated(facet, i),
+                              has_beyond ? std::optional(surface_.beyond(facet, i)) : std::nullopt,
+                              end);
             }
             if (bend == 0 && !is_stuck) {
-                facet = *beyond;
+                facet = surface_.beyond(facet, i);
                 if (events_ == 0) {
                     restOnFacet(facet, facet.foot(goal_));
                     return false;
@@ -328,7 +330,7 @@ private:
                 continue;
             }
             // A ridge.
-            fall(facet, i, footBetween(first, last, event.share), beyond, is_stuck, end);
+            fall(facet, i, footBetween(first, last, event.share), is_stuck, end);
             return false;
         }
     }
@@ -337,7 +339,6 @@ private:
     void fall(const Facet& facet,
               std::size_t i,
               const SurfaceFoot& foot,
-              const std::optional<Facet>& beyond,
               bool is_stuck,
               const Goal& end) noexcept
     {
@@ -353,8 +354,8 @@ private:
         const double at_k = std::max(foot.weights[k], 0.0);
         const double share = at_j + at_k > 0.0 ? at_k / (at_j + at_k) : 0.5; // from j to k
         Descent descent(surface_, counters_);
-        if (beyond && !is_stuck) {
-            is_free_ = descent.descendOver(contact_, *beyond, 1.0 - share, goal_);
+        if (surface_.hasBeyond(facet, i) && !is_stuck) {
+            is_free_ = descent.descendOver(contact_, surface_.beyond(facet, i), 1.0 - share, goal_);
             return;
         }
         restOnEdge(facet.vertices[j], facet.vertices[k], share);

@@ -30,9 +30,11 @@ BasicHeightfieldSurface<Heights>::BasicHeightfieldSurface(
     turn_ = is_mirrored_ ? 1.0 : -1.0;
     third_corner_ = is_mirrored_ ? std::array{2, 1} : std::array{1, 2};
     lower_right_corner_ = is_mirrored_ ? std::array{1, 2} : std::array{2, 1};
-    metric_ = {dot(row_, row_) / (determinant * determinant),
-               -dot(column_, row_) / (determinant * determinant),
-               dot(column_, column_) / (determinant * determinant)};
+    const Vec3 diagonal = column_ + row_;
+    const double by_area = 1.0 / (determinant * determinant);
+    metric_ = {{{dot(column_, column_) * by_area, -dot(diagonal, row_) * by_area},
+                {dot(row_, row_) * by_area, -dot(diagonal, column_) * by_area},
+                {dot(diagonal, diagonal) * by_area, dot(column_, row_) * by_area}}};
     // A straight way across the map meets three features a cell: four times that, and what short
     // ways from one peak of a checkerboard to the next may need.
     const auto across = static_cast<std::uint32_t>(terrain_->columns() + terrain_->rows());

@@ -45,51 +45,60 @@ struct HeightfieldFan {
     std::array<double, 6> around;
     std::array<bool, 6> exists;
 };
-/// What a step of a column and of a row is long: the inverse of the matrix of their dot products.
-struct HeightfieldMetric {
-    double columns;
-    double mixed;
-    double rows;
-};
-/// A face as walks see it: which corner comes first is theirs to say (contact_surface.h). Its plane
-/// is z = heights[0] + per_column × columns + per_row × rows around the first corner.
+
+/// A face as walks see it: which corner comes first is theirs to say (contact_surface.h).
+///
+/// Notation. a and b lead from the first corner to the second and third, horizontally, and rise by
+/// `a_up` and `b_up`; M is the inverse of the matrix of their dot products; f = M (a_up, b_up).
+/// With the goal at x a + y b, z above the first corner, and w = x f_b - y f_a, its foot on the
+/// plane is at (x + z f_a + b_up w) a + (y + z f_b - a_up w) b, times 1/scale, where scale = 1 +
+/// a_up f_a + b_up f_b. Nothing in it cancels on steep faces.
 struct HeightfieldFacet {
     std::array<HeightfieldVertex, 3> vertices; // counter-clockwise seen from free space
+    std::array<std::uint8_t, 3> kinds;         // of the edges opposite: HeightfieldEdge::Kind
     std::array<double, 3> heights;
-    double scale; // the normal's length squared, in the metric of the map, where its z is 1
-    // The first corner and the ways from it to the others, in columns and rows.
-    double column;
-    double row;
-    double second_columns;
-    double second_rows;
-    double third_columns;
-    double third_rows;
-    double turn; // the determinant of these ways: 1 or -1
-    double per_column;
-    double per_row;
-    double foot_columns; // from the goal to its foot, for each metre above the plane, times scale
-    double foot_rows;
+    double scale;
+    double a_up;
+    double b_up;
+    double f_a;
+    double f_b;
+    double turn; // of a and b in columns and rows: 1 or -1
 
-    SurfaceFoot foot(const HeightfieldGoal& goal) const noexcept
+    struct Seen {
+        double x;
+        double y;
+        double z;
+    };
+    [[gnu::always_inline]] inline Seen seen(const HeightfieldGoal& goal) const noexcept
     {
-        const double columns = goal.grid.column - column;
-        const double rows = goal.grid.row - row;
-        const double above = (goal.scene.z - heights[0]) - (per_column * columns + per_row * rows);
-        const double u = scale * columns + above * foot_columns;
-        const double v = scale * rows + above * foot_rows;
-        const double second = turn * (u * third_rows - v * third_columns);
-        const double third = turn * (v * second_columns - u * second_rows);
-        return {{scale - second - third, second, third}, above};
+        const auto& [first, second, third] = vertices;
+        const double columns = goal.grid.column - static_cast<double>(first.column);
+        const double rows = goal.grid.row - static_cast<double>(first.row);
+        return {turn * (columns * static_cast<double>(third.row - first.row) -
+                        rows * static_cast<double>(third.column - first.column)),
+                turn * (rows * static_cast<double>(second.column - first.column) -
+                        columns * static_cast<double>(second.row - first.row)),
+                goal.scene.z - heights[0]};
+    }
+
+    [[gnu::always_inline]] inline SurfaceFoot foot(const HeightfieldGoal& goal) const noexcept
+    {
+        const auto [x, y, z] = seen(goal);
+        const double w = x * f_b - y * f_a;
+        const double second = (x + z * f_a) + b_up * w;
+        const double third = (y + z * f_b) - a_up * w;
+        return {{scale - (second + third), second, third}, z - (a_up * x + b_up * y)};
     }
     double error(const HeightfieldGoal& goal) const noexcept
     {
         constexpr double kTolerance = 16.0 * std::numeric_limits<double>::epsilon();
-        const double columns = std::abs(goal.grid.column - column);
-        const double rows = std::abs(goal.grid.row - row);
-        const double up = std::abs(goal.scene.z - heights[0]) + std::abs(per_column) * columns +
-                          std::abs(per_row) * rows;
-        return kTolerance * (scale * (1.0 + columns + rows) +
-                             up * (std::abs(foot_columns) + std::abs(foot_rows)));
+        const auto [x, y, z] = seen(goal);
+        const double across = std::abs(x) + std::abs(y);
+        return kTolerance *
+               (scale +
+                (1.0 + (std::abs(a_up) + std::abs(b_up)) * (std::abs(f_a) + std::abs(f_b))) *
+                    across +
+                std::abs(z) * (std::abs(f_a) + std::abs(f_b)));
     }
 };
 
@@ -189,25 +198,49 @@ public:
         return face.is_upper != is_mirrored_ ? std::array{upper_left, lower_right, third}
                                              : std::array{upper_left, third, lower_right};
     }
-    Facet facet(Face face, std::size_t first) const noexcept
+    [[gnu::always_inline]] inline Facet facet(Face face, std::size_t first) const noexcept
     {
         const auto [a, b, c] = corners(face);
         const std::array<Vertex, 5> around{a, b, c, a, b};
-        return facetOf({around[first], around[first + 1], around[first + 2]});
+        const std::array<Vertex, 3> vertices{around[first], around[first + 1], around[first + 2]};
+        return facetOf(vertices,
+                       {kindOf(vertices[1], vertices[2]), kindOf(vertices[2], vertices[0]),
+                        kindOf(vertices[0], vertices[1])},
+                       {heightOf(vertices[0]), heightOf(vertices[1]), heightOf(vertices[2])});
     }
-    Facet rotated(const Facet& facet, std::size_t first) const noexcept
+    [[gnu::always_inline]] inline Facet rotated(const Facet& facet,
+                                                std::size_t first) const noexcept
     {
         const std::size_t second = (first + 1) % 3;
         const std::size_t third = (first + 2) % 3;
         return facetOf({facet.vertices[first], facet.vertices[second], facet.vertices[third]},
+                       {facet.kinds[first], facet.kinds[second], facet.kinds[third]},
                        {facet.heights[first], facet.heights[second], facet.heights[third]});
     }
-    std::optional<Facet> beyond(const Facet& facet, std::size_t opposite) const noexcept;
-    int bend(const Facet& facet, std::size_t opposite, const Facet& beyond) const noexcept
+    // The two faces of an edge make a parallelogram.
+    bool hasBeyond(const Facet& facet, std::size_t opposite) const noexcept
+    {
+        const Vertex there = mirrored(facet, opposite);
+        // Unsigned, so that what is negative is too large.
+        return static_cast<std::uint32_t>(there.column) <=
+                   static_cast<std::uint32_t>(last_column_) &&
+               static_cast<std::uint32_t>(there.row) <= static_cast<std::uint32_t>(last_row_);
+    }
+    [[gnu::always_inline]] inline Facet beyond(const Facet& facet,
+                                               std::size_t opposite) const noexcept
+    {
+        const std::size_t next = (opposite + 1) % 3;
+        const std::size_t last = (opposite + 2) % 3;
+        const Vertex there = mirrored(facet, opposite);
+        return facetOf({there, facet.vertices[last], facet.vertices[next]},
+                       {facet.kinds[opposite], facet.kinds[next], facet.kinds[last]},
+                       {heightOf(there), facet.heights[last], facet.heights[next]});
+    }
+    int bend(const Facet& facet, std::size_t opposite) const noexcept
     {
         const double edge_sum =
             facet.heights[(opposite + 1) % 3] + facet.heights[(opposite + 2) % 3];
-        const double far_sum = facet.heights[opposite] + beyond.heights[0];
+        const double far_sum = facet.heights[opposite] + heightOf(mirrored(facet, opposite));
         const double difference = far_sum - edge_sum;
         constexpr double kTolerance = 4.0 * std::numeric_limits<double>::epsilon();
         if (std::abs(difference) <= kTolerance * (std::abs(edge_sum) + std::abs(far_sum))) {
@@ -236,9 +269,10 @@ public:
                                     : a.column == b.column ? Edge::Kind::AlongColumn
                                                            : Edge::Kind::Diagonal};
     }
-    std::array<std::optional<Wing>, 2> wings(Edge edge) const noexcept;
+    [[gnu::always_inline]] inline std::array<std::optional<Wing>, 2>
+    wings(Edge edge) const noexcept;
 
-    Fan fan(Vertex v) const noexcept;
+    [[gnu::always_inline]] inline Fan fan(Vertex v) const noexcept;
     template <typename F>
     void eachSpoke(const Fan& fan, F&& function) const noexcept
     {
@@ -271,7 +305,8 @@ public:
     /// The grid position of a contact.
     GridPoint gridPoint(const Contact& contact) const noexcept;
 
-    std::optional<Face> wayOut(const Fan& fan, const Goal& goal) const noexcept;
+    [[gnu::always_inline]] inline std::optional<Face> wayOut(const Fan& fan,
+                                                             const Goal& goal) const noexcept;
     std::optional<Face> wayOut(const Contact& contact, const Goal& goal) const noexcept;
     Cast castFrom(const Contact& contact, Face over, const Goal& goal) const noexcept;
     Cast castFree(const Goal& from, const Goal& to) const noexcept;
@@ -336,12 +371,30 @@ private:
         return {{fan.vertex.column + kSpokes[i].column, fan.vertex.row + kSpokes[i].row},
                 {spokes_[i].x, spokes_[i].y, fan.around[i] - fan.height}};
     }
-    Facet facetOf(const std::array<Vertex, 3>& vertices,
-                  const std::array<double, 3>& heights) const noexcept;
-    Facet facetOf(const std::array<Vertex, 3>& vertices) const noexcept
+    static std::uint8_t kindOf(Vertex a, Vertex b) noexcept
     {
-        return facetOf(vertices,
-                       {heightOf(vertices[0]), heightOf(vertices[1]), heightOf(vertices[2])});
+        return static_cast<std::uint8_t>(a.row == b.row         ? Edge::Kind::AlongRow
+                                         : a.column == b.column ? Edge::Kind::AlongColumn
+                                                                : Edge::Kind::Diagonal);
+    }
+    static Vertex mirrored(const Facet& facet, std::size_t opposite) noexcept
+    {
+        const Vertex here = facet.vertices[opposite];
+        const Vertex a = facet.vertices[(opposite + 1) % 3];
+        const Vertex b = facet.vertices[(opposite + 2) % 3];
+        return {a.column + b.column - here.column, a.row + b.row - here.row};
+    }
+    [[gnu::always_inline]] inline Facet facetOf(const std::array<Vertex, 3>& vertices,
+                                                const std::array<std::uint8_t, 3>& kinds,
+                                                const std::array<double, 3>& heights) const noexcept
+    {
+        const double a_up = heights[1] - heights[0];
+        const double b_up = heights[2] - heights[0];
+        const double m_ab = metric_[kinds[0]].mixed;
+        const double f_a = metric_[kinds[1]].length * a_up + m_ab * b_up;
+        const double f_b = m_ab * a_up + metric_[kinds[2]].length * b_up;
+        return {vertices, kinds, heights, 1.0 + (a_up * f_a + b_up * f_b), a_up, b_up,
+                f_a,      f_b,   turn_};
     }
     double heightOf(Vertex v) const noexcept { return heights_.at(v.column, v.row); }
     CellHeights cellHeights(std::int32_t column, std::int32_t row) const noexcept
@@ -380,55 +433,15 @@ private:
     Vec3 column_; // one column to the right, horizontally
     Vec3 row_;
     std::array<Vec3, 6> spokes_;
-    HeightfieldMetric metric_;
+    // By the kind of an edge: its length squared, and minus the dot product of the two other edges
+    // of a face from their common corner, both by the square of a cell's area.
+    struct EdgeMetric {
+        double length;
+        double mixed;
+    };
+    std::array<EdgeMetric, 3> metric_;
     std::uint32_t steps_max_;
 };
-
-template <typename Heights>
-HeightfieldFacet
-BasicHeightfieldSurface<Heights>::facetOf(const std::array<Vertex, 3>& vertices,
-                                          const std::array<double, 3>& heights) const noexcept
-{
-    const auto& [first, second, third] = vertices;
-    Facet facet;
-    facet.vertices = vertices;
-    facet.heights = heights;
-    facet.column = static_cast<double>(first.column);
-    facet.row = static_cast<double>(first.row);
-    facet.second_columns = static_cast<double>(second.column - first.column);
-    facet.second_rows = static_cast<double>(second.row - first.row);
-    facet.third_columns = static_cast<double>(third.column - first.column);
-    facet.third_rows = static_cast<double>(third.row - first.row);
-    facet.turn = turn_;
-    const double to_second = heights[1] - heights[0];
-    const double to_third = heights[2] - heights[0];
-    facet.per_column = turn_ * (to_second * facet.third_rows - to_third * facet.second_rows);
-    facet.per_row = turn_ * (to_third * facet.second_columns - to_second * facet.third_columns);
-    facet.foot_columns = metric_.columns * facet.per_column + metric_.mixed * facet.per_row;
-    facet.foot_rows = metric_.mixed * facet.per_column + metric_.rows * facet.per_row;
-    facet.scale = 1.0 + facet.per_column * facet.foot_columns + facet.per_row * facet.foot_rows;
-    return facet;
-}
-
-// The two faces of an edge make a parallelogram.
-template <typename Heights>
-auto BasicHeightfieldSurface<Heights>::beyond(const Facet& facet,
-                                              std::size_t opposite) const noexcept
-    -> std::optional<Facet>
-{
-    const std::size_t next = (opposite + 1) % 3;
-    const std::size_t last = (opposite + 2) % 3;
-    const Vertex here = facet.vertices[opposite];
-    const Vertex a = facet.vertices[last];
-    const Vertex b = facet.vertices[next];
-    const Vertex there{a.column + b.column - here.column, a.row + b.row - here.row};
-    // Unsigned, so that what is negative is too large.
-    if (static_cast<std::uint32_t>(there.column) > static_cast<std::uint32_t>(last_column_) ||
-        static_cast<std::uint32_t>(there.row) > static_cast<std::uint32_t>(last_row_)) {
-        return std::nullopt;
-    }
-    return facetOf({there, a, b}, {heightOf(there), facet.heights[last], facet.heights[next]});
-}
 
 template <typename Heights>
 auto BasicHeightfieldSurface<Heights>::contactIn(const InCell& at, bool is_upper) const noexcept

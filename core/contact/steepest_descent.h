@@ -326,11 +326,11 @@ private:
         if (!(share > kShareMin && share < 1.0 - kShareMin)) {
             return stopAtVertex(contact, facet.vertices[(i + (share > 0.5 ? 2 : 1)) % 3]);
         }
-        const auto next = surface_.beyond(facet, i);
-        if (next) {
-            const SurfaceFoot foot = next->foot(goal);
-            if (foot.above <= 0.0 && isInward(foot.weights[0], *next, goal)) {
-                return cross(contact, *next, 1.0 - share, foot, goal);
+        if (surface_.hasBeyond(facet, i)) {
+            const Facet next = surface_.beyond(facet, i);
+            const SurfaceFoot foot = next.foot(goal);
+            if (foot.above <= 0.0 && isInward(foot.weights[0], next, goal)) {
+                return cross(contact, next, 1.0 - share, foot, goal);
             }
         }
         return stopAtEdge(contact, facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3], share);
@@ -355,23 +355,24 @@ private:
             const double side = (1.0 - share) * third - share * second;
             const bool is_third = side >= 0.0;
             const double of_ahead = (is_third ? 1.0 - share : share) * ahead;
-            const double of_ahead_share = of_ahead / (of_ahead + std::abs(side));
-            const Vertex beside = facet.vertices[is_third ? 2 : 1];
-            if (!(of_ahead_share > kShareMin && of_ahead_share < 1.0 - kShareMin)) {
-                return stopAtVertex(contact, of_ahead_share > 0.5 ? facet.vertices[0] : beside);
+            const double ahead_share = of_ahead / (of_ahead + std::abs(side));
+            const Vertex corner = facet.vertices[0];
+            const Vertex beside = is_third ? facet.vertices[2] : facet.vertices[1];
+            if (!(ahead_share > kShareMin && ahead_share < 1.0 - kShareMin)) {
+                return stopAtVertex(contact, ahead_share > 0.5 ? corner : beside);
             }
-            const auto next = surface_.beyond(facet, is_third ? 1 : 2);
-            if (!next || steps_ <= 1) {
-                return stopAtEdge(contact, facet.vertices[0], beside, 1.0 - of_ahead_share);
-            }
-            foot = next->foot(goal);
-            // Above the next plane, over a sharp ridge, the proxy may let go.
-            if (foot.above > 0.0 || !isInward(foot.weights[0], *next, goal)) {
-                return stopAtEdge(contact, facet.vertices[0], beside, 1.0 - of_ahead_share);
+            if (!(is_third ? surface_.hasBeyond(facet, 1) : surface_.hasBeyond(facet, 2)) ||
+                steps_ <= 1) {
+                return stopAtEdge(contact, corner, beside, 1.0 - ahead_share);
             }
             // The next facet's second corner is the one ahead, or the one beside.
-            share = is_third ? 1.0 - of_ahead_share : of_ahead_share;
-            facet = *next;
+            share = is_third ? 1.0 - ahead_share : ahead_share;
+            facet = is_third ? surface_.beyond(facet, 1) : surface_.beyond(facet, 2);
+            foot = facet.foot(goal);
+            // Above the next plane, over a sharp ridge, the proxy may let go.
+            if (foot.above > 0.0 || !isInward(foot.weights[0], facet, goal)) {
+                return stopAtEdge(contact, corner, beside, 1.0 - ahead_share);
+            }
             --steps_;
         }
     }
