@@ -140,30 +140,35 @@ private:
     using Contact = SurfaceContact<S>;
     using Descent = SteepestDescent<S>;
 
-    // A fall begins that much of the edge it falls from beyond the event, in motion of the goal.
+    // A fall begins a little beyond its event, in motion of the goal: that much of an edge.
     static constexpr double kNudge = 1e-9;
     // After so many events in a row that are no more than rounding apart, the goal is nudged on,
     // twice as far each time, and the proxy falls.
     static constexpr int kStillMax = 24;
     static constexpr double kStill = 1e-11; // of the leg
 
-    // The earliest of the events before the end of a leg.
-    struct Event {
-        double share = std::numeric_limits<double>::infinity(); // of the way from goal_ to the end
-        int which = -1;
-
-        // A condition holds while the number is not positive.
+    // The earliest of the events before the end of a leg: where a number that must not be positive
+    // becomes so.
+    class Event {
+    public:
         void consider(double begin, double end, int index) noexcept
         {
             if (end > 0.0) {
                 const double held = std::max(-begin, 0.0);
-                const double at = held / (held + end);
-                if (at < share) {
-                    share = at;
+                if (which < 0 || held * end_ < held_ * end) {
+                    held_ = held;
+                    end_ = end;
                     which = index;
                 }
             }
         }
+        double share() const noexcept { return held_ / (held_ + end_); } // of the rest of the leg
+
+        int which = -1;
+
+    private:
+        double held_ = 0.0;
+        double end_ = 1.0;
     };
 
     void descend() noexcept { is_free_ = Descent(surface_, counters_).descend(contact_, goal_); }
@@ -171,27 +176,28 @@ private:
     // Moves the goal to `end`.
     void follow(const Goal& end) noexcept
     {
-        const ScenePoint way = surface_.goalPoint(end) - surface_.goalPoint(goal_);
-        leg_squared_ = dot(way, way);
         still_ = 0;
-        nudge_ = kNudge;
+        nudge_ = 0.0;
+        is_known_ = false;
         while (true) {
             if (is_free_) {
                 ++counters_.casts;
-                const SurfaceCast<S> cast = surface_.castFree(goal_, end);
-                if (!take(cast, end)) {
+                if (!take(surface_.castFree(goal_, end), end)) {
                     return;
                 }
             }
-            const bool is_done = contact_.feature == ContactFeature::Face     ? onFace(end)
-                                 : contact_.feature == ContactFeature::Vertex ? atVertex(end)
-                                                                              : onEdge(end);
+            const bool is_done = contact_.feature == ContactFeature::Face   ? onFacet(end)
+                                 : contact_.feature == ContactFeature::Edge ? onEdge(end)
+                                                                            : atVertex(end);
             if (is_done) {
                 return;
             }
             if (events_ == 0) {
                 // Out of steps: straight to the end, as the surface walk.
                 counters_.cut_short = 1;
+                if (is_known_) {
+                    rest();
+                }
                 goal_ = end;
                 descend();
                 return;
@@ -210,6 +216,7 @@ private:
             return false;
         }
         contact_ = *cast.contact;
+        is_known_ = false;
         // While free, the proxy is where the goal is.
         const ScenePoint from = surface_.goalPoint(goal_);
         const ScenePoint way = surface_.goalPoint(end) - from;
@@ -232,149 +239,166 @@ private:
     }
 
     // The goal goes on to an event. Where too many of them are too close to each other, rounding
-    // goes around in circles: then the proxy falls from a little farther on, and true is returned.
-    bool isStuckAt(const Event& event, const Goal& end) noexcept
+    // goes around in circles: then true is returned, and the proxy is to fall from a little farther
+    // on.
+    bool isStuckAt(double share, const Goal& end) noexcept
     {
-        advance(event.share, end);
-        if (event.share > kStill) {
+        advance(share, end);
+        if (share > kStill) {
             still_ = 0;
             return false;
         }
         return ++still_ > kStillMax;
     }
 
-    // Moves the goal on by the share `nudge_` of a length, at most to the end.
-    void nudge(double length_squared, const Goal& end) noexcept
+    // Moves the goal on by a little, at most to the end. `edge` is one close by.
+    void nudge(const Vec3& edge, const Goal& end) noexcept
     {
         const ScenePoint way = surface_.goalPoint(end) - surface_.goalPoint(goal_);
         const double way_squared = dot(way, way);
-        const double share =
-            way_squared > 0.0 ? nudge_ * std::sqrt(length_squared / way_squared) : 1.0;
-        advance(share, end);
+        if (nudge_ == 0.0) {
+            nudge_ = kNudge * std::sqrt(dot(edge, edge));
+        }
+        advance(way_squared > nudge_ * nudge_ ? nudge_ / std::sqrt(way_squared) : 1.0, end);
     }
 
-    void unstick(double length_squared, const Goal& end) noexcept
+    // Falls from contact_, from farther on each time.
+    void unstick(const Vec3& edge, const Goal& end) noexcept
     {
+        nudge(edge, end);
         nudge_ *= 2.0;
         still_ = 0;
-        nudge(length_squared, end);
+        is_known_ = false;
         descend();
-    }
-
-    bool onFace(const Goal& end) noexcept { return onFacet(surface_.facet(contact_.face, 0), end); }
-
-    bool onEdge(const Goal& end) noexcept
-    {
-        const auto wings = surface_.wings(contact_.edge);
-        const auto facetOf = [this](const SurfaceWing<S>& wing) {
-            return surface_.facet(wing.face, static_cast<std::size_t>(wing.corner));
-        };
-        if (wings[0] && wings[1]) {
-            return onEdge(facetOf(*wings[0]), facetOf(*wings[1]), end);
-        }
-        return onEdge(facetOf(wings[0] ? *wings[0] : *wings[1]), std::nullopt, end);
     }
 
     // Each of these follows the goal while the proxy rests on that kind of feature, and over as
     // many of the kind as it comes to. True where the goal is at the end, at a minimum; otherwise
-    // contact_ tells where to go on.
-    bool onFacet(Facet facet, const Goal& end) noexcept
+    // contact_.feature tells where to go on: on left_ where is_known_, on the edge between left_
+    // and right_, or, where not, as contact_ says.
+    bool onFacet(const Goal& end) noexcept
     {
         constexpr int kRise = 3;
-        while (true) {
-            const SurfaceFoot last = facet.foot(end);
-            if (last.above <= 0.0 && last.isInside()) {
-                goal_ = end;
-                return settleOnFacet(facet, last);
-            }
-            ++counters_.faces;
-            const SurfaceFoot first = facet.foot(goal_);
-            Event event;
-            event.consider(-first.weights[0], -last.weights[0], 0);
-            event.consider(-first.weights[1], -last.weights[1], 1);
-            event.consider(-first.weights[2], -last.weights[2], 2);
-            if (last.above > 0.0) {
-                const Event over_edge = event;
-                event.consider(first.above, last.above, kRise);
-                if (event.which == kRise) {
-                    restOnFacet(facet, footBetween(first, last, event.share));
-                    if (const auto over = surface_.wayOut(contact_, end)) {
-                        advance(event.share, end);
-                        return leave(*over, end);
-                    }
-                    // Above the plane by no more than rounding.
-                    event = over_edge;
-                    if (event.which < 0) {
-                        goal_ = end;
-                        return settleOnFacet(facet, last);
-                    }
+        if (!std::exchange(is_known_, true)) {
+            left_ = surface_.facet(contact_.face, 0);
+        }
+        const SurfaceFoot last = left_.foot(end);
+        if (last.above <= 0.0 && last.isInside()) {
+            goal_ = end;
+            return settleOnFacet(last);
+        }
+        ++counters_.faces;
+        const SurfaceFoot first = left_.foot(goal_);
+        Event event;
+        event.consider(-first.weights[0], -last.weights[0], 0);
+        event.consider(-first.weights[1], -last.weights[1], 1);
+        event.consider(-first.weights[2], -last.weights[2], 2);
+        if (last.above > 0.0) {
+            const Event over_edge = event;
+            event.consider(first.above, last.above, kRise);
+            if (event.which == kRise) {
+                restOnFacet(footBetween(first, last, event.share()));
+                if (const auto over = surface_.wayOut(contact_, end)) {
+                    advance(event.share(), end);
+                    return leave(*over, end);
+                }
+                // Above the plane by no more than rounding.
+                event = over_edge;
+                if (event.which < 0) {
+                    goal_ = end;
+                    return settleOnFacet(last);
                 }
             }
-            // The foot reaches the edge opposite that corner.
-            const auto i = static_cast<std::size_t>(event.which);
-            const bool is_stuck = isStuckAt(event, end);
-            const bool has_beyond = surface_.hasBeyond(facet, i);
-            const int bend = has_beyond ? surface_.bend(facet, i) : S::kIsBorderWall ? 1 : -1;
-            if (bend > 0 && !is_stuck) {
-                return onEdge(rotated(facet, i),
-                              has_beyond ? std::optional(surface_.beyond(facet, i)) : std::nullopt,
-                              end);
+        }
+        // The foot reaches the edge opposite that corner.
+        switch (event.which) {
+        case 0:
+            return crossTo<0>(event.share(), first, last, end);
+        case 1:
+            return crossTo<1>(event.share(), first, last, end);
+        default:
+            return crossTo<2>(event.share(), first, last, end);
+        }
+    }
+
+    // What follows from that is purely geometric.
+    template <std::size_t kCorner>
+    bool crossTo(double share,
+                 const SurfaceFoot& first,
+                 const SurfaceFoot& last,
+                 const Goal& end) noexcept
+    {
+        constexpr std::size_t kJ = (kCorner + 1) % 3;
+        constexpr std::size_t kK = (kCorner + 2) % 3;
+        const bool is_stuck = isStuckAt(share, end);
+        const bool has_beyond = surface_.hasBeyond(left_, kCorner);
+        const int bend = has_beyond ? surface_.bend(left_, kCorner) : S::kIsBorderWall ? 1 : -1;
+        if (bend > 0 && !is_stuck) {
+            has_right_ = has_beyond;
+            if (has_beyond) {
+                right_ = surface_.beyond(left_, kCorner);
             }
-            if (bend == 0 && !is_stuck) {
-                facet = surface_.beyond(facet, i);
-                if (events_ == 0) {
-                    restOnFacet(facet, facet.foot(goal_));
-                    return false;
-                }
-                --events_;
-                continue;
+            if (kCorner != 0) {
+                left_ = surface_.rotated(left_, kCorner);
             }
-            // A ridge.
-            fall(facet, i, footBetween(first, last, event.share), is_stuck, end);
+            contact_.feature = ContactFeature::Edge;
             return false;
         }
-    }
-
-    // Falls from the edge opposite corner i, where `foot` is.
-    void fall(const Facet& facet,
-              std::size_t i,
-              const SurfaceFoot& foot,
-              bool is_stuck,
-              const Goal& end) noexcept
-    {
-        const std::size_t j = (i + 1) % 3;
-        const std::size_t k = (i + 2) % 3;
-        const Vec3 edge = surface_.between(facet.vertices[j], facet.vertices[k]);
-        if (is_stuck) {
-            nudge_ *= 2.0;
-            still_ = 0;
+        if (bend == 0 && !is_stuck) {
+            left_ = surface_.beyond(left_, kCorner);
+            return false;
         }
-        nudge(dot(edge, edge), end);
-        const double at_j = std::max(foot.weights[j], 0.0);
-        const double at_k = std::max(foot.weights[k], 0.0);
-        const double share = at_j + at_k > 0.0 ? at_k / (at_j + at_k) : 0.5; // from j to k
+        // A ridge: the proxy falls from where the foot is on the edge.
+        const auto weightOf = [&](std::size_t corner) {
+            return std::max(first.weights[corner] +
+                                share * (last.weights[corner] - first.weights[corner]),
+                            0.0);
+        };
+        const double at_k = weightOf(kK);
+        const double sum = weightOf(kJ) + at_k;
+        const double to_k = sum > 0.0 ? at_k / sum : 0.5;
+        const Vec3 edge = surface_.between(left_.vertices[kJ], left_.vertices[kK]);
+        if (is_stuck || !has_beyond) {
+            restOnEdge(left_.vertices[kJ], left_.vertices[kK], to_k);
+            unstick(edge, end);
+            return false;
+        }
+        nudge(edge, end);
         Descent descent(surface_, counters_);
-        if (surface_.hasBeyond(facet, i) && !is_stuck) {
-            is_free_ = descent.descendOver(contact_, surface_.beyond(facet, i), 1.0 - share, goal_);
-            return;
+        is_free_ =
+            descent.descendOver(contact_, surface_.beyond(left_, kCorner), 1.0 - to_k, goal_);
+        is_known_ = descent.facet().has_value();
+        if (is_known_) {
+            left_ = *descent.facet();
+            contact_.feature = ContactFeature::Face;
         }
-        restOnEdge(facet.vertices[j], facet.vertices[k], share);
-        is_free_ = descent.descend(contact_, goal_);
+        return false;
     }
 
-    // The edge is the one opposite the first corner of both facets.
-    bool onEdge(const Facet& left, const std::optional<Facet>& right, const Goal& end) noexcept
+    // On the edge opposite the first corners of left_ and right_.
+    bool onEdge(const Goal& end) noexcept
     {
         constexpr int kToRight = 1;
         constexpr int kToFrom = 2;
         constexpr int kToTo = 3;
-        const Vertex from = left.vertices[1];
-        const Vertex to = left.vertices[2];
+        if (!std::exchange(is_known_, true)) {
+            const auto wings = surface_.wings(contact_.edge);
+            const auto facetOf = [this](const SurfaceWing<S>& wing) {
+                return surface_.facet(wing.face, static_cast<std::size_t>(wing.corner));
+            };
+            left_ = facetOf(wings[0] ? *wings[0] : *wings[1]);
+            has_right_ = wings[0] && wings[1];
+            if (has_right_) {
+                right_ = facetOf(*wings[1]);
+            }
+        }
+        const Vertex from = left_.vertices[1];
+        const Vertex to = left_.vertices[2];
         const Vec3 edge = surface_.between(from, to);
         const double length_squared = dot(edge, edge);
         const double last_along = dot(surface_.toGoal(from, end), edge);
-        const double last_left = inward(left, end);
-        const double last_right = right ? inward(*right, end) : 0.0;
+        const double last_left = inward(left_, end);
+        const double last_right = has_right_ ? inward(right_, end) : 0.0;
         if (last_along >= 0.0 && last_along <= length_squared && last_left <= 0.0 &&
             last_right <= 0.0) {
             restOnEdge(from, to, last_along / length_squared);
@@ -391,30 +415,29 @@ private:
         const double first_along = dot(surface_.toGoal(from, goal_), edge);
         Event event;
         if (last_left > 0.0) {
-            event.consider(left.foot(goal_).weights[0], last_left, 0);
+            event.consider(left_.foot(goal_).weights[0], last_left, 0);
         }
         if (last_right > 0.0) {
-            event.consider(right->foot(goal_).weights[0], last_right, kToRight);
+            event.consider(right_.foot(goal_).weights[0], last_right, kToRight);
         }
         event.consider(-first_along, -last_along, kToFrom);
         event.consider(first_along - length_squared, last_along - length_squared, kToTo);
-        const bool is_stuck = isStuckAt(event, end);
+        const double share = event.share();
+        if (isStuckAt(share, end)) {
+            const double at = first_along + share * (last_along - first_along);
+            restOnEdge(from, to, std::clamp(at / length_squared, 0.0, 1.0));
+            unstick(edge, end);
+            return false;
+        }
         if (event.which == kToFrom || event.which == kToTo) {
             contact_.feature = ContactFeature::Vertex;
             contact_.vertex = event.which == kToFrom ? from : to;
-            if (!is_stuck) {
-                return arriveAtVertex(length_squared, end);
-            }
-        } else if (!is_stuck) {
-            contact_.feature = ContactFeature::Face;
-            contact_.face = surface_.faceOf(event.which == kToRight ? *right : left);
-        } else {
-            const double at = first_along + event.share * (last_along - first_along);
-            restOnEdge(from, to, std::clamp(at / length_squared, 0.0, 1.0));
+            return arriveAtVertex(edge, end);
         }
-        if (is_stuck) {
-            unstick(length_squared, end);
+        if (event.which == kToRight) {
+            left_ = right_;
         }
+        contact_.feature = ContactFeature::Face;
         return false;
     }
 
@@ -426,12 +449,17 @@ private:
         return weight > 0.0 && Descent::isInward(weight, facet, goal) ? weight : 0.0;
     }
 
-    Facet rotated(const Facet& facet, std::size_t first) const noexcept
+    // Tells contact_ where the proxy is that rests on what is known.
+    void rest() noexcept
     {
-        if (first == 0) {
-            return facet;
+        if (contact_.feature == ContactFeature::Face) {
+            restOnFacet(left_.foot(goal_));
+        } else if (contact_.feature == ContactFeature::Edge) {
+            const Vec3 edge = surface_.between(left_.vertices[1], left_.vertices[2]);
+            const double along = dot(surface_.toGoal(left_.vertices[1], goal_), edge);
+            restOnEdge(left_.vertices[1], left_.vertices[2],
+                       std::clamp(along / dot(edge, edge), 0.0, 1.0));
         }
-        return surface_.rotated(facet, first);
     }
 
     void restOnEdge(Vertex from, Vertex to, double share) noexcept
@@ -441,16 +469,16 @@ private:
         contact_.along = surface_.ends(contact_.edge)[0] == from ? share : 1.0 - share;
     }
 
-    // The foot is inside the facet, but for rounding.
-    void restOnFacet(const Facet& facet, const SurfaceFoot& foot) noexcept
+    // The foot is inside left_, but for rounding.
+    void restOnFacet(const SurfaceFoot& foot) noexcept
     {
         contact_.feature = ContactFeature::Face;
-        contact_.face = surface_.faceOf(facet);
-        contact_.weights = Descent::weightsOnFace(surface_, contact_.face, facet, foot);
+        contact_.face = surface_.faceOf(left_);
+        contact_.weights = Descent::weightsOnFace(surface_, contact_.face, left_, foot);
     }
 
     // Along an edge: the vertex at its end may be no minimum, where the valley goes on downward.
-    bool arriveAtVertex(double length_squared, const Goal& end) noexcept
+    bool arriveAtVertex(const Vec3& edge, const Goal& end) noexcept
     {
         const auto fan = surface_.fan(contact_.vertex);
         const Vec3 to_goal = surface_.toGoal(fan, goal_);
@@ -463,7 +491,8 @@ private:
             return restAtVertex(fan, end);
         }
         ++counters_.vertices;
-        nudge(length_squared, end);
+        nudge(edge, end);
+        is_known_ = false;
         descend();
         return false;
     }
@@ -476,20 +505,19 @@ private:
     bool restAtVertex(const typename S::Fan& fan, const Goal& end) noexcept
     {
         ++counters_.vertices;
-        const Vec3 first = surface_.toGoal(fan, goal_);
+        is_known_ = false;
         const Vec3 last = surface_.toGoal(fan, end);
         const double last_squared = dot(last, last);
+        const Vec3 first = surface_.toGoal(fan, goal_);
         Event event;
-        Vertex towards{};
-        double length_squared = 0.0;
+        SurfaceSpoke<S> towards{};
         surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
             const double at_end = dot(last, spoke.along);
             if (leads(at_end, spoke.along, last_squared)) {
-                const double share = event.share;
-                event.consider(dot(first, spoke.along), at_end, 0);
-                if (event.share < share) {
-                    towards = spoke.end;
-                    length_squared = dot(spoke.along, spoke.along);
+                const Event before = event;
+                event.consider(dot(first, spoke.along), at_end, before.which + 1);
+                if (event.which != before.which) {
+                    towards = spoke;
                 }
             }
         });
@@ -500,11 +528,11 @@ private:
             goal_ = end;
             return true;
         }
-        if (isStuckAt(event, end)) {
-            unstick(length_squared, end);
+        if (isStuckAt(event.share(), end)) {
+            unstick(towards.along, end);
             return false;
         }
-        contact_.edge = surface_.edgeBetween(contact_.vertex, towards);
+        contact_.edge = surface_.edgeBetween(contact_.vertex, towards.end);
         contact_.feature = ContactFeature::Edge;
         return false;
     }
@@ -533,11 +561,11 @@ private:
 
     // The end of an update: the contact is told where it is. What lies within rounding of the
     // border of its feature may not be a minimum; from there one last descent is made.
-    bool settleOnFacet(const Facet& facet, const SurfaceFoot& foot) noexcept
+    bool settleOnFacet(const SurfaceFoot& foot) noexcept
     {
         const auto& [first, second, third] = foot.weights;
-        restOnFacet(facet, foot);
-        if (!Descent::isInward(std::min({first, second, third}), facet, goal_)) {
+        restOnFacet(foot);
+        if (!Descent::isInward(std::min({first, second, third}), left_, goal_)) {
             contact_ = contactOnFace(surface_, contact_.face, contact_.weights);
             descend();
         }
@@ -562,10 +590,13 @@ private:
     bool is_free_ = false;
     bool is_at_rest_ = true; // at a minimum of the distance to goal_
     // Of the leg that is followed:
-    std::uint32_t events_ = 0; // that it may still take
-    double leg_squared_ = 0.0;
+    std::uint32_t events_ = 0; // that the update may still take
     int still_ = 0;
-    double nudge_ = kNudge;
+    double nudge_ = 0.0; // metres; 0: not yet known
+    bool is_known_ = false;
+    Facet left_{};
+    Facet right_{};
+    bool has_right_ = false;
 };
 
 } // namespace marsview

@@ -80,15 +80,21 @@ public:
     /// space; then the contact means nothing.
     bool descend(Contact& contact, const Goal& goal) noexcept
     {
-        return run(contact, goal, Step::Goes);
+        const bool is_free = run(contact, goal, Step::Goes);
+        if (facet_) {
+            contact = contactOn(*facet_, foot_);
+        }
+        return is_free;
     }
 
     /// The same, beginning with a walk over `facet` from its edge opposite its first corner, at
-    /// the share `share` of the way from its second corner to its third.
+    /// the share `share` of the way from its second corner to its third. Where the minimum is
+    /// within a face, facet() tells which, and `contact` means nothing.
     bool descendOver(Contact& contact, const Facet& facet, double share, const Goal& goal) noexcept
     {
         return run(contact, goal, cross(contact, facet, share, facet.foot(goal), goal));
     }
+    const std::optional<Facet>& facet() const noexcept { return facet_; }
 
 private:
     enum class Step : std::uint8_t {
@@ -377,28 +383,35 @@ private:
         }
     }
 
-    Step settle(Contact& contact,
-                const Facet& facet,
-                const SurfaceFoot& foot,
-                const Goal& goal) const noexcept
+    // The foot is inside.
+    Step
+    settle(Contact& contact, const Facet& facet, const SurfaceFoot& foot, const Goal& goal) noexcept
     {
-        const bool was_here = contact.feature == ContactFeature::Face;
-        contact = contactOnFacet(facet, foot, goal);
-        // From an edge, a face on its other side may lead closer. A ridge may have been crossed.
-        return contact.feature == ContactFeature::Face && (was_here || foot.above <= 0.0)
-                   ? Step::Ends
-                   : Step::Goes;
+        const auto& [first, second, third] = foot.weights;
+        if (!isInward(std::min({first, second, third}), facet, goal)) {
+            // From an edge, a face on its other side may lead closer.
+            SurfaceFoot inside = foot;
+            for (double& weight : inside.weights) {
+                weight = isInward(weight, facet, goal) ? weight : 0.0;
+            }
+            contact = contactOn(facet, inside);
+            return Step::Goes;
+        }
+        if (foot.above > 0.0) { // a sharp ridge was crossed, or it is rounding error
+            contact = contactOn(facet, foot);
+            if (const auto over = surface_.wayOut(contact, goal)) {
+                return fly(contact, *over, goal);
+            }
+        }
+        facet_ = facet;
+        foot_ = foot;
+        return Step::Ends;
     }
 
-    Contact
-    contactOnFacet(const Facet& facet, const SurfaceFoot& foot, const Goal& goal) const noexcept
+    Contact contactOn(const Facet& facet, const SurfaceFoot& foot) const noexcept
     {
-        SurfaceFoot inside = foot;
-        for (double& weight : inside.weights) {
-            weight = isInward(weight, facet, goal) ? weight : 0.0;
-        }
         const Face face = surface_.faceOf(facet);
-        return contactOnFace(surface_, face, weightsOnFace(surface_, face, facet, inside));
+        return contactOnFace(surface_, face, weightsOnFace(surface_, face, facet, foot));
     }
 
     static Step stopAtVertex(Contact& contact, Vertex vertex) noexcept
@@ -419,6 +432,8 @@ private:
     const S& surface_;
     ContactCounters& counters_;
     std::uint32_t steps_;
+    std::optional<Facet> facet_; // where the descent ended within a face
+    SurfaceFoot foot_{};
     double vertex_squared_ = std::numeric_limits<double>::infinity();
     int stalls_ = 0;
 };

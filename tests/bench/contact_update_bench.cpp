@@ -2,6 +2,8 @@
 // is printed, so that a faster number that touches something else is noticed.
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
+#include "core/contact/surface_walk.h"
+#include "core/contact/continuous_walk.h"
 #include "tests/support/fractal_terrain.h"
 
 #include <benchmark/benchmark.h>
@@ -91,13 +93,13 @@ path(const HeightfieldSurface& surface, double cells, double low, double high)
     return goals;
 }
 
-template <typename S>
+template <template <typename> typename Model, typename S>
 void run(benchmark::State& state, const S& surface, double low, double high)
 {
     const double cells = static_cast<double>(state.range(0)) / 10.0;
     const HeightfieldSurface any(surface.terrain(), surface.frame(), surface.exaggeration());
     const std::vector<ScenePoint> goals = path(any, cells, low, high);
-    ProxyGraph<S> model(surface);
+    Model<S> model(surface);
     ContactCounters sum;
     std::uint64_t hash = 0xcbf29ce484222325U;
     for (const ScenePoint& goal : goals) { // once for what is counted, and to warm the caches
@@ -131,26 +133,38 @@ using Int16Surface = PlainHeightfieldSurface<std::int16_t>;
 
 void BM_ProxyGraph(benchmark::State& state)
 {
-    run(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), -5.0, -2.0);
+    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), -5.0, -2.0);
+}
+
+void BM_SurfaceWalk(benchmark::State& state)
+{
+    run<SurfaceWalk>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), -5.0, -2.0);
+}
+
+void BM_ContinuousWalk(benchmark::State& state)
+{
+    run<ContinuousWalk>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), -5.0, -2.0);
 }
 
 void BM_ProxyGraphInt16(benchmark::State& state)
 {
-    run(state, Int16Surface(int16Terrain(), centredFrame(), 1.0), -5.0, -2.0);
+    run<ProxyGraph>(state, Int16Surface(int16Terrain(), centredFrame(), 1.0), -5.0, -2.0);
 }
 
 void BM_ProxyGraphTimes5(benchmark::State& state)
 {
-    run(state, FloatSurface(floatTerrain(), centredFrame(), 5.0), -5.0, -2.0);
+    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centredFrame(), 5.0), -5.0, -2.0);
 }
 
 void BM_ProxyGraphFree(benchmark::State& state)
 {
-    run(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), 20.0, 60.0);
+    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), 20.0, 60.0);
 }
 
 // The argument is the speed in tenths of a cell per update.
 BENCHMARK(BM_ProxyGraph)->Arg(1)->Arg(10)->Arg(100)->Arg(500);
+BENCHMARK(BM_SurfaceWalk)->Arg(1)->Arg(10)->Arg(100)->Arg(500);
+BENCHMARK(BM_ContinuousWalk)->Arg(1)->Arg(10)->Arg(100)->Arg(500);
 BENCHMARK(BM_ProxyGraphInt16)->Arg(1)->Arg(10)->Arg(100)->Arg(500);
 BENCHMARK(BM_ProxyGraphTimes5)->Arg(1)->Arg(10)->Arg(100)->Arg(500);
 BENCHMARK(BM_ProxyGraphFree)->Arg(1)->Arg(10)->Arg(100)->Arg(500);
