@@ -59,6 +59,14 @@ struct SurfaceWing {
     int corner; // the one opposite the edge
 };
 
+/// The one or two faces of an edge, each with the corner opposite the edge first.
+template <typename S>
+struct SurfaceEdgeFacets {
+    typename S::Facet left{};
+    typename S::Facet right{}; // where has_right
+    bool has_right = false;
+};
+
 /// What a segment through free space met.
 template <typename S>
 struct SurfaceCast {
@@ -95,6 +103,7 @@ struct SurfaceLegs {
 ///   facet(f, i)        the face for walking, its corner i (0 to 2) first
 ///   rotated(t, i)      the same facet, its corner i first
 ///   faceOf(t)          the face of a facet
+///   edgeFacets(e)      the facets of an edge
 ///   hasBeyond(t, i)    whether there is a face beyond the edge opposite corner i of a facet
 ///   beyond(t, i)       that face, if so; its first corner is opposite that edge, so that its
 ///                      second is corner i + 2 of the other
@@ -117,6 +126,8 @@ struct SurfaceLegs {
 ///   legs(p, q)         how the goal moves while what is aimed at moves straight from p to q, both
 ///                      of which can be aimed at: the ends of at most kLegsMax straight legs, the
 ///                      last of which is goal(q)
+///   expect(c, g, h)    the proxy is at c and will move about as the goal does from g to h: for
+///                      surfaces that can hasten the reading of what lies there
 ///   stepsMax()         an update may take that many steps from feature to feature; several times
 ///                      what crosses the whole mesh
 // clang-format off: version 14 breaks compound requirements into a line a token.
@@ -184,6 +195,14 @@ concept ContactSurface = requires(const S& s,
         s.beyond(facet, std::size_t{0})
     }
     noexcept->std::same_as<typename S::Facet>;
+    {
+        s.edgeFacets(e)
+    }
+    noexcept->std::same_as<SurfaceEdgeFacets<S>>;
+    {
+        s.expect(c, g, g)
+    }
+    noexcept;
     {
         s.hasBeyond(facet, std::size_t{0})
     }

@@ -98,6 +98,9 @@ public:
             if (!std::exchange(is_at_rest_, true)) {
                 descend(); // to where the goal was
             }
+            if (!is_free_) {
+                surface_.expect(contact_, goal_, *g);
+            }
             // Between goals that are aimed at as they are, there is but one leg.
             if (surface_.goalPoint(goal_) == aimed_ && surface_.goalPoint(*g) == goal) {
                 follow(*g);
@@ -382,43 +385,42 @@ private:
         constexpr int kToFrom = 2;
         constexpr int kToTo = 3;
         if (!std::exchange(is_known_, true)) {
-            const auto wings = surface_.wings(contact_.edge);
-            const auto facetOf = [this](const SurfaceWing<S>& wing) {
-                return surface_.facet(wing.face, static_cast<std::size_t>(wing.corner));
-            };
-            left_ = facetOf(wings[0] ? *wings[0] : *wings[1]);
-            has_right_ = wings[0] && wings[1];
-            if (has_right_) {
-                right_ = facetOf(*wings[1]);
-            }
+            const SurfaceEdgeFacets<S> facets = surface_.edgeFacets(contact_.edge);
+            left_ = facets.left;
+            right_ = facets.right;
+            has_right_ = facets.has_right;
         }
         const Vertex from = left_.vertices[1];
         const Vertex to = left_.vertices[2];
         const Vec3 edge = surface_.between(from, to);
         const double length_squared = dot(edge, edge);
         const double last_along = dot(surface_.toGoal(from, end), edge);
-        const double last_left = inward(left_, end);
-        const double last_right = has_right_ ? inward(right_, end) : 0.0;
-        if (last_along >= 0.0 && last_along <= length_squared && last_left <= 0.0 &&
-            last_right <= 0.0) {
+        const SurfaceFoot last_left = left_.foot(end);
+        const SurfaceFoot last_right = has_right_ ? right_.foot(end) : SurfaceFoot{};
+        const bool is_into_left = Descent::isInward(last_left.weights[0], left_, end);
+        const bool is_into_right =
+            has_right_ && Descent::isInward(last_right.weights[0], right_, end);
+        if (last_along >= 0.0 && last_along <= length_squared && !is_into_left && !is_into_right) {
             restOnEdge(from, to, last_along / length_squared);
-            if (const auto over = surface_.wayOut(contact_, end)) {
-                // The goal has passed through the edge itself. It was nearest to it somewhere on
-                // its way: there the proxy lets go.
-                const double at = dot(surface_.toGoal(from, goal_), edge) / length_squared;
-                restOnEdge(from, to, std::clamp(at, 0.0, 1.0));
-                return leave(*over, end);
+            if (last_left.above > 0.0 || last_right.above > 0.0 || !has_right_) {
+                if (const auto over = surface_.wayOut(contact_, end)) {
+                    // The goal has passed through the edge itself. It was nearest to it somewhere
+                    // on its way: there the proxy lets go.
+                    const double at = dot(surface_.toGoal(from, goal_), edge) / length_squared;
+                    restOnEdge(from, to, std::clamp(at, 0.0, 1.0));
+                    return leave(*over, end);
+                }
             }
             goal_ = end;
             return settleOnEdge();
         }
         const double first_along = dot(surface_.toGoal(from, goal_), edge);
         Event event;
-        if (last_left > 0.0) {
-            event.consider(left_.foot(goal_).weights[0], last_left, 0);
+        if (is_into_left) {
+            event.consider(left_.foot(goal_).weights[0], last_left.weights[0], 0);
         }
-        if (last_right > 0.0) {
-            event.consider(right_.foot(goal_).weights[0], last_right, kToRight);
+        if (is_into_right) {
+            event.consider(right_.foot(goal_).weights[0], last_right.weights[0], kToRight);
         }
         event.consider(-first_along, -last_along, kToFrom);
         event.consider(first_along - length_squared, last_along - length_squared, kToTo);
@@ -439,14 +441,6 @@ private:
         }
         contact_.feature = ContactFeature::Face;
         return false;
-    }
-
-    // How far inside the edge opposite the facet's first corner the foot of the goal is, times
-    // something; 0 where it is outside, or inside by no more than rounding error.
-    static double inward(const Facet& facet, const Goal& goal) noexcept
-    {
-        const double weight = facet.foot(goal).weights[0];
-        return weight > 0.0 && Descent::isInward(weight, facet, goal) ? weight : 0.0;
     }
 
     // Tells contact_ where the proxy is that rests on what is known.

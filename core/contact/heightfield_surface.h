@@ -220,11 +220,7 @@ public:
     // The two faces of an edge make a parallelogram.
     bool hasBeyond(const Facet& facet, std::size_t opposite) const noexcept
     {
-        const Vertex there = mirrored(facet, opposite);
-        // Unsigned, so that what is negative is too large.
-        return static_cast<std::uint32_t>(there.column) <=
-                   static_cast<std::uint32_t>(last_column_) &&
-               static_cast<std::uint32_t>(there.row) <= static_cast<std::uint32_t>(last_row_);
+        return isInside(mirrored(facet, opposite));
     }
     [[gnu::always_inline]] inline Facet beyond(const Facet& facet,
                                                std::size_t opposite) const noexcept
@@ -248,6 +244,7 @@ public:
         }
         return difference > 0.0 ? 1 : -1;
     }
+    SurfaceEdgeFacets<BasicHeightfieldSurface> edgeFacets(Edge edge) const noexcept;
     Face faceOf(const Facet& facet) const noexcept
     {
         const auto& [a, b, c] = facet.vertices;
@@ -300,6 +297,8 @@ public:
                       goal.grid.row - static_cast<double>(from.vertex.row),
                       goal.scene.z - from.height);
     }
+
+    void expect(const Contact& contact, const Goal& from, const Goal& to) const noexcept;
 
     ScenePoint point(const Contact& contact) const noexcept;
     /// The grid position of a contact.
@@ -370,6 +369,16 @@ private:
     {
         return {{fan.vertex.column + kSpokes[i].column, fan.vertex.row + kSpokes[i].row},
                 {spokes_[i].x, spokes_[i].y, fan.around[i] - fan.height}};
+    }
+    bool isInside(Vertex v) const noexcept
+    {
+        // Unsigned, so that what is negative is too large.
+        return static_cast<std::uint32_t>(v.column) <= static_cast<std::uint32_t>(last_column_) &&
+               static_cast<std::uint32_t>(v.row) <= static_cast<std::uint32_t>(last_row_);
+    }
+    void prefetch(std::int32_t column, std::int32_t row) const noexcept
+    {
+        heights_.prefetch(std::clamp(column, 0, last_column_), std::clamp(row, 0, last_row_));
     }
     static std::uint8_t kindOf(Vertex a, Vertex b) noexcept
     {
@@ -442,6 +451,95 @@ private:
     std::array<EdgeMetric, 3> metric_;
     std::uint32_t steps_max_;
 };
+
+template <typename Heights>
+auto BasicHeightfieldSurface<Heights>::edgeFacets(Edge edge) const noexcept
+    -> SurfaceEdgeFacets<BasicHeightfieldSurface>
+{
+    // The corner opposite the edge that turns from its first end to its second as columns turn to
+    // rows, and the other one.
+    const auto [from, to] = ends(edge);
+    Vertex positive{};
+    Vertex negative{};
+    switch (edge.kind) {
+    case Edge::Kind::AlongRow:
+        positive = {to.column, to.row + 1};
+        negative = {from.column, from.row - 1};
+        break;
+    case Edge::Kind::AlongColumn:
+        positive = {from.column - 1, from.row};
+        negative = {to.column + 1, to.row};
+        break;
+    case Edge::Kind::Diagonal:
+        positive = {from.column, to.row};
+        negative = {to.column, from.row};
+        break;
+    }
+    const Vertex second = is_mirrored_ ? from : to;
+    const Vertex third = is_mirrored_ ? to : from;
+    const double second_height = heightOf(second);
+    const double third_height = heightOf(third);
+    // Opposite the ends are the two other kinds; a step from `positive` to `from`, say, is parallel
+    // to one from `to` to `negative`.
+    const auto kind = static_cast<std::uint8_t>(edge.kind);
+    const auto facetAt = [&](Vertex far, Vertex b, Vertex c, double b_height, double c_height) {
+        return facetOf({far, b, c}, {kind, kindOf(c, far), kindOf(far, b)},
+                       {heightOf(far), b_height, c_height});
+    };
+    SurfaceEdgeFacets<BasicHeightfieldSurface> facets;
+    const bool has_positive = isInside(positive);
+    const bool has_negative = isInside(negative);
+    facets.has_right = has_positive && has_negative;
+    if (has_positive) {
+        facets.left = facetAt(positive, second, third, second_height, third_height);
+        if (has_negative) {
+            facets.right = facetAt(negative, third, second, third_height, second_height);
+        }
+    } else {
+        facets.left = facetAt(negative, third, second, third_height, second_height);
+    }
+    return facets;
+}
+
+// Touching the samples on the way before they are needed hides how long memory takes to answer,
+// which for fast goals is most of an update.
+template <typename Heights>
+void BasicHeightfieldSurface<Heights>::expect(const Contact& contact,
+                                              const Goal& from,
+                                              const Goal& to) const noexcept
+{
+    const double columns = to.grid.column - from.grid.column;
+    const double rows = to.grid.row - from.grid.row;
+    const double span = std::max(std::abs(columns), std::abs(rows));
+    constexpr double kLeast = 2.0;
+    if (span < kLeast) {
+        return; // it is next to what was read last
+    }
+    const Vertex at = contact.feature == ContactFeature::Vertex ? contact.vertex
+                      : contact.feature == ContactFeature::Edge
+                          ? contact.edge.first
+                          : Vertex{contact.face.column, contact.face.row};
+    // One row after the other; or, along rows, three rows and one line of memory after the other.
+    constexpr int kTouchesMax = 64;
+    constexpr double kLine = 8.0;
+    const bool is_along_rows = std::abs(columns) > kLine * std::abs(rows);
+    const double stride = is_along_rows ? kLine : 1.0;
+    const double step = stride / span;
+    const int count = static_cast<int>(std::min(span / stride + 2.0, double{kTouchesMax}));
+    for (int i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) * step;
+        const auto column = at.column + static_cast<std::int32_t>(share * columns);
+        const auto row = at.row + static_cast<std::int32_t>(share * rows);
+        if (is_along_rows) {
+            prefetch(column, row - 1);
+            prefetch(column, row);
+            prefetch(column, row + 1);
+        } else {
+            prefetch(column - 2, row);
+            prefetch(column + 2, row);
+        }
+    }
+}
 
 template <typename Heights>
 auto BasicHeightfieldSurface<Heights>::contactIn(const InCell& at, bool is_upper) const noexcept

@@ -236,33 +236,27 @@ private:
 
     Step fromEdge(Contact& contact, const Goal& goal) noexcept
     {
-        if (const auto over = surface_.wayOut(contact, goal)) {
-            return fly(contact, *over, goal);
+        const SurfaceEdgeFacets<S> facets = surface_.edgeFacets(contact.edge);
+        const SurfaceFoot left = facets.left.foot(goal);
+        const SurfaceFoot right = facets.has_right ? facets.right.foot(goal) : SurfaceFoot{};
+        if (left.above > 0.0 || right.above > 0.0 || !facets.has_right) {
+            if (const auto over = surface_.wayOut(contact, goal)) {
+                return fly(contact, *over, goal);
+            }
         }
         // A foot on the inner side of a face means that the way into it leads closer: the same
-        // number decides it as decides, within that face, whether its foot is outside.
-        std::optional<Facet> into;
-        SurfaceFoot foot{};
-        double steepest = 0.0;
-        for (const auto& wing : surface_.wings(contact.edge)) {
-            if (!wing) {
-                continue;
-            }
-            const Facet candidate =
-                surface_.facet(wing->face, static_cast<std::size_t>(wing->corner));
-            const SurfaceFoot its_foot = candidate.foot(goal);
-            const double weight = its_foot.weights[0];
-            if (weight > 0.0 && weight * weight > steepest * candidate.scale &&
-                isInward(weight, candidate, goal)) {
-                steepest = weight * weight / candidate.scale;
-                into = candidate;
-                foot = its_foot;
-            }
-        }
+        // number decides it as decides, within that face, whether its foot is outside. The steeper
+        // way is taken.
         const auto [from, to] = surface_.ends(contact.edge);
-        if (into) {
-            const double share = into->vertices[1] == from ? contact.along : 1.0 - contact.along;
-            return cross(contact, *into, share, foot, goal);
+        const bool is_left = isInward(left.weights[0], facets.left, goal);
+        const bool is_right =
+            facets.has_right && isInward(right.weights[0], facets.right, goal) &&
+            !(is_left && left.weights[0] * left.weights[0] * facets.right.scale >=
+                             right.weights[0] * right.weights[0] * facets.left.scale);
+        if (is_right || is_left) {
+            const Facet& into = is_right ? facets.right : facets.left;
+            const double share = into.vertices[1] == from ? contact.along : 1.0 - contact.along;
+            return cross(contact, into, share, is_right ? right : left, goal);
         }
         const Vec3 edge = surface_.between(from, to);
         const Vec3 to_goal = surface_.toGoal(from, goal);
@@ -280,11 +274,14 @@ private:
 
     Step fromFace(Contact& contact, const Goal& goal) noexcept
     {
-        if (const auto over = surface_.wayOut(contact, goal)) {
-            return fly(contact, *over, goal);
-        }
         const Facet facet = surface_.facet(contact.face, 0);
-        return walk(contact, facet, contact.weights, facet.foot(goal), goal);
+        const SurfaceFoot foot = facet.foot(goal);
+        if (foot.above > 0.0) {
+            if (const auto over = surface_.wayOut(contact, goal)) {
+                return fly(contact, *over, goal);
+            }
+        }
+        return walk(contact, facet, contact.weights, foot, goal);
     }
 
     // From a place on a facet straight towards the foot.
