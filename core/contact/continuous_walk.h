@@ -151,21 +151,24 @@ private:
     static constexpr double kStill = 1e-11; // of the leg
 
     // The earliest of the events before the end of a leg: where a number that must not be positive
-    // becomes so.
+    // becomes so, or has become so before. Numbers are told at both ends of the leg, which is known
+    // before it is known where the last event was: the processor need not wait for one event to
+    // begin with the next.
     class Event {
     public:
-        void consider(double begin, double end, int index) noexcept
+        void consider(double at_begin, double at_end, int index) noexcept
         {
-            if (end > 0.0) {
-                const double held = std::max(-begin, 0.0);
-                if (which < 0 || held * end_ < held_ * end) {
+            if (at_end > 0.0) {
+                const double held = std::max(-at_begin, 0.0);
+                if (which < 0 || held * end_ < held_ * at_end) {
                     held_ = held;
-                    end_ = end;
+                    end_ = at_end;
                     which = index;
                 }
             }
         }
-        double share() const noexcept { return held_ / (held_ + end_); } // of the rest of the leg
+        // The share of the leg, not before `at`.
+        double share(double at) const noexcept { return std::max(held_ / (held_ + end_), at); }
 
         int which = -1;
 
@@ -179,12 +182,15 @@ private:
     // Moves the goal to `end`.
     void follow(const Goal& end) noexcept
     {
-        still_ = 0;
+        begin_ = goal_;
+        at_ = 0.0;
         nudge_ = 0.0;
+        still_ = 0;
         is_known_ = false;
         while (true) {
             if (is_free_) {
                 ++counters_.casts;
+                locateGoal(end);
                 if (!take(surface_.castFree(goal_, end), end)) {
                     return;
                 }
@@ -199,6 +205,7 @@ private:
                 // Out of steps: straight to the end, as the surface walk.
                 counters_.cut_short = 1;
                 if (is_known_) {
+                    locateGoal(end);
                     rest();
                 }
                 goal_ = end;
@@ -221,11 +228,10 @@ private:
         contact_ = *cast.contact;
         is_known_ = false;
         // While free, the proxy is where the goal is.
-        const ScenePoint from = surface_.goalPoint(goal_);
+        const ScenePoint from = surface_.goalPoint(begin_);
         const ScenePoint way = surface_.goalPoint(end) - from;
-        const double squared = dot(way, way);
-        const double share = dot(surface_.point(contact_) - from, way) / squared;
-        advance(share > 0.0 ? std::min(share, 1.0) : 0.0, end);
+        const double share = dot(surface_.point(contact_) - from, way) / dot(way, way);
+        at_ = share > at_ ? std::min(share, 1.0) : at_;
         return true;
     }
 
@@ -236,39 +242,32 @@ private:
         return !take(surface_.castFrom(contact_, over, end), end);
     }
 
-    void advance(double share, const Goal& end) noexcept
+    // Too many events too close to each other are rounding that goes around in circles. Then the
+    // proxy is to fall from a little farther on.
+    bool isStuck(double share) noexcept
     {
-        goal_ = surface_.along(goal_, end, share);
+        still_ = share - at_ > kStill ? 0 : still_ + 1;
+        return still_ > kStillMax;
     }
 
-    // The goal goes on to an event. Where too many of them are too close to each other, rounding
-    // goes around in circles: then true is returned, and the proxy is to fall from a little farther
-    // on.
-    bool isStuckAt(double share, const Goal& end) noexcept
-    {
-        advance(share, end);
-        if (share > kStill) {
-            still_ = 0;
-            return false;
-        }
-        return ++still_ > kStillMax;
-    }
+    void locateGoal(const Goal& end) noexcept { goal_ = surface_.along(begin_, end, at_); }
 
-    // Moves the goal on by a little, at most to the end. `edge` is one close by.
-    void nudge(const Vec3& edge, const Goal& end) noexcept
+    // The goal goes on to that share of the leg and a little farther. `edge` is one close by.
+    void advanceBeyond(double share, const Vec3& edge, const Goal& end) noexcept
     {
-        const ScenePoint way = surface_.goalPoint(end) - surface_.goalPoint(goal_);
-        const double way_squared = dot(way, way);
         if (nudge_ == 0.0) {
-            nudge_ = kNudge * std::sqrt(dot(edge, edge));
+            const ScenePoint way = surface_.goalPoint(end) - surface_.goalPoint(begin_);
+            const double squared = dot(way, way);
+            nudge_ = squared > 0.0 ? kNudge * std::sqrt(dot(edge, edge) / squared) : 1.0;
         }
-        advance(way_squared > nudge_ * nudge_ ? nudge_ / std::sqrt(way_squared) : 1.0, end);
+        at_ = std::min(share + nudge_, 1.0);
+        locateGoal(end);
     }
 
     // Falls from contact_, from farther on each time.
-    void unstick(const Vec3& edge, const Goal& end) noexcept
+    void unstick(double share, const Vec3& edge, const Goal& end) noexcept
     {
-        nudge(edge, end);
+        advanceBeyond(share, edge, end);
         nudge_ *= 2.0;
         still_ = 0;
         is_known_ = false;
@@ -277,8 +276,8 @@ private:
 
     // Each of these follows the goal while the proxy rests on that kind of feature, and over as
     // many of the kind as it comes to. True where the goal is at the end, at a minimum; otherwise
-    // contact_.feature tells where to go on: on left_ where is_known_, on the edge between left_
-    // and right_, or, where not, as contact_ says.
+    // contact_.feature tells where to go on: where is_known_, on left_ or the edge between left_
+    // and right_; else as contact_ says.
     bool onFacet(const Goal& end) noexcept
     {
         constexpr int kRise = 3;
@@ -291,7 +290,7 @@ private:
             return settleOnFacet(last);
         }
         ++counters_.faces;
-        const SurfaceFoot first = left_.foot(goal_);
+        const SurfaceFoot first = left_.foot(begin_);
         Event event;
         event.consider(-first.weights[0], -last.weights[0], 0);
         event.consider(-first.weights[1], -last.weights[1], 1);
@@ -300,9 +299,10 @@ private:
             const Event over_edge = event;
             event.consider(first.above, last.above, kRise);
             if (event.which == kRise) {
-                restOnFacet(footBetween(first, last, event.share()));
+                const double share = event.share(at_);
+                restOnFacet(footBetween(first, last, share));
                 if (const auto over = surface_.wayOut(contact_, end)) {
-                    advance(event.share(), end);
+                    at_ = share;
                     return leave(*over, end);
                 }
                 // Above the plane by no more than rounding.
@@ -316,11 +316,11 @@ private:
         // The foot reaches the edge opposite that corner.
         switch (event.which) {
         case 0:
-            return crossTo<0>(event.share(), first, last, end);
+            return crossTo<0>(event.share(at_), first, last, end);
         case 1:
-            return crossTo<1>(event.share(), first, last, end);
+            return crossTo<1>(event.share(at_), first, last, end);
         default:
-            return crossTo<2>(event.share(), first, last, end);
+            return crossTo<2>(event.share(at_), first, last, end);
         }
     }
 
@@ -333,21 +333,21 @@ private:
     {
         constexpr std::size_t kJ = (kCorner + 1) % 3;
         constexpr std::size_t kK = (kCorner + 2) % 3;
-        const bool is_stuck = isStuckAt(share, end);
+        const bool is_stuck = isStuck(share);
         const bool has_beyond = surface_.hasBeyond(left_, kCorner);
         const int bend = has_beyond ? surface_.bend(left_, kCorner) : S::kIsBorderWall ? 1 : -1;
         if (bend > 0 && !is_stuck) {
+            at_ = share;
+            left_corner_ = kCorner;
             has_right_ = has_beyond;
             if (has_beyond) {
                 right_ = surface_.beyond(left_, kCorner);
             }
-            if (kCorner != 0) {
-                left_ = surface_.rotated(left_, kCorner);
-            }
             contact_.feature = ContactFeature::Edge;
-            return false;
+            return alongEdge(last, end);
         }
         if (bend == 0 && !is_stuck) {
+            at_ = share;
             left_ = surface_.beyond(left_, kCorner);
             return false;
         }
@@ -363,10 +363,10 @@ private:
         const Vec3 edge = surface_.between(left_.vertices[kJ], left_.vertices[kK]);
         if (is_stuck || !has_beyond) {
             restOnEdge(left_.vertices[kJ], left_.vertices[kK], to_k);
-            unstick(edge, end);
+            unstick(share, edge, end);
             return false;
         }
-        nudge(edge, end);
+        advanceBeyond(share, edge, end);
         Descent descent(surface_, counters_);
         is_free_ =
             descent.descendOver(contact_, surface_.beyond(left_, kCorner), 1.0 - to_k, goal_);
@@ -378,26 +378,31 @@ private:
         return false;
     }
 
-    // On the edge opposite the first corners of left_ and right_.
     bool onEdge(const Goal& end) noexcept
+    {
+        if (!std::exchange(is_known_, true)) {
+            const SurfaceEdgeFacets<S> facets = surface_.edgeFacets(contact_.edge);
+            left_ = facets.left;
+            left_corner_ = 0;
+            right_ = facets.right;
+            has_right_ = facets.has_right;
+        }
+        return alongEdge(left_.foot(end), end);
+    }
+
+    // On the edge between left_ and right_; `last_left` is the foot of `end` on left_.
+    bool alongEdge(const SurfaceFoot& last_left, const Goal& end) noexcept
     {
         constexpr int kToRight = 1;
         constexpr int kToFrom = 2;
         constexpr int kToTo = 3;
-        if (!std::exchange(is_known_, true)) {
-            const SurfaceEdgeFacets<S> facets = surface_.edgeFacets(contact_.edge);
-            left_ = facets.left;
-            right_ = facets.right;
-            has_right_ = facets.has_right;
-        }
-        const Vertex from = left_.vertices[1];
-        const Vertex to = left_.vertices[2];
+        const Vertex from = left_.vertices[(left_corner_ + 1) % 3];
+        const Vertex to = left_.vertices[(left_corner_ + 2) % 3];
         const Vec3 edge = surface_.between(from, to);
         const double length_squared = dot(edge, edge);
         const double last_along = dot(surface_.toGoal(from, end), edge);
-        const SurfaceFoot last_left = left_.foot(end);
         const SurfaceFoot last_right = has_right_ ? right_.foot(end) : SurfaceFoot{};
-        const bool is_into_left = Descent::isInward(last_left.weights[0], left_, end);
+        const bool is_into_left = Descent::isInward(last_left.weights[left_corner_], left_, end);
         const bool is_into_right =
             has_right_ && Descent::isInward(last_right.weights[0], right_, end);
         if (last_along >= 0.0 && last_along <= length_squared && !is_into_left && !is_into_right) {
@@ -406,6 +411,7 @@ private:
                 if (const auto over = surface_.wayOut(contact_, end)) {
                     // The goal has passed through the edge itself. It was nearest to it somewhere
                     // on its way: there the proxy lets go.
+                    locateGoal(end);
                     const double at = dot(surface_.toGoal(from, goal_), edge) / length_squared;
                     restOnEdge(from, to, std::clamp(at, 0.0, 1.0));
                     return leave(*over, end);
@@ -414,23 +420,25 @@ private:
             goal_ = end;
             return settleOnEdge();
         }
-        const double first_along = dot(surface_.toGoal(from, goal_), edge);
+        const double first_along = dot(surface_.toGoal(from, begin_), edge);
         Event event;
         if (is_into_left) {
-            event.consider(left_.foot(goal_).weights[0], last_left.weights[0], 0);
+            event.consider(left_.foot(begin_).weights[left_corner_],
+                           last_left.weights[left_corner_], 0);
         }
         if (is_into_right) {
-            event.consider(right_.foot(goal_).weights[0], last_right.weights[0], kToRight);
+            event.consider(right_.foot(begin_).weights[0], last_right.weights[0], kToRight);
         }
         event.consider(-first_along, -last_along, kToFrom);
         event.consider(first_along - length_squared, last_along - length_squared, kToTo);
-        const double share = event.share();
-        if (isStuckAt(share, end)) {
+        const double share = event.share(at_);
+        if (isStuck(share)) {
             const double at = first_along + share * (last_along - first_along);
             restOnEdge(from, to, std::clamp(at / length_squared, 0.0, 1.0));
-            unstick(edge, end);
+            unstick(share, edge, end);
             return false;
         }
+        at_ = share;
         if (event.which == kToFrom || event.which == kToTo) {
             contact_.feature = ContactFeature::Vertex;
             contact_.vertex = event.which == kToFrom ? from : to;
@@ -449,10 +457,11 @@ private:
         if (contact_.feature == ContactFeature::Face) {
             restOnFacet(left_.foot(goal_));
         } else if (contact_.feature == ContactFeature::Edge) {
-            const Vec3 edge = surface_.between(left_.vertices[1], left_.vertices[2]);
-            const double along = dot(surface_.toGoal(left_.vertices[1], goal_), edge);
-            restOnEdge(left_.vertices[1], left_.vertices[2],
-                       std::clamp(along / dot(edge, edge), 0.0, 1.0));
+            const Vertex from = left_.vertices[(left_corner_ + 1) % 3];
+            const Vertex to = left_.vertices[(left_corner_ + 2) % 3];
+            const Vec3 edge = surface_.between(from, to);
+            const double along = dot(surface_.toGoal(from, goal_), edge);
+            restOnEdge(from, to, std::clamp(along / dot(edge, edge), 0.0, 1.0));
         }
     }
 
@@ -475,6 +484,7 @@ private:
     bool arriveAtVertex(const Vec3& edge, const Goal& end) noexcept
     {
         const auto fan = surface_.fan(contact_.vertex);
+        locateGoal(end);
         const Vec3 to_goal = surface_.toGoal(fan, goal_);
         const double squared = dot(to_goal, to_goal);
         bool is_minimum = true;
@@ -485,7 +495,7 @@ private:
             return restAtVertex(fan, end);
         }
         ++counters_.vertices;
-        nudge(edge, end);
+        advanceBeyond(at_, edge, end);
         is_known_ = false;
         descend();
         return false;
@@ -502,7 +512,7 @@ private:
         is_known_ = false;
         const Vec3 last = surface_.toGoal(fan, end);
         const double last_squared = dot(last, last);
-        const Vec3 first = surface_.toGoal(fan, goal_);
+        const Vec3 first = surface_.toGoal(fan, begin_);
         Event event;
         SurfaceSpoke<S> towards{};
         surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
@@ -522,10 +532,12 @@ private:
             goal_ = end;
             return true;
         }
-        if (isStuckAt(event.share(), end)) {
-            unstick(towards.along, end);
+        const double share = event.share(at_);
+        if (isStuck(share)) {
+            unstick(share, towards.along, end);
             return false;
         }
+        at_ = share;
         contact_.edge = surface_.edgeBetween(contact_.vertex, towards.end);
         contact_.feature = ContactFeature::Edge;
         return false;
@@ -585,12 +597,16 @@ private:
     bool is_at_rest_ = true; // at a minimum of the distance to goal_
     // Of the leg that is followed:
     std::uint32_t events_ = 0; // that the update may still take
-    int still_ = 0;
-    double nudge_ = 0.0; // metres; 0: not yet known
+    Goal begin_{};
+    double at_ = 0.0;    // the share of the leg where the goal is
+    double nudge_ = 0.0; // another; 0: not yet known
+    int still_ = 0;      // events in a row that did not move the goal
+    // Where is_known_, the face or, with the edge opposite left_corner_, the faces of the contact.
     bool is_known_ = false;
+    bool has_right_ = false;
+    std::size_t left_corner_ = 0;
     Facet left_{};
     Facet right_{};
-    bool has_right_ = false;
 };
 
 } // namespace marsview

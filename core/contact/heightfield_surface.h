@@ -62,7 +62,13 @@ struct HeightfieldFacet {
     double b_up;
     double f_a;
     double f_b;
-    double turn; // of a and b in columns and rows: 1 or -1
+    // The first corner, and b and a in rows and columns, times their turn: 1 or -1.
+    double column;
+    double row;
+    double b_rows;
+    double b_columns;
+    double a_rows;
+    double a_columns;
 
     struct Seen {
         double x;
@@ -71,13 +77,9 @@ struct HeightfieldFacet {
     };
     [[gnu::always_inline]] inline Seen seen(const HeightfieldGoal& goal) const noexcept
     {
-        const auto& [first, second, third] = vertices;
-        const double columns = goal.grid.column - static_cast<double>(first.column);
-        const double rows = goal.grid.row - static_cast<double>(first.row);
-        return {turn * (columns * static_cast<double>(third.row - first.row) -
-                        rows * static_cast<double>(third.column - first.column)),
-                turn * (rows * static_cast<double>(second.column - first.column) -
-                        columns * static_cast<double>(second.row - first.row)),
+        const double columns = goal.grid.column - column;
+        const double rows = goal.grid.row - row;
+        return {columns * b_rows - rows * b_columns, rows * a_columns - columns * a_rows,
                 goal.scene.z - heights[0]};
     }
 
@@ -402,8 +404,24 @@ private:
         const double m_ab = metric_[kinds[0]].mixed;
         const double f_a = metric_[kinds[1]].length * a_up + m_ab * b_up;
         const double f_b = m_ab * a_up + metric_[kinds[2]].length * b_up;
-        return {vertices, kinds, heights, 1.0 + (a_up * f_a + b_up * f_b), a_up, b_up,
-                f_a,      f_b,   turn_};
+        const auto& [first, second, third] = vertices;
+        const auto along = [this](std::int32_t from, std::int32_t to) {
+            return turn_ * static_cast<double>(to - from);
+        };
+        return {vertices,
+                kinds,
+                heights,
+                1.0 + (a_up * f_a + b_up * f_b),
+                a_up,
+                b_up,
+                f_a,
+                f_b,
+                static_cast<double>(first.column),
+                static_cast<double>(first.row),
+                along(first.row, third.row),
+                along(first.column, third.column),
+                along(first.row, second.row),
+                along(first.column, second.column)};
     }
     double heightOf(Vertex v) const noexcept { return heights_.at(v.column, v.row); }
     CellHeights cellHeights(std::int32_t column, std::int32_t row) const noexcept
