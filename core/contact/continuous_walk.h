@@ -17,6 +17,7 @@
 
 #include "core/contact/contact.h"
 #include "core/contact/contact_surface.h"
+#include "core/contact/facet_steps.h"
 #include "core/contact/steepest_descent.h"
 
 #include <algorithm>
@@ -141,6 +142,7 @@ private:
     using Face = typename S::Face;
     using Facet = typename S::Facet;
     using Contact = SurfaceContact<S>;
+    using Steps = FacetSteps<S>;
     using Descent = SteepestDescent<S>;
 
     // A fall begins a little beyond its event, in motion of the goal: that much of an edge.
@@ -402,9 +404,9 @@ private:
         const double length_squared = dot(edge, edge);
         const double last_along = dot(surface_.toGoal(from, end), edge);
         const SurfaceFoot last_right = has_right_ ? right_.foot(end) : SurfaceFoot{};
-        const bool is_into_left = Descent::isInward(last_left.weights[left_corner_], left_, end);
+        const bool is_into_left = Steps::isInward(last_left.weights[left_corner_], left_, end);
         const bool is_into_right =
-            has_right_ && Descent::isInward(last_right.weights[0], right_, end);
+            has_right_ && Steps::isInward(last_right.weights[0], right_, end);
         if (last_along >= 0.0 && last_along <= length_squared && !is_into_left && !is_into_right) {
             restOnEdge(from, to, last_along / length_squared);
             if (last_left.above > 0.0 || last_right.above > 0.0 || !has_right_) {
@@ -467,9 +469,7 @@ private:
 
     void restOnEdge(Vertex from, Vertex to, double share) noexcept
     {
-        contact_.feature = ContactFeature::Edge;
-        contact_.edge = surface_.edgeBetween(from, to);
-        contact_.along = surface_.ends(contact_.edge)[0] == from ? share : 1.0 - share;
+        Steps::restOnEdge(surface_, contact_, from, to, share);
     }
 
     // The foot is inside left_, but for rounding.
@@ -477,7 +477,7 @@ private:
     {
         contact_.feature = ContactFeature::Face;
         contact_.face = surface_.faceOf(left_);
-        contact_.weights = Descent::weightsOnFace(surface_, contact_.face, left_, foot);
+        contact_.weights = Steps::weightsOnFace(surface_, contact_.face, left_, foot);
     }
 
     // Along an edge: the vertex at its end may be no minimum, where the valley goes on downward.
@@ -489,7 +489,8 @@ private:
         const double squared = dot(to_goal, to_goal);
         bool is_minimum = true;
         surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
-            is_minimum = is_minimum && !leads(dot(to_goal, spoke.along), spoke.along, squared);
+            is_minimum = is_minimum && !Steps::leads(dot(to_goal, spoke.along),
+                                                     dot(spoke.along, spoke.along), squared);
         });
         if (is_minimum) {
             return restAtVertex(fan, end);
@@ -517,7 +518,7 @@ private:
         SurfaceSpoke<S> towards{};
         surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
             const double at_end = dot(last, spoke.along);
-            if (leads(at_end, spoke.along, last_squared)) {
+            if (Steps::leads(at_end, dot(spoke.along, spoke.along), last_squared)) {
                 const Event before = event;
                 event.consider(dot(first, spoke.along), at_end, before.which + 1);
                 if (event.which != before.which) {
@@ -543,18 +544,6 @@ private:
         return false;
     }
 
-    // Whether an edge leads closer, by more than rounding error: as SteepestDescent decides it.
-    static bool leads(double towards, const Vec3& along, double goal_squared) noexcept
-    {
-        if (towards <= 0.0) {
-            return false;
-        }
-        const double length_squared = dot(along, along);
-        return towards > Descent::kShareMin * length_squared &&
-               towards * towards >
-                   Descent::kCosineMin * Descent::kCosineMin * goal_squared * length_squared;
-    }
-
     static SurfaceFoot
     footBetween(const SurfaceFoot& first, const SurfaceFoot& last, double share) noexcept
     {
@@ -571,7 +560,7 @@ private:
     {
         const auto& [first, second, third] = foot.weights;
         restOnFacet(foot);
-        if (!Descent::isInward(std::min({first, second, third}), left_, goal_)) {
+        if (!Steps::isInward(std::min({first, second, third}), left_, goal_)) {
             contact_ = contactOnFace(surface_, contact_.face, contact_.weights);
             descend();
         }

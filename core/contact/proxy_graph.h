@@ -4,6 +4,7 @@
 
 #include "core/contact/contact.h"
 #include "core/contact/contact_surface.h"
+#include "core/contact/facet_steps.h"
 #include "core/contact/point_proxy.h"
 
 #include <algorithm>
@@ -49,22 +50,8 @@ public:
     }
 
 private:
-    // The goal projected onto the plane of a face.
-    struct Foot {
-        std::array<double, 3> weights; // of the corners; negative: beyond the edge opposite
-        double scale;
-
-        bool isInside() const
-        {
-            return weights[0] >= 0.0 && weights[1] >= 0.0 && weights[2] >= 0.0;
-        }
-    };
-
-    // The way within a face to the foot outside it: where it leaves, and through which edge.
-    struct Exit {
-        int corner; // opposite the edge
-        std::array<double, 3> weights;
-    };
+    using Facet = typename S::Facet;
+    using Steps = FacetSteps<S>;
 
     // Vertices from which far-edge steps were taken within this update. More than this are treated
     // as a loop; in a million updates on fractals not more than a handful are met.
@@ -72,20 +59,26 @@ private:
     // A descent whose distance no longer gets less, to rounding, ends after so many steps: enough
     // to turn around a vertex through steps of length zero.
     static constexpr int kStallsMax = 32;
-    // What is less than rounding error from an end of an edge, or from the border of a face, is
-    // there: another face or edge may lead on from it, which would not be seen from beside it. The
-    // error grows with the distance to the goal. An edge leads closer from a vertex where it leads
-    // by more than this; half of it is still at the vertex, so that the two cannot contradict.
-    static constexpr double kShareMin = 1e-12;  // of the edge
-    static constexpr double kCosineMin = 1e-13; // between edge and goal
-    static constexpr double kFootError = 4e-15; // of the distance to the goal, times the slope
-
     // What one update remembers while it descends.
+    struct FarList {
+        std::array<Vertex, kFarListMax> vertices;
+        std::size_t count = 0;
+
+        // False where it is in the list, or the list is full.
+        bool add(Vertex vertex) noexcept
+        {
+            const auto end = vertices.begin() + static_cast<std::ptrdiff_t>(count);
+            if (count == kFarListMax || std::find(vertices.begin(), end, vertex) != end) {
+                return false;
+            }
+            vertices[count++] = vertex;
+            return true;
+        }
+    };
     struct Descent {
-        std::array<Vertex, kFarListMax> far_vertices;
-        std::size_t far_count = 0;
-        bool walks_only = false;      // after a loop of far-edge steps
-        std::optional<Vertex> origin; // the vertex whose steepest edge the proxy is on
+        std::optional<FarList> far_list; // made for the first of them, which is seldom
+        bool walks_only = false;         // after a loop of far-edge steps
+        std::optional<Vertex> origin;    // the vertex whose steepest edge the proxy is on
         double distance_squared = std::numeric_limits<double>::infinity();
         int stalls = 0;
 
@@ -141,33 +134,15 @@ private:
             return is_free_;
         }
         const Vec3 to_goal = surface_.toGoal(fan, goal);
-        // The largest squared cosine times |to_goal|², which is the paper's edge gradient, of those
-        // edges that lead closer.
-        double steepest = kCosineMin * kCosineMin * dot(to_goal, to_goal);
-        Vertex end{};
-        bool is_found = false;
-        bool is_beyond = false;
-        surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
-            const double towards = dot(to_goal, spoke.along);
-            const double length_squared = dot(spoke.along, spoke.along);
-            if (towards > kShareMin * length_squared &&
-                towards * towards > steepest * length_squared) {
-                steepest = towards * towards / length_squared;
-                end = spoke.end;
-                is_beyond = towards >= length_squared;
-                is_found = true;
-            }
-        });
-        if (!is_found) {
+        const auto steepest = Steps::steepestSpoke(surface_, fan, to_goal, dot(to_goal, to_goal));
+        if (!(steepest.towards > 0.0)) {
             return true;
         }
-        if (is_beyond) {
-            contact_.vertex = end;
+        if (steepest.towards >= steepest.length_squared) {
+            contact_.vertex = steepest.spoke.end;
             return false;
         }
-        contact_.feature = ContactFeature::Edge;
-        contact_.edge = surface_.edgeBetween(here, end);
-        contact_.along = surface_.ends(contact_.edge)[0] == here ? 0.0 : 1.0;
+        Steps::restOnEdge(surface_, contact_, here, steepest.spoke.end, 0.0);
         descent.origin = here;
         return false;
     }
@@ -182,53 +157,47 @@ private:
         const double along = dot(to_goal, edge) / length_squared;
         const Vec3 rest = to_goal - edge * std::clamp(along, 0.0, 1.0);
         const bool has_stalled = descent.hasStalled(dot(rest, rest));
-        const double slack =
-            0.5 *
-            std::max(kShareMin, kCosineMin * std::sqrt(dot(to_goal, to_goal) / length_squared));
-        if (!(along > slack && along < 1.0 - slack)) {
-            contact_.feature = ContactFeature::Vertex;
-            contact_.vertex = along > 0.5 ? to : from;
+        const double least = Steps::endShare(dot(to_goal, to_goal), length_squared);
+        if (!(along > least && along < 1.0 - least)) {
+            Steps::restOnVertex(contact_, along > 0.5 ? to : from);
             return has_stalled;
         }
         contact_.along = along;
-        if (leaves(surface_.wayOut(contact_, goal), goal)) {
+        const SurfaceEdgeFacets<S> facets = surface_.edgeFacets(contact_.edge);
+        const SurfaceFoot left = facets.left.foot(goal);
+        const SurfaceFoot right = facets.has_right ? facets.right.foot(goal) : SurfaceFoot{};
+        if ((left.above > 0.0 || right.above > 0.0 || !facets.has_right) &&
+            leaves(surface_.wayOut(contact_, goal), goal)) {
             return is_free_;
         }
-        // A foot on the inner side of a face means that the way into it leads closer: the same
-        // number decides it as decides, within that face, whether its foot is outside.
-        std::optional<SurfaceWing<S>> into;
-        Foot foot{};
-        double steepest = 0.0;
-        for (const auto& wing : surface_.wings(contact_.edge)) {
-            if (!wing) {
-                continue;
-            }
-            const Foot candidate = footOn(wing->face, goal);
-            const double weight = candidate.weights[static_cast<std::size_t>(wing->corner)];
-            const double descent_squared = weight * weight * candidate.scale;
-            if (weight > 0.0 && descent_squared > steepest) {
-                steepest = descent_squared;
-                into = wing;
-                foot = candidate;
-            }
-        }
-        if (!into || has_stalled) {
+        // The steeper of the ways into the faces.
+        const bool is_left = Steps::isInward(left.weights[0], facets.left, goal);
+        const bool is_right =
+            facets.has_right && Steps::isInward(right.weights[0], facets.right, goal) &&
+            !(is_left && left.weights[0] * left.weights[0] * facets.right.scale >=
+                             right.weights[0] * right.weights[0] * facets.left.scale);
+        if (!(is_left || is_right) || has_stalled) {
             return true;
         }
         ++counters_.faces;
+        const Facet& facet = is_right ? facets.right : facets.left;
+        const SurfaceFoot& foot = is_right ? right : left;
         if (foot.isInside()) {
-            contact_ = contactOnFace(surface_, into->face, foot.weights);
+            contact_ = Steps::contactOnOrBeside(surface_, facet, foot, goal);
             return false; // the goal may be above the face, or its foot on another edge
         }
-        const auto corners = surface_.corners(into->face);
-        const auto corner = static_cast<std::size_t>(into->corner);
-        std::array<double, 3> weights{};
-        weights[(corner + 1) % 3] = corners[(corner + 1) % 3] == from ? 1.0 - along : along;
-        weights[(corner + 2) % 3] = 1.0 - weights[(corner + 1) % 3];
-        const Exit exit = exitTowards(weights, foot);
-        contact_ = contactOnFace(surface_, into->face, exit.weights);
-        if (origin && corners[static_cast<std::size_t>(exit.corner)] == *origin) {
-            crossFarEdge(goal, corners, static_cast<std::size_t>(exit.corner), descent);
+        const double share = facet.vertices[1] == from ? along : 1.0 - along;
+        const auto exit = Steps::exitAhead(share, foot);
+        const Vertex ahead = facet.vertices[0];
+        const Vertex beside = facet.vertices[exit.is_to_third ? 2 : 1];
+        if (Steps::isWithinEdge(exit.share)) {
+            Steps::restOnEdge(surface_, contact_, beside, ahead, exit.share);
+        } else {
+            Steps::restOnVertex(contact_, exit.share > 0.5 ? ahead : beside);
+        }
+        const Vertex opposite = facet.vertices[exit.is_to_third ? 1 : 2];
+        if (origin && opposite == *origin) {
+            crossFarEdge(goal, opposite, ahead, beside, descent);
         }
         return false;
     }
@@ -237,26 +206,21 @@ private:
     // closer to the goal, although that may be farther than the vertex from which the trace came.
     // A second crossing from one vertex would go on for ever: then the proxy stays on the far edge,
     // closer than all before, and walks.
-    void crossFarEdge(const Goal& goal,
-                      const std::array<Vertex, 3>& corners,
-                      std::size_t corner,
-                      Descent& descent) noexcept
+    void
+    crossFarEdge(const Goal& goal, Vertex opposite, Vertex a, Vertex b, Descent& descent) noexcept
     {
         if (descent.walks_only) {
             return;
         }
         ++counters_.far_edges;
-        const auto end =
-            descent.far_vertices.begin() + static_cast<std::ptrdiff_t>(descent.far_count);
-        if (descent.far_count == kFarListMax ||
-            std::find(descent.far_vertices.begin(), end, corners[corner]) != end) {
+        if (!descent.far_list) {
+            descent.far_list.emplace();
+        }
+        if (!descent.far_list->add(opposite)) {
             ++counters_.far_loops;
             descent.walks_only = true;
             return;
         }
-        descent.far_vertices[descent.far_count++] = corners[corner];
-        const Vertex a = corners[(corner + 1) % 3];
-        const Vertex b = corners[(corner + 2) % 3];
         const Vec3 from_a = surface_.toGoal(a, goal);
         const Vec3 from_b = surface_.toGoal(b, goal);
         contact_.feature = ContactFeature::Vertex;
@@ -269,58 +233,25 @@ private:
     {
         descent.origin.reset();
         ++counters_.faces;
-        if (leaves(surface_.wayOut(contact_, goal), goal)) {
+        const Facet facet = surface_.facet(contact_.face, 0);
+        const SurfaceFoot foot = facet.foot(goal);
+        if (foot.above > 0.0 && leaves(surface_.wayOut(contact_, goal), goal)) {
             return is_free_;
         }
-        const Foot foot = footOn(contact_.face, goal);
         if (foot.isInside()) {
-            contact_ = contactOnFace(surface_, contact_.face, foot.weights);
+            contact_ = Steps::contactOnOrBeside(surface_, facet, foot, goal);
             return contact_.feature == ContactFeature::Face;
         }
-        contact_ =
-            contactOnFace(surface_, contact_.face, exitTowards(contact_.weights, foot).weights);
+        const auto exit = Steps::exitFrom(facet, contact_.weights, foot);
+        const Vertex from = facet.vertices[(exit.corner + 1) % 3];
+        const Vertex to = facet.vertices[(exit.corner + 2) % 3];
+        if (Steps::isWithinEdge(exit.share)) {
+            Steps::restOnEdge(surface_, contact_, from, to, exit.share);
+        } else {
+            Steps::restOnVertex(contact_, exit.share > 0.5 ? to : from);
+        }
         const ScenePoint rest = surface_.goalPoint(goal) - surface_.point(contact_);
         return descent.hasStalled(dot(rest, rest));
-    }
-
-    Foot footOn(const Face& face, const Goal& goal) const noexcept
-    {
-        const auto facet = surface_.facet(face, 0);
-        const SurfaceFoot scaled = facet.foot(goal);
-        Foot foot{};
-        foot.scale = facet.scale;
-        for (std::size_t i = 0; i < 3; ++i) {
-            foot.weights[i] = scaled.weights[i] / facet.scale;
-        }
-        const double error = std::max(kShareMin, facet.error(goal) / facet.scale);
-        for (double& weight : foot.weights) {
-            weight = std::abs(weight) <= error ? 0.0 : weight;
-        }
-        return foot;
-    }
-
-    // `weights` are those of a place in the face, the foot is outside.
-    static Exit exitTowards(const std::array<double, 3>& weights, const Foot& foot) noexcept
-    {
-        double share = std::numeric_limits<double>::infinity();
-        std::size_t corner = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (foot.weights[i] < 0.0) {
-                const double at = weights[i] / (weights[i] - foot.weights[i]);
-                if (at < share) {
-                    share = at;
-                    corner = i;
-                }
-            }
-        }
-        Exit exit{static_cast<int>(corner), {}};
-        const std::size_t j = (corner + 1) % 3;
-        const std::size_t k = (corner + 2) % 3;
-        const double weight_j = weights[j] + share * (foot.weights[j] - weights[j]);
-        const double weight_k = weights[k] + share * (foot.weights[k] - weights[k]);
-        exit.weights[j] = std::clamp(weight_j / (weight_j + weight_k), 0.0, 1.0);
-        exit.weights[k] = 1.0 - exit.weights[j];
-        return exit;
     }
 
     const S& surface_;

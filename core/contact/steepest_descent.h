@@ -3,6 +3,7 @@
 
 #include "core/contact/contact.h"
 #include "core/contact/contact_surface.h"
+#include "core/contact/facet_steps.h"
 
 #include <algorithm>
 #include <array>
@@ -30,45 +31,6 @@ public:
     using Face = typename S::Face;
     using Facet = typename S::Facet;
     using Contact = SurfaceContact<S>;
-    using Weights = std::array<double, 3>;
-
-    // What is less than this share of an edge from its end is there: another face or edge may lead
-    // on from it, which would not be seen from beside it. An edge leads closer from a vertex where
-    // its cosine with the goal's direction is more than kCosineMin; half of it is still at the
-    // vertex, so that the two cannot contradict each other.
-    static constexpr double kShareMin = 1e-12;
-    static constexpr double kCosineMin = 1e-13;
-
-    /// Whether a foot of that weight is inside the edge opposite, by more than rounding error.
-    static bool isInward(double weight, const Facet& facet, const Goal& goal) noexcept
-    {
-        constexpr double kClearly = 1e-6; // of the scale: far more than any rounding error
-        return weight > kClearly * facet.scale ||
-               weight > std::max(kShareMin * facet.scale, facet.error(goal));
-    }
-
-    /// The weights of a face's corners at a foot; what is negative counts as 0.
-    static Weights weightsOnFace(const S& surface,
-                                 const Face& face,
-                                 const Facet& facet,
-                                 const SurfaceFoot& foot) noexcept
-    {
-        const auto corners = surface.corners(face);
-        const std::size_t first = corners[0] == facet.vertices[0]   ? 0
-                                  : corners[1] == facet.vertices[0] ? 1
-                                                                    : 2;
-        Weights weights{};
-        double sum = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            weights[(first + i) % 3] = std::max(foot.weights[i], 0.0);
-            sum += weights[(first + i) % 3];
-        }
-        const double inverse = 1.0 / sum;
-        for (double& weight : weights) {
-            weight *= inverse;
-        }
-        return weights;
-    }
 
     SteepestDescent(const S& surface, ContactCounters& counters) noexcept
         : surface_(surface)
@@ -82,7 +44,7 @@ public:
     {
         const bool is_free = run(contact, goal, Step::Goes);
         if (facet_) {
-            contact = contactOn(*facet_, foot_);
+            contact = Steps::contactOn(surface_, *facet_, foot_);
         }
         return is_free;
     }
@@ -97,6 +59,8 @@ public:
     const std::optional<Facet>& facet() const noexcept { return facet_; }
 
 private:
+    using Steps = FacetSteps<S>;
+
     enum class Step : std::uint8_t {
         Goes, // the contact is where the next step begins
         Ends, // it is a local minimum
@@ -157,24 +121,13 @@ private:
         }
         vertex_squared_ = squared;
 
-        // The squares of how fast the distance falls, times `squared`.
-        double steepest = kCosineMin * kCosineMin * squared;
-        std::optional<SurfaceSpoke<S>> along;
-        double along_share = 0.0;
-        surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
-            const double towards = dot(to_goal, spoke.along);
-            const double length_squared = dot(spoke.along, spoke.along);
-            if (towards > kShareMin * length_squared &&
-                towards * towards > steepest * length_squared) {
-                steepest = towards * towards / length_squared;
-                along = spoke;
-                along_share = towards / length_squared;
-            }
-        });
-        if (!along) {
+        const auto steepest = Steps::steepestSpoke(surface_, fan, to_goal, squared);
+        if (!(steepest.towards > 0.0)) {
             // Within a face, no direction leads closer where neither of its edges does.
             return Step::Ends;
         }
+        // The squares of how fast the distance falls, times `squared`.
+        double best_rate = steepest.towards * steepest.towards / steepest.length_squared;
         std::optional<Face> into;
         surface_.eachSector(
             fan, [&](const Face& face, const SurfaceSpoke<S>& a, const SurfaceSpoke<S>& b) {
@@ -191,8 +144,8 @@ private:
                 const double area_squared = aa * bb - ab * ab;
                 if (weight_a > 0.0 && weight_b > 0.0 && area_squared > 0.0) {
                     const double rate = (ga * weight_a + gb * weight_b) / area_squared;
-                    if (rate > steepest) {
-                        steepest = rate;
+                    if (rate > best_rate) {
+                        best_rate = rate;
                         into = face;
                     }
                 }
@@ -207,31 +160,14 @@ private:
                 return walk(contact, facet, {1.0, 0.0, 0.0}, foot, goal);
             }
         }
-        return slide(contact, here, *along, along_share, squared);
-    }
-
-    // Along an edge of which no face leads away.
-    Step slide(Contact& contact,
-               Vertex here,
-               const SurfaceSpoke<S>& along,
-               double share,
-               double squared) noexcept
-    {
-        const double length_squared = dot(along.along, along.along);
-        if (share >= 1.0 - slack(squared, length_squared)) {
-            contact.feature = ContactFeature::Vertex;
-            contact.vertex = along.end;
-            return Step::Goes;
+        // Along an edge of which no face leads away.
+        const double share = steepest.towards / steepest.length_squared;
+        if (share >= 1.0 - Steps::endShare(squared, steepest.length_squared)) {
+            Steps::restOnVertex(contact, steepest.spoke.end);
+        } else {
+            Steps::restOnEdge(surface_, contact, here, steepest.spoke.end, share);
         }
-        contact.feature = ContactFeature::Edge;
-        contact.edge = surface_.edgeBetween(here, along.end);
-        contact.along = surface_.ends(contact.edge)[0] == here ? share : 1.0 - share;
         return Step::Goes; // rounding may have hidden that a face leads closer
-    }
-
-    static double slack(double goal_squared, double length_squared) noexcept
-    {
-        return 0.5 * std::max(kShareMin, kCosineMin * std::sqrt(goal_squared / length_squared));
     }
 
     Step fromEdge(Contact& contact, const Goal& goal) noexcept
@@ -248,9 +184,9 @@ private:
         // number decides it as decides, within that face, whether its foot is outside. The steeper
         // way is taken.
         const auto [from, to] = surface_.ends(contact.edge);
-        const bool is_left = isInward(left.weights[0], facets.left, goal);
+        const bool is_left = Steps::isInward(left.weights[0], facets.left, goal);
         const bool is_right =
-            facets.has_right && isInward(right.weights[0], facets.right, goal) &&
+            facets.has_right && Steps::isInward(right.weights[0], facets.right, goal) &&
             !(is_left && left.weights[0] * left.weights[0] * facets.right.scale >=
                              right.weights[0] * right.weights[0] * facets.left.scale);
         if (is_right || is_left) {
@@ -262,13 +198,12 @@ private:
         const Vec3 to_goal = surface_.toGoal(from, goal);
         const double length_squared = dot(edge, edge);
         const double along = dot(to_goal, edge) / length_squared;
-        const double least = slack(dot(to_goal, to_goal), length_squared);
+        const double least = Steps::endShare(dot(to_goal, to_goal), length_squared);
         if (along > least && along < 1.0 - least) {
             contact.along = along;
             return Step::Ends;
         }
-        contact.feature = ContactFeature::Vertex;
-        contact.vertex = along > 0.5 ? to : from;
+        Steps::restOnVertex(contact, along > 0.5 ? to : from);
         return Step::Goes;
     }
 
@@ -287,56 +222,30 @@ private:
     // From a place on a facet straight towards the foot.
     Step walk(Contact& contact,
               const Facet& facet,
-              const Weights& at,
+              const std::array<double, 3>& at,
               const SurfaceFoot& foot,
               const Goal& goal) noexcept
     {
+        ++counters_.faces;
         if (foot.isInside()) {
-            ++counters_.faces;
             return settle(contact, facet, foot, goal);
         }
-        double earliest = std::numeric_limits<double>::infinity();
-        std::size_t i = 0;
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            if (foot.weights[corner] < 0.0) {
-                const double begin = at[corner] * facet.scale;
-                const double time = begin / (begin - foot.weights[corner]);
-                if (time < earliest) {
-                    earliest = time;
-                    i = corner;
-                }
+        const auto exit = Steps::exitFrom(facet, at, foot);
+        const Vertex from = facet.vertices[(exit.corner + 1) % 3];
+        const Vertex to = facet.vertices[(exit.corner + 2) % 3];
+        if (!Steps::isWithinEdge(exit.share)) {
+            Steps::restOnVertex(contact, exit.share > 0.5 ? to : from);
+            return Step::Goes;
+        }
+        if (surface_.hasBeyond(facet, exit.corner)) {
+            const Facet next = surface_.beyond(facet, exit.corner);
+            const SurfaceFoot its_foot = next.foot(goal);
+            if (its_foot.above <= 0.0 && Steps::isInward(its_foot.weights[0], next, goal)) {
+                return cross(contact, next, 1.0 - exit.share, its_foot, goal);
             }
         }
-        const std::size_t j = (i + 1) % 3;
-        const std::size_t k = (i + 2) % 3;
-        const auto weightAt = [&](std::size_t corner) {
-            const double begin = at[corner] * facet.scale;
-            return begin + earliest * (foot.weights[corner] - begin);
-        };
-        const double of_k = weightAt(k);
-        return goBeyond(contact, facet, i, of_k / (of_k + weightAt(j)), goal);
-    }
-
-    // A walk leaves a facet over the edge opposite corner i, at the share `share` of the way from
-    // corner i + 1 to corner i + 2.
-    Step goBeyond(Contact& contact,
-                  const Facet& facet,
-                  std::size_t i,
-                  double share,
-                  const Goal& goal) noexcept
-    {
-        ++counters_.faces;
-        if (!(share > kShareMin && share < 1.0 - kShareMin)) {
-            return stopAtVertex(contact, facet.vertices[(i + (share > 0.5 ? 2 : 1)) % 3]);
-        }
-        if (surface_.hasBeyond(facet, i)) {
-            const Facet next = surface_.beyond(facet, i);
-            const SurfaceFoot foot = next.foot(goal);
-            if (foot.above <= 0.0 && isInward(foot.weights[0], next, goal)) {
-                return cross(contact, next, 1.0 - share, foot, goal);
-            }
-        }
-        return stopAtEdge(contact, facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3], share);
+        Steps::restOnEdge(surface_, contact, from, to, exit.share);
+        return Step::Goes;
     }
 
     // From facet to facet, each entered over the edge opposite its first corner, as long as the
@@ -349,34 +258,31 @@ private:
     {
         while (true) {
             ++counters_.faces;
-            const auto& [ahead, second, third] = foot.weights;
-            if (second >= 0.0 && third >= 0.0) {
+            if (foot.weights[1] >= 0.0 && foot.weights[2] >= 0.0) {
                 return settle(contact, facet, foot, goal);
             }
-            // The sign tells on which side of the corner ahead the way passes: over the edge from
-            // it to the third corner, or to the second.
-            const double side = (1.0 - share) * third - share * second;
-            const bool is_third = side >= 0.0;
-            const double of_ahead = (is_third ? 1.0 - share : share) * ahead;
-            const double ahead_share = of_ahead / (of_ahead + std::abs(side));
-            const Vertex corner = facet.vertices[0];
-            const Vertex beside = is_third ? facet.vertices[2] : facet.vertices[1];
-            if (!(ahead_share > kShareMin && ahead_share < 1.0 - kShareMin)) {
-                return stopAtVertex(contact, ahead_share > 0.5 ? corner : beside);
+            const auto exit = Steps::exitAhead(share, foot);
+            const Vertex ahead = facet.vertices[0];
+            const Vertex beside = exit.is_to_third ? facet.vertices[2] : facet.vertices[1];
+            if (!Steps::isWithinEdge(exit.share)) {
+                Steps::restOnVertex(contact, exit.share > 0.5 ? ahead : beside);
+                return Step::Goes;
             }
-            if (!(is_third ? surface_.hasBeyond(facet, 1) : surface_.hasBeyond(facet, 2)) ||
-                steps_ <= 1) {
-                return stopAtEdge(contact, corner, beside, 1.0 - ahead_share);
+            const bool has_next =
+                exit.is_to_third ? surface_.hasBeyond(facet, 1) : surface_.hasBeyond(facet, 2);
+            if (has_next && steps_ > 1) {
+                --steps_;
+                facet = exit.is_to_third ? surface_.beyond(facet, 1) : surface_.beyond(facet, 2);
+                foot = facet.foot(goal);
+                // The next facet's second corner is the one ahead, or the one beside. Above its
+                // plane, over a sharp ridge, the proxy may let go.
+                if (foot.above <= 0.0 && Steps::isInward(foot.weights[0], facet, goal)) {
+                    share = exit.is_to_third ? 1.0 - exit.share : exit.share;
+                    continue;
+                }
             }
-            // The next facet's second corner is the one ahead, or the one beside.
-            share = is_third ? 1.0 - ahead_share : ahead_share;
-            facet = is_third ? surface_.beyond(facet, 1) : surface_.beyond(facet, 2);
-            foot = facet.foot(goal);
-            // Above the next plane, over a sharp ridge, the proxy may let go.
-            if (foot.above > 0.0 || !isInward(foot.weights[0], facet, goal)) {
-                return stopAtEdge(contact, corner, beside, 1.0 - ahead_share);
-            }
-            --steps_;
+            Steps::restOnEdge(surface_, contact, beside, ahead, exit.share);
+            return Step::Goes;
         }
     }
 
@@ -385,17 +291,13 @@ private:
     settle(Contact& contact, const Facet& facet, const SurfaceFoot& foot, const Goal& goal) noexcept
     {
         const auto& [first, second, third] = foot.weights;
-        if (!isInward(std::min({first, second, third}), facet, goal)) {
+        if (!Steps::isInward(std::min({first, second, third}), facet, goal)) {
             // From an edge, a face on its other side may lead closer.
-            SurfaceFoot inside = foot;
-            for (double& weight : inside.weights) {
-                weight = isInward(weight, facet, goal) ? weight : 0.0;
-            }
-            contact = contactOn(facet, inside);
+            contact = Steps::contactOnOrBeside(surface_, facet, foot, goal);
             return Step::Goes;
         }
         if (foot.above > 0.0) { // a sharp ridge was crossed, or it is rounding error
-            contact = contactOn(facet, foot);
+            contact = Steps::contactOn(surface_, facet, foot);
             if (const auto over = surface_.wayOut(contact, goal)) {
                 return fly(contact, *over, goal);
             }
@@ -403,27 +305,6 @@ private:
         facet_ = facet;
         foot_ = foot;
         return Step::Ends;
-    }
-
-    Contact contactOn(const Facet& facet, const SurfaceFoot& foot) const noexcept
-    {
-        const Face face = surface_.faceOf(facet);
-        return contactOnFace(surface_, face, weightsOnFace(surface_, face, facet, foot));
-    }
-
-    static Step stopAtVertex(Contact& contact, Vertex vertex) noexcept
-    {
-        contact.feature = ContactFeature::Vertex;
-        contact.vertex = vertex;
-        return Step::Goes;
-    }
-
-    Step stopAtEdge(Contact& contact, Vertex from, Vertex to, double share) const noexcept
-    {
-        contact.feature = ContactFeature::Edge;
-        contact.edge = surface_.edgeBetween(from, to);
-        contact.along = surface_.ends(contact.edge)[0] == from ? share : 1.0 - share;
-        return Step::Goes;
     }
 
     const S& surface_;

@@ -1,0 +1,182 @@
+// The steps that descents over a mesh are made of, and what they take for rounding error.
+#pragma once
+
+#include "core/contact/contact_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace marsview {
+
+/// What is less than this share of an edge from its end is there: another face or edge may lead on
+/// from it, which would not be seen from beside it.
+inline constexpr double kEdgeShareMin = 1e-12;
+/// An edge leads closer to the goal from a vertex where the cosine between its direction and the
+/// goal's is more than this.
+inline constexpr double kEdgeCosineMin = 1e-13;
+
+/// Free functions over one kind of surface. Real-time.
+template <ContactSurface S>
+struct FacetSteps {
+    using Goal = typename S::Goal;
+    using Vertex = typename S::Vertex;
+    using Face = typename S::Face;
+    using Facet = typename S::Facet;
+    using Contact = SurfaceContact<S>;
+    using Weights = std::array<double, 3>; // of a face's corners
+
+    /// Whether a foot of that weight is inside the edge opposite, by more than rounding error. The
+    /// same number tells, seen from the next face, that the way into this one leads closer.
+    static bool isInward(double weight, const Facet& facet, const Goal& goal) noexcept
+    {
+        constexpr double kClearly = 1e-6; // of the scale: far more than any rounding error
+        return weight > kClearly * facet.scale ||
+               weight > std::max(kEdgeShareMin * facet.scale, facet.error(goal));
+    }
+
+    /// Whether an edge `along` leads closer from its beginning, by more than rounding error.
+    static bool leads(double towards, double length_squared, double goal_squared) noexcept
+    {
+        return towards > kEdgeShareMin * length_squared &&
+               towards * towards > kEdgeCosineMin * kEdgeCosineMin * goal_squared * length_squared;
+    }
+
+    /// What is no farther than this share of an edge from its end is there, for a goal at that
+    /// distance from it. Half of what leads() asks for, so that the two cannot contradict.
+    static double endShare(double goal_squared, double length_squared) noexcept
+    {
+        return 0.5 *
+               std::max(kEdgeShareMin, kEdgeCosineMin * std::sqrt(goal_squared / length_squared));
+    }
+
+    /// The edge of a vertex that leads closer fastest (the paper's least edge gradient).
+    struct Steepest {
+        SurfaceSpoke<S> spoke{};
+        double towards = 0.0; // its dot product with the way to the goal; 0: no edge leads closer
+        double length_squared = 1.0;
+    };
+    static Steepest steepestSpoke(const S& surface,
+                                  const typename S::Fan& fan,
+                                  const Vec3& to_goal,
+                                  double goal_squared) noexcept
+    {
+        Steepest steepest;
+        surface.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
+            const double towards = dot(to_goal, spoke.along);
+            const double length_squared = dot(spoke.along, spoke.along);
+            if (towards * towards * steepest.length_squared >
+                    steepest.towards * steepest.towards * length_squared &&
+                leads(towards, length_squared, goal_squared)) {
+                steepest = {spoke, towards, length_squared};
+            }
+        });
+        return steepest;
+    }
+
+    /// The weights of a face's corners at a foot; what is negative counts as 0.
+    static Weights weightsOnFace(const S& surface,
+                                 const Face& face,
+                                 const Facet& facet,
+                                 const SurfaceFoot& foot) noexcept
+    {
+        const auto corners = surface.corners(face);
+        const std::size_t first = corners[0] == facet.vertices[0]   ? 0
+                                  : corners[1] == facet.vertices[0] ? 1
+                                                                    : 2;
+        Weights weights{};
+        double sum = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            weights[(first + i) % 3] = std::max(foot.weights[i], 0.0);
+            sum += weights[(first + i) % 3];
+        }
+        const double inverse = 1.0 / sum;
+        for (double& weight : weights) {
+            weight *= inverse;
+        }
+        return weights;
+    }
+
+    /// The place of a foot inside a facet.
+    static Contact contactOn(const S& surface, const Facet& facet, const SurfaceFoot& foot) noexcept
+    {
+        const Face face = surface.faceOf(facet);
+        return contactOnFace(surface, face, weightsOnFace(surface, face, facet, foot));
+    }
+    /// The same; what is within rounding error of an edge is on it.
+    static Contact contactOnOrBeside(const S& surface,
+                                     const Facet& facet,
+                                     SurfaceFoot foot,
+                                     const Goal& goal) noexcept
+    {
+        for (double& weight : foot.weights) {
+            weight = isInward(weight, facet, goal) ? weight : 0.0;
+        }
+        return contactOn(surface, facet, foot);
+    }
+    static void
+    restOnEdge(const S& surface, Contact& contact, Vertex from, Vertex to, double share) noexcept
+    {
+        contact.feature = ContactFeature::Edge;
+        contact.edge = surface.edgeBetween(from, to);
+        contact.along = surface.ends(contact.edge)[0] == from ? share : 1.0 - share;
+    }
+    static void restOnVertex(Contact& contact, Vertex vertex) noexcept
+    {
+        contact.feature = ContactFeature::Vertex;
+        contact.vertex = vertex;
+    }
+
+    /// Where the straight way from a place on a facet to a foot outside leaves it: over the edge
+    /// opposite `corner`, at the share `share` from the corner after it to the one before it.
+    struct Exit {
+        std::size_t corner;
+        double share;
+    };
+    static Exit exitFrom(const Facet& facet, const Weights& at, const SurfaceFoot& foot) noexcept
+    {
+        double earliest = std::numeric_limits<double>::infinity();
+        std::size_t i = 0;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            if (foot.weights[corner] < 0.0) {
+                const double begin = at[corner] * facet.scale;
+                const double time = begin / (begin - foot.weights[corner]);
+                if (time < earliest) {
+                    earliest = time;
+                    i = corner;
+                }
+            }
+        }
+        const auto weightAt = [&](std::size_t corner) {
+            const double begin = at[corner] * facet.scale;
+            return begin + earliest * (foot.weights[corner] - begin);
+        };
+        const double before = weightAt((i + 2) % 3);
+        return {i, before / (before + weightAt((i + 1) % 3))};
+    }
+
+    /// The same from a place on the edge opposite the first corner, at the share `share` from the
+    /// second corner to the third, to a foot on the inner side of it: over one of the edges that
+    /// meet in the first corner, the one to the third or to the second.
+    struct ExitAhead {
+        bool is_to_third;
+        double share; // from that corner to the first one
+    };
+    static ExitAhead exitAhead(double share, const SurfaceFoot& foot) noexcept
+    {
+        const auto& [ahead, second, third] = foot.weights;
+        // The sign tells on which side of the first corner the way passes.
+        const double side = (1.0 - share) * third - share * second;
+        const bool is_to_third = side >= 0.0;
+        const double of_first = (is_to_third ? 1.0 - share : share) * ahead;
+        return {is_to_third, of_first / (of_first + std::abs(side))};
+    }
+
+    static bool isWithinEdge(double share) noexcept
+    {
+        return share > kEdgeShareMin && share < 1.0 - kEdgeShareMin;
+    }
+};
+
+} // namespace marsview
