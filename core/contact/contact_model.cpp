@@ -16,8 +16,9 @@ constexpr std::array<std::string_view, kContactModelKinds.size()> kNames{
     "god-object",  "god-object-release", "virtual-proxy",
 };
 
-template <typename M>
-class Held final : public ContactModel {
+// `Base` is the interface, M the model.
+template <typename Base, typename M>
+class Held : public Base {
 public:
     template <typename... Arguments>
     explicit Held(Arguments&&... arguments)
@@ -25,26 +26,49 @@ public:
     {}
     ContactState place(const ScenePoint& goal) noexcept override { return model_.place(goal); }
     ContactState update(const ScenePoint& goal) noexcept override { return model_.update(goal); }
+    ContactState state() const noexcept override { return model_.state(); }
 
-private:
+protected:
     M model_;
 };
 
-template <typename S>
-std::unique_ptr<ContactModel>
+template <typename M>
+class HeldOverMap final : public Held<MapContactModel, M> {
+public:
+    using Held<MapContactModel, M>::Held;
+
+    void setExaggeration(double exaggeration) noexcept override
+    {
+        auto surface = this->model_.surface();
+        this->model_.setSurface({surface.terrain(), surface.frame(), exaggeration});
+    }
+};
+
+// `H<M>` holds a model M.
+template <template <typename> typename H, typename Interface, typename S>
+std::unique_ptr<Interface>
 make(ContactModelKind kind, const S& surface, const ContactModelOptions& /*options*/)
 {
     switch (kind) {
     case ContactModelKind::ProxyGraph:
-        return std::make_unique<Held<ProxyGraph<S>>>(surface);
+        return std::make_unique<H<ProxyGraph<S>>>(surface);
     case ContactModelKind::SurfaceWalk:
-        return std::make_unique<Held<SurfaceWalk<S>>>(surface);
+        return std::make_unique<H<SurfaceWalk<S>>>(surface);
     case ContactModelKind::ContinuousWalk:
-        return std::make_unique<Held<ContinuousWalk<S>>>(surface);
+        return std::make_unique<H<ContinuousWalk<S>>>(surface);
     default:
         break;
     }
     MARSVIEW_CHECK(false);
+}
+
+template <typename S>
+std::unique_ptr<MapContactModel> makeOverMap(ContactModelKind kind,
+                                             const HeightfieldSurface& surface,
+                                             const ContactModelOptions& options)
+{
+    return make<HeldOverMap, MapContactModel>(
+        kind, S(surface.terrain(), surface.frame(), surface.exaggeration()), options);
 }
 
 } // namespace
@@ -62,23 +86,17 @@ std::optional<ContactModelKind> contactModelKind(std::string_view name) noexcept
                : std::optional(kContactModelKinds[static_cast<std::size_t>(at - kNames.begin())]);
 }
 
-std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
-                                               const HeightfieldSurface& surface,
-                                               const ContactModelOptions& options)
+std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
+                                                  const HeightfieldSurface& surface,
+                                                  const ContactModelOptions& options)
 {
-    const auto terrain = surface.terrain();
-    if (PlainHeights<std::int16_t>::canRead(*terrain)) {
-        return make(
-            kind,
-            PlainHeightfieldSurface<std::int16_t>(terrain, surface.frame(), surface.exaggeration()),
-            options);
+    if (PlainHeights<std::int16_t>::canRead(*surface.terrain())) {
+        return makeOverMap<PlainHeightfieldSurface<std::int16_t>>(kind, surface, options);
     }
-    if (PlainHeights<float>::canRead(*terrain)) {
-        return make(
-            kind, PlainHeightfieldSurface<float>(terrain, surface.frame(), surface.exaggeration()),
-            options);
+    if (PlainHeights<float>::canRead(*surface.terrain())) {
+        return makeOverMap<PlainHeightfieldSurface<float>>(kind, surface, options);
     }
-    return make(kind, surface, options);
+    return makeOverMap<HeightfieldSurface>(kind, surface, options);
 }
 
 } // namespace marsview

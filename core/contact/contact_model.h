@@ -35,6 +35,9 @@ struct ContactModelOptions {
     double radius_m = 1.0; // > 0, of VirtualProxy's sphere
 };
 
+/// The one that a program uses unless told otherwise. ARCHITECTURE.md says why.
+inline constexpr ContactModelKind kContactModelDefault = ContactModelKind::ContinuousWalk;
+
 /// A contact model at work. For one thread at a time; `place` and `update` are for the servo
 /// thread.
 class ContactModel {
@@ -44,19 +47,31 @@ public:
     ContactModel& operator=(const ContactModel&) = delete;
 
     /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
-    /// it, and minimises from there. A goal that is not finite changes nothing.
+    /// it, and minimises from there. A goal that is not finite changes nothing but is counted
+    /// (ContactCounters::refused).
     virtual ContactState place(const ScenePoint& goal) noexcept = 0;
     /// Moves the proxy towards the goal. The first update places it. A goal that is not finite
-    /// changes nothing but is counted (ContactCounters::refused).
+    /// changes nothing but is counted.
     virtual ContactState update(const ScenePoint& goal) noexcept = 0;
+    /// Where the proxy is, with the counters of the last update.
+    virtual ContactState state() const noexcept = 0;
 
 protected:
     ContactModel() = default;
 };
 
+/// A contact model over a map.
+class MapContactModel : public ContactModel {
+public:
+    /// The same terrain at another exaggeration. In contact, the proxy stays where it is on the map
+    /// and moves with it; a free one keeps its place, or is put onto the surface where it would be
+    /// below.
+    virtual void setExaggeration(double exaggeration) noexcept = 0;
+};
+
 /// Allocates; the model shares what the surface shares.
-std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
-                                               const HeightfieldSurface& surface,
-                                               const ContactModelOptions& options = {});
+std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
+                                                  const HeightfieldSurface& surface,
+                                                  const ContactModelOptions& options = {});
 
 } // namespace marsview

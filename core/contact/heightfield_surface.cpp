@@ -82,7 +82,11 @@ auto BasicHeightfieldSurface<Heights>::legs(const ScenePoint& from,
         if ((begin < line) != (end < line) && begin != line && end != line) {
             const double share = (line - begin) / (end - begin);
             if (share > 0.0 && share < 1.0) {
-                shares[count++] = share;
+                std::size_t at = count++;
+                for (; at > 0 && shares[at - 1] > share; --at) {
+                    shares[at] = shares[at - 1];
+                }
+                shares[at] = share;
             }
         }
     };
@@ -90,7 +94,6 @@ auto BasicHeightfieldSurface<Heights>::legs(const ScenePoint& from,
     addCrossing(a.column, b.column, static_cast<double>(last_column_));
     addCrossing(a.row, b.row, 0.0);
     addCrossing(a.row, b.row, static_cast<double>(last_row_));
-    std::sort(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
         const GridPoint grid{a.column + shares[i] * (b.column - a.column),
                              a.row + shares[i] * (b.row - a.row)};
