@@ -54,7 +54,13 @@ public:
     /// within a face, facet() tells which, and `contact` means nothing.
     bool descendOver(Contact& contact, const Facet& facet, double share, const Goal& goal) noexcept
     {
-        return run(contact, goal, cross(contact, facet, share, facet.foot(goal), goal));
+        const SurfaceFoot foot = facet.foot(goal);
+        if (foot.above <= 0.0) {
+            return run(contact, goal, cross(contact, facet, share, foot, goal));
+        }
+        // Over a sharp ridge, the proxy may let go.
+        Steps::restOnEdge(surface_, contact, facet.vertices[1], facet.vertices[2], share);
+        return run(contact, goal, Step::Goes);
     }
     const std::optional<Facet>& facet() const noexcept { return facet_; }
 
