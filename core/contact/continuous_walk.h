@@ -54,6 +54,7 @@ public:
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
+        is_known_ = false;
         if (!is_placed_) {
             return;
         }
@@ -77,6 +78,7 @@ public:
             aimed_ = goal;
             goal_ = *g;
             is_free_ = surface_.isAbove(goal_);
+            is_known_ = false;
             if (!is_free_) {
                 contact_ = surface_.contactAt(goal_);
                 descend();
@@ -179,7 +181,11 @@ private:
         double end_ = 1.0;
     };
 
-    void descend() noexcept { is_free_ = Descent(surface_, counters_).descend(contact_, goal_); }
+    void descend() noexcept
+    {
+        is_known_ = false;
+        is_free_ = Descent(surface_, counters_).descend(contact_, goal_);
+    }
 
     // Moves the goal to `end`.
     void follow(const Goal& end) noexcept
@@ -188,7 +194,6 @@ private:
         at_ = 0.0;
         nudge_ = 0.0;
         still_ = 0;
-        is_known_ = false;
         while (true) {
             if (is_free_) {
                 ++counters_.casts;
@@ -272,7 +277,6 @@ private:
         advanceBeyond(share, edge, end);
         nudge_ *= 2.0;
         still_ = 0;
-        is_known_ = false;
         descend();
     }
 
@@ -497,7 +501,6 @@ private:
         }
         ++counters_.vertices;
         advanceBeyond(at_, edge, end);
-        is_known_ = false;
         descend();
         return false;
     }
@@ -590,7 +593,8 @@ private:
     double at_ = 0.0;    // the share of the leg where the goal is
     double nudge_ = 0.0; // another; 0: not yet known
     int still_ = 0;      // events in a row that did not move the goal
-    // Where is_known_, the face or, with the edge opposite left_corner_, the faces of the contact.
+    // Where is_known_, also from one update to the next, the face or, with the edge opposite
+    // left_corner_, the faces of the contact.
     bool is_known_ = false;
     bool has_right_ = false;
     std::size_t left_corner_ = 0;
