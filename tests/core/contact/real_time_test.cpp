@@ -1,4 +1,5 @@
 // Replaces operator new of this test program, and of no other, to count what is allocated.
+#include "core/contact/god_object.h"
 #include "core/contact/proxy_graph.h"
 #include "tests/core/contact/contact_terrain.h"
 
@@ -78,7 +79,8 @@ TEST(ProxyGraphRealTime, TheCounterCounts)
     EXPECT_EQ(allocation_count.load(), before + 2);
 }
 
-TEST(ProxyGraphRealTime, UpdatesAllocateNothing)
+template <typename Make>
+void expectNoAllocation(const Make& make)
 {
     test::Random random;
     for (const auto& [name, terrain] : test::syntheticTerrains()) {
@@ -88,14 +90,29 @@ TEST(ProxyGraphRealTime, UpdatesAllocateNothing)
         for (ScenePoint& next : goals) {
             next = goal = test::wanderingGoal(random, surface, goal, 5.0);
         }
-        Model model(surface);
+        auto model = make(surface);
         HeightfieldSurface taller(terrain, surface.frame(), 2.0);
         const long before = allocation_count.load();
         for (const ScenePoint& next : goals) {
             model.update(next);
         }
+        model.place(goals.front());
         model.setSurface(std::move(taller));
         EXPECT_EQ(allocation_count.load(), before) << name;
+    }
+}
+
+TEST(ProxyGraphRealTime, UpdatesAllocateNothing)
+{
+    expectNoAllocation([](const HeightfieldSurface& surface) { return Model(surface); });
+}
+
+TEST(GodObjectRealTime, UpdatesAllocateNothing)
+{
+    for (const auto constraints : {GodObjectConstraints::Kept, GodObjectConstraints::Released}) {
+        expectNoAllocation([constraints](const HeightfieldSurface& surface) {
+            return GodObject<HeightfieldSurface>(surface, constraints);
+        });
     }
 }
 
