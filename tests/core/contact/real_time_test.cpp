@@ -1,6 +1,7 @@
 // Replaces operator new of this test program, and of no other, to count what is allocated.
 #include "core/contact/god_object.h"
 #include "core/contact/proxy_graph.h"
+#include "core/contact/virtual_proxy.h"
 #include "tests/core/contact/contact_terrain.h"
 
 #include <gtest/gtest.h>
@@ -112,6 +113,15 @@ TEST(GodObjectRealTime, UpdatesAllocateNothing)
     for (const auto constraints : {GodObjectConstraints::Kept, GodObjectConstraints::Released}) {
         expectNoAllocation([constraints](const HeightfieldSurface& surface) {
             return GodObject<HeightfieldSurface>(surface, constraints);
+        });
+    }
+}
+
+TEST(VirtualProxyRealTime, UpdatesAllocateNothing)
+{
+    for (const double radius_m : {0.1, 1.0}) {
+        expectNoAllocation([radius_m](const HeightfieldSurface& surface) {
+            return VirtualProxy<HeightfieldSurface>(surface, radius_m);
         });
     }
 }

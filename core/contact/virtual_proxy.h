@@ -1,0 +1,749 @@
+// The virtual-proxy contact model (Ruspini, Kolarov and Khatib, "The haptic display of complex
+// graphical environments", SIGGRAPH 1997): a sphere that cannot pass through a surface.
+//
+// The sphere's centre moves as a point in configuration space, among obstacles that are the faces,
+// edges and vertices grown by its radius. A grown triangle is convex, so:
+// - The distance from a triangle is a convex function along any straight way. A sphere that touches
+//   it and does not move towards it never enters it on that way.
+// - Where the centre touches, the grown triangle lies behind one tangent plane, and the free
+//   directions are those in front of all tangent planes, a convex cone. The place in it closest to
+//   the goal, with one, two or three tangent planes active, is the constrained goal; where that is
+//   the centre itself, the centre is at a local minimum.
+// - What is touched is told by sweeps that it stops, not by its distance: a sphere that rolls over
+//   a flat edge is within rounding error of the face ahead long before it is over it, beside it,
+//   and the tangent plane there would lean against the motion by the square root of that error.
+#pragma once
+
+#include "core/base/check.h"
+#include "core/contact/border_walls.h"
+#include "core/contact/contact.h"
+#include "core/contact/contact_surface.h"
+#include "core/contact/faces_near.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace marsview {
+
+/// Within an update the sphere is swept straight to the goal, then from touch to touch to the
+/// constrained goals, until none is closer. The proxy that is reported is its centre; it is in
+/// contact where the surface keeps it from the goal, and the feature is the one nearest to the
+/// centre.
+///
+/// The centre is never closer to a triangle than the radius by more than tolerance(), and in
+/// contact it is not farther by more. That is 1e-9 of the radius, where square roots of rounding
+/// errors in nearly tangent sweeps end, and what double coordinates can tell apart. Goals are
+/// clamped to the map, and so is the centre; the sphere may reach beyond.
+///
+/// A value, for one thread at a time. `update` and `place` allocate, lock and throw nothing and are
+/// bounded by S::stepsMax(): they are for the servo thread. Their time grows with the number of
+/// faces that the sphere covers. A bound that is met is counted (ContactCounters::cut_short).
+/// Counters: `casts` are sweeps, `cells` what was looked at to find the faces near the way, `faces`
+/// those held against the sphere or its sweep, `vertices` tangent planes.
+template <ContactSurface S>
+class VirtualProxy {
+public:
+    /// `radius_m` > 0 and finite. The sphere begins above S::initialContact(); the first update
+    /// places it.
+    VirtualProxy(S surface, double radius_m)
+        : surface_(std::move(surface))
+        , walls_(borderWalls(surface_))
+        , radius_m_(radius_m)
+        , reach_m_(4.0 * radius_m)
+    {
+        MARSVIEW_CHECK(radius_m > 0.0 && std::isfinite(radius_m));
+        centre_ = lifted(surface_.point(surface_.initialContact()));
+        rest();
+        counters_ = {};
+    }
+
+    const S& surface() const noexcept { return surface_; }
+    double radius() const noexcept { return radius_m_; }
+
+    /// Another surface with the same mesh, such as another exaggeration. The centre keeps its scene
+    /// coordinates; if the sphere would be in the surface, it is lifted straight up until it
+    /// touches.
+    void setSurface(S surface) noexcept
+    {
+        surface_ = std::move(surface);
+        walls_ = borderWalls(surface_);
+        const ScenePoint before = centre_;
+        centre_ = lifted(before);
+        if (!(centre_ == before)) {
+            rest();
+        }
+    }
+
+    /// Puts the centre at the goal if the sphere is free there, else straight above the goal where
+    /// the sphere comes to rest from above, and minimises from there. A goal that is not finite
+    /// changes nothing.
+    ContactState place(const ScenePoint& goal) noexcept
+    {
+        counters_ = {};
+        if (const auto g = surface_.goal(goal)) {
+            is_placed_ = true;
+            centre_ = lifted(surface_.goalPoint(*g));
+            minimise(surface_.goalPoint(*g));
+        } else {
+            counters_.refused = 1;
+        }
+        return state();
+    }
+
+    /// Moves the sphere towards the goal. A goal that is not finite changes nothing.
+    ContactState update(const ScenePoint& goal) noexcept
+    {
+        if (!is_placed_) {
+            return place(goal);
+        }
+        counters_ = {};
+        if (const auto g = surface_.goal(goal)) {
+            minimise(surface_.goalPoint(*g));
+        } else {
+            counters_.refused = 1;
+        }
+        return state();
+    }
+
+    /// Where the centre is, with the counters of the last update.
+    ContactState state() const noexcept
+    {
+        ContactState state;
+        state.proxy = centre_;
+        state.feature = feature_;
+        state.is_in_contact = feature_ != ContactFeature::Free;
+        state.counters = counters_;
+        return state;
+    }
+
+    /// In metres, for a centre at `p`.
+    double tolerance(const ScenePoint& p) const noexcept { return 1e-9 * radius_m_ + ulps(p); }
+
+private:
+    // More tangent planes than this stop the sphere at one place on no terrain. Then some are left
+    // out, and the update is cut short.
+    static constexpr std::size_t kPlanesMax = 32;
+    // Two tangent planes meet in a line where the square of the sine between them is more.
+    static constexpr double kSineSquaredMin = 1e-26;
+    // Of the way to the goal: rounding errors across a tangent direction.
+    static constexpr double kTangentError = 4e-15;
+    static constexpr double kSweepError = 2.0 * kTangentError; // more, so that the two agree
+    // A step to a constrained goal is no longer than so many radii, lest rounding errors across it
+    // become more than the tolerance.
+    static constexpr double kStepRadii = 1e4;
+    static constexpr double kDistanceError = 8e-15; // of the radius
+    // A touch no farther beyond the end of an edge, in radii, is on it: the distance is the same to
+    // rounding.
+    static constexpr double kBeside = 3e-8;
+    // A sweep that comes no farther, in radii, was stopped where it began.
+    static constexpr double kAtOnce = 1e-12;
+    // Of the way to the goal: a constrained goal that is nearer is reached.
+    static constexpr double kStill = 1e-9;
+    // So many steps no longer than lean() of the way to the goal end an update.
+    static constexpr int kLeansMax = 6;
+    static constexpr double kSlowRatio = 0.5;
+    static constexpr double kLeapRadii = 0.5;
+    static constexpr int kTrialSweepsMax = 8;
+    static constexpr double kFar = std::numeric_limits<double>::max();
+    static constexpr int kStallsMax = 32;
+    static constexpr int kPushesMax = 8;
+    static constexpr std::uint32_t kLooks = 256; // for a piece of a sweep
+    static constexpr std::uint32_t kLooksAll = std::numeric_limits<std::uint32_t>::max();
+
+    struct Nearest {
+        Vec3 to; // from the centre
+        double squared;
+        ContactFeature feature;
+    };
+
+    // The tangent planes that stopped the sphere where it is, by their normals towards its centre.
+    struct Planes {
+        std::array<Vec3, kPlanesMax> normals;
+        std::size_t count = 0;
+
+        void add(const Vec3& normal) noexcept
+        {
+            if (count < kPlanesMax) {
+                normals[count++] = normal;
+            }
+        }
+    };
+
+    struct Touch {
+        double distance = std::numeric_limits<double>::infinity(); // from the centre
+        Vec3 normal;                                               // towards it
+        ContactFeature feature = ContactFeature::Free;
+    };
+
+    // The end of a sweep.
+    struct Swept {
+        double share;     // of the way
+        Touch stopped_by; // seen from there; Free where nothing was
+        bool is_at_once;  // stopped where it began
+    };
+
+    // A triangle seen from the centre.
+    struct Triangle {
+        Vec3 a;
+        Vec3 b;
+        Vec3 c;
+        Vec3 normal; // as long as twice the area
+        double normal_squared;
+
+        Triangle(const std::array<ScenePoint, 3>& corners, const ScenePoint& centre) noexcept
+            : a(corners[0] - centre)
+            , b(corners[1] - centre)
+            , c(corners[2] - centre)
+            , normal(cross(b - a, c - a))
+            , normal_squared(dot(normal, normal))
+        {}
+        void move(const Vec3& by) noexcept
+        {
+            a = a + by;
+            b = b + by;
+            c = c + by;
+        }
+        // Times the length of the normal.
+        double above() const noexcept { return -dot(normal, a); }
+        // Whether the foot of the centre lies inside.
+        bool isBelow() const noexcept
+        {
+            return dot(cross(b - a, -a), normal) >= 0.0 && dot(cross(c - b, -b), normal) >= 0.0 &&
+                   dot(cross(a - c, -c), normal) >= 0.0;
+        }
+    };
+
+    // What double coordinates can tell apart, several times.
+    static double ulps(const ScenePoint& p) noexcept
+    {
+        constexpr double kUlps = 32.0 * std::numeric_limits<double>::epsilon();
+        return kUlps * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+    }
+
+    // No farther than this is the radius, to rounding, for a centre at `p`.
+    double touching(const ScenePoint& p) const noexcept
+    {
+        return radius_m_ * (1.0 + kDistanceError) + 0.125 * ulps(p);
+    }
+
+    // By how much a tangent plane may lean the wrong way: beside an edge, as far as the square root
+    // of the rounding error of the distance.
+    double lean() const noexcept { return 1e-7 + std::sqrt(ulps(centre_) / radius_m_); }
+
+    SceneBounds around(const ScenePoint& p, const ScenePoint& q) const noexcept
+    {
+        const double margin = radius_m_ + 2.0 * std::max(tolerance(p), tolerance(q));
+        return {
+            {std::min(p.x, q.x) - margin, std::min(p.y, q.y) - margin, std::min(p.z, q.z) - margin},
+            {std::max(p.x, q.x) + margin, std::max(p.y, q.y) + margin,
+             std::max(p.z, q.z) + margin}};
+    }
+
+    template <typename F>
+    bool eachTriangle(const SceneBounds& box,
+                      const ScenePoint& centre,
+                      std::uint32_t looks,
+                      const F& function) noexcept
+    {
+        const std::uint32_t before = looks;
+        const bool is_done =
+            eachFaceNear(surface_, box, looks,
+                         [&](const typename S::Face&, const std::array<ScenePoint, 3>& corners) {
+                             ++counters_.faces;
+                             return function(Triangle(corners, centre));
+                         });
+        counters_.cells += before - looks;
+        return is_done;
+    }
+
+    static Nearest nearest(const Triangle& t) noexcept
+    {
+        const Vec3 foot = t.normal * (-t.above() / t.normal_squared);
+        if (t.isBelow()) {
+            return {foot, dot(foot, foot), ContactFeature::Face};
+        }
+        Nearest best{{}, std::numeric_limits<double>::infinity(), ContactFeature::Vertex};
+        const auto look = [&best](const Vec3& from, const Vec3& to) {
+            const Vec3 edge = to - from;
+            const double along = -dot(from, edge) / dot(edge, edge);
+            const bool is_within = along > 0.0 && along < 1.0;
+            const Vec3 at = is_within ? from + edge * along : along > 0.5 ? to : from;
+            const double squared = dot(at, at);
+            if (squared < best.squared) {
+                best = {at, squared, is_within ? ContactFeature::Edge : ContactFeature::Vertex};
+            }
+        };
+        look(t.a, t.b);
+        look(t.b, t.c);
+        look(t.c, t.a);
+        return best;
+    }
+
+    // What is nearest to the centre, if it is within reach.
+    Touch touchAt(const ScenePoint& centre) noexcept
+    {
+        Touch touch;
+        const double reach = radius_m_ + tolerance(centre);
+        eachTriangle(around(centre, centre), centre, kLooksAll, [&](const Triangle& triangle) {
+            const double above = triangle.above();
+            if (above * above <= reach * reach * triangle.normal_squared) {
+                const Nearest at = nearest(triangle);
+                if (at.squared <= reach * reach && at.squared < touch.distance * touch.distance) {
+                    touch = touchOf(at);
+                }
+            }
+            return true;
+        });
+        return touch;
+    }
+
+    static Touch touchOf(const Nearest& at) noexcept
+    {
+        const double distance = std::sqrt(at.squared);
+        return {distance, at.to * (-1.0 / distance), at.feature};
+    }
+
+    // The place closest to `to_goal` in front of all tangent planes: of those that one, two or
+    // three active planes give and that are in front of the others, the one with the longest way,
+    // since each is `to_goal` projected.
+    static Vec3 constrained(const Planes& planes, const Vec3& to_goal) noexcept
+    {
+        const double tolerance = kTangentError * length(to_goal);
+        const auto isFree = [&](const Vec3& step) {
+            for (std::size_t i = 0; i < planes.count; ++i) {
+                if (dot(planes.normals[i], step) < -tolerance) {
+                    return false;
+                }
+            }
+            return true;
+        };
+        if (isFree(to_goal)) {
+            return to_goal;
+        }
+        Vec3 best{};
+        double best_squared = 0.0;
+        const auto consider = [&](const Vec3& step) {
+            const double squared = dot(step, step);
+            if (squared > best_squared && isFree(step)) {
+                best = step;
+                best_squared = squared;
+            }
+        };
+        for (std::size_t i = 0; i < planes.count; ++i) {
+            const Vec3& n = planes.normals[i];
+            const double into = dot(n, to_goal);
+            if (into < 0.0) {
+                const Vec3 once = to_goal - n * into;
+                consider(once - n * dot(n, once));
+            }
+        }
+        if (best_squared > 0.0) {
+            return best; // one plane leaves more freedom than two
+        }
+        for (std::size_t i = 0; i < planes.count; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                // Not along the cross product, of which little is right where the planes are nearly
+                // the same.
+                const Vec3& n = planes.normals[i];
+                Vec3 m = planes.normals[j] - n * dot(n, planes.normals[j]);
+                const double squared = dot(m, m);
+                if (squared > kSineSquaredMin) {
+                    m = m * (1.0 / std::sqrt(squared));
+                    m = normalized(m - n * dot(n, m));
+                    Vec3 step = to_goal;
+                    for (int twice = 0; twice < 2; ++twice) {
+                        step = step - n * dot(n, step);
+                        step = step - m * dot(m, step);
+                    }
+                    consider(step);
+                }
+            }
+        }
+        return best;
+    }
+
+    // The share of `way` after which the sphere touches a triangle and begins to enter it, if less
+    // than `share`. A way may enter by `slack` what the sphere touches when it begins.
+    double enters(
+        const Triangle& t, const Vec3& way, double share, double slack, double touch) const noexcept
+    {
+        // Most faces stay beyond their planes.
+        const double start = t.above();
+        const double least = std::min(start, start + share * dot(t.normal, way));
+        if (least > 0.0 && least * least > radius_m_ * radius_m_ * t.normal_squared) {
+            return share;
+        }
+        const double size = std::sqrt(t.normal_squared);
+        double above = start / size;
+        double rising = dot(t.normal, way) / size;
+        if (above < 0.0) {
+            above = -above;
+            rising = -rising;
+        }
+        if (std::min(above, above + share * rising) > radius_m_) {
+            return share;
+        }
+        if (above <= touch) {
+            const Nearest at = nearest(t);
+            if (at.squared <= touch * touch) {
+                return dot(at.to, way) > slack * std::sqrt(at.squared) ? 0.0 : share;
+            }
+        }
+        if (above > radius_m_) {
+            const double at = (above - radius_m_) / -rising;
+            if (at < share) {
+                Triangle there = t;
+                there.move(way * -at);
+                if (nearest(there).squared <= touch * touch) {
+                    return at;
+                }
+            }
+        }
+        share = entersEdge(t.a, t.b, way, share);
+        share = entersEdge(t.b, t.c, way, share);
+        share = entersEdge(t.c, t.a, way, share);
+        share = entersVertex(t.a, way, share);
+        share = entersVertex(t.b, way, share);
+        return entersVertex(t.c, way, share);
+    }
+
+    // The first root of |m + s way|² = r² for a start outside.
+    static double root(double way_squared, double m_way, double m_squared, double radius) noexcept
+    {
+        constexpr double kNever = std::numeric_limits<double>::infinity();
+        if (m_way >= 0.0) {
+            return kNever;
+        }
+        const double rest = std::max(m_squared - radius * radius, 0.0);
+        const double discriminant = m_way * m_way - way_squared * rest;
+        return discriminant < 0.0 ? kNever : rest / (std::sqrt(discriminant) - m_way);
+    }
+
+    double entersVertex(const Vec3& vertex, const Vec3& way, double share) const noexcept
+    {
+        return std::min(share,
+                        root(dot(way, way), -dot(vertex, way), dot(vertex, vertex), radius_m_));
+    }
+
+    double
+    entersEdge(const Vec3& from, const Vec3& to, const Vec3& way, double share) const noexcept
+    {
+        const Vec3 edge = to - from;
+        const double length_squared = dot(edge, edge);
+        const double start = -dot(from, edge) / length_squared;
+        const double along = dot(way, edge) / length_squared;
+        const Vec3 m = -(from + edge * start);
+        const Vec3 across = way - edge * along;
+        const double at = root(dot(across, across), dot(m, across), dot(m, m), radius_m_);
+        if (!(at < share)) {
+            return share;
+        }
+        const double where = start + at * along;
+        const double slack = kBeside * radius_m_ / std::sqrt(length_squared);
+        return where >= -slack && where <= 1.0 + slack ? at : share;
+    }
+
+    // Sweeps the sphere from `from` along `way` until it begins to enter something. Long ways are
+    // gone in pieces, each as long as the faces near it are few, so that no sweep looks at a whole
+    // map.
+    Swept sweep(const ScenePoint& from, const Vec3& way, double slack) noexcept
+    {
+        ++counters_.casts;
+        const double size = length(way);
+        const double at_once = kAtOnce * radius_m_ + 0.125 * ulps(from);
+        const double touch = touching(from);
+        double done = 0.0;
+        for (std::uint32_t pieces = surface_.stepsMax(); pieces > 0; --pieces) {
+            const bool is_last = reach_m_ >= (1.0 - done) * size;
+            const double piece = is_last ? 1.0 - done : reach_m_ / size;
+            const ScenePoint start = from + way * done;
+            const Vec3 part = way * piece;
+            const bool is_short = piece * size <= radius_m_;
+            double share = 1.0;
+            std::optional<Triangle> hit;
+            const bool is_complete =
+                eachTriangle(around(start, start + part), start, is_short ? kLooksAll : kLooks,
+                             [&](const Triangle& triangle) {
+                                 const double at = enters(triangle, part, share, slack, touch);
+                                 if (at < share) {
+                                     share = at;
+                                     hit = triangle;
+                                 }
+                                 return true;
+                             });
+            if (!is_complete) {
+                reach_m_ = std::max(0.5 * std::min(reach_m_, piece * size), 0.25 * radius_m_);
+                continue;
+            }
+            if (hit) {
+                hit->move(part * -share);
+                const double total = done + share * piece;
+                // The next sweep will not go much farther.
+                reach_m_ = std::clamp(2.0 * total * size, 0.25 * radius_m_, reach_m_);
+                return {total, touchOf(nearest(*hit)), total * size <= at_once};
+            }
+            if (is_last) {
+                return {1.0, {}, false};
+            }
+            done += piece;
+            reach_m_ *= 2.0;
+        }
+        counters_.cut_short = 1;
+        return {done, {}, false};
+    }
+
+    // The steps with one number of active planes.
+    struct Pace {
+        double step_m; // the last one
+        double leap_m; // the longest leap to try
+    };
+
+    // A leap that has to prove itself.
+    struct Trial {
+        ScenePoint from;
+        double enough; // squared distance from the goal that is less than steps would bring
+        std::size_t pace;
+        int sweeps; // left
+    };
+
+    // What one update remembers.
+    struct Descent {
+        Planes planes; // touched where the centre is
+        std::array<Pace, 3> paces;
+        std::optional<Trial> trial;
+        int stalls = 0;
+        int leans = 0;
+    };
+
+    void minimise(const ScenePoint& goal) noexcept
+    {
+        Descent descent;
+        descent.paces.fill({0.0, kLeapRadii * radius_m_});
+        for (std::uint32_t steps = surface_.stepsMax(); steps > 0; --steps) {
+            if (descent.stalls > kStallsMax) {
+                if (!descent.trial) {
+                    break;
+                }
+                endTrial(descent, false);
+            }
+            if (advance(goal, descent)) {
+                return;
+            }
+        }
+        if (descent.trial) {
+            centre_ = descent.trial->from;
+        }
+        counters_.cut_short = 1;
+        rest();
+    }
+
+    // One sweep towards the goal or the constrained goal. True where there is nowhere to go.
+    bool advance(const ScenePoint& goal, Descent& descent) noexcept
+    {
+        Planes& planes = descent.planes;
+        const Vec3 whole = goal - centre_;
+        const double distance = length(whole);
+        const bool is_cut = planes.count > 0 && distance > kStepRadii * radius_m_;
+        const Vec3 to_goal = is_cut ? whole * (kStepRadii * radius_m_ / distance) : whole;
+        const double slack = kSweepError * length(to_goal);
+        const Vec3 step = constrained(planes, to_goal);
+        const bool is_free = step == whole;
+        if (descent.trial) {
+            if (distance * distance < descent.trial->enough) {
+                endTrial(descent, true);
+            } else if (descent.trial->sweeps-- == 0) {
+                endTrial(descent, false);
+                return false;
+            }
+        }
+        if (distance == 0.0) {
+            feature_ = ContactFeature::Free;
+            return true;
+        }
+        double within = 1.0;
+        if (!is_free) {
+            // Planes not yet met make the step shorter still.
+            const double size = length(step);
+            if (size <= kStill * length(to_goal) + ulps(centre_) ||
+                (size <= lean() * length(to_goal) && ++descent.leans > kLeansMax)) {
+                if (descent.trial) {
+                    endTrial(descent, false);
+                    return false;
+                }
+                rest();
+                return true;
+            }
+            // The goal is within the walls, constrained goals need not be.
+            const WallStop stop = wallStop(step, slack);
+            if (stop.wall != nullptr && stop.share * size <= walls_.tolerance_m) {
+                planes.add(stop.wall->normal);
+                ++descent.stalls;
+                return false;
+            }
+            within = stop.share;
+            if (!descent.trial && leapAlong(goal, step, slack, descent)) {
+                return false;
+            }
+        }
+        const Vec3 way = step * within;
+        const Swept swept = sweep(centre_, way, slack);
+        const bool is_stopped = swept.stopped_by.feature != ContactFeature::Free;
+        if (is_free && !is_stopped && swept.share >= 1.0) {
+            centre_ = goal;
+            feature_ = ContactFeature::Free;
+            return true;
+        }
+        if (swept.is_at_once) {
+            ++descent.stalls;
+        } else {
+            centre_ = withinWalls(centre_ + way * swept.share);
+            planes.count = 0;
+            descent.stalls = 0;
+        }
+        // After a long way rounding may have left a gap, for the next sweep to close.
+        if (is_stopped && (swept.is_at_once || swept.stopped_by.distance <= touching(centre_))) {
+            planes.add(swept.stopped_by.normal);
+            const double depth = radius_m_ - swept.stopped_by.distance;
+            if (depth > 0.25 * tolerance(centre_)) {
+                centre_ = centre_ + swept.stopped_by.normal * depth;
+            }
+        }
+        return false;
+    }
+
+    // Where planes lean over the goal nearly as far as they hold it, as around an edge that the
+    // goal is close to, steps are short, each nearly the same part of the one before. Where that
+    // leads is foreseen, up to a part of a turn, and tried. The step would bring `size`² less of
+    // squared distance, since it is at a right angle to the rest of the way.
+    bool
+    leapAlong(const ScenePoint& goal, const Vec3& step, double slack, Descent& descent) noexcept
+    {
+        const double size = length(step);
+        const std::size_t index = std::min(descent.planes.count, descent.paces.size()) - 1;
+        Pace& pace = descent.paces[index];
+        const double ratio = size / pace.step_m;
+        pace.step_m = size;
+        const double far = ratio < 1.0 ? 1.0 / (1.0 - ratio) : kFar;
+        // Lest it enters what it touches by more than a part of the tolerance.
+        const double most = 0.01 * tolerance(centre_) / slack;
+        const double longer = std::min({far, pace.leap_m / size, most});
+        if (!(ratio > kSlowRatio && ratio < 1.0 / kSlowRatio && longer > 1.0 / kSlowRatio)) {
+            pace.leap_m = std::min(1.5 * pace.leap_m, kLeapRadii * radius_m_);
+            return false;
+        }
+        const Vec3 to_goal = goal - centre_;
+        descent.trial = Trial{centre_, dot(to_goal, to_goal) - size * size, index, kTrialSweepsMax};
+        const Vec3 leap = step * longer;
+        const Vec3 way = leap * wallStop(leap, slack * longer).share;
+        centre_ = withinWalls(centre_ + way * sweep(centre_, way, slack * longer).share);
+        descent.planes.count = 0;
+        descent.stalls = 0;
+        return true;
+    }
+
+    void endTrial(Descent& descent, bool is_closer) noexcept
+    {
+        Pace& pace = descent.paces[descent.trial->pace];
+        if (is_closer) {
+            pace.leap_m = std::min(2.0 * pace.leap_m, kLeapRadii * radius_m_);
+        } else {
+            pace.leap_m *= 0.25;
+            centre_ = descent.trial->from;
+            descent.planes.count = 0;
+            descent.stalls = 0;
+        }
+        descent.trial.reset();
+    }
+
+    struct WallStop {
+        double share; // of the way
+        const BorderWall* wall;
+    };
+
+    WallStop wallStop(const Vec3& way, double slack) const noexcept
+    {
+        WallStop stop{1.0, nullptr};
+        for (const BorderWall& wall : walls_) {
+            const double into = -dot(wall.normal, way);
+            if (into > slack && into * stop.share > wall.distance(centre_)) {
+                stop = {std::max(wall.distance(centre_), 0.0) / into, &wall};
+            }
+        }
+        return stop;
+    }
+
+    // The sphere has come to rest. Rounding may have brought it closer than it may be.
+    void rest() noexcept
+    {
+        Touch touch = touchAt(centre_);
+        for (int pushes = 0;
+             pushes < kPushesMax && touch.distance < radius_m_ - 0.5 * tolerance(centre_);
+             ++pushes) {
+            centre_ = centre_ + touch.normal * (radius_m_ - touch.distance);
+            touch = touchAt(centre_);
+        }
+        feature_ = touch.feature;
+    }
+
+    // Rounding may lead out.
+    ScenePoint withinWalls(const ScenePoint& p) const noexcept
+    {
+        for (const BorderWall& wall : walls_) {
+            if (wall.distance(p) < 0.0) {
+                const auto inside = surface_.goal(p);
+                return inside ? surface_.goalPoint(*inside) : p;
+            }
+        }
+        return p;
+    }
+
+    bool isFreeAt(const ScenePoint& p) noexcept
+    {
+        const auto goal = surface_.goal(p);
+        return goal && surface_.isAbove(*goal) &&
+               touchAt(p).distance >= radius_m_ - 0.5 * tolerance(p);
+    }
+
+    // `p` if the sphere is free there, else where a sphere that comes down onto it from above all
+    // faces comes to rest.
+    ScenePoint lifted(const ScenePoint& p) noexcept
+    {
+        if (isFreeAt(p)) {
+            return p;
+        }
+        ScenePoint top = p;
+        if (const auto goal = surface_.goal(p)) {
+            top.z = std::max(top.z, surface_.point(surface_.contactAt(*goal)).z + radius_m_);
+        }
+        double step = radius_m_;
+        constexpr int kDoublingsMax = 128;
+        for (int i = 0; i < kDoublingsMax; ++i) {
+            SceneBounds box = around(top, top);
+            box.high.z = std::numeric_limits<double>::max();
+            if (eachTriangle(box, top, kLooksAll, [](const Triangle&) { return false; })) {
+                break;
+            }
+            top.z += step;
+            step *= 2.0;
+        }
+        const Vec3 down{0.0, 0.0, p.z - top.z};
+        return top + down * sweep(top, down, 0.0).share;
+    }
+
+    S surface_;
+    BorderWalls walls_;
+    double radius_m_;
+    double reach_m_; // the piece of a sweep to begin with
+    ScenePoint centre_;
+    ContactFeature feature_ = ContactFeature::Free;
+    ContactCounters counters_;
+    bool is_placed_ = false;
+};
+
+} // namespace marsview
