@@ -2,8 +2,10 @@
 
 #include "core/base/check.h"
 #include "core/contact/continuous_walk.h"
+#include "core/contact/god_object.h"
 #include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
+#include "core/contact/virtual_proxy.h"
 
 #include <algorithm>
 #include <iterator>
@@ -47,7 +49,7 @@ public:
 // `H<M>` holds a model M.
 template <template <typename> typename H, typename Interface, typename S>
 std::unique_ptr<Interface>
-make(ContactModelKind kind, const S& surface, const ContactModelOptions& /*options*/)
+make(ContactModelKind kind, const S& surface, const ContactModelOptions& options)
 {
     switch (kind) {
     case ContactModelKind::ProxyGraph:
@@ -56,8 +58,12 @@ make(ContactModelKind kind, const S& surface, const ContactModelOptions& /*optio
         return std::make_unique<H<SurfaceWalk<S>>>(surface);
     case ContactModelKind::ContinuousWalk:
         return std::make_unique<H<ContinuousWalk<S>>>(surface);
-    default:
-        break;
+    case ContactModelKind::GodObject:
+        return std::make_unique<H<GodObject<S>>>(surface, GodObjectConstraints::Kept);
+    case ContactModelKind::GodObjectRelease:
+        return std::make_unique<H<GodObject<S>>>(surface, GodObjectConstraints::Released);
+    case ContactModelKind::VirtualProxy:
+        return std::make_unique<H<VirtualProxy<S>>>(surface, options.radius_m);
     }
     MARSVIEW_CHECK(false);
 }
