@@ -126,8 +126,6 @@ struct SurfaceLegs {
 ///   legs(p, q)         how the goal moves while what is aimed at moves straight from p to q, both
 ///                      of which can be aimed at: the ends of at most kLegsMax straight legs, the
 ///                      last of which is goal(q)
-///   expect(c, g, h)    the proxy is at c and will move about as the goal does from g to h: for
-///                      surfaces that can hasten the reading of what lies there
 ///   stepsMax()         an update may take that many steps from feature to feature; several times
 ///                      what crosses the whole mesh
 // clang-format off: version 14 breaks compound requirements into a line a token.
@@ -199,10 +197,6 @@ concept ContactSurface = requires(const S& s,
         s.edgeFacets(e)
     }
     noexcept->std::same_as<SurfaceEdgeFacets<S>>;
-    {
-        s.expect(c, g, g)
-    }
-    noexcept;
     {
         s.hasBeyond(facet, std::size_t{0})
     }

@@ -101,9 +101,6 @@ public:
             if (!std::exchange(is_at_rest_, true)) {
                 descend(); // to where the goal was
             }
-            if (!is_free_) {
-                surface_.expect(contact_, goal_, *g);
-            }
             // Between goals that are aimed at as they are, there is but one leg.
             if (surface_.goalPoint(goal_) == aimed_ && surface_.goalPoint(*g) == goal) {
                 follow(*g);
@@ -180,6 +177,9 @@ private:
         double held_ = 0.0;
         double end_ = 1.0;
     };
+
+    Facet& left() noexcept { return facets_[left_at_]; }
+    Facet& right() noexcept { return facets_[1 - left_at_]; }
 
     void descend() noexcept
     {
@@ -282,21 +282,21 @@ private:
 
     // Each of these follows the goal while the proxy rests on that kind of feature, and over as
     // many of the kind as it comes to. True where the goal is at the end, at a minimum; otherwise
-    // contact_.feature tells where to go on: where is_known_, on left_ or the edge between left_
-    // and right_; else as contact_ says.
+    // contact_.feature tells where to go on: where is_known_, on left() or the edge between left()
+    // and right(); else as contact_ says.
     bool onFacet(const Goal& end) noexcept
     {
         constexpr int kRise = 3;
         if (!std::exchange(is_known_, true)) {
-            left_ = surface_.facet(contact_.face, 0);
+            left() = surface_.facet(contact_.face, 0);
         }
-        const SurfaceFoot last = left_.foot(end);
+        const SurfaceFoot last = left().foot(end);
         if (last.above <= 0.0 && last.isInside()) {
             goal_ = end;
             return settleOnFacet(last);
         }
         ++counters_.faces;
-        const SurfaceFoot first = left_.foot(begin_);
+        const SurfaceFoot first = left().foot(begin_);
         Event event;
         event.consider(-first.weights[0], -last.weights[0], 0);
         event.consider(-first.weights[1], -last.weights[1], 1);
@@ -340,21 +340,22 @@ private:
         constexpr std::size_t kJ = (kCorner + 1) % 3;
         constexpr std::size_t kK = (kCorner + 2) % 3;
         const bool is_stuck = isStuck(share);
-        const bool has_beyond = surface_.hasBeyond(left_, kCorner);
-        const int bend = has_beyond ? surface_.bend(left_, kCorner) : S::kIsBorderWall ? 1 : -1;
+        const bool has_beyond = surface_.hasBeyond(left(), kCorner);
+        const int bend = has_beyond ? surface_.bend(left(), kCorner) : S::kIsBorderWall ? 1 : -1;
         if (bend > 0 && !is_stuck) {
             at_ = share;
             left_corner_ = kCorner;
             has_right_ = has_beyond;
             if (has_beyond) {
-                right_ = surface_.beyond(left_, kCorner);
+                right() = surface_.beyond(left(), kCorner);
             }
             contact_.feature = ContactFeature::Edge;
             return alongEdge(last, end);
         }
         if (bend == 0 && !is_stuck) {
             at_ = share;
-            left_ = surface_.beyond(left_, kCorner);
+            right() = surface_.beyond(left(), kCorner);
+            left_at_ = 1 - left_at_;
             return false;
         }
         // A ridge: the proxy falls from where the foot is on the edge.
@@ -366,19 +367,19 @@ private:
         const double at_k = weightOf(kK);
         const double sum = weightOf(kJ) + at_k;
         const double to_k = sum > 0.0 ? at_k / sum : 0.5;
-        const Vec3 edge = surface_.between(left_.vertices[kJ], left_.vertices[kK]);
+        const Vec3 edge = surface_.between(left().vertices[kJ], left().vertices[kK]);
         if (is_stuck || !has_beyond) {
-            restOnEdge(left_.vertices[kJ], left_.vertices[kK], to_k);
+            restOnEdge(left().vertices[kJ], left().vertices[kK], to_k);
             unstick(share, edge, end);
             return false;
         }
         advanceBeyond(share, edge, end);
         Descent descent(surface_, counters_);
         is_free_ =
-            descent.descendOver(contact_, surface_.beyond(left_, kCorner), 1.0 - to_k, goal_);
+            descent.descendOver(contact_, surface_.beyond(left(), kCorner), 1.0 - to_k, goal_);
         is_known_ = descent.facet().has_value();
         if (is_known_) {
-            left_ = *descent.facet();
+            left() = *descent.facet();
             contact_.feature = ContactFeature::Face;
         }
         return false;
@@ -388,29 +389,29 @@ private:
     {
         if (!std::exchange(is_known_, true)) {
             const SurfaceEdgeFacets<S> facets = surface_.edgeFacets(contact_.edge);
-            left_ = facets.left;
+            left() = facets.left;
             left_corner_ = 0;
-            right_ = facets.right;
+            right() = facets.right;
             has_right_ = facets.has_right;
         }
-        return alongEdge(left_.foot(end), end);
+        return alongEdge(left().foot(end), end);
     }
 
-    // On the edge between left_ and right_; `last_left` is the foot of `end` on left_.
+    // On the edge between left() and right(); `last_left` is the foot of `end` on left().
     bool alongEdge(const SurfaceFoot& last_left, const Goal& end) noexcept
     {
         constexpr int kToRight = 1;
         constexpr int kToFrom = 2;
         constexpr int kToTo = 3;
-        const Vertex from = left_.vertices[(left_corner_ + 1) % 3];
-        const Vertex to = left_.vertices[(left_corner_ + 2) % 3];
+        const Vertex from = left().vertices[(left_corner_ + 1) % 3];
+        const Vertex to = left().vertices[(left_corner_ + 2) % 3];
         const Vec3 edge = surface_.between(from, to);
         const double length_squared = dot(edge, edge);
         const double last_along = dot(surface_.toGoal(from, end), edge);
-        const SurfaceFoot last_right = has_right_ ? right_.foot(end) : SurfaceFoot{};
-        const bool is_into_left = Steps::isInward(last_left.weights[left_corner_], left_, end);
+        const SurfaceFoot last_right = has_right_ ? right().foot(end) : SurfaceFoot{};
+        const bool is_into_left = Steps::isInward(last_left.weights[left_corner_], left(), end);
         const bool is_into_right =
-            has_right_ && Steps::isInward(last_right.weights[0], right_, end);
+            has_right_ && Steps::isInward(last_right.weights[0], right(), end);
         if (last_along >= 0.0 && last_along <= length_squared && !is_into_left && !is_into_right) {
             restOnEdge(from, to, last_along / length_squared);
             if (last_left.above > 0.0 || last_right.above > 0.0 || !has_right_) {
@@ -429,11 +430,11 @@ private:
         const double first_along = dot(surface_.toGoal(from, begin_), edge);
         Event event;
         if (is_into_left) {
-            event.consider(left_.foot(begin_).weights[left_corner_],
+            event.consider(left().foot(begin_).weights[left_corner_],
                            last_left.weights[left_corner_], 0);
         }
         if (is_into_right) {
-            event.consider(right_.foot(begin_).weights[0], last_right.weights[0], kToRight);
+            event.consider(right().foot(begin_).weights[0], last_right.weights[0], kToRight);
         }
         event.consider(-first_along, -last_along, kToFrom);
         event.consider(first_along - length_squared, last_along - length_squared, kToTo);
@@ -451,7 +452,7 @@ private:
             return arriveAtVertex(edge, end);
         }
         if (event.which == kToRight) {
-            left_ = right_;
+            left_at_ = 1 - left_at_;
         }
         contact_.feature = ContactFeature::Face;
         return false;
@@ -461,10 +462,10 @@ private:
     void rest() noexcept
     {
         if (contact_.feature == ContactFeature::Face) {
-            restOnFacet(left_.foot(goal_));
+            restOnFacet(left().foot(goal_));
         } else if (contact_.feature == ContactFeature::Edge) {
-            const Vertex from = left_.vertices[(left_corner_ + 1) % 3];
-            const Vertex to = left_.vertices[(left_corner_ + 2) % 3];
+            const Vertex from = left().vertices[(left_corner_ + 1) % 3];
+            const Vertex to = left().vertices[(left_corner_ + 2) % 3];
             const Vec3 edge = surface_.between(from, to);
             const double along = dot(surface_.toGoal(from, goal_), edge);
             restOnEdge(from, to, std::clamp(along / dot(edge, edge), 0.0, 1.0));
@@ -476,12 +477,12 @@ private:
         Steps::restOnEdge(surface_, contact_, from, to, share);
     }
 
-    // The foot is inside left_, but for rounding.
+    // The foot is inside left(), but for rounding.
     void restOnFacet(const SurfaceFoot& foot) noexcept
     {
         contact_.feature = ContactFeature::Face;
-        contact_.face = surface_.faceOf(left_);
-        contact_.weights = Steps::weightsOnFace(surface_, contact_.face, left_, foot);
+        contact_.face = surface_.faceOf(left());
+        contact_.weights = Steps::weightsOnFace(surface_, contact_.face, left(), foot);
     }
 
     // Along an edge: the vertex at its end may be no minimum, where the valley goes on downward.
@@ -563,7 +564,7 @@ private:
     {
         const auto& [first, second, third] = foot.weights;
         restOnFacet(foot);
-        if (!Steps::isInward(std::min({first, second, third}), left_, goal_)) {
+        if (!Steps::isInward(std::min({first, second, third}), left(), goal_)) {
             contact_ = contactOnFace(surface_, contact_.face, contact_.weights);
             descend();
         }
@@ -598,8 +599,8 @@ private:
     bool is_known_ = false;
     bool has_right_ = false;
     std::size_t left_corner_ = 0;
-    Facet left_{};
-    Facet right_{};
+    std::size_t left_at_ = 0; // in facets_; copies would cost more than events
+    std::array<Facet, 2> facets_{};
 };
 
 } // namespace marsview

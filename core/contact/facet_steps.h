@@ -33,8 +33,7 @@ struct FacetSteps {
     {
         constexpr double kClearly = 1e-6; // of the scale: far more than any rounding error
         return weight > kClearly * facet.scale ||
-               (weight > 0.0 &&
-                weight > std::max(kEdgeShareMin * facet.scale, facet.error(goal)));
+               (weight > 0.0 && weight > std::max(kEdgeShareMin * facet.scale, facet.error(goal)));
     }
 
     /// Whether an edge `along` leads closer from its beginning, by more than rounding error.

@@ -300,8 +300,6 @@ public:
                       goal.scene.z - from.height);
     }
 
-    void expect(const Contact& contact, const Goal& from, const Goal& to) const noexcept;
-
     ScenePoint point(const Contact& contact) const noexcept;
     /// The grid position of a contact.
     GridPoint gridPoint(const Contact& contact) const noexcept;
@@ -377,10 +375,6 @@ private:
         // Unsigned, so that what is negative is too large.
         return static_cast<std::uint32_t>(v.column) <= static_cast<std::uint32_t>(last_column_) &&
                static_cast<std::uint32_t>(v.row) <= static_cast<std::uint32_t>(last_row_);
-    }
-    void prefetch(std::int32_t column, std::int32_t row) const noexcept
-    {
-        heights_.prefetch(std::clamp(column, 0, last_column_), std::clamp(row, 0, last_row_));
     }
     static std::uint8_t kindOf(Vertex a, Vertex b) noexcept
     {
@@ -517,46 +511,6 @@ auto BasicHeightfieldSurface<Heights>::edgeFacets(Edge edge) const noexcept
         facets.left = facetAt(negative, third, second, third_height, second_height);
     }
     return facets;
-}
-
-// Touching the samples on the way before they are needed hides how long memory takes to answer,
-// which for fast goals is most of an update.
-template <typename Heights>
-void BasicHeightfieldSurface<Heights>::expect(const Contact& contact,
-                                              const Goal& from,
-                                              const Goal& to) const noexcept
-{
-    const double columns = to.grid.column - from.grid.column;
-    const double rows = to.grid.row - from.grid.row;
-    const double span = std::max(std::abs(columns), std::abs(rows));
-    constexpr double kLeast = 2.0;
-    if (span < kLeast) {
-        return; // it is next to what was read last
-    }
-    const Vertex at = contact.feature == ContactFeature::Vertex ? contact.vertex
-                      : contact.feature == ContactFeature::Edge
-                          ? contact.edge.first
-                          : Vertex{contact.face.column, contact.face.row};
-    // One row after the other; or, along rows, three rows and one line of memory after the other.
-    constexpr int kTouchesMax = 64;
-    constexpr double kLine = 8.0;
-    const bool is_along_rows = std::abs(columns) > kLine * std::abs(rows);
-    const double stride = is_along_rows ? kLine : 1.0;
-    const double step = stride / span;
-    const int count = static_cast<int>(std::min(span / stride + 2.0, double{kTouchesMax}));
-    for (int i = 0; i < count; ++i) {
-        const double share = static_cast<double>(i) * step;
-        const auto column = at.column + static_cast<std::int32_t>(share * columns);
-        const auto row = at.row + static_cast<std::int32_t>(share * rows);
-        if (is_along_rows) {
-            prefetch(column, row - 1);
-            prefetch(column, row);
-            prefetch(column, row + 1);
-        } else {
-            prefetch(column - 2, row);
-            prefetch(column + 2, row);
-        }
-    }
 }
 
 template <typename Heights>

@@ -89,7 +89,6 @@ public:
         counters_ = {};
         if (const auto g = surface_.goal(goal)) {
             if (!free_) {
-                surface_.expect(contact_, goal_, *g);
                 descend(*g);
             } else {
                 ++counters_.casts;
@@ -130,14 +129,12 @@ private:
     void descend(const Goal& goal) noexcept
     {
         free_.reset();
-        goal_ = goal;
         if (Descent(surface_, counters_).descend(contact_, goal)) {
             free_ = goal;
         }
     }
 
     S surface_;
-    Goal goal_{};               // of the last descent
     std::optional<Goal> free_;  // where the proxy is while free
     SurfaceContact<S> contact_; // where it is otherwise
     ContactCounters counters_;

@@ -23,9 +23,6 @@ public:
                terrain_->sample(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
     }
 
-    /// Tells the processor that the sample will be read soon.
-    void prefetch(std::int32_t /*column*/, std::int32_t /*row*/) const noexcept {}
-
 private:
     const FilledHeightfield* terrain_;
     double exaggeration_;
@@ -63,12 +60,6 @@ public:
         const T raw =
             samples_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
         return exaggeration_ * scale_.height(static_cast<double>(raw));
-    }
-
-    void prefetch(std::int32_t column, std::int32_t row) const noexcept
-    {
-        __builtin_prefetch(samples_ + static_cast<std::size_t>(row) * columns_ +
-                           static_cast<std::size_t>(column));
     }
 
 private:
