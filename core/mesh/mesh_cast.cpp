@@ -1,0 +1,305 @@
+// Notation. Points are sheared along the segment's longest axis so that it becomes a point, the
+// origin, in the plane of the two other axes (S. Woop, C. Benthin, I. Wald, "Watertight
+// ray/triangle intersection", Journal of Computer Graphics Techniques 2, 2013). The place of a
+// vertex there depends on the vertex alone, and on which side of an edge the origin is, is decided
+// without rounding error; so the sheared mesh has no gaps, and a segment that is inside a closed
+// object has met one of its faces.
+//
+// A vertex is seen from the nearer end of the segment: seen from a far start, rounding would move
+// it by more than the goal may be above it. Whether the goal is behind a face is decided from its
+// own coordinates, so that the end of this segment, which is the start of the next, is in free
+// space for both.
+
+#include "core/mesh/mesh_cast.h"
+
+#include "core/mesh/predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace marsview {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// A start is on a face that it is nearer to than this share of the sizes of both. Four times by how
+// much MeshSurface lifts starts off their faces.
+constexpr double kOnFace = 256.0 * kEpsilon;
+
+class SegmentCast {
+public:
+    SegmentCast(const TriangleMesh& mesh, const MeshStart& start, const MeshEnd& goal) noexcept
+        : mesh_(mesh)
+        , start_(start)
+        , goal_(goal)
+        , along_(((goal.point - start.base) - start.offset) + goal.rest)
+    {
+        const double x = std::abs(along_.x);
+        const double y = std::abs(along_.y);
+        const double z = std::abs(along_.z);
+        axis_ = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+        const Vec3 turned = turn(along_);
+        shear_x_ = turned.x / turned.z;
+        shear_y_ = turned.y / turned.z;
+        is_forward_ = turned.z > 0.0;
+        along_size_ = sizeOf(along_);
+    }
+
+    MeshCast cast() noexcept
+    {
+        if (along_ == Vec3{}) {
+            return {};
+        }
+        const TriangleTree& tree = mesh_.tree();
+        tree.alongSegment((start_.base - tree.middle()) + start_.offset, along_,
+                          4.0 * kOnFace * start_.size_m, [this](std::uint32_t face, double& t_max) {
+                              ++result_.faces;
+                              look(face, t_max);
+                          });
+        return result_;
+    }
+
+private:
+    // The segment's longest axis becomes z, in a right-handed frame.
+    Vec3 turn(const Vec3& v) const noexcept
+    {
+        return axis_ == 2 ? v : axis_ == 0 ? Vec3{v.y, v.z, v.x} : Vec3{v.z, v.x, v.y};
+    }
+
+    struct Sheared {
+        double x;
+        double y;
+        double from_start; // along the longest axis
+        double to_goal;
+    };
+    Sheared sheared(const Vec3& from_start, const ScenePoint& vertex) const noexcept
+    {
+        const Vec3 a = turn(from_start);
+        const Vec3 b = turn((vertex - goal_.point) - goal_.rest);
+        const Vec3& nearer = std::abs(a.z) <= std::abs(b.z) ? a : b;
+        return {nearer.x - shear_x_ * nearer.z, nearer.y - shear_y_ * nearer.z, a.z, -b.z};
+    }
+
+    static double sizeOf(const Vec3& v) noexcept
+    {
+        return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+    }
+
+    bool isSkipped(std::uint32_t index, const MeshFace& face) const noexcept
+    {
+        return index == start_.skipped_faces[0] || index == start_.skipped_faces[1] ||
+               face[0] == start_.skipped_vertex || face[1] == start_.skipped_vertex ||
+               face[2] == start_.skipped_vertex;
+    }
+
+    void look(std::uint32_t index, double& t_max) noexcept
+    {
+        const MeshFace& face = mesh_.face(index);
+        if (isSkipped(index, face)) {
+            return;
+        }
+        const ScenePoint& p0 = mesh_.vertex(face[0]);
+        const ScenePoint& p1 = mesh_.vertex(face[1]);
+        const ScenePoint& p2 = mesh_.vertex(face[2]);
+        const Vec3 a = p1 - p0;
+        const Vec3 b = p2 - p0;
+        const Vec3 normal = cross(a, b);
+        const Vec3 v0 = (p0 - start_.base) - start_.offset;
+        // What doubles make of the plane of a sliver is worth little.
+        const double error = 8.0 * kEpsilon * sizeOf(a) * sizeOf(b);
+        const double facing = dot(normal, along_);
+        if (facing > error * along_size_) {
+            return; // seen from behind
+        }
+        const double above = -dot(normal, v0);
+        const double above_error = error * sizeOf(v0);
+        const double area_squared = dot(normal, normal);
+        // sqrt(x) + y is at most sqrt(2 (x + y²)), and at least half of it.
+        const double near_m =
+            kOnFace *
+            std::sqrt(2.0 * (std::max(dot(a, a), dot(b, b)) + start_.size_m * start_.size_m));
+        const double beyond_error = std::abs(above) - above_error;
+        const bool may_be_near =
+            beyond_error <= 0.0 || beyond_error * beyond_error <= near_m * near_m * area_squared;
+        if (above < 0.0 && !may_be_near) {
+            return; // begins behind
+        }
+        if (sideOf(mesh_, index, goal_) > 0) {
+            return; // ends in front
+        }
+        const Vec3 v1 = (p1 - start_.base) - start_.offset;
+        const Vec3 v2 = (p2 - start_.base) - start_.offset;
+        if (may_be_near && beginsOn(index, v0, v1, v2, near_m, area_squared)) {
+            t_max = 0.0;
+            return;
+        }
+        if (above <= above_error && sideOfPlane(p0, p1, p2, start_.base, start_.offset) <= 0) {
+            return;
+        }
+        const Sheared s0 = sheared(v0, p0);
+        const Sheared s1 = sheared(v1, p1);
+        const Sheared s2 = sheared(v2, p2);
+        // Seen along the segment, the face turns clockwise; against the axis, counter-clockwise.
+        const auto weight = [this](const Sheared& p, const Sheared& q) {
+            const int sign = signOfDeterminant(p.x, p.y, q.x, q.y);
+            const double value = std::abs(p.x * q.y - p.y * q.x);
+            return (is_forward_ ? -sign : sign) < 0 ? -1.0 : sign == 0 ? 0.0 : value;
+        };
+        const double w0 = weight(s1, s2);
+        const double w1 = weight(s2, s0);
+        const double w2 = weight(s0, s1);
+        const double sum = w0 + w1 + w2;
+        if (w0 < 0.0 || w1 < 0.0 || w2 < 0.0 || !(sum > 0.0)) {
+            return;
+        }
+        // From the place in the face, not from the distances to its plane. Near the goal the rest
+        // of the way tells more digits than the way so far.
+        const double per_sum = 1.0 / (sum * turn(along_).z);
+        const auto share = [&](double Sheared::*depth) {
+            const double at = w0 * s0.*depth + w1 * s1.*depth + w2 * s2.*depth;
+            return std::clamp(at * per_sum, 0.0, 1.0);
+        };
+        const double t = share(&Sheared::from_start);
+        const double rest = share(&Sheared::to_goal);
+        if (t > t_max || (result_.hit && t == t_max && rest <= rest_)) {
+            return;
+        }
+        t_max = t;
+        rest_ = rest;
+        result_.hit = MeshPlace{index, {w0 / sum, w1 / sum, w2 / sum}};
+    }
+
+    // Whether the start is on the face, as far as can be told; then that is the hit.
+    bool beginsOn(std::uint32_t index,
+                  const Vec3& v0,
+                  const Vec3& v1,
+                  const Vec3& v2,
+                  double near_m,
+                  double area_squared) noexcept
+    {
+        std::array<double, 3> weights = nearestWeights(v0, v1, v2);
+        const Vec3 nearest = v0 * weights[0] + v1 * weights[1] + v2 * weights[2];
+        if (dot(nearest, nearest) > 4.0 * near_m * near_m) {
+            return false;
+        }
+        // What is as near to an edge or a corner is there: around a ridge the way may lead off
+        // along the other face, which is then known to be left too.
+        const std::array<Vec3, 3> edges{v2 - v1, v0 - v2, v1 - v0};
+        double sum = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double height_squared = area_squared / dot(edges[i], edges[i]);
+            if (weights[i] * weights[i] * height_squared <= 16.0 * near_m * near_m) {
+                weights[i] = 0.0;
+            }
+            sum += weights[i];
+        }
+        if (!(sum > 0.0)) { // the whole face is smaller than rounding error
+            weights = {1.0, 0.0, 0.0};
+            sum = 1.0;
+        }
+        for (double& weight : weights) {
+            weight /= sum;
+        }
+        rest_ = 1.0;
+        result_.hit = MeshPlace{index, weights};
+        return true;
+    }
+
+    const TriangleMesh& mesh_;
+    const MeshStart& start_;
+    const MeshEnd& goal_;
+    Vec3 along_;
+    int axis_;
+    double shear_x_;
+    double shear_y_;
+    bool is_forward_;
+    double along_size_;
+    double rest_ = 1.0;
+    MeshCast result_;
+};
+
+} // namespace
+
+int sideOf(const TriangleMesh& mesh, std::uint32_t face, const MeshEnd& end) noexcept
+{
+    const auto points = mesh.points(face);
+    return sideOfPlane(points[0], points[1], points[2], end.point, end.rest);
+}
+
+MeshCast castSegment(const TriangleMesh& mesh, const MeshStart& start, const MeshEnd& goal) noexcept
+{
+    return SegmentCast(mesh, start, goal).cast();
+}
+
+// C. Ericson, "Real-time collision detection", 2005, section 5.1.5.
+std::array<double, 3> nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
+{
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const double d1 = -dot(ab, a);
+    const double d2 = -dot(ac, a);
+    if (d1 <= 0.0 && d2 <= 0.0) {
+        return {1.0, 0.0, 0.0};
+    }
+    const double d3 = -dot(ab, b);
+    const double d4 = -dot(ac, b);
+    if (d3 >= 0.0 && d4 <= d3) {
+        return {0.0, 1.0, 0.0};
+    }
+    const double d5 = -dot(ab, c);
+    const double d6 = -dot(ac, c);
+    if (d6 >= 0.0 && d5 <= d6) {
+        return {0.0, 0.0, 1.0};
+    }
+    // Through the normal: differences of products of the above cancel on slivers.
+    const Vec3 normal = cross(ab, ac);
+    double wc = dot(cross(a, b), normal);
+    if (wc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
+        const double share = d1 / (d1 - d3);
+        return {1.0 - share, share, 0.0};
+    }
+    double wb = dot(cross(c, a), normal);
+    if (wb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
+        const double share = d2 / (d2 - d6);
+        return {1.0 - share, 0.0, share};
+    }
+    const double wa = dot(cross(b, c), normal);
+    if (wa <= 0.0 && d4 >= d3 && d5 >= d6) {
+        const double share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return {0.0, 1.0 - share, share};
+    }
+    const double sum = std::max(wa, 0.0) + std::max(wb, 0.0) + std::max(wc, 0.0);
+    if (!(sum > 0.0)) {
+        return {1.0, 0.0, 0.0}; // all of it is rounding error
+    }
+    wb = std::max(wb, 0.0) / sum;
+    wc = std::max(wc, 0.0) / sum;
+    // On slivers the normal is known badly; what is left of the way within the plane is small, and
+    // so is its error.
+    const Vec3 rest = a + ab * wb + ac * wc;
+    const double area_squared = dot(normal, normal);
+    wb = std::clamp(wb - dot(cross(rest, ac), normal) / area_squared, 0.0, 1.0);
+    wc = std::clamp(wc - dot(cross(ab, rest), normal) / area_squared, 0.0, 1.0 - wb);
+    return {std::max(1.0 - wb - wc, 0.0), wb, wc};
+}
+
+MeshPlace nearestPlace(const TriangleMesh& mesh, const ScenePoint& point) noexcept
+{
+    MeshPlace nearest;
+    mesh.tree().nearestFirst(point, [&](std::uint32_t index, double& limit) {
+        const MeshFace& face = mesh.face(index);
+        const Vec3 a = mesh.vertex(face[0]) - point;
+        const Vec3 b = mesh.vertex(face[1]) - point;
+        const Vec3 c = mesh.vertex(face[2]) - point;
+        const std::array<double, 3> weights = nearestWeights(a, b, c);
+        const Vec3 rest = a * weights[0] + b * weights[1] + c * weights[2];
+        const double squared = dot(rest, rest);
+        if (squared < limit) {
+            limit = squared;
+            nearest = {index, weights};
+        }
+    });
+    return nearest;
+}
+
+} // namespace marsview
