@@ -1,0 +1,297 @@
+#include "core/contact/mesh_surface.h"
+
+#include "core/base/check.h"
+
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// From a vertex or out of a valley, a way that rises less than this over a face, as a sine, does
+// not leave it: rounding the corners of neighbours could turn it into the surface.
+constexpr double kRiseMin = 1e-13;
+
+// A way that leaves a face or an edge begins by this share of its size above it, so that rounding
+// cannot let it begin below. mesh_cast.cpp counts on it.
+constexpr double kLift = 64.0 * kEpsilon;
+
+} // namespace
+
+using Contact = MeshSurface::Contact;
+using Face = MeshSurface::Face;
+
+MeshSurface::MeshSurface(std::shared_ptr<const TriangleMesh> mesh)
+    : mesh_(std::move(mesh))
+{
+    MARSVIEW_CHECK(mesh_ && mesh_->faceCount() > 0);
+    // A straight way could meet all faces and edges.
+    const auto faces =
+        static_cast<std::uint32_t>(std::min(mesh_->faceCount(), std::size_t{1} << 28U));
+    steps_max_ = 4096U + 8U * faces;
+}
+
+namespace {
+
+MeshEnd endAt(const MeshGoal& goal) noexcept
+{
+    return {goal.scene, goal.rest};
+}
+
+} // namespace
+
+Contact MeshSurface::contactFrom(const MeshPlace& place) const noexcept
+{
+    return contactOnFace(*this, Face{place.face}, place.weights);
+}
+
+Contact MeshSurface::contactAt(const Goal& goal) const noexcept
+{
+    return contactFrom(nearestPlace(*mesh_, goal.scene));
+}
+
+Contact MeshSurface::initialContact() const noexcept
+{
+    Contact contact;
+    contact.feature = ContactFeature::Vertex;
+    contact.vertex = {mesh_->face(0)[0]};
+    return contact;
+}
+
+ScenePoint MeshSurface::point(const Contact& contact) const noexcept
+{
+    if (contact.feature == ContactFeature::Vertex) {
+        return mesh_->vertex(contact.vertex.index);
+    }
+    if (contact.feature == ContactFeature::Edge) {
+        const auto [from, to] = ends(contact.edge);
+        return mesh_->vertex(from.index) + between(from, to) * contact.along;
+    }
+    const auto points = mesh_->points(contact.face.face);
+    return points[0] + ((points[1] - points[0]) * contact.weights[1] +
+                        (points[2] - points[0]) * contact.weights[2]);
+}
+
+MeshSurface::Edge MeshSurface::edgeBetween(Vertex a, Vertex b) const noexcept
+{
+    for (const std::uint32_t corner : mesh_->fan(a.index)) {
+        const std::uint32_t next = TriangleMesh::nextCorner(corner);
+        const std::uint32_t previous = TriangleMesh::previousCorner(corner);
+        if (mesh_->vertexAt(next) == b.index) {
+            return edgeOpposite(previous);
+        }
+        if (mesh_->vertexAt(previous) == b.index) {
+            return edgeOpposite(next);
+        }
+    }
+    return {}; // not of one face
+}
+
+// Whether the edge opposite a corner, which is not at the border, is a valley, or flat. Without
+// rounding error, as which side of its faces the goal is on: together they tell what is free.
+bool MeshSurface::isValley(std::uint32_t corner) const noexcept
+{
+    return sideOf(*mesh_, TriangleMesh::faceOf(corner),
+                  {mesh_->vertex(mesh_->vertexAt(mesh_->across(corner)))}) >= 0;
+}
+
+std::optional<Face> MeshSurface::wayOut(const Fan& fan, const Goal& goal) const noexcept
+{
+    // In front of all faces is free, behind all is not. In between the nearest decides.
+    const Vec3 to_goal = goal.from(fan.point);
+    const double goal_squared = dot(to_goal, to_goal);
+    bool is_over_all = true;
+    bool is_over_any = false;
+    for (const std::uint32_t corner : fan.corners) {
+        const Vec3 a = mesh_->vertex(mesh_->vertexAt(TriangleMesh::nextCorner(corner))) - fan.point;
+        const Vec3 b =
+            mesh_->vertex(mesh_->vertexAt(TriangleMesh::previousCorner(corner))) - fan.point;
+        const Vec3 normal = cross(a, b);
+        const double above = dot(normal, to_goal);
+        const bool is_over =
+            above > 0.0 && above * above > kRiseMin * kRiseMin * goal_squared * dot(normal, normal);
+        is_over_all = is_over_all && is_over;
+        is_over_any = is_over_any || is_over;
+    }
+    if (is_over_all) {
+        return Face{TriangleMesh::faceOf(fan.corners.front())};
+    }
+    const bool is_at_border =
+        mesh_->across(TriangleMesh::previousCorner(fan.corners.front())) == TriangleMesh::kNone;
+    if ((!is_over_any && !is_at_border) || goal_squared == 0.0) {
+        return std::nullopt;
+    }
+    return wayOutOfMixed(fan, goal);
+}
+
+// Which face, edge or the vertex itself is nearest to the goal, if the faces of the vertex went on
+// without end.
+std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal) const noexcept
+{
+    struct Sector {
+        Vec3 a;
+        Vec3 b;
+        Vec3 normal; // of length 1
+        double above;
+    };
+    const Vec3 to_goal = goal.from(fan.point);
+    const double goal_length = length(to_goal);
+    const auto sectorAt = [&](std::uint32_t corner) {
+        Sector sector{};
+        sector.a = mesh_->vertex(mesh_->vertexAt(TriangleMesh::nextCorner(corner))) - fan.point;
+        sector.b = mesh_->vertex(mesh_->vertexAt(TriangleMesh::previousCorner(corner))) - fan.point;
+        sector.normal = normalized(cross(sector.a, sector.b));
+        sector.above = dot(sector.normal, to_goal);
+        return sector;
+    };
+    const double rise_min = kRiseMin * goal_length;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    double nearest_free = kInfinity;
+    double nearest_blocked = kInfinity;
+    Face over{TriangleMesh::faceOf(fan.corners.front())};
+    const auto offer = [&](double distance, bool is_free, Face face) {
+        if (!is_free || distance <= rise_min) {
+            nearest_blocked = std::min(nearest_blocked, distance);
+        } else if (distance < nearest_free) {
+            nearest_free = distance;
+            over = face;
+        }
+    };
+    // The distance from a spoke, where the goal is not beyond the vertex.
+    const auto fromSpoke = [&](const Vec3& spoke) {
+        return dot(spoke, to_goal) > 0.0 ? length(cross(spoke, to_goal)) / length(spoke)
+                                         : kInfinity;
+    };
+    const bool is_at_border =
+        mesh_->across(TriangleMesh::previousCorner(fan.corners.front())) == TriangleMesh::kNone;
+    Vec3 pseudonormal{};
+    for (const std::uint32_t corner : fan.corners) {
+        const Face face{TriangleMesh::faceOf(corner)};
+        const Sector sector = sectorAt(corner);
+        pseudonormal = pseudonormal + sector.normal * std::atan2(length(cross(sector.a, sector.b)),
+                                                                 dot(sector.a, sector.b));
+        if (dot(cross(sector.normal, sector.a), to_goal) >= 0.0 &&
+            dot(cross(sector.b, sector.normal), to_goal) >= 0.0) {
+            offer(std::abs(sector.above), sector.above > rise_min, face);
+        }
+        // The spoke that the sector ends at, and the first one of a border.
+        const double distance = fromSpoke(sector.b);
+        const std::uint32_t beyond = mesh_->across(TriangleMesh::nextCorner(corner));
+        if (beyond == TriangleMesh::kNone) {
+            offer(distance, true, face);
+        } else if (distance < kInfinity) {
+            const bool is_here = sector.above > rise_min;
+            const bool is_there = sectorAt(TriangleMesh::nextCorner(beyond)).above > rise_min;
+            offer(distance, isValley(beyond) ? is_here && is_there : is_here || is_there,
+                  is_here ? face : Face{TriangleMesh::faceOf(beyond)});
+        }
+        if (is_at_border && corner == fan.corners.front()) {
+            offer(fromSpoke(sector.a), true, face);
+        }
+    }
+    if (nearest_free == kInfinity && nearest_blocked == kInfinity) { // the vertex itself
+        return is_at_border || dot(pseudonormal, to_goal) > rise_min ? std::optional(over)
+                                                                     : std::nullopt;
+    }
+    // Between the walls of a narrow crack rounding cannot tell which of them is nearer.
+    return nearest_free + 16.0 * kEpsilon * goal_length < nearest_blocked ? std::optional(over)
+                                                                          : std::nullopt;
+}
+
+std::optional<Face> MeshSurface::wayOut(const Contact& contact, const Goal& goal) const noexcept
+{
+    if (contact.feature == ContactFeature::Vertex) {
+        return wayOut(fan(contact.vertex), goal);
+    }
+    if (contact.feature == ContactFeature::Face) {
+        return sideOf(*mesh_, contact.face.face, endAt(goal)) > 0 ? std::optional(contact.face)
+                                                                  : std::nullopt;
+    }
+    const std::uint32_t corner = contact.edge.corner;
+    const std::uint32_t beyond = mesh_->across(corner);
+    const Face here{TriangleMesh::faceOf(corner)};
+    const int above_here = sideOf(*mesh_, here.face, endAt(goal));
+    if (beyond == TriangleMesh::kNone) {
+        if (above_here > 0) {
+            return here;
+        }
+        // Falls off where the face does not lead closer, as onto its own foot.
+        const Facet facet = facetAt(corner);
+        const double weight = facet.foot(goal).weights[0];
+        const double error = facet.error(goal);
+        const bool is_off = weight < -error || (weight <= error && above_here < 0);
+        return is_off ? std::optional(here) : std::nullopt;
+    }
+    const Face there{TriangleMesh::faceOf(beyond)};
+    const int above_there = sideOf(*mesh_, there.face, endAt(goal));
+    if (above_here <= 0 && above_there <= 0) {
+        return std::nullopt;
+    }
+    const Face over = above_here > 0 ? here : there;
+    if (!isValley(corner)) {
+        return over;
+    }
+    if (above_here <= 0 || above_there <= 0) {
+        return std::nullopt;
+    }
+    const auto rises = [&](std::uint32_t face) {
+        const Vec3 normal = mesh_->normal(face);
+        const Vec3 to_goal = goal.from(mesh_->vertex(mesh_->face(face)[0]));
+        const double above = dot(normal, to_goal);
+        return above > 0.0 &&
+               above * above > kRiseMin * kRiseMin * dot(normal, normal) * dot(to_goal, to_goal);
+    };
+    return rises(here.face) && rises(there.face) ? std::optional(over) : std::nullopt;
+}
+
+MeshSurface::Cast
+MeshSurface::castFrom(const Contact& contact, Face over, const Goal& goal) const noexcept
+{
+    MeshStart start;
+    const auto sizeOf = [this](std::uint32_t face) {
+        const auto [a, b, c] = mesh_->points(face);
+        return std::sqrt(std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)}));
+    };
+    if (contact.feature == ContactFeature::Vertex) {
+        start.base = mesh_->vertex(contact.vertex.index);
+        start.skipped_vertex = contact.vertex.index;
+    } else if (contact.feature == ContactFeature::Edge) {
+        const auto [from, to] = ends(contact.edge);
+        start.base = mesh_->vertex(from.index);
+        const std::uint32_t here = TriangleMesh::faceOf(contact.edge.corner);
+        const std::uint32_t beyond = mesh_->across(contact.edge.corner);
+        start.skipped_faces[0] = here;
+        start.size_m = sizeOf(here);
+        const Vec3 normal = normalized(mesh_->normal(here));
+        Vec3 lift = normal;
+        if (beyond != TriangleMesh::kNone) {
+            const std::uint32_t there = TriangleMesh::faceOf(beyond);
+            start.skipped_faces[1] = there;
+            start.size_m = std::max(start.size_m, sizeOf(there));
+            const Vec3 other = normalized(mesh_->normal(there));
+            // By as much above both, unless they fold onto each other.
+            lift = (normal + other) * (1.0 / std::max(1.0 + dot(normal, other), 1e-6));
+        }
+        start.offset = between(from, to) * contact.along + lift * (kLift * start.size_m);
+    } else {
+        const auto points = mesh_->points(over.face);
+        start.base = points[0];
+        start.skipped_faces[0] = over.face;
+        start.size_m = sizeOf(over.face);
+        const Vec3 a = points[1] - points[0];
+        const Vec3 b = points[2] - points[0];
+        start.offset = (a * contact.weights[1] + b * contact.weights[2]) +
+                       normalized(cross(a, b)) * (kLift * start.size_m);
+    }
+    const MeshCast cast = castSegment(*mesh_, start, endAt(goal));
+    return {cast.hit ? std::optional(contactFrom(*cast.hit)) : std::nullopt, cast.faces};
+}
+
+MeshSurface::Cast MeshSurface::castFree(const Goal& from, const Goal& to) const noexcept
+{
+    const MeshCast cast = castSegment(*mesh_, {.base = from.scene, .offset = from.rest}, endAt(to));
+    return {cast.hit ? std::optional(contactFrom(*cast.hit)) : std::nullopt, cast.faces};
+}
+
+} // namespace marsview
