@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact/heightfield_surface.h"
+#include "core/contact/local_minimum.h"
 #include "tests/support/random.h"
 
 #include <cstddef>
@@ -30,15 +31,8 @@ std::vector<NamedTerrain> syntheticTerrains();
 /// Height in scene metres of the surface, from the plane through three samples, in long double.
 double bruteHeight(const HeightfieldSurface& surface, GridPoint grid);
 
-/// How much closer to the goal the steepest way from `proxy` on the surface, or off it, leads at
-/// once: the largest cosine between the goal and a direction of the tangent cone of the space on
-/// and above the surface, counting no way shorter than `slack` beyond it. 0 or less at a minimum.
-/// Knows only the samples and the proxy's coordinates.
-double
-steepestCosine(const HeightfieldSurface& surface, const ScenePoint& proxy, const ScenePoint& goal);
-
-/// The goal as a model sees it: clamped to the grid.
-ScenePoint clampedGoal(const HeightfieldSurface& surface, const ScenePoint& goal);
+using marsview::clampedGoal;
+using marsview::steepestCosine;
 
 /// A goal near the surface, mostly below, with now and then a jump anywhere, beyond the border too;
 /// often on whole and half samples, where ties are.
