@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/machine.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/quantile.h"
 #include "app/cli/text_output.h"
 #include "app/cli/view_bench.h"
 #include "core/session/sample_map.h"

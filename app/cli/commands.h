@@ -18,5 +18,6 @@ void addRenderCommand(CLI::App& app, CommandAction& run);
 /// `has_stdin` tells beforehand whether `--stdin` is among the arguments: the position options then
 /// stand without numbers.
 void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin);
+void addTraceCommand(CLI::App& app, CommandAction& run);
 
 } // namespace marsview

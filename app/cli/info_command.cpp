@@ -186,7 +186,7 @@ Status runInfo(const Options& options)
     } else {
         printForPeople(json, map->info);
     }
-    printNotices(*map);
+    printNotices(map->info);
     return Done{};
 }
 

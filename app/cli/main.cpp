@@ -32,6 +32,7 @@ int run(int argc, char** argv)
     marsview::CommandAction action;
     marsview::addInfoCommand(app, action);
     marsview::addSampleCommand(app, action, has_stdin);
+    marsview::addTraceCommand(app, action);
     marsview::addRenderCommand(app, action);
     CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
     bench->require_subcommand(1);

@@ -87,11 +87,10 @@ Result<OpenedMap> openMap(const MapOptions& options)
     return OpenedMap{std::move(file).value(), std::move(info).value(), std::move(georeference)};
 }
 
-void printNotices(const OpenedMap& map)
+void printNotices(const RasterInfo& info)
 {
-    for (const std::string& notice : map.info.notices) {
-        std::fprintf(stderr, "marsview-cli: %s\n",
-                     asOneLine(map.info.path + ": " + notice).c_str());
+    for (const std::string& notice : info.notices) {
+        std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(info.path + ": " + notice).c_str());
     }
 }
 

@@ -45,6 +45,6 @@ Result<OpenedMap> openMap(const MapOptions& options);
 
 /// Says on stderr what was noticed about the map: for when the result is out. A failure says only
 /// its own sentence.
-void printNotices(const OpenedMap& map);
+void printNotices(const RasterInfo& info);
 
 } // namespace marsview

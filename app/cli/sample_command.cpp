@@ -205,7 +205,7 @@ Status runSample(const Options& options)
                         ? sampleStdin(sampler)
                         : sampler.print({options.position.first, options.position.second});
     if (status) {
-        printNotices(*map);
+        printNotices(map->info);
     }
     return status;
 }

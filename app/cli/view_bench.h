@@ -80,7 +80,4 @@ inline constexpr std::size_t kFullTrianglesMax = 20'000'000;
 /// along them. Takes seconds to minutes.
 Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions& options);
 
-/// The value below which a share of the values lies; 0 of none.
-double quantile(std::vector<double> values, double share);
-
 } // namespace marsview

@@ -1,0 +1,260 @@
+#include "app/cli/contact_trace.h"
+
+#include "app/cli/quantile.h"
+#include "app/cli/text_output.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace marsview {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::string_view kHeader = "x,y,z";
+constexpr std::string_view kColumns =
+    "x,y,z,contact,feature,vertices,faces,casts,cells,far_edges,far_loops";
+
+std::string_view trimmed(std::string_view text)
+{
+    constexpr std::string_view kBlanks = " \t\r";
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    return begin == std::string_view::npos
+               ? std::string_view()
+               : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::optional<double> parseNumber(std::string_view word)
+{
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+    }
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (failure != std::errc{} || end != word.data() + word.size()) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+// The words between the commas of a line, at most four.
+struct Words {
+    std::array<std::string_view, 4> words;
+    std::size_t count = 0;
+};
+
+Words wordsOf(std::string_view line)
+{
+    Words result;
+    while (result.count < result.words.size()) {
+        const std::size_t comma = line.find(',');
+        result.words[result.count++] = trimmed(line.substr(0, comma));
+        if (comma == std::string_view::npos) {
+            break;
+        }
+        line.remove_prefix(comma + 1);
+    }
+    return result;
+}
+
+bool isHeader(std::string_view line)
+{
+    const Words words = wordsOf(line);
+    return words.count == 3 && words.words[0] == "x" && words.words[1] == "y" &&
+           words.words[2] == "z";
+}
+
+std::optional<TracePoint> parseGoal(std::string_view line)
+{
+    const Words words = wordsOf(line);
+    if (words.count != 3) {
+        return std::nullopt;
+    }
+    const auto x = parseNumber(words.words[0]);
+    const auto y = parseNumber(words.words[1]);
+    const auto z = parseNumber(words.words[2]);
+    return x && y && z ? std::optional<TracePoint>({*x, *y, *z}) : std::nullopt;
+}
+
+std::string quoted(std::string_view line)
+{
+    constexpr std::size_t kQuotedMax = 60;
+    return line.size() <= kQuotedMax ? std::string(line)
+                                     : std::string(line.substr(0, kQuotedMax)) + "…";
+}
+
+const char* featureName(ContactFeature feature)
+{
+    switch (feature) {
+    case ContactFeature::Free:
+        return "free";
+    case ContactFeature::Vertex:
+        return "vertex";
+    case ContactFeature::Edge:
+        return "edge";
+    case ContactFeature::Face:
+        return "face";
+    }
+    MARSVIEW_CHECK(false);
+}
+
+struct CounterColumn {
+    const char* name;
+    std::uint32_t ContactCounters::*counter;
+};
+
+constexpr std::array kCounters{
+    CounterColumn{"vertices", &ContactCounters::vertices},
+    CounterColumn{"faces", &ContactCounters::faces},
+    CounterColumn{"casts", &ContactCounters::casts},
+    CounterColumn{"cells", &ContactCounters::cells},
+    CounterColumn{"far_edges", &ContactCounters::far_edges},
+    CounterColumn{"far_loops", &ContactCounters::far_loops},
+};
+
+} // namespace
+
+Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::string& name)
+{
+    std::string_view rest = text;
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (rest.starts_with(kByteOrderMark)) {
+        rest.remove_prefix(kByteOrderMark.size());
+    }
+    std::vector<TracePoint> goals;
+    bool has_header = false;
+    for (std::size_t number = 1; !rest.empty(); ++number) {
+        const std::size_t end = rest.find('\n');
+        const std::string_view line = trimmed(rest.substr(0, end));
+        rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+        if (line.empty()) {
+            continue;
+        }
+        if (!has_header) {
+            if (!isHeader(line)) {
+                return Error{ErrorCode::Invalid,
+                             fmt::format("{}: line {} is \"{}\"; the first one has to be the "
+                                         "header \"{}\"",
+                                         name, number, quoted(line), kHeader)};
+            }
+            has_header = true;
+            continue;
+        }
+        const std::optional<TracePoint> goal = parseGoal(line);
+        if (!goal) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: line {} is \"{}\"; three numbers with commas between "
+                                     "them are needed",
+                                     name, number, quoted(line))};
+        }
+        goals.push_back(*goal);
+    }
+    if (!has_header) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: is empty; the header \"{}\" and a goal a line are needed",
+                                 name, kHeader)};
+    }
+    return goals;
+}
+
+Result<std::vector<TraceUpdate>> trace(ContactModel& model,
+                                       const TraceFrame& frame,
+                                       const std::vector<TracePoint>& goals,
+                                       JobMonitor& monitor)
+{
+    std::vector<TraceUpdate> updates;
+    updates.reserve(goals.size());
+    constexpr std::size_t kReportEvery = 1024;
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+        if (i % kReportEvery == 0) {
+            monitor.report(static_cast<double>(i) / static_cast<double>(goals.size()));
+            if (monitor.isCancelled()) {
+                return Error{ErrorCode::Cancelled, "tracing was cancelled"};
+            }
+        }
+        const TracePoint& goal = goals[i];
+        const ScenePoint aim = frame.to_scene(goal);
+        TraceUpdate update;
+        const Clock::time_point begin = Clock::now();
+        update.state = model.update(aim);
+        update.ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
+        if (update.state.counters.refused != 0 && !updates.empty()) {
+            update.proxy = updates.back().proxy;
+        } else if (update.state.counters.refused == 0 && !update.state.is_in_contact &&
+                   !frame.is_clamped(goal)) {
+            update.proxy = goal;
+        } else {
+            update.proxy = frame.from_scene(update.state);
+        }
+        updates.push_back(update);
+    }
+    return updates;
+}
+
+std::string asCsv(const std::vector<TraceUpdate>& updates, TraceTiming timing)
+{
+    const bool has_ns = timing == TraceTiming::Yes;
+    std::string text(kColumns);
+    text += has_ns ? ",ns\n" : "\n";
+    for (const TraceUpdate& update : updates) {
+        text += fmt::format("{},{},{},{},{}", asText(update.proxy.x), asText(update.proxy.y),
+                            asText(update.proxy.z), update.state.is_in_contact ? 1 : 0,
+                            featureName(update.state.feature));
+        for (const CounterColumn& column : kCounters) {
+            text += fmt::format(",{}", update.state.counters.*column.counter);
+        }
+        if (has_ns) {
+            text += fmt::format(",{:.0f}", update.ns);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+nlohmann::ordered_json traceSummary(const std::vector<TraceUpdate>& updates)
+{
+    std::size_t contacts = 0;
+    std::size_t refused = 0;
+    std::size_t cut_short = 0;
+    double ns_sum = 0.0;
+    std::vector<double> ns;
+    for (const TraceUpdate& update : updates) {
+        contacts += update.state.is_in_contact ? 1U : 0U;
+        refused += update.state.counters.refused;
+        cut_short += update.state.counters.cut_short;
+        ns_sum += update.ns;
+        ns.push_back(update.ns);
+    }
+    const double count = static_cast<double>(std::max<std::size_t>(updates.size(), 1));
+    nlohmann::ordered_json totals;
+    nlohmann::ordered_json means;
+    for (const CounterColumn& column : kCounters) {
+        std::uint64_t total = 0;
+        for (const TraceUpdate& update : updates) {
+            total += update.state.counters.*column.counter;
+        }
+        totals[column.name] = total;
+        means[column.name] = static_cast<double>(total) / count;
+    }
+    return {{"updates", updates.size()},
+            {"contact_updates", contacts},
+            {"refused_updates", refused},
+            {"cut_short_updates", cut_short},
+            {"totals", totals},
+            {"means", means},
+            {"ns",
+             {{"mean", ns_sum / count},
+              {"p50", quantile(ns, 0.5)},
+              {"p99", quantile(ns, 0.99)},
+              {"p999", quantile(ns, 0.999)},
+              {"max", quantile(ns, 1.0)}}}};
+}
+
+} // namespace marsview

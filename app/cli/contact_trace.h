@@ -1,0 +1,54 @@
+// A contact model run over a list of goals, one update a line.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/contact/contact_model.h"
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// A goal or a proxy as files have it: x and y in map coordinates, z in metres, not exaggerated.
+struct TracePoint {
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+};
+
+/// The goals in `text`: a line "x,y,z", then a goal a line. Blanks, empty lines, CR before LF and a
+/// byte order mark do no harm; "nan" and "inf" are numbers. `name` is whose text it is, for the
+/// message that tells the line that cannot be read.
+Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::string& name);
+
+/// Between the points of the file and those that the model moves among.
+struct TraceFrame {
+    std::function<ScenePoint(const TracePoint& goal)> to_scene;
+    std::function<TracePoint(const ContactState& state)> from_scene;
+    /// Whether the model aims at another point instead, on the border of the map.
+    std::function<bool(const TracePoint& goal)> is_clamped;
+};
+
+struct TraceUpdate {
+    TracePoint proxy; // to the digit the goal, where free
+    ContactState state;
+    double ns = 0.0;
+};
+
+/// Runs the model over the goals; the first places it. Only Cancelled can go wrong.
+Result<std::vector<TraceUpdate>> trace(ContactModel& model,
+                                       const TraceFrame& frame,
+                                       const std::vector<TracePoint>& goals,
+                                       JobMonitor& monitor);
+
+/// The trace as CSV, with a column `ns` if asked for.
+enum class TraceTiming { No, Yes };
+std::string asCsv(const std::vector<TraceUpdate>& updates, TraceTiming timing);
+
+/// Counts, totals and means of the counters, and times.
+nlohmann::ordered_json traceSummary(const std::vector<TraceUpdate>& updates);
+
+} // namespace marsview

@@ -1,0 +1,197 @@
+// marsview-cli trace: a contact model over a list of goals, without clock or device.
+
+#include "app/cli/commands.h"
+#include "app/cli/contact_trace.h"
+#include "app/cli/long_job.h"
+#include "app/cli/number_checks.h"
+#include "app/cli/text_output.h"
+#include "app/cli/touch_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr ContactModelKind kContactModelDefault = ContactModelKind::ProxyGraph;
+
+struct Options {
+    MapOptions map;
+    std::string goals;
+    std::string model{contactModelName(kContactModelDefault)};
+    std::optional<double> radius_m;
+    double exaggeration = 1.0;
+    bool has_timing = false;
+    std::string summary;
+    std::string output;
+};
+
+Result<std::string> contentOf(const std::string& path)
+{
+    if (path == "-") {
+        return std::string(std::istreambuf_iterator<char>(std::cin), {});
+    }
+    std::error_code ignored;
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path, ignored)) {
+        return Error{ErrorCode::NotFound, fmt::format("{}: cannot be read", path)};
+    }
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+Status write(const std::string& path, const std::string& text)
+{
+    std::ofstream file(path, std::ios::binary);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.close();
+    if (!file) {
+        return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be written", path)};
+    }
+    return Done{};
+}
+
+// Over a map: heights are those of `sample`, x and y are the CRS'.
+TraceFrame frameOf(const Dataset& dataset, double exaggeration)
+{
+    const Georeference& georeference = dataset.georeference();
+    const auto is_on_grid = [&georeference](GridPoint grid) {
+        return grid.column >= 0.0 && grid.row >= 0.0 &&
+               grid.column <= static_cast<double>(georeference.columns() - 1) &&
+               grid.row <= static_cast<double>(georeference.rows() - 1);
+    };
+    return {
+        .to_scene =
+            [&georeference, exaggeration](const TracePoint& goal) {
+                return georeference.sceneFrame().toScene(
+                    georeference.toGrid(MapPoint{goal.x, goal.y}), goal.z * exaggeration);
+            },
+        .from_scene =
+            [&georeference, exaggeration](const ContactState& state) {
+                GridPoint grid = georeference.sceneFrame().toGrid(state.proxy);
+                if (state.feature == ContactFeature::Vertex) {
+                    // The place of a sample, without what rounding made of it on the way.
+                    grid = {std::round(grid.column), std::round(grid.row)};
+                }
+                const MapPoint map = georeference.toMap(grid);
+                return TracePoint{map.x, map.y, state.proxy.z / exaggeration};
+            },
+        .is_clamped =
+            [&georeference, is_on_grid](const TracePoint& goal) {
+                return !is_on_grid(georeference.toGrid(MapPoint{goal.x, goal.y}));
+            },
+    };
+}
+
+Status runTrace(const Options& options)
+{
+    const Result<std::string> text = contentOf(options.goals);
+    if (!text) {
+        return text.error();
+    }
+    const Result<std::vector<TracePoint>> goals =
+        readGoals(*text, options.goals == "-" ? "--goals" : options.goals);
+    if (!goals) {
+        return goals.error();
+    }
+    std::optional<TouchMap> map;
+    {
+        LongJob job("reading");
+        Result<TouchMap> opened = openTouchMap(options.map, job.monitor());
+        if (!opened) {
+            return std::move(opened).error();
+        }
+        map = std::move(opened).value();
+    }
+    const Georeference& georeference = map->dataset->georeference();
+    const HeightfieldSurface surface(map->filled, georeference.sceneFrame(), options.exaggeration);
+    const double half_cell_m =
+        (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
+    const ContactModelKind kind = contactModelKind(options.model).value_or(kContactModelDefault);
+    const double radius_m = options.radius_m.value_or(half_cell_m);
+    const std::unique_ptr<ContactModel> model =
+        makeContactModel(kind, surface, {.radius_m = radius_m});
+    LongJob job("tracing");
+    const auto updates =
+        trace(*model, frameOf(*map->dataset, options.exaggeration), *goals, job.monitor());
+    if (!updates) {
+        return Error{updates.error().code,
+                     fmt::format("{}: {}", options.map.path, updates.error().message)};
+    }
+    const std::string csv =
+        asCsv(*updates, options.has_timing ? TraceTiming::Yes : TraceTiming::No);
+    if (options.output.empty()) {
+        std::fwrite(csv.data(), 1, csv.size(), stdout);
+    } else if (Status written = write(options.output, csv); !written) {
+        return written;
+    }
+    if (!options.summary.empty()) {
+        nlohmann::ordered_json summary = {{"file", options.map.path},
+                                          {"model", options.model},
+                                          {"radius_m", nullptr},
+                                          {"exaggeration", options.exaggeration}};
+        if (kind == ContactModelKind::VirtualProxy) {
+            summary["radius_m"] = radius_m;
+        }
+        summary.update(traceSummary(*updates));
+        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+        if (Status written = write(options.summary, summary.dump(2, ' ', false, replace) + "\n");
+            !written) {
+            return written;
+        }
+    }
+    printNotices(map->dataset->info());
+    return Done{};
+}
+
+} // namespace
+
+void addTraceCommand(CLI::App& app, CommandAction& run)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "trace", "Run a contact model over a list of goals and print where the proxy goes");
+    options->map.addTo(*command);
+    command
+        ->add_option("--goals", options->goals,
+                     "CSV with the header x,y,z: map coordinates in the raster's CRS and a height "
+                     "in metres, not exaggerated; - for standard input")
+        ->required();
+    std::vector<std::string> names;
+    for (const ContactModelKind kind : kContactModelKinds) {
+        names.emplace_back(contactModelName(kind));
+    }
+    command->add_option("--model", options->model, "contact model")
+        ->capture_default_str()
+        ->check(CLI::IsMember(names));
+    command
+        ->add_option("--radius", options->radius_m,
+                     "of the sphere of virtual-proxy, scene metres; default half a cell")
+        ->check(positiveNumber());
+    command->add_option("--exaggeration", options->exaggeration, "of heights")
+        ->capture_default_str()
+        ->check(positiveNumber());
+    command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
+    command->add_option("--summary", options->summary, "JSON file for totals, means and times");
+    command->add_option("-o,--output", options->output, "CSV file to write, default stdout");
+    command->callback([options, &run] {
+        const auto needs_radius = contactModelName(ContactModelKind::VirtualProxy);
+        if (options->radius_m && options->model != needs_radius) {
+            throw CLI::ValidationError("--radius",
+                                       fmt::format("only --model {} has one", needs_radius));
+        }
+        run = [options] { return runTrace(*options); };
+    });
+}
+
+} // namespace marsview

@@ -1,0 +1,429 @@
+#include "core/contact/contact_model.h"
+#include "tests/cli/run_cli.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/random.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <sstream>
+
+namespace marsview::test {
+namespace {
+
+constexpr const char* kHeader =
+    "x,y,z,contact,feature,vertices,faces,casts,cells,far_edges,far_loops";
+
+std::string helens()
+{
+    return (bundledSamples() / "mount_st_helens_30m.tif").string();
+}
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+std::vector<std::string> wordsOf(const std::string& line)
+{
+    std::vector<std::string> words;
+    std::istringstream stream(line);
+    for (std::string word; std::getline(stream, word, ',');) {
+        words.push_back(word);
+    }
+    return words;
+}
+
+struct Row {
+    double x;
+    double y;
+    double z;
+    bool is_in_contact;
+    std::string feature;
+    std::vector<std::string> words;
+};
+
+std::vector<Row> rowsOf(const std::string& csv)
+{
+    std::vector<std::string> lines = linesOf(csv);
+    lines.erase(lines.begin());
+    std::vector<Row> rows;
+    for (const std::string& line : lines) {
+        const std::vector<std::string> words = wordsOf(line);
+        rows.push_back({std::stod(words.at(0)), std::stod(words.at(1)), std::stod(words.at(2)),
+                        words.at(3) == "1", words.at(4), words});
+    }
+    return rows;
+}
+
+// The trace of goals given as text, header and all.
+std::vector<Row> traced(const std::string& dem,
+                        const std::string& goals,
+                        const std::vector<std::string>& options = {})
+{
+    const TempFolder folder;
+    std::vector<std::string> arguments{"trace", dem, "--goals", folder.write("goals.csv", goals)};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramOutput output = runCli(arguments);
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_EQ(linesOf(output.out).at(0), kHeader);
+    return rowsOf(output.out);
+}
+
+std::vector<double> heightsAt(const std::string& dem, const std::vector<Row>& rows)
+{
+    std::string lines;
+    for (const Row& row : rows) {
+        lines += fmt::format("{} {}\n", row.x, row.y);
+    }
+    return numbersIn(runCli({"sample", dem, "--map", "--stdin"}, lines).out);
+}
+
+// A map of hills, with a hole where `has_void`.
+std::string hills(const TempFolder& folder,
+                  const std::string& srs,
+                  const std::array<double, 6>& transform,
+                  double height,
+                  bool has_void = false)
+{
+    std::vector<float> samples;
+    for (int row = 0; row < 40; ++row) {
+        for (int column = 0; column < 60; ++column) {
+            const bool is_void = has_void && std::hypot(column - 30, row - 20) < 6.0;
+            samples.push_back(static_cast<float>(
+                is_void ? -9999.0
+                        : height * (std::sin(column * 0.4) * std::cos(row * 0.3) + 0.02 * column)));
+        }
+    }
+    RasterRecipe recipe = recipeFor(60, samples);
+    recipe.srs = srs;
+    recipe.transform = transform;
+    recipe.band_xml = has_void ? "<NoDataValue>-9999</NoDataValue>" : "";
+    return writeRaster(folder, "hills.tif", "GTiff", recipe);
+}
+
+struct Hills {
+    const char* name;
+    const char* srs;
+    std::array<double, 6> transform;
+    double height;
+};
+
+// Cells of about one height unit in each.
+const std::vector<Hills>& hillsEverywhere()
+{
+    static const std::vector<Hills> kHills{
+        {"no CRS", "", {1000.0, 1.0, 0.0, 2000.0, 0.0, -1.0}, 2.0},
+        {"UTM", "EPSG:32633", {500000.0, 30.0, 0.0, 5200000.0, 0.0, -30.0}, 60.0},
+        {"feet", "EPSG:2227", {6000000.0, 100.0, 0.0, 2100000.0, 0.0, -100.0}, 60.0},
+        {"degrees on the Earth", "EPSG:4326", {10.0, 0.01, 0.0, 50.0, 0.0, -0.01}, 1500.0},
+        {"degrees on the Moon", "IAU_2015:30100", {-5.0, 0.1, 0.0, 70.0, 0.0, -0.1}, 4000.0},
+        {"rotated", "EPSG:32633", {500000.0, 20.0, 15.0, 5200000.0, 14.0, -21.0}, 50.0},
+        {"south up", "EPSG:32633", {500000.0, 30.0, 0.0, 5200000.0, 0.0, 30.0}, 60.0},
+    };
+    return kHills;
+}
+
+struct Goals {
+    std::string csv = "x,y,z\n";
+    std::vector<std::array<double, 3>> points;
+};
+
+// A wandering hand, mostly below the surface; some goals above it.
+Goals goalsOver(const Hills& hills, int count)
+{
+    Random random;
+    Goals goals;
+    double column = 30.0;
+    double row = 20.0;
+    const auto& t = hills.transform;
+    for (int i = 0; i < count; ++i) {
+        column = std::clamp(column + random.uniform(-2.0, 2.0), 1.0, 58.0);
+        row = std::clamp(row + random.uniform(-2.0, 2.0), 1.0, 38.0);
+        const double x = t[0] + (column + 0.5) * t[1] + (row + 0.5) * t[2];
+        const double y = t[3] + (column + 0.5) * t[4] + (row + 0.5) * t[5];
+        const double z = hills.height * random.uniform(-3.0, 2.5);
+        goals.points.push_back({x, y, z});
+        goals.csv += fmt::format("{},{},{}\n", x, y, z);
+    }
+    return goals;
+}
+
+} // namespace
+
+TEST(TraceCommand, KeepsProxiesOnTheSurfaceThatSampleTells)
+{
+    for (const Hills& hill : hillsEverywhere()) {
+        for (const bool has_void : {false, true}) {
+            SCOPED_TRACE(fmt::format("{}{}", hill.name, has_void ? ", voids" : ""));
+            const TempFolder folder;
+            const std::string dem = hills(folder, hill.srs, hill.transform, hill.height, has_void);
+            const Goals goals = goalsOver(hill, 300);
+            for (const char* exaggeration : {"1", "3.5"}) {
+                const std::vector<Row> rows =
+                    traced(dem, goals.csv, {"--exaggeration", exaggeration});
+                ASSERT_EQ(rows.size(), goals.points.size());
+                const std::vector<double> heights = heightsAt(dem, rows);
+                int contacts = 0;
+                int voids = 0;
+                for (std::size_t i = 0; i < rows.size(); ++i) {
+                    const Row& row = rows[i];
+                    if (row.is_in_contact) {
+                        ++contacts;
+                        EXPECT_NE(row.feature, "free");
+                        if (std::isnan(heights[i])) {
+                            ++voids; // filled for touch only
+                        } else {
+                            EXPECT_NEAR(row.z, heights[i], 1e-8 * hill.height) << "line " << i + 2;
+                        }
+                    } else {
+                        EXPECT_EQ(row.feature, "free");
+                        // To the digit the goal.
+                        EXPECT_EQ((std::array{row.x, row.y, row.z}), goals.points[i]);
+                        EXPECT_FALSE(row.z < heights[i]);
+                    }
+                }
+                EXPECT_GT(contacts, 100);
+                EXPECT_LT(contacts, 290);
+                EXPECT_EQ(voids > 0, has_void);
+            }
+        }
+    }
+}
+
+TEST(TraceCommand, RestsAtTheClosestPointOfAPlaneInSceneMetres)
+{
+    // 30 m cells; z rises 0.4 m a metre eastwards, 0.8 with the exaggeration.
+    std::vector<float> samples;
+    for (int i = 0; i < 50 * 50; ++i) {
+        samples.push_back(static_cast<float>(12.0 * (i % 50)));
+    }
+    const TempFolder folder;
+    RasterRecipe recipe = recipeFor(50, samples);
+    recipe.srs = "EPSG:32633";
+    recipe.transform = {600000.0, 30.0, 0.0, 5300000.0, 0.0, -30.0};
+    const std::string dem = writeRaster(folder, "plane.tif", "GTiff", recipe);
+    const double x0 = 600015.0; // of the first sample, where z = 0
+    const double goal_x = 600700.0;
+    const double goal_y = 5299500.0;
+    const double depth = 40.0;
+    const double goal_z = 0.4 * (goal_x - x0) - depth;
+    const std::vector<Row> rows = traced(
+        dem, fmt::format("x,y,z\n{},{},{}\n", goal_x, goal_y, goal_z), {"--exaggeration", "2"});
+    // The foot of the goal: (depth × 2) below along z, so west by slope / (1 + slope²).
+    const double x = goal_x - 2.0 * depth * 0.8 / (1.0 + 0.64);
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_TRUE(rows[0].is_in_contact);
+    EXPECT_NEAR(rows[0].x, x, 1e-6);
+    EXPECT_NEAR(rows[0].y, goal_y, 1e-6);
+    EXPECT_NEAR(rows[0].z, 0.4 * (x - x0), 1e-6);
+}
+
+TEST(TraceCommand, MeasuresDegreesAtTheLatitudeOfTheCentre)
+{
+    // A plane that rises eastwards on a sphere, around 60° north: a degree east is worth half of
+    // one north.
+    std::vector<float> samples;
+    for (int i = 0; i < 41 * 41; ++i) {
+        samples.push_back(static_cast<float>(300.0 * (i % 41)));
+    }
+    const TempFolder folder;
+    RasterRecipe recipe = recipeFor(41, samples);
+    recipe.srs = "+proj=longlat +R=1737400 +no_defs";
+    recipe.transform = {20.0 - 0.025, 0.05, 0.0, 61.0 + 0.025, 0.0, -0.05};
+    const std::string dem = writeRaster(folder, "plane.tif", "GTiff", recipe);
+    constexpr double kDegree = 1737400.0 * 3.14159265358979323846 / 180.0;
+    const double slope = 300.0 / (0.05 * kDegree * 0.5);
+    const double depth = 5000.0;
+    const double goal_z = 300.0 / 0.05 * (21.2 - 20.0) - depth;
+    const std::vector<Row> rows = traced(dem, fmt::format("x,y,z\n21.2,60.3,{}\n", goal_z));
+    const double x = 21.2 - depth * slope / (1.0 + slope * slope) / (kDegree * 0.5);
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_NEAR(rows[0].x, x, 1e-9);
+    EXPECT_NEAR(rows[0].y, 60.3, 1e-9);
+    EXPECT_NEAR(rows[0].z, 300.0 / 0.05 * (x - 20.0), 1e-5);
+}
+
+TEST(TraceCommand, PlacesTheProxyWithTheFirstLine)
+{
+    const std::vector<Row> rows = traced(helens(), "x,y,z\n560000,5116000,4000\n");
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].words[4], "free");
+    EXPECT_FALSE(rows[0].is_in_contact);
+    EXPECT_EQ(rows[0].z, 4000.0);
+}
+
+TEST(TraceCommand, ClampsGoalsBesideTheMapAndRefusesThoseThatAreNone)
+{
+    const Hills& hill = hillsEverywhere()[1];
+    const TempFolder folder;
+    const std::string dem = hills(folder, hill.srs, hill.transform, hill.height);
+    const std::string summary = folder.file("summary.json");
+    const std::vector<Row> rows = traced(dem,
+                                         "x,y,z\n"
+                                         "500600,5199400,-500\n"
+                                         "nan,5199400,-500\n"
+                                         "500600,inf,-500\n"
+                                         "500600,5199400,-inf\n"
+                                         "1e13,5199400,-500\n"
+                                         "499000,5199400,9000\n"
+                                         "599000,5300000,-500\n",
+                                         {"--summary", summary});
+    ASSERT_EQ(rows.size(), 7U);
+    for (std::size_t i = 1; i < 5; ++i) {
+        EXPECT_EQ(rows[i].x, rows[0].x);
+        EXPECT_EQ(rows[i].y, rows[0].y);
+        EXPECT_EQ(rows[i].z, rows[0].z);
+    }
+    EXPECT_EQ(rows[5].feature, "free");
+    EXPECT_NEAR(rows[5].x, 500015.0, 1e-6); // the first column
+    EXPECT_EQ(rows[5].z, 9000.0);
+    EXPECT_TRUE(rows[6].is_in_contact);
+    EXPECT_LE(rows[6].x, 500000.0 + 30.0 * 59.5 + 1e-6);
+    EXPECT_LE(rows[6].y, 5200000.0 - 15.0 + 1e-6);
+    const nlohmann::json json = nlohmann::json::parse(readFile(summary));
+    EXPECT_EQ(json["refused_updates"], 4);
+    EXPECT_EQ(json["updates"], 7);
+    EXPECT_EQ(json["contact_updates"], 6);
+}
+
+TEST(TraceCommand, ReadsGoalsAsEditorsAndSpreadsheetsWriteThem)
+{
+    const std::vector<Row> plain =
+        traced(helens(), "x,y,z\n560000,5116000,1000\n560100,5116050,900\n");
+    for (const char* text : {"x,y,z\r\n560000,5116000,1000\r\n560100,5116050,900\r\n",
+                             "\xef\xbb\xbfx,y,z\n560000,5116000,1000\n560100,5116050,900",
+                             "x, y, z\n 560000 ,\t5116000, 1e3\n\n+560100,5116050.0,900\n\n"}) {
+        const std::vector<Row> rows = traced(helens(), text);
+        ASSERT_EQ(rows.size(), plain.size());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            EXPECT_EQ(rows[i].words, plain[i].words);
+        }
+    }
+    const ProgramOutput piped =
+        runCli({"trace", helens(), "--goals", "-"}, "x,y,z\n560000,5116000,1000\n");
+    EXPECT_EQ(rowsOf(piped.out).at(0).words, plain[0].words);
+}
+
+TEST(TraceCommand, NamesTheLineThatItCannotRead)
+{
+    const TempFolder folder;
+    struct Case {
+        const char* text;
+        const char* line;
+        const char* found;
+    };
+    for (const Case& bad :
+         {Case{"x,y,z\n1,2,3\n4,5\n", "line 3", "4,5"},
+          Case{"x,y,z\n1,2,3,4\n", "line 2", "1,2,3,4"},
+          Case{"x,y,z\n\n1,two,3\n", "line 3", "1,two,3"},
+          Case{"x,y,z\n1,2,3 4\n", "line 2", "1,2,3 4"}, Case{"1,2,3\n", "line 1", "x,y,z"},
+          Case{"x,y,z\n1,,3\n", "line 2", "1,,3"}}) {
+        const std::string goals = folder.write("goals.csv", bad.text);
+        const ProgramOutput output = runCli({"trace", helens(), "--goals", goals});
+        EXPECT_EQ(output.exit_status, 1);
+        EXPECT_EQ(output.out, "");
+        EXPECT_TRUE(output.err.starts_with("marsview-cli: " + goals + ": ")) << output.err;
+        EXPECT_THAT(output.err, testing::HasSubstr(bad.line));
+        EXPECT_THAT(output.err, testing::HasSubstr(bad.found));
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+    }
+}
+
+TEST(TraceCommand, WritesFilesWithTimesAndASummary)
+{
+    const TempFolder folder;
+    const std::string goals = folder.write(
+        "goals.csv", "x,y,z\n560000,5116000,1000\n560100,5116050,900\n560100,5116050,9000\n");
+    const std::string csv = folder.file("trace.csv");
+    const std::string summary = folder.file("summary.json");
+    const ProgramOutput output = runCli({"trace", helens(), "--goals", goals, "--timing", "-o", csv,
+                                         "--summary", summary, "--model", "surface-walk"});
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_EQ(output.out, "");
+    const std::vector<std::string> lines = linesOf(readFile(csv));
+    ASSERT_EQ(lines.size(), 4U);
+    EXPECT_EQ(lines[0], std::string(kHeader) + ",ns");
+    const nlohmann::json json = nlohmann::json::parse(readFile(summary));
+    EXPECT_EQ(json["model"], "surface-walk");
+    EXPECT_EQ(json["updates"], 3);
+    EXPECT_EQ(json["contact_updates"], 2);
+    const std::vector<std::string> names = wordsOf(kHeader);
+    for (std::size_t column = 5; column < names.size(); ++column) {
+        double total = 0.0;
+        for (std::size_t line = 1; line < lines.size(); ++line) {
+            total += std::stod(wordsOf(lines[line]).at(column));
+        }
+        EXPECT_EQ(json["totals"][names[column]], total) << names[column];
+        EXPECT_DOUBLE_EQ(json["means"][names[column]], total / 3.0) << names[column];
+    }
+    double sum = 0.0;
+    double longest = 0.0;
+    for (std::size_t line = 1; line < lines.size(); ++line) {
+        const double ns = std::stod(wordsOf(lines[line]).at(11));
+        sum += ns;
+        longest = std::max(longest, ns);
+    }
+    EXPECT_NEAR(json["ns"]["mean"].get<double>(), sum / 3.0, 1.0);
+    EXPECT_NEAR(json["ns"]["max"].get<double>(), longest, 1.0);
+    for (const char* quantile : {"p50", "p99", "p999"}) {
+        EXPECT_GT(json["ns"][quantile], 0.0);
+        EXPECT_LE(json["ns"][quantile], json["ns"]["max"]);
+    }
+}
+
+TEST(TraceCommand, RefusesWhatItCannotRun)
+{
+    const TempFolder folder;
+    const std::string goals = folder.write("goals.csv", "x,y,z\n1,2,3\n");
+    for (const std::vector<std::string>& options : {std::vector<std::string>{"--model", "magic"},
+                                                    {"--radius", "2"},
+                                                    {"--model", "surface-walk", "--radius", "2"},
+                                                    {"--model", "virtual-proxy", "--radius", "0"},
+                                                    {"--exaggeration", "-1"},
+                                                    {"--exaggeration", "nan"},
+                                                    {"--colour"}}) {
+        std::vector<std::string> arguments{"trace", helens(), "--goals", goals};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        EXPECT_EQ(runCli(arguments).exit_status, 2) << options.front() << " " << options.back();
+    }
+    EXPECT_EQ(runCli({"trace", helens()}).exit_status, 2);
+    EXPECT_EQ(runCli({"trace"}).exit_status, 2);
+    EXPECT_EQ(runCli({"trace", "--help"}).exit_status, 0);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{folder.file("nowhere.tif"), "--goals", goals},
+          {helens(), "--goals", folder.file("nowhere.csv")},
+          {helens(), "--goals", folder.path().string()},
+          {helens(), "--goals", folder.write("empty.csv", "")},
+          {helens(), "--goals", goals, "-o", folder.file("no/such/folder.csv")},
+          {helens(), "--goals", goals, "--summary", folder.file("no/such/folder.json")}}) {
+        std::vector<std::string> arguments{"trace"};
+        arguments.insert(arguments.end(), words.begin(), words.end());
+        const ProgramOutput output = runCli(arguments);
+        EXPECT_EQ(output.exit_status, 1) << words.back();
+        EXPECT_TRUE(output.err.starts_with("marsview-cli: ")) << output.err;
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+    }
+}
+
+TEST(TraceCommand, PrintsNothingForNoGoals)
+{
+    const TempFolder folder;
+    const std::string summary = folder.file("summary.json");
+    EXPECT_TRUE(traced(helens(), "x,y,z\n", {"--summary", summary}).empty());
+    const nlohmann::json json = nlohmann::json::parse(readFile(summary));
+    EXPECT_EQ(json["updates"], 0);
+    EXPECT_EQ(json["ns"]["mean"], 0.0);
+}
+
+} // namespace marsview::test
