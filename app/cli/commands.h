@@ -12,6 +12,7 @@ namespace marsview {
 using CommandAction = std::function<Status()>;
 
 /// `bench` is the group of commands that measure.
+void addBenchContactCommand(CLI::App& bench, CommandAction& run);
 void addBenchViewCommand(CLI::App& bench, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
 void addRenderCommand(CLI::App& app, CommandAction& run);

@@ -37,6 +37,7 @@ int run(int argc, char** argv)
     CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
     bench->require_subcommand(1);
     marsview::addBenchViewCommand(*bench, action);
+    marsview::addBenchContactCommand(*bench, action);
     addVersionTo(app);
     try {
         app.parse(argc, argv);

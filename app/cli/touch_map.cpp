@@ -20,11 +20,12 @@ Result<TouchMap> openTouchMap(const MapOptions& options, JobMonitor& monitor)
     if (!analysis) {
         return std::move(analysis).error();
     }
-    auto filled = FilledHeightfield::build(heightfield, std::move(analysis).value(), monitor);
+    auto filled = FilledHeightfield::build(heightfield, *analysis, monitor);
     if (!filled) {
         return std::move(filled).error();
     }
     return TouchMap{.dataset = std::move(dataset).value(),
+                    .analysis = std::move(analysis).value(),
                     .filled = std::make_shared<const FilledHeightfield>(std::move(filled).value())};
 }
 

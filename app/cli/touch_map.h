@@ -13,6 +13,7 @@ namespace marsview {
 /// A map that can be touched.
 struct TouchMap {
     std::shared_ptr<const Dataset> dataset;
+    std::shared_ptr<const SurfaceAnalysis> analysis;
     std::shared_ptr<const FilledHeightfield> filled;
 };
 
