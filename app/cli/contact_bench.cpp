@@ -98,6 +98,14 @@ public:
 private:
     HeightfieldSurface surfaceAt(double scale) const { return {terrain_, frame_, scale}; }
 
+    // Whether a stroke begins with that goal of a way.
+    bool isPlaced(std::size_t goal) const { return goal % (options_.stroke_count + 1) == 0; }
+    std::size_t updatesOf(const Way& way) const
+    {
+        const std::size_t per_stroke = options_.stroke_count + 1;
+        return way.goals.size() - (way.goals.size() + per_stroke - 1) / per_stroke;
+    }
+
     std::vector<Way> makeWays() const
     {
         std::vector<Way> ways;
@@ -108,9 +116,13 @@ private:
             for (const double scale : options_.scales) {
                 for (const double speed : options_.speeds) {
                     ways.push_back({.speed = speed, .scale = scale, .is_free = is_free});
-                    ways.back().goals = wanderingHand(
-                        surfaceAt(scale), speed, is_free ? kLowCells : kDeepCells,
-                        is_free ? kHighCells : kShallowCells, options_.update_count, options_.seed);
+                    ways.back().goals = strokesOfAHand(
+                        surfaceAt(scale), {.speed = speed,
+                                           .low = is_free ? kLowCells : kDeepCells,
+                                           .high = is_free ? kHighCells : kShallowCells,
+                                           .update_count = options_.update_count,
+                                           .stroke_count = options_.stroke_count,
+                                           .seed = options_.seed});
                 }
             }
         }
@@ -154,8 +166,9 @@ private:
                                                  std::max(way.speed / pieces, 1e-3));
         const Clock::time_point begin = Clock::now();
         ReferenceProxy reference(surfaceAt(way.scale), options_.piece_cells);
-        for (const ScenePoint& goal : way.goals) {
-            way.ideal.push_back(reference.update(goal).proxy);
+        for (std::size_t i = 0; i < way.goals.size(); ++i) {
+            way.ideal.push_back(isPlaced(i) ? reference.place(way.goals[i]).proxy
+                                            : reference.update(way.goals[i]).proxy);
             const bool is_late = options_.seconds_max > 0.0 && Clock::now() - begin > time;
             if (monitor_.isCancelled() || (is_late && way.ideal.size() >= kUpdatesMin)) {
                 break;
@@ -181,9 +194,9 @@ private:
             runner.row.speed = way.speed;
             runner.row.scale = way.scale;
             runner.row.is_free = way.is_free;
-            runner.row.update_count = way.goals.size();
+            runner.row.update_count = updatesOf(way);
             runner.row.ns_mean = std::numeric_limits<double>::infinity();
-            runner.ticks.assign(way.goals.size(), std::numeric_limits<std::uint64_t>::max());
+            runner.ticks.assign(updatesOf(way), std::numeric_limits<std::uint64_t>::max());
             assess(*runner.model, surface, way, runner.row);
             if (!way.is_free) {
                 runner.row.errors->lag =
@@ -230,6 +243,10 @@ private:
         std::size_t minima = 0;
         for (std::size_t i = 0; i < way.goals.size(); ++i) {
             const ScenePoint goal = clampedGoal(surface, way.goals[i]);
+            if (isPlaced(i)) {
+                model.place(way.goals[i]);
+                continue;
+            }
             const ContactState state = model.update(way.goals[i]);
             row.vertices += state.counters.vertices;
             row.faces += state.counters.faces;
@@ -253,7 +270,7 @@ private:
             distances.push_back(std::abs(length(force) - length(ideal_force)) / cell_m_);
             minima += steepestCosine(surface, state.proxy, goal) <= kCosineMax ? 1U : 0U;
         }
-        const double count = static_cast<double>(way.goals.size());
+        const double count = static_cast<double>(updatesOf(way));
         for (double* const sum :
              {&row.vertices, &row.faces, &row.casts, &row.cells, &row.far_edges,
               &row.far_edge_updates, &row.far_loops, &row.cut_short, &row.contact_updates}) {
@@ -284,7 +301,8 @@ private:
         constexpr double kAtRestCells = 1e-9;
         std::vector<double> lags;
         for (std::size_t i = 0; i < way.goals.size(); ++i) {
-            const ScenePoint begin = model.update(way.goals[i]).proxy;
+            const ScenePoint begin =
+                isPlaced(i) ? model.place(way.goals[i]).proxy : model.update(way.goals[i]).proxy;
             if (i % kEvery != kEvery - 1) {
                 continue;
             }
@@ -302,29 +320,37 @@ private:
         return meanOf(lags);
     }
 
+    // One reading of the clock at each end of a stroke.
     double batchMean(ContactModel& model, const Way& way) const
     {
-        model.place(way.goals.front());
         double sum = 0.0; // so that nothing can be left out
-        const std::uint64_t begin = TickClock::now();
-        for (const ScenePoint& goal : way.goals) {
-            sum += model.update(goal).proxy.z;
+        std::uint64_t ticks = 0;
+        std::uint64_t begin = 0;
+        for (std::size_t i = 0; i < way.goals.size();) {
+            model.place(way.goals[i++]);
+            begin = TickClock::now();
+            for (; i < way.goals.size() && !isPlaced(i); ++i) {
+                sum += model.update(way.goals[i]).proxy.z;
+            }
+            ticks += TickClock::now() - begin;
         }
-        const std::uint64_t end = TickClock::now();
         kept_.store(sum, std::memory_order_relaxed);
-        return clock_.nanoseconds(end - begin) / static_cast<double>(way.goals.size());
+        return clock_.nanoseconds(ticks) / static_cast<double>(updatesOf(way));
     }
 
     void timeEach(ContactModel& model, const Way& way, std::vector<std::uint64_t>& least) const
     {
-        model.place(way.goals.front());
         double sum = 0.0;
-        std::uint64_t last = TickClock::now();
-        for (std::size_t i = 0; i < way.goals.size(); ++i) {
-            sum += model.update(way.goals[i]).proxy.z;
-            const std::uint64_t now = TickClock::now();
-            least[i] = std::min(least[i], now - last);
-            last = now;
+        auto at = least.begin();
+        for (std::size_t i = 0; i < way.goals.size();) {
+            model.place(way.goals[i++]);
+            std::uint64_t last = TickClock::now();
+            for (; i < way.goals.size() && !isPlaced(i); ++i, ++at) {
+                sum += model.update(way.goals[i]).proxy.z;
+                const std::uint64_t now = TickClock::now();
+                *at = std::min(*at, now - last);
+                last = now;
+            }
         }
         kept_.store(sum, std::memory_order_relaxed);
     }
@@ -341,14 +367,10 @@ private:
 
 } // namespace
 
-std::vector<ScenePoint> wanderingHand(const HeightfieldSurface& surface,
-                                      double speed_cells,
-                                      double low_cells,
-                                      double high_cells,
-                                      std::size_t count,
-                                      std::uint64_t seed)
+std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
+                                       const HandOptions& options)
 {
-    std::mt19937_64 random(seed);
+    std::mt19937_64 random(options.seed);
     const auto uniform = [&random](double from, double to) {
         return from + (to - from) * static_cast<double>(random() >> 11U) * 0x1p-53;
     };
@@ -356,32 +378,42 @@ std::vector<ScenePoint> wanderingHand(const HeightfieldSurface& surface,
     const double cell_m = ReferenceProxy::cellMetres(frame);
     const double last_column = static_cast<double>(surface.terrain()->columns() - 1);
     const double last_row = static_cast<double>(surface.terrain()->rows() - 1);
-    // A step before the border is the latest to turn.
+    constexpr double kMargin = 1.0 / 32.0; // of the map, in which the hand turns back
     const auto is_inside = [&](const ScenePoint& p) {
-        constexpr double kMargin = 1.0 / 32.0;
         const GridPoint grid = frame.toGrid(p);
         return grid.column > kMargin * last_column && grid.row > kMargin * last_row &&
                grid.column < (1.0 - kMargin) * last_column && grid.row < (1.0 - kMargin) * last_row;
     };
     const ScenePoint centre = frame.toScene({last_column / 2.0, last_row / 2.0}, 0.0);
-    ScenePoint p = centre;
-    double heading = uniform(-std::numbers::pi, std::numbers::pi);
     std::vector<ScenePoint> goals;
-    goals.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        heading += uniform(-0.05, 0.05);
-        const auto step = [&] {
-            return Vec3{speed_cells * cell_m * std::cos(heading),
-                        speed_cells * cell_m * std::sin(heading), 0.0};
+    for (std::size_t update = 0; update < options.update_count;) {
+        ScenePoint p = frame.toScene({uniform(2.0 * kMargin, 1.0 - 2.0 * kMargin) * last_column,
+                                      uniform(2.0 * kMargin, 1.0 - 2.0 * kMargin) * last_row},
+                                     0.0);
+        double heading = uniform(-std::numbers::pi, std::numbers::pi);
+        double above = std::max(options.low, 0.0);
+        const auto add = [&] {
+            p.z = surface.height(frame.toGrid(p)) + above * cell_m;
+            goals.push_back(p);
         };
-        if (!is_inside(p + step())) {
-            heading = std::atan2(centre.y - p.y, centre.x - p.x) + uniform(-0.6, 0.6);
+        add();
+        for (std::size_t i = 0; i < options.stroke_count && update < options.update_count;
+             ++i, ++update) {
+            heading += uniform(-0.05, 0.05);
+            const auto step = [&] {
+                return Vec3{options.speed * cell_m * std::cos(heading),
+                            options.speed * cell_m * std::sin(heading), 0.0};
+            };
+            if (!is_inside(p + step())) {
+                heading = std::atan2(centre.y - p.y, centre.x - p.x) + uniform(-0.6, 0.6);
+            }
+            p = p + step();
+            const double share =
+                0.5 + 0.5 * std::sin(static_cast<double>(update) * options.speed * 0.013);
+            const double wanted = options.low + (options.high - options.low) * share;
+            above += std::clamp(wanted - above, -options.speed, options.speed);
+            add();
         }
-        p = p + step();
-        const double share = 0.5 + 0.5 * std::sin(static_cast<double>(i) * speed_cells * 0.013);
-        p.z = surface.height(frame.toGrid(p)) +
-              (low_cells + (high_cells - low_cells) * share) * cell_m;
-        goals.push_back(p);
     }
     return goals;
 }

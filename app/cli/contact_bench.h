@@ -19,6 +19,8 @@ struct ContactBenchOptions {
     std::vector<double> speeds{0.1, 1.0, 10.0, 20.0, 50.0}; // cells per update
     std::vector<double> scales{0.1, 1.0, 5.0, 20.0};        // of heights
     std::size_t update_count = 4000;
+    /// After so many updates the hand is lifted and put on the surface elsewhere.
+    std::size_t stroke_count = 500;
     /// Cuts rows short so that all takes about that long; 0 for no limit.
     double seconds_max = 0.0;
     int repeat_count = 3;
@@ -46,7 +48,7 @@ struct ContactErrors {
     std::optional<double> at_minimum;
 };
 
-/// A model at a speed and a height scale. Counts are means an update.
+/// A model at a speed and a height scale. Counts are means an update; placing is none.
 struct ContactBenchRow {
     ContactModelKind model = ContactModelKind::ProxyGraph;
     double speed = 0.0;
@@ -78,14 +80,21 @@ struct ContactBenchResult {
     std::uint64_t unfinished_count = 0;
 };
 
-/// A hand that wanders at a constant speed in cells per update, `low_cells` to `high_cells` above
-/// the surface (negative: below it), and turns back before the border.
-std::vector<ScenePoint> wanderingHand(const HeightfieldSurface& surface,
-                                      double speed_cells,
-                                      double low_cells,
-                                      double high_cells,
-                                      std::size_t count,
-                                      std::uint64_t seed);
+/// How a hand moves. Lengths in cells.
+struct HandOptions {
+    double speed = 1.0; // an update
+    double low = -5.0;  // above the surface; negative: below it
+    double high = -2.0;
+    std::size_t update_count = 1000;
+    std::size_t stroke_count = 500; // updates
+    std::uint64_t seed = 7;
+};
+
+/// The goals of strokes of a hand, each begun at a place of its own on the surface, or `low` above
+/// it: one goal to place the proxy, then one an update. The hand wanders at a constant speed, comes
+/// to its depth as fast, and turns back before the border.
+std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
+                                       const HandOptions& options);
 
 /// First the ideal of every way, on all cores; then all models in turn, on this thread. Only
 /// Cancelled can go wrong.

@@ -110,7 +110,7 @@ TEST(BenchContactCommand, FindsWhatIsExactAndWhatIsNot)
     EXPECT_GE(mean_error("proxy-graph", 1), 1e-3);
     EXPECT_GE(mean_error("proxy-graph", 1), mean_error("continuous-walk", 1));
     for (const char* model : {"proxy-graph", "surface-walk", "continuous-walk"}) {
-        EXPECT_GE(rowsOf(bench, model).at(0)["errors"]["within_half_cell"], 0.97) << model;
+        EXPECT_GE(rowsOf(bench, model).at(0)["errors"]["within_half_cell"], 0.85) << model;
     }
 }
 
@@ -193,6 +193,7 @@ TEST(BenchContactCommand, RefusesWhatItCannotMeasure)
                                                     {"--scales", "-1"},
                                                     {"--updates", "1"},
                                                     {"--repeat", "0"},
+                                                    {"--stroke", "0"},
                                                     {"--size", "3"},
                                                     {"--sample-type", "complex"},
                                                     {"--goals", "beside"},
