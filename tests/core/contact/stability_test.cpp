@@ -2,8 +2,10 @@
 //
 // Prints a line a case and model with the worst of everything, in metres; in parentheses the share
 // of what rounding is granted. MARSVIEW_STRESS_UPDATES=N makes the runs N times as long.
+#include "core/contact/continuous_walk.h"
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
+#include "core/contact/surface_walk.h"
 #include "core/session/scene_surface.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
@@ -176,6 +178,8 @@ std::vector<Subject> subjects()
 {
     return {
         subject<ProxyGraph, ModelTraits{.is_blunt_on_slivers = true}>("ProxyGraph"),
+        subject<SurfaceWalk>("SurfaceWalk"),
+        subject<ContinuousWalk>("ContinuousWalk"),
     };
 }
 
@@ -417,7 +421,7 @@ std::vector<Case> cases()
         {"Slivers",
          [] { // cells almost flattened to a line
              return inFrames(fractal(30, 30, 1.0),
-                             {{1.0, 0.999, 0.0, -0.001}});
+                             {{1.0, 0.999, 0.0, -0.001}, {1.0, -0.99, 0.3, -0.3}});
          }},
         {"TwoByTwo",
          [] {
