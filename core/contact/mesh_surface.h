@@ -246,3 +246,56 @@ public:
         mesh_->tree().inBox(low, high,
                             [&](std::uint32_t face) { function(Face{face}, mesh_->points(face)); });
     }
+
+    std::uint32_t stepsMax() const noexcept { return steps_max_; }
+
+private:
+    static std::uint32_t cornerOf(const Facet& facet, std::size_t i) noexcept
+    {
+        return i == 0   ? facet.corner
+               : i == 1 ? TriangleMesh::nextCorner(facet.corner)
+                        : TriangleMesh::previousCorner(facet.corner);
+    }
+    Facet facetAt(std::uint32_t corner) const noexcept
+    {
+        const std::uint32_t second = TriangleMesh::nextCorner(corner);
+        const std::uint32_t third = TriangleMesh::previousCorner(corner);
+        Facet facet;
+        facet.vertices = {Vertex{mesh_->vertexAt(corner)}, Vertex{mesh_->vertexAt(second)},
+                          Vertex{mesh_->vertexAt(third)}};
+        for (std::size_t i = 0; i < 3; ++i) {
+            facet.points[i] = mesh_->vertex(facet.vertices[i].index);
+        }
+        const Vec3 a = facet.points[1] - facet.points[0];
+        const Vec3 b = facet.points[2] - facet.points[0];
+        facet.normal = cross(a, b);
+        facet.inward = {cross(facet.normal, b - a), cross(b, facet.normal), cross(facet.normal, a)};
+        facet.scale = dot(facet.normal, facet.normal);
+        facet.corner = corner;
+        return facet;
+    }
+    Edge edgeOpposite(std::uint32_t corner) const noexcept
+    {
+        return {std::min(corner, mesh_->across(corner))};
+    }
+    static std::optional<Wing> wingAt(std::uint32_t corner) noexcept
+    {
+        return corner == TriangleMesh::kNone ? std::nullopt
+                                             : std::optional(Wing{{TriangleMesh::faceOf(corner)},
+                                                                  static_cast<int>(corner % 3)});
+    }
+    Spoke spokeTo(const Fan& fan, std::uint32_t vertex) const noexcept
+    {
+        return {{vertex}, mesh_->vertex(vertex) - fan.point};
+    }
+    bool isValley(std::uint32_t corner) const noexcept;
+    std::optional<Face> wayOutOfMixed(const Fan& fan, const Goal& goal) const noexcept;
+    Contact contactFrom(const MeshPlace& place) const noexcept;
+
+    std::shared_ptr<const TriangleMesh> mesh_;
+    std::uint32_t steps_max_;
+};
+
+static_assert(ContactSurface<MeshSurface>);
+
+} // namespace marsview
