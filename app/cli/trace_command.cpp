@@ -24,8 +24,6 @@
 namespace marsview {
 namespace {
 
-constexpr ContactModelKind kContactModelDefault = ContactModelKind::ProxyGraph;
-
 struct Options {
     MapOptions map;
     std::string goals;

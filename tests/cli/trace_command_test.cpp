@@ -382,6 +382,43 @@ TEST(TraceCommand, WritesFilesWithTimesAndASummary)
     }
 }
 
+TEST(TraceCommand, RunsEveryModel)
+{
+    const Hills& hill = hillsEverywhere()[1];
+    const TempFolder folder;
+    const std::string dem = hills(folder, hill.srs, hill.transform, hill.height);
+    const Goals goals = goalsOver(hill, 200);
+    for (const ContactModelKind kind : kContactModelKinds) {
+        SCOPED_TRACE(contactModelName(kind));
+        const std::vector<Row> rows =
+            traced(dem, goals.csv, {"--model", std::string(contactModelName(kind))});
+        ASSERT_EQ(rows.size(), goals.points.size());
+        const std::vector<double> heights = heightsAt(dem, rows);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            EXPECT_GE(rows[i].z, heights[i] - 1e-6) << "line " << i + 2;
+            if (!rows[i].is_in_contact) {
+                EXPECT_EQ((std::array{rows[i].x, rows[i].y, rows[i].z}), goals.points[i]);
+            }
+        }
+    }
+}
+
+TEST(TraceCommand, HoldsASphereItsRadiusAboveTheSurface)
+{
+    const TempFolder folder;
+    RasterRecipe recipe = recipeFor(40, std::vector<float>(1600, 100.0F));
+    const std::string dem = writeRaster(folder, "flat.tif", "GTiff", recipe);
+    const std::string goals = "x,y,z\n1020,1980,90\n";
+    const auto height = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> all{"--model", "virtual-proxy"};
+        all.insert(all.end(), options.begin(), options.end());
+        return traced(dem, goals, all).at(0).z;
+    };
+    EXPECT_NEAR(height({}), 100.5, 1e-6);
+    EXPECT_NEAR(height({"--radius", "2"}), 102.0, 1e-6);
+    EXPECT_NEAR(height({"--radius", "2", "--exaggeration", "4"}), 100.5, 1e-6);
+}
+
 TEST(TraceCommand, RefusesWhatItCannotRun)
 {
     const TempFolder folder;
