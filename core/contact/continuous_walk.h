@@ -520,8 +520,10 @@ private:
         const Vec3 first = surface_.toGoal(fan, begin_);
         Event event;
         SurfaceSpoke<S> towards{};
+        bool pulls = false;
         surface_.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
             const double at_end = dot(last, spoke.along);
+            pulls = pulls || at_end > 0.0;
             if (Steps::leads(at_end, dot(spoke.along, spoke.along), last_squared)) {
                 const Event before = event;
                 event.consider(dot(first, spoke.along), at_end, before.which + 1);
@@ -535,6 +537,9 @@ private:
                 return leave(*over, end);
             }
             goal_ = end;
+            if (pulls) {
+                descend(); // between two edges of a sliver it may lead closer than along each
+            }
             return true;
         }
         const double share = event.share(at_);

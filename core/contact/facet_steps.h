@@ -56,6 +56,7 @@ struct FacetSteps {
         SurfaceSpoke<S> spoke{};
         double towards = 0.0; // its dot product with the way to the goal; 0: no edge leads closer
         double length_squared = 1.0;
+        bool pulls = false; // an edge leads closer, if by no more than rounding
     };
     static Steepest steepestSpoke(const S& surface,
                                   const typename S::Fan& fan,
@@ -66,10 +67,11 @@ struct FacetSteps {
         surface.eachSpoke(fan, [&](const SurfaceSpoke<S>& spoke) {
             const double towards = dot(to_goal, spoke.along);
             const double length_squared = dot(spoke.along, spoke.along);
+            steepest.pulls = steepest.pulls || towards > 0.0;
             if (towards * towards * steepest.length_squared >
                     steepest.towards * steepest.towards * length_squared &&
                 leads(towards, length_squared, goal_squared)) {
-                steepest = {spoke, towards, length_squared};
+                steepest = {spoke, towards, length_squared, true};
             }
         });
         return steepest;

@@ -166,7 +166,7 @@ private:
         const SurfaceEdgeFacets<S> facets = surface_.edgeFacets(contact_.edge);
         const SurfaceFoot left = facets.left.foot(goal);
         const SurfaceFoot right = facets.has_right ? facets.right.foot(goal) : SurfaceFoot{};
-        if ((left.above > 0.0 || right.above > 0.0 || !facets.has_right) &&
+        if (!has_stalled && (left.above > 0.0 || right.above > 0.0 || !facets.has_right) &&
             leaves(surface_.wayOut(contact_, goal), goal)) {
             return is_free_;
         }

@@ -109,6 +109,13 @@ private:
             return Step::Free;
         }
         contact = *cast.contact;
+        // A goal that is above the surface by rounding alone is left and met again for ever.
+        const ScenePoint rest = surface_.goalPoint(goal) - surface_.point(contact);
+        const double squared = dot(rest, rest);
+        if (squared >= flight_squared_ * (1.0 - 1e-15) && ++stalls_ > kStallsMax) {
+            return Step::Ends;
+        }
+        flight_squared_ = squared;
         return Step::Goes;
     }
 
@@ -122,18 +129,24 @@ private:
         }
         const Vec3 to_goal = surface_.toGoal(fan, goal);
         const double squared = dot(to_goal, to_goal);
-        if (squared >= vertex_squared_ * (1.0 - 1e-15) && ++stalls_ > kStallsMax) {
+        // The squares of a far goal are the same at every vertex; the step from the last is not.
+        if (squared >= vertex_squared_ * (1.0 - 1e-15) && !isCloser(here, to_goal) &&
+            ++stalls_ > kStallsMax) {
             return Step::Ends;
         }
         vertex_squared_ = squared;
+        vertex_ = here;
+        vertex_to_goal_ = to_goal;
 
         const auto steepest = Steps::steepestSpoke(surface_, fan, to_goal, squared);
-        if (!(steepest.towards > 0.0)) {
+        if (!steepest.pulls) {
             // Within a face, no direction leads closer where neither of its edges does.
             return Step::Ends;
         }
         // The squares of how fast the distance falls, times `squared`.
-        double best_rate = steepest.towards * steepest.towards / steepest.length_squared;
+        double best_rate = steepest.towards > 0.0
+                               ? steepest.towards * steepest.towards / steepest.length_squared
+                               : 1e-26 * squared;
         std::optional<Face> into;
         surface_.eachSector(
             fan, [&](const Face& face, const SurfaceSpoke<S>& a, const SurfaceSpoke<S>& b) {
@@ -166,6 +179,9 @@ private:
                 return walk(contact, facet, {1.0, 0.0, 0.0}, foot, goal);
             }
         }
+        if (!(steepest.towards > 0.0)) {
+            return Step::Ends;
+        }
         // Along an edge of which no face leads away.
         const double share = steepest.towards / steepest.length_squared;
         if (share >= 1.0 - Steps::endShare(squared, steepest.length_squared)) {
@@ -174,6 +190,17 @@ private:
             Steps::restOnEdge(surface_, contact, here, steepest.spoke.end, share);
         }
         return Step::Goes; // rounding may have hidden that a face leads closer
+    }
+
+    // Whether a vertex is closer to the goal than the last one.
+    bool isCloser(Vertex vertex, const Vec3& to_goal) const noexcept
+    {
+        const auto pointOf = [this](Vertex of) {
+            Contact at;
+            Steps::restOnVertex(at, of);
+            return surface_.point(at);
+        };
+        return dot(pointOf(vertex) - pointOf(vertex_), vertex_to_goal_ + to_goal) > 0.0;
     }
 
     Step fromEdge(Contact& contact, const Goal& goal) noexcept
@@ -318,7 +345,10 @@ private:
     std::uint32_t steps_;
     std::optional<Facet> facet_; // where the descent ended within a face
     SurfaceFoot foot_{};
+    double flight_squared_ = std::numeric_limits<double>::infinity();
     double vertex_squared_ = std::numeric_limits<double>::infinity();
+    Vertex vertex_{}; // the last one visited
+    Vec3 vertex_to_goal_;
     int stalls_ = 0;
 };
 
