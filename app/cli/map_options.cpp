@@ -62,6 +62,12 @@ RasterOverrides MapOptions::overrides() const
     return overrides;
 }
 
+bool MapOptions::hasOverrides() const
+{
+    return band != 1 || !crs.empty() || !body.empty() || !radii_m.empty() ||
+           !geotransform.empty() || !vertical_unit.empty() || nodata || !latitude.empty();
+}
+
 LatitudeKind MapOptions::latitudeKind(const Body* of_body) const
 {
     if (latitude == "planetographic") {

@@ -6,8 +6,10 @@
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "app/cli/touch_map.h"
+#include "core/mesh/mesh_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -91,6 +93,83 @@ TraceFrame frameOf(const Dataset& dataset, double exaggeration)
     };
 }
 
+// Over a mesh: coordinates are scene metres, but for the exaggeration.
+TraceFrame meshFrame(double exaggeration)
+{
+    return {
+        .to_scene = [exaggeration](const TracePoint& goal) -> ScenePoint {
+            return {goal.x, goal.y, goal.z * exaggeration};
+        },
+        .from_scene =
+            [exaggeration](const ContactState& state) {
+                return TracePoint{state.proxy.x, state.proxy.y, state.proxy.z / exaggeration};
+            },
+        .is_clamped = [](const TracePoint&) { return false; },
+    };
+}
+
+bool isMesh(const std::string& path)
+{
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending == ".obj" || ending == ".ply" || ending == ".stl";
+}
+
+// What is touched: a map or a mesh.
+struct Subject {
+    std::unique_ptr<ContactModel> model;
+    TraceFrame frame;
+    double radius_m = 0.0;
+    std::shared_ptr<const Dataset> dataset; // null for a mesh
+};
+
+Result<Subject> meshSubject(const Options& options, ContactModelKind kind, JobMonitor& monitor)
+{
+    if (options.map.hasOverrides()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: a mesh has no CRS, body, band or unit to be told otherwise",
+                                 options.map.path)};
+    }
+    if (kind == ContactModelKind::VirtualProxy && !options.radius_m) {
+        return Error{ErrorCode::Invalid,
+                     "--radius: is needed with virtual-proxy over a mesh, which has no cell to be "
+                     "half of"};
+    }
+    Result<TriangleSoup> soup = readTriangles(options.map.path, monitor);
+    if (!soup) {
+        return std::move(soup).error();
+    }
+    for (ScenePoint& vertex : soup.value().vertices) {
+        vertex.z *= options.exaggeration;
+    }
+    const auto mesh = TriangleMesh::build(std::move(soup).value(), monitor);
+    if (!mesh) {
+        return Error{mesh.error().code,
+                     fmt::format("{}: {}", options.map.path, mesh.error().message)};
+    }
+    const double radius_m = options.radius_m.value_or(1.0);
+    return Subject{makeContactModel(kind, MeshSurface(mesh.value()), {.radius_m = radius_m}),
+                   meshFrame(options.exaggeration), radius_m, nullptr};
+}
+
+Result<Subject> mapSubject(const Options& options, ContactModelKind kind, JobMonitor& monitor)
+{
+    Result<TouchMap> map = openTouchMap(options.map, monitor);
+    if (!map) {
+        return std::move(map).error();
+    }
+    const auto dataset = map.value().dataset;
+    const Georeference& georeference = dataset->georeference();
+    const double half_cell_m =
+        (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
+    const double radius_m = options.radius_m.value_or(half_cell_m);
+    const HeightfieldSurface surface(map.value().filled, georeference.sceneFrame(),
+                                     options.exaggeration);
+    return Subject{makeContactModel(kind, surface, {.radius_m = radius_m}),
+                   frameOf(*dataset, options.exaggeration), radius_m, dataset};
+}
+
 Status runTrace(const Options& options)
 {
     const Result<std::string> text = contentOf(options.goals);
@@ -102,26 +181,20 @@ Status runTrace(const Options& options)
     if (!goals) {
         return goals.error();
     }
-    std::optional<TouchMap> map;
+    const ContactModelKind kind = contactModelKind(options.model).value_or(kContactModelDefault);
+    std::optional<Subject> subject;
     {
         LongJob job("reading");
-        Result<TouchMap> opened = openTouchMap(options.map, job.monitor());
+        Result<Subject> opened = isMesh(options.map.path)
+                                     ? meshSubject(options, kind, job.monitor())
+                                     : mapSubject(options, kind, job.monitor());
         if (!opened) {
             return std::move(opened).error();
         }
-        map = std::move(opened).value();
+        subject = std::move(opened).value();
     }
-    const Georeference& georeference = map->dataset->georeference();
-    const HeightfieldSurface surface(map->filled, georeference.sceneFrame(), options.exaggeration);
-    const double half_cell_m =
-        (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
-    const ContactModelKind kind = contactModelKind(options.model).value_or(kContactModelDefault);
-    const double radius_m = options.radius_m.value_or(half_cell_m);
-    const std::unique_ptr<ContactModel> model =
-        makeContactModel(kind, surface, {.radius_m = radius_m});
     LongJob job("tracing");
-    const auto updates =
-        trace(*model, frameOf(*map->dataset, options.exaggeration), *goals, job.monitor());
+    const auto updates = trace(*subject->model, subject->frame, *goals, job.monitor());
     if (!updates) {
         return Error{updates.error().code,
                      fmt::format("{}: {}", options.map.path, updates.error().message)};
@@ -139,7 +212,7 @@ Status runTrace(const Options& options)
                                           {"radius_m", nullptr},
                                           {"exaggeration", options.exaggeration}};
         if (kind == ContactModelKind::VirtualProxy) {
-            summary["radius_m"] = radius_m;
+            summary["radius_m"] = subject->radius_m;
         }
         summary.update(traceSummary(*updates));
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
@@ -148,7 +221,9 @@ Status runTrace(const Options& options)
             return written;
         }
     }
-    printNotices(map->dataset->info());
+    if (subject->dataset) {
+        printNotices(subject->dataset->info());
+    }
     return Done{};
 }
 
@@ -158,7 +233,9 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
 {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
-        "trace", "Run a contact model over a list of goals and print where the proxy goes");
+        "trace",
+        "Run a contact model over a list of goals and print where the proxy goes. DEM may also be "
+        "a triangle mesh: OBJ, PLY or STL, in metres");
     options->map.addTo(*command);
     command
         ->add_option("--goals", options->goals,

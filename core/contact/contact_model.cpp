@@ -46,6 +46,9 @@ public:
     }
 };
 
+template <typename M>
+using HeldOverMesh = Held<ContactModel, M>;
+
 // `H<M>` holds a model M.
 template <template <typename> typename H, typename Interface, typename S>
 std::unique_ptr<Interface>
@@ -90,6 +93,13 @@ std::optional<ContactModelKind> contactModelKind(std::string_view name) noexcept
     return at == kNames.end()
                ? std::nullopt
                : std::optional(kContactModelKinds[static_cast<std::size_t>(at - kNames.begin())]);
+}
+
+std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
+                                               const MeshSurface& surface,
+                                               const ContactModelOptions& options)
+{
+    return make<HeldOverMesh, ContactModel>(kind, surface, options);
 }
 
 std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,

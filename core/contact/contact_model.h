@@ -3,6 +3,7 @@
 
 #include "core/contact/contact.h"
 #include "core/contact/heightfield_surface.h"
+#include "core/contact/mesh_surface.h"
 
 #include <array>
 #include <cstdint>
@@ -69,7 +70,10 @@ public:
     virtual void setExaggeration(double exaggeration) noexcept = 0;
 };
 
-/// Allocates; the model shares what the surface shares.
+/// These allocate; the model shares what the surface shares.
+std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
+                                               const MeshSurface& surface,
+                                               const ContactModelOptions& options = {});
 std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
                                                   const HeightfieldSurface& surface,
                                                   const ContactModelOptions& options = {});
