@@ -453,6 +453,48 @@ TEST(TraceCommand, RefusesWhatItCannotRun)
     }
 }
 
+TEST(TraceCommand, TouchesTriangleMeshes)
+{
+    const TempFolder folder;
+    std::string cube;
+    for (const int x : {-1, 1}) {
+        for (const int y : {-1, 1}) {
+            for (const int z : {-1, 1}) {
+                cube += fmt::format("v {} {} {}\n", x, y, z);
+            }
+        }
+    }
+    cube += "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+    const std::string mesh = folder.write("cube.obj", cube);
+    const std::string goals = folder.write("goals.csv", "x,y,z\n0.5,0.25,3\n0.5,0.25,0\n-2,0,0\n");
+    for (const ContactModelKind kind : kContactModelKinds) {
+        SCOPED_TRACE(contactModelName(kind));
+        const bool is_sphere = kind == ContactModelKind::VirtualProxy;
+        const double radius_m = is_sphere ? 0.125 : 0.0;
+        std::vector<std::string> arguments{"trace", mesh,      "--goals",
+                                           goals,   "--model", std::string(contactModelName(kind))};
+        if (is_sphere) {
+            arguments.insert(arguments.end(), {"--radius", "0.125"});
+        }
+        const ProgramOutput result = runCli(arguments);
+        ASSERT_EQ(result.exit_status, 0) << result.err;
+        const std::vector<Row> rows = rowsOf(result.out);
+        ASSERT_EQ(rows.size(), 3U);
+        EXPECT_EQ(rows[0].feature, "free");
+        EXPECT_EQ(rows[1].feature, "face");
+        EXPECT_NEAR(rows[1].x, 0.5, 1e-6);
+        EXPECT_NEAR(rows[1].y, 0.25, 1e-6);
+        EXPECT_NEAR(rows[1].z, 1.0 + radius_m, 1e-9);
+    }
+    const ProgramOutput torn =
+        runCli({"trace", folder.write("torn.obj", cube + "f 1 2 4\n"), "--goals", goals});
+    EXPECT_EQ(torn.exit_status, 1);
+    EXPECT_THAT(torn.err, testing::HasSubstr("duplicated triangle"));
+    const ProgramOutput told = runCli({"trace", mesh, "--goals", goals, "--crs", "EPSG:4326"});
+    EXPECT_EQ(told.exit_status, 1);
+    EXPECT_THAT(told.err, testing::HasSubstr("a mesh has no CRS"));
+}
+
 TEST(TraceCommand, PrintsNothingForNoGoals)
 {
     const TempFolder folder;

@@ -1,15 +1,16 @@
 // Replaces operator new of this test program, and of no other, to count what is allocated.
-#include "core/contact/god_object.h"
-#include "core/contact/proxy_graph.h"
-#include "core/contact/virtual_proxy.h"
+#include "core/contact/contact_model.h"
 #include "tests/core/contact/contact_terrain.h"
+#include "tests/core/mesh/mesh_shapes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -68,63 +69,70 @@ void operator delete[](void* memory, std::size_t) noexcept
 namespace marsview {
 namespace {
 
-using Model = ProxyGraph<HeightfieldSurface>;
+static_assert(noexcept(std::declval<ContactModel&>().update(ScenePoint{})));
+static_assert(noexcept(std::declval<ContactModel&>().place(ScenePoint{})));
 
-static_assert(noexcept(std::declval<Model&>().update(ScenePoint{})));
-static_assert(noexcept(std::declval<Model&>().place(ScenePoint{})));
-
-TEST(ProxyGraphRealTime, TheCounterCounts)
+TEST(RealTime, TheCounterCounts)
 {
     const long before = allocation_count.load();
     const auto made = std::make_unique<std::vector<int>>(100);
     EXPECT_EQ(allocation_count.load(), before + 2);
 }
 
-template <typename Make>
-void expectNoAllocation(const Make& make)
+class ContactModelRealTime : public testing::TestWithParam<ContactModelKind> {};
+
+TEST_P(ContactModelRealTime, AllocatesNothingOverMaps)
 {
     test::Random random;
     for (const auto& [name, terrain] : test::syntheticTerrains()) {
-        const HeightfieldSurface surface(terrain, test::unitFrame(*terrain), 1.0);
-        std::vector<ScenePoint> goals(2000);
-        ScenePoint goal{};
-        for (ScenePoint& next : goals) {
-            next = goal = test::wanderingGoal(random, surface, goal, 5.0);
+        for (const double radius_m : {0.1, 1.0}) {
+            const HeightfieldSurface surface(terrain, test::unitFrame(*terrain), 1.0);
+            std::vector<ScenePoint> goals(1000);
+            ScenePoint goal{};
+            for (ScenePoint& next : goals) {
+                next = goal = test::wanderingGoal(random, surface, goal, 5.0);
+            }
+            const auto model = makeContactModel(GetParam(), surface, {.radius_m = radius_m});
+            const long before = allocation_count.load();
+            for (const ScenePoint& next : goals) {
+                model->update(next);
+            }
+            model->place(goals.front());
+            model->setExaggeration(2.0);
+            model->update(goals.back());
+            EXPECT_EQ(allocation_count.load(), before) << name;
         }
-        auto model = make(surface);
-        HeightfieldSurface taller(terrain, surface.frame(), 2.0);
+    }
+}
+
+TEST_P(ContactModelRealTime, AllocatesNothingOverMeshes)
+{
+    test::Random random;
+    for (const auto& soup : {test::cube(), test::star(), test::torus(24, 12)}) {
+        const MeshSurface surface(test::meshOf(soup));
+        const auto model = makeContactModel(GetParam(), surface, {.radius_m = 0.1});
+        std::vector<ScenePoint> goals(1000);
+        for (ScenePoint& goal : goals) {
+            goal = {random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0),
+                    random.uniform(-2.0, 2.0)};
+        }
         const long before = allocation_count.load();
-        for (const ScenePoint& next : goals) {
-            model.update(next);
+        model->place({0.0, 0.0, 3.0});
+        for (const ScenePoint& goal : goals) {
+            model->update(goal);
         }
-        model.place(goals.front());
-        model.setSurface(std::move(taller));
-        EXPECT_EQ(allocation_count.load(), before) << name;
+        EXPECT_EQ(allocation_count.load(), before);
     }
 }
 
-TEST(ProxyGraphRealTime, UpdatesAllocateNothing)
-{
-    expectNoAllocation([](const HeightfieldSurface& surface) { return Model(surface); });
-}
-
-TEST(GodObjectRealTime, UpdatesAllocateNothing)
-{
-    for (const auto constraints : {GodObjectConstraints::Kept, GodObjectConstraints::Released}) {
-        expectNoAllocation([constraints](const HeightfieldSurface& surface) {
-            return GodObject<HeightfieldSurface>(surface, constraints);
-        });
-    }
-}
-
-TEST(VirtualProxyRealTime, UpdatesAllocateNothing)
-{
-    for (const double radius_m : {0.1, 1.0}) {
-        expectNoAllocation([radius_m](const HeightfieldSurface& surface) {
-            return VirtualProxy<HeightfieldSurface>(surface, radius_m);
-        });
-    }
-}
+INSTANTIATE_TEST_SUITE_P(Models,
+                         ContactModelRealTime,
+                         testing::ValuesIn(kContactModelKinds),
+                         [](const auto& model) {
+                             std::string name(contactModelName(model.param));
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
 
 } // namespace
 } // namespace marsview
