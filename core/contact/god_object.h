@@ -65,15 +65,16 @@ public:
     const S& surface() const noexcept { return surface_; }
 
     /// Another surface with the same mesh, such as another exaggeration. In contact, the proxy
-    /// stays where it is on the mesh and moves with it. Off the surface it keeps its scene
-    /// coordinates; if it would be below the surface, it is put onto it, straight above.
+    /// stays where it is on the mesh and moves with it; where it floats, it is put onto the surface
+    /// straight above or below. A free one keeps its scene coordinates; if it would be below the
+    /// surface, it is put onto it, straight above.
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
         walls_ = borderWalls(surface_);
         if (off_) {
             off_ = surface_.goal(surface_.goalPoint(*off_));
-            if (off_ && !surface_.isAbove(*off_)) {
+            if (off_ && (held_by_ != ContactFeature::Free || !surface_.isAbove(*off_))) {
                 contact_ = surface_.contactAt(*off_);
                 off_.reset();
             }

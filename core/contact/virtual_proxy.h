@@ -66,15 +66,17 @@ public:
     const S& surface() const noexcept { return surface_; }
     double radius() const noexcept { return radius_m_; }
 
-    /// Another surface with the same mesh, such as another exaggeration. The centre keeps its scene
-    /// coordinates; if the sphere would be in the surface, it is lifted straight up until it
-    /// touches.
+    /// Another surface with the same mesh, such as another exaggeration. In contact, the sphere is
+    /// put onto it straight above or below. A free one keeps its scene coordinates; if it would be
+    /// in the surface, it is lifted straight up until it touches.
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
         walls_ = borderWalls(surface_);
         const ScenePoint before = centre_;
-        centre_ = lifted(before);
+        const auto under = surface_.goal(before);
+        const bool is_in_contact = feature_ != ContactFeature::Free && under;
+        centre_ = lifted(is_in_contact ? surface_.point(surface_.contactAt(*under)) : before);
         if (!(centre_ == before)) {
             rest();
         }

@@ -412,6 +412,25 @@ TEST_P(GodObjectTest, MovesWithTheSurfaceWhenTheExaggerationChanges)
     EXPECT_EQ(model.update({kNan, 0, 0}).proxy, (ScenePoint{0.0, 0.0, 50.0}));
 }
 
+TEST(GodObject, FallsOntoASurfaceThatSinksWhileItFloats)
+{
+    const auto terrain = test::filledTerrain(41, heightsOver(41, awayFromTheRidge));
+    Model model(surfaceOver(terrain), kKept);
+    model.update({-3.25, 0.25, -1.0});
+    const ContactState floating = model.update({3.25, 0.25, -6.0});
+    ASSERT_FALSE(model.contact());
+    for (const double exaggeration : {0.1, 2.0}) {
+        Model other = model;
+        const HeightfieldSurface surface = surfaceOver(terrain, exaggeration);
+        other.setSurface(surface);
+        const ContactState state = other.update({kNan, kNan, kNan});
+        EXPECT_TRUE(state.is_in_contact);
+        EXPECT_NEAR(distance(state.proxy, {floating.proxy.x, floating.proxy.y,
+                                           exaggeration * awayFromTheRidge(floating.proxy.x)}),
+                    0.0, 1e-12);
+    }
+}
+
 // The viscosity of section 2.3: a goal that moves by v cells an update leaves kept constraints
 // behind. The lag is what one more long wait at the last goal would still bring.
 TEST(GodObject, LagsBehindFastSwipesWhileConstraintsAreKept)

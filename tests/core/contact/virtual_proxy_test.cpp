@@ -573,5 +573,16 @@ TEST(VirtualProxy, IsLiftedByASurfaceThatRises)
     EXPECT_TRUE(lifted.is_in_contact);
 }
 
+TEST(VirtualProxy, SinksWithTheSurfaceThatItTouches)
+{
+    const auto terrain = test::filledTerrain(41, std::vector<float>(std::size_t{41} * 41, 10.0F));
+    Model model(surfaceOver(terrain), 0.5);
+    model.update({1.0, 2.0, 8.0});
+    model.setSurface(surfaceOver(terrain, 0.1));
+    const ContactState sunk = model.update({kNan, 0.0, 0.0});
+    EXPECT_NEAR(distance(sunk.proxy, {1.0, 2.0, 1.5}), 0.0, 1e-9);
+    EXPECT_TRUE(sunk.is_in_contact);
+}
+
 } // namespace
 } // namespace marsview
