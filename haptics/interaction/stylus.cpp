@@ -1,9 +1,20 @@
 #include "haptics/interaction/stylus.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 namespace marsview {
+namespace {
+
+double meanCellSideM(const SceneFrame& frame)
+{
+    return 0.5 * (std::hypot(frame.east_per_column, frame.north_per_column) +
+                  std::hypot(frame.east_per_row, frame.north_per_row));
+}
+
+} // namespace
 
 void Stylus::setGround(const SceneSurface& ground, double exaggeration)
 {
@@ -21,9 +32,31 @@ void Stylus::setGround(const SceneSurface& ground, double exaggeration)
         return;
     }
     if (model_) {
-        model_->setSurface(surfaceOf(at_.index));
+        model_->setExaggeration(exaggeration_);
     }
-    updatePose(pose_->mode, stylusGoal(aimedGround(), reach_, model_.has_value(), point_m_));
+    updatePose(pose_->mode, stylusGoal(aimedGround(), reach_, model_ != nullptr, point_m_));
+}
+
+void Stylus::setModel(ContactModelKind kind)
+{
+    if (kind == kind_) {
+        return;
+    }
+    kind_ = kind;
+    if (!model_) {
+        return;
+    }
+    // A hair's breadth from the proxy towards the goal, the proxy is the nearest point of the
+    // ground. Off the ground, as a sphere's centre is, the way goes on from there.
+    constexpr double kHair = 1e-6;
+    const auto [proxy, goal] = std::pair(pose_->proxy, pose_->goal);
+    model_ = makeModel();
+    const ContactState placed = model_->place(proxy + (goal - proxy) * kHair);
+    if (!placed.is_in_contact || pose_->mode == StylusMode::Press) {
+        model_->update(goal);
+    }
+    keepOnItsMap(goal);
+    updatePose(pose_->mode, goal);
 }
 
 void Stylus::aim(const GroundPoint& at, const StylusButtons& buttons, double point_m)
@@ -62,10 +95,11 @@ void Stylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
-HeightfieldSurface Stylus::surfaceOf(std::size_t index) const
+std::unique_ptr<MapContactModel> Stylus::makeModel() const
 {
-    const SceneMap& map = ground_.maps()[index];
-    return {map.map.filled, map.frame, exaggeration_};
+    const auto& [map, frame] = ground_.maps()[at_.index];
+    return makeContactModel(kind_, {map.filled, frame, exaggeration_},
+                            {.radius_m = 0.5 * meanCellSideM(frame)});
 }
 
 ScenePoint Stylus::aimedGround() const
@@ -75,19 +109,50 @@ ScenePoint Stylus::aimedGround() const
 
 void Stylus::press(const ScenePoint& goal)
 {
-    constexpr int kHalvings = 10;
-    const ScenePoint ground = aimedGround();
     if (!model_) {
-        model_.emplace(surfaceOf(at_.index));
+        model_ = makeModel();
         model_->place(goal); // from straight above: nothing beside the place is in the way
     }
-    ScenePoint proxy = model_->update(goal).proxy;
-    // A map's surface goes on below the maps that cover it, and across its voids, through which
-    // lower ones are seen. The proxy must not slide there: it is pressed less deep.
+    model_->update(goal);
+    keepOnItsMap(goal);
+}
+
+// A map's surface goes on below the maps that cover it, and across its voids, through which lower
+// ones are seen. The proxy must not slide there: it is pressed less deep.
+void Stylus::keepOnItsMap(const ScenePoint& goal)
+{
+    constexpr int kHalvings = 10;
+    const ScenePoint ground = aimedGround();
     Vec3 depth = goal - ground;
-    for (int i = 0; i < kHalvings && !isOnItsMap(proxy); ++i) {
+    for (int i = 0; i < kHalvings && !isOnItsMap(model_->state().proxy); ++i) {
         depth = depth * 0.5;
-        proxy = model_->place(ground + depth).proxy;
+        model_->place(ground + depth);
+    }
+    if (!isOnItsMap(model_->state().proxy)) {
+        holdAbove(ground);
+    }
+}
+
+// A sphere that is laid onto a slope rolls aside however shallow it is pressed. The closer the goal
+// comes to where the sphere first touches, straight above the ground aimed at, the less it does.
+void Stylus::holdAbove(const ScenePoint& ground)
+{
+    constexpr int kDoublings = 60;
+    constexpr int kHalvings = 40;
+    const auto place = [&](double up_m) { return model_->place(ground + Vec3{0.0, 0.0, up_m}); };
+    double touching_m = 0.0;
+    double free_m = meanCellSideM(ground_.maps()[at_.index].frame);
+    for (int i = 0; i < kDoublings && place(free_m).is_in_contact; ++i) {
+        touching_m = free_m;
+        free_m *= 2.0;
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+        const double up_m = 0.5 * (touching_m + free_m);
+        const ContactState state = place(up_m);
+        if (state.is_in_contact && isOnItsMap(state.proxy)) {
+            return;
+        }
+        (state.is_in_contact ? touching_m : free_m) = up_m;
     }
 }
 
@@ -98,13 +163,14 @@ bool Stylus::isOnItsMap(const ScenePoint& proxy) const
 
 void Stylus::updatePose(StylusMode mode, const ScenePoint& goal)
 {
-    const auto contact = model_ ? model_->contact() : std::nullopt;
-    const ScenePoint proxy = contact ? model_->surface().point(*contact) : goal;
-    pose_ = StylusPose{.mode = mode,
-                       .proxy = proxy,
-                       .goal = goal,
-                       .is_in_contact = contact.has_value(),
-                       .force_n = contact ? stylusForce(proxy, goal, point_m_) : Vec3{}};
+    const ContactState state = model_ ? model_->state() : ContactState{};
+    const ScenePoint proxy = state.is_in_contact ? state.proxy : goal;
+    pose_ =
+        StylusPose{.mode = mode,
+                   .proxy = proxy,
+                   .goal = goal,
+                   .is_in_contact = state.is_in_contact,
+                   .force_n = state.is_in_contact ? stylusForce(proxy, goal, point_m_) : Vec3{}};
 }
 
 } // namespace marsview

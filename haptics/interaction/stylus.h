@@ -1,12 +1,11 @@
 // The stylus that the mouse moves: its mode, its goal, and the proxy that the ground holds.
 #pragma once
 
-#include "core/contact/heightfield_surface.h"
-#include "core/contact/proxy_graph.h"
+#include "core/contact/contact_model.h"
 #include "core/session/scene_surface.h"
 #include "haptics/interaction/mouse_stylus.h"
 
-#include <cstddef>
+#include <memory>
 #include <optional>
 
 namespace marsview {
@@ -22,11 +21,17 @@ struct StylusPose {
 
 /// In contact while it presses, free while it hovers; a grab keeps it as it was. The proxy is never
 /// below the ground. For the GUI thread: an update takes microseconds.
+///
+/// A virtual proxy's sphere is as wide as a cell of the map that it touches.
 class Stylus {
 public:
     /// The ground it moves over from now on. Where only the exaggeration changes, the stylus stays
     /// over or on the same piece of ground and moves with it; otherwise it is lifted.
     void setGround(const SceneSurface& ground, double exaggeration);
+
+    /// What moves the proxy from now on. In contact, the proxy goes on from where it is.
+    void setModel(ContactModelKind kind);
+    ContactModelKind model() const noexcept { return kind_; }
 
     /// The pointer is over this point of the ground, where a point of the screen is `point_m` > 0
     /// long. While grabbed, goal and proxy stay where they are.
@@ -40,11 +45,11 @@ public:
     const std::optional<StylusPose>& pose() const noexcept { return pose_; }
 
 private:
-    using Model = ProxyGraph<HeightfieldSurface>;
-
-    HeightfieldSurface surfaceOf(std::size_t index) const;
+    std::unique_ptr<MapContactModel> makeModel() const;
     ScenePoint aimedGround() const;
     void press(const ScenePoint& goal);
+    void keepOnItsMap(const ScenePoint& goal);
+    void holdAbove(const ScenePoint& ground);
     bool isOnItsMap(const ScenePoint& proxy) const;
     void updatePose(StylusMode mode, const ScenePoint& goal);
 
@@ -53,7 +58,8 @@ private:
     StylusReach reach_;
     GroundPoint at_; // aimed at last
     double point_m_ = 1.0;
-    std::optional<Model> model_; // of the map aimed at; while in contact
+    ContactModelKind kind_ = kContactModelDefault;
+    std::unique_ptr<MapContactModel> model_; // over the map aimed at; while in contact
     std::optional<StylusPose> pose_;
 };
 

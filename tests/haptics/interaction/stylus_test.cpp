@@ -15,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace marsview {
@@ -31,13 +32,21 @@ double reliefOf(const SceneSurface& ground)
     return box.maximum.z - box.minimum.z;
 }
 
+// A sphere's centre is off the ground that it touches, and kept constraints may hold a god-object
+// in the air.
+bool restsOnGround(ContactModelKind model)
+{
+    return model != ContactModelKind::VirtualProxy && model != ContactModelKind::GodObject;
+}
+
 // What a mouse and its camera do to a stylus, and what has to be true after each of it.
 class Hand {
 public:
-    Hand(const SceneSurface& ground, double exaggeration)
+    Hand(const SceneSurface& ground, double exaggeration, ContactModelKind model)
         : ground_(ground)
         , exaggeration_(exaggeration)
     {
+        stylus_.setModel(model);
         stylus_.setGround(ground_, exaggeration_);
         look();
     }
@@ -148,12 +157,33 @@ public:
         EXPECT_NEAR(after->proxy.y, before->proxy.y, slack);
         EXPECT_NEAR(after->goal.x, before->goal.x, slack);
         EXPECT_NEAR(after->goal.y, before->goal.y, slack);
-        if (before->is_in_contact) {
+        if (before->is_in_contact && restsOnGround(stylus_.model())) {
             EXPECT_NEAR(after->proxy.z, before->proxy.z * factor,
                         1e-9 * std::abs(after->proxy.z) + slack);
         }
         expectAllIsWell();
     }
+
+    // Changes the contact model without moving anything else.
+    void changeModel(ContactModelKind model)
+    {
+        const auto before = stylus_.pose();
+        stylus_.setModel(model);
+        const auto& after = stylus_.pose();
+        ASSERT_EQ(stylus_.model(), model);
+        ASSERT_EQ(before.has_value(), after.has_value());
+        if (!before) {
+            return;
+        }
+        EXPECT_EQ(after->mode, before->mode);
+        EXPECT_EQ(after->is_in_contact, before->is_in_contact);
+        EXPECT_EQ(after->goal, before->goal);
+        if (before->is_in_contact) {
+            ++changes_in_contact_;
+        }
+        expectAllIsWell();
+    }
+    int changesInContact() const { return changes_in_contact_; }
 
     void expectAllIsWell() const
     {
@@ -180,7 +210,7 @@ public:
         const double ground_m = ground_.height(pose->proxy.x, pose->proxy.y) * exaggeration_;
         if (std::isfinite(ground_m)) {
             ASSERT_GE(pose->proxy.z, ground_m - tolerance_m) << "below the surface";
-            if (pose->is_in_contact) {
+            if (pose->is_in_contact && restsOnGround(stylus_.model())) {
                 ASSERT_LE(pose->proxy.z, ground_m + tolerance_m) << "in contact with nothing";
             }
         }
@@ -225,6 +255,7 @@ private:
     double aimed_depth_points_ = depth_points_; // the wheel counts from the next aim on
     bool is_lifted_ = true;
     int aims_ = 0;
+    int changes_in_contact_ = 0;
 };
 
 // One scene each, made when asked for.
@@ -285,13 +316,24 @@ SceneSurface scene(const std::string& name)
     return SceneSurface({test::loadedMap((test::bundledSamples() / name).string())});
 }
 
-class StylusWalk : public testing::TestWithParam<std::string> {};
+// GoogleTest takes letters, digits and underscores.
+std::string testName(ContactModelKind model)
+{
+    std::string name(contactModelName(model));
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+using SceneAndModel = std::tuple<std::string, ContactModelKind>;
+
+class StylusWalk : public testing::TestWithParam<SceneAndModel> {};
 
 TEST_P(StylusWalk, StaysOnTheGroundThroughAnythingAMouseDoes)
 {
-    constexpr int kInputs = 60000;
-    const SceneSurface ground = scene(GetParam());
-    Hand hand(ground, 1.0);
+    constexpr int kInputs = 30000;
+    const auto& [name, model] = GetParam();
+    const SceneSurface ground = scene(name);
+    Hand hand(ground, 1.0, model);
     for (int i = 0; i < kInputs; ++i) {
         hand.doSomething();
         if (HasFailure()) {
@@ -304,18 +346,43 @@ TEST_P(StylusWalk, StaysOnTheGroundThroughAnythingAMouseDoes)
 
 INSTANTIATE_TEST_SUITE_P(Scenes,
                          StylusWalk,
-                         testing::Values("Flat",
-                                         "Plane",
-                                         "Fractal",
-                                         "Cliffs",
-                                         "Needles",
-                                         "Voids",
-                                         "Layers",
-                                         "mars_mola_4ppd.tif",
-                                         "mount_st_helens_30m.tif"),
-                         [](const auto& scene) {
-                             return scene.param.substr(0, scene.param.find('_'));
+                         testing::Combine(testing::Values("Flat",
+                                                          "Plane",
+                                                          "Fractal",
+                                                          "Cliffs",
+                                                          "Needles",
+                                                          "Voids",
+                                                          "Layers",
+                                                          "mars_mola_4ppd.tif",
+                                                          "mount_st_helens_30m.tif"),
+                                          testing::ValuesIn(kContactModelKinds)),
+                         [](const auto& walk) {
+                             const std::string name = std::get<0>(walk.param);
+                             return name.substr(0, name.find('_')) + "_" +
+                                    testName(std::get<1>(walk.param));
                          });
+
+// One model after the other, whatever the hand is doing.
+TEST(Stylus, KeepsContactWhenItsModelChanges)
+{
+    constexpr int kInputs = 20000;
+    for (const char* name : {"Fractal", "Cliffs", "Needles", "Layers"}) {
+        SCOPED_TRACE(name);
+        test::Random random;
+        Hand hand(scene(name), 1.0, kContactModelDefault);
+        for (int i = 0; i < kInputs; ++i) {
+            hand.doSomething();
+            if (random.chance(0.2)) {
+                hand.changeModel(kContactModelKinds[random.below(kContactModelKinds.size())]);
+            }
+            if (::testing::Test::HasFailure()) {
+                FAIL() << "input " << i;
+            }
+        }
+        std::printf("%s: %d changes in contact\n", name, hand.changesInContact());
+        EXPECT_GT(hand.changesInContact(), kInputs / 100);
+    }
+}
 
 TEST(Stylus, IsLiftedUntilItIsAimed)
 {
@@ -340,6 +407,96 @@ TEST(Stylus, IsLiftedByAnotherGround)
         stylus.setGround(other, 1.0);
         EXPECT_FALSE(stylus.pose());
     }
+}
+
+class StylusModel : public testing::TestWithParam<ContactModelKind> {};
+
+// Whatever its model: behind a wall that stops it the proxy stays, on the same side, when the model
+// becomes another one.
+TEST_P(StylusModel, StaysWhereItIsWhenTheModelBecomesAnother)
+{
+    MapMaker maker;
+    const SceneSurface ground({maker.make({}, [](std::size_t c, std::size_t) {
+        return c == 10 ? 5000.0 : 10.0 * static_cast<double>(c);
+    })});
+    const SceneFrame& frame = ground.maps()[0].frame;
+    const auto at = [](double column) {
+        return GroundPoint{.index = 0, .grid = {column, 7.2}, .height_m = 10.0 * column};
+    };
+    for (const ContactModelKind other : kContactModelKinds) {
+        SCOPED_TRACE(contactModelName(other));
+        Stylus stylus;
+        stylus.setModel(GetParam());
+        stylus.setGround(ground, 1.0);
+        for (const double column : {15.0, 13.0, 11.0, 9.0, 7.0, 5.0}) {
+            stylus.aim(at(column), {.is_pressing = true}, 0.1);
+        }
+        const StylusPose before = *stylus.pose();
+        ASSERT_GT(frame.toGrid(before.proxy).column, 9.9);
+        stylus.setModel(other);
+        const StylusPose after = *stylus.pose();
+        EXPECT_EQ(stylus.model(), other);
+        EXPECT_TRUE(after.is_in_contact);
+        EXPECT_EQ(after.mode, StylusMode::Press);
+        EXPECT_EQ(after.goal, before.goal);
+        const bool is_sphere =
+            GetParam() == ContactModelKind::VirtualProxy || other == ContactModelKind::VirtualProxy;
+        EXPECT_GT(frame.toGrid(after.proxy).column, 9.9) << "the wall is still in the way";
+        if (!is_sphere) {
+            EXPECT_LT(length(after.proxy - before.proxy), 1e-3);
+        }
+        // And it goes on from there.
+        stylus.aim(at(16.0), {.is_pressing = true}, 0.1);
+        EXPECT_TRUE(stylus.pose()->is_in_contact);
+    }
+}
+
+TEST_P(StylusModel, KeepsItsPlaceOnTheMapWhenHeightsAreStretched)
+{
+    const SceneSurface ground = scene("Fractal");
+    test::Random random;
+    Stylus stylus;
+    stylus.setModel(GetParam());
+    stylus.setGround(ground, 1.0);
+    for (int i = 0; i < 300; ++i) {
+        const GridPoint grid{random.uniform(1.0, 59.0), random.uniform(1.0, 45.0)};
+        const ScenePoint place = ground.maps()[0].frame.toScene(grid, 0.0);
+        stylus.aim({.index = 0, .grid = grid, .height_m = ground.height(place.x, place.y)},
+                   {.is_pressing = true}, random.uniform(0.1, 5.0));
+        const StylusPose before = *stylus.pose();
+        const double exaggeration = kExaggerations[random.below(kExaggerations.size())];
+        stylus.setGround(ground, exaggeration);
+        const StylusPose after = *stylus.pose();
+        ASSERT_TRUE(after.is_in_contact);
+        const double slack = 1e-9 * ground.box(1.0).extent_m();
+        EXPECT_NEAR(after.proxy.x, before.proxy.x, slack);
+        EXPECT_NEAR(after.proxy.y, before.proxy.y, slack);
+        EXPECT_GE(after.proxy.z, ground.height(after.proxy.x, after.proxy.y) * exaggeration - 1e-6);
+        if (HasFailure()) {
+            FAIL() << "input " << i;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models,
+                         StylusModel,
+                         testing::ValuesIn(kContactModelKinds),
+                         [](const auto& model) { return testName(model.param); });
+
+TEST(Stylus, ChangesItsModelWhileItIsLiftedOrHovers)
+{
+    Stylus stylus;
+    EXPECT_EQ(stylus.model(), kContactModelDefault);
+    stylus.setModel(ContactModelKind::SurfaceWalk);
+    EXPECT_EQ(stylus.model(), ContactModelKind::SurfaceWalk);
+    EXPECT_FALSE(stylus.pose());
+    stylus.setGround(scene("Flat"), 1.0);
+    stylus.aim({.index = 0, .grid = {5.0, 7.0}, .height_m = 1234.5}, {}, 1.0);
+    const ScenePoint proxy = stylus.pose()->proxy;
+    stylus.setModel(ContactModelKind::ProxyGraph);
+    EXPECT_EQ(stylus.pose()->mode, StylusMode::Hover);
+    EXPECT_FALSE(stylus.pose()->is_in_contact);
+    EXPECT_EQ(stylus.pose()->proxy, proxy);
 }
 
 // Hovering from one side of a wall to the other, and letting go behind one.
