@@ -192,6 +192,11 @@ void MainWindow::connectActions()
     connect(actions_->ramp_group, &QActionGroup::triggered, this, [this](QAction* action) {
         controller_->setRamp(session().active, action->data().toString());
     });
+    connect(actions_->contact_model_group, &QActionGroup::triggered, this, [this](QAction* action) {
+        Preferences preferences = preferences_;
+        preferences.contact_model = static_cast<ContactModelKind>(action->data().toInt());
+        setPreferences(preferences);
+    });
     on(actions_->keys, [this] { showKeys(); });
     on(actions_->about, [this] { showAbout(); });
 }
@@ -412,6 +417,8 @@ void MainWindow::setPreferences(const Preferences& preferences)
     georeferencing_->setHeightUnit(preferences.height_unit);
     view_->setAntialiasing(preferences.has_antialiasing);
     view_->setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));
+    view_->setContactModel(preferences.contact_model);
+    actions_->showContactModel(preferences.contact_model);
     if (isRemembered()) {
         QSettings settings;
         save(preferences, settings);

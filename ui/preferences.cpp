@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace marsview {
 namespace {
@@ -45,6 +46,11 @@ QString frameRateKey()
     return QStringLiteral("preferences/framesPerSecond");
 }
 
+QString contactModelKey()
+{
+    return QStringLiteral("preferences/contactModel");
+}
+
 } // namespace
 
 Preferences preferencesFrom(const QSettings& settings)
@@ -59,6 +65,9 @@ Preferences preferencesFrom(const QSettings& settings)
     const bool is_offered =
         std::find(kFrameRates.begin(), kFrameRates.end(), rate) != kFrameRates.end();
     preferences.frames_per_s = is_offered ? rate : standard.frames_per_s;
+    preferences.contact_model =
+        contactModelKind(settings.value(contactModelKey()).toString().toStdString())
+            .value_or(standard.contact_model);
     return preferences;
 }
 
@@ -70,6 +79,9 @@ void save(const Preferences& preferences, QSettings& settings)
                       QLatin1String(kUnits[static_cast<std::size_t>(preferences.height_unit)]));
     settings.setValue(antialiasingKey(), preferences.has_antialiasing);
     settings.setValue(frameRateKey(), preferences.frames_per_s);
+    const std::string_view model = contactModelName(preferences.contact_model);
+    settings.setValue(contactModelKey(),
+                      QString::fromUtf8(model.data(), static_cast<qsizetype>(model.size())));
 }
 
 } // namespace marsview

@@ -1,6 +1,7 @@
 // What the user prefers, everywhere and from now on.
 #pragma once
 
+#include "core/contact/contact_model.h"
 #include "ui/number_text.h"
 
 class QSettings;
@@ -14,6 +15,7 @@ struct Preferences {
     HeightUnit height_unit = HeightUnit::Metres;
     bool has_antialiasing = true; // where the driver does it without effort
     int frames_per_s = 30;        // while something moves: 20, 30 or 60
+    ContactModelKind contact_model = kContactModelDefault;
 
     bool operator==(const Preferences&) const = default;
 };

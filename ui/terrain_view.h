@@ -79,6 +79,10 @@ public:
     /// Keeps the piece of ground in the middle of the picture there.
     void setExaggeration(double exaggeration);
 
+    /// What moves the stylus' proxy.
+    void setContactModel(ContactModelKind model);
+    ContactModelKind contactModel() const noexcept { return stylus_.model(); }
+
     void step(NavigationStep step);
     void goHome();
     void turnNorthUp();

@@ -176,6 +176,13 @@ void TerrainView::leaveEvent(QEvent* event)
     reportPointer();
 }
 
+void TerrainView::setContactModel(ContactModelKind model)
+{
+    stylus_.setModel(model);
+    update();
+    Q_EMIT stylusMoved();
+}
+
 // The scene point under a position: on the surface, or else where `camera` finds one beside it.
 ScenePoint TerrainView::anchorAt(QPointF position, const OrbitCamera& camera) const
 {

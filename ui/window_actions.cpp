@@ -66,6 +66,63 @@ constexpr std::array kShadingActions{
     ShadingAction{ShadingMode::Slope, QT_TRANSLATE_NOOP("WindowActions", "&Slope")},
 };
 
+struct ContactModelAction {
+    ContactModelKind model;
+    const char* text;
+    const char* tip;
+};
+
+constexpr std::array kContactModelActions{
+    ContactModelAction{
+        ContactModelKind::ContinuousWalk,
+        //: A contact model: how the touching point (the proxy) follows the hand over the ground
+        QT_TRANSLATE_NOOP("WindowActions", "&Continuous Walk (exact)"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Takes every point of the hand's way in turn, so that even fast strokes "
+                          "end where slow ones would; each costs a little more time")},
+    ContactModelAction{
+        ContactModelKind::SurfaceWalk,
+        //: A contact model: how the touching point (the proxy) follows the hand over the ground
+        QT_TRANSLATE_NOOP("WindowActions", "&Surface Walk"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Slides downhill across faces, edges and corners of the ground; quick, "
+                          "but a fast stroke may end in a neighbouring dip")},
+    ContactModelAction{
+        ContactModelKind::ProxyGraph,
+        //: A contact model, with the year of its paper
+        QT_TRANSLATE_NOOP("WindowActions", "&Proxy Graph (2003)"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Goes along edges from corner to corner, as the paper does; quick, but "
+                          "a fast stroke ends in a neighbouring dip more often")},
+    ContactModelAction{
+        ContactModelKind::GodObject,
+        //: A contact model, by the name that the literature gave it
+        QT_TRANSLATE_NOOP("WindowActions", "&God-Object"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Stops at each face that it hits until the hand moves again; simple, "
+                          "but it may stick or float for a moment")},
+    ContactModelAction{
+        ContactModelKind::GodObjectRelease,
+        //: A contact model: a god-object that lets go of constraints
+        QT_TRANSLATE_NOOP("WindowActions", "God-Object, Constraints &Released"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "A god-object that lets go of faces as soon as they no longer hold it; "
+                          "it does not stick, but searches for every face that it comes to")},
+    ContactModelAction{
+        ContactModelKind::VirtualProxy,
+        //: A contact model: a sphere touches the ground in place of a point
+        QT_TRANSLATE_NOOP("WindowActions", "&Virtual Proxy (sphere)"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Touches with a sphere as wide as a cell of the map; it rounds off sharp "
+                          "ridges, but does not reach into narrow dips")},
+};
+
 QString fromStd(std::string_view text)
 {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
@@ -79,10 +136,12 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeEditMenu(window, undo_stack);
     makeViewMenu(window, map);
     makeMapMenu(window);
+    makeHapticsMenu(window);
     makeHelpMenu(window);
     for_shown_ += {save_picture, home, north, go_to_coordinate, exaggerate_more, exaggerate_less};
     for_shown_ += steps;
     showSession({});
+    showContactModel(kContactModelDefault);
 }
 
 void WindowActions::makeFileMenu(QMainWindow& window)
@@ -210,6 +269,22 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     layer.open = open;
 }
 
+void WindowActions::makeHapticsMenu(QMainWindow& window)
+{
+    QMenu* menu = window.menuBar()->addMenu(tr("Ha&ptics"));
+    contact_models = menu->addMenu(tr("&Contact Model"));
+    contact_models->menuAction()->setStatusTip(
+        tr("How the point that touches the ground follows the hand"));
+    contact_model_group = new QActionGroup(&window);
+    for (const ContactModelAction& entry : kContactModelActions) {
+        QAction* action = contact_models->addAction(tr(entry.text));
+        action->setCheckable(true);
+        action->setData(static_cast<int>(entry.model));
+        action->setStatusTip(tr(entry.tip));
+        contact_model_group->addAction(action);
+    }
+}
+
 void WindowActions::makeHelpMenu(QMainWindow& window)
 {
     QMenu* menu = window.menuBar()->addMenu(tr("&Help"));
@@ -218,6 +293,13 @@ void WindowActions::makeHelpMenu(QMainWindow& window)
     menu->addSeparator();
     about = menu->addAction(tr("&About MarsView"));
     about->setMenuRole(QAction::AboutRole);
+}
+
+void WindowActions::showContactModel(ContactModelKind model)
+{
+    for (QAction* action : contact_model_group->actions()) {
+        action->setChecked(action->data().toInt() == static_cast<int>(model));
+    }
 }
 
 void WindowActions::showSession(const Session& session)

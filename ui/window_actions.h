@@ -1,6 +1,7 @@
 // Everything that the window can be told to do, and the menus that offer it.
 #pragma once
 
+#include "core/contact/contact_model.h"
 #include "core/view/terrain_look.h"
 #include "ui/panels/dataset_panel.h"
 
@@ -47,17 +48,23 @@ struct WindowActions {
     QAction* light = nullptr;
     QAction* override_georeferencing = nullptr;
 
+    QMenu* contact_models = nullptr;
+    QActionGroup* contact_model_group = nullptr; // data(): the ContactModelKind
+
     QAction* keys = nullptr;
     QAction* about = nullptr;
 
     /// Checks and enables what fits `session`.
     void showSession(const Session& session);
+    /// Checks `model`.
+    void showContactModel(ContactModelKind model);
 
 private:
     void makeFileMenu(QMainWindow& window);
     void makeEditMenu(QMainWindow& window, QUndoStack& undo_stack);
     void makeViewMenu(QMainWindow& window, QWidget& map);
     void makeMapMenu(QMainWindow& window);
+    void makeHapticsMenu(QMainWindow& window);
     void makeHelpMenu(QMainWindow& window);
 
     QList<QAction*> for_shown_; // of use only while something is shown

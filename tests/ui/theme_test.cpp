@@ -82,7 +82,8 @@ TEST(Preferences, ComeBackAsTheyWereSaved)
             const Preferences preferences{.theme = theme,
                                           .height_unit = HeightUnit::Feet,
                                           .has_antialiasing = rate == 20,
-                                          .frames_per_s = rate};
+                                          .frames_per_s = rate,
+                                          .contact_model = ContactModelKind::VirtualProxy};
             save(preferences, settings);
             settings.sync();
             const QSettings again(settings.fileName(), QSettings::IniFormat);
@@ -97,6 +98,7 @@ TEST(Preferences, AreTheUsualOnesWhereTheFileMakesNoSense)
     QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);
     settings.setValue(QStringLiteral("preferences/theme"), QStringLiteral("plaid"));
     settings.setValue(QStringLiteral("preferences/framesPerSecond"), -3);
+    settings.setValue(QStringLiteral("preferences/contactModel"), QStringLiteral("telepathy"));
     EXPECT_EQ(preferencesFrom(settings), Preferences{});
 }
 

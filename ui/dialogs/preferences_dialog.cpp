@@ -12,6 +12,7 @@ namespace marsview {
 
 PreferencesDialog::PreferencesDialog(const Preferences& preferences, QWidget* parent)
     : QDialog(parent)
+    , before_(preferences)
     , theme_(new QComboBox(this))
     , height_unit_(new QComboBox(this))
     , frame_rate_(new QComboBox(this))
@@ -73,10 +74,12 @@ void PreferencesDialog::fill(const Preferences& preferences)
 
 Preferences PreferencesDialog::preferences() const
 {
-    return {.theme = static_cast<Theme>(theme_->currentData().toInt()),
-            .height_unit = static_cast<HeightUnit>(height_unit_->currentData().toInt()),
-            .has_antialiasing = antialiasing_->isChecked(),
-            .frames_per_s = frame_rate_->currentData().toInt()};
+    Preferences preferences = before_;
+    preferences.theme = static_cast<Theme>(theme_->currentData().toInt());
+    preferences.height_unit = static_cast<HeightUnit>(height_unit_->currentData().toInt());
+    preferences.has_antialiasing = antialiasing_->isChecked();
+    preferences.frames_per_s = frame_rate_->currentData().toInt();
+    return preferences;
 }
 
 } // namespace marsview

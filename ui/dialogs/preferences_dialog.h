@@ -10,7 +10,8 @@ class QComboBox;
 
 namespace marsview {
 
-/// Every choice takes effect at once; there is nothing to confirm.
+/// Every choice takes effect at once; there is nothing to confirm. Preferences that are chosen
+/// elsewhere (the contact model, in its menu) stay as they are.
 class PreferencesDialog final : public QDialog {
     Q_OBJECT
 
@@ -25,6 +26,7 @@ Q_SIGNALS:
 private:
     void fill(const Preferences& preferences);
 
+    Preferences before_;
     QComboBox* theme_ = nullptr;
     QComboBox* height_unit_ = nullptr;
     QComboBox* frame_rate_ = nullptr;
