@@ -6,7 +6,6 @@
 #include "core/terrain/heightfield.h"
 #include "core/terrain/surface_analysis.h"
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -18,23 +17,6 @@ namespace marsview {
 /// are not void keep theirs to the bit. Immutable; any thread. Shares the samples and the analysis;
 /// with voids it holds a bound for each node besides.
 class FilledHeightfield {
-    // Calls `function(at)`, where at(column, row) is a sample's height. The type of the samples is
-    // looked up once, which for the servo thread is half the cost of reading them.
-    template <typename F>
-    auto read(F&& function) const noexcept
-    {
-        const SampleGrid& samples = heightfield_.samples();
-        if (samples.hasVoids()) {
-            return function([this](std::size_t c, std::size_t r) { return sample(c, r); });
-        }
-        return samples.visit([&](auto view) {
-            const ElevationScale scale = heightfield_.scale();
-            return function([&](std::size_t c, std::size_t r) {
-                return scale.height(static_cast<double>(view(c, r)));
-            });
-        });
-    }
-
 public:
     /// `analysis` was made from `heightfield`. Looks at every sample once, if any is void. Only
     /// Cancelled can go wrong.
@@ -59,25 +41,8 @@ public:
     }
     CellHeights cell(std::size_t column, std::size_t row) const noexcept
     {
-        return read([&](const auto& at) -> CellHeights {
-            return {at(column, row), at(column + 1, row), at(column, row + 1),
-                    at(column + 1, row + 1)};
-        });
-    }
-    /// A sample and those of its neighbours that are joined to it by an edge of the triangulation:
-    /// itself, right, right below, below, left, left above, above. The rows and columns beside it
-    /// are the caller's, so that it decides what lies beyond the border.
-    std::array<double, 7> sevenSamples(std::size_t column,
-                                       std::size_t row,
-                                       std::size_t left,
-                                       std::size_t right,
-                                       std::size_t above,
-                                       std::size_t below) const noexcept
-    {
-        return read([&](const auto& at) -> std::array<double, 7> {
-            return {at(column, row), at(right, row),  at(right, below), at(column, below),
-                    at(left, row),   at(left, above), at(column, above)};
-        });
+        return {sample(column, row), sample(column + 1, row), sample(column, row + 1),
+                sample(column + 1, row + 1)};
     }
 
     /// The nodes of the hierarchy are those of MinMaxPyramid.
