@@ -19,6 +19,7 @@
 #include "core/contact/contact_surface.h"
 #include "core/contact/facet_steps.h"
 #include "core/contact/steepest_descent.h"
+#include "core/contact/surface_proxy.h"
 
 #include <algorithm>
 #include <array>
@@ -36,26 +37,24 @@ namespace marsview {
 ///
 /// Where the goal stays put, so does the proxy. Its place is computed from the feature it is on and
 /// the goal, so nothing drifts.
-///
-/// A value, for one thread at a time. `update` and `place` allocate, lock and throw nothing and are
-/// bounded by S::stepsMax(): they are for the servo thread.
 template <ContactSurface S>
-class ContinuousWalk {
+class ContinuousWalk : public SurfaceProxy<ContinuousWalk<S>, S> {
+    using Base = SurfaceProxy<ContinuousWalk, S>;
+    friend Base;
+
 public:
     /// The proxy begins at S::initialContact(); the first update places it.
     explicit ContinuousWalk(S surface) noexcept
-        : surface_(std::move(surface))
+        : Base(std::move(surface))
         , contact_(surface_.initialContact())
     {}
-
-    const S& surface() const noexcept { return surface_; }
 
     /// As PointProxy::setSurface. A proxy in contact descends anew in the next update.
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
         is_known_ = false;
-        if (!is_placed_) {
+        if (!Base::isPlaced()) {
             return;
         }
         if (const auto g = surface_.goal(aimed_)) {
@@ -68,70 +67,10 @@ public:
         is_at_rest_ = is_free_;
     }
 
-    /// As PointProxy::place.
-    ContactState place(const ScenePoint& goal) noexcept
-    {
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            is_placed_ = true;
-            is_at_rest_ = true;
-            aimed_ = goal;
-            goal_ = *g;
-            is_free_ = surface_.isAbove(goal_);
-            is_known_ = false;
-            if (!is_free_) {
-                contact_ = surface_.contactAt(goal_);
-                descend();
-            }
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
-    /// As PointProxy::update.
-    ContactState update(const ScenePoint& goal) noexcept
-    {
-        if (!is_placed_) {
-            return place(goal);
-        }
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            events_ = surface_.stepsMax();
-            if (!std::exchange(is_at_rest_, true)) {
-                descend(); // to where the goal was
-            }
-            // Between goals that are aimed at as they are, there is but one leg.
-            if (surface_.goalPoint(goal_) == aimed_ && surface_.goalPoint(*g) == goal) {
-                follow(*g);
-            } else {
-                const SurfaceLegs<S> legs = surface_.legs(aimed_, goal);
-                for (std::size_t i = 0; i < legs.count; ++i) {
-                    follow(legs.ends[i]);
-                }
-            }
-            aimed_ = goal;
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
     /// Where the proxy touches; nothing while it is free.
     std::optional<SurfaceContact<S>> contact() const noexcept
     {
         return is_free_ ? std::nullopt : std::optional(contact_);
-    }
-
-    /// Where the proxy is, with the counters of the last update.
-    ContactState state() const noexcept
-    {
-        ContactState state;
-        state.is_in_contact = !is_free_;
-        state.feature = is_free_ ? ContactFeature::Free : contact_.feature;
-        state.proxy = is_free_ ? surface_.goalPoint(goal_) : surface_.point(contact_);
-        state.counters = counters_;
-        return state;
     }
 
 private:
@@ -143,6 +82,8 @@ private:
     using Contact = SurfaceContact<S>;
     using Steps = FacetSteps<S>;
     using Descent = SteepestDescent<S>;
+    using Base::counters_;
+    using Base::surface_;
 
     // A fall begins a little beyond its event, in motion of the goal: that much of an edge.
     static constexpr double kNudge = 1e-9;
@@ -177,6 +118,46 @@ private:
         double held_ = 0.0;
         double end_ = 1.0;
     };
+
+    void placeAt(const Goal& goal, const ScenePoint& aimed) noexcept
+    {
+        is_at_rest_ = true;
+        is_known_ = false;
+        aimed_ = aimed;
+        goal_ = goal;
+        is_free_ = surface_.isAbove(goal);
+        if (!is_free_) {
+            contact_ = surface_.contactAt(goal);
+            descend();
+        }
+    }
+
+    void moveTo(const Goal& goal, const ScenePoint& aimed) noexcept
+    {
+        events_ = surface_.stepsMax();
+        if (!std::exchange(is_at_rest_, true)) {
+            descend(); // to where the goal was
+        }
+        // Between goals that are aimed at as they are, there is but one leg.
+        if (surface_.goalPoint(goal_) == aimed_ && surface_.goalPoint(goal) == aimed) {
+            follow(goal);
+        } else {
+            const SurfaceLegs<S> legs = surface_.legs(aimed_, aimed);
+            for (std::size_t i = 0; i < legs.count; ++i) {
+                follow(legs.ends[i]);
+            }
+        }
+        aimed_ = aimed;
+    }
+
+    ContactFeature feature() const noexcept
+    {
+        return is_free_ ? ContactFeature::Free : contact_.feature;
+    }
+    ScenePoint position() const noexcept
+    {
+        return is_free_ ? surface_.goalPoint(goal_) : surface_.point(contact_);
+    }
 
     Facet& left() noexcept { return facets_[left_at_]; }
     Facet& right() noexcept { return facets_[1 - left_at_]; }
@@ -585,12 +566,9 @@ private:
         return true;
     }
 
-    S surface_;
     Goal goal_{};        // reached so far
     ScenePoint aimed_{}; // what was last aimed at, before it was clamped to the map
     Contact contact_;    // while not free
-    ContactCounters counters_;
-    bool is_placed_ = false;
     bool is_free_ = false;
     bool is_at_rest_ = true; // at a minimum of the distance to goal_
     // Of the leg that is followed:

@@ -15,6 +15,7 @@
 #include "core/contact/border_walls.h"
 #include "core/contact/contact.h"
 #include "core/contact/contact_surface.h"
+#include "core/contact/surface_proxy.h"
 
 #include <algorithm>
 #include <array>
@@ -48,21 +49,19 @@ enum class GodObjectConstraints : std::uint8_t {
 /// With constraints released, each slide, within a face or along a valley, is followed by a cast
 /// of its own, as in the paper. On a mesh whose faces do not intersect the cast meets nothing; it
 /// is the price of an algorithm that does not rely on that, and what the proxy graph saves.
-///
-/// A value, for one thread at a time. `update` and `place` allocate, lock and throw nothing and are
-/// bounded by S::stepsMax(): they are for the servo thread.
 template <ContactSurface S>
-class GodObject {
+class GodObject : public SurfaceProxy<GodObject<S>, S> {
+    using Base = SurfaceProxy<GodObject, S>;
+    friend Base;
+
 public:
     /// The proxy begins at S::initialContact(); the first update places it.
     GodObject(S surface, GodObjectConstraints constraints) noexcept
-        : surface_(std::move(surface))
+        : Base(std::move(surface))
         , walls_(borderWalls(surface_))
         , constraints_(constraints)
         , contact_(surface_.initialContact())
     {}
-
-    const S& surface() const noexcept { return surface_; }
 
     /// Another surface with the same mesh, such as another exaggeration. In contact, the proxy
     /// stays where it is on the mesh and moves with it; where it floats, it is put onto the surface
@@ -81,54 +80,6 @@ public:
         }
     }
 
-    /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
-    /// the goal, and minimises from there. A goal that is not finite changes nothing.
-    ContactState place(const ScenePoint& goal) noexcept
-    {
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            is_placed_ = true;
-            held_by_ = ContactFeature::Free;
-            if (surface_.isAbove(*g)) {
-                off_ = g;
-            } else {
-                off_.reset();
-                contact_ = surface_.contactAt(*g);
-                minimise(*g);
-            }
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
-    /// Moves the proxy towards the goal. A goal that is not finite changes nothing: the proxy, and
-    /// whether it is in contact, are those of the last update.
-    ContactState update(const ScenePoint& goal) noexcept
-    {
-        if (!is_placed_) {
-            return place(goal);
-        }
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            minimise(*g);
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
-    /// Where the proxy is, with the counters of the last update.
-    ContactState state() const noexcept
-    {
-        ContactState state;
-        state.feature = off_ ? held_by_ : contact_.feature;
-        state.is_in_contact = state.feature != ContactFeature::Free;
-        state.proxy = position();
-        state.counters = counters_;
-        return state;
-    }
-
     /// Where the proxy touches; nothing while it is free or floats.
     std::optional<SurfaceContact<S>> contact() const noexcept
     {
@@ -141,6 +92,8 @@ private:
     using Edge = typename S::Edge;
     using Face = typename S::Face;
     using Contact = SurfaceContact<S>;
+    using Base::counters_;
+    using Base::surface_;
 
     // As in ProxyGraph: what is less than rounding error from an end of an edge, or from the border
     // of a face, is there.
@@ -154,6 +107,20 @@ private:
     static constexpr int kStallsMax = 32;
     static constexpr int kKeptStallsMax = 4;
 
+    void placeAt(const Goal& goal, const ScenePoint& /*aimed*/) noexcept
+    {
+        held_by_ = ContactFeature::Free;
+        if (surface_.isAbove(goal)) {
+            off_ = goal;
+        } else {
+            off_.reset();
+            contact_ = surface_.contactAt(goal);
+            minimise(goal);
+        }
+    }
+    void moveTo(const Goal& goal, const ScenePoint& /*aimed*/) noexcept { minimise(goal); }
+
+    ContactFeature feature() const noexcept { return off_ ? held_by_ : contact_.feature; }
     ScenePoint position() const noexcept
     {
         return off_ ? surface_.goalPoint(*off_) : surface_.point(contact_);
@@ -698,14 +665,11 @@ private:
         return false;
     }
 
-    S surface_;
     BorderWalls walls_;
     GodObjectConstraints constraints_;
     std::optional<Goal> off_;                       // where the proxy is while it does not touch
     Contact contact_;                               // where it is otherwise
     ContactFeature held_by_ = ContactFeature::Free; // what keeps it from the goal meanwhile
-    ContactCounters counters_;
-    bool is_placed_ = false;
 };
 
 } // namespace marsview

@@ -19,6 +19,7 @@
 #include "core/contact/contact.h"
 #include "core/contact/contact_surface.h"
 #include "core/contact/faces_near.h"
+#include "core/contact/surface_proxy.h"
 
 #include <algorithm>
 #include <array>
@@ -41,18 +42,21 @@ namespace marsview {
 /// errors in nearly tangent sweeps end, and what double coordinates can tell apart. Goals are
 /// clamped to the map, and so is the centre; the sphere may reach beyond.
 ///
-/// A value, for one thread at a time. `update` and `place` allocate, lock and throw nothing and are
-/// bounded by S::stepsMax(): they are for the servo thread. Their time grows with the number of
-/// faces that the sphere covers. A bound that is met is counted (ContactCounters::cut_short).
-/// Counters: `casts` are sweeps, `cells` what was looked at to find the faces near the way, `faces`
-/// those held against the sphere or its sweep, `vertices` tangent planes.
+/// Placing puts the centre at the goal if the sphere is free there, else straight above it where
+/// the sphere comes to rest from above. The time of an update grows with the number of faces that
+/// the sphere covers. A bound that is met is counted (ContactCounters::cut_short). Counters:
+/// `casts` are sweeps, `cells` what was looked at to find the faces near the way, `faces` those
+/// held against the sphere or its sweep, `vertices` tangent planes.
 template <ContactSurface S>
-class VirtualProxy {
+class VirtualProxy : public SurfaceProxy<VirtualProxy<S>, S> {
+    using Base = SurfaceProxy<VirtualProxy, S>;
+    friend Base;
+
 public:
     /// `radius_m` > 0 and finite. The sphere begins above S::initialContact(); the first update
     /// places it.
     VirtualProxy(S surface, double radius_m)
-        : surface_(std::move(surface))
+        : Base(std::move(surface))
         , walls_(borderWalls(surface_))
         , radius_m_(radius_m)
         , reach_m_(4.0 * radius_m)
@@ -63,7 +67,6 @@ public:
         counters_ = {};
     }
 
-    const S& surface() const noexcept { return surface_; }
     double radius() const noexcept { return radius_m_; }
 
     /// Another surface with the same mesh, such as another exaggeration. In contact, the sphere is
@@ -82,52 +85,14 @@ public:
         }
     }
 
-    /// Puts the centre at the goal if the sphere is free there, else straight above the goal where
-    /// the sphere comes to rest from above, and minimises from there. A goal that is not finite
-    /// changes nothing.
-    ContactState place(const ScenePoint& goal) noexcept
-    {
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            is_placed_ = true;
-            centre_ = lifted(surface_.goalPoint(*g));
-            minimise(surface_.goalPoint(*g));
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
-    /// Moves the sphere towards the goal. A goal that is not finite changes nothing.
-    ContactState update(const ScenePoint& goal) noexcept
-    {
-        if (!is_placed_) {
-            return place(goal);
-        }
-        counters_ = {};
-        if (const auto g = surface_.goal(goal)) {
-            minimise(surface_.goalPoint(*g));
-        } else {
-            counters_.refused = 1;
-        }
-        return state();
-    }
-
-    /// Where the centre is, with the counters of the last update.
-    ContactState state() const noexcept
-    {
-        ContactState state;
-        state.proxy = centre_;
-        state.feature = feature_;
-        state.is_in_contact = feature_ != ContactFeature::Free;
-        state.counters = counters_;
-        return state;
-    }
-
     /// In metres, for a centre at `p`.
     double tolerance(const ScenePoint& p) const noexcept { return 1e-9 * radius_m_ + ulps(p); }
 
 private:
+    using Goal = typename S::Goal;
+    using Base::counters_;
+    using Base::surface_;
+
     // More tangent planes than this stop the sphere at one place on no terrain. Then some are left
     // out, and the update is cut short.
     static constexpr std::size_t kPlanesMax = 32;
@@ -220,6 +185,19 @@ private:
                    dot(cross(a - c, -c), normal) >= 0.0;
         }
     };
+
+    void placeAt(const Goal& goal, const ScenePoint& /*aimed*/) noexcept
+    {
+        centre_ = lifted(surface_.goalPoint(goal));
+        minimise(surface_.goalPoint(goal));
+    }
+    void moveTo(const Goal& goal, const ScenePoint& /*aimed*/) noexcept
+    {
+        minimise(surface_.goalPoint(goal));
+    }
+
+    ContactFeature feature() const noexcept { return feature_; }
+    ScenePoint position() const noexcept { return centre_; }
 
     // What double coordinates can tell apart, several times.
     static double ulps(const ScenePoint& p) noexcept
@@ -738,14 +716,11 @@ private:
         return top + down * sweep(top, down, 0.0).share;
     }
 
-    S surface_;
     BorderWalls walls_;
     double radius_m_;
     double reach_m_; // the piece of a sweep to begin with
     ScenePoint centre_;
     ContactFeature feature_ = ContactFeature::Free;
-    ContactCounters counters_;
-    bool is_placed_ = false;
 };
 
 } // namespace marsview
