@@ -79,9 +79,12 @@ TraceFrame frameOf(const Dataset& dataset, double exaggeration)
         .from_scene =
             [&georeference, exaggeration](const ContactState& state) {
                 GridPoint grid = georeference.sceneFrame().toGrid(state.proxy);
-                if (state.feature == ContactFeature::Vertex) {
-                    // The place of a sample, without what rounding made of it on the way.
-                    grid = {std::round(grid.column), std::round(grid.row)};
+                // On a sample: its place, without what rounding made of it on the way.
+                const GridPoint sample{std::round(grid.column), std::round(grid.row)};
+                constexpr double kRounding = 1e-9; // columns and rows
+                if (std::abs(sample.column - grid.column) < kRounding &&
+                    std::abs(sample.row - grid.row) < kRounding) {
+                    grid = sample;
                 }
                 const MapPoint map = georeference.toMap(grid);
                 return TracePoint{map.x, map.y, state.proxy.z / exaggeration};

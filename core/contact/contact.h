@@ -22,7 +22,7 @@ struct ContactCounters {
     /// 1 where the bound on steps ended the update before a minimum was found. Then the proxy is
     /// on the surface and the next update goes on from there.
     std::uint32_t cut_short = 0;
-    std::uint32_t refused = 0; // 1 where the goal was not finite: the proxy stays
+    std::uint32_t refused = 0; // 1 where there is no aiming at the goal: the proxy stays
 };
 
 /// The end of one update.

@@ -48,10 +48,10 @@ public:
     ContactModel& operator=(const ContactModel&) = delete;
 
     /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
-    /// it, and minimises from there. A goal that is not finite changes nothing but is counted
-    /// (ContactCounters::refused).
+    /// it, and minimises from there. A goal that is not finite, or higher or deeper than 1e12 m
+    /// before exaggeration, changes nothing but is counted (ContactCounters::refused).
     virtual ContactState place(const ScenePoint& goal) noexcept = 0;
-    /// Moves the proxy towards the goal. The first update places it. A goal that is not finite
+    /// Moves the proxy towards the goal. The first update places it. What place() refuses
     /// changes nothing but is counted.
     virtual ContactState update(const ScenePoint& goal) noexcept = 0;
     /// Where the proxy is, with the counters of the last update.

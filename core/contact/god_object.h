@@ -464,16 +464,25 @@ private:
     // Ends an update in which the distance no longer gets less.
     struct Progress {
         double distance_squared = std::numeric_limits<double>::infinity();
+        ScenePoint point;
+        Vec3 rest;
         int stalls = 0;
 
-        bool hasStalled(double squared) noexcept
+        bool hasStalled(const ScenePoint& now, const Vec3& now_rest) noexcept
         {
+            const double squared = dot(now_rest, now_rest);
+            const Vec3 step = now - std::exchange(point, now);
+            const Vec3 towards = now_rest + std::exchange(rest, now_rest);
             if (squared < distance_squared * (1.0 - 1e-15)) {
                 distance_squared = squared;
                 stalls = 0;
                 return false;
             }
-            return ++stalls > kStallsMax;
+            // The squares of a far goal are the same everywhere; the step from the last place is
+            // not.
+            const double rounding =
+                kCoordinateError * (std::abs(now.x) + std::abs(now.y) + std::abs(now.z));
+            return !(dot(step, towards) > rounding * length(towards)) && ++stalls > kStallsMax;
         }
     };
 
@@ -495,8 +504,8 @@ private:
                 return;
             }
             if (!off_) {
-                const ScenePoint rest = surface_.goalPoint(goal) - surface_.point(contact_);
-                if (progress.hasStalled(dot(rest, rest))) {
+                const ScenePoint here = surface_.point(contact_);
+                if (progress.hasStalled(here, surface_.goalPoint(goal) - here)) {
                     return;
                 }
             }

@@ -134,7 +134,8 @@ public:
     using Facet = HeightfieldFacet;
 
     static constexpr bool kIsBorderWall = true;
-    /// Coordinates beyond this, in metres, are not aimed at, like those that are not finite.
+    /// Heights beyond this, in metres and not exaggerated, are not aimed at, like what is not
+    /// finite. Horizontally every goal is clamped.
     static constexpr double kGoalMaxM = 1e12;
 
     /// `exaggeration` > 0 and finite; the frame is invertible. The terrain has fewer than 2^30
@@ -154,7 +155,7 @@ public:
 
     std::optional<Goal> goal(const ScenePoint& point) const noexcept
     {
-        if (!isWithinReach(point)) {
+        if (!(std::abs(point.z) <= kGoalMaxM * std::max(exaggeration_, 1.0))) {
             return std::nullopt;
         }
         return clamped(frame_.toGrid(point), point);
@@ -343,11 +344,6 @@ private:
         return goal - (base + across + down) > kTolerance * magnitude;
     }
 
-    static bool isWithinReach(const ScenePoint& point) noexcept
-    {
-        return std::abs(point.x) <= kGoalMaxM && std::abs(point.y) <= kGoalMaxM &&
-               std::abs(point.z) <= kGoalMaxM;
-    }
     std::optional<Goal> clamped(GridPoint grid, const ScenePoint& point) const noexcept
     {
         if (!std::isfinite(grid.column) || !std::isfinite(grid.row)) {

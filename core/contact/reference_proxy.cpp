@@ -487,9 +487,7 @@ ReferenceProxy::State ReferenceProxy::place(const ScenePoint& goal)
 
 ReferenceProxy::State ReferenceProxy::update(const ScenePoint& goal)
 {
-    constexpr double kMax = HeightfieldSurface::kGoalMaxM;
-    // False for NaN, too.
-    if (std::abs(goal.x) <= kMax && std::abs(goal.y) <= kMax && std::abs(goal.z) <= kMax) {
+    if (surface_.goal(goal)) {
         follow(goal);
     }
     return state();

@@ -31,8 +31,8 @@ public:
     /// `piece_cells` > 0: the longest piece of the motion, in means of a cell's two sides.
     explicit ReferenceProxy(const HeightfieldSurface& surface, double piece_cells = kPieceCells);
 
-    /// As ContactModel: the goal is clamped to the grid; one that is not finite, or beyond
-    /// HeightfieldSurface::kGoalMaxM, changes nothing.
+    /// As ContactModel: the goal is clamped to the grid; one that HeightfieldSurface::goal refuses
+    /// changes nothing.
     State place(const ScenePoint& goal);
     State update(const ScenePoint& goal);
 

@@ -22,8 +22,8 @@ public:
     const S& surface() const noexcept { return surface_; }
 
     /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
-    /// the goal, and minimises from there. A goal that is not finite changes nothing and is counted
-    /// as refused.
+    /// the goal, and minimises from there. A goal that is not finite, or that the surface cannot
+    /// aim at (S::goal), changes nothing and is counted as refused.
     ContactState place(const ScenePoint& goal) noexcept
     {
         counters_ = {};
@@ -36,7 +36,7 @@ public:
         return state();
     }
 
-    /// Moves the proxy towards the goal. The first update places it. A goal that is not finite
+    /// Moves the proxy towards the goal. The first update places it. What place() refuses
     /// changes nothing and is counted as refused: the proxy, and whether it is in contact, are
     /// those of the last update.
     ContactState update(const ScenePoint& goal) noexcept

@@ -275,26 +275,28 @@ TEST(TraceCommand, ClampsGoalsBesideTheMapAndRefusesThoseThatAreNone)
                                          "nan,5199400,-500\n"
                                          "500600,inf,-500\n"
                                          "500600,5199400,-inf\n"
-                                         "1e13,5199400,-500\n"
+                                         "500600,5199400,1.1e12\n"
+                                         "1e13,-1e17,-500\n"
                                          "499000,5199400,9000\n"
                                          "599000,5300000,-500\n",
                                          {"--summary", summary});
-    ASSERT_EQ(rows.size(), 7U);
+    ASSERT_EQ(rows.size(), 8U);
     for (std::size_t i = 1; i < 5; ++i) {
         EXPECT_EQ(rows[i].x, rows[0].x);
         EXPECT_EQ(rows[i].y, rows[0].y);
         EXPECT_EQ(rows[i].z, rows[0].z);
     }
-    EXPECT_EQ(rows[5].feature, "free");
-    EXPECT_NEAR(rows[5].x, 500015.0, 1e-6); // the first column
-    EXPECT_EQ(rows[5].z, 9000.0);
-    EXPECT_TRUE(rows[6].is_in_contact);
-    EXPECT_LE(rows[6].x, 500000.0 + 30.0 * 59.5 + 1e-6);
-    EXPECT_LE(rows[6].y, 5200000.0 - 15.0 + 1e-6);
+    EXPECT_TRUE(rows[5].is_in_contact);
+    EXPECT_EQ(rows[6].feature, "free");
+    EXPECT_NEAR(rows[6].x, 500015.0, 1e-6); // the first column
+    EXPECT_EQ(rows[6].z, 9000.0);
+    EXPECT_TRUE(rows[7].is_in_contact);
+    EXPECT_LE(rows[7].x, 500000.0 + 30.0 * 59.5 + 1e-6);
+    EXPECT_LE(rows[7].y, 5200000.0 - 15.0 + 1e-6);
     const nlohmann::json json = nlohmann::json::parse(readFile(summary));
     EXPECT_EQ(json["refused_updates"], 4);
-    EXPECT_EQ(json["updates"], 7);
-    EXPECT_EQ(json["contact_updates"], 6);
+    EXPECT_EQ(json["updates"], 8);
+    EXPECT_EQ(json["contact_updates"], 7);
 }
 
 TEST(TraceCommand, ReadsGoalsAsEditorsAndSpreadsheetsWriteThem)
@@ -396,6 +398,11 @@ TEST(TraceCommand, RunsEveryModel)
         const std::vector<double> heights = heightsAt(dem, rows);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             EXPECT_GE(rows[i].z, heights[i] - 1e-6) << "line " << i + 2;
+            const bool is_on_surface =
+                kind != ContactModelKind::GodObject && kind != ContactModelKind::VirtualProxy;
+            if (rows[i].is_in_contact && is_on_surface) {
+                EXPECT_NEAR(rows[i].z, heights[i], 1e-6) << "line " << i + 2;
+            }
             if (!rows[i].is_in_contact) {
                 EXPECT_EQ((std::array{rows[i].x, rows[i].y, rows[i].z}), goals.points[i]);
             }
@@ -417,6 +424,32 @@ TEST(TraceCommand, HoldsASphereItsRadiusAboveTheSurface)
     EXPECT_NEAR(height({}), 100.5, 1e-6);
     EXPECT_NEAR(height({"--radius", "2"}), 102.0, 1e-6);
     EXPECT_NEAR(height({"--radius", "2", "--exaggeration", "4"}), 100.5, 1e-6);
+}
+
+TEST(TraceCommand, LeavesASphereThatRestsOnSamplesWhereItIs)
+{
+    // On three spikes whose middle is no sample.
+    const TempFolder folder;
+    std::vector<float> heights(1600, 0.0F);
+    for (const auto& [column, row] : {std::pair{20, 20}, {23, 20}, {21, 23}}) {
+        heights[static_cast<std::size_t>(row * 40 + column)] = 10.0F;
+    }
+    const std::string dem =
+        writeRaster(folder, "spikes.tif", "GTiff", recipeFor(40, std::move(heights)));
+    const double x = 1021.5 + 0.5;
+    const double y = 2000.0 - (20.0 + 7.0 / 6.0) - 0.5;
+    const Row row = traced(dem, fmt::format("x,y,z\n{},{},5\n", x + 0.1, y),
+                           {"--model", "virtual-proxy", "--radius", "2.2"})
+                        .at(0);
+    EXPECT_EQ(row.feature, "vertex");
+    EXPECT_NEAR(row.x, x, 1e-3);
+    EXPECT_NEAR(row.y, y, 1e-3);
+    const auto distance = [&](double column, double line) {
+        return std::hypot(row.x - (1000.5 + column), row.y - (1999.5 - line), row.z - 10.0);
+    };
+    EXPECT_NEAR(distance(20, 20), 2.2, 1e-6);
+    EXPECT_NEAR(distance(23, 20), 2.2, 1e-6);
+    EXPECT_NEAR(distance(21, 23), 2.2, 1e-6);
 }
 
 TEST(TraceCommand, RefusesWhatItCannotRun)

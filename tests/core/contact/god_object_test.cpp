@@ -389,7 +389,7 @@ TEST_P(GodObjectTest, KeepsTheProxyWhereTheGoalIsNoPlace)
     EXPECT_EQ(unplaced.counters.refused, 1U);
     const ContactState held = model.update({1.5, 2.5, -10.0});
     for (const double bad : {kNan, std::numeric_limits<double>::infinity(), -1e300}) {
-        const ContactState state = model.update({1.0, bad, 1.0});
+        const ContactState state = model.update({1.0, 1.0, bad});
         EXPECT_EQ(state.proxy, held.proxy);
         EXPECT_EQ(state.feature, held.feature);
         EXPECT_EQ(state.counters.refused, 1U);

@@ -303,7 +303,7 @@ TEST(ProxyGraph, KeepsTheProxyWhereTheGoalIsNoPlace)
     EXPECT_TRUE(unplaced.is_in_contact);
     EXPECT_EQ(unplaced.proxy, surface.point(surface.initialContact()));
     const ContactState held = model.update({1.5, 2.5, -10.0});
-    for (const double bad : {kNan, kInf, -kInf, 1e300}) {
+    for (const double bad : {kNan, kInf, -kInf}) {
         for (const ScenePoint goal :
              {ScenePoint{bad, 1.0, 1.0}, ScenePoint{1.0, bad, 1.0}, ScenePoint{1.0, 1.0, bad}}) {
             const ContactState state = model.update(goal);

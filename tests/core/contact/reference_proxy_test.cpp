@@ -256,7 +256,7 @@ TEST(ReferenceProxy, StaysWhereTheGoalIsRefused)
     ReferenceProxy reference(surface);
     const ScenePoint proxy = reference.place({3.0, 4.0, -5.0}).proxy;
     for (const ScenePoint& goal : {ScenePoint{kNan, 0.0, 0.0}, ScenePoint{0.0, kInf, 0.0},
-                                   ScenePoint{0.0, 0.0, -kInf}, ScenePoint{2e12, 0.0, 0.0}}) {
+                                   ScenePoint{0.0, 0.0, -kInf}, ScenePoint{0.0, 0.0, 2e12}}) {
         EXPECT_EQ(reference.update(goal).proxy, proxy);
     }
     EXPECT_FALSE(reference.update({0.0, 0.0, 50.0}).is_in_contact);

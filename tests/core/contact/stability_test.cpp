@@ -6,6 +6,7 @@
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
+#include "core/session/dataset.h"
 #include "core/session/scene_surface.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
@@ -13,6 +14,7 @@
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/map_maker.h"
+#include "tests/support/shared_data.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -116,11 +118,13 @@ struct Runs {
         for (const ScenePoint& goal : {beneath, above}) {
             const ContactState held = model.update(goal);
             ASSERT_EQ(held.is_in_contact, goal == beneath);
-            for (const double bad : {kNan, kInf, -kInf, 1e300, 1.0001e12, -1.0001e12}) {
-                for (const ScenePoint& refused : {ScenePoint{bad, 1.0, 1.0},
-                                                  {1.0, bad, 1.0},
-                                                  {1.0, 1.0, bad},
-                                                  {bad, bad, bad}}) {
+            const double too_high_m = 1.0001e12 * std::max(scenery.exaggeration, 1.0);
+            for (const double bad : {kNan, kInf, -kInf, 1e300, too_high_m, -too_high_m}) {
+                std::vector<ScenePoint> refusals{{1.0, 1.0, bad}, {bad, bad, bad}};
+                if (!std::isfinite(bad)) {
+                    refusals.insert(refusals.end(), {{bad, 1.0, 1.0}, {1.0, bad, 1.0}});
+                }
+                for (const ScenePoint& refused : refusals) {
                     for (const ContactState& state :
                          {model.update(refused), model.place(refused)}) {
                         EXPECT_EQ(state.counters.refused, 1U);
@@ -458,6 +462,23 @@ std::vector<Case> cases()
         std::replace_if(
             plain.begin(), plain.end(), [](char c) { return c == '-' || c == '.'; }, '_');
         all.push_back(one(plain, [scale = scale] { return fractal(90, 70, scale); }));
+    }
+    for (const auto& [name, file] :
+         {std::pair{"Mars", "mars_mola_4ppd.tif"}, {"MountStHelens", "mount_st_helens_30m.tif"}}) {
+        all.push_back({name, [file = file] {
+                           JobMonitor monitor;
+                           const auto dataset =
+                               loadDataset({(test::bundledSamples() / file).string()}, monitor,
+                                           std::size_t{1} << 30U)
+                                   .value();
+                           const auto terrain = test::filledTerrain(dataset->heightfield());
+                           std::vector<Scenery> sceneries;
+                           for (const double exaggeration : {0.1, 1.0, 5.0, 20.0}) {
+                               sceneries.push_back(
+                                   {terrain, dataset->georeference().sceneFrame(), exaggeration});
+                           }
+                           return sceneries;
+                       }});
     }
     all.push_back(one("WholeFractal", [] { return fractal(90, 70, 5.0, true); }));
     all.push_back(one("WholeFractalSteep", [] { return fractal(90, 70, 1000.0, true); }));
