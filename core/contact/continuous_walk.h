@@ -340,13 +340,13 @@ private:
             return false;
         }
         // A ridge: the proxy falls from where the foot is on the edge.
-        const auto weightOf = [&](std::size_t corner) {
+        const auto weight_of = [&](std::size_t corner) {
             return std::max(first.weights[corner] +
                                 share * (last.weights[corner] - first.weights[corner]),
                             0.0);
         };
-        const double at_k = weightOf(kK);
-        const double sum = weightOf(kJ) + at_k;
+        const double at_k = weight_of(kK);
+        const double sum = weight_of(kJ) + at_k;
         const double to_k = sum > 0.0 ? at_k / sum : 0.5;
         const Vec3 edge = surface_.between(left().vertices[kJ], left().vertices[kK]);
         if (is_stuck || !has_beyond) {

@@ -150,12 +150,12 @@ struct FacetSteps {
                 }
             }
         }
-        const auto weightAt = [&](std::size_t corner) {
+        const auto weight_at = [&](std::size_t corner) {
             const double begin = at[corner] * facet.scale;
             return begin + earliest * (foot.weights[corner] - begin);
         };
-        const double before = weightAt((i + 2) % 3);
-        return {i, before / (before + weightAt((i + 1) % 3))};
+        const double before = weight_at((i + 2) % 3);
+        return {i, before / (before + weight_at((i + 1) % 3))};
     }
 
     /// The same from a place on the edge opposite the first corner, at the share `share` from the

@@ -78,7 +78,7 @@ auto BasicHeightfieldSurface<Heights>::legs(const ScenePoint& from,
     const GridPoint b = frame_.toGrid(to);
     std::array<double, SurfaceLegs<BasicHeightfieldSurface>::kLegsMax - 1> shares{};
     std::size_t count = 0;
-    const auto addCrossing = [&](double begin, double end, double line) {
+    const auto add_crossing = [&](double begin, double end, double line) {
         if ((begin < line) != (end < line) && begin != line && end != line) {
             const double share = (line - begin) / (end - begin);
             if (share > 0.0 && share < 1.0) {
@@ -90,10 +90,10 @@ auto BasicHeightfieldSurface<Heights>::legs(const ScenePoint& from,
             }
         }
     };
-    addCrossing(a.column, b.column, 0.0);
-    addCrossing(a.column, b.column, static_cast<double>(last_column_));
-    addCrossing(a.row, b.row, 0.0);
-    addCrossing(a.row, b.row, static_cast<double>(last_row_));
+    add_crossing(a.column, b.column, 0.0);
+    add_crossing(a.column, b.column, static_cast<double>(last_column_));
+    add_crossing(a.row, b.row, 0.0);
+    add_crossing(a.row, b.row, static_cast<double>(last_row_));
     for (std::size_t i = 0; i < count; ++i) {
         const GridPoint grid{a.column + shares[i] * (b.column - a.column),
                              a.row + shares[i] * (b.row - a.row)};

@@ -490,7 +490,7 @@ auto BasicHeightfieldSurface<Heights>::edgeFacets(Edge edge) const noexcept
     // Opposite the ends are the two other kinds; a step from `positive` to `from`, say, is parallel
     // to one from `to` to `negative`.
     const auto kind = static_cast<std::uint8_t>(edge.kind);
-    const auto facetAt = [&](Vertex far, Vertex b, Vertex c, double b_height, double c_height) {
+    const auto facet_at = [&](Vertex far, Vertex b, Vertex c, double b_height, double c_height) {
         return facetOf({far, b, c}, {kind, kindOf(c, far), kindOf(far, b)},
                        {heightOf(far), b_height, c_height});
     };
@@ -499,12 +499,12 @@ auto BasicHeightfieldSurface<Heights>::edgeFacets(Edge edge) const noexcept
     const bool has_negative = isInside(negative);
     facets.has_right = has_positive && has_negative;
     if (has_positive) {
-        facets.left = facetAt(positive, second, third, second_height, third_height);
+        facets.left = facet_at(positive, second, third, second_height, third_height);
         if (has_negative) {
-            facets.right = facetAt(negative, third, second, third_height, second_height);
+            facets.right = facet_at(negative, third, second, third_height, second_height);
         }
     } else {
-        facets.left = facetAt(negative, third, second, third_height, second_height);
+        facets.left = facet_at(negative, third, second, third_height, second_height);
     }
     return facets;
 }

@@ -137,7 +137,7 @@ std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal)
     };
     const Vec3 to_goal = goal.from(fan.point);
     const double goal_length = length(to_goal);
-    const auto sectorAt = [&](std::uint32_t corner) {
+    const auto sector_at = [&](std::uint32_t corner) {
         Sector sector{};
         sector.a = mesh_->vertex(mesh_->vertexAt(TriangleMesh::nextCorner(corner))) - fan.point;
         sector.b = mesh_->vertex(mesh_->vertexAt(TriangleMesh::previousCorner(corner))) - fan.point;
@@ -159,7 +159,7 @@ std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal)
         }
     };
     // The distance from a spoke, where the goal is not beyond the vertex.
-    const auto fromSpoke = [&](const Vec3& spoke) {
+    const auto from_spoke = [&](const Vec3& spoke) {
         return dot(spoke, to_goal) > 0.0 ? length(cross(spoke, to_goal)) / length(spoke)
                                          : kInfinity;
     };
@@ -168,7 +168,7 @@ std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal)
     Vec3 pseudonormal{};
     for (const std::uint32_t corner : fan.corners) {
         const Face face{TriangleMesh::faceOf(corner)};
-        const Sector sector = sectorAt(corner);
+        const Sector sector = sector_at(corner);
         pseudonormal = pseudonormal + sector.normal * std::atan2(length(cross(sector.a, sector.b)),
                                                                  dot(sector.a, sector.b));
         if (dot(cross(sector.normal, sector.a), to_goal) >= 0.0 &&
@@ -176,18 +176,18 @@ std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal)
             offer(std::abs(sector.above), sector.above > rise_min, face);
         }
         // The spoke that the sector ends at, and the first one of a border.
-        const double distance = fromSpoke(sector.b);
+        const double distance = from_spoke(sector.b);
         const std::uint32_t beyond = mesh_->across(TriangleMesh::nextCorner(corner));
         if (beyond == TriangleMesh::kNone) {
             offer(distance, true, face);
         } else if (distance < kInfinity) {
             const bool is_here = sector.above > rise_min;
-            const bool is_there = sectorAt(TriangleMesh::nextCorner(beyond)).above > rise_min;
+            const bool is_there = sector_at(TriangleMesh::nextCorner(beyond)).above > rise_min;
             offer(distance, isValley(beyond) ? is_here && is_there : is_here || is_there,
                   is_here ? face : Face{TriangleMesh::faceOf(beyond)});
         }
         if (is_at_border && corner == fan.corners.front()) {
-            offer(fromSpoke(sector.a), true, face);
+            offer(from_spoke(sector.a), true, face);
         }
     }
     if (nearest_free == kInfinity && nearest_blocked == kInfinity) { // the vertex itself
@@ -249,7 +249,7 @@ MeshSurface::Cast
 MeshSurface::castFrom(const Contact& contact, Face over, const Goal& goal) const noexcept
 {
     MeshStart start;
-    const auto sizeOf = [this](std::uint32_t face) {
+    const auto size_of = [this](std::uint32_t face) {
         const auto [a, b, c] = mesh_->points(face);
         return std::sqrt(std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)}));
     };
@@ -262,13 +262,13 @@ MeshSurface::castFrom(const Contact& contact, Face over, const Goal& goal) const
         const std::uint32_t here = TriangleMesh::faceOf(contact.edge.corner);
         const std::uint32_t beyond = mesh_->across(contact.edge.corner);
         start.skipped_faces[0] = here;
-        start.size_m = sizeOf(here);
+        start.size_m = size_of(here);
         const Vec3 normal = normalized(mesh_->normal(here));
         Vec3 lift = normal;
         if (beyond != TriangleMesh::kNone) {
             const std::uint32_t there = TriangleMesh::faceOf(beyond);
             start.skipped_faces[1] = there;
-            start.size_m = std::max(start.size_m, sizeOf(there));
+            start.size_m = std::max(start.size_m, size_of(there));
             const Vec3 other = normalized(mesh_->normal(there));
             // By as much above both, unless they fold onto each other.
             lift = (normal + other) * (1.0 / std::max(1.0 + dot(normal, other), 1e-6));
@@ -278,7 +278,7 @@ MeshSurface::castFrom(const Contact& contact, Face over, const Goal& goal) const
         const auto points = mesh_->points(over.face);
         start.base = points[0];
         start.skipped_faces[0] = over.face;
-        start.size_m = sizeOf(over.face);
+        start.size_m = size_of(over.face);
         const Vec3 a = points[1] - points[0];
         const Vec3 b = points[2] - points[0];
         start.offset = (a * contact.weights[1] + b * contact.weights[2]) +

@@ -195,12 +195,12 @@ private:
     // Whether a vertex is closer to the goal than the last one.
     bool isCloser(Vertex vertex, const Vec3& to_goal) const noexcept
     {
-        const auto pointOf = [this](Vertex of) {
+        const auto point_of = [this](Vertex of) {
             Contact at;
             Steps::restOnVertex(at, of);
             return surface_.point(at);
         };
-        return dot(pointOf(vertex) - pointOf(vertex_), vertex_to_goal_ + to_goal) > 0.0;
+        return dot(point_of(vertex) - point_of(vertex_), vertex_to_goal_ + to_goal) > 0.0;
     }
 
     Step fromEdge(Contact& contact, const Goal& goal) noexcept

@@ -295,7 +295,7 @@ private:
     static Vec3 constrained(const Planes& planes, const Vec3& to_goal) noexcept
     {
         const double tolerance = kTangentError * length(to_goal);
-        const auto isFree = [&](const Vec3& step) {
+        const auto is_free = [&](const Vec3& step) {
             for (std::size_t i = 0; i < planes.count; ++i) {
                 if (dot(planes.normals[i], step) < -tolerance) {
                     return false;
@@ -303,14 +303,14 @@ private:
             }
             return true;
         };
-        if (isFree(to_goal)) {
+        if (is_free(to_goal)) {
             return to_goal;
         }
         Vec3 best{};
         double best_squared = 0.0;
         const auto consider = [&](const Vec3& step) {
             const double squared = dot(step, step);
-            if (squared > best_squared && isFree(step)) {
+            if (squared > best_squared && is_free(step)) {
                 best = step;
                 best_squared = squared;
             }

@@ -165,7 +165,7 @@ void TriangleTree::nearestFirst(const ScenePoint& point, F&& visit) const noexce
     const std::array<double, 3> origin{from.x, from.y, from.z};
     const double grown =
         8.0 * kEpsilon * std::max({reach_, std::abs(from.x), std::abs(from.y), std::abs(from.z)});
-    const auto distanceSquared = [&](const Node& node) {
+    const auto distance_squared = [&](const Node& node) {
         double sum = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
             const double beyond =
@@ -188,8 +188,8 @@ void TriangleTree::nearestFirst(const ScenePoint& point, F&& visit) const noexce
         while (nodes_[at].count == 0) {
             const std::uint32_t first = at + 1;
             const std::uint32_t second = nodes_[at].first;
-            const double to_first = distanceSquared(nodes_[first]);
-            const double to_second = distanceSquared(nodes_[second]);
+            const double to_first = distance_squared(nodes_[first]);
+            const double to_second = distance_squared(nodes_[second]);
             const bool is_first_nearer = to_first <= to_second;
             if (std::min(to_first, to_second) > limit) {
                 break; // at an inner node, which has no faces of its own

@@ -118,15 +118,15 @@ TEST(HeightfieldSurface, TellsWhereVoidsWereFilled)
     const auto terrain = test::filledTerrain(20, heights);
     const SceneFrame frame = test::unitFrame(*terrain);
     const HeightfieldSurface surface(terrain, frame, 1.0);
-    const auto isOverVoid = [&](double column, double row) {
+    const auto is_over_void = [&](double column, double row) {
         return surface.isOverVoid(frame.toScene({column, row}, 1.0));
     };
-    EXPECT_TRUE(isOverVoid(5.0, 5.0));
-    EXPECT_TRUE(isOverVoid(5.5, 5.25));
-    EXPECT_TRUE(isOverVoid(4.75, 4.5));
-    EXPECT_FALSE(isOverVoid(6.0, 5.5)) << "on the edge opposite";
-    EXPECT_FALSE(isOverVoid(5.75, 4.125)) << "the other triangle of the cell";
-    EXPECT_FALSE(isOverVoid(10.0, 10.0));
+    EXPECT_TRUE(is_over_void(5.0, 5.0));
+    EXPECT_TRUE(is_over_void(5.5, 5.25));
+    EXPECT_TRUE(is_over_void(4.75, 4.5));
+    EXPECT_FALSE(is_over_void(6.0, 5.5)) << "on the edge opposite";
+    EXPECT_FALSE(is_over_void(5.75, 4.125)) << "the other triangle of the cell";
+    EXPECT_FALSE(is_over_void(10.0, 10.0));
 }
 
 } // namespace

@@ -281,7 +281,7 @@ public:
             tally_.worst_gap = std::max(tally_.worst_gap, (nearest - radius) / radius);
             const double last_c = static_cast<double>(surface_.terrain()->columns() - 1);
             const double last_r = static_cast<double>(surface_.terrain()->rows() - 1);
-            const auto addWall = [&](bool is_at, Vec3 along, GridPoint inside) {
+            const auto add_wall = [&](bool is_at, Vec3 along, GridPoint inside) {
                 if (is_at) {
                     Vec3 normal = normalized(Vec3{-along.y, along.x, 0.0});
                     if (dot(normal, surface_.frame().toScene(inside, 0.0) - state.proxy) < 0.0) {
@@ -295,8 +295,8 @@ public:
             const Vec3 column{frame.east_per_column, frame.north_per_column, 0.0};
             const GridPoint middle{0.5 * last_c, 0.5 * last_r};
             constexpr double kOn = 1e-8;
-            addWall(grid.column < kOn || grid.column > last_c - kOn, row, middle);
-            addWall(grid.row < kOn || grid.row > last_r - kOn, column, middle);
+            add_wall(grid.column < kOn || grid.column > last_c - kOn, row, middle);
+            add_wall(grid.row < kOn || grid.row > last_r - kOn, column, middle);
             const double rest = unheld(to_goal, normals);
             const double allowed =
                 (1e-6 + 4.0 * std::sqrt(ulps(state.proxy) / radius)) * length(to_goal) +

@@ -41,7 +41,7 @@ BruteHit bruteCast(const TriangleMesh& mesh, const ScenePoint& start, const Scen
 {
     BruteHit hit;
     const Exact along = from(start, goal);
-    const auto lengthOf = [](const Exact& a) {
+    const auto length_of = [](const Exact& a) {
         return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
     };
     for (std::uint32_t f = 0; f < mesh.faceCount(); ++f) {
@@ -49,19 +49,19 @@ BruteHit bruteCast(const TriangleMesh& mesh, const ScenePoint& start, const Scen
         const Exact a = from(start, p[0]);
         const Exact b = from(start, p[1]);
         const Exact c = from(start, p[2]);
-        const Real la = lengthOf(a);
-        const Real lb = lengthOf(b);
-        const Real lc = lengthOf(c);
-        const Real ld = lengthOf(along);
+        const Real la = length_of(a);
+        const Real lb = length_of(b);
+        const Real lc = length_of(c);
+        const Real ld = length_of(along);
         const std::array<Real, 3> w{volume(along, c, b) / (ld * lc * lb),
                                     volume(along, a, c) / (ld * la * lc),
                                     volume(along, b, a) / (ld * lb * la)};
         const Exact ab = from(p[0], p[1]);
         const Exact ac = from(p[0], p[2]);
-        const Real scale = lengthOf(ab) * lengthOf(ac);
+        const Real scale = length_of(ab) * length_of(ac);
         const Real above = -volume(a, ab, ac) / (scale * std::max({la, lb, lc}));
         const Exact to_goal = from(p[0], goal);
-        const Real at_goal = volume(to_goal, ab, ac) / (scale * std::max(lengthOf(to_goal), lc));
+        const Real at_goal = volume(to_goal, ab, ac) / (scale * std::max(length_of(to_goal), lc));
         const bool is_hit = w[0] >= 0 && w[1] >= 0 && w[2] >= 0 && above > 0 && at_goal <= 0;
         // A decision counts only where the others do not already say no.
         const Real worst = std::min({w[0], w[1], w[2], above, -at_goal});

@@ -227,33 +227,33 @@ TEST(MeshCheck, CountsIntersectionsAsTheSumOverAllPairsDoes)
     const auto minus = [](const Point& a, const Point& b) {
         return Point{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     };
-    const auto crossOf = [](const Point& a, const Point& b) {
+    const auto cross_of = [](const Point& a, const Point& b) {
         return Point{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
                      a[0] * b[1] - a[1] * b[0]};
     };
-    const auto dotOf = [](const Point& a, const Point& b) {
+    const auto dot_of = [](const Point& a, const Point& b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     };
     // Two closed convex sets are apart where one of these axes says so; in a plane, also where the
     // normals of the edges within it do.
-    const auto areApart = [&](const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
-        const Point n = crossOf(minus(p[1], p[0]), minus(p[2], p[0]));
-        const Point m = crossOf(minus(q[1], q[0]), minus(q[2], q[0]));
+    const auto are_apart = [&](const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
+        const Point n = cross_of(minus(p[1], p[0]), minus(p[2], p[0]));
+        const Point m = cross_of(minus(q[1], q[0]), minus(q[2], q[0]));
         std::vector<Point> axes{n, m};
         for (std::size_t i = 0; i < 3; ++i) {
             const Point e = minus(p[(i + 1) % 3], p[i]);
             const Point f = minus(q[(i + 1) % 3], q[i]);
-            axes.push_back(crossOf(e, n));
-            axes.push_back(crossOf(f, m));
+            axes.push_back(cross_of(e, n));
+            axes.push_back(cross_of(f, m));
             for (std::size_t j = 0; j < 3; ++j) {
-                axes.push_back(crossOf(e, minus(q[(j + 1) % 3], q[j])));
+                axes.push_back(cross_of(e, minus(q[(j + 1) % 3], q[j])));
             }
         }
         return std::any_of(axes.begin(), axes.end(), [&](const Point& axis) {
             const auto [p_low, p_high] =
-                std::minmax({dotOf(axis, p[0]), dotOf(axis, p[1]), dotOf(axis, p[2])});
+                std::minmax({dot_of(axis, p[0]), dot_of(axis, p[1]), dot_of(axis, p[2])});
             const auto [q_low, q_high] =
-                std::minmax({dotOf(axis, q[0]), dotOf(axis, q[1]), dotOf(axis, q[2])});
+                std::minmax({dot_of(axis, q[0]), dot_of(axis, q[1]), dot_of(axis, q[2])});
             return p_high < q_low || q_high < p_low;
         });
     };
@@ -274,12 +274,12 @@ TEST(MeshCheck, CountsIntersectionsAsTheSumOverAllPairsDoes)
         soup.faces = {{0, 1, 2}, {3, 4, 5}};
         bool is_degenerate = false;
         for (const auto& [a, b, c] : t) {
-            is_degenerate = is_degenerate || crossOf(minus(b, a), minus(c, a)) == Point{};
+            is_degenerate = is_degenerate || cross_of(minus(b, a), minus(c, a)) == Point{};
         }
         if (is_degenerate) {
             continue;
         }
-        const bool truth = !areApart(t[0], t[1]);
+        const bool truth = !are_apart(t[0], t[1]);
         (truth ? met : apart) += 1;
         const auto faults = faultsOf(soup);
         ASSERT_EQ(!faults.empty(), truth) << describe(faults);
