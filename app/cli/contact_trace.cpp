@@ -1,17 +1,16 @@
 #include "app/cli/contact_trace.h"
 
+#include "app/cli/number_checks.h"
 #include "app/cli/quantile.h"
 #include "app/cli/text_output.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 namespace marsview {
 namespace {
@@ -29,19 +28,6 @@ std::string_view trimmed(std::string_view text)
     return begin == std::string_view::npos
                ? std::string_view()
                : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
-std::optional<double> parseNumber(std::string_view word)
-{
-    if (word.starts_with('+')) {
-        word.remove_prefix(1);
-    }
-    double value = 0.0;
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (failure != std::errc{} || end != word.data() + word.size()) {
-        return std::nullopt;
-    }
-    return value;
 }
 
 // The words between the commas of a line, at most four.

@@ -2,10 +2,10 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/map_options.h"
+#include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "core/terrain/surface_reader.h"
 
-#include <charconv>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
@@ -14,7 +14,6 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace marsview {
@@ -128,19 +127,6 @@ private:
     LatitudeKind latitude_kind_;
     bool is_json_;
 };
-
-std::optional<double> parseNumber(std::string_view word)
-{
-    if (word.starts_with('+')) {
-        word.remove_prefix(1);
-    }
-    double value = 0.0;
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (failure != std::errc{} || end != word.data() + word.size()) {
-        return std::nullopt;
-    }
-    return value;
-}
 
 // Two numbers, apart by blanks, a comma or a semicolon; "nan" is a number.
 std::optional<Position> parsePosition(std::string line)

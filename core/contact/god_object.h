@@ -15,6 +15,7 @@
 #include "core/contact/border_walls.h"
 #include "core/contact/contact.h"
 #include "core/contact/contact_surface.h"
+#include "core/contact/facet_steps.h"
 #include "core/contact/surface_proxy.h"
 
 #include <algorithm>
@@ -95,10 +96,6 @@ private:
     using Base::counters_;
     using Base::surface_;
 
-    // As in ProxyGraph: what is less than rounding error from an end of an edge, or from the border
-    // of a face, is there.
-    static constexpr double kShareMin = 1e-12;  // of the edge
-    static constexpr double kCosineMin = 1e-13; // between edge and goal
     // A plane stops what goes into it by more than this, as the sine of the angle.
     static constexpr double kSineMin = 1e-9;
     static constexpr double kNormalError = 1e-12; // of the way to the goal
@@ -451,7 +448,7 @@ private:
     {
         const auto facet = surface_.facet(face, 0);
         const SurfaceFoot scaled = facet.foot(goal);
-        const double error = std::max(kShareMin, facet.error(goal) / facet.scale);
+        const double error = std::max(kEdgeShareMin, facet.error(goal) / facet.scale);
         Foot foot{};
         foot.scale = facet.scale;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -616,8 +613,8 @@ private:
         const double length_squared = dot(edge, edge);
         const double along = dot(to_goal, edge) / length_squared;
         const double slack =
-            0.5 *
-            std::max(kShareMin, kCosineMin * std::sqrt(dot(to_goal, to_goal) / length_squared));
+            0.5 * std::max(kEdgeShareMin,
+                           kEdgeCosineMin * std::sqrt(dot(to_goal, to_goal) / length_squared));
         Contact end = contact_;
         end.along = along;
         if (!(along > slack && along < 1.0 - slack)) {
@@ -658,8 +655,8 @@ private:
             }
             return startAlong(here, corners[(at + (one > 0.0 ? 1 : 2)) % 3]);
         }
-        if (way.rate * way.rate > kCosineMin * kCosineMin * dot(to_goal, to_goal) &&
-            way.rate > kShareMin * std::sqrt(way.length_squared)) {
+        if (way.rate * way.rate > kEdgeCosineMin * kEdgeCosineMin * dot(to_goal, to_goal) &&
+            way.rate > kEdgeShareMin * std::sqrt(way.length_squared)) {
             return startAlong(here, way.end);
         }
         return true;
