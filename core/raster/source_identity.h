@@ -1,0 +1,28 @@
+// Telling whether a file is still the one that something was made from.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstdint>
+#include <string>
+
+namespace marsview {
+
+/// What tells one raster file, or address, from another and from itself after a change.
+struct SourceIdentity {
+    std::string path;            // absolute; an address as it is
+    std::uint64_t bytes = 0;     // of the file that holds the samples
+    std::int64_t modified_s = 0; // since 1970
+    std::string digest;          // of some of the content, spread over all of it: hexadecimal
+    bool operator==(const SourceIdentity&) const = default;
+};
+
+/// Reads a few dozen kilobytes. NotFound or Unreadable where there is nothing to read. Names with a
+/// scheme are asked of GDAL's file systems.
+Result<SourceIdentity> identify(const std::string& path);
+
+/// Whether `now` is what `then` was. The path does not count: a file may move together with what
+/// was made from it.
+bool isSameContent(const SourceIdentity& then, const SourceIdentity& now);
+
+} // namespace marsview

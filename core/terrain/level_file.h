@@ -1,0 +1,92 @@
+// The small file beside a tiled raster that makes it a multi-resolution one: the nested levels of
+// its samples, and everything that is measured once over a whole map.
+//
+// The raster itself is a tiled GeoTIFF with overviews (means), which other programs read. Levels 1
+// and 2 are cheap to take from its samples; from kFirstLevel on they are kept here, a fiftieth of
+// the raster.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/raster/raster_info.h"
+#include "core/raster/source_identity.h"
+#include "core/raster/tile.h"
+#include "core/raster/tile_cache.h"
+#include "core/terrain/surface_analysis.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// What a level file is made from. One that was made from something else is not used.
+struct LevelFileKey {
+    SourceIdentity raster; // the tiled raster that it belongs to
+    int band = 1;
+    std::optional<double> nodata; // raw
+    bool operator==(const LevelFileKey&) const = default;
+};
+
+/// What is known of the whole map as soon as the file is open.
+struct MapLevels {
+    TileLayout layout;
+    SampleStatistics statistics;
+    std::shared_ptr<const SurfaceAnalysis> analysis; // heights in metres by the scale asked for
+    /// No filled sample of a node is higher; a level each as in the analysis' bounds, in metres.
+    /// Empty where no sample is void.
+    std::vector<std::vector<float>> filled_maxima_m;
+};
+
+/// An open level file. For one thread at a time; open it again for another.
+class LevelFile {
+public:
+    /// The coarsest levels of samples are kept from here on.
+    static constexpr std::size_t kFirstLevel = 3;
+
+    /// Where the level file of a raster lies: beside it.
+    static std::string pathFor(const std::string& raster_path);
+
+    /// NotFound where there is none. Invalid, with the reason, where it is damaged, cut short, of
+    /// another version, or made from something else than `expected`. Paths may be GDAL's
+    /// (/vsicurl/…).
+    static Result<LevelFile> open(const std::string& path, const LevelFileKey& expected);
+
+    LevelFile(LevelFile&&) noexcept;
+    LevelFile& operator=(LevelFile&&) noexcept;
+    ~LevelFile();
+
+    /// Reads what is measured; some 1/50 of a byte a sample. The same bits as analyse() on the map
+    /// held in memory (means: from the level up at which they are kept) where `scale` is the one
+    /// the file was made with; otherwise converted.
+    Result<MapLevels> readLevels(const ElevationScale& scale) const;
+
+    /// The samples of a Samples tile at a level >= kFirstLevel. Checked against its checksum.
+    Result<SampleGrid> readSamples(const TileId& id) const;
+
+    /// What the void samples of a level-0 tile are filled with (Tile::filled_m); empty where none
+    /// of them is void. The same bits as FilledHeightfield on the map held in memory.
+    Result<std::vector<float>> readFilled(const TileId& id, const ElevationScale& scale) const;
+
+private:
+    struct Impl;
+    explicit LevelFile(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+struct LevelBuild {
+    TileSource* source = nullptr; // level 0 is read, in bands of whole rows of tiles
+    ElevationScale scale;
+    LevelFileKey key;
+    std::string path; // written beside itself and moved there when whole
+    std::size_t memory_bytes_max = std::size_t{1} << 30;
+};
+
+/// Reads the raster twice, on all cores, and writes its level file. Fails, leaving nothing behind
+/// but what was at `path` before, when cancelled, when a tile cannot be read, when the disk is
+/// full.
+Status buildLevelFile(const LevelBuild& build, JobMonitor& monitor);
+
+} // namespace marsview
