@@ -296,8 +296,16 @@ struct RasterFile::Impl {
     std::optional<NetcdfExtent> netcdf; // for classic netCDF files
     RasterInfo info;
 
-    Status readRows(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const;
-    Status markMasked(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const;
+    Status readRows(GDALRasterBand& from,
+                    SampleGrid& grid,
+                    const GridWindow& window,
+                    std::size_t grid_row) const;
+    Status markMasked(GDALRasterBand& from,
+                      SampleGrid& grid,
+                      const GridWindow& window,
+                      std::size_t grid_row) const;
+    Result<LoadedSamples>
+    readFrom(GDALRasterBand& from, const GridWindow& window, const VoidRule& voids) const;
     Status checkExtent(const GridWindow& window) const;
     Error readFailure(const GdalMessages& messages, const GridWindow& window) const;
     Error readFailure(const std::string& why, const GridWindow& window) const;
@@ -396,13 +404,25 @@ std::optional<double> RasterFile::Impl::findTypicalSample()
     if (!can_hold_radius || !info.crs) {
         return std::nullopt;
     }
+    if (const int overviews = band->GetOverviewCount(); overviews > 0) {
+        // The smallest: whole rows of a large map may be far away.
+        GDALRasterBand& smallest = *band->GetOverview(overviews - 1);
+        const auto loaded =
+            readFrom(smallest,
+                     {0, 0, static_cast<std::size_t>(smallest.GetXSize()),
+                      std::min<std::size_t>(static_cast<std::size_t>(smallest.GetYSize()), 64)},
+                     {info.nodata});
+        if (loaded && loaded->statistics.hasSamples()) {
+            return loaded->statistics.raw_maximum;
+        }
+    }
     for (const std::size_t row : {info.rows / 2, info.rows / 4, info.rows - 1 - info.rows / 4}) {
         Result<SampleGrid> grid = SampleGrid::create(info.type, info.columns, 1);
         if (!grid) {
             return std::nullopt;
         }
         const GridWindow window{0, row, info.columns, 1};
-        if (!readRows(*grid, window, 0)) {
+        if (!readRows(*band, *grid, window, 0)) {
             return std::nullopt; // reading the samples proper will tell
         }
         const SampleStatistics statistics = grid->applyRule({info.nodata}, 0, 1);
@@ -476,33 +496,39 @@ Status RasterFile::Impl::checkExtent(const GridWindow& window) const
     return Done{};
 }
 
-Status
-RasterFile::Impl::readRows(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const
+Status RasterFile::Impl::readRows(GDALRasterBand& from,
+                                  SampleGrid& grid,
+                                  const GridWindow& window,
+                                  std::size_t grid_row) const
 {
-    if (Status complete = checkExtent(window); !complete) {
-        return complete;
+    if (&from == band) {
+        if (Status complete = checkExtent(window); !complete) {
+            return complete;
+        }
     }
     const GdalMessages messages;
     const CPLErr outcome =
-        band->RasterIO(GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
-                       static_cast<int>(window.columns), static_cast<int>(window.rows),
-                       grid.rowData(grid_row), static_cast<int>(window.columns),
-                       static_cast<int>(window.rows), band->GetRasterDataType(), 0, 0, nullptr);
+        from.RasterIO(GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
+                      static_cast<int>(window.columns), static_cast<int>(window.rows),
+                      grid.rowData(grid_row), static_cast<int>(window.columns),
+                      static_cast<int>(window.rows), band->GetRasterDataType(), 0, 0, nullptr);
     if (outcome != CE_None || messages.hasFailed()) {
         return readFailure(messages, window);
     }
     return Done{};
 }
 
-Status
-RasterFile::Impl::markMasked(SampleGrid& grid, const GridWindow& window, std::size_t grid_row) const
+Status RasterFile::Impl::markMasked(GDALRasterBand& from,
+                                    SampleGrid& grid,
+                                    const GridWindow& window,
+                                    std::size_t grid_row) const
 {
     if (!info.has_mask_band) {
         return Done{};
     }
     const GdalMessages messages;
     std::vector<std::uint8_t> mask(window.columns * window.rows);
-    const CPLErr outcome = band->GetMaskBand()->RasterIO(
+    const CPLErr outcome = from.GetMaskBand()->RasterIO(
         GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
         static_cast<int>(window.columns), static_cast<int>(window.rows), mask.data(),
         static_cast<int>(window.columns), static_cast<int>(window.rows), GDT_Byte, 0, 0, nullptr);
@@ -521,21 +547,54 @@ RasterFile::Impl::markMasked(SampleGrid& grid, const GridWindow& window, std::si
 
 Result<LoadedSamples> RasterFile::readWindow(const GridWindow& window, const VoidRule& voids)
 {
-    const RasterInfo& info = impl_->info;
-    MARSVIEW_CHECK(window.column + window.columns <= info.columns);
-    MARSVIEW_CHECK(window.row + window.rows <= info.rows);
+    return impl_->readFrom(*impl_->band, window, voids);
+}
+
+Result<LoadedSamples> RasterFile::Impl::readFrom(GDALRasterBand& from,
+                                                 const GridWindow& window,
+                                                 const VoidRule& voids) const
+{
+    MARSVIEW_CHECK(window.column + window.columns <= static_cast<std::size_t>(from.GetXSize()));
+    MARSVIEW_CHECK(window.row + window.rows <= static_cast<std::size_t>(from.GetYSize()));
     Result<SampleGrid> grid = SampleGrid::create(info.type, window.columns, window.rows);
     if (!grid) {
         return std::move(grid).error();
     }
-    if (Status read = impl_->readRows(*grid, window, 0); !read) {
+    if (Status read = readRows(from, *grid, window, 0); !read) {
         return std::move(read).error();
     }
-    if (Status masked = impl_->markMasked(*grid, window, 0); !masked) {
+    if (Status masked = markMasked(from, *grid, window, 0); !masked) {
         return std::move(masked).error();
     }
     const SampleStatistics statistics = grid->applyRule(voids, 0, window.rows);
     return LoadedSamples{std::move(*grid), statistics};
+}
+
+std::size_t RasterFile::overviewCount() const noexcept
+{
+    return static_cast<std::size_t>(std::max(0, impl_->band->GetOverviewCount()));
+}
+
+GridSize RasterFile::overviewSize(std::size_t overview) const
+{
+    MARSVIEW_CHECK(overview < overviewCount());
+    GDALRasterBand& band = *impl_->band->GetOverview(static_cast<int>(overview));
+    return {static_cast<std::size_t>(band.GetXSize()), static_cast<std::size_t>(band.GetYSize())};
+}
+
+Result<LoadedSamples>
+RasterFile::readOverview(std::size_t overview, const GridWindow& window, const VoidRule& voids)
+{
+    MARSVIEW_CHECK(overview < overviewCount());
+    return impl_->readFrom(*impl_->band->GetOverview(static_cast<int>(overview)), window, voids);
+}
+
+GridSize RasterFile::blockSize() const
+{
+    int columns = 0;
+    int rows = 0;
+    impl_->band->GetBlockSize(&columns, &rows);
+    return {static_cast<std::size_t>(columns), static_cast<std::size_t>(rows)};
 }
 
 Result<LoadedSamples>
@@ -562,10 +621,10 @@ RasterFile::readAll(JobMonitor& monitor, const VoidRule& voids, std::size_t memo
             return Error{ErrorCode::Cancelled, fmt::format("{}: reading was cancelled", info.path)};
         }
         const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
-        if (Status read = impl_->readRows(*grid, window, row); !read) {
+        if (Status read = impl_->readRows(*impl_->band, *grid, window, row); !read) {
             return std::move(read).error();
         }
-        if (Status masked = impl_->markMasked(*grid, window, row); !masked) {
+        if (Status masked = impl_->markMasked(*impl_->band, *grid, window, row); !masked) {
             return std::move(masked).error();
         }
         statistics.merge(grid->applyRule(voids, row, window.rows));

@@ -26,6 +26,13 @@ struct LoadedSamples {
     SampleStatistics statistics;
 };
 
+/// Columns and rows.
+struct GridSize {
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    bool operator==(const GridSize&) const = default;
+};
+
 /// An open raster. For one thread at a time; open it again for another thread. The user's file is
 /// never written to.
 class RasterFile {
@@ -52,6 +59,16 @@ public:
 
     /// The samples of a window that lies within the raster.
     Result<LoadedSamples> readWindow(const GridWindow& window, const VoidRule& voids);
+
+    /// Smaller versions of the band that the file brings along, the largest first; most files have
+    /// none.
+    std::size_t overviewCount() const noexcept;
+    GridSize overviewSize(std::size_t overview) const;
+    /// The samples of a window that lies within an overview.
+    Result<LoadedSamples>
+    readOverview(std::size_t overview, const GridWindow& window, const VoidRule& voids);
+    /// How the file stores its samples: columns and rows that are decoded together.
+    GridSize blockSize() const;
 
     /// Range and void count without keeping the samples: bounded memory on a raster of any size.
     Result<SampleStatistics> scan(JobMonitor& monitor, const VoidRule& voids);

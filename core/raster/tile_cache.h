@@ -15,6 +15,8 @@
 
 namespace marsview {
 
+struct TiledRasterState;
+
 /// Who wants a tile. Loaders serve the first kind first.
 enum class TileUrgency : std::uint8_t {
     Hand,  // is touched now, or within a moment
@@ -56,6 +58,7 @@ public:
 private:
     friend class TiledRaster;
     friend class TileWishes;
+    friend struct TiledRasterState;
     struct Impl;
     std::shared_ptr<Impl> impl_;
 };
@@ -79,11 +82,12 @@ public:
     std::uint64_t generation() const noexcept;
 
 private:
+    friend class TileCache;
     friend class TileWishes;
     std::shared_ptr<TileCache::Impl> cache_;
     std::shared_ptr<const TileSource> source_;
     std::uint64_t number_ = 0; // of the source in the cache
-    std::shared_ptr<struct TiledRasterState> state_;
+    std::shared_ptr<TiledRasterState> state_;
 };
 
 /// What one part of the program wants of a raster at present. What it no longer wants, and nobody
@@ -107,6 +111,7 @@ public:
     std::size_t missingCount() const;
 
 private:
+    friend class TileCache;
     struct Impl;
     std::shared_ptr<Impl> impl_;
 };

@@ -1,0 +1,42 @@
+// Tiles straight from a raster file that is stored in tiles and has overviews.
+#pragma once
+
+#include "core/raster/raster_file.h"
+#include "core/raster/tile_source.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// A raster file that can be read in pieces without reading much more than these: blocks of at most
+/// kBlockSideMax a side, with overviews by powers of two.
+class GeotiffTileSource final : public TileSource {
+public:
+    static constexpr std::size_t kBlockSideMax = 1024;
+    /// Samples exist at levels up to this: each further one is four times as much to read for the
+    /// same tile.
+    static constexpr std::size_t kLastLevel = 2;
+
+    /// Looks at `file`, which stays the caller's. Unsupported, with the reason, where it cannot be
+    /// read in pieces. `nodata` counts in place of the file's.
+    static Result<std::shared_ptr<const GeotiffTileSource>> of(const RasterFile& file,
+                                                               const VoidRule& voids);
+
+    /// Samples at levels 0 … kLastLevel, Means at 1 … mean_levels. Voids without a fill.
+    const TileLayout& layout() const noexcept override { return layout_; }
+    const std::string& name() const noexcept override { return path_; }
+    Result<std::unique_ptr<TileReader>> open() const override;
+
+private:
+    GeotiffTileSource() = default;
+
+    TileLayout layout_;
+    std::string path_;
+    int band_ = 1;
+    VoidRule voids_;
+    std::vector<std::size_t> overviews_; // of the file, by level; [0] means nothing
+};
+
+} // namespace marsview
