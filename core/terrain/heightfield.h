@@ -5,9 +5,11 @@
 #include "core/geo/frames.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/sample_grid.h"
+#include "core/terrain/tiled_samples.h"
 #include "core/terrain/triangulation.h"
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -19,41 +21,79 @@ struct HeightRange {
     double maximum_m = 0.0;
 };
 
-/// A triangulated surface over a sample grid (triangulation.h). Immutable; any thread. Copies share
-/// the samples.
+/// A triangulated surface (triangulation.h) over samples that are held in memory, or over tiles of
+/// which some are. Any thread but the servo's where it is tiled. Immutable, but that a tiled one
+/// answers from coarser levels until the finest tiles are there. Copies share the samples.
 class Heightfield {
 public:
     /// The grid has at least 2 × 2 samples.
     Heightfield(std::shared_ptr<const SampleGrid> samples,
                 const SampleStatistics& statistics,
                 const ElevationScale& scale);
+    Heightfield(std::shared_ptr<const TiledSamples> tiles,
+                const SampleStatistics& statistics,
+                const ElevationScale& scale);
 
-    std::size_t columns() const noexcept { return samples_->columns(); }
-    std::size_t rows() const noexcept { return samples_->rows(); }
-    const SampleGrid& samples() const noexcept { return *samples_; }
+    std::size_t columns() const noexcept
+    {
+        return samples_ ? samples_->columns() : tiles_->layout().columns;
+    }
+    std::size_t rows() const noexcept
+    {
+        return samples_ ? samples_->rows() : tiles_->layout().rows;
+    }
+    bool hasVoids() const noexcept
+    {
+        return samples_ ? samples_->hasVoids() : tiles_->layout().has_voids;
+    }
+    /// Whether the samples come in tiles.
+    bool isTiled() const noexcept { return samples_ == nullptr; }
+    /// All samples. Only where isTiled() is false.
+    const SampleGrid& samples() const noexcept
+    {
+        MARSVIEW_CHECK(samples_ != nullptr);
+        return *samples_;
+    }
+    /// Only where isTiled().
+    const std::shared_ptr<const TiledSamples>& tiles() const noexcept
+    {
+        MARSVIEW_CHECK(tiles_ != nullptr);
+        return tiles_;
+    }
     const ElevationScale& scale() const noexcept { return scale_; }
     /// Nothing where every sample is void.
     const std::optional<HeightRange>& range() const noexcept { return range_; }
 
     /// Height of a sample in metres; NaN where void. Unchecked: column < columns(), row < rows().
-    double sample(std::size_t column, std::size_t row) const noexcept
+    double sample(std::size_t column, std::size_t row) const
     {
+        if (!samples_) {
+            return tiledSample(column, row);
+        }
         return samples_->isVoid(column, row) ? std::numeric_limits<double>::quiet_NaN()
                                              : scale_.height(samples_->raw(column, row));
     }
 
-    CellHeights cell(std::size_t column, std::size_t row) const noexcept
+    CellHeights cell(std::size_t column, std::size_t row) const
     {
         return {sample(column, row), sample(column + 1, row), sample(column, row + 1),
                 sample(column + 1, row + 1)};
     }
 
     /// Height in metres of the surface at full resolution. NaN outside the outermost samples, in
-    /// voids, and for NaN.
-    double height(GridPoint grid) const noexcept;
+    /// voids, and for NaN. Where it is tiled, what is missing is asked for; see isExact().
+    double height(GridPoint grid) const;
+    /// Whether height() answers from full resolution now: always, where the samples are held.
+    bool isExact(GridPoint grid) const;
+    /// As height(), waiting for what is missing. NaN where it cannot be read; the reason is then
+    /// at tiles()->raster().failure().
+    double heightWaiting(GridPoint grid) const;
 
 private:
-    std::shared_ptr<const SampleGrid> samples_;
+    double tiledSample(std::size_t column, std::size_t row) const;
+
+    std::shared_ptr<const SampleGrid> samples_; // null where tiles_ is not
+    std::shared_ptr<const TiledSamples> tiles_;
     ElevationScale scale_;
     std::optional<HeightRange> range_;
 };

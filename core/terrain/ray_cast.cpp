@@ -47,10 +47,35 @@ struct InCell {
     double v;
 };
 
+// Cells of samples in memory.
+struct HeldCells {
+    const Heightfield& heightfield;
+
+    CellHeights cell(std::size_t column, std::size_t row) const
+    {
+        return heightfield.cell(column, row);
+    }
+};
+
+// Cells of whatever tiles are there.
+struct TiledCells {
+    mutable TileCursor cursor;
+
+    CellHeights cell(std::size_t column, std::size_t row) const
+    {
+        return {cursor.sample(column, row), cursor.sample(column + 1, row),
+                cursor.sample(column, row + 1), cursor.sample(column + 1, row + 1)};
+    }
+};
+
+template <typename Cells>
 class Caster {
 public:
-    Caster(const Heightfield& heightfield, const MinMaxPyramid& pyramid, const GridRay& ray)
-        : heightfield_(heightfield)
+    Caster(const Cells& cells,
+           const Heightfield& heightfield,
+           const MinMaxPyramid& pyramid,
+           const GridRay& ray)
+        : cells_(cells)
         , pyramid_(pyramid)
         , ray_(ray)
         , cell_columns_(heightfield.columns() - 1)
@@ -156,7 +181,7 @@ private:
         std::size_t row = cellAt(rowAt(t), ray_.rows_per_t, upper, lower);
         InCell begin = inCell(t, column, row);
         if (ray_.columns_per_t == 0.0 && ray_.rows_per_t == 0.0) {
-            return castVertically(heightfield_.cell(column, row), column, row, begin);
+            return castVertically(cells_.cell(column, row), column, row, begin);
         }
         while (true) {
             const double t_column = crossing(ray_.origin.column, ray_.columns_per_t, column);
@@ -214,7 +239,7 @@ private:
     std::optional<RayHit>
     castInCell(std::size_t column, std::size_t row, const InCell& begin, const InCell& end) const
     {
-        const CellHeights cell = heightfield_.cell(column, row);
+        const CellHeights cell = cells_.cell(column, row);
         const double before = begin.u - begin.v;
         const double after = end.u - end.v;
         if ((before < 0.0 && after > 0.0) || (before > 0.0 && after < 0.0)) {
@@ -280,7 +305,7 @@ private:
             {static_cast<double>(column) + at.u, static_cast<double>(row) + at.v}, height_m, at.t};
     }
 
-    const Heightfield& heightfield_;
+    const Cells& cells_;
     const MinMaxPyramid& pyramid_;
     const GridRay& ray_;
     std::size_t cell_columns_;
@@ -307,9 +332,15 @@ GridRay gridRay(const ScenePoint& origin,
 }
 
 std::optional<RayHit>
-castRay(const Heightfield& heightfield, const MinMaxPyramid& pyramid, const GridRay& ray) noexcept
+castRay(const Heightfield& heightfield, const MinMaxPyramid& pyramid, const GridRay& ray)
 {
-    return Caster(heightfield, pyramid, ray).cast();
+    if (!heightfield.isTiled()) {
+        const HeldCells cells{heightfield};
+        return Caster(cells, heightfield, pyramid, ray).cast();
+    }
+    const TiledCells cells{
+        TileCursor(*heightfield.tiles(), heightfield.scale(), TileAccess::Resident)};
+    return Caster(cells, heightfield, pyramid, ray).cast();
 }
 
 } // namespace marsview

@@ -43,6 +43,6 @@ struct RayHit {
 ///
 /// `pyramid` was built from `heightfield`.
 std::optional<RayHit>
-castRay(const Heightfield& heightfield, const MinMaxPyramid& pyramid, const GridRay& ray) noexcept;
+castRay(const Heightfield& heightfield, const MinMaxPyramid& pyramid, const GridRay& ray);
 
 } // namespace marsview
