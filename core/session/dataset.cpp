@@ -14,15 +14,14 @@ namespace marsview {
 Dataset::Dataset(DatasetSpec spec,
                  RasterInfo file_info,
                  RasterInfo info,
-                 std::shared_ptr<const SampleGrid> samples,
-                 const SampleStatistics& statistics)
+                 const SampleStatistics& statistics,
+                 Heightfield heightfield)
     : spec_(std::move(spec))
     , file_info_(std::move(file_info))
     , info_(std::move(info))
-    , samples_(std::move(samples))
     , statistics_(statistics)
     , georeference_(georeferenceOf(info_))
-    , heightfield_(samples_, statistics_, info_.elevationScale())
+    , heightfield_(std::move(heightfield))
 {}
 
 double Dataset::height(GeographicPoint geographic) const
@@ -70,9 +69,11 @@ loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_byt
                                  samples->statistics.sample_count)};
     }
     noteSuspiciousSamples(*info, samples->statistics);
-    return std::shared_ptr<const Dataset>(new Dataset(
-        spec, std::move(file_info), std::move(info).value(),
-        std::make_shared<const SampleGrid>(std::move(samples->grid)), samples->statistics));
+    Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(samples->grid)),
+                            samples->statistics, info->elevationScale());
+    return std::shared_ptr<const Dataset>(new Dataset(spec, std::move(file_info),
+                                                      std::move(info).value(), samples->statistics,
+                                                      std::move(heightfield)));
 }
 
 Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
@@ -87,12 +88,27 @@ Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
         return Error{ErrorCode::Unsupported,
                      fmt::format("{}: another nodata value needs the samples read again", path)};
     }
+    if (dataset.heightfield().isTiled()) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: is read in tiles, which depend on these options", path)};
+    }
     noteSuspiciousSamples(*info, dataset.statistics_);
     DatasetSpec spec = dataset.spec();
     spec.overrides = overrides;
+    Heightfield heightfield =
+        dataset.heightfield().scaled(dataset.statistics_, info->elevationScale());
     return std::shared_ptr<const Dataset>(new Dataset(std::move(spec), dataset.fileInfo(),
-                                                      std::move(info).value(), dataset.samples_,
-                                                      dataset.statistics_));
+                                                      std::move(info).value(), dataset.statistics_,
+                                                      std::move(heightfield)));
+}
+
+std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts)
+{
+    RasterInfo info = parts.info;
+    noteSuspiciousSamples(info, parts.statistics);
+    Heightfield heightfield(parts.tiles, parts.statistics, info.elevationScale());
+    return std::shared_ptr<const Dataset>(new Dataset(parts.spec, parts.file_info, std::move(info),
+                                                      parts.statistics, std::move(heightfield)));
 }
 
 Georeference georeferenceOf(const RasterInfo& info)

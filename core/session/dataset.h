@@ -21,6 +21,15 @@ struct DatasetSpec {
     bool operator==(const DatasetSpec&) const = default;
 };
 
+/// What a map in tiles is made of.
+struct TiledDatasetParts {
+    DatasetSpec spec;
+    RasterInfo file_info; // as the file tells it
+    RasterInfo info;      // with the overrides of `spec`
+    SampleStatistics statistics;
+    std::shared_ptr<const TiledSamples> tiles;
+};
+
 /// A loaded map. Immutable and shared between threads; a change makes a new one that shares the
 /// samples.
 class Dataset {
@@ -44,17 +53,17 @@ private:
     loadDataset(const DatasetSpec&, JobMonitor&, std::size_t);
     friend Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset&,
                                                                 const RasterOverrides&);
+    friend std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts&);
 
     Dataset(DatasetSpec spec,
             RasterInfo file_info,
             RasterInfo info,
-            std::shared_ptr<const SampleGrid> samples,
-            const SampleStatistics& statistics);
+            const SampleStatistics& statistics,
+            Heightfield heightfield);
 
     DatasetSpec spec_;
     RasterInfo file_info_;
     RasterInfo info_;
-    std::shared_ptr<const SampleGrid> samples_;
     SampleStatistics statistics_;
     Georeference georeference_;
     Heightfield heightfield_;
@@ -65,8 +74,11 @@ private:
 Result<std::shared_ptr<const Dataset>>
 loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_bytes_max);
 
+/// A map whose samples come in tiles.
+std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts);
+
 /// The same map with other overrides, without reading it again. A changed nodata value cannot be
-/// applied this way and is refused as Unsupported: load again.
+/// applied this way and is refused as Unsupported, and so is any change of a tiled map: load again.
 Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
                                                      const RasterOverrides& overrides);
 

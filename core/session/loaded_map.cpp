@@ -39,9 +39,33 @@ Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor&
     return LoadedMap{.dataset = std::move(dataset),
                      .analysis = std::move(analysis).value(),
                      .filled = std::make_shared<const FilledHeightfield>(std::move(filled).value()),
+                     .levels = nullptr,
                      .tint_range = tinted,
                      .slope_max = slope_max,
                      .relief = std::move(relief)};
+}
+
+Result<LoadedMap> prepareTiledMap(std::shared_ptr<const Dataset> dataset,
+                                  std::shared_ptr<const MapLevels> levels)
+{
+    const Heightfield& heightfield = dataset->heightfield();
+    const double slope_max = kSlopeReach / suitableExaggeration(*dataset);
+    Result<ReliefTile> relief =
+        loadReliefTile(heightfield, dataset->georeference().sceneFrame(),
+                       wholeRelief(heightfield.columns(), heightfield.rows()), slope_max);
+    if (!relief) {
+        return std::move(relief).error();
+    }
+    const HeightRange range = heightfield.range().value_or(HeightRange{});
+    const HeightRange tinted = tintRange(levels->analysis->means, range);
+    std::shared_ptr<const SurfaceAnalysis> analysis = levels->analysis;
+    return LoadedMap{.dataset = std::move(dataset),
+                     .analysis = std::move(analysis),
+                     .filled = nullptr,
+                     .levels = std::move(levels),
+                     .tint_range = tinted,
+                     .slope_max = slope_max,
+                     .relief = std::make_shared<const ReliefTile>(std::move(relief).value())};
 }
 
 ReliefTileId wholeRelief(std::size_t columns, std::size_t rows)

@@ -3,6 +3,7 @@
 
 #include "core/session/dataset.h"
 #include "core/terrain/filled_heightfield.h"
+#include "core/terrain/level_file.h"
 #include "core/terrain/relief_tile.h"
 #include "core/terrain/surface_analysis.h"
 
@@ -10,11 +11,14 @@
 
 namespace marsview {
 
-/// All null, or none. Immutable; copies share; any thread.
+/// All null, or none, but for what says otherwise. Immutable; copies share; any thread.
 struct LoadedMap {
     std::shared_ptr<const Dataset> dataset;
     std::shared_ptr<const SurfaceAnalysis> analysis; // of the dataset's heightfield
-    std::shared_ptr<const FilledHeightfield> filled; // to be touched
+    /// To be touched. Null where the map comes in tiles.
+    std::shared_ptr<const FilledHeightfield> filled;
+    /// What touching tiles needs. Null where the map is held.
+    std::shared_ptr<const MapLevels> levels;
     HeightRange tint_range; // over which colours are spread: all but the rarest heights
     double slope_max = 1.0; // that relief tiles are made for
     /// The relief of the whole map, the first that drawing needs.
@@ -25,6 +29,11 @@ struct LoadedMap {
 
 /// Analyses a dataset's surface: not for the GUI thread. Only Cancelled can go wrong.
 Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor& monitor);
+
+/// As above for a map in tiles, which was analysed when it was prepared. Waits for a few of its
+/// tiles, and passes on why one could not be read.
+Result<LoadedMap> prepareTiledMap(std::shared_ptr<const Dataset> dataset,
+                                  std::shared_ptr<const MapLevels> levels);
 
 /// Which relief tile covers all of a map of columns × rows samples.
 ReliefTileId wholeRelief(std::size_t columns, std::size_t rows);

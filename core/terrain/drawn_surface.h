@@ -30,14 +30,14 @@ public:
     /// What heights are relative to, in metres.
     double baseMetres() const noexcept { return base_m_; }
 
-    /// Metres over the base; never NaN.
+    /// Metres over the base; never NaN. Only where the samples are held.
     float height(std::size_t column, std::size_t row) const noexcept
     {
         return heightfield_.samples().isVoid(column, row)
                    ? filled(column, row)
                    : static_cast<float>(heightfield_.sample(column, row) - base_m_);
     }
-    /// The heights of heights.size() samples of a row; NaN where void.
+    /// The heights of heights.size() samples of a row; NaN where void. Only where they are held.
     void read(std::size_t first_column, std::size_t row, std::span<float> heights) const
     {
         readHeights(heightfield_, first_column, row, base_m_, heights);

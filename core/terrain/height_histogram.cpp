@@ -26,6 +26,75 @@ std::size_t strideFor(std::size_t columns, std::size_t rows, std::size_t sample_
     return stride;
 }
 
+class Counter {
+public:
+    explicit Counter(HeightHistogram& histogram)
+        : histogram_(histogram)
+        , low_(histogram.range.minimum_m)
+        , bins_per_metre_(perMetre(histogram))
+    {}
+
+    // NaN counts nothing.
+    void add(double height_m)
+    {
+        if (std::isnan(height_m)) {
+            return;
+        }
+        const auto bin =
+            static_cast<std::size_t>(std::max(0.0, (height_m - low_) * bins_per_metre_));
+        ++histogram_.counts[std::min(bin, histogram_.counts.size() - 1)];
+        ++histogram_.sample_count;
+    }
+
+private:
+    static double perMetre(const HeightHistogram& histogram)
+    {
+        const double extent = histogram.range.maximum_m - histogram.range.minimum_m;
+        return extent > 0.0 ? static_cast<double>(histogram.counts.size()) / extent : 0.0;
+    }
+
+    HeightHistogram& histogram_;
+    double low_;
+    double bins_per_metre_;
+};
+
+// One level of the samples, the finest with few enough. Tiles that cannot be read count nothing.
+void countTiles(const Heightfield& heights,
+                const HistogramOptions& options,
+                HeightHistogram& histogram)
+{
+    const TiledRaster& raster = heights.tiles()->raster();
+    const TileLayout& layout = raster.layout();
+    std::size_t level = 0;
+    while (level < layout.topLevel() &&
+           layout.columnsAt(TileKind::Samples, level) * layout.rowsAt(TileKind::Samples, level) >
+               options.sample_count_max) {
+        ++level;
+    }
+    histogram.stride = std::size_t{1} << level;
+    Counter counter(histogram);
+    for (std::size_t row = 0; row < layout.tileRows(TileKind::Samples, level); ++row) {
+        for (std::size_t column = 0; column < layout.tileColumns(TileKind::Samples, level);
+             ++column) {
+            const auto tile = raster.get({.kind = TileKind::Samples,
+                                          .level = static_cast<std::uint8_t>(level),
+                                          .column = static_cast<std::uint32_t>(column),
+                                          .row = static_cast<std::uint32_t>(row)});
+            if (!tile) {
+                continue;
+            }
+            const SampleGrid& samples = (*tile)->samples;
+            for (std::size_t j = 0; j < samples.rows(); ++j) {
+                for (std::size_t i = 0; i < samples.columns(); ++i) {
+                    if (!samples.isVoid(i, j)) {
+                        counter.add(heights.scale().height(samples.raw(i, j)));
+                    }
+                }
+            }
+        }
+    }
+}
+
 } // namespace
 
 HeightHistogram heightHistogram(const Heightfield& heights, const HistogramOptions& options)
@@ -37,21 +106,15 @@ HeightHistogram heightHistogram(const Heightfield& heights, const HistogramOptio
     }
     histogram.range = *heights.range();
     histogram.counts.assign(options.bin_count, 0);
+    if (heights.isTiled()) {
+        countTiles(heights, options, histogram);
+        return histogram;
+    }
     histogram.stride = strideFor(heights.columns(), heights.rows(), options.sample_count_max);
-    const double low = histogram.range.minimum_m;
-    const double extent = histogram.range.maximum_m - low;
-    const double bins_per_metre =
-        extent > 0.0 ? static_cast<double>(options.bin_count) / extent : 0.0;
+    Counter counter(histogram);
     for (std::size_t row = 0; row < heights.rows(); row += histogram.stride) {
         for (std::size_t column = 0; column < heights.columns(); column += histogram.stride) {
-            const double height = heights.sample(column, row);
-            if (std::isnan(height)) {
-                continue;
-            }
-            const auto bin =
-                static_cast<std::size_t>(std::max(0.0, (height - low) * bins_per_metre));
-            ++histogram.counts[std::min(bin, options.bin_count - 1)];
-            ++histogram.sample_count;
+            counter.add(heights.sample(column, row));
         }
     }
     return histogram;

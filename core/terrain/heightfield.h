@@ -34,6 +34,13 @@ public:
                 const SampleStatistics& statistics,
                 const ElevationScale& scale);
 
+    /// The same samples at another scale.
+    Heightfield scaled(const SampleStatistics& statistics, const ElevationScale& scale) const
+    {
+        return isTiled() ? Heightfield(tiles_, statistics, scale)
+                         : Heightfield(samples_, statistics, scale);
+    }
+
     std::size_t columns() const noexcept
     {
         return samples_ ? samples_->columns() : tiles_->layout().columns;

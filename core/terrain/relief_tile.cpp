@@ -7,16 +7,25 @@
 #include "core/terrain/relief_tile.h"
 
 #include "core/base/check.h"
+#include "core/raster/raster_file.h"
 #include "core/terrain/sample_rows.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 namespace marsview {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+double middleOf(const Heightfield& heightfield)
+{
+    const HeightRange range = heightfield.range().value_or(HeightRange{});
+    return (range.minimum_m + range.maximum_m) / 2.0;
+}
 
 // The height at a border between two samples, and where it was taken, in samples after the border.
 struct BorderHeight {
@@ -77,15 +86,117 @@ void extend(ReliefTile::Level& level, const TexelSpan& columns, const TexelSpan&
     }
 }
 
+// Rows of samples in memory.
+class HeldRows {
+public:
+    explicit HeldRows(const Heightfield& heightfield)
+        : heightfield_(heightfield)
+        , base_m_(middleOf(heightfield))
+    {}
+
+    std::size_t columns() const { return heightfield_.columns(); }
+    std::size_t rows() const { return heightfield_.rows(); }
+    bool hasVoids() const { return heightfield_.hasVoids(); }
+    void read(std::size_t first_column, std::size_t row, std::span<float> heights) const
+    {
+        readHeights(heightfield_, first_column, row, base_m_, heights);
+    }
+
+private:
+    const Heightfield& heightfield_;
+    double base_m_;
+};
+
+// A window of one level of a tiled map, put together from its tiles.
+class WindowRows {
+public:
+    // The level's samples [first_column, first_column + columns) × likewise.
+    static Result<WindowRows>
+    load(const Heightfield& heightfield, TileKind kind, std::size_t level, const GridWindow& window)
+    {
+        const TiledRaster& raster = heightfield.tiles()->raster();
+        const TileLayout& layout = raster.layout();
+        WindowRows rows;
+        rows.columns_ = layout.columnsAt(kind, level);
+        rows.rows_ = layout.rowsAt(kind, level);
+        rows.window_ = window;
+        rows.heights_.resize(window.columns * window.rows);
+        const double base_m = middleOf(heightfield);
+        const ElevationScale scale = heightfield.scale();
+        for (std::size_t tile_row = window.row / kTileSide;
+             tile_row <= (window.row + window.rows - 1) / kTileSide; ++tile_row) {
+            for (std::size_t tile_column = window.column / kTileSide;
+                 tile_column <= (window.column + window.columns - 1) / kTileSide; ++tile_column) {
+                const auto tile = raster.get({.kind = kind,
+                                              .level = static_cast<std::uint8_t>(level),
+                                              .column = static_cast<std::uint32_t>(tile_column),
+                                              .row = static_cast<std::uint32_t>(tile_row)});
+                if (!tile) {
+                    return tile.error();
+                }
+                rows.copy((*tile)->samples, tile_column * kTileSide, tile_row * kTileSide, scale,
+                          base_m);
+            }
+        }
+        return rows;
+    }
+
+    std::size_t columns() const { return columns_; }
+    std::size_t rows() const { return rows_; }
+    bool hasVoids() const { return has_voids_; }
+    void read(std::size_t first_column, std::size_t row, std::span<float> heights) const
+    {
+        const float* from = heights_.data() + (row - window_.row) * window_.columns +
+                            (first_column - window_.column);
+        std::copy_n(from, heights.size(), heights.begin());
+    }
+
+private:
+    // The part of the window that a tile covers, whose first sample is (tile_column, tile_row).
+    void copy(const SampleGrid& samples,
+              std::size_t tile_column,
+              std::size_t tile_row,
+              const ElevationScale& scale,
+              double base_m)
+    {
+        has_voids_ = has_voids_ || samples.hasVoids();
+        const std::size_t left = std::max(tile_column, window_.column);
+        const std::size_t right =
+            std::min(tile_column + samples.columns(), window_.column + window_.columns);
+        const std::size_t upper = std::max(tile_row, window_.row);
+        const std::size_t lower = std::min(tile_row + samples.rows(), window_.row + window_.rows);
+        samples.visit([&](auto view) {
+            for (std::size_t row = upper; row < lower; ++row) {
+                float* to = heights_.data() + (row - window_.row) * window_.columns;
+                for (std::size_t column = left; column < right; ++column) {
+                    const double raw =
+                        static_cast<double>(view(column - tile_column, row - tile_row));
+                    to[column - window_.column] =
+                        samples.isVoid(column - tile_column, row - tile_row)
+                            ? kNan
+                            : static_cast<float>(scale.height(raw) - base_m);
+                }
+            }
+        });
+    }
+
+    std::size_t columns_ = 0; // of the level
+    std::size_t rows_ = 0;
+    GridWindow window_;
+    bool has_voids_ = false;
+    std::vector<float> heights_; // NaN where void
+};
+
+template <typename Rows>
 class TileMaker {
 public:
-    TileMaker(const Heightfield& heightfield, const ReliefTileId& id)
-        : heightfield_(heightfield)
+    TileMaker(const Rows& source, const ReliefTileId& id)
+        : source_(source)
         , step_(static_cast<std::ptrdiff_t>(std::size_t{1} << id.level))
         , first_column_(firstSample(id.column))
         , first_row_(firstSample(id.row))
-        , columns_(static_cast<std::ptrdiff_t>(heightfield.columns()))
-        , rows_(static_cast<std::ptrdiff_t>(heightfield.rows()))
+        , columns_(static_cast<std::ptrdiff_t>(source.columns()))
+        , rows_(static_cast<std::ptrdiff_t>(source.rows()))
         , row_(static_cast<std::size_t>(kSideSamples * step_ + 2), kNan)
         , row_before_(row_)
         , border_above_(row_.size())
@@ -96,8 +207,6 @@ public:
     template <typename Use>
     void run(const Use& use)
     {
-        const HeightRange range = heightfield_.range().value_or(HeightRange{});
-        base_m_ = (range.minimum_m + range.maximum_m) / 2.0;
         std::vector<Sums> sums(ReliefTile::kSide);
         const auto side = static_cast<std::ptrdiff_t>(ReliefTile::kSide);
         for (std::ptrdiff_t j = 0; j < side; ++j) {
@@ -132,8 +241,8 @@ private:
             std::fill(heights.begin(), heights.end(), kNan);
             return;
         }
-        readHeights(
-            heightfield_, static_cast<std::size_t>(begin), static_cast<std::size_t>(row), base_m_,
+        source_.read(
+            static_cast<std::size_t>(begin), static_cast<std::size_t>(row),
             std::span(heights).subspan(static_cast<std::size_t>(begin - (first_column_ - 1)),
                                        static_cast<std::size_t>(end - begin)));
     }
@@ -178,7 +287,7 @@ private:
             sums.per_column += slope;
             sums.column_count += 1.0F;
         }
-        if (heightfield_.samples().hasVoids()) {
+        if (source_.hasVoids()) {
             for (std::ptrdiff_t i = 0; i < width; ++i) {
                 sums.sample_count += std::isnan(samples[i]) ? 0.0F : 1.0F;
             }
@@ -213,13 +322,12 @@ private:
         is_border_known_ = true;
     }
 
-    const Heightfield& heightfield_;
+    const Rows& source_;
     std::ptrdiff_t step_;
     std::ptrdiff_t first_column_;
     std::ptrdiff_t first_row_;
     std::ptrdiff_t columns_;
     std::ptrdiff_t rows_;
-    double base_m_ = 0.0;
     std::vector<float> row_; // entry 0 is the sample before the tile's first
     std::vector<float> row_before_;
     std::vector<BorderHeight> border_above_;
@@ -258,12 +366,9 @@ void halve(const ReliefTile::Level& finer, ReliefTile::Level& level)
     }
 }
 
-} // namespace
-
-ReliefTile makeReliefTile(const Heightfield& heightfield,
-                          const SceneFrame& frame,
-                          const ReliefTileId& id,
-                          double slope_max)
+template <typename Rows>
+ReliefTile
+tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, double slope_max)
 {
     MARSVIEW_CHECK(slope_max > 0.0);
     // Gradients transform by the inverse transpose of the frame's linear part.
@@ -274,9 +379,9 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
     const auto north_of_column = static_cast<float>(-frame.east_per_row / determinant / slope_max);
     const auto north_of_row = static_cast<float>(frame.east_per_column / determinant / slope_max);
 
-    const bool has_voids = heightfield.samples().hasVoids();
-    const TexelSpan columns = texelsOnMap(id.column, id.level, heightfield.columns());
-    const TexelSpan rows = texelsOnMap(id.row, id.level, heightfield.rows());
+    const bool has_voids = source.hasVoids();
+    const TexelSpan columns = texelsOnMap(id.column, id.level, source.columns());
+    const TexelSpan rows = texelsOnMap(id.row, id.level, source.rows());
     // Of a texel, the samples on the map: fewer at its last column and row.
     const auto samples_of = [&](std::size_t texel, std::size_t tile, std::size_t samples) {
         const std::size_t step = std::size_t{1} << id.level;
@@ -288,14 +393,14 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
     finest.side = ReliefTile::kSide;
     finest.slopes.resize(2 * finest.side * finest.side);
     finest.shares.resize(has_voids ? finest.side * finest.side : 0);
-    TileMaker(heightfield, id).run([&](std::size_t row, const std::vector<Sums>& sums) {
-        const float row_samples = samples_of(row, id.row, heightfield.rows());
+    TileMaker(source, id).run([&](std::size_t row, const std::vector<Sums>& sums) {
+        const float row_samples = samples_of(row, id.row, source.rows());
         for (std::size_t column = columns.begin; column < columns.end; ++column) {
             const Sums& texel = sums[column];
             const std::size_t at = row * finest.side + column;
             const float share =
                 has_voids ? texel.sample_count /
-                                (row_samples * samples_of(column, id.column, heightfield.columns()))
+                                (row_samples * samples_of(column, id.column, source.columns()))
                           : 1.0F;
             const float weight_c = texel.column_count > 0.0F ? share / texel.column_count : 0.0F;
             const float weight_r = texel.row_count > 0.0F ? share / texel.row_count : 0.0F;
@@ -314,6 +419,62 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
         halve(tile.levels[level - 1], tile.levels[level]);
     }
     return tile;
+}
+
+// The samples that a tile is made from, of those that there are: its own and one more on all sides.
+GridWindow windowOf(const ReliefTileId& id, std::size_t columns, std::size_t rows)
+{
+    const std::size_t step = std::size_t{1} << id.level;
+    const auto span = [step](std::size_t tile, std::size_t count) {
+        const std::size_t border = ReliefTile::kBorder * step + 1;
+        const std::size_t first = tile * ReliefTile::kTexels * step;
+        const std::size_t begin = first > border ? first - border : 0;
+        return std::pair(begin,
+                         std::min(first + ReliefTile::kTexels * step + border, count) - begin);
+    };
+    const auto [column, column_count] = span(id.column, columns);
+    const auto [row, row_count] = span(id.row, rows);
+    return {column, row, column_count, row_count};
+}
+
+} // namespace
+
+ReliefTile makeReliefTile(const Heightfield& heightfield,
+                          const SceneFrame& frame,
+                          const ReliefTileId& id,
+                          double slope_max)
+{
+    return tileFrom(HeldRows(heightfield), frame, id, slope_max);
+}
+
+// Means of a quarter of a texel stand for its samples: what lies within them cancels in a texel's
+// slope, but for half a mean at either end.
+Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
+                                  const SceneFrame& frame,
+                                  const ReliefTileId& id,
+                                  double slope_max)
+{
+    if (!heightfield.isTiled()) {
+        return makeReliefTile(heightfield, frame, id, slope_max);
+    }
+    const TileLayout& layout = heightfield.tiles()->layout();
+    const std::size_t level = std::min(id.level > 0 ? id.level - 1 : 0, layout.mean_levels);
+    const TileKind kind = level == 0 ? TileKind::Samples : TileKind::Means;
+    const ReliefTileId within{.level = id.level - level, .column = id.column, .row = id.row};
+    const Result<WindowRows> rows = WindowRows::load(
+        heightfield, kind, level,
+        windowOf(within, layout.columnsAt(kind, level), layout.rowsAt(kind, level)));
+    if (!rows) {
+        return rows.error();
+    }
+    // Slopes do not depend on where the frame begins.
+    const auto step = static_cast<double>(std::size_t{1} << level);
+    SceneFrame coarse = frame;
+    coarse.east_per_column *= step;
+    coarse.east_per_row *= step;
+    coarse.north_per_column *= step;
+    coarse.north_per_row *= step;
+    return tileFrom(*rows, coarse, within, slope_max);
 }
 
 } // namespace marsview

@@ -41,11 +41,19 @@ struct ReliefTile {
     std::array<Level, kLevels> levels;
 };
 
-/// Makes a tile: reads each of its samples once. Any thread. `slope_max` > 0: slopes beyond are
-/// cut off.
+/// Makes a tile from samples in memory, reading each of them once. Any thread. `slope_max` > 0:
+/// slopes beyond are cut off.
 ReliefTile makeReliefTile(const Heightfield& heightfield,
                           const SceneFrame& frame,
                           const ReliefTileId& id,
                           double slope_max);
+
+/// As above on any map. From tiles it is made of means, half a texel each, where there are any, so
+/// that a tile costs the same at every level; it waits for those tiles, and passes on why one could
+/// not be read.
+Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
+                                  const SceneFrame& frame,
+                                  const ReliefTileId& id,
+                                  double slope_max);
 
 } // namespace marsview

@@ -17,7 +17,7 @@ CoverTexture::CoverTexture(const Heightfield& heightfield, const BlockMeans& mea
     std::size_t level = 0;
     std::size_t columns = 1;
     std::size_t rows = 1;
-    if (heightfield.samples().hasVoids()) {
+    if (heightfield.hasVoids()) {
         while (std::max(means.means(level).columns(), means.means(level).rows()) > kSideMax) {
             ++level;
         }

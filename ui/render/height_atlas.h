@@ -1,11 +1,12 @@
 // The heights of the nodes that are drawn, at the driver's.
 #pragma once
 
-#include "core/terrain/drawn_surface.h"
+#include "core/terrain/node_heights.h"
 #include "core/view/detail_selection.h"
 #include "ui/render/gl_objects.h"
 #include "ui/render/lru_slots.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -30,8 +31,8 @@ struct LayerNodeHash {
     }
 };
 
-/// One texture of squares of 33 × 33 heights, in metres over the map's base. Filled on demand,
-/// which takes microseconds a node as the samples are in memory.
+/// One texture of squares of 33 × 33 heights, in metres over the map's base. Filled on demand with
+/// what is in memory, which takes microseconds a node; and again where that was not all.
 class HeightAtlas {
 public:
     struct Place {
@@ -44,16 +45,30 @@ public:
 
     /// Places handed out from now on are kept until the next call.
     void beginRound() { slots_.beginRound(); }
-    /// Where the node's heights are. Nothing where the atlas is full of this round's.
-    std::optional<Place> place(const LayerNode& node, const DrawnSurface& surface);
+    /// Where the node's heights are. Nothing where the atlas is full of this round's. Tiles that
+    /// its heights lack are added to `missing`; `generation` changes when some have come.
+    std::optional<Place> place(const LayerNode& node,
+                               const DrawnSurface& surface,
+                               std::uint64_t generation,
+                               std::vector<TileId>& missing);
 
     void bind(GLenum unit) const;
 
 private:
+    // What a slot was filled with.
+    struct Content {
+        NodeState state = NodeState::Complete;
+        std::uint64_t generation = 0;
+        std::vector<TileId> missing;
+    };
+
+    void send(const Place& place);
+
     LruSlots<LayerNode, LayerNodeHash> slots_;
+    std::vector<Content> contents_;
     std::size_t slot_columns_;
     GlTexture texture_;
-    std::vector<float> heights_;
+    std::array<float, kNodeSide * kNodeSide> heights_{};
 };
 
 } // namespace marsview

@@ -68,8 +68,7 @@ std::optional<ReliefCache::Found> ReliefCache::find(const ReliefRequest& wanted,
 
 bool ReliefCache::endRound()
 {
-    loader_.want(missing_);
-    return missing_.empty();
+    return loader_.want(missing_) == 0;
 }
 
 void ReliefCache::bind(std::size_t page, GLenum slope_unit, Mixing mixing) const

@@ -38,7 +38,7 @@ public:
     /// The finest relief there is for a node; what is missing is asked for. `top` is the level of
     /// the map's single largest node. Nothing where there is none yet.
     std::optional<Found> find(const ReliefRequest& wanted, std::size_t top);
-    /// Has the missing tiles made. Returns true when none is missing.
+    /// Has the missing tiles made. Returns true when there is nothing to wait for.
     bool endRound();
     bool isLoading() const { return loader_.isLoading(); }
     /// Waits until all that is missing is made. After endRound().

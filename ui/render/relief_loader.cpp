@@ -5,6 +5,9 @@
 namespace marsview {
 namespace {
 
+// Of a tile that could not be read.
+constexpr std::chrono::seconds kRetryAfter{3};
+
 // One core is left to the thread that draws.
 std::size_t threadCount()
 {
@@ -37,10 +40,19 @@ ReliefLoader::~ReliefLoader()
     has_work_.notify_all();
 }
 
-void ReliefLoader::want(std::vector<ReliefRequest> requests)
+std::size_t ReliefLoader::want(std::vector<ReliefRequest> requests)
 {
+    std::size_t count = 0;
     {
         const std::lock_guard lock(mutex_);
+        std::erase_if(failures_, [](const Failure& failure) {
+            return failure.retry_at <= std::chrono::steady_clock::now();
+        });
+        std::erase_if(requests, [this](const ReliefRequest& request) {
+            return std::any_of(failures_.begin(), failures_.end(),
+                               [&](const Failure& failure) { return failure.key == request.key; });
+        });
+        count = requests.size();
         std::erase_if(requests, [this](const ReliefRequest& request) {
             return std::find(in_work_.begin(), in_work_.end(), request.key) != in_work_.end() ||
                    std::any_of(finished_.begin(), finished_.end(), [&](const ReliefResult& result) {
@@ -51,6 +63,7 @@ void ReliefLoader::want(std::vector<ReliefRequest> requests)
         wanted_ = std::move(requests);
     }
     has_work_.notify_all();
+    return count;
 }
 
 std::vector<ReliefResult> ReliefLoader::take(std::size_t count_max)
@@ -87,11 +100,15 @@ void ReliefLoader::run()
         wanted_.pop_back();
         in_work_.push_back(request.key);
         lock.unlock();
-        ReliefTile tile = makeReliefTile(*request.heightfield, request.frame,
-                                         reliefTileOf(request.key.node), request.slope_max);
+        Result<ReliefTile> tile = loadReliefTile(*request.heightfield, request.frame,
+                                                 reliefTileOf(request.key.node), request.slope_max);
         lock.lock();
         std::erase(in_work_, request.key);
-        finished_.push_back({request.key, std::move(tile)});
+        if (tile) {
+            finished_.push_back({request.key, std::move(*tile)});
+        } else {
+            failures_.push_back({request.key, std::chrono::steady_clock::now() + kRetryAfter});
+        }
         has_result_.notify_all();
         if (notify_ && !is_stopping_) {
             lock.unlock();

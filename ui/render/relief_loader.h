@@ -5,7 +5,9 @@
 #include "ui/render/height_atlas.h"
 #include "ui/render/terrain_layer.h"
 
+#include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -41,7 +43,9 @@ public:
     ReliefLoader& operator=(const ReliefLoader&) = delete;
 
     /// What is wanted now, the most urgent first. Takes the place of what was wanted before.
-    void want(std::vector<ReliefRequest> requests);
+    /// Returns how many of these can be waited for: what could not be read a moment ago is not
+    /// tried again at once.
+    std::size_t want(std::vector<ReliefRequest> requests);
     /// At most `count_max` finished tiles, each handed out once.
     std::vector<ReliefResult> take(std::size_t count_max);
     /// True while something is wanted or being made.
@@ -50,6 +54,11 @@ public:
     void waitForAll();
 
 private:
+    struct Failure {
+        LayerNode key;
+        std::chrono::steady_clock::time_point retry_at;
+    };
+
     void run();
 
     std::function<void()> notify_;
@@ -59,6 +68,7 @@ private:
     std::vector<ReliefRequest> wanted_; // the most urgent last
     std::vector<LayerNode> in_work_;
     std::vector<ReliefResult> finished_;
+    std::vector<Failure> failures_;
     bool is_stopping_ = false;
     std::vector<std::jthread> threads_;
 };

@@ -97,8 +97,13 @@ struct Layer {
     DetailSelector selector;
     GlTexture ramp;
     CoverTexture cover;
+    std::optional<TileWishes> wishes; // of a tiled map
+    std::vector<TileId> missing;      // of this picture
+    std::function<void()> tell;
 
-    Layer(const TerrainLayer& layer, std::uint32_t layer_number)
+    Layer(const TerrainLayer& layer,
+          std::uint32_t layer_number,
+          const std::function<void()>& notify)
         : source(layer)
         , number(layer_number)
         , surface(*source.heightfield, source.analysis->means)
@@ -107,8 +112,42 @@ struct Layer {
                    source.heightfield->rows(),
                    source.frame)
         , cover(*source.heightfield, source.analysis->means)
+        , tell(notify)
     {
         sendRamp();
+        if (source.heightfield->isTiled()) {
+            wishes.emplace(source.heightfield->tiles()->raster(), TileUrgency::View, notify);
+        }
+    }
+
+    // Changes when tiles have come.
+    std::uint64_t generation() const
+    {
+        return wishes ? source.heightfield->tiles()->raster().generation() : 0;
+    }
+    // Asks for the tiles that this picture lacked: the coarser ones first, so that all of it gets
+    // sharper together. Returns true when nothing can be waited for.
+    bool askForMissing()
+    {
+        if (!wishes) {
+            return true;
+        }
+        std::stable_sort(missing.begin(), missing.end(),
+                         [](const TileId& a, const TileId& b) { return a.level > b.level; });
+        std::vector<TileId> wanted;
+        std::unordered_set<TileId, TileIdHash> seen;
+        std::copy_if(missing.begin(), missing.end(), std::back_inserter(wanted),
+                     [&seen](const TileId& id) { return seen.insert(id).second; });
+        wishes->want(wanted);
+        const TiledRaster& raster = source.heightfield->tiles()->raster();
+        // What came between the reading and the asking, nobody else will tell of.
+        if (tell && std::any_of(wanted.begin(), wanted.end(), [&raster](const TileId& id) {
+                return raster.find(id) != nullptr;
+            })) {
+            tell();
+        }
+        return std::all_of(wanted.begin(), wanted.end(),
+                           [&raster](const TileId& id) { return raster.failure(id).has_value(); });
     }
 
     SceneBox box(double exaggeration) const
@@ -121,7 +160,7 @@ struct Layer {
     {
         return {std::max(source.analysis->errors.levelCount() - 1, kReliefLevelMin), 0, 0};
     }
-    bool hasVoids() const { return source.heightfield->samples().hasVoids(); }
+    bool hasVoids() const { return source.heightfield->hasVoids(); }
 
     void sendRamp() const
     {
@@ -166,6 +205,7 @@ struct TerrainRenderer::Impl {
     ReliefCache reliefs;
     FrameTarget frame_target;
     Viewport kept_size;
+    std::function<void()> notify;
     std::vector<std::unique_ptr<Layer>> layers; // uppermost first
     std::uint32_t next_layer_number = 0;
 
@@ -181,12 +221,13 @@ struct TerrainRenderer::Impl {
          std::string name,
          bool has_no_gpu,
          const StoreSizes& stores,
-         std::function<void()> notify)
+         std::function<void()> tell)
         : shaders(std::move(compiled))
         , driver_name(std::move(name))
         , is_software(has_no_gpu)
         , atlas(stores.atlas_columns, stores.atlas_rows)
-        , reliefs(stores.relief_tiles, std::move(notify))
+        , reliefs(stores.relief_tiles, tell)
+        , notify(std::move(tell))
         , batches(reliefs.pageCount())
     {
         makeNodeMesh();
@@ -302,13 +343,18 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
     };
     reliefs.find(request_of(layer.wholeNode()), top); // so that it is not given up
     atlas.beginRound();
+    const std::uint64_t generation = layer.generation();
+    layer.missing.clear();
     for (const SelectedNode& selected : selection.nodes) {
         const LayerNode key{.layer = layer.number, .node = selected.node};
-        std::optional<HeightAtlas::Place> slot = atlas.place(key, layer.surface);
+        const auto place_of = [&] {
+            return atlas.place(key, layer.surface, generation, layer.missing);
+        };
+        std::optional<HeightAtlas::Place> slot = place_of();
         if (!slot) {
             drawBatches(request.is_hasty);
             atlas.beginRound();
-            slot = atlas.place(key, layer.surface);
+            slot = place_of();
         }
         const auto relief = reliefs.find(request_of(selected.relief), top);
         if (!relief) {
@@ -498,7 +544,7 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
                    old->source.analysis == layer.analysis && old->source.frame == layer.frame;
         });
         if (known == before.end()) {
-            auto added = std::make_unique<Layer>(layer, impl_->next_layer_number++);
+            auto added = std::make_unique<Layer>(layer, impl_->next_layer_number++, impl_->notify);
             // Nothing is ever without relief: this one stands in for all others.
             impl_->reliefs.keep({.layer = added->number, .node = added->wholeNode()},
                                 *layer.relief);
@@ -563,12 +609,18 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
         present(target);
     }
     report.is_complete = impl.reliefs.endRound();
+    for (const auto& layer : impl.layers) {
+        report.is_complete = layer->askForMissing() && report.is_complete;
+    }
     return report;
 }
 
 bool TerrainRenderer::isLoading() const
 {
-    return impl_->reliefs.isLoading();
+    return impl_->reliefs.isLoading() ||
+           std::any_of(impl_->layers.begin(), impl_->layers.end(), [](const auto& layer) {
+               return layer->wishes && layer->wishes->missingCount() > 0;
+           });
 }
 
 void TerrainRenderer::present(unsigned target)
@@ -602,6 +654,11 @@ TerrainRenderer::drawComplete(const DrawRequest& request, const DrawStyle& style
     DrawReport report = draw(request, style, target);
     while (!report.is_complete) {
         impl_->reliefs.waitForAll();
+        for (const auto& layer : impl_->layers) {
+            if (layer->wishes) {
+                layer->wishes->waitForAll();
+            }
+        }
         report = draw(request, style, target);
     }
     return report;

@@ -1,0 +1,29 @@
+// The heights that a node of the quadtree is drawn with.
+#pragma once
+
+#include "core/raster/tile.h"
+#include "core/terrain/detail_errors.h"
+#include "core/terrain/drawn_surface.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace marsview {
+
+/// Samples along a side of a node.
+inline constexpr std::size_t kNodeSide = DetailErrors::kNodeCells + 1;
+
+/// Whether heights are those of the node's level, or coarser ones have to do for now.
+enum class NodeState { Complete, Coarser };
+
+/// The heights of a node's samples in metres over the surface's base, row by row; beyond the map
+/// those of its last column and row. Of a tiled map, the tiles that are missing are added to
+/// `missing`, coarser ones first. A sample has the same height in every node that has it, as long
+/// as no tile comes or goes; so nodes that meet have no crack between them.
+NodeState readNode(const DrawnSurface& surface,
+                   const DetailNode& node,
+                   std::span<float, kNodeSide * kNodeSide> heights,
+                   std::vector<TileId>& missing);
+
+} // namespace marsview
