@@ -48,9 +48,9 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
                           const ReliefTileId& id,
                           double slope_max);
 
-/// As above on any map. From tiles it is made of means, half a texel each, where there are any, so
-/// that a tile costs the same at every level; it waits for those tiles, and passes on why one could
-/// not be read.
+/// As above on any map. From tiles it is made of means, a quarter of a texel wide, where there are
+/// any, so that a tile costs the same at every level; it waits for those tiles, and passes on why
+/// one could not be read.
 Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
                                   const SceneFrame& frame,
                                   const ReliefTileId& id,
