@@ -10,6 +10,14 @@
 namespace marsview {
 namespace {
 
+// Overviews are rounded up or, by some programs, down.
+bool isAlmost(const GridSize& size, const GridSize& wanted)
+{
+    const auto is_close = [](std::size_t a, std::size_t b) { return a == b || a + 1 == b; };
+    return size.columns > 0 && size.rows > 0 && is_close(size.columns, wanted.columns) &&
+           is_close(size.rows, wanted.rows);
+}
+
 class GeotiffTileReader final : public TileReader {
 public:
     GeotiffTileReader(RasterFile file,
@@ -43,9 +51,19 @@ private:
 
     Result<SampleGrid> readMeans(const TileId& id)
     {
-        const GridWindow window{id.column * kTileSide, id.row * kTileSide, layout_.tileWidth(id),
-                                layout_.tileHeight(id)};
-        return gridOf(file_.readOverview(overviews_[id.level], window, voids_));
+        const std::size_t overview = overviews_[id.level];
+        const GridSize size = file_.overviewSize(overview);
+        const std::size_t column = std::min(id.column * kTileSide, size.columns - 1);
+        const std::size_t row = std::min(id.row * kTileSide, size.rows - 1);
+        const std::size_t width = layout_.tileWidth(id);
+        const std::size_t height = layout_.tileHeight(id);
+        const GridWindow window{column, row, std::min(width, size.columns - column),
+                                std::min(height, size.rows - row)};
+        Result<SampleGrid> means = gridOf(file_.readOverview(overview, window, voids_));
+        if (!means || (means->columns() == width && means->rows() == height)) {
+            return means;
+        }
+        return thinned(*means, 1, width, height); // the overview was rounded down
     }
 
     Result<SampleGrid> readSamples(const TileId& id)
@@ -63,11 +81,12 @@ private:
         if (!all || id.level == 0) {
             return all;
         }
-        return decimated(*all, step, width, height);
+        return thinned(*all, step, width, height);
     }
 
+    // Every `step`-th sample, and where there are no more, the last.
     static Result<SampleGrid>
-    decimated(const SampleGrid& all, std::size_t step, std::size_t width, std::size_t height)
+    thinned(const SampleGrid& all, std::size_t step, std::size_t width, std::size_t height)
     {
         Result<SampleGrid> few = SampleGrid::create(all.type(), width, height);
         if (!few) {
@@ -126,7 +145,7 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
         const GridSize wanted{layout.columnsAt(TileKind::Means, level),
                               layout.rowsAt(TileKind::Means, level)};
         std::size_t overview = 0;
-        while (overview < file.overviewCount() && !(file.overviewSize(overview) == wanted)) {
+        while (overview < file.overviewCount() && !isAlmost(file.overviewSize(overview), wanted)) {
             ++overview;
         }
         if (overview == file.overviewCount()) {

@@ -1,0 +1,331 @@
+#include "core/session/open_map.h"
+
+#include "core/base/check.h"
+#include "core/base/file_lock.h"
+#include "core/raster/geotiff_tile_source.h"
+#include "core/raster/map_folder.h"
+#include "core/raster/raster_file.h"
+#include "core/raster/remote_raster.h"
+#include "core/raster/source_identity.h"
+#include "core/raster/tile_disk_cache.h"
+#include "core/raster/tiled_geotiff.h"
+#include "core/session/prepare_map.h"
+#include "core/terrain/estimated_levels.h"
+#include "core/terrain/level_file.h"
+#include "core/terrain/map_tile_source.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <thread>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// A file with the description that the user gave it.
+struct Described {
+    RasterFile file;
+    RasterInfo file_info;
+    RasterInfo info;
+
+    std::uint64_t bytes() const
+    {
+        return std::uint64_t{info.columns} * info.rows * sampleBytes(info.type);
+    }
+    VoidRule voids() const { return {info.nodata}; }
+};
+
+Result<Described> describe(const DatasetSpec& spec)
+{
+    Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
+    if (!file) {
+        return std::move(file).error();
+    }
+    RasterInfo file_info = file->info();
+    Result<RasterInfo> info = withOverrides(file_info, spec.overrides);
+    if (!info) {
+        return Error{info.error().code, fmt::format("{}: {}", spec.path, info.error().message)};
+    }
+    return Described{std::move(*file), std::move(file_info), std::move(*info)};
+}
+
+// What decides about the content of a prepared map beside the source itself.
+std::string settingsOf(const RasterInfo& info)
+{
+    return info.nodata ? fmt::format("nodata {}", *info.nodata) : std::string();
+}
+
+Result<LevelFileKey> keyOf(const std::string& raster_path, int band, const RasterInfo& info)
+{
+    Result<SourceIdentity> identity = identify(raster_path);
+    if (!identity) {
+        return std::move(identity).error();
+    }
+    return LevelFileKey{.raster = std::move(*identity), .band = band, .nodata = info.nodata};
+}
+
+bool hasLevels(const std::string& level_path, const LevelFileKey& key)
+{
+    return LevelFile::open(level_path, key).has_value();
+}
+
+// A prepared copy has one band.
+int bandOf(const DatasetSpec& spec, const std::string& raster_path, const RasterInfo& info)
+{
+    return raster_path == info.path ? spec.band : 1;
+}
+
+std::size_t megabytesFrom(const char* variable, std::size_t otherwise)
+{
+    const char* text = std::getenv(variable); // NOLINT(concurrency-mt-unsafe): only read
+    if (text == nullptr) {
+        return otherwise;
+    }
+    char* end = nullptr;
+    const unsigned long long megabytes = std::strtoull(text, &end, 10);
+    return end != text && *end == '\0' ? static_cast<std::size_t>(megabytes) << 20 : otherwise;
+}
+
+Result<LoadedMap> openHeld(const DatasetSpec& spec, JobMonitor& monitor)
+{
+    // Shares as measured on a map of 34 million samples.
+    monitor.beginStage(0.0, 0.6);
+    auto dataset = loadDataset(spec, monitor, defaultMemoryBudget());
+    if (!dataset) {
+        return std::move(dataset).error();
+    }
+    monitor.beginStage(0.6, 1.0);
+    return prepareMap(std::move(dataset).value(), monitor);
+}
+
+// All tiles of a map, and what is known of it as a whole.
+struct OpenedTiles {
+    std::shared_ptr<const TileSource> source;
+    std::shared_ptr<const MapLevels> levels;
+};
+
+Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource>& raster,
+                                   const std::string& level_path,
+                                   int band,
+                                   const RasterInfo& info)
+{
+    Result<LevelFileKey> key = keyOf(raster->name(), band, info);
+    if (!key) {
+        return std::move(key).error();
+    }
+    Result<LevelFile> file = LevelFile::open(level_path, *key);
+    if (!file) {
+        return std::move(file).error();
+    }
+    const ElevationScale scale = info.elevationScale();
+    Result<MapLevels> levels = file->readLevels(scale);
+    if (!levels) {
+        return std::move(levels).error();
+    }
+    TileLayout layout = raster->layout();
+    layout.has_voids = levels->statistics.void_count > 0;
+    OpenedTiles opened;
+    opened.source = mapTileSource({.raster = raster,
+                                   .level_path = level_path,
+                                   .level_key = std::move(*key),
+                                   .analysis = levels->analysis,
+                                   .scale = scale,
+                                   .layout = layout});
+    opened.levels = std::make_shared<const MapLevels>(std::move(*levels));
+    return opened;
+}
+
+// A source together with what keeps its files from being removed.
+struct SourceInUse {
+    std::shared_ptr<const TileSource> source;
+    FileLock lock;
+};
+
+// What lies in the folder of prepared maps stays there as long as it is open.
+void keepInUse(const OpenPlan& plan, const MapResources& resources, OpenedTiles& opened)
+{
+    Result<MapFolder> folder = MapFolder::open(resources.folder);
+    if (!folder || !plan.level_path) {
+        return;
+    }
+    const std::string suffix = LevelFile::pathFor("");
+    const std::string kept = plan.level_path->substr(0, plan.level_path->size() - suffix.size());
+    Result<FileLock> lock = folder->use(kept);
+    if (!lock) {
+        return; // it lies elsewhere
+    }
+    const auto in_use =
+        std::make_shared<const SourceInUse>(SourceInUse{opened.source, std::move(*lock)});
+    opened.source = std::shared_ptr<const TileSource>(in_use, in_use->source.get());
+}
+
+} // namespace
+
+MapResources defaultMapResources()
+{
+    const std::size_t quarter = defaultMemoryBudget() / 2;
+    MapResources resources;
+    resources.held_bytes_max = megabytesFrom("MARSVIEW_HELD_MB", quarter);
+    resources.tiles = std::make_shared<TileCache>(
+        TileCacheOptions{.bytes_max = megabytesFrom("MARSVIEW_CACHE_MB", quarter),
+                         .loader_threads = std::max(2U, std::thread::hardware_concurrency())});
+    resources.folder = MapFolder::defaultPath();
+    return resources;
+}
+
+Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resources)
+{
+    Result<Described> map = describe(spec);
+    if (!map) {
+        return std::move(map).error();
+    }
+    const bool is_remote = remoteNameFor(spec.path).has_value();
+    const bool fits = map->bytes() <= resources.held_bytes_max;
+    const std::string& raster_path = map->file_info.path;
+    const auto in_place = GeotiffTileSource::of(map->file, map->voids());
+    Result<MapFolder> folder = MapFolder::open(resources.folder);
+    if (in_place) {
+        const Result<LevelFileKey> key = keyOf(raster_path, spec.band, map->info);
+        if (key) {
+            if (const std::string beside = LevelFile::pathFor(raster_path);
+                hasLevels(beside, *key)) {
+                return OpenPlan{MapStore::Tiled, raster_path, beside};
+            }
+            if (folder) {
+                const std::string kept = LevelFile::pathFor(
+                    folder->pathFor(key->raster, spec.band, settingsOf(map->info)));
+                if (hasLevels(kept, *key)) {
+                    return OpenPlan{MapStore::Tiled, raster_path, kept};
+                }
+            }
+        }
+        if (is_remote) {
+            return OpenPlan{MapStore::Tiled, raster_path, std::nullopt};
+        }
+    }
+    if (fits) {
+        return OpenPlan{};
+    }
+    if (is_remote) {
+        return notCloudOptimised(raster_path, in_place.error().message);
+    }
+    if (folder) {
+        const Result<SourceIdentity> identity = identify(raster_path);
+        if (identity) {
+            const std::string copy = folder->pathFor(*identity, spec.band, settingsOf(map->info));
+            const Result<LevelFileKey> key = keyOf(copy, 1, map->info);
+            if (key && hasLevels(LevelFile::pathFor(copy), *key)) {
+                return OpenPlan{MapStore::Tiled, copy, LevelFile::pathFor(copy)};
+            }
+        }
+    }
+    return OpenPlan{.store = MapStore::Unprepared, .raster_path = {}, .level_path = {}};
+}
+
+Status
+prepareForOpening(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor)
+{
+    Result<Described> map = describe(spec);
+    if (!map) {
+        return std::move(map).error();
+    }
+    Result<MapFolder> folder = MapFolder::open(resources.folder);
+    if (!folder) {
+        return std::move(folder).error();
+    }
+    const Result<SourceIdentity> identity = identify(map->file_info.path);
+    if (!identity) {
+        return identity.error();
+    }
+    const std::string kept = folder->pathFor(*identity, spec.band, settingsOf(map->info));
+    const bool is_in_place = GeotiffTileSource::of(map->file, map->voids()).has_value();
+    const PrepareJob job{.spec = spec,
+                         .raster_path = is_in_place ? std::string() : kept,
+                         .level_path = LevelFile::pathFor(kept),
+                         .when_busy = TiledGeoTiffJob::WhenBusy::Wait};
+    const Result<PrepareReport> prepared = prepareMapFiles(job, monitor);
+    if (!prepared) {
+        return prepared.error();
+    }
+    // Only now, so that nothing is given up for a map that could not be made.
+    const std::uint64_t bytes_max =
+        resources.folder_bytes_max != 0 ? resources.folder_bytes_max : folder->defaultBytesMax();
+    const Result<FileLock> in_use = folder->use(kept);
+    static_cast<void>(folder->trim(bytes_max)); // what cannot be removed stays
+    return Done{};
+}
+
+Result<LoadedMap> openPlanned(const DatasetSpec& spec,
+                              const OpenPlan& plan,
+                              const MapResources& resources,
+                              JobMonitor& monitor)
+{
+    MARSVIEW_CHECK(plan.store != MapStore::Unprepared);
+    if (plan.store == MapStore::Held) {
+        return openHeld(spec, monitor);
+    }
+    Result<Described> map = describe(spec);
+    if (!map) {
+        return std::move(map).error();
+    }
+    const int band = bandOf(spec, plan.raster_path, map->file_info);
+    Result<RasterFile> raster = RasterFile::open(plan.raster_path, band);
+    if (!raster) {
+        return std::move(raster).error();
+    }
+    Result<std::shared_ptr<const GeotiffTileSource>> source =
+        GeotiffTileSource::of(*raster, map->voids());
+    if (!source) {
+        return std::move(source).error();
+    }
+    Result<OpenedTiles> opened = plan.level_path
+                                     ? openWithLevels(*source, *plan.level_path, band, map->info)
+                                     : openWithoutLevels(*source, map->info, monitor);
+    if (!opened) {
+        return std::move(opened).error();
+    }
+    if (!plan.level_path) {
+        map->info.notices.push_back("its detail is estimated: there is no level file beside it");
+    }
+    keepInUse(plan, resources, *opened);
+    Result<std::shared_ptr<const TiledSamples>> tiles =
+        TiledSamples::open(TiledRaster(*resources.tiles, opened->source));
+    if (!tiles) {
+        return std::move(tiles).error();
+    }
+    monitor.report(0.5);
+    return prepareTiledMap(tiledDataset({.spec = spec,
+                                         .file_info = map->file_info,
+                                         .info = map->info,
+                                         .statistics = opened->levels->statistics,
+                                         .tiles = std::move(*tiles)}),
+                           opened->levels);
+}
+
+Result<LoadedMap>
+openMap(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor)
+{
+    Result<OpenPlan> plan = planOpening(spec, resources);
+    if (!plan) {
+        return std::move(plan).error();
+    }
+    if (plan->store == MapStore::Unprepared) {
+        if (Status prepared = prepareForOpening(spec, resources, monitor); !prepared) {
+            return std::move(prepared).error();
+        }
+        plan = planOpening(spec, resources);
+        if (!plan) {
+            return std::move(plan).error();
+        }
+        if (plan->store == MapStore::Unprepared) {
+            return Error{ErrorCode::Unreadable,
+                         fmt::format("{}: was prepared, but what was made of it is gone from {}; "
+                                     "choose another folder for prepared maps",
+                                     spec.path, resources.folder.string())};
+        }
+    }
+    return openPlanned(spec, *plan, resources, monitor);
+}
+
+} // namespace marsview

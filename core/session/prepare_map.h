@@ -1,0 +1,43 @@
+// Making of a raster too large to hold the files by which it is looked at and touched.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/raster/tiled_geotiff.h"
+#include "core/session/dataset.h"
+
+#include <cstdint>
+#include <string>
+
+namespace marsview {
+
+struct PrepareJob {
+    DatasetSpec spec;
+    /// Of the tiled GeoTIFF to make; empty where the raster is one that can be used in place.
+    std::string raster_path{};
+    /// Of the level file; empty: beside the tiled raster.
+    std::string level_path{};
+    TiledGeoTiffJob::WhenBusy when_busy = TiledGeoTiffJob::WhenBusy::Fail;
+    std::chrono::milliseconds checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
+};
+
+struct PrepareReport {
+    bool is_source_used = false; // the raster was tiled and had overviews already
+    std::string raster_path;
+    std::string level_path;
+    TiledGeoTiffReport copy; // of the tiled GeoTIFF, where one was made
+    std::uint64_t samples = 0;
+    double copy_seconds = 0.0;
+    double level_seconds = 0.0;
+};
+
+/// Whether the raster of `spec` is one whose tiles can be read where it lies.
+Result<bool> canBeUsedInPlace(const DatasetSpec& spec);
+
+/// Copies the raster into a tiled GeoTIFF unless it is used in place, then measures it into its
+/// level file. Each appears whole or not at all; what is there already and belongs to the raster is
+/// not made again. Stopped, the copy is gone on with the next time. On all cores; not for the GUI
+/// thread. Errors name the file and say what to do.
+Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor);
+
+} // namespace marsview
