@@ -11,14 +11,15 @@ namespace marsview {
 /// What tells one raster file, or address, from another and from itself after a change.
 struct SourceIdentity {
     std::string path;            // absolute; an address as it is
-    std::uint64_t bytes = 0;     // of the file that holds the samples
-    std::int64_t modified_s = 0; // since 1970
+    std::uint64_t bytes = 0;     // of all files that belong to it: a label's data, a mosaic's parts
+    std::int64_t modified_s = 0; // since 1970, of the latest
     std::string digest;          // of some of the content, spread over all of it: hexadecimal
     bool operator==(const SourceIdentity&) const = default;
 };
 
-/// Reads a few dozen kilobytes. NotFound or Unreadable where there is nothing to read. Names with a
-/// scheme are asked of GDAL's file systems.
+/// Reads a few dozen kilobytes of each file that belongs to the raster. Statistics and overviews
+/// that other programs leave beside it (.aux.xml, .ovr) do not count. NotFound or Unreadable where
+/// there is nothing to read. Names with a scheme are asked of GDAL's file systems. Any thread.
 Result<SourceIdentity> identify(const std::string& path);
 
 /// Whether `now` is what `then` was. The path does not count: a file may move together with what

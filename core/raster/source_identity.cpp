@@ -1,0 +1,205 @@
+#include "core/raster/source_identity.h"
+
+#include "core/raster/gdal_runtime.h"
+#include "core/raster/raster_path.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <string_view>
+#include <vector>
+#include <zlib.h>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Headers, directories and offsets of tiles stand at either end of most formats.
+constexpr std::uint64_t kEndBytes = std::uint64_t{64} << 10;
+constexpr std::uint64_t kBlockBytes = std::uint64_t{4} << 10;
+constexpr std::uint64_t kBlocks = 16;
+// A mosaic may name thousands of files: of those beyond the first, size and time have to do.
+constexpr std::size_t kSampledFilesMax = 64;
+// What is fetched over the network is not asked for its companions unless it is as small as a
+// label.
+constexpr std::uint64_t kLabelBytesMax = std::uint64_t{1} << 20;
+
+struct FileCloser {
+    void operator()(VSILFILE* file) const { VSIFCloseL(file); }
+};
+
+// Two checksums side by side: together they miss a change in one of 10^19.
+class Digest {
+public:
+    void add(const void* data, std::size_t size)
+    {
+        const auto* bytes = static_cast<const Bytef*>(data);
+        crc_ = crc32_z(crc_, bytes, size);
+        adler_ = adler32_z(adler_, bytes, size);
+    }
+    void add(std::uint64_t number)
+    {
+        std::array<unsigned char, 8> bytes{}; // the same on every machine
+        for (unsigned char& byte : bytes) {
+            byte = static_cast<unsigned char>(number & 0xFFU);
+            number >>= 8U;
+        }
+        add(bytes.data(), bytes.size());
+    }
+    std::string text() const { return fmt::format("{:08x}{:08x}", crc_, adler_); }
+
+private:
+    uLong crc_ = crc32_z(0, nullptr, 0);
+    uLong adler_ = adler32_z(0, nullptr, 0);
+};
+
+bool isRemote(const std::string& path)
+{
+    return path.starts_with("http://") || path.starts_with("https://") ||
+           path.find("/vsicurl") != std::string::npos || path.find("/vsis3") != std::string::npos ||
+           path.find("/vsigs") != std::string::npos || path.find("/vsiaz") != std::string::npos;
+}
+
+std::string nameForVsi(const std::string& path)
+{
+    return path.starts_with("http://") || path.starts_with("https://") ? "/vsicurl/" + path : path;
+}
+
+bool isSidecar(std::string_view name)
+{
+    // Statistics and overviews that other programs leave beside a raster change none of its
+    // samples.
+    return name.ends_with(".aux.xml") || name.ends_with(".ovr");
+}
+
+// The raster's files as GDAL lists them; only itself where GDAL does not open it.
+std::vector<std::string> filesOf(const std::string& path)
+{
+    std::vector<std::string> files;
+    const Result<std::vector<std::string>> names = rasterNamesFor(path);
+    if (!names) {
+        return files;
+    }
+    const GdalMessages messages;
+    for (const std::string& name : *names) {
+        const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
+        if (dataset) {
+            const CPLStringList listed(dataset->GetFileList());
+            for (int i = 0; i < listed.Count(); ++i) {
+                if (!isSidecar(listed[i])) {
+                    files.emplace_back(listed[i]);
+                }
+            }
+            break;
+        }
+    }
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    return files;
+}
+
+// The head, some blocks in ascending order, as archives like it, and the tail.
+Status addSamples(const std::string& file, std::uint64_t bytes, Digest& digest)
+{
+    const std::unique_ptr<VSILFILE, FileCloser> stream(VSIFOpenL(file.c_str(), "rb"));
+    const auto refusal = [&file] {
+        return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be read", file)};
+    };
+    if (!stream) {
+        return refusal();
+    }
+    std::vector<char> buffer(kEndBytes);
+    const auto add = [&](std::uint64_t offset, std::uint64_t count) {
+        count = std::min(count, bytes - offset);
+        if (VSIFSeekL(stream.get(), offset, SEEK_SET) != 0 ||
+            VSIFReadL(buffer.data(), 1, count, stream.get()) != count) {
+            return false;
+        }
+        digest.add(buffer.data(), count);
+        return true;
+    };
+    bool is_read = add(0, kEndBytes);
+    for (std::uint64_t i = 1; is_read && i <= kBlocks && bytes > kEndBytes; ++i) {
+        is_read = add(bytes / (kBlocks + 1) * i, kBlockBytes);
+    }
+    if (is_read && bytes > kEndBytes) {
+        is_read = add(bytes - kEndBytes, kEndBytes);
+    }
+    return is_read ? Status(Done{}) : Status(refusal());
+}
+
+} // namespace
+
+Result<SourceIdentity> identify(const std::string& path)
+{
+    ensureGdal();
+    if (path.empty()) {
+        return Error{ErrorCode::NotFound, "no file name was given"};
+    }
+    const std::string name = nameForVsi(path);
+    const GdalMessages messages;
+    VSIStatBufL status{};
+    errno = 0;
+    const bool is_file = VSIStatL(name.c_str(), &status) == 0 && !VSI_ISDIR(status.st_mode);
+    const int stat_error = errno;
+    std::vector<std::string> files;
+    if (!is_file || !isRemote(path) ||
+        static_cast<std::uint64_t>(status.st_size) <= kLabelBytesMax) {
+        files = filesOf(path);
+    }
+    if (files.empty() && is_file) {
+        files.push_back(name);
+    }
+    if (files.empty()) {
+        const bool may_be_there = stat_error != 0 && stat_error != ENOENT;
+        return Error{may_be_there ? ErrorCode::Unreadable : ErrorCode::NotFound,
+                     fmt::format("{}: {}", path,
+                                 may_be_there
+                                     ? std::strerror(stat_error) // NOLINT(concurrency-mt-unsafe)
+                                     : "there is no such file, or none that its content could be "
+                                       "told apart by")};
+    }
+    SourceIdentity identity;
+    const bool is_local_file = is_file && !isRemote(path) && !path.starts_with("/vsi");
+    identity.path = is_local_file ? fs::absolute(path).lexically_normal().string() : path;
+    Digest digest;
+    std::size_t sampled = 0;
+    for (const std::string& file : files) {
+        if (VSIStatL(file.c_str(), &status) != 0) {
+            return Error{ErrorCode::Unreadable,
+                         fmt::format("{}: {}, which belongs to it, cannot be read", path, file)};
+        }
+        const auto bytes = static_cast<std::uint64_t>(status.st_size);
+        const auto modified_s = static_cast<std::int64_t>(status.st_mtime);
+        identity.bytes += bytes;
+        identity.modified_s = std::max(identity.modified_s, modified_s);
+        digest.add(bytes);
+        if (files.size() > 1) {
+            digest.add(static_cast<std::uint64_t>(modified_s));
+        }
+        if (!VSI_ISDIR(status.st_mode) && ++sampled <= kSampledFilesMax) {
+            if (Status added = addSamples(file, bytes, digest); !added) {
+                return std::move(added).error();
+            }
+        }
+    }
+    identity.digest = digest.text();
+    return identity;
+}
+
+bool isSameContent(const SourceIdentity& then, const SourceIdentity& now)
+{
+    return then.bytes == now.bytes && then.modified_s == now.modified_s &&
+           then.digest == now.digest;
+}
+
+} // namespace marsview
