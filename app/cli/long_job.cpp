@@ -5,7 +5,9 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <fmt/format.h>
 #include <mutex>
+#include <optional>
 #include <unistd.h>
 
 namespace marsview {
@@ -43,6 +45,26 @@ LongJob::~LongJob()
     running_job.store(nullptr);
 }
 
+std::string LongJob::timeLeft(double begin, double fraction, std::chrono::duration<double> elapsed)
+{
+    constexpr double kElapsedMinS = 2.0;
+    constexpr double kLeftMinS = 2.0;
+    if (elapsed.count() < kElapsedMinS || fraction <= begin) {
+        return {};
+    }
+    const double left_s = elapsed.count() / (fraction - begin) * (1.0 - fraction);
+    if (left_s < kLeftMinS) {
+        return {};
+    }
+    if (left_s < 90.0) {
+        return fmt::format("about {:.0f} s left", left_s);
+    }
+    if (left_s < 90.0 * 60.0) {
+        return fmt::format("about {:.0f} min left", left_s / 60.0);
+    }
+    return fmt::format("about {:.1f} h left", left_s / 3600.0);
+}
+
 void LongJob::showProgress(const std::stop_token& stop)
 {
     constexpr std::chrono::milliseconds kInterval{200};
@@ -50,8 +72,20 @@ void LongJob::showProgress(const std::stop_token& stop)
     std::condition_variable_any wake;
     std::unique_lock lock(mutex);
     bool has_shown = false;
+    // A job may go on with what an earlier one began: only what is done from now on tells its pace.
+    std::optional<double> begin;
+    std::chrono::steady_clock::time_point begin_time;
     while (!wake.wait_for(lock, stop, kInterval, [&stop] { return stop.stop_requested(); })) {
-        std::fprintf(stderr, "\r%s %3.0f %%", what_.c_str(), 100.0 * monitor_.fraction());
+        const double fraction = monitor_.fraction();
+        const auto now = std::chrono::steady_clock::now();
+        if (!begin && fraction > 0.0) {
+            begin = fraction;
+            begin_time = now;
+        }
+        const std::string left =
+            begin ? timeLeft(*begin, fraction, now - begin_time) : std::string();
+        std::fprintf(stderr, "\r%s %3.0f %%%s%s\033[K", what_.c_str(), 100.0 * fraction,
+                     left.empty() ? "" : ", ", left.c_str());
         has_shown = true;
     }
     if (has_shown) {

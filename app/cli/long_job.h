@@ -3,13 +3,15 @@
 
 #include "core/base/job_monitor.h"
 
+#include <chrono>
 #include <string>
 #include <thread>
 
 namespace marsview {
 
-/// While it lives, shows the monitor's progress on stderr if that is a terminal, and lets Ctrl-C
-/// cancel the job instead of killing the program. One at a time.
+/// While it lives, shows the monitor's progress on stderr if that is a terminal, with the time left
+/// where that is worth waiting for, and lets Ctrl-C cancel the job instead of killing the program.
+/// One at a time.
 class LongJob {
 public:
     explicit LongJob(std::string what);
@@ -18,6 +20,11 @@ public:
     LongJob& operator=(const LongJob&) = delete;
 
     JobMonitor& monitor() noexcept { return monitor_; }
+
+    /// "about 3 min left" for a job that came from `begin` to `fraction` in `elapsed`; empty where
+    /// that is too early to say or hardly any time is left.
+    static std::string
+    timeLeft(double begin, double fraction, std::chrono::duration<double> elapsed);
 
 private:
     void showProgress(const std::stop_token& stop);

@@ -1,5 +1,7 @@
 #include "core/raster/sample_grid.h"
 
+#include "core/raster/nodata.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,33 +15,6 @@
 
 namespace marsview {
 namespace {
-
-// Nodata is declared as a double, but means the value that the samples' type can hold: a float32
-// map with nodata -3.4028234663852886e38 or 1e-34 compares in float.
-template <typename T>
-struct Nodata {
-    bool exists = false;
-    T value{};
-
-    explicit Nodata(const std::optional<double>& declared)
-    {
-        if (!declared || std::isnan(*declared)) {
-            return; // NaN is void in any case
-        }
-        if constexpr (std::is_floating_point_v<T>) {
-            value = static_cast<T>(*declared);
-            exists = true;
-        } else {
-            const double low = static_cast<double>(std::numeric_limits<T>::min());
-            const double high = static_cast<double>(std::numeric_limits<T>::max());
-            if (*declared >= low && *declared <= high && *declared == std::floor(*declared)) {
-                exists = true;
-                value =
-                    *declared >= high ? std::numeric_limits<T>::max() : static_cast<T>(*declared);
-            }
-        }
-    }
-};
 
 // What an array may be asked for: the largest difference of two pointers.
 constexpr std::size_t kBytesMax =

@@ -1,0 +1,264 @@
+#include "core/raster/map_folder.h"
+
+#include "core/raster/geotiff_skeleton.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <map>
+#include <pwd.h>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+#include <zlib.h>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kBytesMax = 100'000'000'000;
+constexpr std::uint64_t kDiskShare = 5;
+constexpr const char* kMapEnding = ".map.tif"; // no other file in the folder has it in its name
+constexpr const char* kUseEnding = ".use";     // its time is that of the last use
+constexpr const char* kWorkEnding = ".lock";   // see writeTiledGeoTiff
+
+std::string variable(const char* name)
+{
+    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe)
+    return value != nullptr ? value : "";
+}
+
+Error folderError(const fs::path& folder, const std::string& why)
+{
+    return {ErrorCode::Unreadable,
+            fmt::format("{}: prepared maps cannot be kept there ({}); set MARSVIEW_CACHE_DIR to a "
+                        "folder that may be written to",
+                        folder.string(), why)};
+}
+
+// The readable part of a name: letters and digits of what the user called it.
+std::string readableName(const std::string& path)
+{
+    std::string name;
+    for (const char c : fs::path(path).stem().string()) {
+        const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
+        name += is_plain ? c : '_';
+    }
+    constexpr std::size_t kLengthMax = 60;
+    return name.substr(0, kLengthMax);
+}
+
+// Both are free, and stay so while the locks live.
+struct RemovalLocks {
+    FileLock use;
+    FileLock work;
+};
+
+std::optional<RemovalLocks> lockForRemoval(const std::string& path)
+{
+    Result<std::optional<FileLock>> use =
+        FileLock::tryLock(path + kUseEnding, FileLock::Kind::Exclusive);
+    if (!use || !*use) {
+        return std::nullopt;
+    }
+    Result<std::optional<FileLock>> work =
+        FileLock::tryLock(path + kWorkEnding, FileLock::Kind::Exclusive);
+    if (!work || !*work) {
+        return std::nullopt;
+    }
+    return RemovalLocks{std::move(**use), std::move(**work)};
+}
+
+// The files of each map by its name.
+std::map<std::string, std::vector<fs::path>> filesByMap(const fs::path& folder,
+                                                        std::error_code& failure)
+{
+    std::map<std::string, std::vector<fs::path>> maps;
+    for (fs::directory_iterator it(folder, failure), end; !failure && it != end;
+         it.increment(failure)) {
+        const std::string name = it->path().filename().string();
+        const std::size_t ending = name.find(kMapEnding);
+        std::error_code ignored;
+        if (ending != std::string::npos && it->is_regular_file(ignored)) {
+            maps[name.substr(0, ending + std::strlen(kMapEnding))].push_back(it->path());
+        }
+    }
+    return maps;
+}
+
+bool isMerelyLock(const fs::path& file)
+{
+    const std::string name = file.string();
+    return name.ends_with(kUseEnding) || name.ends_with(kWorkEnding);
+}
+
+} // namespace
+
+fs::path MapFolder::defaultPath()
+{
+    if (const std::string chosen = variable("MARSVIEW_CACHE_DIR"); !chosen.empty()) {
+        return chosen;
+    }
+    fs::path caches = variable("XDG_CACHE_HOME");
+    if (!caches.is_absolute()) { // as the XDG base directory specification wants it
+        std::string home = variable("HOME");
+        if (home.empty()) {
+            const passwd* user = getpwuid(getuid()); // NOLINT(concurrency-mt-unsafe)
+            home = user != nullptr ? user->pw_dir : "/";
+        }
+        caches = fs::path(home) / ".cache";
+    }
+    return caches / "marsview" / "maps";
+}
+
+Result<MapFolder> MapFolder::open(const fs::path& folder)
+{
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure) {
+        return folderError(folder, failure.message());
+    }
+    if (!fs::is_directory(folder, failure)) {
+        return folderError(folder, "is no folder");
+    }
+    if (access(folder.c_str(), R_OK | W_OK | X_OK) != 0) {
+        return folderError(folder, std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
+    }
+    return MapFolder(fs::absolute(folder).lexically_normal());
+}
+
+std::string
+MapFolder::pathFor(const SourceIdentity& source, int band, const std::string& settings) const
+{
+    // The whole identity: two maps may have the same samples at the places that the digest knows.
+    const std::string all = fmt::format("{} {} {} {} {}", source.bytes, source.modified_s,
+                                        source.digest, band, settings);
+    const auto checksum = crc32_z(0, reinterpret_cast<const Bytef*>(all.data()), all.size());
+    return (folder_ / fmt::format("{}-{}{:08x}{}", readableName(source.path), source.digest,
+                                  checksum, kMapEnding))
+        .string();
+}
+
+Result<FileLock> MapFolder::use(const std::string& path) const
+{
+    Result<std::optional<FileLock>> lock =
+        FileLock::tryLock(path + kUseEnding, FileLock::Kind::Shared);
+    // Whoever lists the folder asks for the lock too, and gives it back at once.
+    constexpr int kAttempts = 20;
+    for (int attempt = 1; lock && !*lock && attempt < kAttempts; ++attempt) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        lock = FileLock::tryLock(path + kUseEnding, FileLock::Kind::Shared);
+    }
+    if (!lock) {
+        return std::move(lock).error();
+    }
+    std::error_code failure;
+    if (!*lock || !fs::exists(path, failure)) {
+        if (*lock) {
+            *lock = std::nullopt;
+            lockForRemoval(path); // which takes the lock's own file away
+        }
+        return Error{ErrorCode::NotFound, fmt::format("{}: there is no such prepared map", path)};
+    }
+    fs::last_write_time(path + kUseEnding, fs::file_time_type::clock::now(), failure);
+    return std::move(**lock);
+}
+
+Result<std::vector<PreparedMap>> MapFolder::list() const
+{
+    std::error_code failure;
+    const auto files_by_map = filesByMap(folder_, failure);
+    if (failure) {
+        return folderError(folder_, failure.message());
+    }
+    std::vector<PreparedMap> maps;
+    for (const auto& [name, files] : files_by_map) {
+        if (std::all_of(files.begin(), files.end(), isMerelyLock)) {
+            continue; // what a killed program leaves of a map that was removed
+        }
+        PreparedMap map;
+        map.name = name;
+        map.path = (folder_ / name).string();
+        map.last_used = fs::file_time_type::min();
+        for (const fs::path& file : files) {
+            std::error_code ignored; // it may go while we look
+            const std::uintmax_t bytes = fs::file_size(file, ignored);
+            map.bytes += ignored ? 0 : bytes;
+            const fs::file_time_type time = fs::last_write_time(file, ignored);
+            map.last_used = ignored ? map.last_used : std::max(map.last_used, time);
+        }
+        map.source = readGeoTiffOrigin(map.path).source;
+        if (map.source.empty()) {
+            map.source = readGeoTiffOrigin(map.path + ".part").source;
+        }
+        map.is_in_use =
+            FileLock::isHeld(map.path + kUseEnding) || FileLock::isHeld(map.path + kWorkEnding);
+        maps.push_back(std::move(map));
+    }
+    std::sort(maps.begin(), maps.end(), [](const PreparedMap& a, const PreparedMap& b) {
+        return std::pair(b.last_used, a.name) < std::pair(a.last_used, b.name);
+    });
+    return maps;
+}
+
+Status MapFolder::remove(const std::string& name) const
+{
+    std::error_code failure;
+    const auto files_by_map = filesByMap(folder_, failure);
+    if (failure) {
+        return folderError(folder_, failure.message());
+    }
+    const auto map = files_by_map.find(name);
+    if (map == files_by_map.end()) {
+        return Error{ErrorCode::NotFound,
+                     fmt::format("{}: there is no prepared map \"{}\"", folder_.string(), name)};
+    }
+    const std::string path = (folder_ / name).string();
+    const std::optional<RemovalLocks> locks = lockForRemoval(path);
+    if (!locks) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: is in use; close the map first", path)};
+    }
+    for (const fs::path& file : map->second) {
+        if (!isMerelyLock(file) && !fs::remove(file, failure) && failure) {
+            return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be removed ({})",
+                                                            file.string(), failure.message())};
+        }
+    }
+    return Done{};
+}
+
+Result<std::vector<PreparedMap>> MapFolder::trim(std::uint64_t bytes_max) const
+{
+    Result<std::vector<PreparedMap>> maps = list();
+    if (!maps) {
+        return maps;
+    }
+    std::uint64_t bytes = 0;
+    for (const PreparedMap& map : *maps) {
+        bytes += map.bytes;
+    }
+    std::vector<PreparedMap> removed;
+    for (auto map = maps->rbegin(); map != maps->rend() && bytes > bytes_max; ++map) {
+        if (remove(map->name)) {
+            bytes -= map->bytes;
+            removed.push_back(std::move(*map));
+        }
+    }
+    return removed;
+}
+
+std::uint64_t MapFolder::defaultBytesMax() const
+{
+    std::error_code failure;
+    const fs::space_info space = fs::space(folder_, failure);
+    return failure ? kBytesMax : std::min<std::uint64_t>(kBytesMax, space.capacity / kDiskShare);
+}
+
+} // namespace marsview

@@ -1,0 +1,239 @@
+#include "core/raster/tiff_tiles.h"
+
+#include "core/raster/tile.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <tiffio.h>
+#include <unistd.h>
+
+namespace marsview {
+namespace {
+
+struct TiffCloser {
+    void operator()(TIFF* file) const { TIFFClose(file); }
+};
+using TiffHandle = std::unique_ptr<TIFF, TiffCloser>;
+
+struct OptionsFreer {
+    void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
+};
+
+// The library's own words, and the system's number at that moment.
+struct Complaint {
+    std::string text;
+    int system_error = 0;
+};
+
+int noteError(TIFF*, void* complaint, const char* module, const char* format, va_list arguments)
+{
+    auto& noted = *static_cast<Complaint*>(complaint);
+    const int system_error = errno;
+    if (noted.text.empty()) {
+        std::array<char, 512> text{};
+        std::vsnprintf(text.data(), text.size(), format, arguments);
+        noted.text = fmt::format("{}: {}", module != nullptr ? module : "TIFF", text.data());
+        noted.system_error = system_error;
+    }
+    return 1; // the process-wide handlers need not hear of it
+}
+
+int dropWarning(TIFF*, void*, const char*, const char*, va_list)
+{
+    return 1;
+}
+
+TiffHandle openAt(const std::string& path, tdir_t directory, Complaint& complaint)
+{
+    const std::unique_ptr<TIFFOpenOptions, OptionsFreer> options(TIFFOpenOptionsAlloc());
+    if (!options) {
+        return nullptr;
+    }
+    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), noteError, &complaint);
+    TIFFOpenOptionsSetWarningHandlerExtR(options.get(), dropWarning, nullptr);
+    errno = 0;
+    TiffHandle file(TIFFOpenExt(path.c_str(), "r+m", options.get()));
+    if (file && directory > 0 && TIFFSetDirectory(file.get(), directory) == 0) {
+        return nullptr;
+    }
+    return file;
+}
+
+template <typename T>
+T tagOf(TIFF* file, std::uint32_t tag, T otherwise)
+{
+    T value{};
+    return TIFFGetField(file, tag, &value) != 0 ? value : otherwise;
+}
+
+} // namespace
+
+struct TiffTiles::Impl {
+    std::string path;
+    std::unique_ptr<Complaint> complaint = std::make_unique<Complaint>();
+    std::vector<TiffHandle> handles; // one a page, so that none is turned to another's directory
+    std::vector<TiffPage> pages;
+
+    Error failure() const
+    {
+        return writeError(path, complaint->system_error,
+                          complaint->text.empty() ? "is no tiled GeoTIFF of the expected kind"
+                                                  : complaint->text);
+    }
+};
+
+TiffTiles::TiffTiles(std::unique_ptr<Impl> impl)
+    : impl_(std::move(impl))
+{}
+TiffTiles::TiffTiles(TiffTiles&&) noexcept = default;
+TiffTiles& TiffTiles::operator=(TiffTiles&&) noexcept = default;
+TiffTiles::~TiffTiles() = default;
+
+Result<TiffTiles> TiffTiles::open(const std::string& path)
+{
+    auto impl = std::make_unique<Impl>();
+    impl->path = path;
+    for (tdir_t directory = 0;; ++directory) {
+        TiffHandle handle = openAt(path, directory, *impl->complaint);
+        if (!handle) {
+            return impl->failure();
+        }
+        TIFF* file = handle.get();
+        const auto tile_width = tagOf<std::uint32_t>(file, TIFFTAG_TILEWIDTH, 0);
+        const auto tile_height = tagOf<std::uint32_t>(file, TIFFTAG_TILELENGTH, 0);
+        const auto compression = tagOf<std::uint16_t>(file, TIFFTAG_COMPRESSION, 0);
+        if (tile_width != kTileSide || tile_height != kTileSide ||
+            compression != COMPRESSION_ADOBE_DEFLATE) {
+            return impl->failure();
+        }
+        TiffPage page;
+        page.columns = tagOf<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH, 0);
+        page.rows = tagOf<std::uint32_t>(file, TIFFTAG_IMAGELENGTH, 0);
+        page.tile_columns = (page.columns + kTileSide - 1) / kTileSide;
+        page.tile_rows = (page.rows + kTileSide - 1) / kTileSide;
+        page.is_mask = (tagOf<std::uint32_t>(file, TIFFTAG_SUBFILETYPE, 0) & FILETYPE_MASK) != 0;
+        page.has_bits = tagOf<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE, 1) == 1;
+        page.predictor =
+            static_cast<TiffPredictor>(tagOf<std::uint16_t>(file, TIFFTAG_PREDICTOR, 1));
+        impl->pages.push_back(page);
+        const bool is_last = TIFFLastDirectory(file) != 0;
+        impl->handles.push_back(std::move(handle));
+        if (is_last) {
+            return TiffTiles(std::move(impl));
+        }
+    }
+}
+
+const std::vector<TiffPage>& TiffTiles::pages() const noexcept
+{
+    return impl_->pages;
+}
+
+Status TiffTiles::append(std::size_t page, std::size_t tile, std::span<const std::byte> encoded)
+{
+    *impl_->complaint = {};
+    errno = 0;
+    const auto bytes = static_cast<tmsize_t>(encoded.size());
+    // The library's interface takes no pointer to const, but leaves the data alone.
+    void* data = const_cast<std::byte*>(encoded.data()); // NOLINT
+    if (TIFFWriteRawTile(impl_->handles.at(page).get(), static_cast<std::uint32_t>(tile), data,
+                         bytes) != bytes) {
+        return impl_->failure();
+    }
+    return Done{};
+}
+
+Status TiffTiles::flush()
+{
+    *impl_->complaint = {};
+    errno = 0;
+    for (const TiffHandle& handle : impl_->handles) {
+        if (TIFFFlush(handle.get()) == 0) {
+            return impl_->failure();
+        }
+    }
+    if (fdatasync(TIFFFileno(impl_->handles.front().get())) != 0) {
+        return writeError(impl_->path, errno, "cannot be written to the disk");
+    }
+    return Done{};
+}
+
+Result<std::uint64_t> TiffTiles::fileBytes() const
+{
+    struct stat status {};
+    if (fstat(TIFFFileno(impl_->handles.front().get()), &status) != 0) {
+        return writeError(impl_->path, errno, "cannot be asked for its size");
+    }
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+bool TiffTiles::holdsTiles(std::size_t page, std::size_t tiles, std::uint64_t file_bytes) const
+{
+    TIFF* file = impl_->handles.at(page).get();
+    for (std::size_t tile = 0; tile < tiles; ++tile) {
+        const std::uint64_t offset = TIFFGetStrileOffset(file, static_cast<std::uint32_t>(tile));
+        const std::uint64_t bytes = TIFFGetStrileByteCount(file, static_cast<std::uint32_t>(tile));
+        if (offset == 0 || bytes == 0 || offset > file_bytes || bytes > file_bytes - offset) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Status TiffTiles::trim(std::uint64_t file_bytes)
+{
+    // A kill between flush and note leaves tiles beyond the noted ones, in places of their own;
+    // they will be written again where they are if they fit. So these places stay theirs.
+    for (std::size_t page = 0; page < impl_->pages.size(); ++page) {
+        TIFF* file = impl_->handles[page].get();
+        const std::size_t tiles = impl_->pages[page].tile_columns * impl_->pages[page].tile_rows;
+        for (std::size_t tile = 0; tile < tiles; ++tile) {
+            const auto index = static_cast<std::uint32_t>(tile);
+            const std::uint64_t offset = TIFFGetStrileOffset(file, index);
+            const std::uint64_t bytes = TIFFGetStrileByteCount(file, index);
+            constexpr std::uint64_t kBytesMax = std::uint64_t{1} << 48;
+            if (offset > kBytesMax || bytes > kBytesMax) {
+                return writeError(impl_->path, 0, "points beyond what a file can hold");
+            }
+            file_bytes = std::max(file_bytes, offset + bytes);
+        }
+    }
+    if (ftruncate(TIFFFileno(impl_->handles.front().get()), static_cast<off_t>(file_bytes)) != 0) {
+        return writeError(impl_->path, errno, "cannot be cut");
+    }
+    return Done{};
+}
+
+Error writeError(const std::string& path, int system_error, const std::string& otherwise)
+{
+    switch (system_error) {
+    case ENOSPC:
+    case EDQUOT:
+        return {ErrorCode::TooLarge,
+                fmt::format("{}: the disk is full; free some space and start again", path)};
+    case EFBIG:
+        return {ErrorCode::TooLarge,
+                fmt::format("{}: has become the largest file that may be written here; choose "
+                            "another folder",
+                            path)};
+    case EACCES:
+    case EPERM:
+    case EROFS:
+        return {ErrorCode::Unreadable,
+                fmt::format("{}: may not be written there ({}); choose another folder", path,
+                            std::strerror(system_error))}; // NOLINT(concurrency-mt-unsafe)
+    case 0:
+        return {ErrorCode::Unreadable, fmt::format("{}: {}", path, otherwise)};
+    default:
+        return {ErrorCode::Unreadable,
+                fmt::format("{}: cannot be written ({}); choose another folder", path,
+                            std::strerror(system_error))}; // NOLINT(concurrency-mt-unsafe)
+    }
+}
+
+} // namespace marsview

@@ -1,0 +1,771 @@
+#include "core/raster/tiled_geotiff.h"
+
+#include "core/base/check.h"
+#include "core/base/file_lock.h"
+#include "core/base/parallel.h"
+#include "core/raster/gdal_runtime.h"
+#include "core/raster/geotiff_skeleton.h"
+#include "core/raster/overview_builder.h"
+#include "core/raster/prepare_journal.h"
+#include "core/raster/raster_file.h"
+#include "core/raster/source_identity.h"
+#include "core/raster/tiff_tiles.h"
+#include "core/raster/tile.h"
+#include "core/raster/tile_encoding.h"
+
+#include <cpl_string.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <future>
+#include <optional>
+#include <span>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kTileSideMax = 1024;
+constexpr std::size_t kTopSideMax = 512; // of the coarsest overview that a usable file has
+
+// What is being read while the rows before are written takes at most this, together.
+constexpr std::size_t kWindowBytes = std::size_t{230} << 20;
+// A row of blocks that is taller than tiles is read at once up to this.
+constexpr std::size_t kWindowBytesWanted = std::size_t{16} << 20;
+
+// Coarser levels are kept in the journal, finer ones are in the file at such rows of tiles: 3 % of
+// a row of tiles in all.
+constexpr std::size_t kTileRowsPerCheckpoint = 8;
+// Of the time, noting takes at most this part.
+constexpr int kCheckpointShare = 20;
+
+// Deflate never makes more of noise; overviews add a third.
+constexpr double kBytesPerRawByte = 1.34;
+
+constexpr const char* kFormVersion = "tiled GeoTIFF 1";
+
+std::size_t tilesAlong(std::size_t samples)
+{
+    return (samples + kTileSide - 1) / kTileSide;
+}
+
+double gigabytes(std::uint64_t bytes)
+{
+    return static_cast<double>(bytes) / 1e9;
+}
+
+// What makes two preparations the same work. The place of the source does not.
+std::string keyOf(const RasterInfo& info, const SourceIdentity& source)
+{
+    const auto terms = info.transform ? info.transform->terms() : GeoTransform::Terms{};
+    return fmt::format(
+        "{}; source {} {} {}; band {}; {} x {} {}; nodata {}; mask {}; scale {} {}; "
+        "unit {} {}; datum {}; radius {}; transform {} {}; CRS {}",
+        kFormVersion, source.digest, source.bytes, source.modified_s, info.band, info.columns,
+        info.rows, sampleTypeName(info.type),
+        info.nodata ? fmt::format("{}", *info.nodata) : "none", info.has_mask_band, info.scale,
+        info.offset, info.is_unit_declared, info.unit.name, info.vertical_datum,
+        info.reference_radius_m.has_value(), info.transform.has_value(), fmt::join(terms, " "),
+        info.crs ? info.crs->wkt() : "none");
+}
+
+std::size_t blockRowsOf(const RasterInfo& info)
+{
+    const GdalMessages messages;
+    const GDALDatasetUniquePtr dataset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER));
+    int columns = 0;
+    int rows = 0;
+    if (dataset && dataset->GetRasterCount() >= info.band) {
+        dataset->GetRasterBand(info.band)->GetBlockSize(&columns, &rows);
+    }
+    return static_cast<std::size_t>(std::max(rows, 1));
+}
+
+// Rows to read at once: whole rows of tiles and, where they fit, whole rows of the source's blocks.
+struct Windows {
+    std::size_t rows = kTileSide;
+    bool reads_ahead = true;
+};
+
+Windows windowsFor(const RasterInfo& info)
+{
+    const std::size_t row_bytes =
+        info.columns * (sampleBytes(info.type) + (info.has_mask_band ? 1 : 0));
+    const std::size_t block_rows = (blockRowsOf(info) + kTileSide - 1) / kTileSide * kTileSide;
+    Windows windows;
+    windows.rows = std::max(kTileSide, kWindowBytesWanted / row_bytes / kTileSide * kTileSide);
+    if (block_rows > windows.rows) {
+        windows.rows = std::min(
+            block_rows, std::max(kTileSide, kWindowBytes / row_bytes / kTileSide * kTileSide));
+    } else {
+        windows.rows = windows.rows / block_rows * block_rows;
+    }
+    windows.reads_ahead = 2 * windows.rows * row_bytes <= kWindowBytes || windows.rows == kTileSide;
+    return windows;
+}
+
+// Copies what of a tile lies within the grid, and repeats its last column and row beyond.
+std::vector<std::byte> tileBytes(const std::byte* rows,
+                                 std::size_t columns,
+                                 std::size_t row_count,
+                                 std::size_t tile_column,
+                                 std::size_t sample_bytes)
+{
+    const std::size_t width = std::min(kTileSide, columns - tile_column * kTileSide);
+    const std::size_t row_bytes = kTileSide * sample_bytes;
+    std::vector<std::byte> tile(kTileSide * row_bytes);
+    for (std::size_t y = 0; y < kTileSide; ++y) {
+        std::byte* const to = tile.data() + y * row_bytes;
+        if (y >= row_count) {
+            std::memcpy(to, to - row_bytes, row_bytes);
+            continue;
+        }
+        std::memcpy(to, rows + (y * columns + tile_column * kTileSide) * sample_bytes,
+                    width * sample_bytes);
+        for (std::size_t x = width; x < kTileSide; ++x) {
+            std::memcpy(to + x * sample_bytes, to + (width - 1) * sample_bytes, sample_bytes);
+        }
+    }
+    return tile;
+}
+
+// A mask's tile as the file keeps it: a bit or a byte a sample, all ones where valid.
+template <typename IsValid>
+std::vector<std::byte>
+maskBytes(const TiffPage& page, std::size_t width, std::size_t height, IsValid&& is_valid)
+{
+    std::vector<std::byte> tile(kTileSide * (page.has_bits ? kTileSide / 8 : kTileSide));
+    for (std::size_t y = 0; y < height; ++y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            if (!is_valid(x, y)) {
+                continue;
+            }
+            if (page.has_bits) {
+                tile[(y * kTileSide + x) / 8] |= std::byte{0x80} >> (x % 8);
+            } else {
+                tile[y * kTileSide + x] = std::byte{0xFF};
+            }
+        }
+    }
+    return tile;
+}
+
+std::vector<std::byte> encodeMask(const TiffPage& page, std::vector<std::byte> tile)
+{
+    return encodeTile(tile, page.has_bits ? kTileSide / 8 : kTileSide, 1, page.predictor);
+}
+
+using EncodedTiles = std::vector<std::vector<std::byte>>;
+
+// One preparation, from its skeleton or a stopped attempt to the whole file.
+class Preparation {
+public:
+    Preparation(const TiledGeoTiffJob& job,
+                RasterFile& source,
+                const RasterInfo& info,
+                std::string key,
+                std::string source_path,
+                TiledGeoTiffReport& report);
+
+    /// Goes on with what is there, or lays the file out.
+    Status begin();
+    /// Reads, encodes and writes what is missing.
+    Status copy(JobMonitor& monitor);
+    bool hasCheckpoint() const { return tile_rows_noted_ > 0; }
+    void discard() const;
+    const std::string& partPath() const { return part_path_; }
+    std::string journalPath() const { return part_path_ + ".journal"; }
+
+private:
+    bool tryResume();
+    bool findPages();
+    bool decodesSomeTiles() const;
+    Status copyTileRow(const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row);
+    Status
+    writeLevelRows(std::size_t level, const OverviewBuilder::Rows& rows, std::size_t tile_row);
+    Status append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles);
+    Status checkpoint();
+    std::size_t tileRows() const { return tilesAlong(info_.rows); }
+
+    const TiledGeoTiffJob& job_;
+    RasterFile& source_;
+    const RasterInfo& info_;
+    std::string key_;
+    std::string source_path_;
+    TiledGeoTiffReport& report_;
+    std::string part_path_;
+    OverviewBuilder overviews_;
+    std::optional<TiffTiles> tiles_;
+    // Pages by level: 0 is the raster.
+    std::vector<std::size_t> pages_;
+    std::vector<std::size_t> mask_pages_;
+    std::size_t tile_rows_done_ = 0;
+    std::size_t tile_rows_noted_ = 0;
+    Clock::time_point next_checkpoint_;
+};
+
+Preparation::Preparation(const TiledGeoTiffJob& job,
+                         RasterFile& source,
+                         const RasterInfo& info,
+                         std::string key,
+                         std::string source_path,
+                         TiledGeoTiffReport& report)
+    : job_(job)
+    , source_(source)
+    , info_(info)
+    , key_(std::move(key))
+    , source_path_(std::move(source_path))
+    , report_(report)
+    , part_path_(job.path + ".part")
+    , overviews_(info.columns, info.rows, info.type, info.nodata, info.has_mask_band)
+{}
+
+void Preparation::discard() const
+{
+    std::error_code ignored;
+    fs::remove(part_path_, ignored);
+    fs::remove(journalPath(), ignored);
+    fs::remove(journalPath() + ".new", ignored);
+}
+
+// Finds the page of every level by its size.
+bool Preparation::findPages()
+{
+    const std::size_t levels = overviews_.levelCount() + 1;
+    constexpr std::size_t kNone = ~std::size_t{0};
+    pages_.assign(levels, kNone);
+    mask_pages_.assign(info_.has_mask_band ? levels : 0, kNone);
+    const std::vector<TiffPage>& pages = tiles_->pages();
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+        for (std::size_t level = 0; level < levels; ++level) {
+            if (pages[i].columns ==
+                    TileLayout::samplesAlong(TileKind::Means, level, info_.columns) &&
+                pages[i].rows == TileLayout::samplesAlong(TileKind::Means, level, info_.rows)) {
+                std::vector<std::size_t>& of = pages[i].is_mask ? mask_pages_ : pages_;
+                if (level < of.size()) {
+                    of[level] = i;
+                }
+            }
+        }
+    }
+    const auto is_found = [](std::size_t page) { return page != kNone; };
+    return pages.size() == pages_.size() + mask_pages_.size() &&
+           std::all_of(pages_.begin(), pages_.end(), is_found) &&
+           std::all_of(mask_pages_.begin(), mask_pages_.end(), is_found);
+}
+
+// Some tiles spread over what is done, and the last ones, read as any program would.
+bool Preparation::decodesSomeTiles() const
+{
+    Result<RasterFile> part = RasterFile::open(part_path_);
+    if (!part || part->info().columns != info_.columns || part->info().rows != info_.rows) {
+        return false;
+    }
+    constexpr std::size_t kPlaces = 64;
+    const std::size_t done = std::min(tile_rows_done_ * kTileSide, info_.rows);
+    for (std::size_t i = 0; i < kPlaces; ++i) {
+        const GridWindow sample{(i * 37 % kPlaces) * (info_.columns - 1) / (kPlaces - 1),
+                                i * (done - 1) / (kPlaces - 1), 1, 1};
+        if (!part->readWindow(sample, {})) {
+            return false;
+        }
+    }
+    return part->readWindow({0, done - 1, info_.columns, 1}, {}).has_value();
+}
+
+bool Preparation::tryResume()
+{
+    const std::optional<PrepareJournal> journal = readJournal(journalPath());
+    if (!journal || journal->key != key_ || journal->tile_rows > tileRows() ||
+        journal->tile_rows % kTileRowsPerCheckpoint != 0 || journal->tile_rows == 0) {
+        return false;
+    }
+    Result<TiffTiles> tiles = TiffTiles::open(part_path_);
+    if (!tiles) {
+        return false;
+    }
+    tiles_ = std::move(tiles).value();
+    const auto tile_rows = static_cast<std::size_t>(journal->tile_rows);
+    if (!findPages() || !overviews_.restore(tile_rows, journal->overviews)) {
+        return false;
+    }
+    for (const std::vector<std::size_t>* pages : {&pages_, &mask_pages_}) {
+        for (std::size_t level = 0; level < pages->size(); ++level) {
+            const std::size_t page = (*pages)[level];
+            const std::size_t complete =
+                level > OverviewBuilder::kStreamedLevels ? 0 : tile_rows >> level;
+            if (!tiles_->holdsTiles(page, complete * tiles_->pages()[page].tile_columns,
+                                    journal->file_bytes)) {
+                return false;
+            }
+        }
+    }
+    tile_rows_done_ = tile_rows;
+    if (!decodesSomeTiles() || !tiles_->trim(journal->file_bytes)) {
+        return false;
+    }
+    tile_rows_noted_ = tile_rows;
+    return true;
+}
+
+Status Preparation::begin()
+{
+    std::error_code ignored;
+    const bool was_begun = fs::exists(part_path_, ignored) && fs::exists(journalPath(), ignored);
+    if (was_begun && tryResume()) {
+        report_.notes.push_back(
+            fmt::format("{}: goes on behind row {} of {}, where it was stopped", job_.path,
+                        std::min(tile_rows_done_ * kTileSide, info_.rows), info_.rows));
+    } else {
+        tiles_.reset();
+        tile_rows_done_ = 0;
+        discard();
+        if (was_begun) {
+            report_.notes.push_back(
+                fmt::format("{}: what a stopped attempt left is damaged or of another source or "
+                            "other settings; begun again",
+                            part_path_));
+        }
+        if (Status laid_out = writeGeoTiffSkeleton(part_path_, info_, {key_, source_path_});
+            !laid_out) {
+            return laid_out;
+        }
+        Result<TiffTiles> tiles = TiffTiles::open(part_path_);
+        if (!tiles) {
+            return std::move(tiles).error();
+        }
+        tiles_ = std::move(tiles).value();
+        if (!findPages()) {
+            return writeError(part_path_, 0, "was not laid out as asked for");
+        }
+    }
+    next_checkpoint_ = Clock::now() + job_.checkpoint_interval;
+    return Done{};
+}
+
+Status Preparation::append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles)
+{
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (tiles[i].empty()) {
+            return Error{ErrorCode::TooLarge,
+                         fmt::format("{}: no memory is left to compress its tiles", part_path_)};
+        }
+        if (Status written = tiles_->append(page, tile_row * tiles.size() + i, tiles[i]);
+            !written) {
+            return written;
+        }
+        tiles[i] = {};
+    }
+    return Done{};
+}
+
+Status Preparation::copyTileRow(const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row)
+{
+    const std::size_t height = std::min(kTileSide, info_.rows - tile_row * kTileSide);
+    const std::size_t count = tilesAlong(info_.columns);
+    const std::size_t sample_bytes = sampleBytes(info_.type);
+    EncodedTiles tiles(count);
+    EncodedTiles masks(info_.has_mask_band ? count : 0);
+    const TiffPage& page = tiles_->pages()[pages_[0]];
+    const std::byte* const rows = grid.visit([&](auto samples) {
+        return reinterpret_cast<const std::byte*>(samples.row(grid_row).data());
+    });
+    parallelRanges(count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            std::vector<std::byte> tile = tileBytes(rows, info_.columns, height, i, sample_bytes);
+            tiles[i] = encodeTile(tile, kTileSide, sample_bytes, page.predictor);
+            if (!masks.empty()) {
+                const TiffPage& mask_page = tiles_->pages()[mask_pages_[0]];
+                const std::size_t first = i * kTileSide;
+                masks[i] = encodeMask(
+                    mask_page, maskBytes(mask_page, std::min(kTileSide, info_.columns - first),
+                                         height, [&](std::size_t x, std::size_t y) {
+                                             return !grid.isVoid(first + x, grid_row + y);
+                                         }));
+            }
+            overviews_.addTile(grid, grid_row, i, tile_row);
+        }
+    });
+    if (Status written = append(pages_[0], tile_row, tiles); !written || masks.empty()) {
+        return written;
+    }
+    return append(mask_pages_[0], tile_row, masks);
+}
+
+Status Preparation::writeLevelRows(std::size_t level,
+                                   const OverviewBuilder::Rows& rows,
+                                   std::size_t tile_row)
+{
+    const std::size_t count = tilesAlong(rows.columns);
+    const std::size_t sample_bytes = sampleBytes(info_.type);
+    EncodedTiles tiles(count);
+    EncodedTiles masks(info_.has_mask_band ? count : 0);
+    const TiffPage& page = tiles_->pages()[pages_[level]];
+    parallelRanges(count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            std::vector<std::byte> tile =
+                tileBytes(rows.samples, rows.columns, rows.rows, i, sample_bytes);
+            tiles[i] = encodeTile(tile, kTileSide, sample_bytes, page.predictor);
+            if (!masks.empty()) {
+                const TiffPage& mask_page = tiles_->pages()[mask_pages_[level]];
+                const std::size_t first = i * kTileSide;
+                masks[i] = encodeMask(
+                    mask_page, maskBytes(mask_page, std::min(kTileSide, rows.columns - first),
+                                         rows.rows, [&](std::size_t x, std::size_t y) {
+                                             return rows.valid[y * rows.columns + first + x] != 0;
+                                         }));
+            }
+        }
+    });
+    if (Status written = append(pages_[level], tile_row, tiles); !written || masks.empty()) {
+        return written;
+    }
+    return append(mask_pages_[level], tile_row, masks);
+}
+
+Status Preparation::checkpoint()
+{
+    const Clock::time_point start = Clock::now();
+    if (Status flushed = tiles_->flush(); !flushed) {
+        return flushed;
+    }
+    Result<std::uint64_t> bytes = tiles_->fileBytes();
+    if (!bytes) {
+        return std::move(bytes).error();
+    }
+    PrepareJournal journal;
+    journal.key = key_;
+    journal.tile_rows = tile_rows_done_;
+    journal.tile_rows_all = tileRows();
+    journal.file_bytes = *bytes;
+    journal.overviews = overviews_.save(tile_rows_done_);
+    if (Status noted = writeJournal(journalPath(), journal); !noted) {
+        return noted;
+    }
+    tile_rows_noted_ = tile_rows_done_;
+    const Clock::time_point now = Clock::now();
+    next_checkpoint_ =
+        now + std::max<Clock::duration>(job_.checkpoint_interval, (now - start) * kCheckpointShare);
+    return Done{};
+}
+
+Status Preparation::copy(JobMonitor& monitor)
+{
+    const Windows windows = windowsFor(info_);
+    const auto window_at = [&](std::size_t row) {
+        return GridWindow{0, row, info_.columns, std::min(windows.rows, info_.rows - row)};
+    };
+    const auto read = [&](std::size_t row) {
+        return source_.readWindow(window_at(row), {info_.nodata});
+    };
+    std::future<Result<LoadedSamples>> ahead;
+    for (std::size_t row = tile_rows_done_ * kTileSide; row < info_.rows;) {
+        Result<LoadedSamples> samples = ahead.valid() ? ahead.get() : read(row);
+        if (!samples) {
+            return std::move(samples).error();
+        }
+        const std::size_t end = row + samples->grid.rows();
+        if (windows.reads_ahead && end < info_.rows) {
+            ahead = std::async(std::launch::async, read, end);
+        }
+        for (std::size_t grid_row = 0; row < end;
+             grid_row += kTileSide, row = std::min(row + kTileSide, end)) {
+            if (monitor.isCancelled()) {
+                return Error{ErrorCode::Cancelled, ""};
+            }
+            if (Status written = copyTileRow(samples->grid, grid_row, tile_rows_done_); !written) {
+                return written;
+            }
+            const std::size_t tile_row = tile_rows_done_++;
+            const bool is_last = tile_rows_done_ == tileRows();
+            for (std::size_t k = 1;
+                 k <= std::min(overviews_.levelCount(), OverviewBuilder::kStreamedLevels); ++k) {
+                if (is_last || tile_rows_done_ % (std::size_t{1} << k) == 0) {
+                    if (Status written =
+                            writeLevelRows(k, overviews_.rowsOf(k, tile_row), tile_row >> k);
+                        !written) {
+                        return written;
+                    }
+                }
+            }
+            if (!is_last && tile_rows_done_ % kTileRowsPerCheckpoint == 0 &&
+                Clock::now() >= next_checkpoint_) {
+                if (Status noted = checkpoint(); !noted) {
+                    return noted;
+                }
+            }
+            monitor.report(static_cast<double>(tile_rows_done_) / static_cast<double>(tileRows()));
+        }
+        report_.samples_read += samples->grid.columns() * samples->grid.rows();
+    }
+    for (std::size_t k = OverviewBuilder::kStreamedLevels + 1; k <= overviews_.levelCount(); ++k) {
+        const OverviewBuilder::Rows level = overviews_.makeLevel(k);
+        for (std::size_t first = 0; first < level.rows; first += kTileSide) {
+            OverviewBuilder::Rows rows = level;
+            rows.samples += first * level.columns * sampleBytes(info_.type);
+            rows.valid += level.valid != nullptr ? first * level.columns : 0;
+            rows.rows = std::min(kTileSide, level.rows - first);
+            if (Status written = writeLevelRows(k, rows, first / kTileSide); !written) {
+                return written;
+            }
+        }
+    }
+    if (Status flushed = tiles_->flush(); !flushed) {
+        return flushed;
+    }
+    tiles_.reset();
+    return Done{};
+}
+
+Status checkSpace(const TiledGeoTiffJob& job, const RasterInfo& info)
+{
+    const double sample_bytes =
+        static_cast<double>(sampleBytes(info.type)) + (info.has_mask_band ? 0.125 : 0.0);
+    const auto needed = static_cast<std::uint64_t>(kBytesPerRawByte * sample_bytes *
+                                                   static_cast<double>(info.columns) *
+                                                   static_cast<double>(info.rows));
+    std::error_code failure;
+    const fs::path folder = fs::absolute(job.path).parent_path();
+    const fs::space_info space = fs::space(folder, failure);
+    if (failure) {
+        return Done{}; // writing will tell
+    }
+    const std::uintmax_t begun = fs::file_size(job.path + ".part", failure);
+    const std::uint64_t available = space.available + (failure ? 0 : begun);
+    if (available < needed) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{}: needs up to {:.1f} GB, but {} has only {:.1f} GB free; free "
+                                 "some or choose another folder",
+                                 job.path, gigabytes(needed), folder.string(),
+                                 gigabytes(available))};
+    }
+    return Done{};
+}
+
+Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterInfo& info)
+{
+    std::vector<std::string> files{job.source, info.path};
+    {
+        const GdalMessages messages;
+        const GDALDatasetUniquePtr dataset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER));
+        const CPLStringList listed(dataset ? dataset->GetFileList() : nullptr);
+        for (int i = 0; i < listed.Count(); ++i) {
+            files.emplace_back(listed[i]);
+        }
+    }
+    for (const std::string& file : files) {
+        for (const char* ending : {"", ".part", ".part.journal", ".lock"}) {
+            std::error_code ignored;
+            if (fs::equivalent(job.path + ending, file, ignored)) {
+                return Error{
+                    ErrorCode::Invalid,
+                    fmt::format(
+                        "{}: belongs to the map that is to be prepared; choose another name",
+                        job.path)};
+            }
+        }
+    }
+    return Done{};
+}
+
+// How far the program that holds the lock has come.
+void reportOthersProgress(const std::string& path, JobMonitor& monitor)
+{
+    const std::optional<PrepareJournal> journal = readJournal(path + ".part.journal");
+    if (journal && journal->tile_rows_all > 0) {
+        monitor.report(static_cast<double>(journal->tile_rows) /
+                       static_cast<double>(journal->tile_rows_all));
+    }
+}
+
+Result<FileLock> lockFor(const TiledGeoTiffJob& job, JobMonitor& monitor, bool& has_waited)
+{
+    const std::string path = job.path + ".lock";
+    while (true) {
+        Result<std::optional<FileLock>> lock = FileLock::tryLock(path, FileLock::Kind::Exclusive);
+        if (!lock) {
+            return Error{lock.error().code,
+                         fmt::format("{}: cannot be written: {}", job.path, lock.error().message)};
+        }
+        if (*lock) {
+            return std::move(**lock);
+        }
+        if (job.when_busy == TiledGeoTiffJob::WhenBusy::Fail) {
+            return Error{ErrorCode::Unreadable,
+                         fmt::format("{}: is being prepared by another program (process {}); wait "
+                                     "for it or cancel it there",
+                                     job.path, FileLock::holder(path))};
+        }
+        if (monitor.isCancelled()) {
+            return Error{
+                ErrorCode::Cancelled,
+                fmt::format("{}: waiting for another program that prepares it was cancelled",
+                            job.path)};
+        }
+        has_waited = true;
+        reportOthersProgress(job.path, monitor);
+        constexpr std::chrono::milliseconds kPatience{200};
+        std::this_thread::sleep_for(kPatience);
+    }
+}
+
+Status publish(const TiledGeoTiffJob& job, const Preparation& preparation)
+{
+    std::error_code failure;
+    const bool is_replaced = fs::exists(job.path, failure);
+    fs::rename(preparation.partPath(), job.path, failure);
+    if (failure) {
+        return writeError(job.path, failure.value(), "cannot be written");
+    }
+    if (is_replaced) {
+        // They were about the file that was there, and would be taken for this one's.
+        for (const char* ending : {".aux.xml", ".ovr", ".msk"}) {
+            fs::remove(job.path + ending, failure);
+        }
+    }
+    preparation.discard();
+    return Done{};
+}
+
+} // namespace
+
+Result<TiledLayoutInfo> tiledLayoutOf(const std::string& path, int band)
+{
+    Result<RasterFile> file = RasterFile::open(path, band);
+    if (!file) {
+        return std::move(file).error();
+    }
+    const RasterInfo& info = file->info();
+    TiledLayoutInfo layout;
+    const auto refuse = [&layout](std::string why) {
+        layout.why_not = std::move(why);
+        return layout;
+    };
+    if (info.driver != "GTiff") {
+        return refuse(fmt::format("is of the format {}", info.driver));
+    }
+    const GdalMessages messages;
+    const GDALDatasetUniquePtr dataset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER));
+    if (!dataset) {
+        return refuse(messages.firstFailure("cannot be opened twice"));
+    }
+    GDALRasterBand& raster = *dataset->GetRasterBand(band);
+    int block_columns = 0;
+    int block_rows = 0;
+    raster.GetBlockSize(&block_columns, &block_rows);
+    layout.tile_side = static_cast<std::size_t>(block_columns);
+    if (block_columns != block_rows || layout.tile_side > kTileSideMax) {
+        return refuse(
+            fmt::format("has blocks of {} x {} instead of tiles", block_columns, block_rows));
+    }
+    for (int i = 0; i < raster.GetOverviewCount(); ++i) {
+        GDALRasterBand* overview = raster.GetOverview(i);
+        if (overview == nullptr) {
+            break;
+        }
+        const auto columns = static_cast<std::size_t>(overview->GetXSize());
+        const auto rows = static_cast<std::size_t>(overview->GetYSize());
+        const std::size_t level = layout.overviews.size() + 1;
+        const auto is_near = [level](std::size_t size, std::size_t of) {
+            return size == TileLayout::samplesAlong(TileKind::Means, level, of) ||
+                   size == of >> level;
+        };
+        if (!is_near(columns, info.columns) || !is_near(rows, info.rows)) {
+            break;
+        }
+        layout.overviews.push_back({columns, rows});
+    }
+    const std::size_t top_columns =
+        layout.overviews.empty() ? info.columns : layout.overviews.back().columns;
+    const std::size_t top_rows =
+        layout.overviews.empty() ? info.rows : layout.overviews.back().rows;
+    if (std::max(top_columns, top_rows) > kTopSideMax) {
+        return refuse(layout.overviews.empty()
+                          ? "has no overviews by 2, 4, 8, …"
+                          : fmt::format("has overviews by 2, 4, … only down to {} x {}",
+                                        top_columns, top_rows));
+    }
+    layout.is_usable = true;
+    return layout;
+}
+
+Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor)
+{
+    Result<SourceIdentity> before = identify(job.source);
+    if (!before) {
+        return std::move(before).error();
+    }
+    Result<RasterFile> source = RasterFile::open(job.source, job.band);
+    if (!source) {
+        return std::move(source).error();
+    }
+    Result<RasterInfo> info = withOverrides(source->info(), job.overrides);
+    if (!info) {
+        return Error{info.error().code, fmt::format("{}: {}", job.source, info.error().message)};
+    }
+    if (Status apart = checkIsNotSource(job, *info); !apart) {
+        return std::move(apart).error();
+    }
+    bool has_waited = false;
+    Result<FileLock> lock = lockFor(job, monitor, has_waited);
+    if (!lock) {
+        return std::move(lock).error();
+    }
+    TiledGeoTiffReport report;
+    report.samples = info->columns * info->rows;
+    const std::string key = keyOf(*info, *before);
+    std::error_code failure;
+    if (has_waited && fs::exists(job.path, failure) && readGeoTiffOrigin(job.path).key == key) {
+        report.notes.push_back(
+            fmt::format("{}: was prepared by another program meanwhile", job.path));
+        report.bytes = fs::file_size(job.path, failure);
+        return report;
+    }
+    if (Status space = checkSpace(job, *info); !space) {
+        return std::move(space).error();
+    }
+    Preparation preparation(job, *source, *info, key, before->path, report);
+    Status copied = preparation.begin();
+    if (copied) {
+        copied = preparation.copy(monitor);
+    }
+    if (!copied) {
+        const bool is_kept =
+            preparation.hasCheckpoint() && (copied.error().code == ErrorCode::Cancelled ||
+                                            copied.error().code == ErrorCode::TooLarge);
+        if (!is_kept) {
+            preparation.discard();
+        }
+        if (copied.error().code == ErrorCode::Cancelled) {
+            return Error{
+                ErrorCode::Cancelled,
+                fmt::format("{}: preparing was cancelled{}", job.path,
+                            is_kept ? "; it goes on from there when it is started again" : "")};
+        }
+        return std::move(copied).error();
+    }
+    Result<SourceIdentity> after = identify(job.source);
+    if (!after || !isSameContent(*before, *after)) {
+        preparation.discard();
+        return Error{
+            ErrorCode::Invalid,
+            fmt::format("{}: changed while it was read; start again when nobody writes to it",
+                        job.source)};
+    }
+    if (Status published = publish(job, preparation); !published) {
+        return std::move(published).error();
+    }
+    report.bytes = fs::file_size(job.path, failure);
+    return report;
+}
+
+} // namespace marsview

@@ -1,0 +1,67 @@
+// The form in which a raster larger than memory can be looked at and touched: a tiled GeoTIFF with
+// overviews, as other programs read it too.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/raster/raster_info.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// Whether a raster can be used in place.
+struct TiledLayoutInfo {
+    /// It is a GeoTIFF in square tiles of at most 1024, and has overviews by 2, 4, 8, … until one
+    /// is at most 512 pixels a side.
+    bool is_usable = false;
+    std::string why_not; // for people, where it is not: "has strips instead of tiles"
+    std::size_t tile_side = 0;
+    struct Overview {
+        std::size_t columns = 0;
+        std::size_t rows = 0;
+    };
+    /// By 2, 4, 8, …, without a gap. Sizes are rounded up; some programs (COG) round down.
+    std::vector<Overview> overviews;
+};
+
+/// Errors as RasterFile::open has them.
+Result<TiledLayoutInfo> tiledLayoutOf(const std::string& path, int band = 1);
+
+struct TiledGeoTiffJob {
+    std::string source; // any name that RasterFile opens
+    int band = 1;
+    RasterOverrides overrides{}; // what the file is to say instead of the source
+    std::string path;            // of the result
+    enum class WhenBusy : std::uint8_t { Fail, Wait };
+    WhenBusy when_busy = WhenBusy::Fail; // another program makes the same file
+    /// How far a stopped job may fall back; more where noting takes long.
+    std::chrono::milliseconds checkpoint_interval{3000};
+};
+
+struct TiledGeoTiffReport {
+    std::vector<std::string> notes; // such as "goes on behind row 20480"; sentences for the user
+    std::uint64_t samples = 0;      // of the raster
+    std::uint64_t samples_read = 0; // by this call; fewer where it went on from a stopped one
+    std::uint64_t bytes = 0;        // of the file
+};
+
+/// Copies a raster of any layout into a tiled BigTIFF (256 × 256, deflate with predictor) with
+/// AVERAGE overviews by 2, 4, 8, … until one tile is enough. Samples keep type and bits; CRS,
+/// placement (corrected as RasterInfo has it), nodata, mask, scale, offset, unit and vertical datum
+/// go along, so that RasterFile finds the same map. A mask marks every void sample.
+///
+/// The source is read once, in bands of whole rows of tiles, and never written to. Memory: four
+/// times 256 rows of samples, some 330 MB for 106 694 columns of int16.
+///
+/// Works in PATH.part and moves that to PATH when it is whole. Stopped by cancel, a full disk or
+/// death of the program, the next call for the same source and settings goes on from the last
+/// checkpoint. PATH.lock keeps other programs from the same work. Errors begin with the path that
+/// they are about; nothing is published where the source changed meanwhile.
+Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor);
+
+} // namespace marsview
