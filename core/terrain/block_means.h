@@ -4,6 +4,7 @@
 #include "core/base/grid_view.h"
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/terrain/block_grid.h"
 #include "core/terrain/heightfield.h"
 
 #include <cstddef>
@@ -11,17 +12,23 @@
 
 namespace marsview {
 
-/// Means over blocks of kBlock × kBlock samples, over four such blocks, and so on up to one block
-/// for all. For drawing and for filling voids, never for numbers that people read. Immutable; any
-/// thread. Takes 1/12 of a byte a sample, twice that where the map has voids.
+/// Means over square blocks of samples, over four such blocks, and so on up to one block for all.
+/// For drawing and for filling voids, never for numbers that people read. Immutable; any thread.
+/// With blocks of kBlock it takes 1/12 of a byte a sample, twice that where the map has voids.
 class BlockMeans {
 public:
+    /// The smallest blocks, which are those of a map held in memory.
     static constexpr std::size_t kBlock = 8;
 
     /// Reads every sample once, on all cores. Only Cancelled can go wrong.
     static Result<BlockMeans> build(const Heightfield& heightfield, JobMonitor& monitor);
+    /// From the means of a map's finest blocks that are kept; the same bits as build() from there
+    /// up. `extent` is the map's, and its block_samples kBlock times a power of two.
+    static BlockMeans from(BlockGrid blocks, const BlockExtent& extent);
 
-    /// Level 0 has blocks of kBlock samples a side, each further level twice as many.
+    /// Samples along a side of level 0's blocks: kBlock, or more for a map larger than memory.
+    std::size_t blockSamples() const noexcept { return extent_.block_samples; }
+    /// Each level above 0 has blocks of twice as many samples a side.
     std::size_t levelCount() const noexcept { return levels_.size(); }
     /// Mean heights in metres of a level's blocks; NaN where all samples are void.
     GridView<const float> means(std::size_t level) const;
@@ -32,21 +39,14 @@ public:
     /// and where these are void between those of larger blocks. Metres; continuous; a function of
     /// the position alone. No allocation.
     float filled(std::size_t column, std::size_t row) const noexcept;
+    /// Level 0 without gaps: what filled() interpolates between.
+    GridView<const float> filledMeans() const;
 
 private:
-    struct Level {
-        std::size_t columns = 0;
-        std::size_t rows = 0;
-        std::vector<float> means_m;
-        std::vector<float> shares; // empty: all 1
-    };
-
-    // `sample_count` of (column, row) is the number of samples, void or not, of a finer block.
-    template <typename SampleCount>
-    static Level reduced(const Level& finer, const SampleCount& sample_count);
     void fill();
 
-    std::vector<Level> levels_;
+    BlockExtent extent_;
+    std::vector<BlockGrid> levels_;
     std::vector<float> filled_m_; // level 0 without gaps; empty where it has none
 };
 

@@ -22,7 +22,8 @@ struct DetailNode {
     bool operator==(const DetailNode&) const = default;
 };
 
-/// The measured errors, node by node. Immutable; any thread. Takes about 1/96 of a byte a sample.
+/// The measured errors, node by node. Immutable; any thread. Takes about 1/384 of a
+/// byte a sample.
 class DetailErrors {
 public:
     static constexpr std::size_t kNodeCells = 32;
@@ -36,9 +37,22 @@ public:
     /// Compares every sample with every level, on all cores. Only Cancelled can go wrong.
     static Result<DetailErrors> build(const DrawnSurface& surface, JobMonitor& monitor);
 
-    std::size_t levelCount() const noexcept { return levels_.size(); }
-    std::size_t columns(std::size_t level) const noexcept { return levels_[level].columns; }
-    std::size_t rows(std::size_t level) const noexcept { return levels_[level].rows; }
+    /// The errors of a level's nodes, row by row; those of level 0 are 0 and not kept.
+    struct NodeLevel {
+        std::size_t columns = 0;
+        std::size_t rows = 0;
+        std::vector<float> errors_m;
+    };
+    using NodeErrors = std::vector<NodeLevel>; // by level
+    /// Of a map of columns × rows samples: 0 for every node.
+    static NodeErrors noErrors(std::size_t columns, std::size_t rows);
+    /// From what was measured, with the levels of noErrors(); the same bits as build().
+    static DetailErrors from(NodeErrors errors);
+    const NodeErrors& nodeErrors() const noexcept { return nodes_; }
+
+    std::size_t levelCount() const noexcept { return nodes_.size(); }
+    std::size_t columns(std::size_t level) const noexcept { return nodes_[level].columns; }
+    std::size_t rows(std::size_t level) const noexcept { return nodes_[level].rows; }
 
     /// How far the surface drawn at the node's level is from its samples, in metres. Vertical
     /// distances are taken at the samples that are not void, within each block of kNodeCells ×
@@ -47,8 +61,8 @@ public:
     /// worst block. Errors below 1e-6 of the map's range are rounding. 0 at level 0.
     float nodeError(const DetailNode& node) const noexcept
     {
-        const Level& l = levels_[node.level];
-        return l.errors_m[node.row * l.columns + node.column];
+        const NodeLevel& l = nodes_[node.level];
+        return node.level == 0 ? 0.0F : l.errors_m[node.row * l.columns + node.column];
     }
 
     /// Bounds of the error at the corners of a level >= 1's nodes: columns + 1 times rows + 1 of
@@ -57,21 +71,14 @@ public:
     /// those of the finer level's corners in these nodes.
     float cornerError(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
-        const Level& l = levels_[level];
-        return l.corner_errors_m[row * (l.columns + 1) + column];
+        return corners_[level][row * (nodes_[level].columns + 1) + column];
     }
 
 private:
-    struct Level {
-        std::size_t columns = 0;
-        std::size_t rows = 0;
-        std::vector<float> errors_m;
-        std::vector<float> corner_errors_m;
-    };
-
     void spreadToCorners();
 
-    std::vector<Level> levels_;
+    NodeErrors nodes_;
+    std::vector<std::vector<float>> corners_; // by level >= 1
 };
 
 /// Values at the corners of the nodes of one level.

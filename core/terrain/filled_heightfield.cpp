@@ -1,22 +1,9 @@
 #include "core/terrain/filled_heightfield.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace marsview {
-namespace {
-
-float roundedUp(double value)
-{
-    const auto nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) < value
-               ? std::nextafterf(nearest, std::numeric_limits<float>::infinity())
-               : nearest;
-}
-
-} // namespace
-
 Result<FilledHeightfield> FilledHeightfield::build(const Heightfield& heightfield,
                                                    std::shared_ptr<const SurfaceAnalysis> analysis,
                                                    JobMonitor& monitor)
@@ -30,11 +17,9 @@ Result<FilledHeightfield> FilledHeightfield::build(const Heightfield& heightfiel
     return filled;
 }
 
-// Means are floats: rounding must not leave the range.
-double FilledHeightfield::fillAt(std::size_t column, std::size_t row) const noexcept
+float FilledHeightfield::fillAt(std::size_t column, std::size_t row) const noexcept
 {
-    return std::clamp(static_cast<double>(analysis_->means.filled(column, row)), range_.minimum_m,
-                      range_.maximum_m);
+    return range_.clamped(analysis_->means.filled(column, row));
 }
 
 // What is filled may be higher than what was measured nearby, and a cast must not pass through it.
@@ -61,7 +46,7 @@ bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
                 for (std::size_t c = column * kBlock;
                      c <= std::min((column + 1) * kBlock, columns() - 1); ++c) {
                     if (isVoid(c, r)) {
-                        maximum = std::max(maximum, roundedUp(fillAt(c, r)));
+                        maximum = std::max(maximum, fillAt(c, r));
                     }
                 }
             }

@@ -3,6 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/terrain/fill_range.h"
 #include "core/terrain/heightfield.h"
 #include "core/terrain/surface_analysis.h"
 
@@ -36,7 +37,7 @@ public:
     double sample(std::size_t column, std::size_t row) const noexcept
     {
         return isVoid(column, row)
-                   ? fillAt(column, row)
+                   ? static_cast<double>(fillAt(column, row))
                    : heightfield_.scale().height(heightfield_.samples().raw(column, row));
     }
     CellHeights cell(std::size_t column, std::size_t row) const noexcept
@@ -60,15 +61,15 @@ private:
                       std::shared_ptr<const SurfaceAnalysis> analysis)
         : heightfield_(heightfield)
         , analysis_(std::move(analysis))
-        , range_(heightfield.range().value_or(HeightRange{}))
+        , range_(heightfield.range())
     {}
 
-    double fillAt(std::size_t column, std::size_t row) const noexcept;
+    float fillAt(std::size_t column, std::size_t row) const noexcept;
     bool buildMaxima(JobMonitor& monitor);
 
     Heightfield heightfield_;
     std::shared_ptr<const SurfaceAnalysis> analysis_;
-    HeightRange range_;
+    FillRange range_;
     // A level each, as in the analysis' bounds; empty where no sample is void.
     std::vector<std::vector<float>> maxima_;
 };

@@ -10,16 +10,6 @@
 namespace marsview {
 namespace {
 
-std::optional<HeightRange> rangeOf(const SampleStatistics& statistics, const ElevationScale& scale)
-{
-    if (!statistics.hasSamples()) {
-        return std::nullopt;
-    }
-    const double a = scale.height(statistics.raw_minimum);
-    const double b = scale.height(statistics.raw_maximum);
-    return HeightRange{std::min(a, b), std::max(a, b)}; // a negative gain swaps them
-}
-
 // The cell that a place lies in, and where in it.
 struct CellPlace {
     std::size_t column = 0;
@@ -56,12 +46,23 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 
+std::optional<HeightRange> heightRange(const SampleStatistics& statistics,
+                                       const ElevationScale& scale)
+{
+    if (!statistics.hasSamples()) {
+        return std::nullopt;
+    }
+    const double a = scale.height(statistics.raw_minimum);
+    const double b = scale.height(statistics.raw_maximum);
+    return HeightRange{std::min(a, b), std::max(a, b)}; // a negative gain swaps them
+}
+
 Heightfield::Heightfield(std::shared_ptr<const SampleGrid> samples,
                          const SampleStatistics& statistics,
                          const ElevationScale& scale)
     : samples_(std::move(samples))
     , scale_(scale)
-    , range_(rangeOf(statistics, scale))
+    , range_(heightRange(statistics, scale))
 {
     MARSVIEW_CHECK(samples_ && samples_->columns() >= 2 && samples_->rows() >= 2);
 }
@@ -71,7 +72,7 @@ Heightfield::Heightfield(std::shared_ptr<const TiledSamples> tiles,
                          const ElevationScale& scale)
     : tiles_(std::move(tiles))
     , scale_(scale)
-    , range_(rangeOf(statistics, scale))
+    , range_(heightRange(statistics, scale))
 {
     MARSVIEW_CHECK(tiles_ && tiles_->layout().columns >= 2 && tiles_->layout().rows >= 2);
 }

@@ -21,6 +21,10 @@ struct HeightRange {
     double maximum_m = 0.0;
 };
 
+/// The heights of what a scan found; nothing where every sample is void.
+std::optional<HeightRange> heightRange(const SampleStatistics& statistics,
+                                       const ElevationScale& scale);
+
 /// A triangulated surface (triangulation.h) over samples that are held in memory, or over tiles of
 /// which some are. Any thread but the servo's where it is tiled. Immutable, but that a tiled one
 /// answers from coarser levels until the finest tiles are there. Copies share the samples.

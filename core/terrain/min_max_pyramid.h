@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/terrain/heightfield.h"
+#include "core/terrain/raw_ranges.h"
 
 #include <cstddef>
 #include <vector>
@@ -14,7 +15,7 @@ namespace marsview {
 /// any thread. Takes about 1/90 of the memory of int16 samples.
 class MinMaxPyramid {
 public:
-    static constexpr std::size_t kBlock = 32;
+    static constexpr std::size_t kBlock = RawRanges::kBlock;
 
     /// Bounds of all samples of a node, rounded outward; minimum_m > maximum_m where all are void.
     struct Bounds {
@@ -23,8 +24,10 @@ public:
         bool isEmpty() const noexcept { return !(minimum_m <= maximum_m); }
     };
 
-    /// Reads every sample once. Only Cancelled can go wrong.
+    /// Reads every sample once, on all cores. Only Cancelled can go wrong.
     static Result<MinMaxPyramid> build(const Heightfield& heightfield, JobMonitor& monitor);
+    /// Of a map whose blocks have these ranges; the same bits as build().
+    static MinMaxPyramid from(const RawRanges& ranges, const ElevationScale& scale);
 
     /// Level 0 holds the blocks; the last level is a single node.
     std::size_t levelCount() const noexcept { return levels_.size(); }

@@ -10,8 +10,16 @@ void readHeights(const Heightfield& heightfield,
                  double base_m,
                  std::span<float> heights)
 {
-    const ElevationScale scale = heightfield.scale();
-    const SampleGrid& samples = heightfield.samples();
+    readHeights(heightfield.samples(), heightfield.scale(), first_column, row, base_m, heights);
+}
+
+void readHeights(const SampleGrid& samples,
+                 const ElevationScale& scale,
+                 std::size_t first_column,
+                 std::size_t row,
+                 double base_m,
+                 std::span<float> heights)
+{
     samples.visit([&](auto view) {
         const auto* raw = view.row(row).data() + first_column;
         using Raw = std::remove_cvref_t<decltype(*raw)>;

@@ -8,6 +8,14 @@
 
 namespace marsview {
 
+/// As below, of a grid on its own.
+void readHeights(const SampleGrid& samples,
+                 const ElevationScale& scale,
+                 std::size_t first_column,
+                 std::size_t row,
+                 double base_m,
+                 std::span<float> heights);
+
 /// Writes the heights of the samples [first_column, first_column + heights.size()) of a row, less
 /// `base_m`, in metres; NaN where void. All columns lie on the grid.
 void readHeights(const Heightfield& heightfield,

@@ -24,7 +24,7 @@ CoverTexture::CoverTexture(const Heightfield& heightfield, const BlockMeans& mea
         columns = means.means(level).columns();
         rows = means.means(level).rows();
         // Texels are blocks, and the last ones may reach beyond the last samples.
-        const auto block = static_cast<double>(BlockMeans::kBlock << level);
+        const auto block = static_cast<double>(means.blockSamples() << level);
         const double width = static_cast<double>(columns) * block; // samples
         const double height = static_cast<double>(rows) * block;
         placement_ = {.column_scale = static_cast<double>(heightfield.columns() - 1) / width,

@@ -1,0 +1,100 @@
+// The range of raw values in every block of a map: what bounds of heights are made from, by
+// whatever scale.
+#pragma once
+
+#include "core/base/grid_view.h"
+#include "core/base/job_monitor.h"
+#include "core/raster/sample_grid.h"
+#include "core/raster/sample_type.h"
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+
+/// Smallest and largest raw value of the samples that are not void in each block of kBlock × kBlock
+/// cells. Samples on the side of two blocks count in both. In the type of the samples, so that they
+/// are exact.
+class RawRanges {
+public:
+    static constexpr std::size_t kBlock = 32;
+
+    template <typename T>
+    struct Range {
+        T minimum = std::numeric_limits<T>::max();
+        T maximum = std::numeric_limits<T>::lowest();
+
+        bool isEmpty() const noexcept { return !(minimum <= maximum); }
+        void include(const Range& other) noexcept
+        {
+            minimum = other.minimum < minimum ? other.minimum : minimum;
+            maximum = other.maximum > maximum ? other.maximum : maximum;
+        }
+    };
+
+    /// Blocks along an axis with `samples` samples.
+    static constexpr std::size_t blocksAlong(std::size_t samples) noexcept
+    {
+        return (samples - 1 + kBlock - 1) / kBlock;
+    }
+
+    RawRanges() = default;
+    /// Of a map of that many samples; every block is empty.
+    RawRanges(SampleType type, std::size_t sample_columns, std::size_t sample_rows);
+
+    /// Of all samples of a map, on all cores. Not whole where cancelled.
+    static RawRanges of(const SampleGrid& samples, JobMonitor& monitor);
+
+    /// What a part of a map adds. Its first sample is the upper left one of a block.
+    class Part {
+    public:
+        explicit Part(const SampleGrid& samples);
+
+    private:
+        friend class RawRanges;
+        SampleType type_;
+        std::size_t columns_; // of blocks, the ones to the left included
+        std::size_t rows_;    // the ones above included
+        std::vector<std::byte> ranges_;
+    };
+    /// The part's first sample is the first of block (column, row).
+    void include(const Part& part, std::size_t column, std::size_t row);
+
+    SampleType type() const noexcept { return type_; }
+    std::size_t columns() const noexcept { return columns_; } // of blocks
+    std::size_t rows() const noexcept { return rows_; }
+
+    /// Calls `function(GridView<const Range<T>>)`.
+    template <typename F>
+    decltype(auto) visit(F&& function) const
+    {
+        return dispatchSampleType(type_, [&](auto zero) -> decltype(auto) {
+            using R = Range<decltype(zero)>;
+            return std::forward<F>(function)(
+                GridView<const R>(reinterpret_cast<const R*>(ranges_.data()), columns_, rows_));
+        });
+    }
+    /// Calls `function(GridView<Range<T>>)`.
+    template <typename F>
+    decltype(auto) visit(F&& function)
+    {
+        return dispatchSampleType(type_, [&](auto zero) -> decltype(auto) {
+            using R = Range<decltype(zero)>;
+            return std::forward<F>(function)(
+                GridView<R>(reinterpret_cast<R*>(ranges_.data()), columns_, rows_));
+        });
+    }
+
+    /// Over all blocks; the counts stay 0.
+    SampleStatistics extremes() const;
+
+private:
+    SampleType type_ = SampleType::Int16;
+    std::size_t columns_ = 0;
+    std::size_t rows_ = 0;
+    std::vector<std::byte> ranges_;
+};
+
+} // namespace marsview
