@@ -4,6 +4,7 @@
 #include <gdal_priv.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 
 namespace marsview {
@@ -12,6 +13,32 @@ namespace {
 // Enough for a row of 256² int16 tiles across 100 000 columns; GDAL's default, 5 % of the memory,
 // would hold whole maps twice.
 constexpr GIntBig kBlockCacheBytes = GIntBig{32} << 20;
+
+// What servers need to be read from with patience, but not for ever: what these say concerns HTTP
+// alone. The user's own settings stay. GDAL's pieces of 16 KiB are right as they are: with 32 or
+// 64 KiB a map of 16384² samples opened with its first tile in as many requests, and 1.5 and 2
+// times the bytes.
+void setHttpDefaults()
+{
+    struct Option {
+        const char* name;
+        const char* value;
+    };
+    constexpr std::array<Option, 6> options{{
+        {"GDAL_HTTP_CONNECTTIMEOUT", "10"}, // seconds
+        // Slower than this many bytes a second for so many seconds counts as no answer.
+        {"GDAL_HTTP_LOW_SPEED_LIMIT", "100"},
+        {"GDAL_HTTP_LOW_SPEED_TIME", "20"},
+        {"GDAL_HTTP_MAX_RETRY", "3"}, // after 0.25, some 0.5 and 1.2 seconds
+        {"GDAL_HTTP_RETRY_DELAY", "0.25"},
+        {"GDAL_HTTP_TCP_KEEPALIVE", "YES"},
+    }};
+    for (const Option& option : options) {
+        if (CPLGetConfigOption(option.name, nullptr) == nullptr) {
+            CPLSetConfigOption(option.name, option.value);
+        }
+    }
+}
 
 // GDAL's texts end in full stops and may run over several lines.
 std::string asOneLine(const char* text)
@@ -33,6 +60,7 @@ void ensureGdal()
         CPLSetErrorHandler(CPLQuietErrorHandler);
         CPLSetConfigOption("GDAL_PAM_ENABLED", "YES");
         CPLSetConfigOption("GDAL_NUM_THREADS", "ALL_CPUS"); // compressed tiles decode in parallel
+        setHttpDefaults();
         GDALSetCacheMax64(kBlockCacheBytes);
         GDALAllRegister();
     });

@@ -23,6 +23,7 @@ public:
     bool hasFailed() const noexcept { return !failures_.empty(); }
     /// The first failure as one line without a full stop; `otherwise` where there was none.
     std::string firstFailure(const std::string& otherwise) const;
+    const std::vector<std::string>& failures() const noexcept { return failures_; }
     const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
 private:

@@ -1,6 +1,7 @@
 #include "core/raster/geotiff_tile_source.h"
 
 #include "core/base/check.h"
+#include "core/raster/remote_raster.h"
 
 #include <algorithm>
 #include <cstring>
@@ -123,13 +124,16 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
 {
     const RasterInfo& info = file.info();
     const auto refuse = [&info](const std::string& why) {
-        return Error{ErrorCode::Unsupported, fmt::format("{}: {}", info.path, why)};
+        return remoteNameFor(info.path)
+                   ? notCloudOptimised(info.path, why)
+                   : Error{ErrorCode::Unsupported,
+                           fmt::format("{}: {}; prepare it first", info.path, why)};
     };
     const GridSize block = file.blockSize();
     if (block.columns > kBlockSideMax || block.rows > kBlockSideMax) {
         return refuse(
-            fmt::format("is stored in blocks of {} × {} samples, too large to be read "
-                        "in pieces; prepare it first",
+            fmt::format("it is stored in blocks of {} × {} samples, too large to be read in "
+                        "pieces",
                         block.columns, block.rows));
     }
     auto source = std::shared_ptr<GeotiffTileSource>(new GeotiffTileSource);
@@ -158,9 +162,11 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
     constexpr std::size_t kCoarsestMax = 1024;
     if (std::max(layout.columnsAt(TileKind::Means, layout.mean_levels),
                  layout.rowsAt(TileKind::Means, layout.mean_levels)) > kCoarsestMax) {
-        return refuse("has no overviews down to a small picture of it; prepare it first");
+        return refuse("it has no overviews down to a small picture of it");
     }
     source->path_ = info.path;
+    source->name_ = addressOf(info.path);
+    source->remote_version_ = info.remote_version;
     source->band_ = info.band;
     source->voids_ = voids;
     return std::shared_ptr<const GeotiffTileSource>(std::move(source));
@@ -173,9 +179,10 @@ Result<std::unique_ptr<TileReader>> GeotiffTileSource::open() const
         return std::move(file).error();
     }
     const RasterInfo& info = file->info();
-    if (info.columns != layout_.columns || info.rows != layout_.rows || info.type != layout_.type) {
+    if (info.columns != layout_.columns || info.rows != layout_.rows || info.type != layout_.type ||
+        info.remote_version != remote_version_) {
         return Error{ErrorCode::Invalid,
-                     path_ + ": has become another raster since it was opened; open it again"};
+                     name_ + ": has become another raster since it was opened; open it again"};
     }
     return std::unique_ptr<TileReader>(
         std::make_unique<GeotiffTileReader>(std::move(*file), layout_, voids_, overviews_));

@@ -26,7 +26,7 @@ public:
 
     /// Samples at levels 0 … kLastLevel, Means at 1 … mean_levels. Voids without a fill.
     const TileLayout& layout() const noexcept override { return layout_; }
-    const std::string& name() const noexcept override { return path_; }
+    const std::string& name() const noexcept override { return name_; }
     Result<std::unique_ptr<TileReader>> open() const override;
 
 private:
@@ -34,6 +34,8 @@ private:
 
     TileLayout layout_;
     std::string path_;
+    std::string name_;           // as the user knows it
+    std::string remote_version_; // RasterInfo's; all readers read the same
     int band_ = 1;
     VoidRule voids_;
     std::vector<std::size_t> overviews_; // of the file, by level; [0] means nothing

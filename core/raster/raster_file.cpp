@@ -4,6 +4,7 @@
 #include "core/raster/netcdf_extent.h"
 #include "core/raster/pds3_placement.h"
 #include "core/raster/raster_path.h"
+#include "core/raster/remote_raster.h"
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -101,7 +102,35 @@ bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
 struct OpenedDataset {
     Dataset dataset;
     std::string name;
+    std::optional<RemoteVersion> remote; // of a raster at a server
 };
+
+// On the condition that it is of `version`.
+Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version)
+{
+    const GdalMessages messages;
+    const RemoteScope scope(name, version);
+    Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+    if (!dataset) {
+        return remoteFailure(name, version, messages,
+                             "is in no raster format that GDAL recognises, or the connection "
+                             "broke off");
+    }
+    return dataset;
+}
+
+Result<OpenedDataset> openRemote(const std::string& name)
+{
+    Result<RemoteVersion> version = askRemote(name);
+    if (!version) {
+        return std::move(version).error();
+    }
+    Result<Dataset> dataset = openRemote(name, *version);
+    if (!dataset) {
+        return std::move(dataset).error();
+    }
+    return OpenedDataset{std::move(dataset).value(), name, std::move(version).value()};
+}
 
 Result<OpenedDataset> openDataset(const std::string& path)
 {
@@ -109,12 +138,15 @@ Result<OpenedDataset> openDataset(const std::string& path)
     if (!names) {
         return std::move(names).error();
     }
+    if (remoteNameFor(names->front())) {
+        return openRemote(names->front());
+    }
     std::string first_failure;
     for (const std::string& name : *names) {
         const GdalMessages messages;
         Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
         if (dataset) {
-            return OpenedDataset{std::move(dataset), name};
+            return OpenedDataset{std::move(dataset), name, std::nullopt};
         }
         // The companion of a bare data file is the one that can tell what is wrong.
         const std::string failure = messages.firstFailure("");
@@ -293,8 +325,13 @@ std::optional<NetcdfExtent> netcdfExtentOf(GDALDataset& dataset, const std::stri
 struct RasterFile::Impl {
     Dataset dataset;
     GDALRasterBand* band = nullptr;
-    std::optional<NetcdfExtent> netcdf; // for classic netCDF files
+    std::optional<NetcdfExtent> netcdf;  // for classic netCDF files
+    std::optional<RemoteVersion> remote; // of a raster at a server
     RasterInfo info;
+    // After a read that failed, GDAL 3.6 returns other samples without a word.
+    mutable bool is_spoilt = false;
+
+    Status renew();
 
     Status readRows(GDALRasterBand& from,
                     SampleGrid& grid,
@@ -337,10 +374,14 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     GDALDataset& dataset = *impl->dataset;
     RasterInfo& info = impl->info;
     info.path = opened->name;
+    impl->remote = std::move(opened->remote);
+    if (impl->remote) {
+        info.remote_version = impl->remote->text();
+    }
     const auto refuse = [&path](ErrorCode code, const std::string& why) {
         return Error{code, fmt::format("{}: {}", path, why)};
     };
-    if (info.path != path) {
+    if (info.path != path && !impl->remote) {
         info.notices.push_back(fmt::format("opened through {}", info.path));
     }
     info.driver = dataset.GetDriverName();
@@ -451,15 +492,66 @@ std::size_t RasterFile::Impl::rowsPerBand() const
 
 Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWindow& window) const
 {
+    is_spoilt = true;
+    if (remote) {
+        return remoteFailure(info.path, *remote, messages,
+                             fmt::format("reading rows {} to {} failed, the connection broke off; "
+                                         "try again",
+                                         window.row, window.row + window.rows - 1));
+    }
     return readFailure(messages.firstFailure("the file is cut short or damaged; fetch it again"),
                        window);
+}
+
+// Opens it once more where a read has failed.
+Status RasterFile::Impl::renew()
+{
+    if (!is_spoilt) {
+        return Done{};
+    }
+    Dataset fresh;
+    if (remote) {
+        Result<RemoteVersion> now = askRemote(info.path);
+        if (!now) {
+            return std::move(now).error();
+        }
+        const GdalMessages none;
+        Result<Dataset> opened = *now == *remote
+                                     ? openRemote(info.path, *remote)
+                                     : Result<Dataset>(remoteFailure(info.path, *remote, none, ""));
+        if (!opened) {
+            return std::move(opened).error();
+        }
+        fresh = std::move(opened).value();
+    } else {
+        const GdalMessages messages;
+        fresh.reset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+        if (!fresh) {
+            return Error{ErrorCode::Unreadable,
+                         fmt::format("{}: {}", info.path, messages.firstFailure("is gone"))};
+        }
+    }
+    GDALRasterBand* const same =
+        info.band <= fresh->GetRasterCount() ? fresh->GetRasterBand(info.band) : nullptr;
+    if (same == nullptr || same->GetXSize() != band->GetXSize() ||
+        same->GetYSize() != band->GetYSize() ||
+        same->GetRasterDataType() != band->GetRasterDataType() ||
+        same->GetOverviewCount() != band->GetOverviewCount()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: has become another raster since it was opened; open it again",
+                                 addressOf(info.path))};
+    }
+    dataset = std::move(fresh);
+    band = same;
+    is_spoilt = false;
+    return Done{};
 }
 
 Error RasterFile::Impl::readFailure(const std::string& why, const GridWindow& window) const
 {
     return Error{ErrorCode::Unreadable,
-                 fmt::format("{}: reading rows {} to {} failed: {}", info.path, window.row,
-                             window.row + window.rows - 1, why)};
+                 fmt::format("{}: reading rows {} to {} failed: {}", addressOf(info.path),
+                             window.row, window.row + window.rows - 1, why)};
 }
 
 // GDAL reads what lies beyond the end of raw data as zeros, in some of its paths without a word.
@@ -547,6 +639,9 @@ Status RasterFile::Impl::markMasked(GDALRasterBand& from,
 
 Result<LoadedSamples> RasterFile::readWindow(const GridWindow& window, const VoidRule& voids)
 {
+    if (Status renewed = impl_->renew(); !renewed) {
+        return std::move(renewed).error();
+    }
     return impl_->readFrom(*impl_->band, window, voids);
 }
 
@@ -586,6 +681,9 @@ Result<LoadedSamples>
 RasterFile::readOverview(std::size_t overview, const GridWindow& window, const VoidRule& voids)
 {
     MARSVIEW_CHECK(overview < overviewCount());
+    if (Status renewed = impl_->renew(); !renewed) {
+        return std::move(renewed).error();
+    }
     return impl_->readFrom(*impl_->band->GetOverview(static_cast<int>(overview)), window, voids);
 }
 
@@ -602,23 +700,28 @@ RasterFile::readAll(JobMonitor& monitor, const VoidRule& voids, std::size_t memo
 {
     const RasterInfo& info = impl_->info;
     const std::size_t bytes = info.columns * info.rows * sampleBytes(info.type);
+    if (Status renewed = impl_->renew(); !renewed) {
+        return std::move(renewed).error();
+    }
     if (bytes > memory_bytes_max) {
         return Error{ErrorCode::TooLarge,
                      fmt::format("{}: {} × {} samples take {:.1f} GB, more than the {:.1f} GB that "
                                  "one map may use",
-                                 info.path, info.columns, info.rows,
+                                 addressOf(info.path), info.columns, info.rows,
                                  static_cast<double>(bytes) / 1e9,
                                  static_cast<double>(memory_bytes_max) / 1e9)};
     }
     Result<SampleGrid> grid = SampleGrid::create(info.type, info.columns, info.rows);
     if (!grid) {
-        return Error{grid.error().code, fmt::format("{}: {}", info.path, grid.error().message)};
+        return Error{grid.error().code,
+                     fmt::format("{}: {}", addressOf(info.path), grid.error().message)};
     }
     SampleStatistics statistics;
     const std::size_t step = impl_->rowsPerBand();
     for (std::size_t row = 0; row < info.rows; row += step) {
         if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, fmt::format("{}: reading was cancelled", info.path)};
+            return Error{ErrorCode::Cancelled,
+                         fmt::format("{}: reading was cancelled", addressOf(info.path))};
         }
         const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
         if (Status read = impl_->readRows(*impl_->band, *grid, window, row); !read) {
@@ -640,7 +743,8 @@ Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& v
     const std::size_t step = impl_->rowsPerBand();
     for (std::size_t row = 0; row < info.rows; row += step) {
         if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, fmt::format("{}: reading was cancelled", info.path)};
+            return Error{ErrorCode::Cancelled,
+                         fmt::format("{}: reading was cancelled", addressOf(info.path))};
         }
         const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
         Result<LoadedSamples> loaded = readWindow(window, voids);

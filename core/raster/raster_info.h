@@ -26,6 +26,8 @@ struct ElevationScale {
 /// The description of one band of a raster file.
 struct RasterInfo {
     std::string path; // what was opened; may differ from what was asked for (a label for its data)
+    /// Of a raster at a server: tells it from another that is put in its place. Empty for files.
+    std::string remote_version;
     std::string driver; // GDAL's short name, "GTiff"
     std::size_t columns = 0;
     std::size_t rows = 0;

@@ -1,5 +1,7 @@
 #include "core/raster/raster_path.h"
 
+#include "core/raster/remote_raster.h"
+
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 
@@ -11,6 +13,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -72,6 +75,9 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
     std::vector<std::string> names{path};
     if (path.empty()) {
         return Error{ErrorCode::NotFound, "no file name was given"};
+    }
+    if (const std::optional<std::string> remote = remoteNameFor(path)) {
+        return std::vector<std::string>{*remote};
     }
     if (!isFileName(path)) {
         return names;

@@ -489,7 +489,7 @@ Settings HttpServer::Impl::takeSettings(const Request& request)
 {
     const std::lock_guard lock(mutex);
     Settings now = settings;
-    if (request.method == "GET" && settings.fail_count > 0) {
+    if (settings.fail_count > 0) {
         --settings.fail_count;
     } else {
         now.fail_count = 0;

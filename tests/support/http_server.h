@@ -66,7 +66,7 @@ public:
     void setBandwidth(std::size_t bytes_per_s);
     void setRanges(HttpRanges ranges);
     void setValidators(HttpValidators validators);
-    /// The next `count` GET requests are answered with `status` and nothing else.
+    /// The next `count` requests are answered with `status` and nothing else.
     void failNext(std::size_t count, int status);
     /// The next `count` bodies end, and with them the connection, after `body_bytes`.
     void cutNext(std::size_t count, std::size_t body_bytes);

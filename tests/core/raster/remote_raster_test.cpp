@@ -1,0 +1,365 @@
+#include "core/raster/geotiff_tile_source.h"
+#include "core/raster/raster_file.h"
+#include "core/raster/raster_path.h"
+#include "core/raster/remote_raster.h"
+#include "core/terrain/fractal_heights.h"
+#include "tests/support/http_server.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/random.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using test::HttpCounts;
+using test::HttpServer;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr std::size_t kSide = 2048;
+
+std::vector<std::int16_t> mapSamples(std::uint64_t seed)
+{
+    const std::vector<float> heights = fractalHeights(kSide, kSide, seed);
+    std::vector<std::int16_t> samples(heights.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<std::int16_t>(std::lround(heights[i] * 10.0F));
+    }
+    return samples;
+}
+
+bool isSame(const SampleGrid& a, const SampleGrid& b)
+{
+    if (a.type() != b.type() || a.columns() != b.columns() || a.rows() != b.rows()) {
+        return false;
+    }
+    for (std::size_t row = 0; row < a.rows(); ++row) {
+        for (std::size_t column = 0; column < a.columns(); ++column) {
+            if (a.raw(column, row) != b.raw(column, row) ||
+                a.isVoid(column, row) != b.isVoid(column, row)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+class RemoteRasterTest : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        originals_ = new test::TempFolder;
+        const std::vector<std::string> options{
+            "-co", "COMPRESS=DEFLATE", "-co", "PREDICTOR=YES",
+            "-co", "BLOCKSIZE=256",    "-co", "RESAMPLING=AVERAGE"};
+        for (const std::uint64_t seed : {7U, 8U}) {
+            const test::RasterRecipe recipe = test::recipeFor(kSide, mapSamples(seed));
+            const std::string name = seed == 7 ? "map" : "other";
+            test::writeRaster(*originals_, name + ".tif", "COG", recipe, options);
+            if (seed == 7) {
+                test::writeRaster(*originals_, "strips.tif", "GTiff", recipe);
+                test::writeRaster(*originals_, "no_overviews.tif", "GTiff", recipe,
+                                  {"-co", "TILED=YES"});
+            }
+        }
+    }
+    static void TearDownTestSuite() { delete std::exchange(originals_, nullptr); }
+
+    RemoteRasterTest() { fs::copy_file(original("map.tif"), folder_.file("map.tif")); }
+
+    static std::string original(const std::string& name) { return originals_->file(name); }
+
+    RasterFile opened(const std::string& path)
+    {
+        Result<RasterFile> file = RasterFile::open(path);
+        EXPECT_TRUE(file) << (file ? "" : file.error().message);
+        return std::move(file).value();
+    }
+    // What lies on disk.
+    static SampleGrid truth(const std::string& path, const GridWindow& window)
+    {
+        return std::move(RasterFile::open(path)->readWindow(window, {})->grid);
+    }
+    // Puts `name` in the map's place, as somebody would who publishes a new edition.
+    void publish(const std::string& name)
+    {
+        const std::string fresh = folder_.file("fresh.tif");
+        fs::copy_file(original(name), fresh);
+        // A server that tells seconds tells this edition from the one before.
+        fs::last_write_time(fresh,
+                            fs::last_write_time(folder_.file("map.tif")) + std::chrono::seconds(5));
+        fs::rename(fresh, folder_.file("map.tif"));
+    }
+    static GridWindow tileAt(std::size_t column, std::size_t row)
+    {
+        return {column * kTileSide, row * kTileSide, kTileSide, kTileSide};
+    }
+
+    test::TempFolder folder_;
+    HttpServer server_{folder_.path()};
+
+private:
+    static test::TempFolder* originals_;
+};
+
+test::TempFolder* RemoteRasterTest::originals_ = nullptr;
+
+TEST(RemoteName, EveryAddressHasOneAndBack)
+{
+    const std::vector<std::pair<std::string, std::string>> table{
+        {"https://example.org/a/map.tif", "/vsicurl/https://example.org/a/map.tif"},
+        {"http://127.0.0.1:80/map.tif?key=1", "/vsicurl/http://127.0.0.1:80/map.tif?key=1"},
+        {"s3://bucket/a/map.tif", "/vsis3/bucket/a/map.tif"},
+        {"gs://bucket/map.tif", "/vsigs/bucket/map.tif"},
+    };
+    for (const auto& [address, name] : table) {
+        EXPECT_EQ(remoteNameFor(address), name);
+        EXPECT_EQ(remoteNameFor(name), name);
+        EXPECT_EQ(addressOf(name), address);
+        EXPECT_EQ(rasterNamesFor(address).value(), std::vector<std::string>{name});
+    }
+    EXPECT_EQ(remoteNameFor("HTTPS://example.org/x.tif"), "/vsicurl/HTTPS://example.org/x.tif");
+}
+
+TEST(RemoteName, FilesAndOtherNamesHaveNone)
+{
+    for (const char* path : {"map.tif", "/data/http/map.tif", "NETCDF:map.nc:z", "/vsizip/a.zip",
+                             "https:/one/slash", ""}) {
+        EXPECT_EQ(remoteNameFor(path), std::nullopt) << path;
+    }
+}
+
+TEST_F(RemoteRasterTest, OpeningAndOneTileReadAShareOfTheFile)
+{
+    RasterFile file = opened(server_.url("map.tif"));
+    const HttpCounts at_open = server_.counts();
+    const auto tile = file.readWindow(tileAt(3, 4), {});
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(3, 4))));
+    const HttpCounts counts = server_.counts();
+    const std::uintmax_t bytes = fs::file_size(original("map.tif"));
+    std::cout << "open: " << at_open.requests << " requests, " << at_open.body_bytes
+              << " bytes; with one tile: " << counts.requests << " requests, " << counts.body_bytes
+              << " of " << bytes << " bytes\n";
+    EXPECT_LE(at_open.requests, 2U);
+    EXPECT_LE(at_open.body_bytes, bytes / 100);
+    EXPECT_LE(counts.requests, 3U);
+    EXPECT_LE(counts.body_bytes, bytes * 3 / 100);
+}
+
+TEST_F(RemoteRasterTest, TheDescriptionIsThatOfTheFile)
+{
+    const RasterFile remote = opened(server_.url("map.tif"));
+    const RasterFile local = opened(original("map.tif"));
+    EXPECT_EQ(remote.info().columns, local.info().columns);
+    EXPECT_EQ(remote.info().type, local.info().type);
+    EXPECT_EQ(remote.info().transform->terms(), local.info().transform->terms());
+    EXPECT_EQ(remote.info().notices, local.info().notices);
+    EXPECT_EQ(remote.overviewCount(), local.overviewCount());
+    EXPECT_NE(remote.info().remote_version, "");
+    EXPECT_EQ(local.info().remote_version, "");
+}
+
+TEST_F(RemoteRasterTest, NothingBesideTheFileIsAskedFor)
+{
+    opened(server_.url("map.tif"));
+    for (const test::HttpRequest& request : server_.requests()) {
+        EXPECT_EQ(request.target, "/map.tif");
+    }
+}
+
+TEST_F(RemoteRasterTest, AFarServerIsOnlySlow)
+{
+    server_.setLatency(std::chrono::milliseconds(50));
+    server_.setBandwidth(std::size_t{2} << 20);
+    RasterFile file = opened(server_.url("map.tif"));
+    const auto tile = file.readWindow(tileAt(1, 6), {});
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(1, 6))));
+}
+
+TEST_F(RemoteRasterTest, AServerInTroubleIsAskedAgain)
+{
+    RasterFile file = opened(server_.url("map.tif"));
+    for (const int status : {503, 500, 429}) {
+        server_.resetCounts();
+        server_.failNext(1, status);
+        const GridWindow window = tileAt(2, static_cast<std::size_t>(status % 7));
+        const auto tile = file.readWindow(window, {});
+        ASSERT_TRUE(tile) << tile.error().message;
+        EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), window)));
+        EXPECT_EQ(server_.counts().failures, 1U) << status;
+    }
+}
+
+TEST_F(RemoteRasterTest, CutConnectionsNeverTearATile)
+{
+    RasterFile file = opened(server_.url("map.tif"));
+    test::Random random;
+    std::size_t failed = 0;
+    for (int i = 0; i < 60; ++i) {
+        const GridWindow window{random.below(kSide - 400), random.below(kSide - 400),
+                                1 + random.below(400), 1 + random.below(400)};
+        const SampleGrid right = truth(original("map.tif"), window);
+        server_.cutNext(1, random.below(40'000));
+        auto read = file.readWindow(window, {});
+        server_.cutNext(0, 0);
+        if (!read) {
+            ++failed;
+            EXPECT_THAT(read.error().message, StartsWith(server_.url("map.tif") + ": reading"));
+            EXPECT_EQ(read.error().code, ErrorCode::Unreadable);
+            read = file.readWindow(window, {});
+            ASSERT_TRUE(read) << read.error().message;
+        }
+        ASSERT_TRUE(isSame(read->grid, right)) << "window " << i;
+    }
+    std::cout << failed << " of 60 reads failed\n";
+    EXPECT_GT(failed, 10U);
+}
+
+TEST_F(RemoteRasterTest, AFileThatChangesIsNoticedAndNeverMixed)
+{
+    for (const auto validators :
+         {test::HttpValidators::EtagAndTime, test::HttpValidators::TimeOnly}) {
+        server_.setValidators(validators);
+        RasterFile file = opened(server_.url("map.tif"));
+        ASSERT_TRUE(file.readWindow(tileAt(0, 0), {}));
+        publish("other.tif");
+        bool is_noticed = false;
+        for (std::size_t row = 0; row < kSide / kTileSide; ++row) {
+            const auto tile = file.readWindow(tileAt(5, row), {});
+            if (tile) { // read ahead before the change
+                EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(5, row))));
+            } else {
+                EXPECT_EQ(tile.error().message,
+                          server_.url("map.tif") +
+                              ": has changed at the server since it was opened; open it again");
+                is_noticed = true;
+            }
+        }
+        EXPECT_TRUE(is_noticed);
+        RasterFile again = opened(server_.url("map.tif"));
+        for (std::size_t row = 0; row < kSide / kTileSide; ++row) {
+            const auto tile = again.readWindow(tileAt(5, row), {});
+            ASSERT_TRUE(tile) << tile.error().message;
+            EXPECT_TRUE(isSame(tile->grid, truth(original("other.tif"), tileAt(5, row))));
+        }
+        publish("map.tif");
+    }
+}
+
+TEST_F(RemoteRasterTest, WhatIsWrongIsSaid)
+{
+    const auto message = [&](const std::string& address) {
+        const auto file = RasterFile::open(address);
+        return file ? "" : file.error().message;
+    };
+    EXPECT_EQ(message(server_.url("absent.tif")),
+              server_.url("absent.tif") +
+                  ": there is nothing at this address (404); check how it is spelt");
+    folder_.write("text.tif", std::string(5000, 'x'));
+    EXPECT_EQ(message(server_.url("text.tif")),
+              server_.url("text.tif") +
+                  ": is in no raster format that GDAL recognises, or the connection broke off");
+    server_.failNext(100, 403);
+    EXPECT_THAT(message(server_.url("map.tif")), HasSubstr("does not let it be read (403)"));
+    server_.failNext(0, 0);
+    server_.refuse();
+    EXPECT_THAT(message(server_.url("map.tif")),
+                StartsWith(server_.url("map.tif") + ": the server does not answer; check the "
+                                                    "address and the network (Failed to connect"));
+    server_.accept();
+    EXPECT_EQ(message(server_.url("map.tif")), "");
+}
+
+TEST_F(RemoteRasterTest, AServerThatGoesAwayAndComesBackIsReadOn)
+{
+    RasterFile file = opened(server_.url("map.tif"));
+    server_.refuse();
+    const auto failed = file.readWindow(tileAt(6, 6), {});
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().message, HasSubstr("the server does not answer"));
+    server_.accept();
+    const auto tile = file.readWindow(tileAt(6, 6), {});
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(6, 6))));
+}
+
+TEST_F(RemoteRasterTest, AServerWithoutRangesIsNotDownloadedFrom)
+{
+    RasterFile file = opened(server_.url("map.tif"));
+    server_.setRanges(test::HttpRanges::Ignored);
+    const auto tile = file.readWindow(tileAt(6, 6), {});
+    ASSERT_FALSE(tile);
+    const std::string sentence =
+        ": the server gives out whole files only (it ignores range "
+        "requests); download the file and open it from disk";
+    EXPECT_EQ(tile.error().message, server_.url("map.tif") + sentence);
+    fs::copy_file(original("other.tif"), folder_.file("second.tif"));
+    server_.resetCounts();
+    const auto second = RasterFile::open(server_.url("second.tif"));
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().message, server_.url("second.tif") + sentence);
+    EXPECT_LT(server_.counts().body_bytes, fs::file_size(original("other.tif")));
+}
+
+TEST_F(RemoteRasterTest, WhatCannotBeReadInPiecesIsRefused)
+{
+    for (const auto& [name, why] :
+         {std::pair<std::string, std::string>{"strips.tif", "it is stored in blocks of 2048 × "},
+          {"no_overviews.tif", "it has no overviews"}}) {
+        fs::copy_file(original(name), folder_.file(name));
+        const RasterFile file = opened(server_.url(name));
+        const auto source = GeotiffTileSource::of(file, {});
+        ASSERT_FALSE(source);
+        EXPECT_THAT(source.error().message,
+                    StartsWith(server_.url(name) + ": is no cloud-optimised GeoTIFF: " + why));
+        EXPECT_THAT(source.error().message, EndsWith("(gdal_translate -of COG)"));
+    }
+}
+
+TEST_F(RemoteRasterTest, TilesAreThoseOfTheFileOnDisk)
+{
+    const RasterFile remote_file = opened(server_.url("map.tif"));
+    const RasterFile local_file = opened(original("map.tif"));
+    const auto remote = GeotiffTileSource::of(remote_file, {});
+    const auto local = GeotiffTileSource::of(local_file, {});
+    ASSERT_TRUE(remote && local);
+    EXPECT_EQ((*remote)->name(), server_.url("map.tif"));
+    const auto remote_reader = (*remote)->open();
+    const auto local_reader = (*local)->open();
+    ASSERT_TRUE(remote_reader && local_reader);
+    for (const TileId& id : {TileId{TileKind::Samples, 0, 7, 7}, TileId{TileKind::Samples, 1, 1, 2},
+                             TileId{TileKind::Samples, 2, 0, 1}, TileId{TileKind::Means, 1, 2, 3},
+                             TileId{TileKind::Means, 3, 0, 0}}) {
+        const auto there = (*remote_reader)->read(id);
+        const auto here = (*local_reader)->read(id);
+        ASSERT_TRUE(there) << there.error().message;
+        ASSERT_TRUE(here);
+        EXPECT_TRUE(isSame(there->samples, here->samples));
+    }
+    // A reader for one more thread reads the same edition, or none.
+    publish("other.tif");
+    const auto late = (*remote)->open();
+    ASSERT_FALSE(late);
+    EXPECT_THAT(late.error().message, HasSubstr("open it again"));
+}
+
+} // namespace
+} // namespace marsview
