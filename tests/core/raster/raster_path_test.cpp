@@ -60,9 +60,8 @@ TEST(RasterPath, CompanionsInTheWorkingFolderKeepTheirBareNames)
 
 TEST(RasterPath, ConnectionStringsPassUnchecked)
 {
-    for (const char* name :
-         {"/vsizip//nowhere/a.zip/b.tif", "/vsicurl/https://example.org/a.tif",
-          "https://example.org/a.tif", "NETCDF:/nowhere/a.nc:z", "HDF5:\"/nowhere/a.h5\"://z"}) {
+    for (const char* name : {"/vsizip//nowhere/a.zip/b.tif", "/vsicurl/https://example.org/a.tif",
+                             "NETCDF:/nowhere/a.nc:z", "HDF5:\"/nowhere/a.h5\"://z"}) {
         EXPECT_EQ(namesFor(name), std::vector<std::string>{name});
     }
 }

@@ -1,0 +1,390 @@
+#include "core/raster/tile_disk_cache.h"
+
+#include "core/raster/tile_file.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <mutex>
+#include <span>
+#include <string_view>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExtension = ".tile";
+constexpr const char* kUnfinished = ".part";
+// A file that nobody has finished in this time is left over from a program that ended.
+constexpr std::chrono::hours kUnfinishedFor{1};
+// After the disk refused, so many tiles pass before it is tried again.
+constexpr int kPause = 64;
+// How long a tile counts as just used: a mark for every use would be a write for every read.
+constexpr std::chrono::minutes kUseResolution{1};
+
+class File {
+public:
+    File(const std::string& path, int flags)
+        : descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0644))
+    {}
+    ~File()
+    {
+        if (descriptor_ >= 0) {
+            close(descriptor_);
+        }
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+
+    int get() const { return descriptor_; }
+    bool isOpen() const { return descriptor_ >= 0; }
+    bool write(std::span<const std::byte> bytes) const
+    {
+        while (!bytes.empty()) {
+            const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+            if (count < 0 && errno == EINTR) {
+                continue;
+            }
+            if (count <= 0) {
+                return false;
+            }
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+        }
+        return true;
+    }
+    /// Shorter than asked for only at the end of the file.
+    std::size_t read(std::span<std::byte> bytes) const
+    {
+        std::size_t done = 0;
+        while (done < bytes.size()) {
+            const ssize_t count = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+            if (count < 0 && errno == EINTR) {
+                continue;
+            }
+            if (count <= 0) {
+                break;
+            }
+            done += static_cast<std::size_t>(count);
+        }
+        return done;
+    }
+
+private:
+    int descriptor_;
+};
+
+// FNV-1a. Names the folder of a source; the key itself is in every file.
+std::uint64_t hashOf(std::string_view text)
+{
+    std::uint64_t hash = 0xCBF29CE484222325ULL;
+    for (const char c : text) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
+    }
+    return hash;
+}
+
+struct KeptFile {
+    fs::path path;
+    fs::file_time_type used;
+    std::uint64_t bytes = 0;
+};
+
+} // namespace
+
+struct TileDiskCache::Impl {
+    explicit Impl(const TileDiskCacheOptions& chosen)
+        : options(chosen)
+    {}
+
+    const TileDiskCacheOptions options;
+    std::atomic<std::uint64_t> found{0};
+    std::atomic<std::uint64_t> missed{0};
+    std::atomic<std::uint64_t> damaged{0};
+    std::atomic<std::uint64_t> written{0};
+    std::atomic<std::uint64_t> removed{0};
+    std::atomic<int> pause{0};               // tiles that are not written yet
+    std::atomic<std::uint64_t> temporary{0}; // for names
+
+    mutable std::mutex mutex; // for what follows; held while old files are removed
+    std::optional<std::string> trouble;
+    bool is_counted = false;
+    std::uint64_t bytes_counted = 0; // in the folder, when it was looked at last
+    std::uint64_t bytes_since = 0;   // written since
+
+    std::optional<Tile> load(const std::string& path,
+                             const TileId& id,
+                             const TileLayout& layout,
+                             const std::string& key);
+    void store(const std::string& folder,
+               const std::string& name,
+               const Tile& tile,
+               const std::string& key);
+    void refuse(const std::string& what, int error);
+    void countIn(std::uint64_t bytes);
+    void trim();
+};
+
+std::optional<Tile> TileDiskCache::Impl::load(const std::string& path,
+                                              const TileId& id,
+                                              const TileLayout& layout,
+                                              const std::string& key)
+{
+    const File file(path, O_RDONLY);
+    struct stat status {};
+    if (!file.isOpen() || fstat(file.get(), &status) != 0) {
+        ++missed;
+        return std::nullopt;
+    }
+    DecodedTileFile decoded;
+    if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) <= kTileFileBytesMax) {
+        std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
+        bytes.resize(file.read(bytes));
+        decoded = decodeTileFile(bytes, id, layout, key);
+    }
+    if (decoded.state == TileFileState::Damaged) {
+        ++damaged;
+        unlink(path.c_str());
+    }
+    if (decoded.state != TileFileState::Good) {
+        ++missed;
+        return std::nullopt;
+    }
+    ++found;
+    const auto age = std::chrono::system_clock::now() -
+                     std::chrono::system_clock::from_time_t(status.st_mtim.tv_sec);
+    if (age > kUseResolution) {
+        futimens(file.get(), nullptr); // now; where that is forbidden, files go by when they came
+    }
+    return std::move(decoded.tile);
+}
+
+void TileDiskCache::Impl::refuse(const std::string& what, int error)
+{
+    pause = kPause;
+    const std::lock_guard lock(mutex);
+    if (!trouble) {
+        trouble = fmt::format(
+            "{}: what is fetched cannot be kept here ({}), and will be fetched "
+            "again; make room, or choose another folder",
+            what, std::generic_category().message(error));
+    }
+}
+
+void TileDiskCache::Impl::store(const std::string& folder,
+                                const std::string& name,
+                                const Tile& tile,
+                                const std::string& key)
+{
+    if (pause > 0) {
+        --pause;
+        return;
+    }
+    const std::vector<std::byte> bytes = encodeTileFile(tile, key);
+    if (bytes.empty() || bytes.size() > options.bytes_max) {
+        return;
+    }
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure) {
+        return refuse(folder, failure.value());
+    }
+    const std::string unfinished =
+        fmt::format("{}/{}-{}-{}{}", folder, name, getpid(), ++temporary, kUnfinished);
+    {
+        const File file(unfinished, O_WRONLY | O_CREAT | O_EXCL);
+        if (!file.isOpen()) {
+            // Somebody may have removed the folder just now: that is no trouble.
+            return errno == ENOENT ? void() : refuse(folder, errno);
+        }
+        if (!file.write(bytes)) {
+            const int error = errno;
+            unlink(unfinished.c_str());
+            return refuse(folder, error);
+        }
+    }
+    const std::string path = fmt::format("{}/{}{}", folder, name, kExtension);
+    if (rename(unfinished.c_str(), path.c_str()) != 0) {
+        const int error = errno;
+        unlink(unfinished.c_str());
+        return error == ENOENT ? void() : refuse(folder, error);
+    }
+    ++written;
+    countIn(bytes.size());
+}
+
+void TileDiskCache::Impl::countIn(std::uint64_t bytes)
+{
+    const std::lock_guard lock(mutex);
+    trouble.reset();
+    bytes_since += bytes;
+    if (!is_counted || bytes_counted + bytes_since > options.bytes_max ||
+        bytes_since > options.bytes_max / 16) {
+        trim();
+    }
+}
+
+// Looks at all files, other programs' too, and removes those used longest ago. The caller holds the
+// lock.
+void TileDiskCache::Impl::trim()
+{
+    std::vector<KeptFile> files;
+    std::uint64_t bytes = 0;
+    const fs::file_time_type now = fs::file_time_type::clock::now();
+    std::error_code ignored;
+    for (fs::recursive_directory_iterator entry(options.folder, ignored), end;
+         !ignored && entry != end; entry.increment(ignored)) {
+        std::error_code gone; // by another program: then it does not count
+        const fs::path& path = entry->path();
+        if (!entry->is_regular_file(gone) || gone) {
+            continue;
+        }
+        KeptFile file{path, entry->last_write_time(gone), 0};
+        if (!gone) {
+            file.bytes = entry->file_size(gone);
+        }
+        if (gone) {
+            continue;
+        }
+        if (path.extension() == kUnfinished && now - file.used > kUnfinishedFor) {
+            fs::remove(path, gone);
+        } else if (path.extension() == kExtension) {
+            bytes += file.bytes;
+            files.push_back(std::move(file));
+        }
+    }
+    if (bytes > options.bytes_max) {
+        std::sort(files.begin(), files.end(),
+                  [](const KeptFile& a, const KeptFile& b) { return a.used < b.used; });
+        // Some room for what comes, so that not every tile leads here.
+        const std::uint64_t wanted = options.bytes_max - options.bytes_max / 8;
+        for (const KeptFile& file : files) {
+            if (bytes <= wanted) {
+                break;
+            }
+            std::error_code gone;
+            removed += fs::remove(file.path, gone) ? 1 : 0;
+            bytes -= file.bytes;
+            if (fs::is_empty(file.path.parent_path(), gone) && !gone) {
+                fs::remove(file.path.parent_path(), gone);
+            }
+        }
+    }
+    is_counted = true;
+    bytes_counted = bytes;
+    bytes_since = 0;
+}
+
+TileDiskCache::TileDiskCache(const TileDiskCacheOptions& options)
+    : impl_(std::make_unique<Impl>(options))
+{}
+
+TileDiskCache::~TileDiskCache() = default;
+
+TileDiskCacheStatistics TileDiskCache::statistics() const
+{
+    return {.found = impl_->found,
+            .missed = impl_->missed,
+            .damaged = impl_->damaged,
+            .written = impl_->written,
+            .removed = impl_->removed};
+}
+
+std::optional<std::string> TileDiskCache::trouble() const
+{
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->trouble;
+}
+
+class DiskCachedReader final : public TileReader {
+public:
+    DiskCachedReader(std::shared_ptr<const TileSource> source,
+                     std::shared_ptr<TileDiskCache> cache,
+                     std::string key)
+        : source_(std::move(source))
+        , cache_(std::move(cache))
+        , key_(std::move(key))
+        , folder_(fmt::format("{}/{:016x}", cache_->impl_->options.folder, hashOf(key_)))
+    {}
+
+    Result<Tile> read(const TileId& id) override
+    {
+        const std::string name = fmt::format("{}{}-{}-{}", id.kind == TileKind::Means ? 'm' : 's',
+                                             id.level, id.column, id.row);
+        TileDiskCache::Impl& cache = *cache_->impl_;
+        if (std::optional<Tile> tile = cache.load(fmt::format("{}/{}{}", folder_, name, kExtension),
+                                                  id, source_->layout(), key_)) {
+            return std::move(*tile);
+        }
+        if (!reader_) {
+            Result<std::unique_ptr<TileReader>> opened = source_->open();
+            if (!opened) {
+                return std::move(opened).error();
+            }
+            reader_ = std::move(opened).value();
+        }
+        Result<Tile> tile = reader_->read(id);
+        if (tile) {
+            cache.store(folder_, name, *tile, key_);
+        }
+        return tile;
+    }
+
+private:
+    std::shared_ptr<const TileSource> source_;
+    std::shared_ptr<TileDiskCache> cache_;
+    std::string key_;
+    std::string folder_;
+    std::unique_ptr<TileReader> reader_; // null as long as the disk had everything
+};
+
+namespace {
+
+class DiskCachedSource final : public TileSource {
+public:
+    DiskCachedSource(std::shared_ptr<const TileSource> source,
+                     std::shared_ptr<TileDiskCache> cache,
+                     std::string key)
+        : source_(std::move(source))
+        , cache_(std::move(cache))
+        , key_(std::move(key))
+    {}
+
+    const TileLayout& layout() const noexcept override { return source_->layout(); }
+    const std::string& name() const noexcept override { return source_->name(); }
+    Result<std::unique_ptr<TileReader>> open() const override
+    {
+        return std::unique_ptr<TileReader>(
+            std::make_unique<DiskCachedReader>(source_, cache_, key_));
+    }
+
+private:
+    std::shared_ptr<const TileSource> source_;
+    std::shared_ptr<TileDiskCache> cache_;
+    std::string key_;
+};
+
+} // namespace
+
+std::shared_ptr<const TileSource> cachedOnDisk(std::shared_ptr<const TileSource> source,
+                                               std::shared_ptr<TileDiskCache> cache,
+                                               const std::string& key)
+{
+    const TileLayout& layout = source->layout();
+    std::string whole = fmt::format("{}\n{} {} {} {}", key, layout.columns, layout.rows,
+                                    sampleTypeName(layout.type), kTileSide);
+    return std::make_shared<const DiskCachedSource>(std::move(source), std::move(cache),
+                                                    std::move(whole));
+}
+
+} // namespace marsview
