@@ -1,0 +1,74 @@
+// A small value that one thread writes and others read, without the writer ever waiting.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <type_traits>
+
+namespace marsview {
+
+/// The writer is wait-free; a reader that meets it tries again. The value is kept in atomic words:
+/// reading one that is being written is defined, noticed and thrown away. Every word is released
+/// and acquired, so that whoever reads a word of a write sees, when it looks again, the number that
+/// this write began with (H.-J. Boehm, Can seqlocks get along with programming language memory
+/// models?, MSPC 2012); fences would do as well, but thread sanitizers do not know them.
+template <typename T>
+class SeqLock {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    explicit SeqLock(const T& initial = T{}) noexcept { write(initial); }
+    SeqLock(const SeqLock&) = delete;
+    SeqLock& operator=(const SeqLock&) = delete;
+
+    /// For one thread at a time.
+    void write(const T& value) noexcept
+    {
+        std::array<Word, kWords> words{};
+        std::memcpy(words.data(), &value, sizeof(T));
+        const std::uint64_t number = number_.load(std::memory_order_relaxed);
+        number_.store(number + 1, std::memory_order_relaxed); // odd: being written
+        for (std::size_t i = 0; i < kWords; ++i) {
+            words_[i].store(words[i], std::memory_order_release);
+        }
+        number_.store(number + 2, std::memory_order_release);
+    }
+
+    /// Nothing where the value was being written meanwhile. Any thread; wait-free.
+    std::optional<T> tryRead() const noexcept
+    {
+        std::array<Word, kWords> words;
+        const std::uint64_t number = number_.load(std::memory_order_acquire);
+        for (std::size_t i = 0; i < kWords; ++i) {
+            words[i] = words_[i].load(std::memory_order_acquire);
+        }
+        if (number % 2 != 0 || number_.load(std::memory_order_relaxed) != number) {
+            return std::nullopt;
+        }
+        T value;
+        std::memcpy(&value, words.data(), sizeof(T));
+        return value;
+    }
+    /// The latest value, whole. Any thread that may wait for the writer to be elsewhere.
+    T read() const noexcept
+    {
+        while (true) {
+            if (const auto value = tryRead()) {
+                return *value;
+            }
+        }
+    }
+
+private:
+    using Word = std::uint64_t;
+    static constexpr std::size_t kWords = (sizeof(T) + sizeof(Word) - 1) / sizeof(Word);
+
+    std::atomic<std::uint64_t> number_{0};
+    std::array<std::atomic<Word>, kWords> words_{};
+};
+
+} // namespace marsview
