@@ -4,6 +4,7 @@
 #include "core/contact/contact.h"
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/mesh_surface.h"
+#include "core/contact/resident_heights.h"
 
 #include <array>
 #include <cstdint>
@@ -68,6 +69,8 @@ public:
     /// and moves with it; a free one keeps its place, or is put onto the surface where it would be
     /// below.
     virtual void setExaggeration(double exaggeration) noexcept = 0;
+    /// Heights of the terrain have changed (ResidentTerrain). The proxy is treated likewise.
+    virtual void terrainChanged() noexcept = 0;
 };
 
 /// These allocate; the model shares what the surface shares.
@@ -76,6 +79,9 @@ std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const ContactModelOptions& options = {});
 std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
                                                   const HeightfieldSurface& surface,
+                                                  const ContactModelOptions& options = {});
+std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
+                                                  const TiledHeightfieldSurface& surface,
                                                   const ContactModelOptions& options = {});
 
 } // namespace marsview

@@ -171,7 +171,7 @@ private:
     }
 
     const BasicHeightfieldSurface<Heights>& surface_;
-    const FilledHeightfield& terrain_;
+    const typename Heights::Terrain& terrain_;
     Heights heights_;
     const SceneBounds& box_;
     std::uint32_t& looks_;

@@ -328,7 +328,7 @@ private:
     }
 
     const Surface& surface_;
-    const FilledHeightfield& terrain_;
+    const typename Heights::Terrain& terrain_;
     const Goal& goal_;
     std::int32_t column_; // of the cell where the segment is at t_
     std::int32_t row_;

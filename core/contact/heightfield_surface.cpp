@@ -2,12 +2,14 @@
 
 #include "core/base/check.h"
 #include "core/contact/heightfield_cast.h"
+#include "core/contact/resident_heights.h"
 
 namespace marsview {
 
 template <typename Heights>
-BasicHeightfieldSurface<Heights>::BasicHeightfieldSurface(
-    std::shared_ptr<const FilledHeightfield> terrain, const SceneFrame& frame, double exaggeration)
+BasicHeightfieldSurface<Heights>::BasicHeightfieldSurface(std::shared_ptr<const Terrain> terrain,
+                                                          const SceneFrame& frame,
+                                                          double exaggeration)
     : terrain_(std::move(terrain))
     , heights_(*terrain_, exaggeration)
     , frame_(frame)
@@ -131,5 +133,8 @@ auto BasicHeightfieldSurface<Heights>::castFree(const Goal& from, const Goal& to
 template class BasicHeightfieldSurface<FilledHeights>;
 template class BasicHeightfieldSurface<PlainHeights<std::int16_t>>;
 template class BasicHeightfieldSurface<PlainHeights<float>>;
+template class BasicHeightfieldSurface<ResidentHeights<void>>;
+template class BasicHeightfieldSurface<ResidentHeights<std::int16_t>>;
+template class BasicHeightfieldSurface<ResidentHeights<float>>;
 
 } // namespace marsview

@@ -5,6 +5,7 @@
 #include "core/contact/scene_heights.h"
 #include "core/geo/scene_frame.h"
 #include "core/terrain/filled_heightfield.h"
+#include "core/terrain/touch_terrain.h"
 
 #include <algorithm>
 #include <array>
@@ -121,6 +122,9 @@ class HeightfieldCast;
 template <typename Heights>
 class BasicHeightfieldSurface {
 public:
+    using Terrain = typename Heights::Terrain;
+    static_assert(TouchTerrain<Terrain>);
+
     using Vertex = HeightfieldVertex;
     using Edge = HeightfieldEdge;
     using Face = HeightfieldFace;
@@ -140,11 +144,11 @@ public:
 
     /// `exaggeration` > 0 and finite; the frame is invertible. The terrain has fewer than 2^30
     /// columns and rows, and samples that `Heights` can read.
-    BasicHeightfieldSurface(std::shared_ptr<const FilledHeightfield> terrain,
+    BasicHeightfieldSurface(std::shared_ptr<const Terrain> terrain,
                             const SceneFrame& frame,
                             double exaggeration);
 
-    const std::shared_ptr<const FilledHeightfield>& terrain() const noexcept { return terrain_; }
+    const std::shared_ptr<const Terrain>& terrain() const noexcept { return terrain_; }
     const SceneFrame& frame() const noexcept { return frame_; }
     double exaggeration() const noexcept { return exaggeration_; }
 
@@ -436,7 +440,7 @@ private:
     }
     Contact contactIn(const InCell& at, bool is_upper) const noexcept;
 
-    std::shared_ptr<const FilledHeightfield> terrain_;
+    std::shared_ptr<const Terrain> terrain_;
     Heights heights_;
     SceneFrame frame_;
     double exaggeration_;

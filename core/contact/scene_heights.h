@@ -1,4 +1,7 @@
 // How a heightfield surface reads its samples: as heights in scene metres.
+//
+// Such a policy names the Terrain that it reads (core/terrain/touch_terrain.h), is made from it and
+// an exaggeration, and has at(column, row). For terrain in tiles see resident_heights.h.
 #pragma once
 
 #include "core/terrain/filled_heightfield.h"
@@ -12,6 +15,8 @@ namespace marsview {
 /// Any terrain: samples of any type, voids filled.
 class FilledHeights {
 public:
+    using Terrain = FilledHeightfield;
+
     FilledHeights(const FilledHeightfield& terrain, double exaggeration) noexcept
         : terrain_(&terrain)
         , exaggeration_(exaggeration)
@@ -33,6 +38,8 @@ private:
 template <typename T>
 class PlainHeights {
 public:
+    using Terrain = FilledHeightfield;
+
     static bool canRead(const FilledHeightfield& terrain) noexcept
     {
         const SampleGrid& samples = terrain.heightfield().samples();

@@ -1,0 +1,77 @@
+// Contact surfaces over maps larger than memory.
+#pragma once
+
+#include "core/contact/heightfield_surface.h"
+#include "core/terrain/tiled_terrain.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace marsview {
+
+/// Heights of tiles (scene_heights.h): the same as FilledHeights has on the map in memory, to the
+/// bit, where the terrain has them. T is the type of the samples, or void for any type, slower.
+template <typename T>
+class ResidentHeights {
+public:
+    using Terrain = TiledTerrain;
+
+    static bool canRead(const TiledTerrain& terrain) noexcept
+    {
+        if constexpr (std::is_void_v<T>) {
+            return true;
+        } else {
+            return dispatchSampleType(terrain.heights().layout().type,
+                                      [](auto zero) { return std::is_same_v<decltype(zero), T>; });
+        }
+    }
+
+    /// canRead(terrain).
+    ResidentHeights(const TiledTerrain& terrain, double exaggeration) noexcept
+        : terrain_(&terrain)
+        , scale_(terrain.heights().scale())
+        , exaggeration_(exaggeration)
+    {
+        MARSVIEW_CHECK(canRead(terrain));
+    }
+
+    [[gnu::always_inline]] double at(std::int32_t column, std::int32_t row) const noexcept
+    {
+        if constexpr (!std::is_void_v<T>) {
+            if (const T* raw = terrain_->plainSample<T>(column, row)) [[likely]] {
+                return exaggeration_ * scale_.height(static_cast<double>(*raw));
+            }
+        }
+        return elsewhere(column, row);
+    }
+
+private:
+    // Kept out of the loops that read heights.
+    [[gnu::noinline]] double elsewhere(std::int32_t column, std::int32_t row) const noexcept
+    {
+        return exaggeration_ *
+               terrain_->sample(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
+    }
+
+    const TiledTerrain* terrain_;
+    ElevationScale scale_;
+    double exaggeration_;
+};
+
+// Compiled once, in heightfield_surface.cpp.
+extern template class BasicHeightfieldSurface<ResidentHeights<void>>;
+extern template class BasicHeightfieldSurface<ResidentHeights<std::int16_t>>;
+extern template class BasicHeightfieldSurface<ResidentHeights<float>>;
+
+/// A map in tiles. The surface is as fixed as its terrain: see MapContactModel::terrainChanged.
+using TiledHeightfieldSurface = BasicHeightfieldSurface<ResidentHeights<void>>;
+/// The same, faster, where ResidentHeights<T>::canRead(terrain).
+template <typename T>
+using TypedTiledSurface = BasicHeightfieldSurface<ResidentHeights<T>>;
+
+static_assert(ContactSurface<TiledHeightfieldSurface>);
+static_assert(ContactSurface<TypedTiledSurface<std::int16_t>>);
+static_assert(ContactSurface<TypedTiledSurface<float>>);
+
+} // namespace marsview

@@ -1,0 +1,167 @@
+#include "core/terrain/resident_terrain.h"
+
+#include "core/base/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace marsview {
+
+ResidentTerrain::ResidentTerrain(const ResidentWindow& window,
+                                 std::shared_ptr<const TileHeights> heights,
+                                 const ResidentTerrainOptions& options)
+    : TiledTerrain(std::move(heights))
+    , window_(&window)
+    , rate_m_per_s_(options.rate_m_per_s)
+{
+    MARSVIEW_CHECK(&window.heights() == &this->heights());
+    MARSVIEW_CHECK(window.levelCount() <= kLevelsMax);
+    MARSVIEW_CHECK(rate_m_per_s_ > 0.0);
+    remember();
+    putAtHand();
+}
+
+SampleBox ResidentTerrain::near(GridPoint hand) const noexcept
+{
+    const auto along = [](double position, std::size_t count) {
+        const double inside = position >= 0.0 ? position : 0.0; // and where it is NaN
+        const std::size_t tile =
+            static_cast<std::size_t>(std::min(inside, static_cast<double>(count - 1))) / kTileSide;
+        return std::pair{(std::max<std::size_t>(tile, 1) - 1) * kTileSide,
+                         std::min((tile + 2) * kTileSide, count) - 1};
+    };
+    const auto [left, right] = along(hand.column, columns());
+    const auto [upper, lower] = along(hand.row, rows());
+    return {left, right, upper, lower};
+}
+
+bool ResidentTerrain::wasThere(const TileId& id) const noexcept
+{
+    const Shown& shown = shown_[id.level];
+    const std::uint32_t c = id.column - shown.first_column; // wraps where it is less
+    const std::uint32_t r = id.row - shown.first_row;
+    return c < shown.columns && r < shown.rows &&
+           ((shown.is_there >> (r * shown.columns + c)) & 1U) != 0;
+}
+
+void ResidentTerrain::remember() noexcept
+{
+    for (std::size_t k = 0; k < window_->levelCount(); ++k) {
+        const ResidentWindow::Level& level = window_->level(k);
+        Shown& shown = shown_[k];
+        shown = {level.first_column, level.first_row, level.columns, level.rows, 0};
+        for (std::size_t i = 0; i < level.slots.size(); ++i) {
+            shown.is_there |= std::uint64_t{level.slots[i].tile != nullptr} << i;
+        }
+    }
+}
+
+// Tiles that are blended are read where they are weighed.
+void ResidentTerrain::putAtHand() noexcept
+{
+    clearPlaces();
+    for (const ResidentWindow::Slot& slot : window_->level(0).slots) {
+        if (slot.tile) {
+            setAtHand(*slot.tile);
+        }
+    }
+    blend_.eachTile([this](const TileId& id) {
+        if (id.level == 0) {
+            clearPlace(id.column, id.row);
+        }
+    });
+}
+
+bool ResidentTerrain::show(const ResidentWindow& window, GridPoint hand) noexcept
+{
+    const TileLayout& layout = heights().layout();
+    window_ = &window;
+    const SampleBox box = near(hand);
+    bool is_changed = false;
+    // What has left the window is forgotten; should it come back, it arrives.
+    blend_.keepOnly([&](const TileId& id, const SampleBox&) { return window.has(id); });
+    const double range_m = heights().range().maximum_m - heights().range().minimum_m;
+    for (std::size_t k = 0; k < window.levelCount(); ++k) {
+        const ResidentWindow::Level& level = window.level(k);
+        for (std::size_t i = 0; i < level.slots.size(); ++i) {
+            const ResidentWindow::Slot& slot = level.slots[i];
+            const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
+                            level.first_column + static_cast<std::uint32_t>(i) % level.columns,
+                            level.first_row + static_cast<std::uint32_t>(i) / level.columns};
+            const bool was_there = wasThere(id);
+            if (was_there == (slot.tile != nullptr) ||
+                !doOverlap(WindowBlend::reach(layout, id), box)) {
+                continue;
+            }
+            is_changed = true;
+            if (!was_there && std::isfinite(rate_m_per_s_)) {
+                blend_.add(layout, id, std::min(slot.difference_m, range_m));
+            }
+        }
+    }
+    remember();
+    putAtHand();
+    return is_changed;
+}
+
+bool ResidentTerrain::advance(GridPoint hand, double seconds) noexcept
+{
+    if (blend_.isEmpty()) {
+        return false;
+    }
+    const SampleBox box = near(hand);
+    blend_.keepOnly([&](const TileId&, const SampleBox& reach) { return doOverlap(reach, box); });
+    if (std::isfinite(rate_m_per_s_)) {
+        blend_.advance(std::max(seconds, 0.0), rate_m_per_s_);
+    } else {
+        blend_.clear();
+    }
+    putAtHand();
+    return true;
+}
+
+double ResidentTerrain::sampleElsewhere(std::size_t column, std::size_t row) const noexcept
+{
+    double height_m = 0.0;
+    double rest = 1.0; // of the weight that coarser levels share
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    ResidentWindow::Sources sources;
+    bool is_first = true;
+    for (std::size_t k = 0; k < window_->levelCount(); ++k) {
+        const auto at_level = window_->heightAtLevel(k, column, row, &sources);
+        if (!at_level) {
+            continue;
+        }
+        if (std::exchange(is_first, false) && k > 0) {
+            ++misses_.count;
+            misses_.last_level = static_cast<std::uint8_t>(k);
+            misses_.worst_level = std::max(misses_.worst_level, misses_.last_level);
+        }
+        double weight = 1.0;
+        for (std::size_t i = 0; i < sources.count && !blend_.isEmpty(); ++i) {
+            weight = std::min(weight, blend_.weight(sources.tiles[i]));
+        }
+        if (weight == 0.0) {
+            continue;
+        }
+        const double bounded =
+            k == 0 ? *at_level : std::min(*at_level, heights().ceiling(column, row));
+        if (weight == 1.0 && rest == 1.0) {
+            return bounded;
+        }
+        height_m += rest * weight * bounded;
+        rest *= 1.0 - weight;
+        low = std::min(low, bounded);
+        high = std::max(high, bounded);
+        if (weight == 1.0) {
+            break;
+        }
+    }
+    // Rounding must not lift it above what casts skip by.
+    return std::clamp(height_m, low, high);
+}
+
+} // namespace marsview

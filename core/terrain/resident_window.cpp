@@ -1,0 +1,255 @@
+// Notation. Sample i of level k is sample min(i · 2^k, count - 1) of the map, along either axis, so
+// that the last cell of a level is narrower than the others where 2^k does not divide count - 1.
+#include "core/terrain/resident_window.h"
+
+#include "core/base/check.h"
+#include "core/terrain/triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// Where a sample of the map lies among the samples of a level, along one axis.
+struct AlongAxis {
+    std::size_t index; // of the level's sample before it, or at it
+    double share;      // of the cell behind that sample, in [0, 1)
+};
+
+AlongAxis alongAxis(std::size_t level, std::size_t sample, std::size_t count) noexcept
+{
+    const std::size_t step = std::size_t{1} << level;
+    const std::size_t index = sample >> level;
+    const std::size_t begin = index << level;
+    if (sample == begin) {
+        return {index, 0.0};
+    }
+    if (sample == count - 1) {
+        return {index + 1, 0.0};
+    }
+    const std::size_t end = std::min(begin + step, count - 1);
+    return {index, static_cast<double>(sample - begin) / static_cast<double>(end - begin)};
+}
+
+std::size_t firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side)
+{
+    const double width = static_cast<double>(kTileSide << level);
+    const double most = static_cast<double>(tiles - side);
+    const double first = std::round(centre / width - static_cast<double>(side) / 2.0);
+    return static_cast<std::size_t>(std::clamp(first, 0.0, most));
+}
+
+} // namespace
+
+ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
+                               std::shared_ptr<const Tile> top,
+                               const std::vector<GridPoint>& centres,
+                               const WindowSides& sides)
+    : heights_(std::move(heights))
+{
+    const TileLayout& layout = heights_->layout();
+    const std::size_t top_level = layout.topLevel();
+    MARSVIEW_CHECK(centres.size() == top_level + 1);
+    MARSVIEW_CHECK(sides.finest >= 3 && sides.finest <= kSideMax);
+    MARSVIEW_CHECK(sides.coarser >= 3 && sides.coarser <= kSideMax);
+    levels_.resize(top_level + 1);
+    for (std::size_t k = 0; k <= top_level; ++k) {
+        const std::size_t side = k == 0 ? sides.finest : sides.coarser;
+        const std::size_t tile_columns = layout.tileColumns(TileKind::Samples, k);
+        const std::size_t tile_rows = layout.tileRows(TileKind::Samples, k);
+        const std::size_t columns = std::min(side, tile_columns);
+        const std::size_t rows = std::min(side, tile_rows);
+        Level& level = levels_[k];
+        level.columns = static_cast<std::uint32_t>(columns);
+        level.rows = static_cast<std::uint32_t>(rows);
+        level.first_column =
+            static_cast<std::uint32_t>(firstTile(centres[k].column, k, tile_columns, columns));
+        level.first_row = static_cast<std::uint32_t>(firstTile(centres[k].row, k, tile_rows, rows));
+        level.slots.resize(columns * rows);
+    }
+    MARSVIEW_CHECK(top && top->id.level == top_level);
+    put(std::move(top), 0.0);
+}
+
+void ResidentWindow::put(std::shared_ptr<const Tile> tile, double difference_m)
+{
+    const TileLayout& layout = heights_->layout();
+    const TileId& id = tile->id;
+    MARSVIEW_CHECK(id.kind == TileKind::Samples && slot(id) != nullptr);
+    MARSVIEW_CHECK(tile->samples.type() == layout.type &&
+                   tile->samples.columns() == layout.tileWidth(id) &&
+                   tile->samples.rows() == layout.tileHeight(id));
+    MARSVIEW_CHECK(TileHeights::isTouchable(*tile));
+    Level& level = levels_[id.level];
+    level.slots[(id.row - level.first_row) * level.columns + (id.column - level.first_column)] = {
+        std::move(tile), difference_m};
+}
+
+std::optional<double>
+ResidentWindow::vertex(std::size_t level, std::size_t column, std::size_t row) const noexcept
+{
+    const Slot* found = slot(level, column / kTileSide, row / kTileSide);
+    if (found == nullptr || found->tile == nullptr) {
+        return std::nullopt;
+    }
+    return heights_->sample(*found->tile, column % kTileSide, row % kTileSide);
+}
+
+std::optional<double> ResidentWindow::heightAtLevel(std::size_t level,
+                                                    std::size_t column,
+                                                    std::size_t row,
+                                                    Sources* sources) const noexcept
+{
+    const TileLayout& layout = heights_->layout();
+    const auto [c, u] = alongAxis(level, column, layout.columns);
+    const auto [r, v] = alongAxis(level, row, layout.rows);
+    constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
+    CellHeights z{kUnread, kUnread, kUnread, kUnread};
+    const auto read = [&](double& corner, std::size_t i, std::size_t j) {
+        const auto height_m = vertex(level, i, j);
+        if (!height_m) {
+            return false;
+        }
+        corner = *height_m;
+        if (sources != nullptr) {
+            const TileId id{TileKind::Samples, static_cast<std::uint8_t>(level),
+                            static_cast<std::uint32_t>(i / kTileSide),
+                            static_cast<std::uint32_t>(j / kTileSide)};
+            const auto end = sources->tiles.begin() + static_cast<std::ptrdiff_t>(sources->count);
+            if (std::find(sources->tiles.begin(), end, id) == end) {
+                sources->tiles[sources->count++] = id;
+            }
+        }
+        return true;
+    };
+    if (sources != nullptr) {
+        sources->count = 0;
+    }
+    // A corner without weight is not asked for: beyond the last sample there is none.
+    if (!read(z.upper_left, c, r) || (u > v && !read(z.upper_right, c + 1, r)) ||
+        (u < v && !read(z.lower_left, c, r + 1)) ||
+        (std::min(u, v) > 0.0 && !read(z.lower_right, c + 1, r + 1))) {
+        return std::nullopt;
+    }
+    return u == 0.0 && v == 0.0 ? z.upper_left : heightInCell(z, u, v);
+}
+
+ResidentWindow::Reading ResidentWindow::read(std::size_t column, std::size_t row) const noexcept
+{
+    for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
+        if (const auto height_m = heightAtLevel(level, column, row)) {
+            return {level == 0 ? *height_m : std::min(*height_m, heights_->ceiling(column, row)),
+                    level};
+        }
+    }
+    const std::size_t top = levels_.size() - 1;
+    const double height_m = *heightAtLevel(top, column, row);
+    return {top == 0 ? height_m : std::min(height_m, heights_->ceiling(column, row)), top};
+}
+
+bool ResidentWindow::isVoid(std::size_t column, std::size_t row) const noexcept
+{
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        const std::size_t c = column >> level;
+        const std::size_t r = row >> level;
+        const Slot* found = slot(level, c / kTileSide, r / kTileSide);
+        if (found != nullptr && found->tile != nullptr) {
+            return found->tile->samples.isVoid(c % kTileSide, r % kTileSide);
+        }
+    }
+    return false;
+}
+
+// The levels' triangles are nested, so that two levels differ most at a sample of the finer one.
+// But for the narrow cells at the end of a level, whose diagonals are not those of the finer
+// levels: there each of the two planes of a cell is held against all samples in the closed cell,
+// which bounds what differs between samples, whichever plane that is on.
+double ResidentWindow::differenceFromCoarser(const TileId& id) const noexcept
+{
+    const TileLayout& layout = heights_->layout();
+    const std::size_t finer = id.level;
+    // A sample has a say in the cells before and behind it, which have samples of other tiles.
+    const auto before = [](std::size_t first) { return std::max<std::size_t>(first, 1) - 1; };
+    const std::size_t left = before(id.column * kTileSide);
+    const std::size_t upper = before(id.row * kTileSide);
+    const std::size_t right = std::min(id.column * kTileSide + layout.tileWidth(id),
+                                       layout.columnsAt(TileKind::Samples, finer) - 1);
+    const std::size_t lower = std::min(id.row * kTileSide + layout.tileHeight(id),
+                                       layout.rowsAt(TileKind::Samples, finer) - 1);
+    const auto column_of = [&](std::size_t i, std::size_t level) {
+        return std::min(i << level, layout.columns - 1);
+    };
+    const auto row_of = [&](std::size_t j, std::size_t level) {
+        return std::min(j << level, layout.rows - 1);
+    };
+    double most = 0.0;
+    for (std::size_t j = upper; j <= lower; ++j) {
+        for (std::size_t i = left; i <= right; ++i) {
+            const auto here = vertex(finer, i, j);
+            for (std::size_t k = finer + 1; here && k < levels_.size(); ++k) {
+                if (const auto there = heightAtLevel(k, column_of(i, finer), row_of(j, finer))) {
+                    most = std::max(most, std::abs(*there - *here));
+                }
+            }
+        }
+    }
+    const auto hold_planes = [&](std::size_t k, std::size_t c, std::size_t r) {
+        const auto upper_left = vertex(k, c, r);
+        const auto upper_right = vertex(k, c + 1, r);
+        const auto lower_left = vertex(k, c, r + 1);
+        const auto lower_right = vertex(k, c + 1, r + 1);
+        if (!upper_left || !lower_right) {
+            return;
+        }
+        const std::size_t west = column_of(c, k);
+        const std::size_t east = column_of(c + 1, k);
+        const std::size_t north = row_of(r, k);
+        const std::size_t south = row_of(r + 1, k);
+        for (std::size_t j = upper; j <= lower; ++j) {
+            const std::size_t row = row_of(j, finer);
+            for (std::size_t i = left; i <= right && row >= north && row <= south; ++i) {
+                const std::size_t column = column_of(i, finer);
+                const auto here = vertex(finer, i, j);
+                if (column < west || column > east || !here) {
+                    continue;
+                }
+                const double u =
+                    static_cast<double>(column - west) / static_cast<double>(east - west);
+                const double v =
+                    static_cast<double>(row - north) / static_cast<double>(south - north);
+                if (upper_right) {
+                    most =
+                        std::max(most, std::abs((1.0 - u) * *upper_left + (u - v) * *upper_right +
+                                                v * *lower_right - *here));
+                }
+                if (lower_left) {
+                    most = std::max(most, std::abs((1.0 - v) * *upper_left + (v - u) * *lower_left +
+                                                   u * *lower_right - *here));
+                }
+            }
+        }
+    };
+    for (std::size_t k = finer + 1; k < levels_.size(); ++k) {
+        const std::size_t last_column = layout.columnsAt(TileKind::Samples, k) - 2; // of cells
+        const std::size_t last_row = layout.rowsAt(TileKind::Samples, k) - 2;
+        const std::size_t step_mask = (std::size_t{1} << k) - 1;
+        const bool is_column_narrow = ((layout.columns - 1) & step_mask) != 0;
+        const bool is_row_narrow = ((layout.rows - 1) & step_mask) != 0;
+        const std::size_t c0 = std::min(column_of(left, finer) >> k, last_column);
+        const std::size_t c1 = std::min(column_of(right, finer) >> k, last_column);
+        const std::size_t r0 = std::min(row_of(upper, finer) >> k, last_row);
+        const std::size_t r1 = std::min(row_of(lower, finer) >> k, last_row);
+        for (std::size_t r = r0; is_column_narrow && c1 == last_column && r <= r1; ++r) {
+            hold_planes(k, last_column, r);
+        }
+        for (std::size_t c = c0; is_row_narrow && r1 == last_row && c <= c1; ++c) {
+            hold_planes(k, c, last_row);
+        }
+    }
+    return most * (1.0 + 1e-12); // heights between samples are rounded
+}
+
+} // namespace marsview

@@ -1,0 +1,55 @@
+// Heights from the samples of tiles, with voids filled: those of FilledHeightfield to the bit.
+#pragma once
+
+#include "core/raster/raster_info.h"
+#include "core/raster/tile.h"
+#include "core/terrain/heightfield.h"
+#include "core/terrain/level_file.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace marsview {
+
+/// What is known of a whole map that is read in tiles. Immutable; any thread, the servo's too.
+class TileHeights {
+public:
+    /// `levels` have an analysis whose heights are by `scale`.
+    TileHeights(std::shared_ptr<const MapLevels> levels, const ElevationScale& scale);
+
+    const TileLayout& layout() const noexcept { return levels_->layout; }
+    const ElevationScale& scale() const noexcept { return scale_; }
+    const HeightRange& range() const noexcept { return range_; }
+
+    /// Whether what stands in place of void samples is there for all of them.
+    static bool isTouchable(const Tile& tile) noexcept
+    {
+        return !tile.samples.hasVoids() ||
+               tile.filled_m.size() == tile.samples.columns() * tile.samples.rows();
+    }
+    /// In metres, of a sample of a tile that isTouchable; counted from the tile's first.
+    double sample(const Tile& tile, std::size_t column, std::size_t row) const noexcept;
+
+    /// The nodes of the hierarchy are those of MinMaxPyramid.
+    std::size_t levelCount() const noexcept { return levels_->analysis->bounds.levelCount(); }
+    /// No filled sample of the node is higher; in metres.
+    double maximum(std::size_t level, std::size_t column, std::size_t row) const noexcept
+    {
+        const MinMaxPyramid& bounds = levels_->analysis->bounds;
+        return static_cast<double>(
+            levels_->filled_maxima_m.empty()
+                ? bounds.bounds(level, column, row).maximum_m
+                : levels_->filled_maxima_m[level][row * bounds.columns(level) + column]);
+    }
+    /// The least maximum of the smallest nodes that a sample of the map lies on: no stand-in for
+    /// its height may be higher, lest a cast pass through it.
+    double ceiling(std::size_t column, std::size_t row) const noexcept;
+
+private:
+    std::shared_ptr<const MapLevels> levels_;
+    ElevationScale scale_;
+    HeightRange range_;
+};
+
+} // namespace marsview

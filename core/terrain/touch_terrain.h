@@ -1,0 +1,47 @@
+// What a contact surface over a map needs of the terrain below it.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+
+namespace marsview {
+
+/// Heights in metres at the samples of a map, none of them void, and a hierarchy of maxima whose
+/// nodes are those of MinMaxPyramid: sample(c, r) is at most maximum(l, …) of every node that it
+/// lies on, so that a cast may pass over a node that is below it. Read by the servo thread:
+/// nothing here allocates, locks, waits or throws, but for terrain made for batch work.
+///
+/// Terrain may change between two updates of a contact model (MapContactModel::terrainChanged),
+/// never during one.
+// clang-format off: version 14 breaks compound requirements into a line a token.
+template <typename T>
+concept TouchTerrain = requires(const T& terrain, std::size_t i)
+{
+    {
+        terrain.columns()
+    }
+    noexcept->std::same_as<std::size_t>;
+    {
+        terrain.rows()
+    }
+    noexcept->std::same_as<std::size_t>;
+    {
+        terrain.isVoid(i, i)
+    }
+    noexcept->std::same_as<bool>;
+    {
+        terrain.sample(i, i)
+    }
+    noexcept->std::same_as<double>;
+    {
+        terrain.levelCount()
+    }
+    noexcept->std::same_as<std::size_t>;
+    {
+        terrain.maximum(i, i, i)
+    }
+    noexcept->std::same_as<double>;
+};
+// clang-format on
+
+} // namespace marsview

@@ -1,0 +1,52 @@
+#include "core/terrain/waiting_terrain.h"
+
+#include "core/base/check.h"
+
+#include <utility>
+
+namespace marsview {
+
+WaitingTerrain::WaitingTerrain(TiledRaster raster, std::shared_ptr<const TileHeights> heights)
+    : TiledTerrain(std::move(heights))
+    , raster_(std::move(raster))
+{
+    MARSVIEW_CHECK(raster_.layout().columns == columns() && raster_.layout().rows == rows() &&
+                   raster_.layout().type == this->heights().layout().type);
+}
+
+const Tile* WaitingTerrain::fetch(std::size_t column, std::size_t row) const noexcept
+{
+    if (const Tile* tile = tileAtHand(column, row)) {
+        return tile;
+    }
+    ++fetch_count_;
+    const TileId id{TileKind::Samples, 0, static_cast<std::uint32_t>(column / kTileSide),
+                    static_cast<std::uint32_t>(row / kTileSide)};
+    auto tile = raster_.get(id);
+    if (!tile) {
+        if (!error_) {
+            error_ = tile.error();
+        }
+        return nullptr;
+    }
+    MARSVIEW_CHECK(TileHeights::isTouchable(**tile));
+    std::shared_ptr<const Tile>& place = tiles_[placeOf(id.column, id.row)];
+    place = std::move(tile).value();
+    setAtHand(*place);
+    return place.get();
+}
+
+bool WaitingTerrain::isVoid(std::size_t column, std::size_t row) const noexcept
+{
+    const Tile* tile = fetch(column, row);
+    return tile != nullptr && tile->samples.isVoid(column % kTileSide, row % kTileSide);
+}
+
+double WaitingTerrain::sampleElsewhere(std::size_t column, std::size_t row) const noexcept
+{
+    const Tile* tile = fetch(column, row);
+    return tile != nullptr ? heights().sample(*tile, column % kTileSide, row % kTileSide)
+                           : heights().ceiling(column, row);
+}
+
+} // namespace marsview

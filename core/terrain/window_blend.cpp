@@ -1,0 +1,77 @@
+#include "core/terrain/window_blend.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace marsview {
+
+SampleBox WindowBlend::reach(const TileLayout& layout, const TileId& tile) noexcept
+{
+    // A sample of a level has a say in the cells around it, up to the next samples of that level.
+    const auto along = [&tile](std::size_t first, std::size_t width, std::size_t level_count,
+                               std::size_t count) {
+        const std::size_t behind = first + width;
+        const std::size_t low = first == 0 ? 0 : ((first - 1) << tile.level) + 1;
+        const std::size_t high =
+            behind >= level_count ? count - 1 : std::min((behind << tile.level) - 1, count - 1);
+        return std::pair{low, high};
+    };
+    const auto [left, right] =
+        along(std::size_t{tile.column} * kTileSide, layout.tileWidth(tile),
+              layout.columnsAt(TileKind::Samples, tile.level), layout.columns);
+    const auto [upper, lower] = along(std::size_t{tile.row} * kTileSide, layout.tileHeight(tile),
+                                      layout.rowsAt(TileKind::Samples, tile.level), layout.rows);
+    return {left, right, upper, lower};
+}
+
+void WindowBlend::add(const TileLayout& layout, const TileId& tile, double difference_m) noexcept
+{
+    if (!(difference_m > 0.0) || has(tile)) {
+        return;
+    }
+    if (count_ == kTilesMax) {
+        ++overflow_count_;
+        return;
+    }
+    tiles_[count_++] = {tile, difference_m, 0.0, reach(layout, tile)};
+}
+
+void WindowBlend::advance(double seconds, double rate_m_per_s) noexcept
+{
+    // While a finer tile is blended over it, a coarser one keeps its weight: what changes is then
+    // one difference at a time.
+    std::array<bool, kTilesMax> is_held{};
+    for (std::size_t i = 0; i < count_; ++i) {
+        for (std::size_t j = 0; j < count_ && !is_held[i]; ++j) {
+            is_held[i] = tiles_[j].id.level < tiles_[i].id.level &&
+                         doOverlap(tiles_[i].reach, tiles_[j].reach);
+        }
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        Blended& tile = tiles_[i];
+        if (!is_held[i]) {
+            tile.weight += seconds * rate_m_per_s / tile.difference_m;
+        }
+        if (tile.weight < 1.0) {
+            tiles_[kept++] = tile;
+        }
+    }
+    count_ = kept;
+}
+
+double WindowBlend::weight(const TileId& tile) const noexcept
+{
+    const Blended* found = find(tile);
+    return found == nullptr ? 1.0 : found->weight;
+}
+
+const WindowBlend::Blended* WindowBlend::find(const TileId& tile) const noexcept
+{
+    const auto end = tiles_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto found = std::find_if(tiles_.begin(), end,
+                                    [&tile](const Blended& blended) { return blended.id == tile; });
+    return found == end ? nullptr : &*found;
+}
+
+} // namespace marsview
