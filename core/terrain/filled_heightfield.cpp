@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace marsview {
 Result<FilledHeightfield> FilledHeightfield::build(const Heightfield& heightfield,
@@ -26,11 +27,7 @@ float FilledHeightfield::fillAt(std::size_t column, std::size_t row) const noexc
 bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
 {
     const MinMaxPyramid& pyramid = analysis_->bounds;
-    const std::size_t levels = pyramid.levelCount();
-    maxima_.resize(levels);
-    for (std::size_t level = 0; level < levels; ++level) {
-        maxima_[level].resize(pyramid.columns(level) * pyramid.rows(level));
-    }
+    std::vector<float> maxima(pyramid.columns(0) * pyramid.rows(0));
     const std::size_t blocks = pyramid.columns(0);
     for (std::size_t row = 0; row < pyramid.rows(0); ++row) {
         if (monitor.isCancelled()) {
@@ -50,22 +47,33 @@ bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
                     }
                 }
             }
-            maxima_[0][row * blocks + column] = maximum;
+            maxima[row * blocks + column] = maximum;
         }
     }
-    for (std::size_t level = 1; level < levels; ++level) {
+    maxima_ = maximaFrom(std::move(maxima), pyramid);
+    return true;
+}
+
+std::vector<std::vector<float>> FilledHeightfield::maximaFrom(std::vector<float> blocks_m,
+                                                              const MinMaxPyramid& pyramid)
+{
+    std::vector<std::vector<float>> maxima;
+    maxima.push_back(std::move(blocks_m));
+    for (std::size_t level = 1; level < pyramid.levelCount(); ++level) {
         const std::size_t width = pyramid.columns(level);
-        std::fill(maxima_[level].begin(), maxima_[level].end(),
-                  std::numeric_limits<float>::lowest());
+        const std::size_t finer_width = pyramid.columns(level - 1);
+        const std::vector<float>& finer = maxima.back();
+        std::vector<float> coarser(width * pyramid.rows(level),
+                                   std::numeric_limits<float>::lowest());
         for (std::size_t row = 0; row < pyramid.rows(level - 1); ++row) {
-            for (std::size_t column = 0; column < pyramid.columns(level - 1); ++column) {
-                float& maximum = maxima_[level][(row / 2) * width + column / 2];
-                maximum = std::max(maximum,
-                                   maxima_[level - 1][row * pyramid.columns(level - 1) + column]);
+            for (std::size_t column = 0; column < finer_width; ++column) {
+                float& maximum = coarser[(row / 2) * width + column / 2];
+                maximum = std::max(maximum, finer[row * finer_width + column]);
             }
         }
+        maxima.push_back(std::move(coarser));
     }
-    return true;
+    return maxima;
 }
 
 } // namespace marsview

@@ -25,6 +25,10 @@ public:
                                            std::shared_ptr<const SurfaceAnalysis> analysis,
                                            JobMonitor& monitor);
 
+    /// Bounds of all levels of the pyramid's nodes from those of its blocks.
+    static std::vector<std::vector<float>> maximaFrom(std::vector<float> blocks_m,
+                                                      const MinMaxPyramid& pyramid);
+
     std::size_t columns() const noexcept { return heightfield_.columns(); }
     std::size_t rows() const noexcept { return heightfield_.rows(); }
     const Heightfield& heightfield() const noexcept { return heightfield_; }

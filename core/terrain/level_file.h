@@ -58,16 +58,18 @@ public:
     LevelFile& operator=(LevelFile&&) noexcept;
     ~LevelFile();
 
-    /// Reads what is measured; some 1/50 of a byte a sample. The same bits as analyse() on the map
+    /// Reads what is measured; some 1/200 of a byte a sample. The same bits as analyse() on the map
     /// held in memory (means: from the level up at which they are kept) where `scale` is the one
-    /// the file was made with; otherwise converted.
+    /// the file was made with. Otherwise bounds are of the same bits still, and the rest is
+    /// converted.
     Result<MapLevels> readLevels(const ElevationScale& scale) const;
 
     /// The samples of a Samples tile at a level >= kFirstLevel. Checked against its checksum.
     Result<SampleGrid> readSamples(const TileId& id) const;
 
-    /// What the void samples of a level-0 tile are filled with (Tile::filled_m); empty where none
-    /// of them is void. The same bits as FilledHeightfield on the map held in memory.
+    /// What the void samples of a tile at level 0, or >= kFirstLevel, are filled with
+    /// (Tile::filled_m); empty where none of them is void. Where `scale` is the one the file was
+    /// made with, the same bits as FilledHeightfield on the map held in memory.
     Result<std::vector<float>> readFilled(const TileId& id, const ElevationScale& scale) const;
 
 private:

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -86,6 +87,10 @@ public:
                 GridView<R>(reinterpret_cast<R*>(ranges_.data()), columns_, rows_));
         });
     }
+
+    /// The ranges, row by row: smallest and largest value by turns.
+    std::span<std::byte> bytes() noexcept { return ranges_; }
+    std::span<const std::byte> bytes() const noexcept { return ranges_; }
 
     /// Over all blocks; the counts stay 0.
     SampleStatistics extremes() const;

@@ -1,0 +1,63 @@
+#include "core/raster/file_bytes.h"
+
+#include "core/raster/gdal_runtime.h"
+
+#include <cpl_vsi.h>
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace marsview {
+
+void FileBytes::Close::operator()(void* file) const noexcept
+{
+    VSIFCloseL(static_cast<VSILFILE*>(file));
+}
+
+Result<FileBytes> FileBytes::open(const std::string& path)
+{
+    ensureGdal();
+    const GdalMessages messages;
+    FileBytes bytes;
+    bytes.path_ = path;
+    bytes.file_.reset(VSIFOpenL(path.c_str(), "rb"));
+    if (!bytes.file_) {
+        VSIStatBufL stat{};
+        const bool is_there = VSIStatExL(path.c_str(), &stat, VSI_STAT_EXISTS_FLAG) == 0;
+        // A server that answers with anything but "not found" may have the file.
+        const std::string reason = messages.firstFailure("");
+        if (is_there || (!reason.empty() && reason.find("404") == std::string::npos)) {
+            return Error{ErrorCode::Unreadable,
+                         fmt::format("{}: cannot be opened ({})", path,
+                                     reason.empty() ? "no permission to read it" : reason)};
+        }
+        return Error{ErrorCode::NotFound, fmt::format("{}: does not exist", path)};
+    }
+    auto* file = static_cast<VSILFILE*>(bytes.file_.get());
+    if (VSIFSeekL(file, 0, SEEK_END) != 0) {
+        return Error{ErrorCode::Unreadable, fmt::format("{}: its length cannot be told", path)};
+    }
+    bytes.size_ = VSIFTellL(file);
+    return bytes;
+}
+
+Result<std::vector<std::byte>> FileBytes::read(std::uint64_t offset, std::uint64_t count) const
+{
+    if (offset > size_ || count > size_ - offset) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: {} bytes at {} were asked for, but it has {}", path_, count,
+                                 offset, size_)};
+    }
+    const GdalMessages messages;
+    auto* file = static_cast<VSILFILE*>(file_.get());
+    std::vector<std::byte> bytes(count);
+    if (VSIFSeekL(file, offset, SEEK_SET) != 0 ||
+        VSIFReadL(bytes.data(), 1, bytes.size(), file) != bytes.size()) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: {} bytes at {} cannot be read ({})", path_, count, offset,
+                                 messages.firstFailure("reading ended early"))};
+    }
+    return bytes;
+}
+
+} // namespace marsview

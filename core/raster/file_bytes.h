@@ -1,0 +1,42 @@
+// Bytes of a file anywhere: on disk or at an address.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+/// An open file that is read in pieces. Paths may be those of GDAL's file systems (/vsicurl/…). For
+/// one thread at a time.
+class FileBytes {
+public:
+    /// NotFound where there is nothing, Unreadable where it cannot be opened.
+    static Result<FileBytes> open(const std::string& path);
+
+    const std::string& path() const noexcept { return path_; }
+    /// As it was when opened.
+    std::uint64_t size() const noexcept { return size_; }
+
+    /// All `count` bytes from `offset` on; Unreadable where there are fewer. Nothing is allocated
+    /// that the file is too short for.
+    Result<std::vector<std::byte>> read(std::uint64_t offset, std::uint64_t count) const;
+
+private:
+    struct Close {
+        void operator()(void* file) const noexcept;
+    };
+
+    FileBytes() = default;
+
+    std::string path_;
+    std::uint64_t size_ = 0;
+    std::unique_ptr<void, Close> file_; // GDAL's
+};
+
+} // namespace marsview

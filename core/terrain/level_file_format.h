@@ -1,0 +1,141 @@
+// The bytes of a level file.
+//
+//   preamble   64 bytes, below
+//   tiles      nested samples of levels >= LevelFile::kFirstLevel; fills of tiles with voids
+//   planes     what is measured over the whole map, in chunks
+//   tail       planes that tell where the tiles are, and the header
+//
+// Numbers are little-endian. The preamble:
+//
+//    0  8 bytes  \x89 M V L \r \n \x1a \n
+//    8  u32      version
+//   12  u32      CRC-32 of the header
+//   16  u64      bytes of the file
+//   24  u64      where the planes begin; they end where the tail begins
+//   32  u64      where the tail begins; it ends with the file
+//   40  u64      where the header begins; it ends with the file
+//   48  u64, u32 0
+//   60  u32      CRC-32 of the 60 bytes before
+//
+// The header is JSON: what the file was made from (LevelFileKey), the layout, the statistics, the
+// scale that heights in metres were made with, and for every plane the chunks it is in, each
+// [offset, bytes, CRC-32]. Numbers that JSON cannot write are strings: "nan", "inf", "-inf".
+//
+// A plane is an array of numbers, in chunks of whole rows, about 1 MiB before packing
+// (core/terrain/packing.h). There are, in this order:
+//
+//   ranges           RawRanges: smallest and largest raw value by turns
+//   errors 1, 2, …   DetailErrors of the nodes of each level, float metres
+//   means            BlockMeans of blocks of `block_samples`, float metres; NaN where all is void
+//   shares           of samples that are not void; only with voids
+//   fills            smallest and largest fill of the void samples of each block of RawRanges by
+//                    turns, float metres, inf and -inf where none is void; only with voids
+//   samples index    three rows, u64: offset, bytes, CRC-32 of every tile of samples, level by
+//   level fills index      four rows, u64: number, offset, bytes, CRC-32 of every level-0 tile with
+//   voids coarse index     the same of the tiles that samples index lists
+//
+// What can be derived is not stored. A tile of samples is one byte, 1 where a mask follows, and the
+// packed samples with the mask: a bit a sample, rows padded to bytes, lowest bit first. The fill of
+// a level-0 tile is the packed means, gaps filled, of its blocks of 8 × 8 samples and of those
+// around them, as far as they are on the map. The fill of a coarser tile is its packed heights.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/raster/tile.h"
+#include "core/terrain/block_grid.h"
+#include "core/terrain/level_file.h"
+#include "core/terrain/packing.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+inline constexpr std::uint32_t kLevelFileVersion = 1;
+inline constexpr std::size_t kPreambleBytes = 64;
+
+struct LevelFilePreamble {
+    std::uint32_t header_checksum = 0;
+    std::uint64_t file_bytes = 0;
+    std::uint64_t planes_offset = 0;
+    std::uint64_t tail_offset = 0;
+    std::uint64_t header_offset = 0;
+};
+
+std::array<std::byte, kPreambleBytes> writtenPreamble(const LevelFilePreamble& preamble);
+/// Invalid, with a sentence, where it is none, or not of a file of `file_bytes`.
+Result<LevelFilePreamble>
+readPreamble(std::span<const std::byte> bytes, std::uint64_t file_bytes, const std::string& path);
+
+/// Where something packed lies in the file.
+struct FilePart {
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+    std::uint32_t checksum = 0;
+};
+
+/// An array of the file.
+struct LevelPlane {
+    std::string name;
+    PackShape shape;
+    std::vector<FilePart> chunks;
+
+    std::size_t rowsPerChunk() const noexcept;
+    std::size_t chunkCount() const noexcept;
+    /// Of the rows in a chunk.
+    PackShape chunkShape(std::size_t chunk) const noexcept;
+};
+
+struct LevelFileHeader {
+    LevelFileKey key;
+    TileLayout layout;
+    SampleStatistics statistics;
+    ElevationScale scale;
+    std::size_t fill_tiles = 0;   // level-0 tiles with voids
+    std::size_t coarse_tiles = 0; // of those with samples here
+    std::vector<LevelPlane> planes;
+
+    bool hasVoids() const noexcept { return statistics.void_count > 0; }
+};
+
+/// The planes that a file with this header has, without their chunks.
+std::vector<LevelPlane> planesOf(const LevelFileHeader& header);
+/// How many of them are in the tail.
+inline constexpr std::size_t kTailPlanes = 3;
+
+std::string writtenHeader(const LevelFileHeader& header);
+/// Invalid where anything is missing, out of its range, or not what planesOf() says.
+Result<LevelFileHeader>
+readHeader(std::span<const std::byte> json, std::uint64_t file_bytes, const std::string& path);
+
+/// The finest blocks whose means are kept: no more than four million.
+BlockExtent keptBlocks(const TileLayout& layout);
+
+/// How many tiles of samples are kept, and which of them a tile is, level by level and row by row.
+std::size_t keptTileCount(const TileLayout& layout);
+std::size_t keptTileNumber(const TileLayout& layout, const TileId& id);
+
+/// The blocks of 8 × 8 samples that the fill of a level-0 tile is kept by: its own and those
+/// around.
+struct FillWindow {
+    std::size_t first_column = 0; // of blocks of the map
+    std::size_t first_row = 0;
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+};
+FillWindow fillWindow(const TileLayout& layout, const TileId& id);
+
+/// Bytes of the mask of a tile.
+inline std::size_t maskBytes(std::size_t columns, std::size_t rows)
+{
+    return (columns + 7) / 8 * rows;
+}
+
+/// "PATH: …; prepare the map again".
+Error damaged(const std::string& path, const std::string& what);
+
+} // namespace marsview
