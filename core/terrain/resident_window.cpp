@@ -34,15 +34,18 @@ AlongAxis alongAxis(std::size_t level, std::size_t sample, std::size_t count) no
     return {index, static_cast<double>(sample - begin) / static_cast<double>(end - begin)};
 }
 
-std::size_t firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side)
+} // namespace
+
+std::size_t ResidentWindow::firstTile(double centre,
+                                      std::size_t level,
+                                      std::size_t tiles,
+                                      std::size_t side) noexcept
 {
     const double width = static_cast<double>(kTileSide << level);
     const double most = static_cast<double>(tiles - side);
     const double first = std::round(centre / width - static_cast<double>(side) / 2.0);
     return static_cast<std::size_t>(std::clamp(first, 0.0, most));
 }
-
-} // namespace
 
 ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
                                std::shared_ptr<const Tile> top,

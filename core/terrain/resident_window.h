@@ -57,6 +57,11 @@ public:
         std::size_t level;
     };
 
+    /// Along an axis with `tiles` tiles at a level, the first of the `side` (<= tiles) around a
+    /// centre, which is in samples of the map.
+    static std::size_t
+    firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side) noexcept;
+
     /// `top` is the tile of the coarsest level. Level k lies around `centres[k]`, in samples of
     /// the map; there are as many as levels.
     ResidentWindow(std::shared_ptr<const TileHeights> heights,

@@ -50,7 +50,7 @@ public:
             return std::nullopt;
         }
         T value;
-        std::memcpy(&value, words.data(), sizeof(T));
+        std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
         return value;
     }
     /// The latest value, whole. Any thread that may wait for the writer to be elsewhere.

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace marsview::test {
 
@@ -73,8 +75,14 @@ public:
     using Surface = std::remove_cvref_t<decltype(std::declval<const Model&>().surface())>;
 
     explicit Judge(const Surface& surface, const ModelTraits& traits = {})
+        : Judge(surface, surface.terrain(), traits)
+    {}
+    /// Of a surface whose heights, from now on, are those of `terrain`.
+    Judge(const Surface& surface,
+          std::shared_ptr<const FilledHeightfield> terrain,
+          const ModelTraits& traits)
         : surface_(surface)
-        , truth_(surface.terrain(), surface.frame(), surface.exaggeration())
+        , truth_(std::move(terrain), surface.frame(), surface.exaggeration())
         , traits_(traits)
     {}
 

@@ -46,9 +46,9 @@ TEST(SeqLock, ReadersNeverSeeATornOrOlderValue)
             for (std::uint64_t last = 0; last < kLast;) {
                 const Value value = lock.read();
                 for (const std::uint64_t word : value) {
-                    mine.torn += word != value[0] ? 1 : 0;
+                    mine.torn += word != value[0] ? 1U : 0U;
                 }
-                mine.older += value[0] < last ? 1 : 0;
+                mine.older += value[0] < last ? 1U : 0U;
                 last = value[0];
             }
         });

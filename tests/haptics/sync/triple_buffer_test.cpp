@@ -75,9 +75,9 @@ TEST(TripleBuffer, ReaderNeverSeesATornOrOlderValue)
         const bool is_new = buffer.take();
         const Value& value = buffer.front();
         for (const std::uint64_t word : value) {
-            torn += word != value[0] ? 1 : 0;
+            torn += word != value[0] ? 1U : 0U;
         }
-        older += value[0] < last || is_new != (value[0] > last) ? 1 : 0;
+        older += value[0] < last || is_new != (value[0] > last) ? 1U : 0U;
         last = value[0];
     }
     writer.join();

@@ -1,0 +1,44 @@
+// A map larger than memory on the servo thread.
+#pragma once
+
+#include "core/terrain/resident_terrain.h"
+#include "haptics/loop/window_exchange.h"
+
+#include <memory>
+#include <utility>
+
+namespace marsview {
+
+/// The servo's end of a WindowExchange. Made by any thread, used by the servo alone: all but the
+/// constructor is wait-free and allocates and frees nothing.
+class ServoTerrain {
+public:
+    /// There is one for each exchange.
+    ServoTerrain(std::shared_ptr<WindowExchange> exchange,
+                 std::shared_ptr<const TileHeights> heights,
+                 const ResidentTerrainOptions& options = {})
+        : exchange_(std::move(exchange))
+        , terrain_(std::make_shared<ResidentTerrain>(
+              *exchange_->windows.front(), std::move(heights), options))
+    {}
+
+    /// For the contact model: TiledHeightfieldSurface.
+    std::shared_ptr<const TiledTerrain> terrain() const noexcept { return terrain_; }
+    ResidentTerrain& resident() noexcept { return *terrain_; }
+
+    /// At the begin of each tick, `seconds` after the last. Where it is true, heights near the hand
+    /// have changed: MapContactModel::terrainChanged().
+    bool refresh(const HandMotion& motion, double seconds) noexcept
+    {
+        exchange_->motion.write(motion);
+        const bool is_shown =
+            exchange_->windows.take() && terrain_->show(*exchange_->windows.front(), motion.at);
+        return terrain_->advance(motion.at, seconds) || is_shown;
+    }
+
+private:
+    std::shared_ptr<WindowExchange> exchange_;
+    std::shared_ptr<ResidentTerrain> terrain_;
+};
+
+} // namespace marsview

@@ -1,0 +1,22 @@
+// What the servo thread and the one that feeds its window tell each other.
+#pragma once
+
+#include "core/terrain/resident_window.h"
+#include "haptics/loop/hand_motion.h"
+#include "haptics/sync/seq_lock.h"
+#include "haptics/sync/triple_buffer.h"
+
+#include <memory>
+
+namespace marsview {
+
+struct WindowExchange {
+    explicit WindowExchange(const std::shared_ptr<const ResidentWindow>& window)
+        : windows(window)
+    {}
+
+    SeqLock<HandMotion> motion;                                  // the servo writes
+    TripleBuffer<std::shared_ptr<const ResidentWindow>> windows; // the servo reads
+};
+
+} // namespace marsview

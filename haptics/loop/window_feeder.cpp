@@ -1,0 +1,241 @@
+#include "haptics/loop/window_feeder.h"
+
+#include "core/base/check.h"
+#include "core/terrain/window_blend.h"
+#include "haptics/loop/page_lock.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// What loaders do is learned over that long.
+constexpr std::chrono::milliseconds kLearning{250};
+// A servo thread that says nothing for so long has stopped.
+constexpr std::chrono::seconds kSilence{1};
+constexpr double kTilesPerSecondMin = 1.0; // lest nothing fine be wanted ever again
+
+// A tile and its pages' lock, which ends with the last window that has the tile.
+struct LockedTile {
+    std::shared_ptr<const Tile> tile;
+    PageLock samples;
+    PageLock filled;
+};
+
+// Where tiles that arrive may be felt before they are in the next window but one: the tiles around
+// the hand, and one more. A hand that is faster feels no blending.
+SampleBox nearHand(const TileLayout& layout, GridPoint hand)
+{
+    const auto along = [](double at, std::size_t count) {
+        const double inside =
+            at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also where NaN
+        const std::size_t tile = static_cast<std::size_t>(inside) / kTileSide;
+        return std::pair{(std::max<std::size_t>(tile, 2) - 2) * kTileSide,
+                         std::min((tile + 3) * kTileSide, count) - 1};
+    };
+    const auto [left, right] = along(hand.column, layout.columns);
+    const auto [upper, lower] = along(hand.row, layout.rows);
+    return {left, right, upper, lower};
+}
+
+TileId idAt(const ResidentWindow::Level& level, std::size_t k, std::size_t i)
+{
+    return {TileKind::Samples, static_cast<std::uint8_t>(k),
+            level.first_column + static_cast<std::uint32_t>(i % level.columns),
+            level.first_row + static_cast<std::uint32_t>(i / level.columns)};
+}
+
+} // namespace
+
+Result<std::unique_ptr<WindowFeeder>>
+WindowFeeder::create(const TiledRaster& raster,
+                     std::shared_ptr<const TileHeights> heights,
+                     const WindowFeederOptions& options)
+{
+    const TileLayout& layout = raster.layout();
+    MARSVIEW_CHECK(heights && heights->layout().columns == layout.columns &&
+                   heights->layout().rows == layout.rows);
+    auto top = raster.get({TileKind::Samples, static_cast<std::uint8_t>(layout.topLevel()), 0, 0});
+    if (!top) {
+        return std::move(top).error();
+    }
+    return std::unique_ptr<WindowFeeder>(
+        new WindowFeeder(raster, std::move(heights), std::move(top).value(), options));
+}
+
+WindowFeeder::WindowFeeder(const TiledRaster& raster,
+                           std::shared_ptr<const TileHeights> heights,
+                           std::shared_ptr<const Tile> top,
+                           const WindowFeederOptions& options)
+    : raster_(raster)
+    , heights_(std::move(heights))
+    , options_(options)
+    , tiles_per_s_(options.plan.tiles_per_s)
+    , wishes_(raster_, TileUrgency::Hand, [this] {
+        {
+            const std::lock_guard lock(mutex_);
+            has_arrived_ = true;
+        }
+        changed_.notify_one();
+    })
+{
+    top_ = locked(std::move(top));
+    const std::vector<GridPoint> centres(heights_->layout().topLevel() + 1);
+    window_ = std::make_shared<const ResidentWindow>(heights_, top_, centres, options_.plan.sides);
+    exchange_ = std::make_shared<WindowExchange>(window_);
+}
+
+WindowFeeder::~WindowFeeder()
+{
+    stop();
+}
+
+void WindowFeeder::start()
+{
+    if (!thread_.joinable()) {
+        thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    }
+}
+
+void WindowFeeder::stop()
+{
+    if (thread_.joinable()) {
+        thread_.request_stop();
+        thread_.join();
+        thread_ = {};
+        want({});
+    }
+}
+
+WindowFeederStatistics WindowFeeder::statistics() const
+{
+    const std::lock_guard lock(mutex_);
+    return statistics_;
+}
+
+void WindowFeeder::run(const std::stop_token& stop)
+{
+    while (!stop.stop_requested()) {
+        const bool is_active = feed(Clock::now());
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, stop, is_active ? options_.active_period : options_.idle_period,
+                          [this] { return has_arrived_; });
+        has_arrived_ = false;
+    }
+}
+
+void WindowFeeder::want(std::vector<TileId> tiles)
+{
+    if (tiles != wanted_) {
+        wanted_ = std::move(tiles);
+        wishes_.want(wanted_);
+    }
+}
+
+void WindowFeeder::learnThroughput(Clock::time_point now, std::size_t arrived)
+{
+    arrived_count_ += arrived;
+    if (wanted_.empty()) { // loaders had nothing to do: nothing can be told
+        wanted_since_.reset();
+        arrived_count_ = 0;
+        return;
+    }
+    if (!wanted_since_) {
+        wanted_since_ = now;
+        arrived_count_ = 0;
+    } else if (now - *wanted_since_ >= kLearning) {
+        const double seconds = std::chrono::duration<double>(now - *wanted_since_).count();
+        const double seen = static_cast<double>(arrived_count_) / seconds;
+        tiles_per_s_ = std::max(0.5 * (tiles_per_s_ + seen), kTilesPerSecondMin);
+        wanted_since_ = now;
+        arrived_count_ = 0;
+    }
+}
+
+std::shared_ptr<const Tile> WindowFeeder::locked(std::shared_ptr<const Tile> tile)
+{
+    const auto held = std::make_shared<LockedTile>();
+    held->tile = std::move(tile);
+    const SampleGrid& samples = held->tile->samples;
+    held->samples = samples.visit([](auto view) {
+        return PageLock(view.data(), view.columns() * view.rows() * sizeof(*view.data()));
+    });
+    held->filled = {held->tile->filled_m.data(), held->tile->filled_m.size() * sizeof(float)};
+    const int error = held->samples.error() != 0 ? held->samples.error() : held->filled.error();
+    if (error != 0) {
+        const std::lock_guard lock(mutex_);
+        statistics_.lock_error = error;
+    }
+    return {held, held->tile.get()};
+}
+
+bool WindowFeeder::feed(Clock::time_point now)
+{
+    HandMotion motion = exchange_->motion.read();
+    const auto age = now.time_since_epoch() - std::chrono::nanoseconds(motion.time_ns);
+    if (!motion.is_active || age > kSilence) {
+        want({});
+        learnThroughput(now, 0);
+        return false;
+    }
+    const double seconds = std::clamp(std::chrono::duration<double>(age).count(), 0.0, 0.05);
+    motion.at.column += seconds * motion.columns_per_s;
+    motion.at.row += seconds * motion.rows_per_s;
+    WindowPlanOptions plan_options = options_.plan;
+    plan_options.tiles_per_s = tiles_per_s_;
+    const WindowPlan plan = planWindow(heights_->layout(), motion, plan_options);
+
+    auto next = std::make_shared<ResidentWindow>(heights_, top_, plan.centres, plan_options.sides);
+    // Before the tiles are looked for, lest one that arrives meanwhile be forgotten.
+    const std::uint64_t generation = raster_.generation();
+    bool is_changed = false;
+    std::vector<TileId> arrived;
+    for (std::size_t k = 0; k + 1 < next->levelCount(); ++k) {
+        const ResidentWindow::Level& level = next->level(k);
+        const ResidentWindow::Level& last = window_->level(k);
+        const bool has_moved =
+            level.first_column != last.first_column || level.first_row != last.first_row;
+        is_changed = is_changed || has_moved;
+        for (std::size_t i = 0; i < level.slots.size(); ++i) {
+            const TileId id = idAt(level, k, i);
+            const ResidentWindow::Slot* slot = window_->slot(id);
+            if (slot != nullptr && slot->tile) {
+                next->put(slot->tile, slot->difference_m);
+            } else if (generation != generation_ || has_moved) {
+                if (auto tile = raster_.find(id)) {
+                    next->put(locked(std::move(tile)), std::numeric_limits<double>::infinity());
+                    arrived.push_back(id);
+                }
+            }
+        }
+    }
+    generation_ = generation;
+    const SampleBox near = nearHand(heights_->layout(), motion.at);
+    for (const TileId& id : arrived) {
+        if (doOverlap(WindowBlend::reach(heights_->layout(), id), near)) {
+            next->put(next->slot(id)->tile, next->differenceFromCoarser(id));
+        }
+    }
+    if (is_changed || !arrived.empty()) {
+        window_ = std::move(next);
+        exchange_->windows.back() = window_;
+        exchange_->windows.publish();
+    }
+    learnThroughput(now, arrived.size());
+    // What a window holds need not stay in the cache.
+    std::vector<TileId> missing;
+    std::copy_if(plan.tiles.begin(), plan.tiles.end(), std::back_inserter(missing),
+                 [this](const TileId& id) { return !window_->has(id); });
+    want(std::move(missing));
+    const std::lock_guard lock(mutex_);
+    statistics_.published += is_changed || !arrived.empty() ? 1U : 0U;
+    statistics_.tiles_put += arrived.size();
+    statistics_.finest_level = plan.finest_level;
+    statistics_.tiles_per_s = tiles_per_s_;
+    return true;
+}
+
+} // namespace marsview

@@ -1,0 +1,135 @@
+#include "haptics/loop/window_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+
+namespace marsview {
+namespace {
+
+// Of what the loaders can do, the share that the corridor may take: the rest is for what was not
+// foreseen.
+constexpr double kShareOfLoaders = 0.7;
+// Tiles across the corridor that the hand may turn into.
+constexpr double kCorridorTiles = 3.0;
+constexpr int kPathPieces = 24;
+// As if the hand came into a tile half a tile beside it no sooner, in seconds.
+constexpr double kBeside = 1e-3;
+// From this level on all that a window covers is wanted: LevelFile keeps those levels.
+constexpr std::size_t kCheapLevel = 3;
+
+double tileWidth(std::size_t level)
+{
+    return static_cast<double>(kTileSide << level);
+}
+
+std::size_t finestLevelInTime(const TileLayout& layout,
+                              const HandMotion& motion,
+                              const WindowPlanOptions& options)
+{
+    const double samples_per_s = std::abs(motion.columns_per_s) + std::abs(motion.rows_per_s);
+    std::size_t level = 0;
+    while (level < layout.topLevel() && kCorridorTiles * samples_per_s / tileWidth(level) >
+                                            kShareOfLoaders * options.tiles_per_s) {
+        ++level;
+    }
+    return level;
+}
+
+// What a window around a centre covers, along one axis.
+struct Span {
+    std::size_t first;
+    std::size_t end;
+};
+
+struct Urgency {
+    double seconds;       // until the hand is near
+    std::size_t fineness; // coarse first
+    double distance;      // from where the hand is then, in tiles
+    auto key() const { return std::tie(seconds, fineness, distance); }
+};
+
+} // namespace
+
+WindowPlan
+planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanOptions& options)
+{
+    WindowPlan plan;
+    const std::size_t top = layout.topLevel();
+    plan.finest_level = finestLevelInTime(layout, motion, options);
+    const auto inside = [](double at, std::size_t count) {
+        return at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also where NaN
+    };
+    const auto hand_at = [&](double seconds) {
+        return GridPoint{inside(motion.at.column + seconds * motion.columns_per_s, layout.columns),
+                         inside(motion.at.row + seconds * motion.rows_per_s, layout.rows)};
+    };
+    const GridPoint hand = hand_at(0.0);
+    std::unordered_map<TileId, Urgency, TileIdHash> wanted;
+    for (std::size_t k = 0; k <= top; ++k) {
+        const double width = tileWidth(k);
+        const std::size_t side = k == 0 ? options.sides.finest : options.sides.coarser;
+        // The tiles around the hand stay covered.
+        const double lead = std::max(static_cast<double>(side) / 2.0 - 2.0, 0.0) * width;
+        const GridPoint ahead = hand_at(0.5 * options.lookahead_s);
+        const GridPoint centre{hand.column + std::clamp(ahead.column - hand.column, -lead, lead),
+                               hand.row + std::clamp(ahead.row - hand.row, -lead, lead)};
+        plan.centres.push_back(centre);
+        if (k < plan.finest_level || k == top) {
+            continue;
+        }
+        const auto span = [&](double at, std::size_t tiles) {
+            const std::size_t first =
+                ResidentWindow::firstTile(at, k, tiles, std::min(side, tiles));
+            return Span{first, first + std::min(side, tiles)};
+        };
+        const Span columns = span(centre.column, layout.tileColumns(TileKind::Samples, k));
+        const Span rows = span(centre.row, layout.tileRows(TileKind::Samples, k));
+        for (std::size_t row = rows.first; row < rows.end; ++row) {
+            for (std::size_t column = columns.first; column < columns.end; ++column) {
+                // Beside the hand by so many tiles; 0 where it is inside.
+                const auto beside = [&](double seconds) {
+                    const GridPoint at = hand_at(seconds);
+                    const auto along = [&](double position, std::size_t tile) {
+                        const double from = position / width - static_cast<double>(tile);
+                        return std::max({-from, from - 1.0, 0.0});
+                    };
+                    return std::max(along(at.column, column), along(at.row, row));
+                };
+                const double distance = beside(0.0);
+                double seconds = 2.0 * options.lookahead_s;
+                if (distance == 0.0) {
+                    seconds = 0.0;
+                } else if (distance <= 1.0) {
+                    seconds = options.lookahead_s;
+                }
+                for (int i = 0; distance > 0.0 && i <= kPathPieces; ++i) {
+                    const double t = options.lookahead_s * i / kPathPieces;
+                    if (beside(t) <= 0.5) {
+                        seconds = std::clamp(t, kBeside, seconds);
+                        break;
+                    }
+                }
+                if (seconds <= options.lookahead_s || k >= kCheapLevel) {
+                    const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
+                                    static_cast<std::uint32_t>(column),
+                                    static_cast<std::uint32_t>(row)};
+                    wanted.emplace(id, Urgency{seconds, top - k, distance});
+                }
+            }
+        }
+    }
+    for (const auto& [id, urgency] : wanted) {
+        plan.tiles.push_back(id);
+    }
+    std::sort(plan.tiles.begin(), plan.tiles.end(), [&](const TileId& a, const TileId& b) {
+        const auto place = [](const TileId& id) { return std::tie(id.level, id.row, id.column); };
+        const Urgency& u = wanted.at(a);
+        const Urgency& v = wanted.at(b);
+        return u.key() != v.key() ? u.key() < v.key() : place(a) < place(b);
+    });
+    return plan;
+}
+
+} // namespace marsview

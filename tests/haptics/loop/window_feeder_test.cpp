@@ -1,0 +1,272 @@
+#include "haptics/loop/servo_terrain.h"
+#include "haptics/loop/window_feeder.h"
+#include "tests/support/fractal_terrain.h"
+#include "tests/support/make_terrain.h"
+#include "tests/support/random.h"
+#include "tests/support/tiled_map.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using test::Random;
+using test::samplesTile;
+using test::TiledMap;
+using Clock = WindowFeeder::Clock;
+
+constexpr std::size_t kColumns = 2300;
+constexpr std::size_t kRows = 1700;
+
+TiledMap swissMap(test::GridTileSource::Options options = {})
+{
+    const auto heights = test::fractalHeights(kColumns, kRows, 9);
+    return test::tiledMap(test::int16Terrain(kColumns, kRows, {.gain = 0.01},
+                                             [&](std::size_t column, std::size_t row) {
+                                                 return static_cast<double>(
+                                                     heights[row * kColumns + column]);
+                                             }),
+                          std::move(options));
+}
+
+HandMotion handAt(GridPoint at, GridPoint per_second = {})
+{
+    return {.at = at,
+            .columns_per_s = per_second.column,
+            .rows_per_s = per_second.row,
+            .time_ns = std::chrono::nanoseconds(Clock::now().time_since_epoch()).count(),
+            .is_active = true};
+}
+
+/// Whether the 3 × 3 tiles around a place can be felt at full resolution.
+bool isFineAround(const ResidentWindow& window, GridPoint at)
+{
+    for (const double dc : {-256.0, 0.0, 256.0}) {
+        for (const double dr : {-256.0, 0.0, 256.0}) {
+            const double column = at.column + dc;
+            const double row = at.row + dr;
+            if (column >= 0.0 && row >= 0.0 && column < kColumns && row < kRows &&
+                !window.has(samplesTile(0, static_cast<std::size_t>(column) / 256,
+                                        static_cast<std::size_t>(row) / 256))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+TEST(WindowFeeder, EverythingOnTheHandsWayIsThereInTheEnd)
+{
+    const TiledMap map = swissMap();
+    // Less than a window.
+    const TileCache cache({.bytes_max = std::size_t{1} << 20, .loader_threads = 2});
+    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    ServoTerrain servo(feeder->exchange(), feeder->heights());
+    feeder->start();
+    for (const GridPoint at : {GridPoint{100.0, 100.0}, GridPoint{1200.0, 900.0},
+                               GridPoint{2299.0, 1699.0}, GridPoint{130.0, 90.0}}) {
+        while (!isFineAround(servo.resident().window(), at)) {
+            servo.refresh(handAt(at), 0.001);
+            std::this_thread::yield();
+        }
+        // Blended for a while; then it is the truth.
+        for (int tick = 0; !servo.resident().blend().isEmpty(); ++tick) {
+            ASSERT_LT(tick, 10'000'000);
+            servo.refresh(handAt(at), 0.001);
+        }
+        const auto column = static_cast<std::size_t>(at.column);
+        const auto row = static_cast<std::size_t>(at.row);
+        EXPECT_EQ(servo.terrain()->sample(column, row), map.filled->sample(column, row));
+    }
+    feeder->stop();
+    EXPECT_GT(feeder->statistics().tiles_put, 30U);
+    EXPECT_GT(feeder->statistics().published, 4U);
+    EXPECT_GT(feeder->statistics().tiles_per_s, 0.0);
+}
+
+TEST(WindowFeeder, HasTheTilesAheadOfAHandThatMovesOn)
+{
+    const TiledMap map = swissMap();
+    const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
+    const TiledRaster raster(cache, map.source);
+    const auto feeder = WindowFeeder::create(raster, map.heights).value();
+    ServoTerrain servo(feeder->exchange(), feeder->heights());
+    // One cell a millisecond, and time for a tile every five of them, and not for half of the map.
+    GridPoint at{300.0, 800.0};
+    std::uint64_t missed = 0;
+    for (int tick = 0; tick < 1500; ++tick) {
+        servo.refresh(handAt(at, {1000.0, 0.0}), 0.001);
+        if (tick % 5 == 0) {
+            ASSERT_TRUE(feeder->feed(Clock::now()));
+            // As fast as it may be, however slow the machine is.
+            for (const TileId& id : planWindow(map.layout(), handAt(at, {1000.0, 0.0}), {}).tiles) {
+                if (raster.find(id) == nullptr) {
+                    ASSERT_TRUE(raster.get(id));
+                    break;
+                }
+            }
+        }
+        if (tick > 500) {
+            const std::uint64_t before = servo.resident().misses().count;
+            servo.terrain()->sample(static_cast<std::size_t>(at.column),
+                                    static_cast<std::size_t>(at.row));
+            missed += servo.resident().misses().count - before;
+        }
+        at.column += 1.0;
+    }
+    EXPECT_EQ(missed, 0U);
+}
+
+TEST(WindowFeeder, WantsNothingWithoutAHand)
+{
+    const TiledMap map = swissMap();
+    const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
+    const TiledRaster raster(cache, map.source);
+    const auto feeder = WindowFeeder::create(raster, map.heights).value();
+    const std::uint64_t read = map.source->readCount();
+    EXPECT_EQ(read, 1U) << "the coarsest tile";
+    EXPECT_FALSE(feeder->feed(Clock::now()));
+    feeder->exchange()->motion.write(handAt({700.0, 700.0}));
+    EXPECT_FALSE(feeder->feed(Clock::now() + std::chrono::seconds(5))) << "long silent";
+    EXPECT_EQ(feeder->statistics().published, 0U);
+    EXPECT_EQ(map.source->readCount(), read);
+    EXPECT_TRUE(feeder->feed(Clock::now()));
+}
+
+TEST(WindowFeeder, StopsAtOnceWhileTilesAreOnTheirWay)
+{
+    std::atomic<bool> is_open{false};
+    std::atomic<int> waiting{0};
+    const TiledMap map = swissMap({.before_read = [&](const TileId& id) -> std::optional<Error> {
+        if (id.level < 4) {
+            ++waiting;
+            is_open.wait(false);
+        }
+        return std::nullopt;
+    }});
+    const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
+    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    feeder->exchange()->motion.write(handAt({700.0, 700.0}));
+    feeder->start();
+    while (waiting == 0) {
+        feeder->exchange()->motion.write(handAt({700.0, 700.0}));
+        std::this_thread::yield();
+    }
+    feeder->stop(); // while the loader waits
+    const std::uint64_t read = map.source->readCount();
+    is_open = true;
+    is_open.notify_all();
+    EXPECT_LE(map.source->readCount(), read);
+    feeder->start(); // and goes on
+    while (!isFineAround(*feeder->exchange()->windows.front(), {700.0, 700.0})) {
+        feeder->exchange()->motion.write(handAt({700.0, 700.0}));
+        feeder->exchange()->windows.take();
+        std::this_thread::yield();
+    }
+}
+
+TEST(WindowFeeder, GoesOnWhereTilesFailAndHasThemWhenTheyCanBeRead)
+{
+    std::atomic<bool> is_broken{true};
+    std::atomic<int> failures{0};
+    const TiledMap map = swissMap({.before_read = [&](const TileId& id) -> std::optional<Error> {
+        if (is_broken && id.level == 0) {
+            ++failures;
+            return Error{ErrorCode::Unreadable, "no luck"};
+        }
+        return std::nullopt;
+    }});
+    const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
+    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    ServoTerrain servo(feeder->exchange(), feeder->heights());
+    const GridPoint at{900.0, 700.0};
+    feeder->start();
+    while (failures < 9 || !servo.resident().window().has(samplesTile(1, 1, 1))) {
+        servo.refresh(handAt(at), 0.001);
+        std::this_thread::yield();
+    }
+    servo.terrain()->sample(901, 701);
+    EXPECT_GT(servo.resident().misses().count, 0U);
+    is_broken = false;
+    while (!isFineAround(servo.resident().window(), at)) {
+        servo.refresh(handAt(at), 0.001);
+        std::this_thread::yield();
+    }
+}
+
+TEST(WindowFeeder, NoTileOutlivesTheWindowsThatHaveIt)
+{
+    const TiledMap map = swissMap();
+    const TileCache cache({.bytes_max = 0, .loader_threads = 1}); // keeps nothing itself
+    const TiledRaster raster(cache, map.source);
+    auto feeder = WindowFeeder::create(raster, map.heights).value();
+    const auto exchange = feeder->exchange();
+    const GridPoint first{100.0, 100.0};
+    const GridPoint second{2200.0, 1600.0};
+    exchange->motion.write(handAt(first));
+    std::weak_ptr<const ResidentWindow> old;
+    feeder->feed(Clock::now());
+    ASSERT_TRUE(exchange->windows.take());
+    old = exchange->windows.front();
+    // The servo has it, whatever is published meanwhile.
+    for (int i = 0; i < 6; ++i) {
+        exchange->motion.write(handAt(i % 2 == 0 ? second : first));
+        feeder->feed(Clock::now());
+        EXPECT_FALSE(old.expired());
+    }
+    ASSERT_TRUE(exchange->windows.take());
+    EXPECT_FALSE(old.expired()) << "freed by the feeder, not by the servo";
+    for (int i = 0; i < 3; ++i) {
+        exchange->motion.write(handAt(i % 2 == 0 ? second : first));
+        feeder->feed(Clock::now());
+    }
+    EXPECT_TRUE(old.expired());
+    feeder.reset();
+    EXPECT_NE(exchange->windows.front(), nullptr) << "the servo's lives on";
+}
+
+TEST(WindowFeeder, AServoAtWorkNeverWaitsAndNeverReadsWhatIsGone)
+{
+    // For the thread and address sanitizers.
+    Random random;
+    const TiledMap map = swissMap();
+    const TileCache cache({.bytes_max = std::size_t{512} << 10, .loader_threads = 2});
+    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    feeder->start();
+    std::atomic<bool> is_done{false};
+    std::thread servo_thread([&] {
+        ServoTerrain servo(feeder->exchange(), feeder->heights());
+        GridPoint at{500.0, 500.0};
+        GridPoint velocity{3.0, 2.0};
+        for (int tick = 0; tick < 60'000; ++tick) {
+            at = {at.column + velocity.column, at.row + velocity.row};
+            if (at.column < 0.0 || at.column >= kColumns - 1.0) {
+                velocity.column = -velocity.column;
+                at.column += 2.0 * velocity.column;
+            }
+            if (at.row < 0.0 || at.row >= kRows - 1.0) {
+                velocity.row = -velocity.row;
+                at.row += 2.0 * velocity.row;
+            }
+            servo.refresh(handAt(at, {1e3 * velocity.column, 1e3 * velocity.row}), 0.001);
+            const auto column = static_cast<std::size_t>(at.column);
+            const auto row = static_cast<std::size_t>(at.row);
+            const double height = servo.terrain()->sample(column, row);
+            ASSERT_LE(height, map.heights->ceiling(column, row));
+        }
+        is_done = true;
+    });
+    servo_thread.join();
+    EXPECT_TRUE(is_done);
+    feeder->stop();
+}
+
+} // namespace
+} // namespace marsview
