@@ -6,10 +6,14 @@
 
 namespace marsview {
 
-WaitingTerrain::WaitingTerrain(TiledRaster raster, std::shared_ptr<const TileHeights> heights)
+WaitingTerrain::WaitingTerrain(TiledRaster raster,
+                               std::shared_ptr<const TileHeights> heights,
+                               std::size_t tiles_max)
     : TiledTerrain(std::move(heights))
     , raster_(std::move(raster))
+    , tiles_max_(tiles_max)
 {
+    MARSVIEW_CHECK(tiles_max >= 1 && tiles_max <= kTilesMax);
     MARSVIEW_CHECK(raster_.layout().columns == columns() && raster_.layout().rows == rows() &&
                    raster_.layout().type == this->heights().layout().type);
 }
@@ -30,10 +34,19 @@ const Tile* WaitingTerrain::fetch(std::size_t column, std::size_t row) const noe
         return nullptr;
     }
     MARSVIEW_CHECK(TileHeights::isTouchable(**tile));
-    std::shared_ptr<const Tile>& place = tiles_[placeOf(id.column, id.row)];
-    place = std::move(tile).value();
-    setAtHand(*place);
-    return place.get();
+    const std::size_t place = placeOf(id.column, id.row);
+    if (!tiles_[place]) {
+        if (places_.size() == tiles_max_) {
+            std::shared_ptr<const Tile>& oldest = tiles_[places_.front()];
+            clearPlace(oldest->id.column, oldest->id.row);
+            oldest.reset();
+            places_.pop_front();
+        }
+        places_.push_back(place);
+    }
+    tiles_[place] = std::move(tile).value();
+    setAtHand(*tiles_[place]);
+    return tiles_[place].get();
 }
 
 bool WaitingTerrain::isVoid(std::size_t column, std::size_t row) const noexcept

@@ -9,18 +9,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 
 namespace marsview {
 
 /// The heights of FilledHeightfield to the bit, at full resolution, always. A tile that is not at
-/// hand is fetched while the height is read, and holds up to 64 of them. For one thread at a time,
-/// and never the servo's: it locks, allocates and reads from disk.
+/// hand is fetched while the height is read. For one thread at a time, and never the servo's: it
+/// locks, allocates and reads from disk.
 class WaitingTerrain final : public TiledTerrain {
 public:
-    /// `heights` have the layout of the raster.
-    WaitingTerrain(TiledRaster raster, std::shared_ptr<const TileHeights> heights);
+    static constexpr std::size_t kTilesMax = std::size_t{kPlacesASide} * kPlacesASide;
+
+    /// `heights` have the layout of the raster. Holds on to `tiles_max` tiles, 1 to kTilesMax.
+    WaitingTerrain(TiledRaster raster,
+                   std::shared_ptr<const TileHeights> heights,
+                   std::size_t tiles_max = kTilesMax);
 
     bool isVoid(std::size_t column, std::size_t row) const noexcept override;
 
@@ -35,8 +40,9 @@ private:
     const Tile* fetch(std::size_t column, std::size_t row) const noexcept;
 
     TiledRaster raster_;
-    mutable std::array<std::shared_ptr<const Tile>, std::size_t{kPlacesASide} * kPlacesASide>
-        tiles_;
+    std::size_t tiles_max_;
+    mutable std::array<std::shared_ptr<const Tile>, kTilesMax> tiles_; // by place
+    mutable std::deque<std::size_t> places_; // that are taken, in the order of their taking
     mutable std::optional<Error> error_;
     mutable std::uint64_t fetch_count_ = 0;
 };

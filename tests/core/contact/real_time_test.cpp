@@ -1,7 +1,11 @@
 // Replaces operator new of this test program, and of no other, to count what is allocated.
 #include "core/contact/contact_model.h"
+#include "core/terrain/resident_terrain.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/core/mesh/mesh_shapes.h"
+#include "tests/support/fractal_terrain.h"
+#include "tests/support/make_terrain.h"
+#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +21,7 @@
 namespace {
 
 std::atomic<long> allocation_count{0};
+std::atomic<long> free_count{0};
 
 void* counted(std::size_t bytes)
 {
@@ -51,18 +56,22 @@ void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
 }
 void operator delete(void* memory) noexcept
 {
+    free_count.fetch_add(1, std::memory_order_relaxed);
     std::free(memory); // NOLINT
 }
 void operator delete[](void* memory) noexcept
 {
+    free_count.fetch_add(1, std::memory_order_relaxed);
     std::free(memory); // NOLINT
 }
 void operator delete(void* memory, std::size_t) noexcept
 {
+    free_count.fetch_add(1, std::memory_order_relaxed);
     std::free(memory); // NOLINT
 }
 void operator delete[](void* memory, std::size_t) noexcept
 {
+    free_count.fetch_add(1, std::memory_order_relaxed);
     std::free(memory); // NOLINT
 }
 
@@ -75,8 +84,11 @@ static_assert(noexcept(std::declval<ContactModel&>().place(ScenePoint{})));
 TEST(RealTime, TheCounterCounts)
 {
     const long before = allocation_count.load();
-    const auto made = std::make_unique<std::vector<int>>(100);
+    auto made = std::make_unique<std::vector<int>>(100);
     EXPECT_EQ(allocation_count.load(), before + 2);
+    const long freed_before = free_count.load();
+    made.reset();
+    EXPECT_EQ(free_count.load(), freed_before + 2);
 }
 
 class ContactModelRealTime : public testing::TestWithParam<ContactModelKind> {};
@@ -103,6 +115,51 @@ TEST_P(ContactModelRealTime, AllocatesNothingOverMaps)
             EXPECT_EQ(allocation_count.load(), before) << name;
         }
     }
+}
+
+TEST_P(ContactModelRealTime, AllocatesAndFreesNothingOverTilesThatArrive)
+{
+    test::Random random;
+    const auto heights = test::fractalHeights(900, 700, 2);
+    const test::TiledMap map = test::tiledMap(
+        test::floatTerrain(900, 700, [&heights](std::size_t column, std::size_t row) {
+            return static_cast<double>(heights[row * 900 + column]);
+        }));
+    const SceneFrame frame = test::unitFrame(*map.filled);
+    const HeightfieldSurface truth(map.filled, frame, 1.0);
+    // All windows are made beforehand: a feeder's work.
+    std::vector<std::unique_ptr<ResidentWindow>> windows;
+    windows.push_back(std::make_unique<ResidentWindow>(map.window({450.0, 350.0})));
+    for (const TileId& id : test::tilesOf(*windows.front())) {
+        auto next = std::make_unique<ResidentWindow>(*windows.back());
+        next->put(map.tile(id), 0.0);
+        next->put(next->slot(id)->tile, next->differenceFromCoarser(id));
+        windows.push_back(std::move(next));
+    }
+    const auto terrain = std::make_shared<ResidentTerrain>(
+        *windows.front(), map.heights, ResidentTerrainOptions{.rate_m_per_s = 5.0});
+    const auto model = makeContactModel(GetParam(), TiledHeightfieldSurface(terrain, frame, 1.0),
+                                        {.radius_m = 0.3});
+    std::vector<ScenePoint> goals(3000);
+    ScenePoint goal{};
+    for (ScenePoint& next : goals) {
+        next = goal = test::wanderingGoal(random, truth, goal, 5.0);
+    }
+    const long before = allocation_count.load();
+    const long freed_before = free_count.load();
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+        const GridPoint hand = frame.toGrid(model->state().proxy);
+        if (i % 100 == 50 && i / 100 < windows.size()) {
+            terrain->show(*windows[i / 100], hand);
+        }
+        if (terrain->advance(hand, 0.001)) {
+            model->terrainChanged();
+        }
+        model->update(goals[i]);
+    }
+    EXPECT_EQ(allocation_count.load(), before);
+    EXPECT_EQ(free_count.load(), freed_before);
+    EXPECT_GT(terrain->misses().count, 1000U);
 }
 
 TEST_P(ContactModelRealTime, AllocatesNothingOverMeshes)

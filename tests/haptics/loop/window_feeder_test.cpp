@@ -210,21 +210,21 @@ TEST(WindowFeeder, NoTileOutlivesTheWindowsThatHaveIt)
     const auto exchange = feeder->exchange();
     const GridPoint first{100.0, 100.0};
     const GridPoint second{2200.0, 1600.0};
-    exchange->motion.write(handAt(first));
+    exchange->motion.write(handAt(second));
     std::weak_ptr<const ResidentWindow> old;
     feeder->feed(Clock::now());
     ASSERT_TRUE(exchange->windows.take());
     old = exchange->windows.front();
     // The servo has it, whatever is published meanwhile.
     for (int i = 0; i < 6; ++i) {
-        exchange->motion.write(handAt(i % 2 == 0 ? second : first));
+        exchange->motion.write(handAt(i % 2 == 0 ? first : second));
         feeder->feed(Clock::now());
         EXPECT_FALSE(old.expired());
     }
     ASSERT_TRUE(exchange->windows.take());
     EXPECT_FALSE(old.expired()) << "freed by the feeder, not by the servo";
     for (int i = 0; i < 3; ++i) {
-        exchange->motion.write(handAt(i % 2 == 0 ? second : first));
+        exchange->motion.write(handAt(i % 2 == 0 ? first : second));
         feeder->feed(Clock::now());
     }
     EXPECT_TRUE(old.expired());

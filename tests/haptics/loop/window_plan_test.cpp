@@ -79,7 +79,7 @@ TEST(WindowPlan, BeginsUnderTheHandFromCoarseToFine)
 TEST(WindowPlan, FollowsTheHandsWayInTheOrderOfItsTime)
 {
     // Three tiles to the right within the time looked ahead.
-    const GridPoint at{30'000.0, 20'200.0};
+    const GridPoint at{30'150.0, 20'200.0};
     const WindowPlan plan =
         planWindow(kLayout, {.at = at, .columns_per_s = 1400.0, .is_active = true},
                    {.sides = {}, .tiles_per_s = 1000.0});
