@@ -39,6 +39,7 @@ int run(int argc, char** argv)
     bench->require_subcommand(1);
     marsview::addBenchViewCommand(*bench, action);
     marsview::addBenchContactCommand(*bench, action);
+    marsview::addBenchTerrainCommand(*bench, action);
     addVersionTo(app);
     try {
         app.parse(argc, argv);
