@@ -273,21 +273,25 @@ void DetailedHeights::measure()
     while (static_cast<double>(std::size_t{1} << octaves) < 0.75 * sample) {
         ++octaves;
     }
-    constexpr int kEnough = 60;
     double sum = 0.0;
     double gain = 1.0; // squared, of the octave with a lattice of one sample
     double width = 1.0;
-    for (int k = 0; k < kEnough; ++k) {
-        sum += gain * squaredDifference(sample / width);
-        width *= 2.0;
+    double term = 0.0;
+    for (; width < 32.0 * sample; width *= 2.0) {
+        term = gain * squaredDifference(sample / width);
+        sum += term;
         gain /= squared_ratio;
     }
+    // From there on splines are parabolas, and the octaves' shares a geometric series.
+    const double growth = 0.25 / squared_ratio;
+    sum += term * growth / (1.0 - growth);
+    constexpr int kNarrower = 40;
     gain = squared_ratio;
     width = 0.5;
-    for (int k = 0; k < kEnough; ++k) {
+    for (int k = 0; k < kNarrower; ++k) {
         sum += gain * squaredDifference(sample / width);
-        width /= 2.0;
         gain *= squared_ratio;
+        width /= 2.0;
     }
     gain = 1.0 / sum;
     for (std::size_t k = 0; k < octaves; ++k) {
