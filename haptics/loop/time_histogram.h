@@ -1,0 +1,95 @@
+// How long things took, counted without allocating.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+namespace marsview {
+
+/// Counts spans of time in buckets whose widths are 1/32 of what they hold, from 1 ns to 18
+/// minutes; longer ones count as that, shorter ones as 0. A value of 9 KB; for one thread at a
+/// time, the servo's too.
+class TimeHistogram {
+public:
+    using Span = std::chrono::nanoseconds;
+
+    void record(Span span) noexcept
+    {
+        const auto ns = span.count() < 0 ? 0U : static_cast<std::uint64_t>(span.count());
+        ++counts_[bucketOf(ns)];
+        ++count_;
+        sum_ += span.count() < 0 ? Span{0} : span;
+        maximum_ = span > maximum_ ? span : maximum_;
+    }
+    void merge(const TimeHistogram& other) noexcept
+    {
+        for (std::size_t i = 0; i < counts_.size(); ++i) {
+            counts_[i] += other.counts_[i];
+        }
+        count_ += other.count_;
+        sum_ += other.sum_;
+        maximum_ = other.maximum_ > maximum_ ? other.maximum_ : maximum_;
+    }
+
+    std::uint64_t count() const noexcept { return count_; }
+    /// Exact; 0 where nothing was recorded.
+    Span maximum() const noexcept { return maximum_; }
+    double meanNanoseconds() const noexcept
+    {
+        return count_ == 0 ? 0.0 : static_cast<double>(sum_.count()) / static_cast<double>(count_);
+    }
+    /// A bound that `share` of the spans, in [0, 1], keep to: at most 1/32 more than the longest of
+    /// them, and never more than the maximum.
+    Span quantile(double share) const noexcept
+    {
+        const double wanted = share * static_cast<double>(count_);
+        std::uint64_t below = 0;
+        for (std::size_t i = 0; i < counts_.size(); ++i) {
+            below += counts_[i];
+            if (below > 0 && static_cast<double>(below) >= wanted) {
+                const auto end = static_cast<Span::rep>(endOf(i));
+                return Span{end} < maximum_ ? Span{end} : maximum_;
+            }
+        }
+        return maximum_;
+    }
+
+private:
+    static constexpr unsigned kBits = 5; // of the mantissa
+    static constexpr std::uint64_t kParts = 1U << kBits;
+    static constexpr unsigned kExponentMax = 40;
+
+    static constexpr std::size_t bucketOf(std::uint64_t ns) noexcept
+    {
+        if (ns < kParts) {
+            return static_cast<std::size_t>(ns);
+        }
+        const auto exponent = static_cast<unsigned>(std::bit_width(ns)) - 1;
+        if (exponent >= kExponentMax) {
+            return kBuckets - 1;
+        }
+        const unsigned shift = exponent - kBits;
+        return static_cast<std::size_t>((shift + 1) * kParts + ((ns >> shift) - kParts));
+    }
+    // The largest span of a bucket.
+    static constexpr std::uint64_t endOf(std::size_t bucket) noexcept
+    {
+        if (bucket < kParts) {
+            return bucket;
+        }
+        const auto shift = static_cast<unsigned>(bucket / kParts) - 1;
+        return ((kParts + bucket % kParts + 1) << shift) - 1;
+    }
+
+    static constexpr std::size_t kBuckets = (kExponentMax - kBits + 1) * kParts;
+
+    std::array<std::uint64_t, kBuckets> counts_{};
+    std::uint64_t count_ = 0;
+    Span sum_{0};
+    Span maximum_{0};
+};
+
+} // namespace marsview
