@@ -1,5 +1,7 @@
 #include "core/raster/source_identity.h"
 
+#include "core/raster/remote_raster.h"
+
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/raster_path.h"
 
@@ -198,7 +200,9 @@ Result<SourceIdentity> identify(const std::string& path)
 
 bool isSameContent(const SourceIdentity& then, const SourceIdentity& now)
 {
-    return then.bytes == now.bytes && then.modified_s == now.modified_s &&
+    // A file that went to a server has the time at which it came there.
+    const bool is_at_server = remoteNameFor(now.path).has_value();
+    return then.bytes == now.bytes && (is_at_server || then.modified_s == now.modified_s) &&
            then.digest == now.digest;
 }
 

@@ -23,7 +23,7 @@ struct SourceIdentity {
 Result<SourceIdentity> identify(const std::string& path);
 
 /// Whether `now` is what `then` was. The path does not count: a file may move together with what
-/// was made from it.
+/// was made from it; nor does the time where `now` is an address.
 bool isSameContent(const SourceIdentity& then, const SourceIdentity& now);
 
 } // namespace marsview

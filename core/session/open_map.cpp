@@ -4,6 +4,7 @@
 #include "core/base/file_lock.h"
 #include "core/raster/geotiff_tile_source.h"
 #include "core/raster/map_folder.h"
+#include "core/raster/mean_samples_source.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
@@ -136,6 +137,43 @@ Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource
     return opened;
 }
 
+// From the overviews of a raster that nobody has prepared.
+Result<OpenedTiles> openWithoutLevels(const std::shared_ptr<const GeotiffTileSource>& raster,
+                                      const RasterInfo& info,
+                                      JobMonitor& monitor)
+{
+    const ElevationScale scale = info.elevationScale();
+    Result<MapLevels> levels = estimateLevels(*raster, scale, monitor);
+    if (!levels) {
+        return std::move(levels).error();
+    }
+    OpenedTiles opened;
+    opened.source = mapTileSource({.raster = samplesFromMeans(raster),
+                                   .level_path = std::nullopt,
+                                   .level_key = {},
+                                   .analysis = levels->analysis,
+                                   .scale = scale,
+                                   .layout = raster->layout()});
+    opened.levels = std::make_shared<const MapLevels>(std::move(*levels));
+    return opened;
+}
+
+// What came from a server is kept on disk.
+void keepFetched(const OpenPlan& plan,
+                 const MapResources& resources,
+                 const RasterInfo& info,
+                 OpenedTiles& opened)
+{
+    if (!resources.fetched_tiles || info.remote_version.empty()) {
+        return;
+    }
+    const ElevationScale scale = info.elevationScale();
+    const std::string key = fmt::format(
+        "{}\n{}\nband {}\n{}\ngain {} offset {}\n{}", info.path, info.remote_version, info.band,
+        settingsOf(info), scale.gain, scale.offset_m, plan.level_path ? "levels" : "no levels");
+    opened.source = cachedOnDisk(opened.source, resources.fetched_tiles, key);
+}
+
 // A source together with what keeps its files from being removed.
 struct SourceInUse {
     std::shared_ptr<const TileSource> source;
@@ -171,6 +209,8 @@ MapResources defaultMapResources()
         TileCacheOptions{.bytes_max = megabytesFrom("MARSVIEW_CACHE_MB", quarter),
                          .loader_threads = std::max(2U, std::thread::hardware_concurrency())});
     resources.folder = MapFolder::defaultPath();
+    resources.fetched_tiles = std::make_shared<TileDiskCache>(
+        TileDiskCacheOptions{.folder = (resources.folder / "fetched").string()});
     return resources;
 }
 
@@ -288,6 +328,7 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
     if (!plan.level_path) {
         map->info.notices.push_back("its detail is estimated: there is no level file beside it");
     }
+    keepFetched(plan, resources, map->info, *opened);
     keepInUse(plan, resources, *opened);
     Result<std::shared_ptr<const TiledSamples>> tiles =
         TiledSamples::open(TiledRaster(*resources.tiles, opened->source));

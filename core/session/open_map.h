@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/raster/tile_cache.h"
+#include "core/raster/tile_disk_cache.h"
 #include "core/session/dataset.h"
 #include "core/session/loaded_map.h"
 
@@ -23,7 +24,9 @@ struct MapResources {
     std::size_t held_bytes_max = std::size_t{1} << 30;
     /// Where prepared maps are kept, and how many bytes of them.
     std::filesystem::path folder;
-    std::uint64_t folder_bytes_max = 0;
+    std::uint64_t folder_bytes_max = 0; // 0: MapFolder::defaultBytesMax()
+    /// Tiles that came from servers; may be null.
+    std::shared_ptr<TileDiskCache> fetched_tiles;
 };
 
 /// A quarter of memory for tiles, as much for maps that are held; the user's cache folder. The

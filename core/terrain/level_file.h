@@ -79,7 +79,7 @@ private:
 };
 
 struct LevelBuild {
-    TileSource* source = nullptr; // level 0 is read, in bands of whole rows of tiles
+    const TileSource* source = nullptr; // level 0 is read, in bands of whole rows of tiles
     ElevationScale scale;
     LevelFileKey key;
     std::string path; // written beside itself and moved there when whole

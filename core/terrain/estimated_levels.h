@@ -1,0 +1,36 @@
+// What can be known of a whole map from its overviews alone: enough to draw it and to skip most of
+// it, for maps at a server that have no level file beside them.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/raster/raster_info.h"
+#include "core/raster/tile_source.h"
+#include "core/terrain/level_file.h"
+
+#include <cstddef>
+
+namespace marsview {
+
+/// Overviews of up to so many means are read, half a megabyte to two of a compressed map.
+inline constexpr std::size_t kEstimateMeansMax = std::size_t{1} << 20;
+
+/// Reads one level of Means of `source` and estimates what a level file would tell. Exact, from the
+/// samples, where the source has no Means and is that small itself; TooLarge where it has no level
+/// of Means of at most `means_max`.
+///
+///  - means: those of the overview;
+///  - bounds: the lowest and highest mean around each node, widened by a multiple of how much means
+///    differ there. Measured on maps of the Moon, Mars and the Earth and on fractals, one sample in
+///    a thousand or fewer lies outside; a ray may miss such a peak;
+///  - errors: measured between the coarse levels, and by the power law that these follow for the
+///    finer ones. Half to twice what would be measured, as a rule;
+///  - statistics: from all of these.
+///
+/// Waits for the source: not for the GUI thread. What the source says when it fails, Cancelled.
+Result<MapLevels> estimateLevels(const TileSource& source,
+                                 const ElevationScale& scale,
+                                 JobMonitor& monitor,
+                                 std::size_t means_max = kEstimateMeansMax);
+
+} // namespace marsview
