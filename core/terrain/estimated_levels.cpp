@@ -9,7 +9,10 @@
 //
 //     E(2)² / E(1)² = 2^(2 H) + 1,
 //
-// and e(K + j) = E(j) / sqrt(1 - 2^(-2 H j)), node by node.
+// and e(K + j) = E(j) / sqrt(1 - 2^(-2 H j)), node by node. How smooth terrain is below the
+// overview it does not tell: maps may be made from coarser data. So a few tiles at full resolution
+// are read, where E(1) is small, middling and large, and what they have for e(1), e(2) and e(3) in
+// units of E(1) there goes for all nodes; the levels between lie on a power law.
 
 #include "core/terrain/estimated_levels.h"
 
@@ -17,6 +20,7 @@
 #include "core/terrain/drawn_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -37,8 +41,17 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStepsBeyond = 1.0;
 constexpr double kMeanStepsBeyond = 1.0;
 
-// Levels are cut from samples, overviews from means, which are smoother.
+// Levels are cut from samples, overviews from means, which are smoother; and the error of a node is
+// that of its worst block of 32 × 32 cells at full resolution, of which an overview's blocks hold
+// many. The second is as measured on maps of the Moon, Mars and the Earth.
 constexpr double kRougherThanMeans = 1.25;
+constexpr double kWorstBlockPerLevel = 0.2;
+
+// A node that seems flat has at least this share of the mean error.
+constexpr double kErrorShareMin = 0.05;
+
+// Where the nodes whose tiles are read stand among all, by their errors.
+constexpr std::array<double, 5> kRanks{0.1, 0.3, 0.5, 0.7, 0.9};
 
 constexpr double kHurstMin = 0.5;
 constexpr double kHurstMax = 1.0;
@@ -49,6 +62,23 @@ struct Overview {
     std::size_t level = 0;
     SampleGrid samples;
 };
+
+// Copies a piece, with its voids.
+void putInto(SampleGrid& grid, const SampleGrid& part, std::size_t left, std::size_t upper)
+{
+    const std::size_t sample_bytes = sampleBytes(grid.type());
+    part.visit([&](auto view) {
+        for (std::size_t row = 0; row < part.rows(); ++row) {
+            std::memcpy(grid.rowData(upper + row) + left * sample_bytes, view.row(row).data(),
+                        part.columns() * sample_bytes);
+            for (std::size_t c = 0; part.hasVoids() && c < part.columns(); ++c) {
+                if (part.isVoid(c, row)) {
+                    grid.markVoid(left + c, upper + row);
+                }
+            }
+        }
+    });
+}
 
 Result<Overview>
 readAll(const TileSource& source, TileKind kind, std::size_t level, JobMonitor& monitor)
@@ -65,7 +95,6 @@ readAll(const TileSource& source, TileKind kind, std::size_t level, JobMonitor& 
     }
     const std::size_t columns = layout.tileColumns(kind, level);
     const std::size_t rows = layout.tileRows(kind, level);
-    const std::size_t sample_bytes = sampleBytes(layout.type);
     for (std::size_t i = 0; i < columns * rows; ++i) {
         if (monitor.isCancelled()) {
             return Error{ErrorCode::Cancelled,
@@ -78,20 +107,7 @@ readAll(const TileSource& source, TileKind kind, std::size_t level, JobMonitor& 
         if (!tile) {
             return tile.error();
         }
-        const SampleGrid& part = tile->samples;
-        const std::size_t left = id.column * kTileSide;
-        const std::size_t upper = id.row * kTileSide;
-        part.visit([&](auto view) {
-            for (std::size_t row = 0; row < part.rows(); ++row) {
-                std::memcpy(grid->rowData(upper + row) + left * sample_bytes, view.row(row).data(),
-                            part.columns() * sample_bytes);
-                for (std::size_t c = 0; part.hasVoids() && c < part.columns(); ++c) {
-                    if (part.isVoid(c, row)) {
-                        grid->markVoid(left + c, upper + row);
-                    }
-                }
-            }
-        });
+        putInto(*grid, tile->samples, id.column * kTileSide, id.row * kTileSide);
         monitor.report(static_cast<double>(i + 1) / static_cast<double>(columns * rows));
     }
     return Overview{level, std::move(grid).value()};
@@ -242,34 +258,23 @@ estimatedMeans(const TileLayout& layout, const Overview& overview, const Elevati
     return BlockMeans::from(std::move(grid), extent);
 }
 
-// The errors between the levels of a map that has the overview's means for samples.
+// The errors between the levels of a map that has these samples.
 Result<DetailErrors>
-errorsOfMeans(const Overview& overview, const ElevationScale& scale, JobMonitor& monitor)
+errorsWithin(const SampleGrid& from, const ElevationScale& scale, JobMonitor& monitor)
 {
-    const SampleGrid& from = overview.samples;
     Result<SampleGrid> copy = SampleGrid::create(from.type(), from.columns(), from.rows());
     if (!copy) {
         return std::move(copy).error();
     }
-    from.visit([&](auto view) {
-        for (std::size_t row = 0; row < from.rows(); ++row) {
-            std::memcpy(copy->rowData(row), view.row(row).data(),
-                        from.columns() * sampleBytes(from.type()));
-            for (std::size_t c = 0; from.hasVoids() && c < from.columns(); ++c) {
-                if (from.isVoid(c, row)) {
-                    copy->markVoid(c, row);
-                }
-            }
-        }
-    });
+    putInto(*copy, from, 0, 0);
     const SampleStatistics statistics = copy->applyRule({}, 0, copy->rows());
-    const Heightfield means(std::make_shared<const SampleGrid>(std::move(copy).value()), statistics,
-                            scale);
-    Result<BlockMeans> fills = BlockMeans::build(means, monitor);
+    const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(copy).value()),
+                                  statistics, scale);
+    Result<BlockMeans> fills = BlockMeans::build(heightfield, monitor);
     if (!fills) {
         return std::move(fills).error();
     }
-    return DetailErrors::build({means, *fills}, monitor);
+    return DetailErrors::build({heightfield, *fills}, monitor);
 }
 
 double meanSquare(const DetailErrors& errors, std::size_t level)
@@ -297,23 +302,122 @@ double hurstExponent(const DetailErrors& measured)
     return std::clamp(0.5 * std::log2(second / first - 1.0), kHurstMin, kHurstMax);
 }
 
-DetailErrors
-estimatedErrors(const TileLayout& layout, std::size_t overview_level, const DetailErrors& measured)
+// The errors of the first levels, in units of E(1) of the node around: element k - 1 of level k.
+using FineErrors = std::vector<double>;
+
+double meanError(const DetailErrors& errors, std::size_t level)
+{
+    const std::vector<float>& values = errors.nodeErrors()[level].errors_m;
+    double sum = 0.0;
+    for (const float value : values) {
+        sum += static_cast<double>(value);
+    }
+    return sum / static_cast<double>(values.size());
+}
+
+// From tiles at full resolution.
+Result<FineErrors> fineErrors(const TileSource& source,
+                              std::size_t overview_level,
+                              const DetailErrors& measured,
+                              const ElevationScale& scale,
+                              JobMonitor& monitor)
+{
+    const TileLayout& layout = source.layout();
+    std::vector<std::pair<float, DetailNode>> nodes;
+    for (std::size_t row = 0; row < measured.rows(1); ++row) {
+        for (std::size_t column = 0; column < measured.columns(1); ++column) {
+            const DetailNode node{1, column, row};
+            if (measured.nodeError(node) > 0.0F) {
+                nodes.emplace_back(measured.nodeError(node), node);
+            }
+        }
+    }
+    std::sort(nodes.begin(), nodes.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    Result<std::unique_ptr<TileReader>> reader = source.open();
+    if (!reader) {
+        return std::move(reader).error();
+    }
+    std::vector<std::vector<double>> shares; // by level, of each tile
+    for (const double rank : kRanks) {
+        if (nodes.empty()) {
+            break;
+        }
+        const auto& [error, node] =
+            nodes[static_cast<std::size_t>(rank * static_cast<double>(nodes.size()))];
+        const auto tile_around = [&](std::size_t place, std::size_t samples) {
+            const std::size_t node_samples = DetailErrors::kNodeCells << (overview_level + 1);
+            return static_cast<std::uint32_t>(
+                std::min(place * node_samples + node_samples / 2, samples - 1) / kTileSide);
+        };
+        const TileId id{TileKind::Samples, 0, tile_around(node.column, layout.columns),
+                        tile_around(node.row, layout.rows)};
+        if (layout.tileWidth(id) < 2 || layout.tileHeight(id) < 2) {
+            continue;
+        }
+        const Result<Tile> tile = (*reader)->read(id);
+        if (!tile) {
+            return tile.error();
+        }
+        const Result<DetailErrors> errors = errorsWithin(tile->samples, scale, monitor);
+        if (!errors) {
+            return errors.error();
+        }
+        shares.resize(std::max(shares.size(), errors->levelCount() - 1));
+        for (std::size_t level = 1; level < errors->levelCount(); ++level) {
+            shares[level - 1].push_back(meanError(*errors, level) / static_cast<double>(error));
+        }
+    }
+    FineErrors fine;
+    for (std::vector<double>& of_level : shares) {
+        const auto middle = of_level.begin() + static_cast<std::ptrdiff_t>(of_level.size() / 2);
+        std::nth_element(of_level.begin(), middle, of_level.end());
+        fine.push_back(*middle);
+    }
+    return fine;
+}
+
+DetailErrors estimatedErrors(const TileLayout& layout,
+                             std::size_t overview_level,
+                             const DetailErrors& measured,
+                             const FineErrors& fine)
 {
     DetailErrors::NodeErrors errors = DetailErrors::noErrors(layout.columns, layout.rows);
     if (measured.levelCount() < 2) {
         return DetailErrors::from(std::move(errors)); // a map of a single node is drawn whole
     }
     const double hurst = hurstExponent(measured);
+    const double rougher =
+        kRougherThanMeans * (1.0 + kWorstBlockPerLevel * static_cast<double>(overview_level));
+    const auto seen_from_samples = [&](std::size_t j) {
+        return rougher / std::sqrt(1.0 - std::exp2(-2.0 * hurst * static_cast<double>(j)));
+    };
+    // e(level) in units of E(1), below the first level that the overview tells.
+    const std::size_t first_told = overview_level + 1;
+    const auto below = [&](std::size_t level) {
+        const double last = seen_from_samples(1);
+        const std::size_t known = std::min(fine.size(), overview_level);
+        if (known == 0 || !(fine[known - 1] > 0.0)) {
+            return last * std::exp2(-hurst * static_cast<double>(first_told - level));
+        }
+        if (level <= known) {
+            return std::min(fine[level - 1], last);
+        }
+        const double share =
+            static_cast<double>(level - known) / static_cast<double>(first_told - known);
+        return std::pow(std::min(fine[known - 1], last), 1.0 - share) * std::pow(last, share);
+    };
+    const auto least = static_cast<float>(kErrorShareMin * meanError(measured, 1));
     for (std::size_t level = 1; level < errors.size(); ++level) {
         DetailErrors::NodeLevel& nodes = errors[level];
-        // The level that tells: this one where it was measured, else the nearest.
+        // The measured level that tells: this one, or the nearest.
         const std::size_t j = std::clamp<std::size_t>(
             level > overview_level ? level - overview_level : 1, 1, measured.levelCount() - 1);
         const std::size_t told = overview_level + j;
-        const double steps = static_cast<double>(level) - static_cast<double>(told);
-        const double factor = kRougherThanMeans * std::exp2(hurst * steps) /
-                              std::sqrt(1.0 - std::exp2(-2.0 * hurst * static_cast<double>(j)));
+        const double factor =
+            level < first_told
+                ? below(level)
+                : seen_from_samples(j) * std::exp2(hurst * static_cast<double>(level - told));
         for (std::size_t row = 0; row < nodes.rows; ++row) {
             for (std::size_t column = 0; column < nodes.columns; ++column) {
                 // The overview's last node may end where the map's has just begun.
@@ -324,7 +428,7 @@ estimatedErrors(const TileLayout& layout, std::size_t overview_level, const Deta
                 const float error = measured.nodeError(
                     {j, place(column, measured.columns(j)), place(row, measured.rows(j))});
                 nodes.errors_m[row * nodes.columns + column] =
-                    static_cast<float>(factor * static_cast<double>(error));
+                    static_cast<float>(factor * static_cast<double>(std::max(error, least)));
             }
         }
     }
@@ -410,22 +514,24 @@ measuredLevels(const TileSource& source, const ElevationScale& scale, JobMonitor
 
 } // namespace
 
-Result<MapLevels>
-estimateLevels(const TileSource& source, const ElevationScale& scale, JobMonitor& monitor)
+Result<MapLevels> estimateLevels(const TileSource& source,
+                                 const ElevationScale& scale,
+                                 JobMonitor& monitor,
+                                 std::size_t means_max)
 {
     const TileLayout& layout = source.layout();
-    if (layout.mean_levels == 0 && layout.columns * layout.rows <= kEstimateMeansMax) {
+    if (layout.mean_levels == 0 && layout.columns * layout.rows <= means_max) {
         return measuredLevels(source, scale, monitor);
     }
+    const auto is_small = [&](std::size_t level) {
+        return layout.columnsAt(TileKind::Means, level) * layout.rowsAt(TileKind::Means, level) <=
+               means_max;
+    };
     std::size_t level = 1;
-    while (level < layout.mean_levels &&
-           layout.columnsAt(TileKind::Means, level) * layout.rowsAt(TileKind::Means, level) >
-               kEstimateMeansMax) {
+    while (level <= layout.mean_levels && !is_small(level)) {
         ++level;
     }
-    if (level > layout.mean_levels ||
-        layout.columnsAt(TileKind::Means, level) * layout.rowsAt(TileKind::Means, level) >
-            kEstimateMeansMax) {
+    if (level > layout.mean_levels) {
         return Error{
             ErrorCode::TooLarge,
             fmt::format("{}: has no overviews down to a small picture of it", source.name())};
@@ -443,7 +549,7 @@ estimateLevels(const TileSource& source, const ElevationScale& scale, JobMonitor
     std::uint64_t void_means = 0;
     for (std::size_t row = 0; means.hasVoids() && row < means.rows(); ++row) {
         for (std::size_t column = 0; column < means.columns(); ++column) {
-            void_means += means.isVoid(column, row) ? 1 : 0;
+            void_means += means.isVoid(column, row) ? 1U : 0U;
         }
     }
     statistics.void_count = static_cast<std::uint64_t>(
@@ -454,15 +560,23 @@ estimateLevels(const TileSource& source, const ElevationScale& scale, JobMonitor
             ErrorCode::Unsupported,
             fmt::format("{}: has overviews too narrow to tell anything from", source.name())};
     }
-    Result<DetailErrors> measured = errorsOfMeans(*overview, scale, monitor);
+    Result<DetailErrors> measured = errorsWithin(overview->samples, scale, monitor);
     if (!measured) {
         return std::move(measured).error();
     }
+    FineErrors fine;
+    if (measured->levelCount() > 1) {
+        Result<FineErrors> found = fineErrors(source, level, *measured, scale, monitor);
+        if (!found) {
+            return std::move(found).error();
+        }
+        fine = std::move(found).value();
+    }
     return levelsOf(layout, statistics,
-                    std::make_shared<const SurfaceAnalysis>(
-                        SurfaceAnalysis{.bounds = MinMaxPyramid::from(ranges, scale),
-                                        .means = estimatedMeans(layout, *overview, scale),
-                                        .errors = estimatedErrors(layout, level, *measured)}));
+                    std::make_shared<const SurfaceAnalysis>(SurfaceAnalysis{
+                        .bounds = MinMaxPyramid::from(ranges, scale),
+                        .means = estimatedMeans(layout, *overview, scale),
+                        .errors = estimatedErrors(layout, level, *measured, fine)}));
 }
 
 } // namespace marsview

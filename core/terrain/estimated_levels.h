@@ -15,7 +15,8 @@ namespace marsview {
 /// Overviews of up to so many means are read, half a megabyte to two of a compressed map.
 inline constexpr std::size_t kEstimateMeansMax = std::size_t{1} << 20;
 
-/// Reads one level of Means of `source` and estimates what a level file would tell. Exact, from the
+/// Reads one level of Means of `source` and five tiles at full resolution, and estimates what a
+/// level file would tell. Exact, from the
 /// samples, where the source has no Means and is that small itself; TooLarge where it has no level
 /// of Means of at most `means_max`.
 ///

@@ -19,8 +19,6 @@
 namespace marsview {
 namespace {
 
-constexpr std::size_t kIndexBytes = sizeof(std::uint64_t);
-
 template <typename T>
 std::span<std::byte> bytesOf(std::vector<T>& values)
 {
@@ -320,7 +318,7 @@ Result<MapLevels> LevelFile::readLevels(const ElevationScale& scale) const
     const TileLayout& layout = header.layout;
     RawRanges ranges(layout.type, layout.columns, layout.rows);
     DetailErrors::NodeErrors errors = DetailErrors::noErrors(layout.columns, layout.rows);
-    const BlockExtent extent = keptBlocks(layout);
+    const BlockExtent extent = header.blocks();
     BlockGrid blocks =
         emptyBlocks(extent, header.hasVoids() ? BlockShares::Kept : BlockShares::None);
     std::vector<float> fills(header.hasVoids() ? 2 * ranges.columns() * ranges.rows() : 0);
@@ -381,29 +379,11 @@ Result<SampleGrid> LevelFile::readSamples(const TileId& id) const
     if (!bytes) {
         return std::move(bytes).error();
     }
-    const PackShape shape{.columns = layout.tileWidth(id),
-                          .rows = layout.tileHeight(id),
-                          .element_bytes = sampleBytes(layout.type)};
-    auto samples = SampleGrid::create(layout.type, shape.columns, shape.rows);
+    auto samples = unpackSamples(*bytes, layout.type, layout.tileWidth(id), layout.tileHeight(id));
     if (!samples) {
-        return samples;
-    }
-    const bool has_mask = !bytes->empty() && bytes->front() != std::byte{0};
-    std::vector<std::byte> mask(has_mask ? maskBytes(shape.columns, shape.rows) : 0);
-    if (bytes->empty() || !unpack(std::span<const std::byte>(*bytes).subspan(1), shape,
-                                  {samples->rowData(0), shape.bytes()}, mask)) {
         return damaged(impl_->path(), "has a tile that is no tile");
     }
-    const std::size_t row_bytes = (shape.columns + 7) / 8;
-    for (std::size_t i = 0; i < mask.size(); ++i) {
-        for (std::size_t bit = 0; mask[i] != std::byte{0} && bit < 8; ++bit) {
-            const std::size_t column = i % row_bytes * 8 + bit;
-            if ((mask[i] >> bit & std::byte{1}) != std::byte{0} && column < shape.columns) {
-                samples->markVoid(column, i / row_bytes);
-            }
-        }
-    }
-    return samples;
+    return std::move(*samples);
 }
 
 Result<std::vector<float>> LevelFile::Impl::readTileFill(const TileId& id,

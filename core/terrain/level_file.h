@@ -83,7 +83,10 @@ struct LevelBuild {
     ElevationScale scale;
     LevelFileKey key;
     std::string path; // written beside itself and moved there when whole
-    std::size_t memory_bytes_max = std::size_t{1} << 30;
+    std::size_t memory_bytes_max = std::size_t{1} << 30; // fewer threads work where it is little
+    /// The means of no more blocks than this are kept: those of blocks of 8 samples a side, or
+    /// twice as many until they are few enough.
+    std::size_t mean_blocks_max = 4'000'000;
 };
 
 /// Reads the raster twice, on all cores, and writes its level file. Fails, leaving nothing behind

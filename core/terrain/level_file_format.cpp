@@ -24,7 +24,6 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::array<unsigned char, 8> kMagic{0x89, 'M', 'V', 'L', '\r', '\n', 0x1A, '\n'};
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
-constexpr std::size_t kBlocksMax = 4'000'000;
 // Rasters have at most 2^31 columns and rows.
 constexpr std::size_t kSideMax = std::size_t{1} << 31U;
 
@@ -88,6 +87,16 @@ std::uint64_t sizeFrom(const json& value, std::uint64_t maximum)
     return value.get<std::uint64_t>();
 }
 
+PackShape shapeOf(SampleType type, std::size_t columns, std::size_t rows)
+{
+    return {.columns = columns, .rows = rows, .element_bytes = sampleBytes(type)};
+}
+
+std::size_t maskRowBytes(std::size_t columns)
+{
+    return (columns + 7) / 8;
+}
+
 LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
 {
     LevelFileHeader header;
@@ -118,6 +127,10 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
     const json& scale = root.at("scale");
     header.scale = {.gain = numberFrom(scale.at("gain")),
                     .offset_m = numberFrom(scale.at("offset_m"))};
+    header.block_samples = sizeFrom(root.at("block_samples"), kSideMax);
+    if (header.block_samples < BlockMeans::kBlock || !std::has_single_bit(header.block_samples)) {
+        throw std::invalid_argument("the size of a block is no power of two");
+    }
     const std::uint64_t tiles = header.layout.tileColumns(TileKind::Samples, 0) *
                                 header.layout.tileRows(TileKind::Samples, 0);
     header.fill_tiles = sizeFrom(root.at("fill_tiles"), tiles);
@@ -245,7 +258,7 @@ std::vector<LevelPlane> planesOf(const LevelFileHeader& header)
         add(fmt::format("errors {}", level),
             {.columns = node_columns, .rows = node_rows, .element_bytes = sizeof(float)});
     }
-    const BlockExtent blocks = keptBlocks(layout);
+    const BlockExtent blocks = header.blocks();
     const PackShape block_shape{.columns = blocks.blockColumns(),
                                 .rows = blocks.blockRows(),
                                 .element_bytes = sizeof(float)};
@@ -296,6 +309,7 @@ std::string writtenHeader(const LevelFileHeader& header)
                     {"scale",
                      {{"gain", numberJson(header.scale.gain)},
                       {"offset_m", numberJson(header.scale.offset_m)}}},
+                    {"block_samples", header.block_samples},
                     {"fill_tiles", header.fill_tiles},
                     {"coarse_tiles", header.coarse_tiles},
                     {"planes", std::move(planes)}};
@@ -314,10 +328,10 @@ readHeader(std::span<const std::byte> json_bytes, std::uint64_t file_bytes, cons
     }
 }
 
-BlockExtent keptBlocks(const TileLayout& layout)
+BlockExtent finestBlocks(const TileLayout& layout, std::size_t blocks_max)
 {
     BlockExtent extent{layout.columns, layout.rows, BlockMeans::kBlock};
-    while (extent.blockColumns() * extent.blockRows() > kBlocksMax) {
+    while (extent.blockColumns() * extent.blockRows() > std::max<std::size_t>(1, blocks_max)) {
         extent = extent.coarser();
     }
     return extent;
@@ -342,6 +356,60 @@ std::size_t keptTileNumber(const TileLayout& layout, const TileId& id)
                   layout.tileRows(TileKind::Samples, level);
     }
     return number + id.row * layout.tileColumns(TileKind::Samples, id.level) + id.column;
+}
+
+std::vector<std::byte> packedArray(const SampleGrid& samples)
+{
+    const PackShape shape = shapeOf(samples.type(), samples.columns(), samples.rows());
+    return samples.visit([&](auto values) {
+        return packed(shape, {reinterpret_cast<const std::byte*>(values.data()), shape.bytes()});
+    });
+}
+
+std::vector<std::byte> packedSamples(const SampleGrid& samples)
+{
+    const PackShape shape = shapeOf(samples.type(), samples.columns(), samples.rows());
+    const std::size_t row_bytes = maskRowBytes(shape.columns);
+    std::vector<std::byte> mask(samples.hasVoids() ? row_bytes * shape.rows : 0);
+    for (std::size_t row = 0; !mask.empty() && row < shape.rows; ++row) {
+        for (std::size_t column = 0; column < shape.columns; ++column) {
+            if (samples.isVoid(column, row)) {
+                mask[row * row_bytes + column / 8] |= std::byte{1} << (column % 8);
+            }
+        }
+    }
+    std::vector<std::byte> bytes = samples.visit([&](auto values) {
+        return packed(shape, {reinterpret_cast<const std::byte*>(values.data()), shape.bytes()},
+                      mask);
+    });
+    bytes.insert(bytes.begin(), std::byte{mask.empty() ? std::uint8_t{0} : std::uint8_t{1}});
+    return bytes;
+}
+
+std::optional<SampleGrid> unpackSamples(std::span<const std::byte> bytes,
+                                        SampleType type,
+                                        std::size_t columns,
+                                        std::size_t rows)
+{
+    auto samples = SampleGrid::create(type, columns, rows);
+    if (!samples || bytes.empty() || bytes[0] > std::byte{1}) {
+        return std::nullopt;
+    }
+    const PackShape shape = shapeOf(type, columns, rows);
+    const std::size_t row_bytes = maskRowBytes(columns);
+    std::vector<std::byte> mask(bytes[0] == std::byte{1} ? row_bytes * rows : 0);
+    if (!unpack(bytes.subspan(1), shape, {samples->rowData(0), shape.bytes()}, mask)) {
+        return std::nullopt;
+    }
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        for (std::size_t bit = 0; mask[i] != std::byte{0} && bit < 8; ++bit) {
+            const std::size_t column = i % row_bytes * 8 + bit;
+            if ((mask[i] >> bit & std::byte{1}) != std::byte{0} && column < columns) {
+                samples->markVoid(column, i / row_bytes);
+            }
+        }
+    }
+    return std::move(samples).value();
 }
 
 FillWindow fillWindow(const TileLayout& layout, const TileId& id)

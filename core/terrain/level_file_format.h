@@ -49,6 +49,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -95,11 +96,13 @@ struct LevelFileHeader {
     TileLayout layout;
     SampleStatistics statistics;
     ElevationScale scale;
-    std::size_t fill_tiles = 0;   // level-0 tiles with voids
-    std::size_t coarse_tiles = 0; // of those with samples here
+    std::size_t block_samples = 8; // along a side of the finest blocks whose means are kept
+    std::size_t fill_tiles = 0;    // level-0 tiles with voids
+    std::size_t coarse_tiles = 0;  // of those with samples here
     std::vector<LevelPlane> planes;
 
     bool hasVoids() const noexcept { return statistics.void_count > 0; }
+    BlockExtent blocks() const noexcept { return {layout.columns, layout.rows, block_samples}; }
 };
 
 /// The planes that a file with this header has, without their chunks.
@@ -112,8 +115,8 @@ std::string writtenHeader(const LevelFileHeader& header);
 Result<LevelFileHeader>
 readHeader(std::span<const std::byte> json, std::uint64_t file_bytes, const std::string& path);
 
-/// The finest blocks whose means are kept: no more than four million.
-BlockExtent keptBlocks(const TileLayout& layout);
+/// The finest blocks of which there are no more than `blocks_max`, which is at least 1.
+BlockExtent finestBlocks(const TileLayout& layout, std::size_t blocks_max);
 
 /// How many tiles of samples are kept, and which of them a tile is, level by level and row by row.
 std::size_t keptTileCount(const TileLayout& layout);
@@ -129,11 +132,15 @@ struct FillWindow {
 };
 FillWindow fillWindow(const TileLayout& layout, const TileId& id);
 
-/// Bytes of the mask of a tile.
-inline std::size_t maskBytes(std::size_t columns, std::size_t rows)
-{
-    return (columns + 7) / 8 * rows;
-}
+/// A tile of samples as the file has it.
+std::vector<std::byte> packedSamples(const SampleGrid& samples);
+/// Nothing where `bytes` is none.
+std::optional<SampleGrid> unpackSamples(std::span<const std::byte> bytes,
+                                        SampleType type,
+                                        std::size_t columns,
+                                        std::size_t rows);
+/// The samples without their mask.
+std::vector<std::byte> packedArray(const SampleGrid& samples);
 
 /// "PATH: …; prepare the map again".
 Error damaged(const std::string& path, const std::string& what);

@@ -40,44 +40,48 @@ T load(const std::byte* from)
     return value;
 }
 
-// A row's first numbers follow those of the row before.
-template <typename T>
-void difference(const PackShape& shape, const std::byte* array, std::byte* sorted)
+// Calls `function(i, before)` for the index of every number and that of the one it resembles, or
+// its own for the very first ones, which resemble 0.
+template <typename F>
+void eachNumber(const PackShape& shape, F&& function)
 {
-    const std::size_t count = shape.columns * shape.rows;
+    const std::size_t leading = std::min(shape.interleaved, shape.columns);
     for (std::size_t row = 0; row < shape.rows; ++row) {
-        for (std::size_t column = 0; column < shape.columns; ++column) {
-            const std::size_t i = row * shape.columns + column;
-            const std::size_t distance =
-                column >= shape.interleaved ? shape.interleaved : shape.columns;
-            const T before = i >= distance ? load<T>(array + (i - distance) * sizeof(T)) : T{};
-            const auto step = static_cast<T>(load<T>(array + i * sizeof(T)) - before);
-            for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
-                sorted[byte * count + i] = static_cast<std::byte>((step >> (8 * byte)) & 0xFFU);
-            }
+        const std::size_t first = row * shape.columns;
+        for (std::size_t i = first; i < first + leading; ++i) {
+            function(i, row == 0 ? i : i - shape.columns); // of the row above
+        }
+        for (std::size_t i = first + leading; i < first + shape.columns; ++i) {
+            function(i, i - shape.interleaved);
         }
     }
 }
 
 template <typename T>
-void sum(const PackShape& shape, const std::byte* sorted, std::byte* array)
+void difference(const PackShape& shape, const std::byte* numbers, std::byte* sorted)
 {
     const std::size_t count = shape.columns * shape.rows;
-    for (std::size_t row = 0; row < shape.rows; ++row) {
-        for (std::size_t column = 0; column < shape.columns; ++column) {
-            const std::size_t i = row * shape.columns + column;
-            const std::size_t distance =
-                column >= shape.interleaved ? shape.interleaved : shape.columns;
-            const T before = i >= distance ? load<T>(array + (i - distance) * sizeof(T)) : T{};
-            T step{};
-            for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
-                step = static_cast<T>(
-                    step | static_cast<T>(static_cast<T>(sorted[byte * count + i]) << (8 * byte)));
-            }
-            const auto value = static_cast<T>(before + step);
-            std::memcpy(array + i * sizeof(T), &value, sizeof(T));
+    eachNumber(shape, [&](std::size_t i, std::size_t before) {
+        const T reference = before == i ? T{} : load<T>(numbers + before * sizeof(T));
+        const auto step = static_cast<T>(load<T>(numbers + i * sizeof(T)) - reference);
+        for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
+            sorted[byte * count + i] = static_cast<std::byte>((step >> (8 * byte)) & 0xFFU);
         }
-    }
+    });
+}
+
+template <typename T>
+void sum(const PackShape& shape, const std::byte* sorted, std::byte* numbers)
+{
+    const std::size_t count = shape.columns * shape.rows;
+    eachNumber(shape, [&](std::size_t i, std::size_t before) {
+        T value = before == i ? T{} : load<T>(numbers + before * sizeof(T));
+        for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
+            value = static_cast<T>(
+                value + static_cast<T>(static_cast<T>(sorted[byte * count + i]) << (8 * byte)));
+        }
+        std::memcpy(numbers + i * sizeof(T), &value, sizeof(T));
+    });
 }
 
 } // namespace

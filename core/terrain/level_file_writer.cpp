@@ -1,0 +1,215 @@
+#include "core/terrain/level_file_writer.h"
+
+#include "core/base/parallel.h"
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <fmt/format.h>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#ifdef __unix__
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+namespace marsview {
+namespace {
+
+// What a crash of the machine must not take back. True where the system has no such thing.
+bool isOnDisk([[maybe_unused]] std::FILE* file)
+{
+#ifdef __unix__
+    return fsync(fileno(file)) == 0;
+#else
+    return true;
+#endif
+}
+
+// The name is on the disk when its folder is. Some file systems cannot tell; the content is safe
+// in any case.
+void syncFolder([[maybe_unused]] const std::filesystem::path& folder)
+{
+#ifdef __unix__
+    const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor >= 0) {
+        fsync(descriptor);
+        close(descriptor);
+    }
+#endif
+}
+
+// An empty file that nobody else writes to; null, with errno, where that cannot be. What a killed
+// program left is overwritten; one that is being written is not.
+std::FILE* openForWriting(const std::string& path)
+{
+#ifdef __unix__
+    for (;;) {
+        const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor < 0) {
+            return nullptr;
+        }
+        struct stat opened = {};
+        struct stat named = {};
+        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 || fstat(descriptor, &opened) != 0) {
+            const int reason = errno;
+            close(descriptor);
+            errno = reason;
+            return nullptr;
+        }
+        // Meanwhile it may have got its final name.
+        if (stat(path.c_str(), &named) == 0 && named.st_ino == opened.st_ino &&
+            named.st_dev == opened.st_dev && ftruncate(descriptor, 0) == 0) {
+            return fdopen(descriptor, "wb");
+        }
+        close(descriptor);
+    }
+#else
+    return std::fopen(path.c_str(), "wb");
+#endif
+}
+
+} // namespace
+
+LevelFileWriter::LevelFileWriter(std::string path)
+    : path_(std::move(path))
+    , part_path_(path_ + ".part")
+{}
+
+LevelFileWriter::~LevelFileWriter()
+{
+    if (!is_published_ && file_) {
+#ifndef __unix__
+        file_.reset(); // where open files cannot be removed
+#endif
+        std::remove(part_path_.c_str());
+    }
+}
+
+Error LevelFileWriter::failed(const std::string& what) const
+{
+    const int reason = errno;
+    return {ErrorCode::Unreadable,
+            fmt::format("{}: {} ({}); make room there or choose another folder", part_path_, what,
+                        std::generic_category().message(reason))};
+}
+
+Result<std::unique_ptr<LevelFileWriter>> LevelFileWriter::create(const std::string& path)
+{
+    std::unique_ptr<LevelFileWriter> writer(new LevelFileWriter(path));
+    writer->file_.reset(openForWriting(writer->part_path_));
+    if (!writer->file_) {
+        if (errno == EWOULDBLOCK) {
+            return Error{ErrorCode::Unreadable,
+                         fmt::format("{}: another program is preparing the same map; wait for it",
+                                     writer->part_path_)};
+        }
+        return writer->failed("cannot be written");
+    }
+    const std::array<std::byte, kPreambleBytes> nothing_yet{};
+    if (auto appended = writer->append(nothing_yet); !appended) {
+        return std::move(appended).error();
+    }
+    return writer;
+}
+
+Result<FilePart> LevelFileWriter::append(std::span<const std::byte> bytes)
+{
+    const FilePart part{.offset = 0, .bytes = bytes.size(), .checksum = checksum(bytes)};
+    const std::lock_guard lock(mutex_);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+        return failed("cannot be written");
+    }
+    FilePart placed = part;
+    placed.offset = bytes_;
+    bytes_ += bytes.size();
+    return placed;
+}
+
+Status LevelFileWriter::finish(LevelFileHeader header,
+                               std::span<const Array> arrays,
+                               const JobMonitor& monitor)
+{
+    header.planes = planesOf(header);
+    MARSVIEW_CHECK(arrays.size() == header.planes.size());
+    LevelFilePreamble preamble{.planes_offset = bytes_};
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        if (i + kTailPlanes == arrays.size()) {
+            preamble.tail_offset = bytes_;
+        }
+        LevelPlane& plane = header.planes[i];
+        MARSVIEW_CHECK(arrays[i].name == plane.name &&
+                       arrays[i].values.size() == plane.shape.bytes());
+        // Packed on all cores, written in order.
+        std::vector<std::vector<std::byte>> chunks(plane.chunkCount());
+        parallelRanges(chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t chunk = begin; chunk < end && !monitor.isCancelled(); ++chunk) {
+                const std::size_t offset = plane.chunkShape(0).bytes() * chunk;
+                const PackShape shape = plane.chunkShape(chunk);
+                chunks[chunk] = packed(shape, arrays[i].values.subspan(offset, shape.bytes()));
+            }
+        });
+        if (monitor.isCancelled()) {
+            return Error{ErrorCode::Cancelled, "cancelled"};
+        }
+        for (const std::vector<std::byte>& chunk : chunks) {
+            auto appended = append(chunk);
+            if (!appended) {
+                return std::move(appended).error();
+            }
+            plane.chunks.push_back(*appended);
+        }
+    }
+    preamble.header_offset = bytes_;
+    const std::string json = writtenHeader(header);
+    auto appended = append(std::as_bytes(std::span<const char>(json)));
+    if (!appended) {
+        return std::move(appended).error();
+    }
+    preamble.header_checksum = appended->checksum;
+    preamble.file_bytes = bytes_;
+    if (auto written = writeFront(writtenPreamble(preamble)); !written) {
+        return written;
+    }
+    if (monitor.isCancelled()) {
+        return Error{ErrorCode::Cancelled, "cancelled"};
+    }
+    return publish();
+}
+
+Status LevelFileWriter::writeFront(std::span<const std::byte> bytes)
+{
+    std::FILE* file = file_.get();
+    if (std::fseek(file, 0, SEEK_SET) != 0 ||
+        std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() ||
+        std::fflush(file) != 0 || !isOnDisk(file)) {
+        return failed("cannot be written");
+    }
+    return Done{};
+}
+
+Status LevelFileWriter::publish()
+{
+#ifndef __unix__
+    file_.reset(); // where open files cannot be moved
+#endif
+    // All of it is on the disk. Whoever waits to write the same file sees that it is no longer the
+    // one of that name.
+    std::error_code problem;
+    std::filesystem::rename(part_path_, path_, problem);
+    if (problem) {
+        std::remove(part_path_.c_str());
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: cannot be given its name ({}); choose another folder", path_,
+                                 problem.message())};
+    }
+    is_published_ = true;
+    syncFolder(std::filesystem::path(path_).parent_path());
+    return Done{};
+}
+
+} // namespace marsview

@@ -1,0 +1,125 @@
+#include "core/terrain/nested_levels.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace marsview {
+namespace {
+
+// A sample of a tile, and which one of a level it is.
+struct Nested {
+    std::size_t from = 0; // within the tile
+    std::size_t to = 0;   // within the level
+};
+
+// Along an axis with `count` samples, of which the tile has [first, end).
+std::vector<Nested>
+nestedAlong(std::size_t first, std::size_t end, std::size_t count, std::size_t level)
+{
+    const std::size_t step = std::size_t{1} << level;
+    std::vector<Nested> samples;
+    for (std::size_t i = (first + step - 1) / step * step; i < end; i += step) {
+        samples.push_back({i - first, i / step});
+    }
+    const std::size_t last = count - 1;
+    if (first <= last && last < end && last % step != 0) {
+        samples.push_back({last - first, last / step + 1});
+    }
+    return samples;
+}
+
+SampleGrid zeros(SampleType type, std::size_t columns, std::size_t rows)
+{
+    // A fraction of a level that is small: as any other allocation of the standard library.
+    SampleGrid grid = SampleGrid::create(type, columns, rows).value();
+    std::memset(grid.rowData(0), 0, columns * rows * sampleBytes(type));
+    return grid;
+}
+
+} // namespace
+
+NestedLevels::NestedLevels(const TileLayout& layout,
+                           SampleType type,
+                           std::size_t first,
+                           std::size_t last)
+    : layout_(layout)
+    , type_(type)
+    , first_(first)
+    , last_(last)
+{}
+
+std::vector<LevelBand> NestedLevels::add(const TileId& id, const SampleGrid* samples)
+{
+    MARSVIEW_CHECK(samples == nullptr || samples->type() == type_);
+    const std::size_t first_column = id.column * kTileSide;
+    const std::size_t first_row = id.row * kTileSide;
+    std::vector<LevelBand> complete;
+    for (std::size_t level = first_; level <= last_; ++level) {
+        const auto columns =
+            nestedAlong(first_column, first_column + layout_.tileWidth(id), layout_.columns, level);
+        const auto rows =
+            nestedAlong(first_row, first_row + layout_.tileHeight(id), layout_.rows, level);
+        if (columns.empty()) {
+            continue;
+        }
+        const std::size_t level_columns = layout_.columnsAt(TileKind::Samples, level);
+        const std::lock_guard lock(mutex_);
+        for (const Nested& row : rows) {
+            const std::size_t tile_row = row.to / kTileSide;
+            const std::size_t band_rows = std::min(
+                kTileSide, layout_.rowsAt(TileKind::Samples, level) - tile_row * kTileSide);
+            const auto at = bands_.try_emplace({level, tile_row}).first;
+            Band& band = at->second;
+            if (band.missing == 0) {
+                band.missing = level_columns * band_rows;
+            }
+            if (samples != nullptr) {
+                if (!band.samples) {
+                    band.samples = zeros(type_, level_columns, band_rows);
+                }
+                samples->visit([&](auto values) {
+                    using T = std::remove_cvref_t<decltype(values(0, 0))>;
+                    auto* to =
+                        reinterpret_cast<T*>(band.samples->rowData(row.to - tile_row * kTileSide));
+                    for (const Nested& column : columns) {
+                        to[column.to] = values(column.from, row.from);
+                    }
+                });
+                for (const Nested& column : columns) {
+                    if (samples->isVoid(column.from, row.from)) {
+                        band.samples->markVoid(column.to, row.to - tile_row * kTileSide);
+                    }
+                }
+            }
+            band.missing -= columns.size();
+            if (band.missing == 0) {
+                if (band.samples) {
+                    complete.push_back({level, tile_row, std::move(*band.samples)});
+                }
+                bands_.erase(at);
+            }
+        }
+    }
+    return complete;
+}
+
+SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::size_t columns)
+{
+    SampleGrid part = SampleGrid::create(samples.type(), columns, samples.rows()).value();
+    samples.visit([&](auto values) {
+        for (std::size_t row = 0; row < samples.rows(); ++row) {
+            std::memcpy(part.rowData(row), values.row(row).data() + first_column,
+                        columns * sizeof(values(0, 0)));
+        }
+    });
+    for (std::size_t row = 0; samples.hasVoids() && row < samples.rows(); ++row) {
+        for (std::size_t column = 0; column < columns; ++column) {
+            if (samples.isVoid(first_column + column, row)) {
+                part.markVoid(column, row);
+            }
+        }
+    }
+    return part;
+}
+
+} // namespace marsview
