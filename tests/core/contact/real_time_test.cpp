@@ -23,7 +23,8 @@ namespace {
 std::atomic<long> allocation_count{0};
 std::atomic<long> free_count{0};
 
-void* counted(std::size_t bytes)
+// Not inlined, lest the compiler take what is deleted for malloc's.
+[[gnu::noinline]] void* counted(std::size_t bytes)
 {
     allocation_count.fetch_add(1, std::memory_order_relaxed);
     void* memory = std::malloc(bytes == 0 ? 1 : bytes); // NOLINT
