@@ -1,0 +1,245 @@
+// Building level files where something goes wrong.
+#include "core/terrain/level_file.h"
+#include "tests/support/grid_tile_source.h"
+#include "tests/support/make_terrain.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#ifdef __unix__
+#include <sys/resource.h>
+#endif
+
+namespace marsview {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Heightfield someTerrain(double void_share = 0.05)
+{
+    test::Random random;
+    const auto heights = test::fractalHeights(random, 2500, 1100, 900.0, 0.6);
+    return test::int16Terrain(2500, 1100, {}, [&](std::size_t c, std::size_t r) {
+        return random.chance(void_share) ? kNan : heights[r * 2500 + c];
+    });
+}
+
+class LevelBuilder : public testing::Test {
+protected:
+    Status build(TileSource& source, JobMonitor& monitor) const
+    {
+        const LevelBuild build{.source = &source,
+                               .scale = {},
+                               .key = {},
+                               .path = path(),
+                               .mean_blocks_max = 2000}; // so that some lie on disk meanwhile
+        return buildLevelFile(build, monitor);
+    }
+    Status build(TileSource& source) const
+    {
+        JobMonitor monitor;
+        return build(source, monitor);
+    }
+
+    std::string path() const { return folder_.file("map.marsview"); }
+    std::size_t fileCount() const
+    {
+        std::size_t count = 0;
+        for ([[maybe_unused]] const auto& entry :
+             std::filesystem::directory_iterator(folder_.path())) {
+            ++count;
+        }
+        return count;
+    }
+
+    test::TempFolder folder_;
+};
+
+TEST_F(LevelBuilder, ReadsEveryTileTwice)
+{
+    test::GridTileSource source(someTerrain());
+    ASSERT_TRUE(build(source));
+    EXPECT_EQ(source.readCount(), 2U * 10 * 5);
+    EXPECT_EQ(fileCount(), 1U);
+}
+
+TEST_F(LevelBuilder, StopsSoonWhenCancelledAndLeavesNothing)
+{
+    for (const std::uint64_t after : {0U, 1U, 30U, 52U, 99U}) {
+        JobMonitor monitor;
+        std::atomic<std::uint64_t> reads{0};
+        test::GridTileSource source(someTerrain(),
+                                    {.before_read = [&](const TileId&) -> std::optional<Error> {
+                                        if (++reads > after) {
+                                            monitor.cancel();
+                                        }
+                                        return std::nullopt;
+                                    }});
+        const Status status = build(source, monitor);
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().code, ErrorCode::Cancelled);
+        EXPECT_EQ(fileCount(), 0U);
+        // No thread reads more than the tile it was at.
+        EXPECT_LE(source.readCount(), after + 1 + std::thread::hardware_concurrency());
+    }
+}
+
+TEST_F(LevelBuilder, PassesOnWhatATileFailsWithAndKeepsWhatWasThere)
+{
+    folder_.write("map.marsview", "of yesterday");
+    for (const int which : {1, 2}) { // pass
+        std::mutex mutex;
+        int reads = 0;
+        test::GridTileSource source(
+            someTerrain(), {.before_read = [&](const TileId& id) -> std::optional<Error> {
+                const std::lock_guard lock(mutex);
+                if (id.column == 3 && id.row == 2 && ++reads == which) {
+                    return Error{ErrorCode::Unreadable, "/maps/m.tif: the tape is torn"};
+                }
+                return std::nullopt;
+            }});
+        const Status status = build(source);
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().code, ErrorCode::Unreadable);
+        EXPECT_EQ(status.error().message, "/maps/m.tif: the tape is torn");
+        EXPECT_EQ(fileCount(), 1U);
+        EXPECT_EQ(test::readFile(path()), "of yesterday");
+    }
+}
+
+TEST_F(LevelBuilder, PassesOnWhatOpeningFailsWith)
+{
+    test::GridTileSource source(someTerrain(), {.before_open = []() -> std::optional<Error> {
+                                    return Error{ErrorCode::NotFound, "/maps/m.tif: is gone"};
+                                }});
+    const Status status = build(source);
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "/maps/m.tif: is gone");
+    EXPECT_EQ(fileCount(), 0U);
+}
+
+/// Another map from the second reading of a tile on.
+class ChangingSource final : public TileSource {
+public:
+    ChangingSource(const Heightfield& before, const Heightfield& after)
+        : before_(before)
+        , after_(after)
+    {}
+
+    const TileLayout& layout() const noexcept override { return before_.layout(); }
+    const std::string& name() const noexcept override { return before_.name(); }
+    Result<std::unique_ptr<TileReader>> open() const override
+    {
+        return std::unique_ptr<TileReader>(std::make_unique<Reader>(*this));
+    }
+
+private:
+    class Reader final : public TileReader {
+    public:
+        explicit Reader(const ChangingSource& source)
+            : source_(source)
+        {}
+        Result<Tile> read(const TileId& id) override
+        {
+            const std::lock_guard lock(source_.mutex_);
+            const bool is_again = source_.reads_[{id.column, id.row}]++ > 0;
+            return (is_again ? source_.after_ : source_.before_).tile(id);
+        }
+
+    private:
+        const ChangingSource& source_;
+    };
+
+    test::GridTileSource before_;
+    test::GridTileSource after_;
+    mutable std::mutex mutex_;
+    mutable std::map<std::pair<std::uint32_t, std::uint32_t>, int> reads_;
+};
+
+TEST_F(LevelBuilder, RefusesASourceThatChanges)
+{
+    ChangingSource source(someTerrain(0.05), someTerrain(0.01));
+    const Status status = build(source);
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::Invalid);
+    EXPECT_NE(status.error().message.find("changed while it was read"), std::string::npos);
+    EXPECT_EQ(fileCount(), 0U);
+}
+
+TEST_F(LevelBuilder, OverwritesWhatAKilledProgramLeft)
+{
+    folder_.write("map.marsview.part", std::string(10'000'000, 'x'));
+    test::GridTileSource source(someTerrain());
+    ASSERT_TRUE(build(source));
+    EXPECT_EQ(fileCount(), 1U);
+    EXPECT_LT(std::filesystem::file_size(path()), 10'000'000U);
+    EXPECT_TRUE(LevelFile::open(path(), {}));
+}
+
+TEST_F(LevelBuilder, LeavesAFileThatAnotherProgramIsWritingAlone)
+{
+    std::atomic<bool> has_tried{false};
+    test::GridTileSource other(someTerrain());
+    test::GridTileSource source(
+        someTerrain(), {.before_read = [&](const TileId&) -> std::optional<Error> {
+            if (!has_tried.exchange(true)) {
+                const Status status = build(other);
+                EXPECT_FALSE(status);
+                EXPECT_NE(status.error().message.find("another program"), std::string::npos);
+            }
+            return std::nullopt;
+        }});
+    ASSERT_TRUE(build(source));
+    EXPECT_TRUE(LevelFile::open(path(), {}));
+}
+
+TEST_F(LevelBuilder, SaysWhereItCannotWrite)
+{
+    test::GridTileSource source(someTerrain());
+    const LevelBuild build{
+        .source = &source, .scale = {}, .key = {}, .path = folder_.file("no/such/folder/map")};
+    JobMonitor monitor;
+    const Status status = buildLevelFile(build, monitor);
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message.rfind(build.path + ".part: cannot be written", 0), 0U)
+        << status.error().message;
+    EXPECT_EQ(source.readCount(), 0U);
+}
+
+#ifdef __unix__
+TEST_F(LevelBuilder, LeavesNothingWhereTheDiskIsFull)
+{
+    test::GridTileSource source(someTerrain());
+    ASSERT_TRUE(build(source));
+    const std::uintmax_t size = std::filesystem::file_size(path());
+    std::filesystem::remove(path());
+    // A limit on the size of files fails as a full disk does.
+    auto* const before = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    for (const std::uintmax_t bytes : {std::uintmax_t{0}, size / 3, size * 9 / 10}) {
+        rlimit small = limit;
+        small.rlim_cur = static_cast<rlim_t>(bytes);
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+        const Status status = build(source);
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        ASSERT_FALSE(status) << bytes << " of " << size;
+        EXPECT_NE(status.error().message.find("cannot be"), std::string::npos);
+        EXPECT_EQ(fileCount(), 0U);
+    }
+    std::signal(SIGXFSZ, before);
+}
+#endif
+
+} // namespace
+} // namespace marsview
