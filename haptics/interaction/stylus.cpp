@@ -27,6 +27,7 @@ void Stylus::setGround(const SceneSurface& ground, double exaggeration)
     exaggeration_ = exaggeration;
     if (!is_same_ground) {
         lift();
+        touch_.reset();
     }
     if (!pose_) {
         return;
@@ -68,7 +69,8 @@ void Stylus::aim(const GroundPoint& at, const StylusButtons& buttons, double poi
         return;
     }
     if (at.index != at_.index) {
-        model_.reset();
+        letGo();
+        touch_.reset();
     }
     at_ = at;
     point_m_ = point_m;
@@ -78,15 +80,34 @@ void Stylus::aim(const GroundPoint& at, const StylusButtons& buttons, double poi
         press(goal);
     } else {
         // Hovering, a mouse has no height of its own that could get in the way of a ridge.
-        model_.reset();
+        letGo();
     }
     updatePose(mode, goal);
 }
 
 void Stylus::lift()
 {
-    model_.reset();
+    letGo();
     pose_.reset();
+}
+
+void Stylus::letGo()
+{
+    model_.reset();
+    if (touch_) {
+        touch_->release();
+    }
+}
+
+bool Stylus::refresh()
+{
+    if (!isWaiting() || !touch_->follow(*model_, pose_->proxy)) {
+        return false;
+    }
+    model_->update(pose_->goal);
+    keepOnItsMap(pose_->goal);
+    updatePose(pose_->mode, pose_->goal);
+    return true;
 }
 
 void Stylus::deepen(double factor)
@@ -95,11 +116,13 @@ void Stylus::deepen(double factor)
         std::clamp(reach_.depth_points * factor, kStylusDepthMin, kStylusDepthMax);
 }
 
-std::unique_ptr<MapContactModel> Stylus::makeModel() const
+std::unique_ptr<MapContactModel> Stylus::makeModel()
 {
-    const auto& [map, frame] = ground_.maps()[at_.index];
-    return makeContactModel(kind_, {map.filled, frame, exaggeration_},
-                            {.radius_m = 0.5 * meanCellSideM(frame)});
+    const SceneMap& map = ground_.maps()[at_.index];
+    if (!touch_) {
+        touch_ = std::make_unique<MapTouch>(map);
+    }
+    return touch_->makeModel(kind_, exaggeration_, {.radius_m = 0.5 * meanCellSideM(map.frame)});
 }
 
 ScenePoint Stylus::aimedGround() const
@@ -111,8 +134,13 @@ void Stylus::press(const ScenePoint& goal)
 {
     if (!model_) {
         model_ = makeModel();
+        if (!model_) {
+            return; // there is nothing of it to be touched
+        }
+        touch_->follow(*model_, goal);
         model_->place(goal); // from straight above: nothing beside the place is in the way
     }
+    touch_->follow(*model_, goal);
     model_->update(goal);
     keepOnItsMap(goal);
 }

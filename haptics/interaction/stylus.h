@@ -3,6 +3,7 @@
 
 #include "core/contact/contact_model.h"
 #include "core/session/scene_surface.h"
+#include "haptics/interaction/map_touch.h"
 #include "haptics/interaction/mouse_stylus.h"
 
 #include <memory>
@@ -36,6 +37,12 @@ public:
     /// The pointer is over this point of the ground, where a point of the screen is `point_m` > 0
     /// long. While grabbed, goal and proxy stay where they are.
     void aim(const GroundPoint& at, const StylusButtons& buttons, double point_m);
+    /// Takes in what has been loaded of the ground since the last call. True where the proxy may
+    /// have moved with it. For ground that comes in tiles, some thirty times a second while
+    /// isWaiting().
+    bool refresh();
+    /// Whether the ground below the stylus may still change by itself.
+    bool isWaiting() const noexcept { return model_ != nullptr && touch_->isTiled(); }
     /// The pointer is over no ground, or has left.
     void lift();
     /// Presses deeper (factor > 1) or less deep from the next aim on, within bounds.
@@ -45,7 +52,8 @@ public:
     const std::optional<StylusPose>& pose() const noexcept { return pose_; }
 
 private:
-    std::unique_ptr<MapContactModel> makeModel() const;
+    std::unique_ptr<MapContactModel> makeModel();
+    void letGo();
     ScenePoint aimedGround() const;
     void press(const ScenePoint& goal);
     void keepOnItsMap(const ScenePoint& goal);
@@ -59,7 +67,8 @@ private:
     GroundPoint at_; // aimed at last
     double point_m_ = 1.0;
     ContactModelKind kind_ = kContactModelDefault;
-    std::unique_ptr<MapContactModel> model_; // over the map aimed at; while in contact
+    std::unique_ptr<MapTouch> touch_;        // of the map aimed at, once it was touched
+    std::unique_ptr<MapContactModel> model_; // over it; while in contact
     std::optional<StylusPose> pose_;
 };
 
