@@ -133,7 +133,7 @@ Result<Ground> fractalGround(const Options& options, JobMonitor& monitor)
 
 Result<Ground> mapGround(const Options& options, JobMonitor& monitor)
 {
-    Result<TouchMap> map = openTouchMap(options.map, monitor);
+    Result<TouchMap> map = openTouchMap(options.map, TouchStore::Held, monitor);
     if (!map) {
         return std::move(map).error();
     }

@@ -7,11 +7,28 @@
 
 namespace marsview {
 
-Result<TouchMap> openTouchMap(const MapOptions& options, JobMonitor& monitor)
+Result<TouchMap> openTouchMap(const MapOptions& options, TouchStore store, JobMonitor& monitor)
 {
-    auto dataset =
-        loadDataset({.path = options.path, .band = options.band, .overrides = options.overrides()},
-                    monitor, defaultMemoryBudget());
+    const DatasetSpec spec{
+        .path = options.path, .band = options.band, .overrides = options.overrides()};
+    const MapResources resources = defaultMapResources();
+    if (store == TouchStore::HeldOrTiled) {
+        const Result<OpenPlan> plan = planOpening(spec, resources);
+        if (!plan) {
+            return plan.error();
+        }
+        if (plan->store != MapStore::Held) {
+            Result<LoadedMap> map = openMap(spec, resources, monitor);
+            if (!map) {
+                return std::move(map).error();
+            }
+            return TouchMap{.dataset = map->dataset,
+                            .analysis = map->analysis,
+                            .filled = map->filled,
+                            .levels = map->levels};
+        }
+    }
+    auto dataset = loadDataset(spec, monitor, defaultMemoryBudget());
     if (!dataset) {
         return std::move(dataset).error();
     }
@@ -26,7 +43,8 @@ Result<TouchMap> openTouchMap(const MapOptions& options, JobMonitor& monitor)
     }
     return TouchMap{.dataset = std::move(dataset).value(),
                     .analysis = std::move(analysis).value(),
-                    .filled = std::make_shared<const FilledHeightfield>(std::move(filled).value())};
+                    .filled = std::make_shared<const FilledHeightfield>(std::move(filled).value()),
+                    .levels = nullptr};
 }
 
 } // namespace marsview

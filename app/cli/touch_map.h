@@ -4,6 +4,7 @@
 #include "app/cli/map_options.h"
 #include "core/base/job_monitor.h"
 #include "core/session/dataset.h"
+#include "core/session/open_map.h"
 #include "core/terrain/filled_heightfield.h"
 
 #include <memory>
@@ -14,10 +15,14 @@ namespace marsview {
 struct TouchMap {
     std::shared_ptr<const Dataset> dataset;
     std::shared_ptr<const SurfaceAnalysis> analysis;
-    std::shared_ptr<const FilledHeightfield> filled;
+    std::shared_ptr<const FilledHeightfield> filled; // null where the map comes in tiles
+    std::shared_ptr<const MapLevels> levels;         // null where it is held
 };
 
-/// Reads the map whole and measures what casts skip by.
-Result<TouchMap> openTouchMap(const MapOptions& options, JobMonitor& monitor);
+/// Whether a map may come in tiles, prepared first where it has to be.
+enum class TouchStore { Held, HeldOrTiled };
+
+/// Reads the map whole and measures what casts skip by, or opens it in tiles.
+Result<TouchMap> openTouchMap(const MapOptions& options, TouchStore store, JobMonitor& monitor);
 
 } // namespace marsview

@@ -6,7 +6,9 @@
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "app/cli/touch_map.h"
+#include "core/contact/resident_heights.h"
 #include "core/mesh/mesh_file.h"
+#include "core/terrain/waiting_terrain.h"
 
 #include <algorithm>
 #include <cctype>
@@ -124,7 +126,8 @@ struct Subject {
     std::unique_ptr<ContactModel> model;
     TraceFrame frame;
     double radius_m = 0.0;
-    std::shared_ptr<const Dataset> dataset; // null for a mesh
+    std::shared_ptr<const Dataset> dataset;        // null for a mesh
+    std::shared_ptr<const WaitingTerrain> terrain; // of a map in tiles
 };
 
 Result<Subject> meshSubject(const Options& options, ContactModelKind kind, JobMonitor& monitor)
@@ -153,12 +156,12 @@ Result<Subject> meshSubject(const Options& options, ContactModelKind kind, JobMo
     }
     const double radius_m = options.radius_m.value_or(1.0);
     return Subject{makeContactModel(kind, MeshSurface(mesh.value()), {.radius_m = radius_m}),
-                   meshFrame(options.exaggeration), radius_m, nullptr};
+                   meshFrame(options.exaggeration), radius_m, nullptr, nullptr};
 }
 
 Result<Subject> mapSubject(const Options& options, ContactModelKind kind, JobMonitor& monitor)
 {
-    Result<TouchMap> map = openTouchMap(options.map, monitor);
+    Result<TouchMap> map = openTouchMap(options.map, TouchStore::HeldOrTiled, monitor);
     if (!map) {
         return std::move(map).error();
     }
@@ -167,10 +170,20 @@ Result<Subject> mapSubject(const Options& options, ContactModelKind kind, JobMon
     const double half_cell_m =
         (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
     const double radius_m = options.radius_m.value_or(half_cell_m);
-    const HeightfieldSurface surface(map.value().filled, georeference.sceneFrame(),
-                                     options.exaggeration);
-    return Subject{makeContactModel(kind, surface, {.radius_m = radius_m}),
-                   frameOf(*dataset, options.exaggeration), radius_m, dataset};
+    const SceneFrame frame = georeference.sceneFrame();
+    const TraceFrame trace_frame = frameOf(*dataset, options.exaggeration);
+    if (map->filled) {
+        const HeightfieldSurface surface(map->filled, frame, options.exaggeration);
+        return Subject{makeContactModel(kind, surface, {.radius_m = radius_m}), trace_frame,
+                       radius_m, dataset, nullptr};
+    }
+    const Heightfield& heightfield = dataset->heightfield();
+    const auto terrain = std::make_shared<const WaitingTerrain>(
+        heightfield.tiles()->raster(),
+        std::make_shared<const TileHeights>(map->levels, heightfield.scale()));
+    const TiledHeightfieldSurface surface(terrain, frame, options.exaggeration);
+    return Subject{makeContactModel(kind, surface, {.radius_m = radius_m}), trace_frame, radius_m,
+                   dataset, terrain};
 }
 
 Status runTrace(const Options& options)
@@ -201,6 +214,9 @@ Status runTrace(const Options& options)
     if (!updates) {
         return Error{updates.error().code,
                      fmt::format("{}: {}", options.map.path, updates.error().message)};
+    }
+    if (subject->terrain && subject->terrain->error()) {
+        return *subject->terrain->error();
     }
     const std::string csv =
         asCsv(*updates, options.has_timing ? TraceTiming::Yes : TraceTiming::No);
