@@ -14,9 +14,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -38,10 +42,29 @@ double secondsSince(Clock::time_point start)
 }
 
 // Where to put the tiled form: where the user says, else among the prepared maps.
-Result<std::string> outputFor(const Options& options)
+struct Output {
+    std::string path;
+    std::optional<MapFolder> folder;
+};
+
+std::string settingsOf(const RasterOverrides& overrides)
+{
+    if (overrides.isEmpty()) {
+        return {};
+    }
+    const Ellipsoid radii = overrides.ellipsoid.value_or(Ellipsoid{0.0, 0.0});
+    return fmt::format("{}|{}|{} {}|{}|{}|{}", overrides.crs.value_or(""),
+                       overrides.body.value_or(""), radii.equatorial_m, radii.polar_m,
+                       overrides.transform ? fmt::format("{}", fmt::join(*overrides.transform, " "))
+                                           : "",
+                       overrides.vertical_unit.value_or(""),
+                       overrides.nodata ? fmt::format("{}", *overrides.nodata) : "");
+}
+
+Result<Output> outputFor(const Options& options)
 {
     if (!options.output.empty()) {
-        return options.output;
+        return Output{options.output, std::nullopt};
     }
     Result<SourceIdentity> source = identify(options.map.path);
     if (!source) {
@@ -51,7 +74,9 @@ Result<std::string> outputFor(const Options& options)
     if (!folder) {
         return std::move(folder).error();
     }
-    return folder->pathFor(*source, options.map.band);
+    std::string path =
+        folder->pathFor(*source, options.map.band, settingsOf(options.map.overrides()));
+    return Output{std::move(path), std::move(folder).value()};
 }
 
 Result<bool> isUsedInPlace(const Options& options)
@@ -65,6 +90,27 @@ Result<bool> isUsedInPlace(const Options& options)
         options.output.empty() ||
         std::filesystem::equivalent(options.output, options.map.path, ignored);
     return layout->is_usable && is_same_file;
+}
+
+// The new map is the last that would have to go.
+Status keepWithinBound(const MapFolder& folder, const std::string& path)
+{
+    const Result<FileLock> use = folder.use(path);
+    if (!use) {
+        return use.error();
+    }
+    const Result<std::vector<PreparedMap>> removed = folder.trim(folder.defaultBytesMax());
+    if (!removed) {
+        return removed.error();
+    }
+    for (const PreparedMap& map : *removed) {
+        std::fprintf(
+            stderr, "marsview-cli: %s\n",
+            asOneLine(fmt::format("{}: removed, the prepared maps took more than {:.0f} GB",
+                                  map.path, static_cast<double>(folder.defaultBytesMax()) / 1e9))
+                .c_str());
+    }
+    return Done{};
 }
 
 void print(const Json& json)
@@ -108,7 +154,7 @@ Status runPrepare(const Options& options)
         json["notes"] = Json::array();
         json["samples_per_second"] = nullptr;
     } else {
-        Result<std::string> output = outputFor(options);
+        Result<Output> output = outputFor(options);
         if (!output) {
             return std::move(output).error();
         }
@@ -116,7 +162,7 @@ Status runPrepare(const Options& options)
         job.source = options.map.path;
         job.band = options.map.band;
         job.overrides = options.map.overrides();
-        job.path = *output;
+        job.path = output->path;
         job.when_busy =
             options.is_waiting ? TiledGeoTiffJob::WhenBusy::Wait : TiledGeoTiffJob::WhenBusy::Fail;
         job.checkpoint_interval =
@@ -126,10 +172,15 @@ Status runPrepare(const Options& options)
         if (!report) {
             return std::move(report).error();
         }
+        if (output->folder) {
+            if (Status kept = keepWithinBound(*output->folder, output->path); !kept) {
+                return kept;
+            }
+        }
         for (const std::string& note : report->notes) {
             std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(note).c_str());
         }
-        json["file"] = *output;
+        json["file"] = output->path;
         json["is_source_used"] = false;
         json["samples"] = report->samples;
         json["samples_read"] = report->samples_read;

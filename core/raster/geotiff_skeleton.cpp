@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -25,6 +26,7 @@ namespace {
 constexpr const char* kDomain = "MARSVIEW";
 constexpr const char* kKey = "MADE_FROM";
 constexpr const char* kSource = "SOURCE";
+constexpr const char* kCrs = "CRS";
 
 GDALDataType gdalTypeOf(SampleType type)
 {
@@ -77,6 +79,13 @@ private:
     const char* name_;
 };
 
+// GDAL 3.6 fails to lay out overviews of 64-bit whole numbers with nodata ("Sanity check on tag
+// count failed"); it succeeds where nodata is told afterwards.
+bool isWide(SampleType type)
+{
+    return type == SampleType::Int64 || type == SampleType::UInt64;
+}
+
 CPLErr setNodata(GDALRasterBand& band, SampleType type, double nodata)
 {
     constexpr double kTwoTo63 = 9223372036854775808.0;
@@ -87,8 +96,7 @@ CPLErr setNodata(GDALRasterBand& band, SampleType type, double nodata)
         return band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(nodata));
     }
     // Of 64-bit samples none has any other value.
-    return type == SampleType::Int64 || type == SampleType::UInt64 ? CE_None
-                                                                   : band.SetNoDataValue(nodata);
+    return isWide(type) ? CE_None : band.SetNoDataValue(nodata);
 }
 
 bool describe(GDALDataset& dataset, const RasterInfo& info, const GeoTiffOrigin& origin)
@@ -108,7 +116,7 @@ bool describe(GDALDataset& dataset, const RasterInfo& info, const GeoTiffOrigin&
     }
     // The transform places pixels by their corners, as GDAL gives it, whatever the source meant.
     expect(dataset.SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_AREA));
-    if (info.nodata) {
+    if (info.nodata && !isWide(info.type)) {
         expect(setNodata(band, info.type, *info.nodata));
     }
     if (info.scale != 1.0) {
@@ -128,7 +136,32 @@ bool describe(GDALDataset& dataset, const RasterInfo& info, const GeoTiffOrigin&
     return is_written;
 }
 
+// GeoTIFF has keys for what is usual on the Earth, and forgets the rest without a word.
+bool keepCrs(GDALDataset& dataset, const RasterInfo& info)
+{
+    if (!info.crs) {
+        return true;
+    }
+    if (const OGRSpatialReference* reference = dataset.GetSpatialRef()) {
+        const Result<Crs> kept = Crs::fromSpatialReference(*reference);
+        if (kept && kept->wkt() == info.crs->wkt()) {
+            return true;
+        }
+    }
+    return dataset.SetMetadataItem(kCrs, info.crs->wkt().c_str(), kDomain) == CE_None;
+}
+
 } // namespace
+
+std::optional<Crs> exactCrsOf(GDALDataset& dataset)
+{
+    const char* wkt = dataset.GetMetadataItem(kCrs, kDomain);
+    if (wkt == nullptr) {
+        return std::nullopt;
+    }
+    Result<Crs> crs = Crs::fromText(wkt);
+    return crs ? std::optional<Crs>(std::move(crs).value()) : std::nullopt;
+}
 
 Status
 writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoTiffOrigin& origin)
@@ -147,11 +180,12 @@ writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoT
     if (driver == nullptr) {
         return refusal();
     }
+    const std::string tile_side = fmt::format("{}", kTileSide);
     CPLStringList options;
     options.SetNameValue("BIGTIFF", "YES");
     options.SetNameValue("TILED", "YES");
-    options.SetNameValue("BLOCKXSIZE", fmt::format("{}", kTileSide).c_str());
-    options.SetNameValue("BLOCKYSIZE", fmt::format("{}", kTileSide).c_str());
+    options.SetNameValue("BLOCKXSIZE", tile_side.c_str());
+    options.SetNameValue("BLOCKYSIZE", tile_side.c_str());
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("PREDICTOR", predictorFor(info.type));
     options.SetNameValue("SPARSE_OK", "TRUE");
@@ -161,8 +195,7 @@ writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoT
     const ThreadOption inner_mask("GDAL_TIFF_INTERNAL_MASK", "YES");
     const ThreadOption overview_predictor("PREDICTOR_OVERVIEW", predictorFor(info.type));
     const ThreadOption overview_compression("COMPRESS_OVERVIEW", "DEFLATE");
-    const ThreadOption overview_tiles("GDAL_TIFF_OVR_BLOCKSIZE",
-                                      kTileSide == 256 ? "256" : nullptr);
+    const ThreadOption overview_tiles("GDAL_TIFF_OVR_BLOCKSIZE", tile_side.c_str());
     const ThreadOption sparse_overviews("SPARSE_OK_OVERVIEW", "TRUE");
     std::vector<int> factors(overviewCount(info.columns, info.rows));
     for (std::size_t i = 0; i < factors.size(); ++i) {
@@ -175,20 +208,26 @@ writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoT
         (info.has_mask_band && dataset->CreateMaskBand(GMF_PER_DATASET) != CE_None)) {
         return refusal();
     }
-    // Opened anew: then GDAL does not fill what is empty when it closes the file.
-    dataset.reset();
-    if (!factors.empty()) {
+    // Opened anew, GDAL reads the CRS as other programs will.
+    const auto reopen = [&path, &dataset] {
         CPLStringList open_options;
         open_options.SetNameValue("SPARSE_OK", "TRUE");
+        dataset.reset(); // first: it writes
         dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE, nullptr,
                                         open_options.List()));
-        if (!dataset ||
-            dataset->BuildOverviews("NONE", static_cast<int>(factors.size()), factors.data(), 0,
-                                    nullptr, GDALDummyProgress, nullptr) != CE_None) {
-            return refusal();
-        }
-        dataset.reset();
+        return dataset != nullptr;
+    };
+    if (!reopen() || !keepCrs(*dataset, info) ||
+        (!factors.empty() &&
+         dataset->BuildOverviews("NONE", static_cast<int>(factors.size()), factors.data(), 0,
+                                 nullptr, GDALDummyProgress, nullptr) != CE_None)) {
+        return refusal();
     }
+    if (info.nodata && isWide(info.type) &&
+        (!reopen() || setNodata(*dataset->GetRasterBand(1), info.type, *info.nodata) != CE_None)) {
+        return refusal();
+    }
+    dataset.reset();
     if (messages.hasFailed()) {
         return refusal();
     }

@@ -1,6 +1,7 @@
 #include "core/raster/raster_file.h"
 
 #include "core/raster/gdal_runtime.h"
+#include "core/raster/geotiff_skeleton.h"
 #include "core/raster/netcdf_extent.h"
 #include "core/raster/pds3_placement.h"
 #include "core/raster/raster_path.h"
@@ -244,8 +245,11 @@ void readVertical(GDALDataset& dataset,
 
 void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo& info)
 {
-    if (const OGRSpatialReference* reference = dataset.GetSpatialRef()) {
-        Result<Crs> crs = Crs::fromSpatialReference(*reference);
+    std::optional<Crs> exact = exactCrsOf(dataset);
+    const OGRSpatialReference* reference = dataset.GetSpatialRef();
+    if (exact || reference != nullptr) {
+        Result<Crs> crs =
+            exact ? Result<Crs>(std::move(*exact)) : Crs::fromSpatialReference(*reference);
         if (crs) {
             info.crs = std::move(crs).value();
             info.body = info.crs->body();

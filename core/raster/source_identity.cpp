@@ -17,6 +17,8 @@
 #include <fmt/format.h>
 #include <memory>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 #include <zlib.h>
 
@@ -83,6 +85,24 @@ bool isSidecar(std::string_view name)
     return name.ends_with(".aux.xml") || name.ends_with(".ovr");
 }
 
+// The file itself, or one beside it of the same name in other letters: GDAL lists a header as .hdr
+// that it found as .HDR. Empty where there is neither.
+std::string asOnDisk(const std::string& file)
+{
+    VSIStatBufL status{};
+    if (VSIStatL(file.c_str(), &status) == 0) {
+        return file;
+    }
+    const fs::path path(file);
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path(), ignored)) {
+        if (EQUAL(entry.path().filename().c_str(), path.filename().c_str())) {
+            return entry.path().string();
+        }
+    }
+    return {};
+}
+
 // The raster's files as GDAL lists them; only itself where GDAL does not open it.
 std::vector<std::string> filesOf(const std::string& path)
 {
@@ -97,8 +117,9 @@ std::vector<std::string> filesOf(const std::string& path)
         if (dataset) {
             const CPLStringList listed(dataset->GetFileList());
             for (int i = 0; i < listed.Count(); ++i) {
-                if (!isSidecar(listed[i])) {
-                    files.emplace_back(listed[i]);
+                std::string file = isSidecar(listed[i]) ? std::string() : asOnDisk(listed[i]);
+                if (!file.empty()) {
+                    files.push_back(std::move(file));
                 }
             }
             break;

@@ -724,16 +724,19 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     report.samples = info->columns * info->rows;
     const std::string key = keyOf(*info, *before);
     std::error_code failure;
-    if (has_waited && fs::exists(job.path, failure) && readGeoTiffOrigin(job.path).key == key) {
-        report.notes.push_back(
-            fmt::format("{}: was prepared by another program meanwhile", job.path));
+    Preparation preparation(job, *source, *info, key, before->path, report);
+    if (fs::exists(job.path, failure) && readGeoTiffOrigin(job.path).key == key) {
+        preparation.discard(); // as after a kill in the moment of publishing
+        report.notes.push_back(fmt::format("{}: is made from this source already{}", job.path,
+                                           has_waited ? ", by another program meanwhile"
+                                                      : "; remove it to make it anew"));
         report.bytes = fs::file_size(job.path, failure);
+        monitor.report(1.0);
         return report;
     }
     if (Status space = checkSpace(job, *info); !space) {
         return std::move(space).error();
     }
-    Preparation preparation(job, *source, *info, key, before->path, report);
     Status copied = preparation.begin();
     if (copied) {
         copied = preparation.copy(monitor);

@@ -131,6 +131,19 @@ TEST(SourceIdentity, SeesWhenTheImageOfALabelChanges)
     EXPECT_FALSE(isSameContent(before, identityOf(label)));
 }
 
+TEST(SourceIdentity, SeesWhenAHeaderInCapitalsChanges)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const test::TempFolder folder;
+    for (const char* name : {"W100N40_etopo5.DEM", "W100N40_etopo5.HDR"}) {
+        folder.write(name, test::readFile(test::sharedData() / "derived" / name));
+    }
+    const std::string path = folder.file("W100N40_etopo5.DEM");
+    const SourceIdentity before = identityOf(path);
+    changeByte(folder.file("W100N40_etopo5.HDR"), 300);
+    EXPECT_FALSE(isSameContent(before, identityOf(path)));
+}
+
 TEST(SourceIdentity, IsNotDisturbedByStatisticsBesideTheRaster)
 {
     const test::TempFolder folder;

@@ -1,0 +1,280 @@
+#include "tests/cli/run_cli.h"
+#include "tests/support/gdal_tools.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/random.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace marsview::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using testing::HasSubstr;
+
+// Tall: a checkpoint every 2048 rows.
+std::string tallMap(const TempFolder& folder)
+{
+    Random random;
+    std::vector<std::int16_t> samples(std::size_t{700} * 30'000);
+    double height = 0.0;
+    for (std::int16_t& sample : samples) {
+        height += random.uniform(-3.0, 3.0) - 0.001 * height;
+        sample = static_cast<std::int16_t>(height);
+    }
+    return writeVrt(folder, "tall", recipeFor<std::int16_t>(700, samples));
+}
+
+nlohmann::json checksumsOf(const std::string& path)
+{
+    nlohmann::json info = nlohmann::json::parse(runTool({"gdalinfo", "-json", "-checksum", path}));
+    info.erase("description");
+    info.erase("files");
+    return info;
+}
+
+// A program that runs beside the test, with its messages in a file.
+class Running {
+public:
+    Running(std::vector<std::string> arguments, const std::string& messages)
+    {
+        arguments.insert(arguments.begin(), MARSVIEW_CLI);
+        std::vector<char*> argv;
+        for (std::string& argument : arguments) {
+            argv.push_back(argument.data());
+        }
+        argv.push_back(nullptr);
+        child_ = fork();
+        if (child_ == 0) {
+            const int out = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+            dup2(out, STDOUT_FILENO);
+            dup2(out, STDERR_FILENO);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+    }
+    ~Running()
+    {
+        if (child_ > 0) {
+            kill(child_, SIGKILL);
+            wait();
+        }
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    void signal(int number) const { kill(child_, number); }
+    /// The exit status; -1 where a signal ended it.
+    int wait()
+    {
+        int status = 0;
+        waitpid(child_, &status, 0);
+        child_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+private:
+    pid_t child_ = -1;
+};
+
+} // namespace
+
+TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder);
+    const ProgramOutput output =
+        runCli({"prepare", source, "-o", folder.file("map.tif"), "--json"});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_EQ(output.err, "");
+    const nlohmann::json json = nlohmann::json::parse(output.out);
+    EXPECT_EQ(json["file"], folder.file("map.tif"));
+    EXPECT_EQ(json["samples"], 700 * 30'000);
+    EXPECT_EQ(json["samples_read"], 700 * 30'000);
+    EXPECT_EQ(json["bytes"], fs::file_size(folder.file("map.tif")));
+    EXPECT_GT(json["samples_per_second"], 0.0);
+    EXPECT_GT(json["peak_memory_bytes"], 0);
+    const nlohmann::json source_info = checksumsOf(source);
+    const nlohmann::json info = checksumsOf(folder.file("map.tif"));
+    EXPECT_EQ(firstBand(info)["checksum"], firstBand(source_info)["checksum"]);
+    EXPECT_EQ(firstBand(info)["overviews"].size(), 8U);
+    const ProgramOutput words = runCli({"prepare", source, "-o", folder.file("other.tif")});
+    EXPECT_EQ(words.exit_status, 0);
+    EXPECT_THAT(words.out, HasSubstr("throughput"));
+}
+
+TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder);
+    const std::string whole = folder.file("whole.tif");
+    const std::string path = folder.file("map.tif");
+    const auto start = Clock::now();
+    ASSERT_EQ(runCli({"prepare", source, "-o", whole, "--checkpoint", "0"}).exit_status, 0);
+    const auto duration_ms =
+        std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
+    const nlohmann::json expected = checksumsOf(whole);
+
+    Random random;
+    constexpr int kKills = 24;
+    int kills = 0;
+    int resumed = 0;
+    int finished = 0;
+    while (kills < kKills) {
+        const std::string messages = folder.file("messages");
+        Running program({"prepare", source, "-o", path, "--checkpoint", "0"}, messages);
+        const auto moment_ms =
+            static_cast<int>(random.uniform(0.0, 0.7 * static_cast<double>(duration_ms)));
+        poll(nullptr, 0, moment_ms); // a random moment, not one to wait for
+        program.signal(SIGKILL);
+        const int status = program.wait();
+        if (status == -1) {
+            ++kills;
+            continue;
+        }
+        ASSERT_EQ(status, 0) << readFile(messages); // the lock is free, and nothing left disturbs
+        resumed += readFile(messages).find("goes on behind row") != std::string::npos ? 1 : 0;
+        ++finished;
+        ASSERT_EQ(checksumsOf(path), expected);
+        fs::remove(path);
+    }
+    const ProgramOutput last = runCli({"prepare", source, "-o", path, "--checkpoint", "0"});
+    ASSERT_EQ(last.exit_status, 0) << last.err;
+    resumed += last.err.find("goes on behind row") != std::string::npos ? 1 : 0;
+    EXPECT_EQ(checksumsOf(path), expected);
+    EXPECT_GT(resumed, 0);
+    for (const char* ending : {".part", ".part.journal", ".part.journal.new", ".lock"}) {
+        EXPECT_FALSE(fs::exists(path + ending)) << ending;
+    }
+    std::printf("%d kills, %d finished before theirs, %d runs that ended had gone on\n", kills,
+                finished, resumed);
+}
+
+TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder);
+    const std::string path = folder.file("map.tif");
+    const std::string messages = folder.file("messages");
+    Running program({"prepare", source, "-o", path, "--checkpoint", "0"}, messages);
+    while (!fs::exists(path + ".part.journal") && !fs::exists(path)) {
+        poll(nullptr, 0, 1);
+    }
+    program.signal(SIGINT);
+    EXPECT_EQ(program.wait(), 1) << readFile(messages);
+    EXPECT_EQ(readFile(messages),
+              fmt::format("marsview-cli: {}: preparing was cancelled; it goes on "
+                          "from there when it is started again\n",
+                          path));
+    const ProgramOutput second = runCli({"prepare", source, "-o", path});
+    EXPECT_EQ(second.exit_status, 0);
+    EXPECT_THAT(second.err, HasSubstr("goes on behind row"));
+    EXPECT_EQ(firstBand(checksumsOf(path))["checksum"], firstBand(checksumsOf(source))["checksum"]);
+}
+
+TEST(PrepareCommand, SaysThatThereIsNoRoomAndGoesOnWhenThereIs)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder);
+    const std::string path = folder.file("map.tif");
+    // A limit on the size of files stands in for a full disk; in blocks of 512 bytes.
+    for (const auto& [blocks, is_resumed] : {std::pair{200, false}, std::pair{20'000, true}}) {
+        const ProgramOutput output = runProgram(
+            {"sh", "-c",
+             fmt::format(
+                 "trap '' XFSZ; ulimit -f {}; exec '{}' prepare '{}' -o '{}' --checkpoint 0",
+                 blocks, MARSVIEW_CLI, source, path)});
+        EXPECT_EQ(output.exit_status, 1);
+        EXPECT_THAT(output.err, testing::StartsWith("marsview-cli: " + path));
+        EXPECT_THAT(output.err, HasSubstr("largest file that may be written"));
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+        EXPECT_FALSE(fs::exists(path));
+        EXPECT_EQ(fs::exists(path + ".part"), is_resumed);
+        const ProgramOutput later = runCli({"prepare", source, "-o", path});
+        EXPECT_EQ(later.exit_status, 0) << later.err;
+        EXPECT_EQ(later.err.find("goes on behind row") != std::string::npos, is_resumed)
+            << later.err;
+        EXPECT_EQ(firstBand(checksumsOf(path))["checksum"],
+                  firstBand(checksumsOf(source))["checksum"]);
+        fs::remove(path);
+    }
+}
+
+TEST(PrepareCommand, LooksForRoomBeforehand)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder); // 42 MB raw
+    fs::create_directory(folder.path() / "small");
+    const std::string script = fmt::format(
+        "mount -t tmpfs -o size=20m tmpfs '{0}' || exit 99; exec '{1}' prepare '{2}' -o "
+        "'{0}/map.tif'",
+        folder.file("small"), MARSVIEW_CLI, source);
+    const ProgramOutput output = runProgram({"unshare", "-Urm", "sh", "-c", script});
+    if (output.exit_status == 99 || output.exit_status == 127 ||
+        output.err.find("unshare") != std::string::npos) {
+        GTEST_SKIP() << "this machine lets nobody make a small disk: " << output.err;
+    }
+    EXPECT_EQ(output.exit_status, 1);
+    EXPECT_THAT(output.err, HasSubstr("needs up to 0.1 GB, but"));
+    EXPECT_THAT(output.err, HasSubstr("has only 0.0 GB free"));
+}
+
+TEST(PrepareCommand, UsesAMapInPlaceThatIsTiledAndHasOverviews)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder);
+    const std::string path = folder.file("map.tif");
+    ASSERT_EQ(runCli({"prepare", source, "-o", path}).exit_status, 0);
+    const std::string before = readFile(path);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"prepare", path, "--json"},
+          {"prepare", path, "-o", path, "--json"}}) {
+        const ProgramOutput output = runCli(arguments);
+        ASSERT_EQ(output.exit_status, 0) << output.err;
+        const nlohmann::json json = nlohmann::json::parse(output.out);
+        EXPECT_EQ(json["is_source_used"], true);
+        EXPECT_EQ(json["file"], path);
+    }
+    EXPECT_EQ(readFile(path), before);
+}
+
+TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
+{
+    const TempFolder folder;
+    const TempFolder maps;
+    const std::string source = writeVrt(
+        folder, "little", recipeFor<std::int16_t>(700, std::vector<std::int16_t>(700 * 600, 5)));
+    const ProgramOutput output = runProgram({"env", "MARSVIEW_CACHE_DIR=" + maps.path().string(),
+                                             MARSVIEW_CLI, "prepare", source, "--json"});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    const std::string file = nlohmann::json::parse(output.out)["file"].get<std::string>();
+    EXPECT_TRUE(fs::exists(file + ".use")); // the time of its last use
+    EXPECT_EQ(fs::path(file).parent_path(), maps.path());
+    EXPECT_TRUE(fs::exists(file));
+    EXPECT_EQ(firstBand(checksumsOf(file))["checksum"], firstBand(checksumsOf(source))["checksum"]);
+}
+
+TEST(PrepareCommand, FailsInOneLine)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("nothing.tif");
+    const ProgramOutput output = runCli({"prepare", path, "-o", folder.file("map.tif")});
+    EXPECT_EQ(output.exit_status, 1);
+    EXPECT_EQ(output.err, fmt::format("marsview-cli: {}: there is no such file\n", path));
+    EXPECT_EQ(runCli({"prepare"}).exit_status, 2);
+}
+
+} // namespace marsview::test

@@ -1,0 +1,728 @@
+// The tiled copy against its source, by GDAL's tools and by brute force.
+#include "core/base/file_lock.h"
+#include "core/raster/overview_builder.h"
+#include "core/raster/raster_file.h"
+#include "core/raster/tiled_geotiff.h"
+#include "tests/support/gdal_tools.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/random.h"
+#include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+#include <future>
+#include <limits>
+#include <thread>
+#include <type_traits>
+#include <unistd.h>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TiledGeoTiffJob jobFor(const std::string& source, const std::string& path)
+{
+    TiledGeoTiffJob job;
+    job.source = source;
+    job.path = path;
+    job.checkpoint_interval = std::chrono::milliseconds(0); // as often as there can be one
+    return job;
+}
+
+TiledGeoTiffReport prepare(const TiledGeoTiffJob& job)
+{
+    JobMonitor monitor;
+    Result<TiledGeoTiffReport> report = writeTiledGeoTiff(job, monitor);
+    EXPECT_TRUE(report) << report.error().message;
+    EXPECT_EQ(monitor.fraction(), 1.0);
+    return report ? *report : TiledGeoTiffReport{};
+}
+
+Error failureOf(const TiledGeoTiffJob& job)
+{
+    JobMonitor monitor;
+    Result<TiledGeoTiffReport> report = writeTiledGeoTiff(job, monitor);
+    EXPECT_FALSE(report) << "was prepared";
+    return report ? Error{} : report.error();
+}
+
+// The samples of a band, or of one of its overviews (0 is by 2), as gdal_translate writes them.
+std::string samplesOf(const std::string& path, int overview = -1, const std::string& band = "1")
+{
+    const test::TempFolder folder;
+    const std::string raw = folder.file("samples.raw");
+    std::vector<std::string> command{"gdal_translate", "-q", "-of", "ENVI", "-b", band};
+    if (overview >= 0) {
+        command.insert(command.end(), {"-ovr", std::to_string(overview)});
+    }
+    command.insert(command.end(), {path, raw});
+    test::runTool(command);
+    return test::readFile(raw);
+}
+
+void expectNothingLeftBeside(const std::string& path)
+{
+    for (const char* ending :
+         {".part", ".part.journal", ".part.journal.new", ".lock", ".aux.xml"}) {
+        EXPECT_FALSE(fs::exists(path + ending)) << path << ending;
+    }
+}
+
+void expectSameMap(const std::string& source_path, const std::string& copy_path)
+{
+    Result<RasterFile> source = RasterFile::open(source_path);
+    Result<RasterFile> copy = RasterFile::open(copy_path);
+    ASSERT_TRUE(source) << source.error().message;
+    ASSERT_TRUE(copy) << copy.error().message;
+    const RasterInfo& a = source->info();
+    const RasterInfo& b = copy->info();
+    EXPECT_EQ(b.driver, "GTiff");
+    EXPECT_EQ(b.columns, a.columns);
+    EXPECT_EQ(b.rows, a.rows);
+    EXPECT_EQ(b.type, a.type);
+    EXPECT_EQ(b.nodata.has_value(), a.nodata.has_value());
+    if (a.nodata && b.nodata && !(std::isnan(*a.nodata) && std::isnan(*b.nodata))) {
+        EXPECT_EQ(*b.nodata, *a.nodata);
+    }
+    EXPECT_EQ(b.has_mask_band, a.has_mask_band);
+    EXPECT_EQ(b.scale, a.scale);
+    EXPECT_EQ(b.offset, a.offset);
+    EXPECT_EQ(b.unit, a.unit);
+    EXPECT_EQ(b.is_unit_declared, a.is_unit_declared);
+    EXPECT_EQ(b.reference_radius_m, a.reference_radius_m);
+    EXPECT_EQ(b.vertical_datum, a.vertical_datum);
+    EXPECT_EQ(b.typical_raw, a.typical_raw);
+    EXPECT_EQ(b.transform.has_value(), a.transform.has_value());
+    if (a.transform && b.transform) {
+        EXPECT_EQ(b.transform->terms(), a.transform->terms());
+    }
+    EXPECT_EQ(b.body, a.body);
+    ASSERT_EQ(b.crs.has_value(), a.crs.has_value());
+    if (a.crs) {
+        EXPECT_EQ(b.crs->kind(), a.crs->kind());
+        EXPECT_EQ(b.crs->unit(), a.crs->unit());
+        EXPECT_EQ(b.crs->latitudeKind(), a.crs->latitudeKind());
+        EXPECT_EQ(b.crs->eastSign(), a.crs->eastSign());
+        ASSERT_EQ(b.crs->ellipsoid().has_value(), a.crs->ellipsoid().has_value());
+        if (a.crs->ellipsoid()) {
+            EXPECT_NEAR(b.crs->ellipsoid()->equatorial_m, a.crs->ellipsoid()->equatorial_m, 1e-6);
+            EXPECT_NEAR(b.crs->ellipsoid()->polar_m, a.crs->ellipsoid()->polar_m, 1e-6);
+        }
+        // The places themselves, through the CRS.
+        for (const GridPoint grid :
+             {GridPoint{0.0, 0.0},
+              GridPoint{static_cast<double>(a.columns) - 1.0, static_cast<double>(a.rows) - 1.0}}) {
+            if (!a.transform) {
+                break;
+            }
+            const auto from = a.crs->toGeographic(a.transform->toMap(grid));
+            const auto to = b.crs->toGeographic(b.transform->toMap(grid));
+            ASSERT_EQ(to.has_value(), from.has_value());
+            if (from) {
+                EXPECT_NEAR(to->longitude.degrees(), from->longitude.degrees(), 1e-10);
+                EXPECT_NEAR(to->latitude.degrees(), from->latitude.degrees(), 1e-10);
+            }
+        }
+    }
+}
+
+constexpr const char* kAbsent = "(absent)";
+
+std::vector<std::string> readableFiles()
+{
+    std::vector<std::string> paths;
+    for (const test::CatalogueEntry& entry : test::catalogue()) {
+        const bool is_truncated = entry.path.find("truncated.") != std::string::npos;
+        if (entry.driver != "DOES NOT OPEN" && !is_truncated) {
+            paths.push_back(entry.path);
+        }
+    }
+    if (paths.empty()) {
+        paths.emplace_back(kAbsent);
+    }
+    return paths;
+}
+
+class TiledCopyOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(TiledCopyOf, IsTheSameMapToTheBit)
+{
+    if (GetParam() == kAbsent) {
+        GTEST_SKIP() << "the real elevation data is not at " << test::sharedData();
+    }
+    const std::string source = (test::sharedData() / GetParam()).string();
+    const test::TempFolder folder;
+    const std::string path = folder.file("copy.tif");
+    prepare(jobFor(source, path));
+    expectNothingLeftBeside(path);
+    expectSameMap(source, path);
+    Result<RasterFile> opened = RasterFile::open(source);
+    ASSERT_TRUE(opened);
+    EXPECT_EQ(samplesOf(path), samplesOf(opened->info().path));
+    EXPECT_EQ(test::maskOf(path), test::maskOf(opened->info().path));
+    Result<TiledLayoutInfo> layout = tiledLayoutOf(path);
+    ASSERT_TRUE(layout);
+    EXPECT_TRUE(layout->is_usable) << layout->why_not;
+    EXPECT_EQ(layout->tile_side, 256U);
+    EXPECT_EQ(layout->overviews.size(), overviewCount(opened->info().columns, opened->info().rows));
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue,
+                         TiledCopyOf,
+                         testing::ValuesIn(readableFiles()),
+                         [](const auto& file) {
+                             std::string name = file.param;
+                             for (char& c : name) {
+                                 c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+                             }
+                             return name;
+                         });
+
+// What is known of a synthetic map, for brute force.
+template <typename T>
+struct Truth {
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::vector<T> samples;
+    std::vector<bool> is_void;
+    std::optional<T> nodata;
+};
+
+// The mean of a block as the header defines it; nothing where all of it is void.
+template <typename T>
+std::optional<T> blockMean(const Truth<T>& truth, std::size_t level, std::size_t x, std::size_t y)
+{
+    const std::size_t side = std::size_t{1} << level;
+    long double sum = 0.0L;
+    std::size_t count = 0;
+    for (std::size_t r = y * side; r < std::min((y + 1) * side, truth.rows); ++r) {
+        for (std::size_t c = x * side; c < std::min((x + 1) * side, truth.columns); ++c) {
+            if (!truth.is_void[r * truth.columns + c]) {
+                sum += static_cast<long double>(truth.samples[r * truth.columns + c]);
+                ++count;
+            }
+        }
+    }
+    if (count == 0) {
+        return std::nullopt;
+    }
+    const long double mean = sum / static_cast<long double>(count);
+    if constexpr (std::is_floating_point_v<T>) {
+        return static_cast<T>(mean);
+    } else {
+        return static_cast<T>(std::round(mean));
+    }
+}
+
+template <typename T>
+void expectOverviewsAreMeans(const std::string& path, const Truth<T>& truth, std::size_t step)
+{
+    for (std::size_t level = 1; level <= overviewCount(truth.columns, truth.rows); ++level) {
+        SCOPED_TRACE(fmt::format("level {}", level));
+        const std::string bytes = samplesOf(path, static_cast<int>(level) - 1);
+        const std::size_t columns = (truth.columns + (std::size_t{1} << level) - 1) >> level;
+        const std::size_t rows = (truth.rows + (std::size_t{1} << level) - 1) >> level;
+        ASSERT_EQ(bytes.size(), columns * rows * sizeof(T));
+        const std::size_t stride = level < 3 ? step : 1;
+        for (std::size_t i = 0; i < columns * rows; i += stride) {
+            T found{};
+            std::memcpy(&found, bytes.data() + i * sizeof(T), sizeof(T));
+            const std::optional<T> mean = blockMean(truth, level, i % columns, i / columns);
+            if (!mean) {
+                if (truth.nodata) {
+                    ASSERT_EQ(found, *truth.nodata) << i;
+                } else if constexpr (std::is_floating_point_v<T>) {
+                    ASSERT_TRUE(std::isnan(found)) << i;
+                }
+            } else if (truth.nodata && *mean == *truth.nodata) {
+                ASSERT_NE(found, *truth.nodata) << i;
+                ASSERT_NEAR(static_cast<double>(found), static_cast<double>(*mean), 1.0) << i;
+            } else if constexpr (std::is_floating_point_v<T>) {
+                ASSERT_NEAR(static_cast<double>(found), static_cast<double>(*mean),
+                            4.0 * static_cast<double>(std::numeric_limits<T>::epsilon()) *
+                                30'000.0) // of the terms
+                    << i;
+            } else {
+                ASSERT_EQ(found, *mean) << i;
+            }
+        }
+    }
+}
+
+template <typename T>
+Truth<T> randomMap(std::size_t columns, std::size_t rows, double low, double high)
+{
+    test::Random random;
+    Truth<T> truth{
+        columns, rows, std::vector<T>(columns * rows), std::vector<bool>(columns * rows), {}};
+    for (T& sample : truth.samples) {
+        sample = static_cast<T>(random.uniform(low, high));
+    }
+    return truth;
+}
+
+// Voids: a large rectangle, and one sample in ten elsewhere.
+template <typename T>
+void punchVoids(Truth<T>& truth, T value)
+{
+    test::Random random(7);
+    for (std::size_t r = 0; r < truth.rows; ++r) {
+        for (std::size_t c = 0; c < truth.columns; ++c) {
+            if ((c >= 300 && c < 700 && r >= 200 && r < 560) || random.chance(0.1)) {
+                truth.samples[r * truth.columns + c] = value;
+                truth.is_void[r * truth.columns + c] = true;
+            }
+        }
+    }
+}
+
+template <typename T>
+class TiledGeoTiffType : public testing::Test {};
+using Types = testing::Types<std::uint8_t,
+                             std::int8_t,
+                             std::uint16_t,
+                             std::int16_t,
+                             std::uint32_t,
+                             std::int32_t,
+                             std::uint64_t,
+                             std::int64_t,
+                             float,
+                             double>;
+TYPED_TEST_SUITE(TiledGeoTiffType, Types);
+
+TYPED_TEST(TiledGeoTiffType, KeepsSamplesAndAveragesThoseThatAreNotVoid)
+{
+    using T = TypeParam;
+    const test::TempFolder folder;
+    constexpr double kRange = sizeof(T) == 1 ? 100.0 : 30'000.0;
+    Truth<T> truth = randomMap<T>(1031, 777, std::is_signed_v<T> ? -kRange : 0.0, kRange);
+    truth.nodata = static_cast<T>(7); // in the midst of the heights
+    for (std::size_t i = 0; i < truth.samples.size(); ++i) {
+        truth.is_void[i] = truth.samples[i] == *truth.nodata;
+    }
+    punchVoids(truth, *truth.nodata);
+    test::RasterRecipe recipe = test::recipeFor(truth.columns, truth.samples);
+    recipe.band_xml += "<NoDataValue>7</NoDataValue>";
+    const std::string source = test::writeVrt(folder, "source", recipe);
+    const std::string path = folder.file("copy.tif");
+    prepare(jobFor(source, path));
+    EXPECT_EQ(samplesOf(path), recipe.bytes);
+    expectSameMap(source, path);
+    expectOverviewsAreMeans(path, truth, 7);
+}
+
+TEST(TiledGeoTiff, TakesNanAndInfinityForVoid)
+{
+    const test::TempFolder folder;
+    Truth<float> truth = randomMap<float>(900, 600, -5000.0, 5000.0);
+    punchVoids(truth, std::numeric_limits<float>::quiet_NaN());
+    truth.samples[5] = std::numeric_limits<float>::infinity();
+    truth.is_void[5] = true;
+    const test::RasterRecipe recipe = test::recipeFor(truth.columns, truth.samples);
+    const std::string path = folder.file("copy.tif");
+    prepare(jobFor(test::writeVrt(folder, "source", recipe), path));
+    EXPECT_EQ(samplesOf(path), recipe.bytes);
+    expectOverviewsAreMeans(path, truth, 7);
+}
+
+TEST(TiledGeoTiff, CarriesAMaskAndItsOverviews)
+{
+    const test::TempFolder folder;
+    Truth<std::int16_t> truth = randomMap<std::int16_t>(1030, 780, -5000.0, 5000.0);
+    punchVoids<std::int16_t>(truth, 1234);
+    std::string mask(truth.samples.size(), '\xFF');
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        mask[i] = truth.is_void[i] ? '\0' : '\xFF';
+    }
+    folder.write("mask.raw", mask);
+    test::RasterRecipe recipe = test::recipeFor(truth.columns, truth.samples);
+    recipe.extra_xml =
+        "<MaskBand><VRTRasterBand dataType=\"Byte\" subClass=\"VRTRawRasterBand\">"
+        "<SourceFilename relativeToVRT=\"1\">mask.raw</SourceFilename><ImageOffset>0</ImageOffset>"
+        "<PixelOffset>1</PixelOffset><LineOffset>1030</LineOffset></VRTRasterBand></MaskBand>";
+    const std::string source = test::writeVrt(folder, "source", recipe);
+    const std::string path = folder.file("copy.tif");
+    prepare(jobFor(source, path));
+    EXPECT_EQ(samplesOf(path), recipe.bytes);
+    expectSameMap(source, path);
+    EXPECT_EQ(samplesOf(path, -1, "mask"), mask);
+    expectOverviewsAreMeans(path, truth, 7);
+    for (std::size_t level = 1; level <= 3; ++level) {
+        const std::string valid = samplesOf(path, static_cast<int>(level) - 1, "mask");
+        const std::size_t columns = (truth.columns + (std::size_t{1} << level) - 1) >> level;
+        ASSERT_EQ(valid.size() % columns, 0U);
+        for (std::size_t i = 0; i < valid.size(); ++i) {
+            ASSERT_EQ(valid[i] != '\0',
+                      blockMean(truth, level, i % columns, i / columns).has_value())
+                << "level " << level << ", pixel " << i;
+        }
+    }
+}
+
+TEST(TiledGeoTiff, AveragesAcrossTilesWhereTheMapIsVeryLarge)
+{
+    const test::TempFolder folder;
+    Truth<std::int16_t> truth = randomMap<std::int16_t>(30, 140'003, -5000.0, 5000.0);
+    ASSERT_EQ(overviewCount(truth.columns, truth.rows), 10U);
+    const std::string path = folder.file("copy.tif");
+    prepare(jobFor(test::writeVrt(folder, "source", test::recipeFor(truth.columns, truth.samples)),
+                   path));
+    expectOverviewsAreMeans(path, truth, 97);
+}
+
+TEST(TiledGeoTiff, ReadsEveryLayout)
+{
+    const test::TempFolder folder;
+    const Truth<std::int16_t> truth = randomMap<std::int16_t>(1500, 1100, -5000.0, 5000.0);
+    const test::RasterRecipe recipe = test::recipeFor(truth.columns, truth.samples);
+    const std::vector<std::vector<std::string>> layouts{
+        {"-co", "COMPRESS=LZW", "-co", "BLOCKYSIZE=7"},
+        {"-co", "TILED=YES", "-co", "BLOCKXSIZE=512", "-co", "BLOCKYSIZE=512", "-co",
+         "COMPRESS=DEFLATE"},
+        {"-co", "TILED=YES", "-co", "BLOCKXSIZE=16", "-co", "BLOCKYSIZE=1008"},
+        {"-co", "BLOCKYSIZE=1100"},
+    };
+    for (const std::vector<std::string>& layout : layouts) {
+        const std::string source = test::writeRaster(folder, "source.tif", "GTiff", recipe, layout);
+        const std::string path = folder.file("copy.tif");
+        prepare(jobFor(source, path));
+        EXPECT_EQ(samplesOf(path), recipe.bytes) << layout[1];
+    }
+}
+
+TEST(TiledGeoTiff, ReadsTheBandThatIsAskedFor)
+{
+    const test::TempFolder folder;
+    const Truth<std::int16_t> truth = randomMap<std::int16_t>(300, 300, -5000.0, 5000.0);
+    test::RasterRecipe recipe = test::recipeFor(truth.columns, truth.samples);
+    recipe.extra_xml =
+        "<VRTRasterBand dataType=\"Int16\" band=\"2\" subClass=\"VRTRawRasterBand\">"
+        "<SourceFilename "
+        "relativeToVRT=\"1\">source.raw</SourceFilename><ImageOffset>2</ImageOffset>"
+        "<PixelOffset>2</PixelOffset><LineOffset>598</LineOffset></VRTRasterBand>";
+    const std::string source = test::writeVrt(folder, "source", recipe);
+    TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    job.band = 2;
+    prepare(job);
+    const std::string second = samplesOf(source, -1, "2");
+    EXPECT_EQ(samplesOf(job.path), second);
+    EXPECT_NE(second, recipe.bytes);
+}
+
+TEST(TiledGeoTiff, WritesWhatTheUserKnowsBetter)
+{
+    const test::TempFolder folder;
+    const std::string source =
+        test::writeVrt(folder, "source", test::recipeFor<std::int16_t>(2, {1, 2, -9, 4}));
+    TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    job.overrides.nodata = -9.0;
+    job.overrides.crs = "EPSG:32611";
+    job.overrides.vertical_unit = "ft";
+    prepare(job);
+    const nlohmann::json info = test::gdalInfo(job.path);
+    EXPECT_EQ(test::firstBand(info)["noDataValue"], -9.0);
+    EXPECT_EQ(test::firstBand(info)["unit"], "ft");
+    EXPECT_THAT(info["coordinateSystem"]["wkt"].get<std::string>(), HasSubstr("UTM zone 11N"));
+}
+
+TEST(TiledGeoTiff, KeepsWhatGeoTiffCannotSayOfACrs)
+{
+    const test::TempFolder folder;
+    test::RasterRecipe recipe = test::recipeFor<std::int16_t>(2, {1, 2, 3, 4});
+    recipe.transform = {10.0, 0.5, 0.0, 20.0, 0.0, -0.5};
+    // West-positive longitudes; planetocentric latitudes on an ellipsoid; both in a projection.
+    for (const char* crs : {"IAU_2015:49900", "IAU_2015:49901", "IAU_2015:49902", "IAU_2015:49910",
+                            "IAU_2015:49911", "IAU_2015:49912", "EPSG:32611", "EPSG:2853"}) {
+        SCOPED_TRACE(crs);
+        recipe.srs = crs;
+        const std::string source = test::writeVrt(folder, "source", recipe);
+        const std::string path = folder.file("copy.tif");
+        prepare(jobFor(source, path));
+        expectSameMap(source, path);
+    }
+}
+
+// A tall map: many checkpoints, little work.
+std::string tallMap(const test::TempFolder& folder, const std::string& name)
+{
+    return test::writeVrt(folder, name,
+                          test::recipeFor<std::int16_t>(
+                              260, randomMap<std::int16_t>(260, 20'000, -5000.0, 5000.0).samples));
+}
+
+// Everything that gdalinfo can sum up.
+nlohmann::json checksumsOf(const std::string& path)
+{
+    nlohmann::json info =
+        nlohmann::json::parse(test::runTool({"gdalinfo", "-json", "-checksum", path}));
+    info.erase("description");
+    info.erase("files");
+    return info;
+}
+
+// Prepares until `fraction` and cancels there.
+Result<TiledGeoTiffReport> prepareUntil(const TiledGeoTiffJob& job, double fraction)
+{
+    JobMonitor monitor;
+    std::jthread canceller([&](const std::stop_token& stop) {
+        while (!stop.stop_requested() && monitor.fraction() < fraction) {
+            std::this_thread::yield();
+        }
+        monitor.cancel();
+    });
+    return writeTiledGeoTiff(job, monitor);
+}
+
+TEST(TiledGeoTiff, GoesOnWhereItWasCancelled)
+{
+    const test::TempFolder folder;
+    const std::string source = tallMap(folder, "source");
+    const TiledGeoTiffJob whole = jobFor(source, folder.file("whole.tif"));
+    prepare(whole);
+    const TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    for (const double fraction : {0.2, 0.4, 0.6}) {
+        const Result<TiledGeoTiffReport> stopped = prepareUntil(job, fraction);
+        ASSERT_FALSE(stopped);
+        EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);
+        EXPECT_THAT(stopped.error().message, StartsWith(job.path));
+        EXPECT_THAT(stopped.error().message, HasSubstr("goes on"));
+        EXPECT_FALSE(fs::exists(job.path));
+    }
+    const TiledGeoTiffReport report = prepare(job);
+    EXPECT_LT(report.samples_read, report.samples);
+    ASSERT_EQ(report.notes.size(), 1U);
+    EXPECT_THAT(report.notes[0], HasSubstr("goes on behind row"));
+    EXPECT_EQ(checksumsOf(job.path), checksumsOf(whole.path));
+    expectNothingLeftBeside(job.path);
+}
+
+TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
+{
+    const test::TempFolder folder;
+    const std::string source = tallMap(folder, "source");
+    const TiledGeoTiffJob whole = jobFor(source, folder.file("whole.tif"));
+    prepare(whole);
+    const nlohmann::json truth = checksumsOf(whole.path);
+    TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    const std::string part = job.path + ".part";
+    const std::string journal = part + ".journal";
+    const std::vector<std::pair<const char*, std::function<void()>>> damages{
+        {"cut", [&] { fs::resize_file(part, fs::file_size(part) / 2); }},
+        {"empty", [&] { fs::resize_file(part, 0); }},
+        {"no TIFF", [&] { folder.write("copy.tif.part", std::string(100'000, 'x')); }},
+        {"zeroed tiles",
+         [&] {
+             std::string bytes = test::readFile(part);
+             std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 3), bytes.end(),
+                       '\0');
+             folder.write("copy.tif.part", bytes);
+         }},
+        {"journal of nonsense", [&] { folder.write("copy.tif.part.journal", "nonsense"); }},
+        {"journal with a flipped bit",
+         [&] {
+             std::string bytes = test::readFile(journal);
+             bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+             folder.write("copy.tif.part.journal", bytes);
+         }},
+        {"another source's",
+         [&] {
+             fs::last_write_time(folder.file("source.raw"),
+                                 fs::file_time_type::clock::now() + std::chrono::seconds(10));
+         }},
+        {"other settings", [&] { job.overrides.nodata = 12.0; }},
+    };
+    for (const auto& [name, damage] : damages) {
+        SCOPED_TRACE(name);
+        ASSERT_FALSE(prepareUntil(job, 0.5));
+        ASSERT_TRUE(fs::exists(journal));
+        damage();
+        const TiledGeoTiffReport report = prepare(job);
+        ASSERT_EQ(report.notes.size(), 1U);
+        EXPECT_THAT(report.notes[0], HasSubstr("begun again"));
+        EXPECT_EQ(report.samples_read, report.samples);
+        if (!job.overrides.nodata) {
+            nlohmann::json found = checksumsOf(job.path);
+            nlohmann::json expected = truth;
+            found.erase("metadata"); // the source's time
+            expected.erase("metadata");
+            EXPECT_EQ(found, expected);
+        }
+        fs::remove(job.path);
+    }
+}
+
+TEST(TiledGeoTiff, PublishesNothingWhereTheSourceChangesMeanwhile)
+{
+    const test::TempFolder folder;
+    const std::string source = tallMap(folder, "source");
+    const TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    JobMonitor monitor;
+    std::jthread writer([&](const std::stop_token& stop) {
+        while (!stop.stop_requested() && monitor.fraction() < 0.1) {
+            std::this_thread::yield();
+        }
+        const std::string raw = folder.file("source.raw");
+        fs::last_write_time(raw, fs::last_write_time(raw) + std::chrono::seconds(5));
+    });
+    const Result<TiledGeoTiffReport> report = writeTiledGeoTiff(job, monitor);
+    ASSERT_FALSE(report);
+    EXPECT_THAT(report.error().message, StartsWith(source + ": changed while it was read"));
+    EXPECT_FALSE(fs::exists(job.path));
+    expectNothingLeftBeside(job.path);
+}
+
+TEST(TiledGeoTiff, NamesASourceThatIsCutShort)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const test::TempFolder folder;
+    const TiledGeoTiffJob job =
+        jobFor((test::sharedData() / "derived/megt90n000cb_truncated.lbl").string(),
+               folder.file("copy.tif"));
+    const Error error = failureOf(job);
+    EXPECT_THAT(error.message, StartsWith(job.source));
+    EXPECT_THAT(error.message, HasSubstr("cut short"));
+    EXPECT_FALSE(fs::exists(job.path));
+    expectNothingLeftBeside(job.path);
+}
+
+TEST(TiledGeoTiff, RefusesToWriteOntoItsSource)
+{
+    const test::TempFolder folder;
+    const std::string source = test::writeRaster(folder, "map.tif", "GTiff",
+                                                 test::recipeFor<std::int16_t>(2, {1, 2, 3, 4}));
+    const std::string vrt =
+        test::writeVrt(folder, "other", test::recipeFor<std::int16_t>(2, {1, 2, 3, 4}));
+    const std::string before = test::readFile(source);
+    fs::create_symlink(source, folder.file("symlink.tif"));
+    fs::create_hard_link(source, folder.file("hardlink.tif"));
+    for (const auto& [from, to] :
+         {std::pair{source, source}, std::pair{source, folder.file("symlink.tif")},
+          std::pair{source, folder.file("hardlink.tif")},
+          std::pair{folder.file("symlink.tif"), source},
+          std::pair{vrt, folder.file("other.raw")}}) {
+        const Error error = failureOf(jobFor(from, to));
+        EXPECT_EQ(error.code, ErrorCode::Invalid);
+        EXPECT_THAT(error.message, StartsWith(to + ": belongs to the map"));
+    }
+    EXPECT_EQ(test::readFile(source), before);
+}
+
+TEST(TiledGeoTiff, SaysWhyAFolderCannotBeWrittenTo)
+{
+    const test::TempFolder folder;
+    const std::string source =
+        test::writeVrt(folder, "source", test::recipeFor<std::int16_t>(2, {1, 2, 3, 4}));
+    for (const std::string& path :
+         {folder.file("missing/copy.tif"), folder.file("source.raw/copy.tif"),
+          std::string("/proc/copy.tif")}) {
+        const Error error = failureOf(jobFor(source, path));
+        EXPECT_THAT(error.message, StartsWith(path + ": cannot be written"));
+        EXPECT_THAT(error.message, HasSubstr("choose another folder"));
+    }
+}
+
+TEST(TiledGeoTiff, LeavesAFileToTheProgramThatIsAtIt)
+{
+    const test::TempFolder folder;
+    const std::string source =
+        test::writeVrt(folder, "source", test::recipeFor<std::int16_t>(2, {1, 2, 3, 4}));
+    TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    Result<std::optional<FileLock>> lock =
+        FileLock::tryLock(job.path + ".lock", FileLock::Kind::Exclusive);
+    ASSERT_TRUE(lock && *lock);
+    const Error error = failureOf(job);
+    EXPECT_THAT(error.message, StartsWith(job.path + ": is being prepared by another program"));
+    EXPECT_THAT(error.message, HasSubstr(fmt::format("(process {})", getpid())));
+
+    job.when_busy = TiledGeoTiffJob::WhenBusy::Wait;
+    JobMonitor cancelled;
+    cancelled.cancel();
+    const Result<TiledGeoTiffReport> given_up = writeTiledGeoTiff(job, cancelled);
+    ASSERT_FALSE(given_up);
+    EXPECT_EQ(given_up.error().code, ErrorCode::Cancelled);
+
+    JobMonitor monitor;
+    auto waiting = std::async(std::launch::async, [&] { return writeTiledGeoTiff(job, monitor); });
+    *lock = std::nullopt;
+    const Result<TiledGeoTiffReport> report = waiting.get();
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_TRUE(fs::exists(job.path));
+    expectNothingLeftBeside(job.path);
+}
+
+TEST(TiledGeoTiff, DoesNothingTwice)
+{
+    const test::TempFolder folder;
+    const std::string source =
+        test::writeVrt(folder, "source", test::recipeFor<std::int16_t>(2, {1, 2, 3, 4}));
+    TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    EXPECT_EQ(prepare(job).samples_read, 4U);
+    const std::string before = test::readFile(job.path);
+    folder.write("copy.tif.part.journal", "of a kill in the moment of publishing");
+    const TiledGeoTiffReport again = prepare(job);
+    EXPECT_EQ(again.samples_read, 0U);
+    EXPECT_EQ(again.bytes, before.size());
+    ASSERT_EQ(again.notes.size(), 1U);
+    EXPECT_THAT(again.notes[0], HasSubstr("already"));
+    EXPECT_EQ(test::readFile(job.path), before);
+    expectNothingLeftBeside(job.path);
+    job.overrides.nodata = 4.0;
+    EXPECT_EQ(prepare(job).samples_read, 4U);
+}
+
+TEST(TiledGeoTiff, TakesNoticeOfTheFileThatItReplaces)
+{
+    const test::TempFolder folder;
+    const std::string source =
+        test::writeVrt(folder, "source", test::recipeFor<std::int16_t>(2, {1, 2, 3, 4}));
+    const std::string path = folder.write("copy.tif", "something else");
+    folder.write("copy.tif.aux.xml",
+                 "<PAMDataset><PAMRasterBand "
+                 "band=\"1\"><NoDataValue>3</NoDataValue></PAMRasterBand></PAMDataset>");
+    prepare(jobFor(source, path));
+    expectSameMap(source, path);
+}
+
+TEST(TiledLayout, TellsWhatCanBeUsedInPlace)
+{
+    const test::TempFolder folder;
+    const test::RasterRecipe recipe =
+        test::recipeFor<std::int16_t>(1300, randomMap<std::int16_t>(1300, 1100, 0.0, 99.0).samples);
+    const auto layoutOf = [](const std::string& path) {
+        Result<TiledLayoutInfo> layout = tiledLayoutOf(path);
+        EXPECT_TRUE(layout) << layout.error().message;
+        return layout ? *layout : TiledLayoutInfo{};
+    };
+    const std::string strips = test::writeRaster(folder, "strips.tif", "GTiff", recipe);
+    EXPECT_THAT(layoutOf(strips).why_not, HasSubstr("instead of tiles"));
+    const std::string tiled =
+        test::writeRaster(folder, "tiled.tif", "GTiff", recipe, {"-co", "TILED=YES"});
+    EXPECT_THAT(layoutOf(tiled).why_not, HasSubstr("no overviews"));
+    test::runTool({"gdaladdo", "-q", "-r", "average", tiled, "2"});
+    EXPECT_THAT(layoutOf(tiled).why_not, HasSubstr("only down to 650 x 550"));
+    test::runTool({"gdaladdo", "-q", "-r", "average", tiled, "4"});
+    EXPECT_TRUE(layoutOf(tiled).is_usable);
+    EXPECT_EQ(layoutOf(tiled).overviews.size(), 2U);
+    const std::string sparse =
+        test::writeRaster(folder, "sparse.tif", "GTiff", recipe, {"-co", "TILED=YES"});
+    test::runTool({"gdaladdo", "-q", "-r", "average", sparse, "8"});
+    EXPECT_FALSE(layoutOf(sparse).is_usable);
+    EXPECT_TRUE(layoutOf(test::writeRaster(folder, "cog.tif", "COG", recipe)).is_usable);
+    const std::string ascii = test::writeRaster(folder, "map.asc", "AAIGrid", recipe);
+    EXPECT_THAT(layoutOf(ascii).why_not, HasSubstr("format AAIGrid"));
+}
+
+} // namespace
+} // namespace marsview
