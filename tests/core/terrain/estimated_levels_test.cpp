@@ -126,7 +126,9 @@ TEST_F(EstimatedLevelsTest, HardlyASampleLiesOutsideItsBounds)
             for (std::size_t column = 0; column < kColumns; ++column) {
                 const double height_m = map->heightfield.sample(column, row);
                 const auto& node = bounds.bounds(0, column / 32, row / 32);
-                outside += height_m < node.minimum_m || height_m > node.maximum_m ? 1 : 0;
+                const bool is_outside = height_m < static_cast<double>(node.minimum_m) ||
+                                        height_m > static_cast<double>(node.maximum_m);
+                outside += is_outside ? 1U : 0U;
                 ASSERT_FALSE(!std::isnan(height_m) && node.isEmpty());
             }
         }
