@@ -1,9 +1,8 @@
 #include "core/raster/source_identity.h"
 
-#include "core/raster/remote_raster.h"
-
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/raster_path.h"
+#include "core/raster/remote_raster.h"
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -161,6 +160,14 @@ Status addSamples(const std::string& file, std::uint64_t bytes, Digest& digest)
 }
 
 } // namespace
+
+bool fileExists(const std::string& path)
+{
+    ensureGdal();
+    const GdalMessages ignored;
+    VSIStatBufL status{};
+    return VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
+}
 
 Result<SourceIdentity> identify(const std::string& path)
 {

@@ -66,9 +66,18 @@ Result<LevelFileKey> keyOf(const std::string& raster_path, int band, const Raste
     return LevelFileKey{.raster = std::move(*identity), .band = band, .nodata = info.nodata};
 }
 
-bool hasLevels(const std::string& level_path, const LevelFileKey& key)
+// Whether the file is there and belongs to the raster. Only then is the raster looked at, which at
+// a server takes a dozen requests.
+bool hasLevels(const std::string& level_path,
+               const std::string& raster_path,
+               int band,
+               const RasterInfo& info)
 {
-    return LevelFile::open(level_path, key).has_value();
+    if (!fileExists(level_path)) {
+        return false;
+    }
+    const Result<LevelFileKey> key = keyOf(raster_path, band, info);
+    return key && LevelFile::open(level_path, *key);
 }
 
 // A prepared copy has one band.
@@ -100,13 +109,29 @@ Result<LoadedMap> openHeld(const DatasetSpec& spec, JobMonitor& monitor)
     return prepareMap(std::move(dataset).value(), monitor);
 }
 
+// What comes from a server is kept on disk. `what` tells tiles of the raster from those of the map.
+std::shared_ptr<const TileSource> keptOnDisk(std::shared_ptr<const TileSource> source,
+                                             const MapResources& resources,
+                                             const RasterInfo& info,
+                                             const char* what)
+{
+    if (!resources.fetched_tiles || info.remote_version.empty()) {
+        return source;
+    }
+    const ElevationScale scale = info.elevationScale();
+    const std::string key =
+        fmt::format("{}\n{}\nband {}\n{}\ngain {} offset {}\n{}", info.path, info.remote_version,
+                    info.band, settingsOf(info), scale.gain, scale.offset_m, what);
+    return cachedOnDisk(std::move(source), resources.fetched_tiles, key);
+}
+
 // All tiles of a map, and what is known of it as a whole.
 struct OpenedTiles {
     std::shared_ptr<const TileSource> source;
     std::shared_ptr<const MapLevels> levels;
 };
 
-Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource>& raster,
+Result<OpenedTiles> openWithLevels(const std::shared_ptr<const TileSource>& raster,
                                    const std::string& level_path,
                                    int band,
                                    const RasterInfo& info)
@@ -138,7 +163,7 @@ Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource
 }
 
 // From the overviews of a raster that nobody has prepared.
-Result<OpenedTiles> openWithoutLevels(const std::shared_ptr<const GeotiffTileSource>& raster,
+Result<OpenedTiles> openWithoutLevels(const std::shared_ptr<const TileSource>& raster,
                                       const RasterInfo& info,
                                       JobMonitor& monitor)
 {
@@ -156,22 +181,6 @@ Result<OpenedTiles> openWithoutLevels(const std::shared_ptr<const GeotiffTileSou
                                    .layout = raster->layout()});
     opened.levels = std::make_shared<const MapLevels>(std::move(*levels));
     return opened;
-}
-
-// What came from a server is kept on disk.
-void keepFetched(const OpenPlan& plan,
-                 const MapResources& resources,
-                 const RasterInfo& info,
-                 OpenedTiles& opened)
-{
-    if (!resources.fetched_tiles || info.remote_version.empty()) {
-        return;
-    }
-    const ElevationScale scale = info.elevationScale();
-    const std::string key = fmt::format(
-        "{}\n{}\nband {}\n{}\ngain {} offset {}\n{}", info.path, info.remote_version, info.band,
-        settingsOf(info), scale.gain, scale.offset_m, plan.level_path ? "levels" : "no levels");
-    opened.source = cachedOnDisk(opened.source, resources.fetched_tiles, key);
 }
 
 // A source together with what keeps its files from being removed.
@@ -224,41 +233,28 @@ Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resour
     const bool fits = map->bytes() <= resources.held_bytes_max;
     const std::string& raster_path = map->file_info.path;
     const auto in_place = GeotiffTileSource::of(map->file, map->voids());
-    Result<MapFolder> folder = MapFolder::open(resources.folder);
     if (in_place) {
-        const Result<LevelFileKey> key = keyOf(raster_path, spec.band, map->info);
-        if (key) {
-            if (const std::string beside = LevelFile::pathFor(raster_path);
-                hasLevels(beside, *key)) {
-                return OpenPlan{MapStore::Tiled, raster_path, beside};
-            }
-            if (folder) {
-                const std::string kept = LevelFile::pathFor(
-                    folder->pathFor(key->raster, spec.band, settingsOf(map->info)));
-                if (hasLevels(kept, *key)) {
-                    return OpenPlan{MapStore::Tiled, raster_path, kept};
-                }
-            }
+        if (const std::string beside = LevelFile::pathFor(raster_path);
+            hasLevels(beside, raster_path, spec.band, map->info)) {
+            return OpenPlan{MapStore::Tiled, raster_path, beside};
         }
         if (is_remote) {
             return OpenPlan{MapStore::Tiled, raster_path, std::nullopt};
+        }
+        const Result<std::string> kept = preparedPathFor(spec, resources.folder);
+        if (kept && hasLevels(LevelFile::pathFor(*kept), raster_path, spec.band, map->info)) {
+            return OpenPlan{MapStore::Tiled, raster_path, LevelFile::pathFor(*kept)};
         }
     }
     if (fits) {
         return OpenPlan{};
     }
     if (is_remote) {
-        return notCloudOptimised(raster_path, in_place.error().message);
+        return in_place.error(); // says what to do
     }
-    if (folder) {
-        const Result<SourceIdentity> identity = identify(raster_path);
-        if (identity) {
-            const std::string copy = folder->pathFor(*identity, spec.band, settingsOf(map->info));
-            const Result<LevelFileKey> key = keyOf(copy, 1, map->info);
-            if (key && hasLevels(LevelFile::pathFor(copy), *key)) {
-                return OpenPlan{MapStore::Tiled, copy, LevelFile::pathFor(copy)};
-            }
-        }
+    const Result<std::string> copy = preparedPathFor(spec, resources.folder);
+    if (copy && hasLevels(LevelFile::pathFor(*copy), *copy, 1, map->info)) {
+        return OpenPlan{MapStore::Tiled, *copy, LevelFile::pathFor(*copy)};
     }
     return OpenPlan{.store = MapStore::Unprepared, .raster_path = {}, .level_path = {}};
 }
@@ -274,15 +270,14 @@ prepareForOpening(const DatasetSpec& spec, const MapResources& resources, JobMon
     if (!folder) {
         return std::move(folder).error();
     }
-    const Result<SourceIdentity> identity = identify(map->file_info.path);
-    if (!identity) {
-        return identity.error();
+    const Result<std::string> kept = preparedPathFor(spec, resources.folder);
+    if (!kept) {
+        return kept.error();
     }
-    const std::string kept = folder->pathFor(*identity, spec.band, settingsOf(map->info));
     const bool is_in_place = GeotiffTileSource::of(map->file, map->voids()).has_value();
     const PrepareJob job{.spec = spec,
-                         .raster_path = is_in_place ? std::string() : kept,
-                         .level_path = LevelFile::pathFor(kept),
+                         .raster_path = is_in_place ? std::string() : *kept,
+                         .level_path = LevelFile::pathFor(*kept),
                          .when_busy = TiledGeoTiffJob::WhenBusy::Wait};
     const Result<PrepareReport> prepared = prepareMapFiles(job, monitor);
     if (!prepared) {
@@ -291,7 +286,7 @@ prepareForOpening(const DatasetSpec& spec, const MapResources& resources, JobMon
     // Only now, so that nothing is given up for a map that could not be made.
     const std::uint64_t bytes_max =
         resources.folder_bytes_max != 0 ? resources.folder_bytes_max : folder->defaultBytesMax();
-    const Result<FileLock> in_use = folder->use(kept);
+    const Result<FileLock> in_use = folder->use(*kept);
     static_cast<void>(folder->trim(bytes_max)); // what cannot be removed stays
     return Done{};
 }
@@ -319,16 +314,20 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
     if (!source) {
         return std::move(source).error();
     }
-    Result<OpenedTiles> opened = plan.level_path
-                                     ? openWithLevels(*source, *plan.level_path, band, map->info)
-                                     : openWithoutLevels(*source, map->info, monitor);
+    const std::shared_ptr<const TileSource> tiles_of_raster =
+        plan.level_path ? *source : keptOnDisk(*source, resources, map->file_info, "raster");
+    Result<OpenedTiles> opened =
+        plan.level_path ? openWithLevels(tiles_of_raster, *plan.level_path, band, map->info)
+                        : openWithoutLevels(tiles_of_raster, map->info, monitor);
     if (!opened) {
         return std::move(opened).error();
     }
     if (!plan.level_path) {
         map->info.notices.push_back("its detail is estimated: there is no level file beside it");
     }
-    keepFetched(plan, resources, map->info, *opened);
+    if (plan.level_path) {
+        opened->source = keptOnDisk(opened->source, resources, map->info, "map");
+    }
     keepInUse(plan, resources, *opened);
     Result<std::shared_ptr<const TiledSamples>> tiles =
         TiledSamples::open(TiledRaster(*resources.tiles, opened->source));

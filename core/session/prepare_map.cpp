@@ -2,6 +2,7 @@
 
 #include "core/base/file_lock.h"
 #include "core/raster/geotiff_tile_source.h"
+#include "core/raster/map_folder.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/source_identity.h"
 #include "core/terrain/level_file.h"
@@ -106,6 +107,27 @@ Result<bool> canBeUsedInPlace(const DatasetSpec& spec)
     const std::optional<double> nodata =
         spec.overrides.nodata ? spec.overrides.nodata : file->info().nodata;
     return GeotiffTileSource::of(*file, {nodata}).has_value();
+}
+
+Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesystem::path& folder)
+{
+    Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
+    if (!file) {
+        return std::move(file).error();
+    }
+    Result<MapFolder> maps = MapFolder::open(folder);
+    if (!maps) {
+        return std::move(maps).error();
+    }
+    const Result<SourceIdentity> identity = identify(file->info().path);
+    if (!identity) {
+        return identity.error();
+    }
+    // What decides about the content beside the source itself.
+    const std::optional<double> nodata =
+        spec.overrides.nodata ? spec.overrides.nodata : file->info().nodata;
+    return maps->pathFor(*identity, spec.band,
+                         nodata ? fmt::format("nodata {}", *nodata) : std::string());
 }
 
 Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor)

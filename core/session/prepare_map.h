@@ -6,7 +6,9 @@
 #include "core/raster/tiled_geotiff.h"
 #include "core/session/dataset.h"
 
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace marsview {
@@ -33,6 +35,10 @@ struct PrepareReport {
 
 /// Whether the raster of `spec` is one whose tiles can be read where it lies.
 Result<bool> canBeUsedInPlace(const DatasetSpec& spec);
+
+/// Where the prepared form of a raster lies, or is to be put, in a folder of prepared maps, which
+/// is made where it is missing.
+Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesystem::path& folder);
 
 /// Copies the raster into a tiled GeoTIFF unless it is used in place, then measures it into its
 /// level file. Each appears whole or not at all; what is there already and belongs to the raster is
