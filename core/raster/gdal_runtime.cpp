@@ -28,7 +28,7 @@ void setHttpDefaults()
         {"GDAL_HTTP_CONNECTTIMEOUT", "10"}, // seconds
         // Slower than this many bytes a second for so many seconds counts as no answer.
         {"GDAL_HTTP_LOW_SPEED_LIMIT", "100"},
-        {"GDAL_HTTP_LOW_SPEED_TIME", "20"},
+        {"GDAL_HTTP_LOW_SPEED_TIME", "10"},
         {"GDAL_HTTP_MAX_RETRY", "3"}, // after 0.25, some 0.5 and 1.2 seconds
         {"GDAL_HTTP_RETRY_DELAY", "0.25"},
         {"GDAL_HTTP_TCP_KEEPALIVE", "YES"},

@@ -104,8 +104,16 @@ Error reasonOfSilence(const std::string& remote_name)
                             addressOf(remote_name))};
     }
     std::string text = VSIGetLastErrorMsg();
-    if (const int status = numberAfter(text, "HTTP response code: "); status > 0) {
-        return statusFailure(remote_name, status);
+    for (const char* words : {"HTTP response code: ", "Invalid AWS response: "}) {
+        if (const int status = numberAfter(text, words); status > 0) {
+            return statusFailure(remote_name, status);
+        }
+    }
+    if (text.find("AWS_NO_SIGN_REQUEST") != std::string::npos) {
+        return {ErrorCode::Unreadable,
+                fmt::format("{}: the bucket wants a login and none is set up; for a public one set "
+                            "AWS_NO_SIGN_REQUEST=YES in the environment",
+                            addressOf(remote_name))};
     }
     constexpr std::string_view curl = "CURL error: ";
     if (text.starts_with(curl)) {

@@ -14,7 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -286,6 +286,28 @@ TEST_F(RemoteRasterTest, WhatIsWrongIsSaid)
                                                     "address and the network (Failed to connect"));
     server_.accept();
     EXPECT_EQ(message(server_.url("map.tif")), "");
+}
+
+TEST_F(RemoteRasterTest, BucketsAreReadByTheirNames)
+{
+    fs::create_directory(folder_.path() / "bucket");
+    fs::rename(folder_.file("map.tif"), folder_.file("bucket/map.tif"));
+    const std::string endpoint = "127.0.0.1:" + std::to_string(server_.port());
+    for (const auto& [name, value] :
+         {std::pair<const char*, std::string>{"AWS_S3_ENDPOINT", endpoint},
+          {"AWS_HTTPS", "NO"},
+          {"AWS_VIRTUAL_HOSTING", "FALSE"},
+          {"AWS_NO_SIGN_REQUEST", "YES"}}) {
+        setenv(name, value.c_str(), 1); // NOLINT(concurrency-mt-unsafe): nobody reads it now
+    }
+    RasterFile file = opened("s3://bucket/map.tif");
+    const auto tile = file.readWindow(tileAt(3, 2), {});
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(3, 2))));
+    const auto absent = RasterFile::open("s3://bucket/absent.tif");
+    ASSERT_FALSE(absent);
+    EXPECT_EQ(absent.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(absent.error().message, StartsWith("s3://bucket/absent.tif: there is nothing at"));
 }
 
 TEST_F(RemoteRasterTest, AServerThatGoesAwayAndComesBackIsReadOn)
