@@ -170,86 +170,78 @@ bool ResidentWindow::isVoid(std::size_t column, std::size_t row) const noexcept
 // But for the narrow cells at the end of a level, whose diagonals are not those of the finer
 // levels: there each of the two planes of a cell is held against all samples in the closed cell,
 // which bounds what differs between samples, whichever plane that is on.
-double ResidentWindow::differenceFromCoarser(const TileId& id) const noexcept
+double ResidentWindow::differenceFromCoarser(const TileId& id) const
 {
     const TileLayout& layout = heights_->layout();
     const std::size_t finer = id.level;
+    const std::size_t last_i = layout.columnsAt(TileKind::Samples, finer) - 1;
+    const std::size_t last_j = layout.rowsAt(TileKind::Samples, finer) - 1;
     // A sample has a say in the cells before and behind it, which have samples of other tiles.
     const auto before = [](std::size_t first) { return std::max<std::size_t>(first, 1) - 1; };
     const std::size_t left = before(id.column * kTileSide);
     const std::size_t upper = before(id.row * kTileSide);
-    const std::size_t right = std::min(id.column * kTileSide + layout.tileWidth(id),
-                                       layout.columnsAt(TileKind::Samples, finer) - 1);
-    const std::size_t lower = std::min(id.row * kTileSide + layout.tileHeight(id),
-                                       layout.rowsAt(TileKind::Samples, finer) - 1);
-    const auto column_of = [&](std::size_t i, std::size_t level) {
-        return std::min(i << level, layout.columns - 1);
-    };
-    const auto row_of = [&](std::size_t j, std::size_t level) {
-        return std::min(j << level, layout.rows - 1);
-    };
-    double most = 0.0;
+    const std::size_t right = std::min(id.column * kTileSide + layout.tileWidth(id), last_i);
+    const std::size_t lower = std::min(id.row * kTileSide + layout.tileHeight(id), last_j);
+    const auto column_of = [&](std::size_t i) { return std::min(i << finer, layout.columns - 1); };
+    const auto row_of = [&](std::size_t j) { return std::min(j << finer, layout.rows - 1); };
+    const std::size_t width = right - left + 1;
+    constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> finer_m(width * (lower - upper + 1));
     for (std::size_t j = upper; j <= lower; ++j) {
         for (std::size_t i = left; i <= right; ++i) {
-            const auto here = vertex(finer, i, j);
-            for (std::size_t k = finer + 1; here && k < levels_.size(); ++k) {
-                if (const auto there = heightAtLevel(k, column_of(i, finer), row_of(j, finer))) {
-                    most = std::max(most, std::abs(*there - *here));
-                }
-            }
+            finer_m[(j - upper) * width + (i - left)] = vertex(finer, i, j).value_or(kMissing);
         }
     }
-    const auto hold_planes = [&](std::size_t k, std::size_t c, std::size_t r) {
-        const auto upper_left = vertex(k, c, r);
-        const auto upper_right = vertex(k, c + 1, r);
-        const auto lower_left = vertex(k, c, r + 1);
-        const auto lower_right = vertex(k, c + 1, r + 1);
-        if (!upper_left || !lower_right) {
-            return;
-        }
-        const std::size_t west = column_of(c, k);
-        const std::size_t east = column_of(c + 1, k);
-        const std::size_t north = row_of(r, k);
-        const std::size_t south = row_of(r + 1, k);
-        for (std::size_t j = upper; j <= lower; ++j) {
-            const std::size_t row = row_of(j, finer);
-            for (std::size_t i = left; i <= right && row >= north && row <= south; ++i) {
-                const std::size_t column = column_of(i, finer);
-                const auto here = vertex(finer, i, j);
-                if (column < west || column > east || !here) {
-                    continue;
+    double most = 0.0;
+    const auto hold = [&most](double here_m, double there_m) {
+        const double difference_m = std::abs(there_m - here_m);
+        most = difference_m > most ? difference_m : most; // never what is missing
+    };
+    const auto hold_cell = [&](std::size_t k, std::size_t c, std::size_t r, bool is_last) {
+        const std::size_t shift = k - finer;
+        const std::size_t i_begin = c << shift;
+        const std::size_t j_begin = r << shift;
+        const std::size_t i_end = std::min((c + 1) << shift, last_i);
+        const std::size_t j_end = std::min((r + 1) << shift, last_j);
+        const double west = static_cast<double>(column_of(i_begin));
+        const double north = static_cast<double>(row_of(j_begin));
+        const double per_column = 1.0 / (static_cast<double>(column_of(i_end)) - west);
+        const double per_row = 1.0 / (static_cast<double>(row_of(j_end)) - north);
+        const double upper_left = vertex(k, c, r).value_or(kMissing);
+        const double upper_right = vertex(k, c + 1, r).value_or(kMissing);
+        const double lower_left = vertex(k, c, r + 1).value_or(kMissing);
+        const double lower_right = vertex(k, c + 1, r + 1).value_or(kMissing);
+        const bool is_whole = !std::isnan(upper_left + upper_right + lower_left + lower_right);
+        for (std::size_t j = std::max(j_begin, upper); j <= std::min(j_end, lower); ++j) {
+            const double v = (static_cast<double>(row_of(j)) - north) * per_row;
+            const double* const finer_row = &finer_m[(j - upper) * width];
+            for (std::size_t i = std::max(i_begin, left); i <= std::min(i_end, right); ++i) {
+                const double here_m = finer_row[i - left];
+                const double u = (static_cast<double>(column_of(i)) - west) * per_column;
+                if (is_last || u >= v) {
+                    hold(here_m, upper_left + u * (upper_right - upper_left) +
+                                     v * (lower_right - upper_right));
                 }
-                const double u =
-                    static_cast<double>(column - west) / static_cast<double>(east - west);
-                const double v =
-                    static_cast<double>(row - north) / static_cast<double>(south - north);
-                if (upper_right) {
-                    most =
-                        std::max(most, std::abs((1.0 - u) * *upper_left + (u - v) * *upper_right +
-                                                v * *lower_right - *here));
+                if (is_last || u < v) {
+                    hold(here_m, upper_left + v * (lower_left - upper_left) +
+                                     u * (lower_right - lower_left));
                 }
-                if (lower_left) {
-                    most = std::max(most, std::abs((1.0 - v) * *upper_left + (v - u) * *lower_left +
-                                                   u * *lower_right - *here));
+                if (!is_whole) { // on edges, two corners are enough
+                    hold(here_m, heightAtLevel(k, column_of(i), row_of(j)).value_or(kMissing));
                 }
             }
         }
     };
     for (std::size_t k = finer + 1; k < levels_.size(); ++k) {
-        const std::size_t last_column = layout.columnsAt(TileKind::Samples, k) - 2; // of cells
-        const std::size_t last_row = layout.rowsAt(TileKind::Samples, k) - 2;
-        const std::size_t step_mask = (std::size_t{1} << k) - 1;
-        const bool is_column_narrow = ((layout.columns - 1) & step_mask) != 0;
-        const bool is_row_narrow = ((layout.rows - 1) & step_mask) != 0;
-        const std::size_t c0 = std::min(column_of(left, finer) >> k, last_column);
-        const std::size_t c1 = std::min(column_of(right, finer) >> k, last_column);
-        const std::size_t r0 = std::min(row_of(upper, finer) >> k, last_row);
-        const std::size_t r1 = std::min(row_of(lower, finer) >> k, last_row);
-        for (std::size_t r = r0; is_column_narrow && c1 == last_column && r <= r1; ++r) {
-            hold_planes(k, last_column, r);
-        }
-        for (std::size_t c = c0; is_row_narrow && r1 == last_row && c <= c1; ++c) {
-            hold_planes(k, c, last_row);
+        const std::size_t shift = k - finer;
+        const std::size_t last_c = layout.columnsAt(TileKind::Samples, k) - 2;
+        const std::size_t last_r = layout.rowsAt(TileKind::Samples, k) - 2;
+        for (std::size_t r = std::min(upper >> shift, last_r);
+             r <= std::min(lower >> shift, last_r); ++r) {
+            for (std::size_t c = std::min(left >> shift, last_c);
+                 c <= std::min(right >> shift, last_c); ++c) {
+                hold_cell(k, c, r, c == last_c || r == last_r);
+            }
         }
     }
     return most * (1.0 + 1e-12); // heights between samples are rounded

@@ -99,8 +99,9 @@ public:
     /// that is there.
     bool isVoid(std::size_t column, std::size_t row) const noexcept;
 
-    /// For Slot::difference_m of a tile that was put. Takes milliseconds: not for the servo thread.
-    double differenceFromCoarser(const TileId& id) const noexcept;
+    /// For Slot::difference_m of a tile that was put. Takes a millisecond or more: not for the
+    /// servo thread.
+    double differenceFromCoarser(const TileId& id) const;
 
 private:
     const Slot* slot(std::size_t level, std::size_t column, std::size_t row) const noexcept
