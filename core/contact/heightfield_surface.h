@@ -210,9 +210,19 @@ public:
         const auto [a, b, c] = corners(face);
         const std::array<Vertex, 5> around{a, b, c, a, b};
         const std::array<Vertex, 3> vertices{around[first], around[first + 1], around[first + 2]};
-        return facetOf(vertices,
-                       {kindOf(vertices[1], vertices[2]), kindOf(vertices[2], vertices[0]),
-                        kindOf(vertices[0], vertices[1])},
+        const std::array<std::uint8_t, 3> kinds{kindOf(vertices[1], vertices[2]),
+                                                kindOf(vertices[2], vertices[0]),
+                                                kindOf(vertices[0], vertices[1])};
+        if constexpr (requires { heights_.cell(face.column, face.row); }) {
+            const CellHeights z = heights_.cell(face.column, face.row);
+            const double third = face.is_upper ? z.upper_right : z.lower_left;
+            const bool is_third_last = face.is_upper != is_mirrored_;
+            const std::array<double, 5> corner{z.upper_left, is_third_last ? z.lower_right : third,
+                                               is_third_last ? third : z.lower_right, z.upper_left,
+                                               is_third_last ? z.lower_right : third};
+            return facetOf(vertices, kinds, {corner[first], corner[first + 1], corner[first + 2]});
+        }
+        return facetOf(vertices, kinds,
                        {heightOf(vertices[0]), heightOf(vertices[1]), heightOf(vertices[2])});
     }
     [[gnu::always_inline]] inline Facet rotated(const Facet& facet,
@@ -420,6 +430,9 @@ private:
     double heightOf(Vertex v) const noexcept { return heights_.at(v.column, v.row); }
     CellHeights cellHeights(std::int32_t column, std::int32_t row) const noexcept
     {
+        if constexpr (requires { heights_.cell(column, row); }) {
+            return heights_.cell(column, row);
+        }
         return {heights_.at(column, row), heights_.at(column + 1, row),
                 heights_.at(column, row + 1), heights_.at(column + 1, row + 1)};
     }
@@ -624,6 +637,15 @@ auto BasicHeightfieldSurface<Heights>::fan(Vertex v) const noexcept -> Fan
     const bool has_below = v.row < last_row_;
     const bool has_left = v.column > 0;
     const bool has_above = v.row > 0;
+    if constexpr (requires(Fan around) {
+                      heights_.around(v.column, v.row, around.height, around.around);
+                  }) {
+        Fan within{v, 0.0, {}, {true, true, true, true, true, true}};
+        if (has_right && has_below && has_left && has_above &&
+            heights_.around(v.column, v.row, within.height, within.around)) {
+            return within;
+        }
+    }
     // What does not exist is read from inside and not used.
     const std::int32_t right = v.column + (has_right ? 1 : 0);
     const std::int32_t below = v.row + (has_below ? 1 : 0);

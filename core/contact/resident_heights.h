@@ -4,6 +4,7 @@
 #include "core/contact/heightfield_surface.h"
 #include "core/terrain/tiled_terrain.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -40,13 +41,53 @@ public:
     {
         if constexpr (!std::is_void_v<T>) {
             if (const T* raw = terrain_->plainSample<T>(column, row)) [[likely]] {
-                return exaggeration_ * scale_.height(static_cast<double>(*raw));
+                return scaled(*raw);
             }
         }
         return elsewhere(column, row);
     }
 
+    /// The same at the corners of a cell, and around a sample within the map, in the order of
+    /// HeightfieldFan: found once where they lie in one tile.
+    [[gnu::always_inline]] CellHeights cell(std::int32_t column, std::int32_t row) const noexcept
+    {
+        if constexpr (!std::is_void_v<T>) {
+            std::ptrdiff_t stride = 0;
+            if (const T* raw = terrain_->plainPatch<T, 0>(column, row, stride)) [[likely]] {
+                return {scaled(raw[0]), scaled(raw[1]), scaled(raw[stride]),
+                        scaled(raw[stride + 1])};
+            }
+        }
+        return cellElsewhere(column, row);
+    }
+    [[gnu::always_inline]] bool around(std::int32_t column,
+                                       std::int32_t row,
+                                       double& middle,
+                                       std::array<double, 6>& ring) const noexcept
+    {
+        if constexpr (!std::is_void_v<T>) {
+            std::ptrdiff_t stride = 0;
+            if (const T* raw = terrain_->plainPatch<T, 1>(column, row, stride)) [[likely]] {
+                middle = scaled(raw[0]);
+                ring = {scaled(raw[1]),  scaled(raw[stride + 1]),  scaled(raw[stride]),
+                        scaled(raw[-1]), scaled(raw[-stride - 1]), scaled(raw[-stride])};
+                return true;
+            }
+        }
+        return false;
+    }
+
 private:
+    template <typename Raw>
+    double scaled(Raw raw) const noexcept
+    {
+        return exaggeration_ * scale_.height(static_cast<double>(raw));
+    }
+    [[gnu::noinline]] CellHeights cellElsewhere(std::int32_t column,
+                                                std::int32_t row) const noexcept
+    {
+        return {at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)};
+    }
     // Kept out of the loops that read heights.
     [[gnu::noinline]] double elsewhere(std::int32_t column, std::int32_t row) const noexcept
     {

@@ -1,7 +1,8 @@
 // How a heightfield surface reads its samples: as heights in scene metres.
 //
 // Such a policy names the Terrain that it reads (core/terrain/touch_terrain.h), is made from it and
-// an exaggeration, and has at(column, row). For terrain in tiles see resident_heights.h.
+// an exaggeration, and has at(column, row). One for which it is quicker to find several samples at
+// once also has cell() and around(), as in resident_heights.h, for terrain in tiles.
 #pragma once
 
 #include "core/terrain/filled_heightfield.h"

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace marsview {
 
@@ -41,6 +42,12 @@ public:
             levels_->filled_maxima_m.empty()
                 ? bounds.bounds(level, column, row).maximum_m
                 : levels_->filled_maxima_m[level][row * bounds.columns(level) + column]);
+    }
+    const MinMaxPyramid& bounds() const noexcept { return levels_->analysis->bounds; }
+    /// As in MapLevels.
+    const std::vector<std::vector<float>>& filledMaxima() const noexcept
+    {
+        return levels_->filled_maxima_m;
     }
     /// The least maximum of the smallest nodes that a sample of the map lies on: no stand-in for
     /// its height may be higher, lest a cast pass through it.

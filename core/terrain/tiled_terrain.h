@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace marsview {
 
@@ -33,10 +34,13 @@ public:
         }
         return sampleElsewhere(column, row);
     }
-    std::size_t levelCount() const noexcept { return heights_->levelCount(); }
+    std::size_t levelCount() const noexcept { return bounds_->levelCount(); }
     double maximum(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
-        return heights_->maximum(level, column, row);
+        return static_cast<double>(
+            filled_maxima_m_->empty()
+                ? bounds_->bounds(level, column, row).maximum_m
+                : (*filled_maxima_m_)[level][row * bounds_->columns(level) + column]);
     }
 
     /// The sample, of the type of the layout; null where its tile is not at hand, has voids, or is
@@ -47,12 +51,34 @@ public:
     {
         const auto c = static_cast<std::uint32_t>(column);
         const auto r = static_cast<std::uint32_t>(row);
-        constexpr auto kSide = static_cast<std::uint32_t>(kTileSide);
-        const Place& place = places_[placeOf(c / kSide, r / kSide)];
-        // One comparison and one multiplication: this is read dozens of times an update.
-        return place.key == keyOf(c / kSide, r / kSide)
-                   ? static_cast<const T*>(place.samples) + ((r % kSide) * place.stride + c % kSide)
-                   : nullptr;
+        // Nearly always it is the tile of the last one: where that lies does not depend on where
+        // this one is, so the processor need not wait for it.
+        const Place* place = &last_;
+        if (((c - last_.column) | (r - last_.row)) >= kTileSide) [[unlikely]] {
+            place = findPlain(c, r);
+            if (place == nullptr) {
+                return nullptr;
+            }
+        }
+        return static_cast<const T*>(place->samples) +
+               ((r - place->row) * place->stride + (c - place->column));
+    }
+
+    /// A sample in whose tile are those kBefore columns and rows before it, and those one behind
+    /// it, too; a row is `stride` samples long. Null where that is not the tile of the last sample
+    /// that was found: each may still be found for itself. There are such samples.
+    template <typename T, std::uint32_t kBefore>
+    [[gnu::always_inline]] const T*
+    plainPatch(std::int32_t column, std::int32_t row, std::ptrdiff_t& stride) const noexcept
+    {
+        constexpr auto kLast = static_cast<std::uint32_t>(kTileSide) - 1;
+        const std::uint32_t c = static_cast<std::uint32_t>(column) - last_.column;
+        const std::uint32_t r = static_cast<std::uint32_t>(row) - last_.row;
+        if ((c - kBefore < kLast - kBefore) & (r - kBefore < kLast - kBefore)) [[likely]] {
+            stride = static_cast<std::ptrdiff_t>(last_.stride);
+            return static_cast<const T*>(last_.samples) + (r * last_.stride + c);
+        }
+        return nullptr;
     }
 
 protected:
@@ -87,17 +113,27 @@ private:
         return std::uint64_t{tile_row} << 32U | tile_column;
     }
 
+    static constexpr std::uint32_t kNowhere = ~std::uint32_t{0} - 0xFFFF; // far from any sample
+
+    // A tile without voids: where its first sample is, and where that is kept.
     struct Place {
-        std::uint64_t key = kNone;
+        std::uint32_t column = kNowhere;
+        std::uint32_t row = kNowhere;
         const void* samples = nullptr;
         std::size_t stride = 0;
     };
+    // The place of a sample's tile, which is the last one from now on; null where it has none.
+    const Place* findPlain(std::uint32_t column, std::uint32_t row) const noexcept;
+
     struct Held {
         std::uint64_t key = kNone;
         const Tile* tile = nullptr;
     };
     // A batch terrain fetches tiles while it is read.
-    mutable std::array<Place, std::size_t{kPlacesASide} * kPlacesASide> places_; // without voids
+    const MinMaxPyramid* bounds_; // of heights_; every cast asks them
+    const std::vector<std::vector<float>>* filled_maxima_m_;
+    mutable Place last_; // one of the following
+    mutable std::array<Place, std::size_t{kPlacesASide} * kPlacesASide> places_;
     mutable std::array<Held, std::size_t{kPlacesASide} * kPlacesASide> held_;
     std::shared_ptr<const TileHeights> heights_;
     std::size_t columns_;
