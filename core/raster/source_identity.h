@@ -17,6 +17,9 @@ struct SourceIdentity {
     bool operator==(const SourceIdentity&) const = default;
 };
 
+/// Whether there is a file of that name, which may be one of GDAL's ("/vsicurl/…"): one request.
+bool fileExists(const std::string& path);
+
 /// Reads a few dozen kilobytes of each file that belongs to the raster. Statistics and overviews
 /// that other programs leave beside it (.aux.xml, .ovr) do not count. NotFound or Unreadable where
 /// there is nothing to read. Names with a scheme are asked of GDAL's file systems. Any thread.
