@@ -1,6 +1,7 @@
 #include "app/cli/scene.h"
 
 #include "app/cli/long_job.h"
+#include "core/session/open_map.h"
 #include "core/view/color_ramp.h"
 
 #include <algorithm>
@@ -40,10 +41,8 @@ OrbitCamera Scene::bounded(const OrbitCamera& camera, double with_exaggeration) 
         [&](double east_m, double north_m) { return ground(east_m, north_m, with_exaggeration); });
 }
 
-Result<Scene>
-openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify)
+Result<Scene> emptyScene(std::function<void()> notify)
 {
-    // First what fails at once.
     Result<std::unique_ptr<EglContext>> context = EglContext::create();
     if (!context) {
         return std::move(context).error();
@@ -52,26 +51,38 @@ openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()
     if (!renderer) {
         return std::move(renderer).error();
     }
-    LongJob job("reading");
-    auto dataset =
-        loadDataset({.path = options.path, .band = options.band, .overrides = options.overrides()},
-                    job.monitor(), defaultMemoryBudget());
-    if (!dataset) {
-        return std::move(dataset).error();
+    return Scene{.context = std::move(context).value(),
+                 .renderer = std::move(renderer).value(),
+                 .map = {},
+                 .exaggeration = 1.0};
+}
+
+void showIn(Scene& scene, LoadedMap map, const ColorRamp* ramp)
+{
+    scene.map = std::move(map);
+    const Body* body = scene.map.dataset->info().body;
+    const ColorRamp& suitable = defaultColorRamp(body != nullptr ? body->name : std::string_view{});
+    scene.renderer->setLayers(
+        {terrainLayer(scene.map, scene.map.dataset->georeference().sceneFrame(),
+                      ramp != nullptr ? *ramp : suitable)});
+    scene.exaggeration = suitableExaggeration(*scene.map.dataset);
+}
+
+Result<Scene>
+openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify)
+{
+    Result<Scene> scene = emptyScene(std::move(notify));
+    if (!scene) {
+        return scene;
     }
-    Result<LoadedMap> map = prepareMap(std::move(dataset).value(), job.monitor());
+    LongJob job("reading");
+    Result<LoadedMap> map =
+        openMap({.path = options.path, .band = options.band, .overrides = options.overrides()},
+                defaultMapResources(), job.monitor());
     if (!map) {
         return std::move(map).error();
     }
-    const Body* body = map->dataset->info().body;
-    const ColorRamp& suitable = defaultColorRamp(body != nullptr ? body->name : std::string_view{});
-    (*renderer)->setLayers({terrainLayer(*map, map->dataset->georeference().sceneFrame(),
-                                         ramp != nullptr ? *ramp : suitable)});
-    Scene scene{.context = std::move(context).value(),
-                .renderer = std::move(renderer).value(),
-                .map = std::move(map).value(),
-                .exaggeration = 1.0};
-    scene.exaggeration = suitableExaggeration(*scene.map.dataset);
+    showIn(*scene, std::move(map).value(), ramp);
     return scene;
 }
 

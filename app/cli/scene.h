@@ -28,6 +28,11 @@ struct Scene {
     OrbitCamera bounded(const OrbitCamera& camera, double with_exaggeration) const;
 };
 
+/// A renderer without a map; `notify` is TerrainRenderer's. This first, as it fails at once.
+Result<Scene> emptyScene(std::function<void()> notify = {});
+/// From now on the map is drawn. `ramp` is null for the one that suits the body.
+void showIn(Scene& scene, LoadedMap map, const ColorRamp* ramp);
+
 /// Reads and analyses the map, showing progress. `ramp` is null for the one that suits the body;
 /// `notify` is TerrainRenderer's.
 Result<Scene>
