@@ -141,6 +141,9 @@ Status TiffTiles::append(std::size_t page, std::size_t tile, std::span<const std
     const auto bytes = static_cast<tmsize_t>(encoded.size());
     // The library's interface takes no pointer to const, but leaves the data alone.
     void* data = const_cast<std::byte*>(encoded.data()); // NOLINT
+    // Otherwise a tile that was written before, and not noted, would be taken for the beginning of
+    // this one. Now it is written where it was if it fits, else at the file's end.
+    TIFFSetWriteOffset(impl_->handles.at(page).get(), 0);
     if (TIFFWriteRawTile(impl_->handles.at(page).get(), static_cast<std::uint32_t>(tile), data,
                          bytes) != bytes) {
         return impl_->failure();

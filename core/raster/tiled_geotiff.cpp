@@ -522,6 +522,14 @@ Status Preparation::copy(JobMonitor& monitor)
     if (Status flushed = tiles_->flush(); !flushed) {
         return flushed;
     }
+    const Result<std::uint64_t> bytes = tiles_->fileBytes();
+    if (!bytes) {
+        return bytes.error();
+    }
+    for (std::size_t page = 0; page < tiles_->pages().size(); ++page) {
+        const TiffPage& of = tiles_->pages()[page];
+        MARSVIEW_CHECK(tiles_->holdsTiles(page, of.tile_columns * of.tile_rows, *bytes));
+    }
     tiles_.reset();
     return Done{};
 }

@@ -39,7 +39,8 @@ struct TiledGeoTiffJob {
     std::string path;            // of the result
     enum class WhenBusy : std::uint8_t { Fail, Wait };
     WhenBusy when_busy = WhenBusy::Fail; // another program makes the same file
-    /// How far a stopped job may fall back; more where noting takes long.
+    /// How far a stopped job may fall back; more where noting takes long. 0 notes as often as there
+    /// is something to note, however long it takes.
     std::chrono::milliseconds checkpoint_interval{3000};
 };
 

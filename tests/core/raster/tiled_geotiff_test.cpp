@@ -1,6 +1,7 @@
 // The tiled copy against its source, by GDAL's tools and by brute force.
 #include "core/base/file_lock.h"
 #include "core/raster/overview_builder.h"
+#include "core/raster/prepare_journal.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/tiled_geotiff.h"
 #include "tests/support/gdal_tools.h"
@@ -21,6 +22,7 @@
 #include <functional>
 #include <future>
 #include <limits>
+#include <stdexcept>
 #include <thread>
 #include <type_traits>
 #include <unistd.h>
@@ -58,18 +60,46 @@ Error failureOf(const TiledGeoTiffJob& job)
     return report ? Error{} : report.error();
 }
 
-// The samples of a band, or of one of its overviews (0 is by 2), as gdal_translate writes them.
+// The samples of a band, or of one of its overviews (0 is by 2), as gdal_translate writes them:
+// into a plain TIFF of one strip, whose last bytes they are. (No plainer format has 64-bit
+// integers.)
 std::string samplesOf(const std::string& path, int overview = -1, const std::string& band = "1")
 {
     const test::TempFolder folder;
-    const std::string raw = folder.file("samples.raw");
-    std::vector<std::string> command{"gdal_translate", "-q", "-of", "ENVI", "-b", band};
+    const std::string plain = folder.file("plain.tif");
+    std::vector<std::string> command{
+        "gdal_translate", "-q", "-b", band, "-co", "PROFILE=BASELINE", "-co", "BLOCKYSIZE=1000000"};
     if (overview >= 0) {
         command.insert(command.end(), {"-ovr", std::to_string(overview)});
     }
-    command.insert(command.end(), {path, raw});
+    command.insert(command.end(), {path, plain});
     test::runTool(command);
-    return test::readFile(raw);
+    const nlohmann::json info = test::gdalInfo(plain);
+    const std::string type = test::firstBand(info)["type"].get<std::string>();
+    const std::size_t sample_bytes = type.ends_with("64")   ? 8
+                                     : type.ends_with("32") ? 4
+                                     : type.ends_with("16") ? 2
+                                                            : 1;
+    const std::size_t bytes =
+        info["size"][0].get<std::size_t>() * info["size"][1].get<std::size_t>() * sample_bytes;
+    const std::string file = test::readFile(plain);
+    const auto number = [&file](std::size_t at, std::size_t size) {
+        std::size_t value = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            value |= static_cast<std::size_t>(static_cast<unsigned char>(file.at(at + i)))
+                     << (8 * i);
+        }
+        return value;
+    };
+    const std::size_t directory = number(4, 4);
+    for (std::size_t entry = 0; entry < number(directory, 2); ++entry) {
+        constexpr std::size_t kStripOffsets = 273;
+        const std::size_t at = directory + 2 + 12 * entry;
+        if (number(at, 2) == kStripOffsets && number(at + 4, 4) == 1) {
+            return file.substr(number(at + 8, 4), bytes);
+        }
+    }
+    throw std::runtime_error(plain + " has more than one strip");
 }
 
 void expectNothingLeftBeside(const std::string& path)
@@ -505,6 +535,8 @@ TEST(TiledGeoTiff, GoesOnWhereItWasCancelled)
     ASSERT_EQ(report.notes.size(), 1U);
     EXPECT_THAT(report.notes[0], HasSubstr("goes on behind row"));
     EXPECT_EQ(checksumsOf(job.path), checksumsOf(whole.path));
+    // What had been written behind the last checkpoint is written again in its place.
+    EXPECT_TRUE(test::readFile(job.path) == test::readFile(whole.path));
     expectNothingLeftBeside(job.path);
 }
 
@@ -519,14 +551,14 @@ TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
     const std::string part = job.path + ".part";
     const std::string journal = part + ".journal";
     const std::vector<std::pair<const char*, std::function<void()>>> damages{
-        {"cut", [&] { fs::resize_file(part, fs::file_size(part) / 2); }},
+        {"cut", [&] { fs::resize_file(part, readJournal(journal)->file_bytes - 1); }},
         {"empty", [&] { fs::resize_file(part, 0); }},
         {"no TIFF", [&] { folder.write("copy.tif.part", std::string(100'000, 'x')); }},
         {"zeroed tiles",
          [&] {
              std::string bytes = test::readFile(part);
-             std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 3), bytes.end(),
-                       '\0');
+             const auto noted = static_cast<std::ptrdiff_t>(readJournal(journal)->file_bytes);
+             std::fill(bytes.begin() + noted / 2, bytes.end(), '\0');
              folder.write("copy.tif.part", bytes);
          }},
         {"journal of nonsense", [&] { folder.write("copy.tif.part.journal", "nonsense"); }},
