@@ -41,7 +41,7 @@ Result<FileBytes> FileBytes::open(const std::string& path)
     return bytes;
 }
 
-Result<std::vector<std::byte>> FileBytes::read(std::uint64_t offset, std::uint64_t count) const
+Result<RawArray<std::byte>> FileBytes::read(std::uint64_t offset, std::uint64_t count) const
 {
     if (offset > size_ || count > size_ - offset) {
         return Error{ErrorCode::Unreadable,
@@ -50,7 +50,7 @@ Result<std::vector<std::byte>> FileBytes::read(std::uint64_t offset, std::uint64
     }
     const GdalMessages messages;
     auto* file = static_cast<VSILFILE*>(file_.get());
-    std::vector<std::byte> bytes(count);
+    RawArray<std::byte> bytes(count);
     if (VSIFSeekL(file, offset, SEEK_SET) != 0 ||
         VSIFReadL(bytes.data(), 1, bytes.size(), file) != bytes.size()) {
         return Error{ErrorCode::Unreadable,

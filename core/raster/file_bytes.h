@@ -1,14 +1,13 @@
 // Bytes of a file anywhere: on disk or at an address.
 #pragma once
 
+#include "core/base/raw_array.h"
 #include "core/base/result.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
 namespace marsview {
 
@@ -25,7 +24,7 @@ public:
 
     /// All `count` bytes from `offset` on; Unreadable where there are fewer. Nothing is allocated
     /// that the file is too short for.
-    Result<std::vector<std::byte>> read(std::uint64_t offset, std::uint64_t count) const;
+    Result<RawArray<std::byte>> read(std::uint64_t offset, std::uint64_t count) const;
 
 private:
     struct Close {

@@ -1,5 +1,6 @@
 #include "core/raster/sample_grid.h"
 
+#include "core/base/raw_array.h"
 #include "core/raster/nodata.h"
 
 #include <algorithm>
@@ -8,10 +9,6 @@
 #include <fmt/format.h>
 #include <new>
 #include <type_traits>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace marsview {
 namespace {
@@ -29,21 +26,6 @@ bool isVoidValue(T value, const Nodata<T>& nodata)
         }
     }
     return nodata.exists && value == nodata.value;
-}
-
-// A stroke of the hand crosses a row, and so a page of memory, with every cell: with pages of 2 MiB
-// instead of 4 KiB the processor finds them sooner, which makes a fast stroke's update a twentieth
-// faster. Advice only.
-void useLargePages([[maybe_unused]] std::byte* data, [[maybe_unused]] std::size_t bytes) noexcept
-{
-#ifdef __linux__
-    constexpr std::size_t kPage = 4096;
-    constexpr std::size_t kWorthwhile = std::size_t{4} << 20U;
-    if (bytes >= kWorthwhile) {
-        const std::size_t before = (kPage - reinterpret_cast<std::uintptr_t>(data) % kPage) % kPage;
-        madvise(data + before, bytes - before, MADV_HUGEPAGE);
-    }
-#endif
 }
 
 } // namespace
@@ -102,6 +84,8 @@ Result<SampleGrid> SampleGrid::create(SampleType type, std::size_t columns, std:
                      fmt::format("{} × {} samples of {} bytes are more than memory can be had for",
                                  columns, rows, sampleBytes(type))};
     }
+    // A stroke of the hand crosses a row, and so a page of memory, with every cell: with large
+    // pages the processor finds them sooner, which makes a fast stroke's update a twentieth faster.
     useLargePages(grid.samples_.get(), row_bytes * rows);
     return grid;
 }

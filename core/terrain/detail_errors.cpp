@@ -98,12 +98,12 @@ DetailErrors DetailErrors::from(NodeErrors errors)
 void DetailErrors::spreadToCorners()
 {
     corners_.resize(nodes_.size());
-    CornerGrid finer;
     for (std::size_t k = 1; k < nodes_.size(); ++k) {
         const NodeLevel& level = nodes_[k];
-        CornerGrid corners{.columns = level.columns,
-                           .rows = level.rows,
-                           .values = std::vector<float>((level.columns + 1) * (level.rows + 1))};
+        CornerGrid& corners = corners_[k];
+        corners = {.columns = level.columns,
+                   .rows = level.rows,
+                   .values = std::vector<float>((level.columns + 1) * (level.rows + 1))};
         for (std::size_t row = 0; row < level.rows; ++row) {
             for (std::size_t column = 0; column < level.columns; ++column) {
                 const float error = level.errors_m[row * level.columns + column];
@@ -115,10 +115,8 @@ void DetailErrors::spreadToCorners()
             }
         }
         if (k > 1) {
-            growCorners(finer, corners);
+            growCorners(corners_[k - 1], corners);
         }
-        corners_[k] = corners.values;
-        finer = std::move(corners);
     }
 }
 

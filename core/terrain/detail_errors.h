@@ -22,6 +22,13 @@ struct DetailNode {
     bool operator==(const DetailNode&) const = default;
 };
 
+/// Values at the corners of the nodes of one level.
+struct CornerGrid {
+    std::size_t columns = 0; // of nodes; there is one corner more
+    std::size_t rows = 0;
+    std::vector<float> values;
+};
+
 /// The measured errors, node by node. Immutable; any thread. Takes about 1/384 of a
 /// byte a sample.
 class DetailErrors {
@@ -71,21 +78,14 @@ public:
     /// those of the finer level's corners in these nodes.
     float cornerError(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
-        return corners_[level][row * (nodes_[level].columns + 1) + column];
+        return corners_[level].values[row * (nodes_[level].columns + 1) + column];
     }
 
 private:
     void spreadToCorners();
 
     NodeErrors nodes_;
-    std::vector<std::vector<float>> corners_; // by level >= 1
-};
-
-/// Values at the corners of the nodes of one level.
-struct CornerGrid {
-    std::size_t columns = 0; // of nodes; there is one corner more
-    std::size_t rows = 0;
-    std::vector<float> values;
+    std::vector<CornerGrid> corners_; // by level >= 1
 };
 
 /// Raises `coarser` to at least DetailErrors::kGrowth times the values of `finer`, the next finer

@@ -228,15 +228,19 @@ private:
         for (std::size_t column = 0; column < tile_columns_; ++column) {
             std::optional<Tile> tile = std::move(next);
             next.reset();
-            for (const bool is_next : {false, true}) {
-                if ((is_next ? next : tile) || column + (is_next ? 1 : 0) == tile_columns_) {
-                    continue;
-                }
-                auto read = readAgain(reader, column + (is_next ? 1 : 0), tile_row);
+            if (!tile) {
+                auto read = readAgain(reader, column, tile_row);
                 if (!read) {
                     return std::move(read).error();
                 }
-                (is_next ? next : tile) = std::move(read).value();
+                tile = std::move(read).value();
+            }
+            if (column + 1 < tile_columns_) {
+                auto read = readAgain(reader, column + 1, tile_row);
+                if (!read) {
+                    return std::move(read).error();
+                }
+                next = std::move(read).value();
             }
             if (auto done = measureTile(*tile, next ? &next->samples : nullptr,
                                         filled ? &*filled : nullptr, worker, scratch);

@@ -106,7 +106,7 @@ struct LevelFile::Impl {
     // Some of the file's bytes, from an offset on.
     struct Region {
         std::uint64_t offset = 0;
-        std::vector<std::byte> bytes;
+        RawArray<std::byte> bytes;
     };
 
     // A plane, and where it goes.
@@ -123,7 +123,7 @@ struct LevelFile::Impl {
                      std::uint64_t count,
                      std::vector<std::uint64_t>& numbers,
                      std::vector<FilePart>& parts) const;
-    Result<std::vector<std::byte>> readPart(const FilePart& part, const TileId& id) const;
+    Result<RawArray<std::byte>> readPart(const FilePart& part, const TileId& id) const;
     Result<std::vector<float>> readTileFill(const TileId& id, const FilePart& part) const;
     Result<std::vector<float>> readCoarseFill(const TileId& id, const FilePart& part) const;
 };
@@ -255,8 +255,7 @@ Status LevelFile::Impl::unpackPlanes(const Region& region, const std::vector<Wan
     return Done{};
 }
 
-Result<std::vector<std::byte>> LevelFile::Impl::readPart(const FilePart& part,
-                                                         const TileId& id) const
+Result<RawArray<std::byte>> LevelFile::Impl::readPart(const FilePart& part, const TileId& id) const
 {
     auto bytes = file.read(part.offset, part.bytes);
     if (bytes && checksum(*bytes) != part.checksum) {
@@ -316,7 +315,7 @@ Result<MapLevels> LevelFile::readLevels(const ElevationScale& scale) const
     const Impl::Region region{preamble.planes_offset, std::move(bytes).value()};
 
     const TileLayout& layout = header.layout;
-    RawRanges ranges(layout.type, layout.columns, layout.rows);
+    RawRanges ranges = RawRanges::toBeFilled(layout.type, layout.columns, layout.rows);
     DetailErrors::NodeErrors errors = DetailErrors::noErrors(layout.columns, layout.rows);
     const BlockExtent extent = header.blocks();
     BlockGrid blocks =

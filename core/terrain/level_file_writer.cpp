@@ -55,18 +55,20 @@ std::FILE* openForWriting(const std::string& path)
         }
         struct stat opened = {};
         struct stat named = {};
-        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 || fstat(descriptor, &opened) != 0) {
-            const int reason = errno;
-            close(descriptor);
+        const bool is_ours =
+            flock(descriptor, LOCK_EX | LOCK_NB) == 0 && fstat(descriptor, &opened) == 0;
+        // Between opening and locking it may have got its final name.
+        const bool is_named = is_ours && stat(path.c_str(), &named) == 0 &&
+                              named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
+        if (is_named && ftruncate(descriptor, 0) == 0) {
+            return fdopen(descriptor, "wb");
+        }
+        const int reason = errno;
+        close(descriptor);
+        if (!is_ours || is_named) {
             errno = reason;
             return nullptr;
         }
-        // Meanwhile it may have got its final name.
-        if (stat(path.c_str(), &named) == 0 && named.st_ino == opened.st_ino &&
-            named.st_dev == opened.st_dev && ftruncate(descriptor, 0) == 0) {
-            return fdopen(descriptor, "wb");
-        }
-        close(descriptor);
     }
 #else
     return std::fopen(path.c_str(), "wb");

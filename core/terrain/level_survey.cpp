@@ -50,15 +50,17 @@ public:
         found_.has_voids.resize(tile_columns_ * tile_rows_);
         found_.checksums.resize(found_.has_voids.size());
         found_.samples_index.resize(keptTileCount(layout_));
-        if (tile_rows_ > 1) {
-            found_.first_rows =
-                SampleGrid::create(layout_.type, layout_.columns, tile_rows_ - 1).value();
-        }
         constexpr std::size_t kSparse = DetailMeasure::kSparseLevel;
-        found_.sparse =
+        auto sparse =
             SampleGrid::create(layout_.type, layout_.columnsAt(TileKind::Samples, kSparse),
-                               layout_.rowsAt(TileKind::Samples, kSparse))
-                .value();
+                               layout_.rowsAt(TileKind::Samples, kSparse));
+        auto first_rows = SampleGrid::create(layout_.type, layout_.columns,
+                                             std::max<std::size_t>(1, tile_rows_ - 1));
+        if (!sparse || !first_rows) {
+            return sparse ? std::move(first_rows).error() : std::move(sparse).error();
+        }
+        found_.sparse = std::move(sparse).value();
+        found_.first_rows = std::move(first_rows).value();
         if (layout_.has_voids) {
             auto fine = FineMeans::create(found_.kept, options_.path);
             if (!fine) {

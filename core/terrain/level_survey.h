@@ -49,7 +49,7 @@ struct LevelSurvey {
     FineMeans fine_means;
     std::vector<std::uint8_t> has_voids;  // by level-0 tile
     std::vector<std::uint32_t> checksums; // of the samples of each tile
-    std::optional<SampleGrid> first_rows; // of each row of tiles but the first; none: there is one
+    std::optional<SampleGrid> first_rows; // of each row of tiles but the first
     std::optional<SampleGrid> sparse;     // the samples of DetailMeasure::kSparseLevel
     std::vector<FilePart> samples_index;  // of the tiles that were written
 };

@@ -37,20 +37,20 @@ Result<MinMaxPyramid> MinMaxPyramid::build(const Heightfield& heightfield, JobMo
 MinMaxPyramid MinMaxPyramid::from(const RawRanges& ranges, const ElevationScale& scale)
 {
     MinMaxPyramid pyramid;
-    Level blocks{.columns = ranges.columns(), .rows = ranges.rows(), .bounds = {}};
-    blocks.bounds.assign(blocks.columns * blocks.rows, kEmpty);
+    Level blocks{.columns = ranges.columns(),
+                 .rows = ranges.rows(),
+                 .bounds = RawArray<Bounds>(ranges.columns() * ranges.rows())};
     ranges.visit([&](auto raw) {
-        parallelRanges(blocks.rows, 16, [&](std::size_t begin, std::size_t end) {
+        parallelRanges(blocks.rows, 64, [&](std::size_t begin, std::size_t end) {
             for (std::size_t row = begin; row < end; ++row) {
                 Bounds* bounds = blocks.bounds.data() + row * blocks.columns;
                 for (const auto& range : raw.row(row)) {
-                    if (!range.isEmpty()) {
-                        // A negative gain swaps the ends.
-                        const double a = scale.height(static_cast<double>(range.minimum));
-                        const double b = scale.height(static_cast<double>(range.maximum));
-                        *bounds = {roundedDown(std::min(a, b)), roundedUp(std::max(a, b))};
-                    }
-                    ++bounds;
+                    // A negative gain swaps the ends.
+                    const double a = scale.height(static_cast<double>(range.minimum));
+                    const double b = scale.height(static_cast<double>(range.maximum));
+                    *bounds++ = range.isEmpty() ? kEmpty
+                                                : Bounds{roundedDown(std::min(a, b)),
+                                                         roundedUp(std::max(a, b))};
                 }
             }
         });
@@ -58,15 +58,24 @@ MinMaxPyramid MinMaxPyramid::from(const RawRanges& ranges, const ElevationScale&
     pyramid.levels_.push_back(std::move(blocks));
     while (pyramid.levels_.back().bounds.size() > 1) {
         const Level& finer = pyramid.levels_.back();
-        Level coarser{
-            .columns = (finer.columns + 1) / 2, .rows = (finer.rows + 1) / 2, .bounds = {}};
-        coarser.bounds.assign(coarser.columns * coarser.rows, kEmpty);
-        for (std::size_t row = 0; row < finer.rows; ++row) {
-            for (std::size_t column = 0; column < finer.columns; ++column) {
-                include(coarser.bounds[(row / 2) * coarser.columns + column / 2],
-                        finer.bounds[row * finer.columns + column]);
+        const std::size_t columns = (finer.columns + 1) / 2;
+        const std::size_t rows = (finer.rows + 1) / 2;
+        Level coarser{.columns = columns, .rows = rows, .bounds = RawArray<Bounds>(columns * rows)};
+        parallelRanges(rows, 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t row = begin; row < end; ++row) {
+                const Bounds* upper = finer.bounds.data() + 2 * row * finer.columns;
+                const Bounds* lower = 2 * row + 1 < finer.rows ? upper + finer.columns : upper;
+                for (std::size_t column = 0; column < columns; ++column) {
+                    const std::size_t left = 2 * column;
+                    const std::size_t right = std::min(left + 1, finer.columns - 1);
+                    Bounds bounds = upper[left];
+                    include(bounds, upper[right]);
+                    include(bounds, lower[left]);
+                    include(bounds, lower[right]);
+                    coarser.bounds[row * columns + column] = bounds;
+                }
             }
-        }
+        });
         pyramid.levels_.push_back(std::move(coarser));
     }
     return pyramid;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
+#include "core/base/raw_array.h"
 #include "core/base/result.h"
 #include "core/terrain/heightfield.h"
 #include "core/terrain/raw_ranges.h"
@@ -43,7 +44,7 @@ private:
     struct Level {
         std::size_t columns = 0;
         std::size_t rows = 0;
-        std::vector<Bounds> bounds;
+        RawArray<Bounds> bounds;
     };
 
     std::vector<Level> levels_;

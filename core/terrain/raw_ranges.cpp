@@ -7,6 +7,7 @@
 #include <atomic>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -15,9 +16,9 @@ template <typename T>
 using Range = RawRanges::Range<T>;
 
 template <typename T>
-std::vector<std::byte> emptyRanges(std::size_t count)
+RawArray<std::byte> emptyRanges(std::size_t count)
 {
-    std::vector<std::byte> bytes(count * sizeof(Range<T>));
+    RawArray<std::byte> bytes(count * sizeof(Range<T>));
     std::fill_n(reinterpret_cast<Range<T>*>(bytes.data()), count, Range<T>{});
     return bytes;
 }
@@ -85,6 +86,17 @@ RawRanges::RawRanges(SampleType type, std::size_t sample_columns, std::size_t sa
     , ranges_(dispatchSampleType(
           type, [&](auto zero) { return emptyRanges<decltype(zero)>(columns_ * rows_); }))
 {}
+
+RawRanges
+RawRanges::toBeFilled(SampleType type, std::size_t sample_columns, std::size_t sample_rows)
+{
+    RawRanges ranges;
+    ranges.type_ = type;
+    ranges.columns_ = blocksAlong(sample_columns);
+    ranges.rows_ = blocksAlong(sample_rows);
+    ranges.ranges_ = RawArray<std::byte>(ranges.columns_ * ranges.rows_ * 2 * sampleBytes(type));
+    return ranges;
+}
 
 RawRanges RawRanges::of(const SampleGrid& samples, JobMonitor& monitor)
 {

@@ -4,6 +4,7 @@
 
 #include "core/base/grid_view.h"
 #include "core/base/job_monitor.h"
+#include "core/base/raw_array.h"
 #include "core/raster/sample_grid.h"
 #include "core/raster/sample_type.h"
 
@@ -11,7 +12,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace marsview {
 
@@ -44,6 +44,9 @@ public:
     RawRanges() = default;
     /// Of a map of that many samples; every block is empty.
     RawRanges(SampleType type, std::size_t sample_columns, std::size_t sample_rows);
+    /// As above, for being filled by bytes(): the ranges have no values yet.
+    static RawRanges
+    toBeFilled(SampleType type, std::size_t sample_columns, std::size_t sample_rows);
 
     /// Of all samples of a map, on all cores. Not whole where cancelled.
     static RawRanges of(const SampleGrid& samples, JobMonitor& monitor);
@@ -58,7 +61,7 @@ public:
         SampleType type_;
         std::size_t columns_; // of blocks, the ones to the left included
         std::size_t rows_;    // the ones above included
-        std::vector<std::byte> ranges_;
+        RawArray<std::byte> ranges_;
     };
     /// The part's first sample is the first of block (column, row).
     void include(const Part& part, std::size_t column, std::size_t row);
@@ -89,8 +92,8 @@ public:
     }
 
     /// The ranges, row by row: smallest and largest value by turns.
-    std::span<std::byte> bytes() noexcept { return ranges_; }
-    std::span<const std::byte> bytes() const noexcept { return ranges_; }
+    std::span<std::byte> bytes() noexcept { return {ranges_.data(), ranges_.size()}; }
+    std::span<const std::byte> bytes() const noexcept { return {ranges_.data(), ranges_.size()}; }
 
     /// Over all blocks; the counts stay 0.
     SampleStatistics extremes() const;
@@ -99,7 +102,7 @@ private:
     SampleType type_ = SampleType::Int16;
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
-    std::vector<std::byte> ranges_;
+    RawArray<std::byte> ranges_;
 };
 
 } // namespace marsview

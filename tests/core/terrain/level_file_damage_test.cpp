@@ -267,7 +267,7 @@ TEST_F(LevelFileDamage, SurvivesRandomHeaders)
         0,       1,    -1, 2,     3,      255,  65536, 1e300,      -0.5,
         nullptr, true, "", "inf", "Int8", 1030, 1.5e9, 1ULL << 63, nlohmann::json::array(),
         77};
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 500; ++i) {
         nlohmann::json changed = flat;
         for (std::size_t count = 1 + random.below(3); count > 0; --count) {
             auto at = changed.begin();
