@@ -10,18 +10,32 @@
 #include <utility>
 
 namespace marsview {
+namespace {
+
+void notePreview(RasterInfo& info, const Heightfield& heightfield)
+{
+    info.notices.insert(info.notices.begin(),
+                        fmt::format("a preview of {} × {} samples is shown; heights are read from "
+                                    "it until the map itself, of {} × {}, is there",
+                                    heightfield.columns(), heightfield.rows(), info.columns,
+                                    info.rows));
+}
+
+} // namespace
 
 Dataset::Dataset(DatasetSpec spec,
                  RasterInfo file_info,
                  RasterInfo info,
                  const SampleStatistics& statistics,
-                 Heightfield heightfield)
+                 Heightfield heightfield,
+                 DatasetKind kind)
     : spec_(std::move(spec))
     , file_info_(std::move(file_info))
     , info_(std::move(info))
     , statistics_(statistics)
-    , georeference_(georeferenceOf(info_))
+    , georeference_(georeferenceOf(info_, heightfield.columns(), heightfield.rows()))
     , heightfield_(std::move(heightfield))
+    , kind_(kind)
 {}
 
 double Dataset::height(GeographicPoint geographic) const
@@ -92,14 +106,18 @@ Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
         return Error{ErrorCode::Unsupported,
                      fmt::format("{}: is read in tiles, which depend on these options", path)};
     }
-    noteSuspiciousSamples(*info, dataset.statistics_);
+    if (dataset.isPreview()) {
+        notePreview(*info, dataset.heightfield());
+    } else {
+        noteSuspiciousSamples(*info, dataset.statistics_);
+    }
     DatasetSpec spec = dataset.spec();
     spec.overrides = overrides;
     Heightfield heightfield =
         dataset.heightfield().scaled(dataset.statistics_, info->elevationScale());
     return std::shared_ptr<const Dataset>(new Dataset(std::move(spec), dataset.fileInfo(),
                                                       std::move(info).value(), dataset.statistics_,
-                                                      std::move(heightfield)));
+                                                      std::move(heightfield), dataset.kind_));
 }
 
 std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts)
@@ -111,9 +129,42 @@ std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts)
                                                       parts.statistics, std::move(heightfield)));
 }
 
+std::shared_ptr<const Dataset> previewDataset(const PreviewParts& parts)
+{
+    RasterInfo info = parts.info;
+    Heightfield heightfield(parts.samples, parts.statistics, info.elevationScale());
+    notePreview(info, heightfield);
+    return std::shared_ptr<const Dataset>(new Dataset(parts.spec, parts.file_info, std::move(info),
+                                                      parts.statistics, std::move(heightfield),
+                                                      parts.kind));
+}
+
+bool isOfSameMap(const Dataset& preview, const Dataset& map)
+{
+    return preview.isPreview() && preview.spec() == map.spec() &&
+           preview.info().columns == map.info().columns && preview.info().rows == map.info().rows;
+}
+
 Georeference georeferenceOf(const RasterInfo& info)
 {
-    return {info.columns, info.rows, info.transform.value_or(GeoTransform{}), info.crs};
+    return georeferenceOf(info, info.columns, info.rows);
+}
+
+Georeference georeferenceOf(const RasterInfo& info, std::size_t columns, std::size_t rows)
+{
+    const GeoTransform transform = info.transform.value_or(GeoTransform{});
+    if (columns == info.columns && rows == info.rows) {
+        return {columns, rows, transform, info.crs};
+    }
+    // What can be inverted can be so in larger pixels too.
+    const double wider = static_cast<double>(info.columns) / static_cast<double>(columns);
+    const double higher = static_cast<double>(info.rows) / static_cast<double>(rows);
+    GeoTransform::Terms terms = transform.terms();
+    for (const std::size_t along_rows : {1U, 4U}) {
+        terms[along_rows] *= wider;
+        terms[along_rows + 1] *= higher;
+    }
+    return {columns, rows, GeoTransform::fromTerms(terms).value(), info.crs};
 }
 
 } // namespace marsview
