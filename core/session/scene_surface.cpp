@@ -152,7 +152,7 @@ double SceneSurface::heightOf(const SceneMap& map, double east_m, double north_m
         return std::abs(nearest - place) < 1e-6 ? nearest : place;
     };
     const GridPoint grid = map.frame.toGrid({east_m, north_m, 0.0});
-    return heightfield.height(
+    return heightfield.heightNow(
         {on_edge(grid.column, heightfield.columns()), on_edge(grid.row, heightfield.rows())});
 }
 

@@ -37,10 +37,11 @@ public:
     bool isEmpty() const noexcept { return maps_.empty(); }
     const std::vector<SceneMap>& maps() const noexcept { return maps_; }
 
-    /// Where a ray first meets the ground, at full resolution.
+    /// Where a ray first meets the ground, at full resolution; of a map in tiles, at the finest
+    /// that is there.
     std::optional<GroundPoint> cast(const Ray& ray, double exaggeration) const;
-    /// Height of the ground in metres; NaN where there is none. The outermost samples are ground,
-    /// whatever rounding makes of a place on them.
+    /// Height of the ground in metres, of a map in tiles by what is there; NaN where there is none.
+    /// The outermost samples are ground, whatever rounding makes of a place on them.
     double height(double east_m, double north_m) const;
     /// The map whose surface that is; nothing where there is no ground.
     std::optional<std::size_t> mapAt(double east_m, double north_m) const;

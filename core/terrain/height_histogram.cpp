@@ -76,6 +76,9 @@ void countTiles(const Heightfield& heights,
     for (std::size_t row = 0; row < layout.tileRows(TileKind::Samples, level); ++row) {
         for (std::size_t column = 0; column < layout.tileColumns(TileKind::Samples, level);
              ++column) {
+            if (options.monitor != nullptr && options.monitor->isCancelled()) {
+                return;
+            }
             const auto tile = raster.get({.kind = TileKind::Samples,
                                           .level = static_cast<std::uint8_t>(level),
                                           .column = static_cast<std::uint32_t>(column),

@@ -1,6 +1,7 @@
 // How the heights of a map are distributed.
 #pragma once
 
+#include "core/base/job_monitor.h"
 #include "core/terrain/heightfield.h"
 
 #include <cstddef>
@@ -19,6 +20,8 @@ struct HeightHistogram {
 struct HistogramOptions {
     std::size_t bin_count = 64; // at least 1
     std::size_t sample_count_max = 1'000'000;
+    /// May be null. Where it is cancelled, what is left of a map in tiles is not counted.
+    const JobMonitor* monitor = nullptr;
 };
 
 /// Counts the samples of every stride-th column of every stride-th row, with the smallest stride

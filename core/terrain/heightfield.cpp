@@ -77,6 +77,19 @@ Heightfield::Heightfield(std::shared_ptr<const TiledSamples> tiles,
     MARSVIEW_CHECK(tiles_ && tiles_->layout().columns >= 2 && tiles_->layout().rows >= 2);
 }
 
+double Heightfield::heightNow(GridPoint grid) const
+{
+    const std::optional<CellPlace> at = cellPlace(grid, columns(), rows());
+    if (!at) {
+        return kNan;
+    }
+    if (!isTiled()) {
+        return heightInCell(cell(at->column, at->row), at->u, at->v);
+    }
+    TileCursor cursor(*tiles_, scale_, TileAccess::Resident);
+    return heightBy(cursor, *at);
+}
+
 double Heightfield::height(GridPoint grid) const
 {
     const std::optional<CellPlace> at = cellPlace(grid, columns(), rows());

@@ -94,7 +94,9 @@ public:
     /// Height in metres of the surface at full resolution. NaN outside the outermost samples, in
     /// voids, and for NaN. Where it is tiled, what is missing is asked for; see isExact().
     double height(GridPoint grid) const;
-    /// Whether height() answers from full resolution now: always, where the samples are held.
+    /// As height(), without asking for what is missing: for what is looked at in passing.
+    double heightNow(GridPoint grid) const;
+    /// Whether they answer from full resolution now: always, where the samples are held.
     bool isExact(GridPoint grid) const;
     /// As height(), waiting for what is missing. NaN where it cannot be read; the reason is then
     /// at tiles()->raster().failure().
