@@ -1,9 +1,7 @@
 #include "ui/load_controller.h"
 
 #include "core/base/job_monitor.h"
-#include "core/raster/raster_file.h"
 
-#include <atomic>
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -16,28 +14,12 @@ constexpr std::chrono::milliseconds kProgressInterval{33};
 // A job that was cancelled inside a slow network read must not hold up the next one.
 constexpr int kThreadCountMax = 4;
 
-// As measured on a map of 34 million samples.
-constexpr double kReadingShare = 0.6;
-
 } // namespace
 
 struct LoadController::Job {
     LoadRequest request;
-    JobMonitor reading;
-    JobMonitor preparing;
-    std::atomic<bool> is_preparing{false};
-
-    void cancel()
-    {
-        reading.cancel();
-        preparing.cancel();
-    }
-    LoadProgress progress() const
-    {
-        return {.stage = is_preparing ? LoadStage::Preparing : LoadStage::Reading,
-                .fraction = kReadingShare * reading.fraction() +
-                            (1.0 - kReadingShare) * preparing.fraction()};
-    }
+    MapOpener opener;
+    JobMonitor monitor;
 };
 
 LoadController::LoadController(QObject* parent)
@@ -51,7 +33,7 @@ LoadController::LoadController(QObject* parent)
 LoadController::~LoadController()
 {
     if (job_) {
-        job_->cancel();
+        job_->monitor.cancel();
     }
     // Jobs post to this object: none may be left when it goes. What they posted goes with it.
     pool_.waitForDone();
@@ -62,6 +44,7 @@ void LoadController::start(const LoadRequest& request)
     abandon();
     job_ = std::make_shared<Job>();
     job_->request = request;
+    job_->opener = opener_;
     Q_EMIT started(request.spec);
     progress_timer_.start();
     reportProgress();
@@ -86,7 +69,7 @@ void LoadController::cancel()
 void LoadController::abandon()
 {
     if (job_) {
-        job_->cancel();
+        job_->monitor.cancel();
         job_.reset();
         progress_timer_.stop();
     }
@@ -95,23 +78,24 @@ void LoadController::abandon()
 Result<LoadedMap> LoadController::run(Job& job)
 {
     const LoadRequest& request = job.request;
+    const MapOpener& opener = job.opener;
     try {
-        const auto load = [&]() -> Result<std::shared_ptr<const Dataset>> {
-            if (request.loaded) {
-                auto dataset = withOverrides(*request.loaded, request.spec.overrides);
-                if (dataset || dataset.error().code != ErrorCode::Unsupported) {
-                    return dataset;
-                }
+        if (request.loaded) {
+            auto dataset = withOverrides(*request.loaded, request.spec.overrides);
+            if (dataset) {
+                return prepareMap(std::move(dataset).value(), job.monitor);
             }
-            return loadDataset(request.spec, job.reading, defaultMemoryBudget());
-        };
-        Result<std::shared_ptr<const Dataset>> dataset = load();
-        if (!dataset) {
-            return std::move(dataset).error();
+            if (dataset.error().code != ErrorCode::Unsupported) {
+                return std::move(dataset).error();
+            }
         }
-        job.reading.report(1.0);
-        job.is_preparing = true;
-        return prepareMap(std::move(dataset).value(), job.preparing);
+        const Result<OpenPlan> plan = opener.plan(request.spec, opener.resources);
+        if (!plan) {
+            return plan.error();
+        }
+        return plan->store == MapStore::Unprepared
+                   ? opener.preview(request.spec, {}, job.monitor)
+                   : opener.open(request.spec, *plan, opener.resources, job.monitor);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::TooLarge, request.spec.path +
                                               ": needs more memory than there is; close other "
@@ -138,7 +122,7 @@ void LoadController::finish(const std::shared_ptr<Job>& job, const Result<Loaded
 
 void LoadController::reportProgress()
 {
-    Q_EMIT progressed(job_->progress());
+    Q_EMIT progressed(job_->monitor.fraction());
 }
 
 } // namespace marsview

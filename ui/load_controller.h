@@ -4,6 +4,7 @@
 #include "core/base/result.h"
 #include "core/session/dataset.h"
 #include "core/session/loaded_map.h"
+#include "ui/map_opener.h"
 
 #include <QObject>
 #include <QThreadPool>
@@ -21,19 +22,13 @@ struct LoadRequest {
     std::shared_ptr<const Dataset> loaded;
 };
 
-enum class LoadStage { Reading, Preparing };
-
-struct LoadProgress {
-    LoadStage stage = LoadStage::Reading;
-    double fraction = 0.0; // of the whole, both stages together
-};
-
 struct LoadFailure {
     DatasetSpec spec;
     Error error;
 };
 
-/// Runs one load at a time. Starting another one, cancelling, and destroying the controller end the
+/// Runs one load at a time. A map that is too large to be held, and not prepared, is loaded as a
+/// preview. Starting another one, cancelling, and destroying the controller end the
 /// one that runs; nothing of it is heard of afterwards, whatever the moment. Lives in the GUI
 /// thread; only the destructor may wait, for at most one step of reading.
 class LoadController final : public QObject {
@@ -43,6 +38,9 @@ public:
     explicit LoadController(QObject* parent = nullptr);
     ~LoadController() override;
 
+    /// For loads that are started from now on.
+    void setOpener(const MapOpener& opener) { opener_ = opener; }
+
     void start(const LoadRequest& request);
     /// Nothing where nothing is loading.
     void cancel();
@@ -50,7 +48,8 @@ public:
 
 Q_SIGNALS:
     void started(const DatasetSpec& spec);
-    void progressed(const LoadProgress& progress);
+    /// `fraction` is in [0, 1].
+    void progressed(double fraction);
     // One of the following ends each load, except one that gave way to another start().
     void succeeded(const LoadedMap& map);
     void failed(const LoadFailure& failure);
@@ -64,6 +63,7 @@ private:
     void finish(const std::shared_ptr<Job>& job, const Result<LoadedMap>& outcome);
     void reportProgress();
 
+    MapOpener opener_;
     QThreadPool pool_;
     QTimer progress_timer_;
     std::shared_ptr<Job> job_; // null when idle

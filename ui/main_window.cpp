@@ -2,6 +2,7 @@
 
 #include "core/view/exaggeration.h"
 #include "ui/dialogs/about_dialog.h"
+#include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/keys_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/light_popup.h"
@@ -55,12 +56,15 @@ QStringList noticesOf(const RasterInfo& info)
     return notices;
 }
 
-QStringList localFilesOf(const QMimeData& data)
+// Files and addresses that can be opened.
+QStringList mapsIn(const QMimeData& data)
 {
     QStringList files;
     for (const QUrl& url : data.urls()) {
         if (url.isLocalFile()) {
             files.append(url.toLocalFile());
+        } else if (problemOfAddress(url.toString()).isEmpty()) {
+            files.append(url.toString());
         }
     }
     return files;
@@ -83,7 +87,7 @@ QString displayKey()
 
 } // namespace
 
-MainWindow::MainWindow(WindowOptions options, QWidget* parent)
+MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     : QMainWindow(parent)
     , options_(options)
     , view_(new TerrainView(this))
@@ -103,6 +107,10 @@ MainWindow::MainWindow(WindowOptions options, QWidget* parent)
                               this))
     , light_popup_(new LightPopup(this))
 {
+    if (!options_.opener.resources.tiles) {
+        options_.opener.resources.tiles = std::make_shared<TileCache>(TileCacheOptions{});
+    }
+    standard_tile_bytes_ = options_.opener.resources.tiles->bytesMax();
     setAcceptDrops(true);
     resize(kDefaultSize);
     addToolBar(tool_bar_);
@@ -149,8 +157,10 @@ void MainWindow::connectActions()
         connect(action, &QAction::triggered, this, reaction);
     };
     on(actions_->open, [this] { chooseFile(); });
+    on(actions_->open_address, [this] { chooseAddress(); });
     on(actions_->save_picture, [this] { savePicture(); });
     on(actions_->cancel_loading, [this] { cancelLoading(); });
+    on(actions_->stop_preparing, [this] { controller_->stopPreparing(); });
     on(actions_->quit, [this] { close(); });
     on(actions_->preferences, [this] { showPreferences(); });
     on(actions_->home, [this] { view_->goHome(); });
@@ -169,6 +179,7 @@ void MainWindow::connectActions()
     on(actions_->toggle_visibility,
        [this](bool is_visible) { controller_->setVisible(session().active, is_visible); });
     on(actions_->layer.go_to, [this] { controller_->goTo(session().active); });
+    on(actions_->layer.prepare, [this] { controller_->prepare(session().active); });
     on(actions_->layer.rename, [this] {
         docks_->reveal(*docks_->datasets());
         datasets_->editName();
@@ -216,9 +227,13 @@ void MainWindow::connectPanels()
             });
     connect(notices_, &NoticeBar::detailsRequested, this,
             [this] { docks_->reveal(*docks_->georeferencing()); });
+    connect(notices_, &NoticeBar::actionRequested, this,
+            [this] { controller_->prepare(session().active); });
     connect(tool_bar_, &MainToolBar::exaggerationRequested, view_, &TerrainView::setExaggeration);
     connect(light_popup_, &LightPopup::lightChanged, controller_, &SessionController::setLight);
     connect(load_status_, &LoadStatus::cancelRequested, this, &MainWindow::cancelLoading);
+    connect(load_status_, &LoadStatus::stopPreparingRequested, controller_,
+            &SessionController::stopPreparing);
     connect(recent_, &RecentFiles::chosen, this, &MainWindow::open);
     connect(readout_, &StatusReadout::displayChosen, this, [this](CoordinateDisplay display) {
         if (isRemembered()) {
@@ -238,7 +253,7 @@ void MainWindow::connectController()
                 actions_->cancel_loading->setEnabled(true);
             });
     connect(controller_, &SessionController::loadingEnded, this, [this] {
-        load_status_->hide();
+        load_status_->endLoading();
         view_->setHint({});
         actions_->cancel_loading->setEnabled(false);
         settleIfIdle();
@@ -247,8 +262,23 @@ void MainWindow::connectController()
         //: In the status bar, for a few seconds
         statusBar()->showMessage(tr("Loading was cancelled"), kMessageDuration);
     });
+    connect(controller_, &SessionController::preparingProgressed, this,
+            [this](const PrepareProgress& progress) {
+                load_status_->showPreparing(progress);
+                actions_->stop_preparing->setEnabled(true);
+            });
+    connect(controller_, &SessionController::preparingEnded, this, [this] {
+        load_status_->endPreparing();
+        actions_->stop_preparing->setEnabled(false);
+        settleIfIdle();
+    });
+    connect(controller_, &SessionController::preparationChanged, this,
+            &MainWindow::showPreparation);
     connect(controller_, &SessionController::opened, this, [this](const QString& file) {
         recent_->add(file);
+        if (isAddress(file)) {
+            return;
+        }
         last_folder_ = QFileInfo(file).absolutePath();
         if (isRemembered()) {
             QSettings().setValue(folderKey(), last_folder_);
@@ -314,6 +344,20 @@ void MainWindow::chooseFile()
     dialog->open();
 }
 
+void MainWindow::chooseAddress()
+{
+    QStringList history;
+    for (const QString& file : recent_->files()) {
+        if (isAddress(file)) {
+            history.append(file);
+        }
+    }
+    auto* dialog = new AddressDialog(history, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &AddressDialog::addressChosen, this, &MainWindow::open);
+    dialog->open();
+}
+
 void MainWindow::showSession()
 {
     actions_->showSession(session());
@@ -335,10 +379,7 @@ void MainWindow::showActive()
     setWindowTitle(active != nullptr ? tr("%1 — MarsView").arg(QString::fromStdString(active->name))
                                      : tr("MarsView"));
     georeferencing_->setDataset(dataset);
-    if (dataset != noticed_) {
-        noticed_ = dataset;
-        notices_->setNotices(dataset ? noticesOf(dataset->info()) : QStringList());
-    }
+    showPreparation();
     // Positions are on what the view shows, heights are those of the active layer if it is there.
     const std::vector<const Layer*> shown = shownLayers(session());
     const bool is_shown = std::find(shown.begin(), shown.end(), active) != shown.end();
@@ -347,6 +388,51 @@ void MainWindow::showActive()
         shown.begin(), shown.end(), [&](const Layer* layer) { return layer->dataset == scene; });
     readout_->setDatasets(shown.empty() ? nullptr : scene,
                           is_shown && is_scene_current ? dataset : nullptr);
+}
+
+// What was assumed about the active layer, and first how far it is where it is a preview.
+void MainWindow::showPreparation()
+{
+    const Layer* active = activeLayer(session());
+    const auto dataset = active != nullptr ? active->dataset : nullptr;
+    const Preparation preparation = controller_->preparationOf(session().active);
+    const PreparationState state = preparation.state;
+    const bool is_stopped = state == PreparationState::Stopped || state == PreparationState::Failed;
+    actions_->layer.prepare->setEnabled(is_stopped);
+    if (dataset == noticed_ && state == noticed_state_) {
+        return; // it may have been closed
+    }
+    noticed_ = dataset;
+    noticed_state_ = state;
+    QStringList notices = dataset ? noticesOf(dataset->info()) : QStringList();
+    QString action;
+    if (dataset && dataset->isPreview()) {
+        notices.removeFirst(); // that it is one, in numbers
+        const QString name = QString::fromStdString(active->name);
+        switch (state) {
+        case PreparationState::None:
+        case PreparationState::Waiting:
+        case PreparationState::Running:
+            //: %1 is a layer
+            notices.prepend(tr("%1 is shown as a preview while it is being prepared; it sharpens "
+                               "when that is done")
+                                .arg(name));
+            break;
+        case PreparationState::Stopped:
+            //: %1 is a layer
+            notices.prepend(
+                tr("%1 is shown as a preview; prepare it to see and touch all of it").arg(name));
+            //: On a button: prepare a large map
+            action = tr("Prepare");
+            break;
+        case PreparationState::Failed:
+            notices.prepend(preparation.problem);
+            //: On a button: prepare a large map, after that has failed
+            action = tr("Try Again");
+            break;
+        }
+    }
+    notices_->setNotices(notices, action);
 }
 
 void MainWindow::reportFailure(const QString& title, const QString& problem)
@@ -361,10 +447,15 @@ void MainWindow::reportFailure(const QString& title, const QString& problem)
     }
 }
 
+// The picture is of what is seen now, with all that belongs to it: pieces of a large map may be on
+// their way while the dialog is open, and after that.
 void MainWindow::savePicture()
 {
-    QImage picture = view_->terrainPicture();
-    overlays_->paintOver(picture);
+    struct Order {
+        QImage picture;
+        QString file;
+    };
+    const auto order = std::make_shared<Order>();
     const Layer* active = activeLayer(session());
     const QString name = active != nullptr
                              ? QFileInfo(QString::fromStdString(active->name)).completeBaseName()
@@ -375,15 +466,44 @@ void MainWindow::savePicture()
     dialog->setNameFilters({tr("PNG picture (*.png)"), tr("JPEG picture (*.jpg *.jpeg)")});
     dialog->setDefaultSuffix(QStringLiteral("png"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QFileDialog::fileSelected, this, [this, picture](const QString& file) {
-        if (!picture.save(file)) {
-            reportFailure(tr("Cannot Save Picture"),
-                          tr("%1: the picture cannot be written; choose another folder or a name "
-                             "that ends in .png")
-                              .arg(file));
+    const auto write_if_there = [this, order] {
+        if (!order->picture.isNull() && !order->file.isEmpty()) {
+            writePicture(order->picture, order->file);
         }
+    };
+    const auto take = [this, order, write_if_there] {
+        order->picture = view_->terrainPicture();
+        overlays_->paintOver(order->picture);
+        write_if_there();
+    };
+    if (view_->isPictureComplete()) {
+        take();
+    } else {
+        auto* once = new QObject(this);
+        connect(
+            view_, &TerrainView::pictureCompleted, once,
+            [once, take] {
+                once->deleteLater();
+                take();
+            },
+            Qt::SingleShotConnection);
+        connect(dialog, &QFileDialog::rejected, once, &QObject::deleteLater);
+    }
+    connect(dialog, &QFileDialog::fileSelected, this, [order, write_if_there](const QString& file) {
+        order->file = file;
+        write_if_there();
     });
     dialog->open();
+}
+
+void MainWindow::writePicture(const QImage& picture, const QString& file)
+{
+    if (!picture.save(file)) {
+        reportFailure(tr("Cannot Save Picture"),
+                      tr("%1: the picture cannot be written; choose another folder or a name "
+                         "that ends in .png")
+                          .arg(file));
+    }
 }
 
 void MainWindow::goToCoordinate()
@@ -402,7 +522,9 @@ void MainWindow::goToCoordinate()
 
 void MainWindow::showPreferences()
 {
-    auto* dialog = new PreferencesDialog(preferences_, this);
+    auto* dialog = new PreferencesDialog(
+        preferences_,
+        {.folder = options_.opener.resources.folder, .tile_bytes = standard_tile_bytes_}, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &PreferencesDialog::preferencesChanged, this, &MainWindow::setPreferences);
     dialog->open();
@@ -418,6 +540,13 @@ void MainWindow::setPreferences(const Preferences& preferences)
     view_->setAntialiasing(preferences.has_antialiasing);
     view_->setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));
     view_->setContactModel(preferences.contact_model);
+    MapOpener opener = options_.opener;
+    opener.resources = resourcesFor(opener.resources, preferences);
+    opener.resources.tiles->setBytesMax(
+        preferences.tile_memory_mb > 0 && !qEnvironmentVariableIsSet("MARSVIEW_CACHE_MB")
+            ? static_cast<std::size_t>(preferences.tile_memory_mb) << 20
+            : standard_tile_bytes_);
+    controller_->setOpener(opener);
     actions_->showContactModel(preferences.contact_model);
     if (isRemembered()) {
         QSettings settings;
@@ -442,7 +571,8 @@ void MainWindow::showAbout()
 
 void MainWindow::showKeys()
 {
-    QList<QAction*> actions{actions_->open, actions_->save_picture, actions_->go_to_coordinate};
+    QList<QAction*> actions{actions_->open, actions_->open_address, actions_->save_picture,
+                            actions_->go_to_coordinate};
     actions += view_->actions();
     actions += {actions_->layer.move_up, actions_->layer.move_down, actions_->layer.rename,
                 actions_->layer.remove};
@@ -458,7 +588,7 @@ void MainWindow::openLightPopup()
 
 void MainWindow::settleIfIdle()
 {
-    if (view_->isReady() && !controller_->isBusy() &&
+    if (view_->isReady() && !controller_->isBusy() && !controller_->isPreparing() &&
         (shownLayers(session()).empty() || view_->isPictureComplete())) {
         Q_EMIT settled();
     }
@@ -466,7 +596,7 @@ void MainWindow::settleIfIdle()
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-    controller_->cancel();
+    controller_->stopAll();
     if (isRemembered()) {
         QSettings settings;
         settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
@@ -486,14 +616,14 @@ void MainWindow::resizeEvent(QResizeEvent* event)
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)
 {
-    if (!localFilesOf(*event->mimeData()).isEmpty()) {
+    if (!mapsIn(*event->mimeData()).isEmpty()) {
         event->acceptProposedAction();
     }
 }
 
 void MainWindow::dropEvent(QDropEvent* event)
 {
-    const QStringList files = localFilesOf(*event->mimeData());
+    const QStringList files = mapsIn(*event->mimeData());
     if (!files.isEmpty()) {
         event->acceptProposedAction();
         controller_->open(files);

@@ -5,6 +5,7 @@
 #include "ui/preferences.h"
 #include "ui/session_controller.h"
 
+#include <QImage>
 #include <QMainWindow>
 
 #include <memory>
@@ -31,13 +32,15 @@ struct WindowOptions {
     enum class Geometry { Remembered, Fixed } geometry = Geometry::Remembered;
     /// Where failures are told besides the signal.
     enum class Failures { InDialogs, BySignalOnly } failures = Failures::InDialogs;
+    /// How maps are read, and what they share where the user prefers nothing else.
+    MapOpener opener{};
 };
 
 class MainWindow final : public QMainWindow {
     Q_OBJECT
 
 public:
-    explicit MainWindow(WindowOptions options = {}, QWidget* parent = nullptr);
+    explicit MainWindow(const WindowOptions& options = {}, QWidget* parent = nullptr);
     ~MainWindow() override;
 
     /// Loads the map of that file as a layer on top. A file that cannot be opened changes nothing.
@@ -49,6 +52,8 @@ public:
     void cancelLoading();
     /// Asks for files, then opens them.
     void chooseFile();
+    /// Asks for an address, then opens it.
+    void chooseAddress();
 
     TerrainView* view() const noexcept { return view_; }
     StatusReadout* readout() const noexcept { return readout_; }
@@ -72,7 +77,8 @@ public:
     void showKeys();
 
 Q_SIGNALS:
-    /// Nothing is loading and the picture shows all there is, or there is nothing to load.
+    /// Nothing is loading or being prepared, and the picture shows all there is, or there is
+    /// nothing to load.
     void settled();
     /// "FILE: WHY", or why nothing can be drawn.
     void openFailed(const QString& problem);
@@ -97,12 +103,15 @@ private:
     void restoreWindow();
     void showSession();
     void showActive();
+    void showPreparation();
     void reportFailure(const QString& title, const QString& problem);
     void savePicture();
+    void writePicture(const QImage& picture, const QString& file);
     void openLightPopup();
     void settleIfIdle();
 
     WindowOptions options_;
+    std::size_t standard_tile_bytes_ = 0;
     Preferences preferences_;
     TerrainView* view_ = nullptr;
     MapOverlays* overlays_ = nullptr;
@@ -118,6 +127,7 @@ private:
     RecentFiles* recent_ = nullptr;
     LightPopup* light_popup_ = nullptr;
     std::shared_ptr<const Dataset> noticed_; // whose notices were shown last
+    PreparationState noticed_state_ = PreparationState::None;
     GoToEntry last_place_;
     QString last_folder_;
 };

@@ -10,17 +10,20 @@ namespace marsview {
 NoticeBar::NoticeBar(QWidget* parent)
     : QFrame(parent)
     , text_(new QLabel(this))
+    , action_(new QToolButton(this))
 {
     setAccessibleName(tr("Notices about the map"));
     setFrameShape(QFrame::NoFrame);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::ToolTipBase);
     setForegroundRole(QPalette::ToolTipText);
+    text_->setObjectName(QStringLiteral("noticeText"));
     text_->setForegroundRole(QPalette::ToolTipText);
     text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     auto* icon = new QLabel(this);
     const int side = style()->pixelMetric(QStyle::PM_SmallIconSize);
     icon->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(side, side));
+    action_->setObjectName(QStringLiteral("noticeAction"));
     auto* details = new QToolButton(this);
     details->setText(tr("Details"));
     details->setAutoRaise(true);
@@ -32,15 +35,19 @@ NoticeBar::NoticeBar(QWidget* parent)
     layout->setContentsMargins(8, 2, 4, 2);
     layout->addWidget(icon);
     layout->addWidget(text_, 1);
+    layout->addWidget(action_);
     layout->addWidget(details);
     layout->addWidget(close);
+    connect(action_, &QToolButton::clicked, this, &NoticeBar::actionRequested);
     connect(details, &QToolButton::clicked, this, &NoticeBar::detailsRequested);
     connect(close, &QToolButton::clicked, this, &QWidget::hide);
     hide();
 }
 
-void NoticeBar::setNotices(const QStringList& notices)
+void NoticeBar::setNotices(const QStringList& notices, const QString& action)
 {
+    action_->setText(action);
+    action_->setVisible(!action.isEmpty());
     if (notices.isEmpty()) {
         hide();
         return;

@@ -5,6 +5,7 @@
 #include <QStringList>
 
 class QLabel;
+class QToolButton;
 
 namespace marsview {
 
@@ -15,13 +16,16 @@ class NoticeBar final : public QFrame {
 public:
     explicit NoticeBar(QWidget* parent = nullptr);
 
-    void setNotices(const QStringList& notices);
+    /// `action` is what can be done about the first of them, on a button; empty for nothing.
+    void setNotices(const QStringList& notices, const QString& action = {});
 
 Q_SIGNALS:
+    void actionRequested();
     void detailsRequested();
 
 private:
     QLabel* text_ = nullptr;
+    QToolButton* action_ = nullptr;
 };
 
 } // namespace marsview

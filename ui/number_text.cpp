@@ -49,6 +49,38 @@ QString heightRangeText(const HeightRange& range, HeightUnit unit)
         .arg(numberText(low, decimals), numberText(high, decimals), unitSymbol(unit));
 }
 
+QString bytesText(std::uint64_t bytes)
+{
+    const auto value = static_cast<double>(bytes);
+    const auto digits = [](double number) { return numberText(number, number < 10.0 ? 1 : 0); };
+    if (value < 1e6) {
+        //: Size of files: kilobytes
+        return QCoreApplication::translate("SizeText", "%1 kB").arg(digits(value / 1e3));
+    }
+    if (value < 1e9) {
+        //: Size of files: megabytes
+        return QCoreApplication::translate("SizeText", "%1 MB").arg(digits(value / 1e6));
+    }
+    //: Size of files: gigabytes
+    return QCoreApplication::translate("SizeText", "%1 GB").arg(digits(value / 1e9));
+}
+
+QString timeLeftText(std::chrono::seconds left)
+{
+    const auto seconds = static_cast<int>(std::min<std::int64_t>(left.count(), 3600 * 24 * 365));
+    if (seconds <= 50) {
+        //: How long something still takes
+        return QCoreApplication::translate("TimeText", "less than a minute left");
+    }
+    const int minutes = (seconds + 30) / 60;
+    if (minutes < 100) {
+        //: How long something still takes
+        return QCoreApplication::translate("TimeText", "%n min left", nullptr, minutes);
+    }
+    //: How long something still takes: hours
+    return QCoreApplication::translate("TimeText", "%n h left", nullptr, (minutes + 30) / 60);
+}
+
 int decimalsFor(double resolution, int most)
 {
     if (!(resolution > 0.0)) {

@@ -5,7 +5,9 @@
 
 #include <QString>
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 
 namespace marsview {
 
@@ -28,6 +30,12 @@ QString countText(std::size_t count);
 
 /// "−8,201 … 21,241 m". Resolves about a hundredth of the range.
 QString heightRangeText(const HeightRange& range, HeightUnit unit);
+
+/// "3.2 GB". Two significant digits, powers of ten.
+QString bytesText(std::uint64_t bytes);
+
+/// "4 min left", no finer than anybody can tell.
+QString timeLeftText(std::chrono::seconds left);
 
 /// Decimals that show a tenth of `resolution`, at most `most`.
 int decimalsFor(double resolution, int most);

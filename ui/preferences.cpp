@@ -51,6 +51,21 @@ QString contactModelKey()
     return QStringLiteral("preferences/contactModel");
 }
 
+QString tileMemoryKey()
+{
+    return QStringLiteral("preferences/tileMemoryMB");
+}
+
+QString mapFolderKey()
+{
+    return QStringLiteral("preferences/mapFolder");
+}
+
+QString mapFolderBoundKey()
+{
+    return QStringLiteral("preferences/mapFolderGB");
+}
+
 } // namespace
 
 Preferences preferencesFrom(const QSettings& settings)
@@ -68,7 +83,25 @@ Preferences preferencesFrom(const QSettings& settings)
     preferences.contact_model =
         contactModelKind(settings.value(contactModelKey()).toString().toStdString())
             .value_or(standard.contact_model);
+    const int tile_memory_mb = settings.value(tileMemoryKey()).toInt();
+    preferences.tile_memory_mb =
+        tile_memory_mb > 0 ? std::max(tile_memory_mb, kTileMemoryMbMin) : 0;
+    preferences.map_folder = settings.value(mapFolderKey()).toString();
+    preferences.map_folder_gb = std::max(0, settings.value(mapFolderBoundKey()).toInt());
     return preferences;
+}
+
+MapResources resourcesFor(const MapResources& standard, const Preferences& preferences)
+{
+    MapResources resources = standard;
+    if (!preferences.map_folder.isEmpty() && !qEnvironmentVariableIsSet("MARSVIEW_CACHE_DIR")) {
+        resources.folder = preferences.map_folder.toStdString();
+    }
+    if (preferences.map_folder_gb > 0) {
+        resources.folder_bytes_max =
+            static_cast<std::uint64_t>(preferences.map_folder_gb) * 1'000'000'000;
+    }
+    return resources;
 }
 
 void save(const Preferences& preferences, QSettings& settings)
@@ -82,6 +115,9 @@ void save(const Preferences& preferences, QSettings& settings)
     const std::string_view model = contactModelName(preferences.contact_model);
     settings.setValue(contactModelKey(),
                       QString::fromUtf8(model.data(), static_cast<qsizetype>(model.size())));
+    settings.setValue(tileMemoryKey(), preferences.tile_memory_mb);
+    settings.setValue(mapFolderKey(), preferences.map_folder);
+    settings.setValue(mapFolderBoundKey(), preferences.map_folder_gb);
 }
 
 } // namespace marsview

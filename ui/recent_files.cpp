@@ -1,5 +1,7 @@
 #include "ui/recent_files.h"
 
+#include "core/raster/remote_raster.h"
+
 #include <QDir>
 #include <QFileInfo>
 #include <QMenu>
@@ -24,6 +26,11 @@ QString withoutMnemonics(QString text)
 }
 
 } // namespace
+
+bool isAddress(const QString& file)
+{
+    return file.contains(QStringLiteral("://")) && remoteNameFor(file.toStdString()).has_value();
+}
 
 RecentFiles::RecentFiles(QMenu& menu, Memory memory, QObject* parent)
     : QObject(parent)
@@ -65,15 +72,16 @@ void RecentFiles::fillMenu()
 {
     menu_.clear();
     QStringList ordered = files_;
-    const auto gone = std::stable_partition(ordered.begin(), ordered.end(),
-                                            [](const QString& f) { return QFileInfo::exists(f); });
+    const auto gone = std::stable_partition(ordered.begin(), ordered.end(), [](const QString& f) {
+        return isAddress(f) || QFileInfo::exists(f);
+    });
     for (auto file = ordered.begin(); file != ordered.end(); ++file) {
         const QString name = withoutMnemonics(QFileInfo(*file).fileName());
         QAction* action = menu_.addAction(
             //: In the list of recent files: %1 is a file that is no longer there
             file < gone ? name : tr("%1 (missing)").arg(name), this,
             [this, path = *file] { Q_EMIT chosen(path); });
-        action->setToolTip(QDir::toNativeSeparators(*file));
+        action->setToolTip(isAddress(*file) ? *file : QDir::toNativeSeparators(*file));
         action->setEnabled(file < gone);
     }
     menu_.addSeparator();

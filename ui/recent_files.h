@@ -8,8 +8,11 @@ class QMenu;
 
 namespace marsview {
 
-/// Remembers ten files, the last opened first, for this and for later windows. Files that are gone
-/// stay in the list, behind the others, and say so.
+/// Whether a name is an address (https://…), which is opened as it is.
+bool isAddress(const QString& file);
+
+/// Remembers ten files or addresses, the last opened first, for this and for later windows. Files
+/// that are gone stay in the list, behind the others, and say so.
 class RecentFiles final : public QObject {
     Q_OBJECT
 

@@ -73,32 +73,70 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
     : QObject(parent)
     , view_(view)
     , loader_(new LoadController(this))
+    , preparer_(new MapPreparer(this))
 {
     undo_stack_.setUndoLimit(kUndoStepsMax);
     connect(&view_, &TerrainView::mapShown, this, &SessionController::revealWhatCame);
-    connect(loader_, &LoadController::progressed, this, [this](const LoadProgress& progress) {
+    connect(loader_, &LoadController::progressed, this, [this](double fraction) {
         if (current_) {
             Q_EMIT loadProgressed({.file = QString::fromStdString(current_->spec.path),
-                                   .progress = progress,
+                                   .fraction = fraction,
                                    .position = begun_count_,
                                    .count = asked_count_});
         }
     });
     connect(loader_, &LoadController::succeeded, this, &SessionController::accept);
     connect(loader_, &LoadController::failed, this, [this](const LoadFailure& failure) {
-        current_.reset();
-        Q_EMIT failed(QString::fromStdString(failure.error.message));
+        const Load load = *std::exchange(current_, std::nullopt);
+        const QString problem = QString::fromStdString(failure.error.message);
+        if (load.purpose == Load::Purpose::Complete) {
+            endPreparing({.how = Ending::How::Failed, .spec = load.spec, .problem = problem});
+        } else {
+            Q_EMIT failed(problem);
+        }
         endLoad();
+    });
+    connect(preparer_, &MapPreparer::progressed, this, &SessionController::preparingProgressed);
+    connect(preparer_, &MapPreparer::ended, this, &SessionController::preparingEnded);
+    connect(preparer_, &MapPreparer::previewed, this, [this](const LoadedMap& map) {
+        std::vector<std::shared_ptr<const Dataset>> rough;
+        for (const Layer& layer : session_.layers) {
+            if (layer.dataset->kind() == DatasetKind::RoughPreview &&
+                isOfSameMap(*layer.dataset, *map.dataset)) {
+                rough.push_back(layer.dataset);
+            }
+        }
+        for (const auto& dataset : rough) {
+            succeed(dataset, map);
+        }
+    });
+    connect(preparer_, &MapPreparer::prepared, this, [this](const DatasetSpec& spec) {
+        endPreparing({.how = Ending::How::Done, .spec = spec});
+    });
+    connect(preparer_, &MapPreparer::failed, this, [this](const LoadFailure& failure) {
+        endPreparing({.how = Ending::How::Failed,
+                      .spec = failure.spec,
+                      .problem = QString::fromStdString(failure.error.message)});
     });
 }
 
-SessionController::~SessionController() = default;
+void SessionController::setOpener(const MapOpener& opener)
+{
+    loader_->setOpener(opener);
+    preparer_->setOpener(opener);
+}
+
+SessionController::~SessionController()
+{
+    are_previews_left_alone_ = true;
+}
 
 void SessionController::open(const QStringList& files)
 {
     if (files.isEmpty()) {
         return;
     }
+    are_previews_left_alone_ = false;
     // The sample is for people who have nothing of their own to look at.
     std::erase_if(waiting_, [](const Load& load) { return load.purpose == Load::Purpose::Sample; });
     if (current_ && current_->purpose == Load::Purpose::Sample) {
@@ -150,7 +188,8 @@ void SessionController::startNext()
     waiting_.pop_front();
     ++begun_count_;
     const Layer* layer = layerOf(session_, current_->layer);
-    loader_->start({.spec = current_->spec, .loaded = layer != nullptr ? layer->dataset : nullptr});
+    const bool is_known = layer != nullptr && current_->purpose == Load::Purpose::Override;
+    loader_->start({.spec = current_->spec, .loaded = is_known ? layer->dataset : nullptr});
 }
 
 void SessionController::endLoad()
@@ -166,9 +205,18 @@ void SessionController::cancel()
     if (!isBusy()) {
         return;
     }
+    std::vector<Load> dropped(waiting_.begin(), waiting_.end());
+    if (current_) {
+        dropped.push_back(*current_);
+    }
     waiting_.clear();
     current_.reset();
     loader_->cancel();
+    for (const Load& load : dropped) {
+        if (load.purpose == Load::Purpose::Complete) {
+            endPreparing({.how = Ending::How::Stopped, .spec = load.spec});
+        }
+    }
     Q_EMIT loadingCancelled();
     Q_EMIT loadingEnded();
 }
@@ -190,7 +238,15 @@ void SessionController::dropLoadsOf(LayerId id)
 void SessionController::accept(const LoadedMap& map)
 {
     const Load load = *std::exchange(current_, std::nullopt);
+    if (load.purpose == Load::Purpose::Complete) {
+        acceptComplete(load, map);
+        endLoad();
+        return;
+    }
     const auto dataset = maps_.keep(map);
+    if (dataset->isPreview()) {
+        forgetEnding(load.spec); // whatever became of it before, it is wanted now
+    }
     if (load.purpose == Load::Purpose::Override) {
         if (const Layer* layer = layerOf(session_, load.layer)) {
             //: Continues "Undo …"; %1 is a layer
@@ -306,8 +362,12 @@ void SessionController::apply(const Session& session)
     const std::uint32_t next_id = std::max(session_.next_id, session.next_id);
     session_ = session;
     session_.next_id = next_id;
+    for (Layer& layer : session_.layers) {
+        layer.dataset = latest(layer.dataset);
+    }
     show();
     Q_EMIT sessionChanged();
+    lookAfterPreviews();
 }
 
 void SessionController::show()

@@ -3,9 +3,10 @@
 
 #include "core/session/session.h"
 #include "ui/load_controller.h"
-#include "ui/map_store.h"
-#include "ui/shown_layer.h"
+#include "ui/loaded_map_store.h"
+#include "ui/map_preparer.h"
 #include "ui/session_command.h"
+#include "ui/shown_layer.h"
 
 #include <QObject>
 #include <QString>
@@ -21,15 +22,33 @@ class TerrainView;
 
 /// What is loading, for people.
 struct LoadReport {
-    QString file; // its path
-    LoadProgress progress;
-    int position = 1; // of those asked for together, counted from 1
+    QString file;          // its path
+    double fraction = 0.0; // done
+    int position = 1;      // of those asked for together, counted from 1
     int count = 1;
+};
+
+/// How far a layer is that is shown by a preview.
+enum class PreparationState {
+    None,    // the layer is no preview, or is about to be whole
+    Waiting, // for other maps
+    Running,
+    Stopped, // by the user
+    Failed,
+};
+
+struct Preparation {
+    PreparationState state = PreparationState::None;
+    QString problem{}; // "FILE: WHY" of what failed
 };
 
 /// Holds the session and changes it on request; every change is undoable, except which layer is
 /// active. What has to be loaded is loaded first, one after the other in the order asked for, and
 /// becomes a change when it is there. Lives in the GUI thread; must not outlive the view.
+///
+/// A map that is too large to be held and was not prepared before comes as a preview and is
+/// prepared meanwhile. When it is ready it takes the preview's place wherever that is, which is no
+/// change to take back; so it does in steps of undo.
 class SessionController final : public QObject {
     Q_OBJECT
 
@@ -37,11 +56,17 @@ public:
     explicit SessionController(TerrainView& view, QObject* parent = nullptr);
     ~SessionController() override;
 
+    /// For what is opened from now on.
+    void setOpener(const MapOpener& opener);
+
     const Session& session() const noexcept { return session_; }
     QUndoStack& undoStack() noexcept { return undo_stack_; }
     const LoadController& loader() const noexcept { return *loader_; }
     /// Something is loading or waits for its turn.
     bool isBusy() const noexcept { return current_.has_value() || !waiting_.empty(); }
+    /// A map is being prepared while its preview is shown.
+    bool isPreparing() const noexcept { return preparer_->isBusy(); }
+    Preparation preparationOf(LayerId id) const;
 
     /// Each becomes a layer on top when it is loaded. May be called before the view can draw.
     void open(const QStringList& files);
@@ -52,6 +77,12 @@ public:
     void overrideGeoreferencing(LayerId id, const RasterOverrides& overrides);
     /// Stops what is loading and forgets what waits.
     void cancel();
+    /// Prepares a layer that is a preview, or goes on with it.
+    void prepare(LayerId id);
+    /// Stops what is being prepared, to be gone on with another time; others that wait are next.
+    void stopPreparing();
+    /// Stops everything, as before the end.
+    void stopAll();
 
     // Nothing where there is no such layer, or nothing would change.
     void remove(LayerId id);
@@ -76,15 +107,32 @@ Q_SIGNALS:
     void loadingEnded();
     /// The user stopped it.
     void loadingCancelled();
+    void preparingProgressed(const PrepareProgress& progress);
+    /// Nothing is being prepared any more.
+    void preparingEnded();
+    /// Of some layer.
+    void preparationChanged();
     void opened(const QString& file);
     /// "FILE: WHY". The session is as it was.
     void failed(const QString& problem);
 
 private:
     struct Load {
-        enum class Purpose { Open, Sample, Override } purpose = Purpose::Open;
+        /// Complete: a preview whose map has been prepared.
+        enum class Purpose { Open, Sample, Override, Complete } purpose = Purpose::Open;
         DatasetSpec spec;
-        LayerId layer = LayerId::None; // whose georeferencing is told
+        LayerId layer = LayerId::None; // whose georeferencing is told, or whose preview it is
+    };
+    /// What became of a preview. It lives as long as some step of undo holds the preview.
+    struct Successor {
+        std::weak_ptr<const Dataset> preview;
+        std::shared_ptr<const Dataset> map; // may itself be a preview, a better one
+    };
+    /// How preparing ended, for maps of which the session or its undo steps may hold a preview.
+    struct Ending {
+        enum class How { Done, Stopped, Failed } how = How::Done;
+        DatasetSpec spec;
+        QString problem{};
     };
 
     void enqueue(Load load);
@@ -92,6 +140,14 @@ private:
     void dropLoadsOf(LayerId id);
     void accept(const LoadedMap& map);
     void endLoad();
+    void acceptComplete(const Load& load, const LoadedMap& map);
+    void succeed(const std::shared_ptr<const Dataset>& preview, const LoadedMap& map);
+    std::shared_ptr<const Dataset> latest(std::shared_ptr<const Dataset> dataset) const;
+    void endPreparing(const Ending& ending);
+    const Ending* endingOf(const DatasetSpec& spec) const;
+    void forgetEnding(const DatasetSpec& spec);
+    void lookAfterPreviews();
+    bool isCompleting(LayerId id) const;
     void change(const QString& text,
                 const Session& after,
                 SessionCommand::Run run = SessionCommand::Run::None);
@@ -101,7 +157,11 @@ private:
 
     TerrainView& view_;
     LoadController* loader_ = nullptr;
-    MapStore maps_;
+    MapPreparer* preparer_ = nullptr;
+    std::vector<Successor> successors_;
+    std::vector<Ending> endings_;
+    bool are_previews_left_alone_ = false; // everything is about to end
+    LoadedMapStore maps_;
     Session session_;
     QUndoStack undo_stack_;
     std::optional<Load> current_;

@@ -202,23 +202,35 @@ void StatusReadout::reserveWidths()
             keep_longer(highest, heightText(dataset->info(), range, range.maximum_m, unit_));
         }
     }
-    height_->setLongest(highest + QLatin1Char('0'));
+    height_->setLongest(tr("≈ %1").arg(highest) + QLatin1Char('0'));
 }
 
-QString StatusReadout::heightAt(const RayHit& hit) const
+StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
 {
-    const auto text = [this](const Dataset& dataset, double height_m) {
-        return heightText(dataset.info(), dataset.heightfield().range().value_or(HeightRange{}),
-                          height_m, unit_);
+    const auto read = [this](const Dataset& dataset, GridPoint grid, double height_m) {
+        const Heightfield& heightfield = dataset.heightfield();
+        const bool is_exact = heightfield.isExact(grid);
+        if (heightfield.isTiled() && is_exact) {
+            height_m = heightfield.heightNow(grid); // the ray may have come a moment too early
+        }
+        ReadHeight height{.text = heightText(dataset.info(),
+                                             heightfield.range().value_or(HeightRange{}), height_m,
+                                             unit_)};
+        if (dataset.isPreview()) {
+            height.why_rough = tr("Read from a preview; exact once the map is prepared");
+        } else if (!is_exact) {
+            height.why_rough = tr("Read from a coarser level; the samples here are being read");
+        }
+        return height;
     };
     if (active_ && active_ != scene_) {
-        const double height_m =
-            active_->heightfield().height(onGridOf(*active_, *scene_, hit.grid));
+        const GridPoint grid = onGridOf(*active_, *scene_, hit.grid);
+        const double height_m = active_->heightfield().heightNow(grid);
         if (std::isfinite(height_m)) {
-            return text(*active_, height_m);
+            return read(*active_, grid, height_m);
         }
     }
-    return text(*scene_, hit.height_m);
+    return read(*scene_, hit.grid, hit.height_m);
 }
 
 void StatusReadout::refresh()
@@ -228,12 +240,16 @@ void StatusReadout::refresh()
         coordinate_->setWholeText(scene_ ? tr("pointer off the map") : QString());
         coordinate_->setEnabled(false);
         height_->setWholeText({});
+        height_->setToolTip({});
         return;
     }
     coordinate_->setEnabled(true);
     coordinate_->setWholeText(
         coordinateText(display_, scene_->info(), scene_->georeference(), hit_->grid));
-    height_->setWholeText(heightAt(*hit_));
+    const ReadHeight height = heightAt(*hit_);
+    //: A height that is not quite sure yet
+    height_->setWholeText(height.why_rough.isEmpty() ? height.text : tr("≈ %1").arg(height.text));
+    height_->setToolTip(height.why_rough);
 }
 
 } // namespace marsview

@@ -53,7 +53,11 @@ private:
     void fillMenu();
     void reserveWidths();
     void refresh();
-    QString heightAt(const RayHit& hit) const;
+    struct ReadHeight {
+        QString text;
+        QString why_rough{}; // empty: it is the height of the map
+    };
+    ReadHeight heightAt(const RayHit& hit) const;
 
     std::shared_ptr<const Dataset> scene_;
     std::shared_ptr<const Dataset> active_;

@@ -25,6 +25,39 @@ constexpr milliseconds kKeyDuration{180};
 
 constexpr milliseconds kFlyDuration{700};
 
+// How often finer ground is looked for below a stylus that presses.
+constexpr milliseconds kTouchInterval{33};
+
+// Whether two pictures of one file, a preview maybe, have their outer corners in the same places of
+// the scene.
+bool isSameGround(const Dataset& a, const Dataset& b)
+{
+    const auto corner = [](const Dataset& dataset, double side) {
+        const Georeference& georeference = dataset.georeference();
+        const auto end = [side](std::size_t count) {
+            return -0.5 + side * static_cast<double>(count);
+        };
+        return georeference.sceneFrame().toScene(
+            {end(georeference.columns()), end(georeference.rows())}, 0.0);
+    };
+    constexpr double kTolerance = 1e-6;
+    const double tolerance_m = kTolerance * length(corner(a, 1.0) - corner(a, 0.0));
+    return a.spec().path == b.spec().path &&
+           length(corner(a, 0.0) - corner(b, 0.0)) <= tolerance_m &&
+           length(corner(a, 1.0) - corner(b, 1.0)) <= tolerance_m;
+}
+
+// Whether some map took the place of its preview.
+bool isCompletionOf(const SceneSurface& before, const SceneSurface& now)
+{
+    return std::any_of(before.maps().begin(), before.maps().end(), [&now](const SceneMap& then) {
+        return std::any_of(now.maps().begin(), now.maps().end(), [&then](const SceneMap& map) {
+            return then.map.dataset != map.map.dataset &&
+                   isOfSameMap(*then.map.dataset, *map.map.dataset);
+        });
+    });
+}
+
 } // namespace
 
 TerrainView::TerrainView(QWidget* parent)
@@ -52,6 +85,10 @@ TerrainView::TerrainView(QWidget* parent)
     empty_hint_->setFont(font);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(empty_hint_);
+    pointer_timer_.setSingleShot(true);
+    connect(&pointer_timer_, &QTimer::timeout, this, &TerrainView::readUnderPointer);
+    touch_timer_.setInterval(kTouchInterval);
+    connect(&touch_timer_, &QTimer::timeout, this, &TerrainView::refreshTouch);
     still_timer_.setSingleShot(true);
     connect(&still_timer_, &QTimer::timeout, this, &TerrainView::refineWhenStill);
     connect(&navigator_, &Navigator::cameraChanged, this, [this] {
@@ -78,14 +115,18 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
         maps.push_back(layer.map);
     }
     const LoadedMap map = maps.empty() ? LoadedMap{} : maps.front();
+    const bool is_completed = map_ && map && isOfSameMap(*map_.dataset, *map.dataset);
     const bool is_same_place =
         map_ && map &&
-        map_.dataset->georeference().sceneFrame() == map.dataset->georeference().sceneFrame();
+        (map_.dataset->georeference().sceneFrame() == map.dataset->georeference().sceneFrame() ||
+         isSameGround(*map_.dataset, *map.dataset));
     const bool is_other_map = map.dataset != map_.dataset;
     if (map_ && is_other_map) {
         rememberSight();
     }
-    const bool is_suited = map_ && style_.exaggeration == suitableExaggeration(*map_.dataset);
+    // What is seen of a preview is seen of its map, whatever would suit that better.
+    const bool is_suited =
+        map_ && !is_completed && style_.exaggeration == suitableExaggeration(*map_.dataset);
     const SceneSurface before = ground_;
     map_ = map;
     ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
@@ -112,6 +153,9 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     } else if (is_other_place) {
         style_.exaggeration = suitableExaggeration(*map_.dataset);
     }
+    if (isCompletionOf(before, ground_)) {
+        releaseTouch(); // what is pressed into is no more
+    }
     // Before the camera moves, which aims the stylus.
     stylus_.setGround(ground_, style_.exaggeration);
     if (sight && sight->camera != navigator_.goal()) {
@@ -131,6 +175,16 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
                 reportPointer();
             },
             Qt::QueuedConnection);
+    }
+}
+
+void TerrainView::succeed(const std::shared_ptr<const Dataset>& preview,
+                          const std::shared_ptr<const Dataset>& map)
+{
+    for (Sight& sight : sights_) {
+        if (sight.dataset.lock() == preview) {
+            sight.dataset = map;
+        }
     }
 }
 
@@ -320,7 +374,7 @@ std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
     if (!map_) {
         return std::nullopt;
     }
-    const double height_m = map_.dataset->heightfield().height(grid);
+    const double height_m = map_.dataset->heightfield().heightNow(grid);
     return positionOfPlace(
         map_.dataset->georeference().sceneFrame().toScene(grid, height_m * style_.exaggeration));
 }

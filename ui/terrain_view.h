@@ -49,10 +49,14 @@ public:
     ~TerrainView() override;
 
     /// Puts these layers in place of those shown, top first; none for an empty view. All lie in one
-    /// CRS. What is in sight stays there if one of its maps does, and a map that was shown before
-    /// is seen as it was left; otherwise the camera goes to the new one's opening view. mapShown()
-    /// follows.
+    /// CRS. What is in sight stays there if one of its maps does, or a preview of it did, and a map
+    /// that was shown before is seen as it was left; otherwise the camera goes to the new one's
+    /// opening view. mapShown() follows.
     void setLayers(const std::vector<ShownLayer>& top_first);
+    /// `map` is going to be shown in place of `preview`: it is seen as that was left. To be told
+    /// before setLayers().
+    void succeed(const std::shared_ptr<const Dataset>& preview,
+                 const std::shared_ptr<const Dataset>& map);
     /// The topmost map shown; none where there is none.
     const LoadedMap& map() const noexcept { return map_; }
     /// Its colours; null where there is no map.
@@ -175,6 +179,9 @@ private:
     void setGrabbing(bool is_grabbing);
     void moveStylus();
     void reportPointer();
+    void readUnderPointer();
+    void releaseTouch();
+    void refreshTouch();
 
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
@@ -197,7 +204,9 @@ private:
     bool is_completion_reported_ = false;
     bool is_context_missing_ = false;
     bool is_cursor_shown_ = true;
-    QTimer still_timer_; // runs out when nothing has moved for a while
+    QTimer pointer_timer_; // runs until what is under the pointer has been read
+    QTimer touch_timer_;   // runs while finer ground may come below the stylus
+    QTimer still_timer_;   // runs out when nothing has moved for a while
     std::chrono::steady_clock::time_point last_paint_{};
 
     DragAction drag_action_ = DragAction::None;

@@ -55,6 +55,12 @@ constexpr milliseconds kWheelDuration{140};
 
 constexpr double kFlyFactor = 0.3; // of the distance, a double click
 
+// After so long without a move the pointer rests.
+constexpr milliseconds kRestInterval{120};
+
+// How often it is looked whether what is under the pointer has come.
+constexpr milliseconds kArrivalInterval{40};
+
 } // namespace
 
 void TerrainView::mousePressEvent(QMouseEvent* event)
@@ -235,13 +241,58 @@ void TerrainView::moveStylus()
     } else if (!buttons_.is_pressing && !buttons_.is_grabbing) {
         stylus_.lift();
     }
+    if (stylus_.isWaiting() != touch_timer_.isActive()) {
+        touch_timer_.isActive() ? touch_timer_.stop() : touch_timer_.start();
+    }
     update();
     Q_EMIT stylusMoved();
+}
+
+void TerrainView::refreshTouch()
+{
+    if (!stylus_.isWaiting()) {
+        touch_timer_.stop();
+    } else if (stylus_.refresh()) {
+        update();
+        Q_EMIT stylusMoved();
+    }
+}
+
+// Until the button is pressed again.
+void TerrainView::releaseTouch()
+{
+    if (drag_action_ == DragAction::Touch) {
+        drag_action_ = DragAction::None;
+    }
+    buttons_.is_pressing = false;
 }
 
 void TerrainView::reportPointer()
 {
     Q_EMIT pointerMoved(pointer_ ? surfaceAt(*pointer_) : std::nullopt);
+    // A ray takes what is there. Where the pointer rests, the samples themselves are read.
+    const auto ground = pointer_ ? groundUnder(*pointer_) : std::optional<GroundPoint>();
+    if (ground && !ground_.maps()[ground->index].map.dataset->heightfield().isExact(ground->grid)) {
+        pointer_timer_.start(kRestInterval);
+    }
+}
+
+void TerrainView::readUnderPointer()
+{
+    const auto ground = pointer_ ? groundUnder(*pointer_) : std::optional<GroundPoint>();
+    if (!ground) {
+        return;
+    }
+    const Heightfield& heightfield = ground_.maps()[ground->index].map.dataset->heightfield();
+    if (heightfield.isExact(ground->grid)) {
+        moveStylus();
+        reportPointer();
+        return;
+    }
+    static_cast<void>(heightfield.height(ground->grid)); // asks for it
+    if (heightfield.tiles()->isLoading()) {
+        pointer_timer_.start(kArrivalInterval);
+    }
 }
 
 } // namespace marsview

@@ -151,6 +151,9 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     open->setShortcut(QKeySequence::Open);
     open->setToolTip(tr("Open a map as a new layer (%1)")
                          .arg(open->shortcut().toString(QKeySequence::NativeText)));
+    open_address = menu->addAction(tr("Open &Address…"));
+    open_address->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_U));
+    open_address->setToolTip(tr("Open a cloud-optimised GeoTIFF on a server"));
     recent = menu->addMenu(tr("Open &Recent"));
     menu->addSeparator();
     save_picture = menu->addAction(tr("Save &Picture…"));
@@ -160,6 +163,9 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     cancel_loading = menu->addAction(tr("&Cancel Loading"));
     cancel_loading->setShortcut(Qt::Key_Escape);
     cancel_loading->setEnabled(false);
+    stop_preparing = menu->addAction(tr("S&top Preparing"));
+    stop_preparing->setToolTip(tr("Stop preparing a large map; it can be gone on with later"));
+    stop_preparing->setEnabled(false);
     menu->addSeparator();
     quit = menu->addAction(tr("&Quit"));
     quit->setShortcut(QKeySequence::Quit);
@@ -260,6 +266,8 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     layer.move_down->setShortcut(QKeySequence(Qt::ALT | Qt::Key_Down));
     layer.move_down->setShortcutContext(Qt::WidgetShortcut);
     menu->addSeparator();
+    layer.prepare = menu->addAction(tr("&Prepare Layer"));
+    layer.prepare->setToolTip(tr("Make of a large map what is needed to show and touch all of it"));
     override_georeferencing = menu->addAction(tr("&Override Georeferencing…"));
     menu->addSeparator();
     layer.remove = menu->addAction(tr("R&emove Layer"));
@@ -316,6 +324,7 @@ void WindowActions::showSession(const Session& session)
          {layer.rename, layer.remove, toggle_visibility, override_georeferencing}) {
         action->setEnabled(active != nullptr);
     }
+    layer.prepare->setEnabled(false); // the window knows
     layer.go_to->setEnabled(active != nullptr);
     layer.move_up->setEnabled(active != nullptr && index > 0);
     layer.move_down->setEnabled(active != nullptr && index + 1 < session.layers.size());

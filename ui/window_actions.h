@@ -24,9 +24,11 @@ struct WindowActions {
     WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo_stack);
 
     QAction* open = nullptr;
+    QAction* open_address = nullptr;
     QMenu* recent = nullptr; // filled by RecentFiles
     QAction* save_picture = nullptr;
     QAction* cancel_loading = nullptr;
+    QAction* stop_preparing = nullptr;
     QAction* quit = nullptr;
     QAction* preferences = nullptr;
 

@@ -1,5 +1,6 @@
 // The program with the window: reads the command line and puts the parts together.
 
+#include "core/session/open_map.h"
 #include "core/session/sample_map.h"
 #include "ui/graphics_check.h"
 #include "ui/main_window.h"
@@ -92,9 +93,10 @@ int runWindow(QApplication& application, const Options& options)
     }
     QSurfaceFormat::setDefaultFormat(format);
     WindowOptions window_options;
+    window_options.opener.resources = marsview::defaultMapResources();
     if (options.isScreenshot()) {
-        window_options = {.geometry = WindowOptions::Geometry::Fixed,
-                          .failures = WindowOptions::Failures::BySignalOnly};
+        window_options.geometry = WindowOptions::Geometry::Fixed;
+        window_options.failures = WindowOptions::Failures::BySignalOnly;
     }
     marsview::MainWindow window(window_options);
     if (options.size.isValid()) {

@@ -1,5 +1,6 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/widget_walk.h"
+#include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/light_popup.h"
@@ -73,7 +74,8 @@ protected:
 TEST_F(AccessibilityTest, EveryControlHasAName)
 {
     expectNames(*window_);
-    expectNames(PreferencesDialog({}, window_.get()));
+    expectNames(PreferencesDialog({}, {}, window_.get()));
+    expectNames(AddressDialog({}, window_.get()));
     expectNames(LightPopup(window_.get()));
     expectNames(GoToDialog(window_->view()->map().dataset, {}, window_.get()));
 }
@@ -87,11 +89,18 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheWindow)
 
 TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
 {
-    PreferencesDialog preferences({}, window_.get());
+    PreferencesDialog preferences({}, {}, window_.get());
     preferences.show();
     QApplication::setActiveWindow(&preferences); // there is no window manager
     expectReached(preferences);
+    preferences.pages()->setCurrentIndex(1);
+    expectReached(preferences);
     preferences.close();
+    AddressDialog address({}, window_.get());
+    address.show();
+    QApplication::setActiveWindow(&address);
+    expectReached(address);
+    address.close();
     GoToDialog go_to(window_->view()->map().dataset, {}, window_.get());
     go_to.show();
     QApplication::setActiveWindow(&go_to); // there is no window manager
@@ -108,10 +117,11 @@ TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
     }
     const WindowActions& actions = window_->actionSet();
     for (const QAction* action :
-         {actions.open, actions.save_picture, actions.home, actions.north, actions.light,
-          actions.exaggerate_more, actions.exaggerate_less, actions.layer.remove,
+         {actions.open, actions.open_address, actions.save_picture, actions.home, actions.north,
+          actions.light, actions.exaggerate_more, actions.exaggerate_less, actions.layer.remove,
           actions.layer.move_up, actions.layer.move_down, actions.shading->menuAction(),
-          actions.ramps->menuAction(), actions.cancel_loading}) {
+          actions.ramps->menuAction(), actions.cancel_loading, actions.stop_preparing,
+          actions.layer.prepare}) {
         EXPECT_TRUE(in_menus.count(action) != 0) << action->text().toStdString();
     }
 }

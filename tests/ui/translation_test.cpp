@@ -4,6 +4,7 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/widget_walk.h"
 #include "ui/dialogs/about_dialog.h"
+#include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/dialogs/keys_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
@@ -171,7 +172,8 @@ TEST_F(TranslationTest, ReachesEveryDialog)
         }
     }
     expectMarked(keys);
-    expectMarked(PreferencesDialog({}, window_.get()));
+    expectMarked(AddressDialog({}, window_.get()));
+    expectMarked(PreferencesDialog({}, {}, window_.get()));
     expectMarked(LightPopup(window_.get()));
     GoToDialog go_to(window_->view()->map().dataset, {}, window_.get());
     expectMarked(go_to);

@@ -12,12 +12,16 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 namespace marsview {
 namespace {
+
+// How often it is looked whether a height has come.
+constexpr std::chrono::milliseconds kArrivalInterval{50};
 
 QString kindName(CoordinateDisplay display, const RasterInfo& info)
 {
@@ -133,6 +137,8 @@ GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
     layout->addWidget(answer_);
     layout->addWidget(buttons);
     resize(420, sizeHint().height());
+    arrival_timer_.setSingleShot(true);
+    connect(&arrival_timer_, &QTimer::timeout, this, &GoToDialog::check);
     connect(field_, &QLineEdit::textChanged, this, &GoToDialog::check);
     connect(kind_, &QComboBox::currentIndexChanged, this, &GoToDialog::check);
     connect(buttons, &QDialogButtonBox::accepted, this, &GoToDialog::go);
@@ -173,18 +179,22 @@ void GoToDialog::check()
         answer_->setText(problem);
         return;
     }
-    const double height_m = dataset_->heightfield().height(*place);
+    const Heightfield& heightfield = dataset_->heightfield();
+    const double height_m = heightfield.height(*place); // asks for what is not there yet
+    const bool is_exact = heightfield.isExact(*place) && !dataset_->isPreview();
+    if (heightfield.isTiled() && !is_exact && heightfield.tiles()->isLoading()) {
+        arrival_timer_.start(kArrivalInterval);
+    }
     const QString where =
         coordinateText(display(), dataset_->info(), dataset_->georeference(), *place);
+    const QString height =
+        heightText(dataset_->info(), heightfield.range().value_or(HeightRange{}), height_m);
     //: %1 is a position, %2 the height there
-    answer_->setText(
-        std::isfinite(height_m)
-            ? tr("%1, %2").arg(where,
-                               heightText(dataset_->info(),
-                                          dataset_->heightfield().range().value_or(HeightRange{}),
-                                          height_m))
-            //: %1 is a position
-            : tr("%1, no height there").arg(where));
+    answer_->setText(std::isfinite(height_m)
+                         //: A height that is not quite sure yet
+                         ? tr("%1, %2").arg(where, is_exact ? height : tr("≈ %1").arg(height))
+                         //: %1 is a position
+                         : tr("%1, no height there").arg(where));
 }
 
 void GoToDialog::go()

@@ -6,6 +6,7 @@
 #include "ui/coordinate_text.h"
 
 #include <QDialog>
+#include <QTimer>
 
 #include <memory>
 #include <optional>
@@ -50,6 +51,7 @@ private:
     void go();
 
     std::shared_ptr<const Dataset> dataset_;
+    QTimer arrival_timer_;       // runs while the height of the place is being read
     QLineEdit* field_ = nullptr; // first: what is created first has the focus first
     QComboBox* kind_ = nullptr;
     QLabel* answer_ = nullptr;

@@ -6,17 +6,22 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
 namespace marsview {
 
-PreferencesDialog::PreferencesDialog(const Preferences& preferences, QWidget* parent)
+PreferencesDialog::PreferencesDialog(const Preferences& preferences,
+                                     const LargeMapDefaults& standard,
+                                     QWidget* parent)
     : QDialog(parent)
     , before_(preferences)
     , theme_(new QComboBox(this))
     , height_unit_(new QComboBox(this))
     , frame_rate_(new QComboBox(this))
     , antialiasing_(new QCheckBox(tr("Smooth &edges"), this))
+    , large_maps_(new LargeMapsPage(standard, this))
+    , pages_(new QTabWidget(this))
 {
     setWindowTitle(tr("Preferences"));
     //: A theme: as light or dark as the desktop
@@ -37,7 +42,8 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences, QWidget* pa
     antialiasing_->setAccessibleName(tr("Smooth edges"));
     antialiasing_->setToolTip(tr("Where the graphics driver does it without effort"));
 
-    auto* form = new QFormLayout;
+    auto* general = new QWidget(this);
+    auto* form = new QFormLayout(general);
     form->addRow(tr("&Theme"), theme_);
     form->addRow(tr("&Heights in"), height_unit_);
     form->addRow(tr("&Pictures while moving"), frame_rate_);
@@ -47,9 +53,12 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences, QWidget* pa
     // The Enter key must not undo what was just chosen.
     buttons->button(QDialogButtonBox::RestoreDefaults)->setAutoDefault(false);
     buttons->button(QDialogButtonBox::Close)->setDefault(true);
+    //: A page of the preferences
+    pages_->addTab(general, tr("&General"));
+    //: A page of the preferences: about maps that do not fit into memory
+    pages_->addTab(large_maps_, tr("&Large Maps"));
     auto* layout = new QVBoxLayout(this);
-    layout->addLayout(form);
-    layout->addStretch(1);
+    layout->addWidget(pages_);
     layout->addWidget(buttons);
     fill(preferences);
 
@@ -58,9 +67,13 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences, QWidget* pa
         connect(box, &QComboBox::currentIndexChanged, this, tell);
     }
     connect(antialiasing_, &QCheckBox::toggled, this, tell);
+    connect(large_maps_, &LargeMapsPage::changed, this, tell);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
-            [this] { fill(Preferences{}); });
+            [this, tell] {
+                fill(Preferences{});
+                tell(); // the folder alone tells nothing
+            });
 }
 
 void PreferencesDialog::fill(const Preferences& preferences)
@@ -70,6 +83,7 @@ void PreferencesDialog::fill(const Preferences& preferences)
         height_unit_->findData(static_cast<int>(preferences.height_unit)));
     frame_rate_->setCurrentIndex(frame_rate_->findData(preferences.frames_per_s));
     antialiasing_->setChecked(preferences.has_antialiasing);
+    large_maps_->fill(preferences);
 }
 
 Preferences PreferencesDialog::preferences() const
@@ -79,6 +93,7 @@ Preferences PreferencesDialog::preferences() const
     preferences.height_unit = static_cast<HeightUnit>(height_unit_->currentData().toInt());
     preferences.has_antialiasing = antialiasing_->isChecked();
     preferences.frames_per_s = frame_rate_->currentData().toInt();
+    large_maps_->apply(preferences);
     return preferences;
 }
 

@@ -1,12 +1,14 @@
 // Choosing preferences.
 #pragma once
 
+#include "ui/dialogs/large_maps_page.h"
 #include "ui/preferences.h"
 
 #include <QDialog>
 
 class QCheckBox;
 class QComboBox;
+class QTabWidget;
 
 namespace marsview {
 
@@ -16,7 +18,11 @@ class PreferencesDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    explicit PreferencesDialog(const Preferences& preferences, QWidget* parent = nullptr);
+    PreferencesDialog(const Preferences& preferences,
+                      const LargeMapDefaults& standard,
+                      QWidget* parent = nullptr);
+
+    QTabWidget* pages() const noexcept { return pages_; }
 
     Preferences preferences() const;
 
@@ -31,6 +37,8 @@ private:
     QComboBox* height_unit_ = nullptr;
     QComboBox* frame_rate_ = nullptr;
     QCheckBox* antialiasing_ = nullptr;
+    LargeMapsPage* large_maps_ = nullptr;
+    QTabWidget* pages_ = nullptr;
 };
 
 } // namespace marsview

@@ -50,8 +50,8 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
     list_->setDefaultDropAction(Qt::MoveAction);
     list_->setContextMenuPolicy(Qt::ActionsContextMenu);
     list_->setTabKeyNavigation(false);
-    for (QAction* action :
-         {actions.go_to, actions.rename, actions.move_up, actions.move_down, actions.remove}) {
+    for (QAction* action : {actions.go_to, actions.prepare, actions.rename, actions.move_up,
+                            actions.move_down, actions.remove}) {
         list_->addAction(action);
     }
 

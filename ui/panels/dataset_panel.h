@@ -24,6 +24,7 @@ struct LayerActions {
     QAction* move_down = nullptr;
     QAction* rename = nullptr;
     QAction* go_to = nullptr;
+    QAction* prepare = nullptr; // of a preview
 };
 
 /// A list that shows the session. Asks for changes; never makes any.

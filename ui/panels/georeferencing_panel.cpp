@@ -306,7 +306,7 @@ void GeoreferencingPanel::addFact(const QString& name, const QString& value)
 void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
 {
     const RasterInfo& info = dataset.info();
-    const Georeference& georeference = dataset.georeference();
+    const Georeference georeference = georeferenceOf(info); // a preview's pixels are larger
     const QString unknown = tr("unknown");
     addFact(tr("Body"), info.body != nullptr ? fromStd(info.body->name) : unknown);
     if (info.crs && info.crs->ellipsoid()) {

@@ -12,6 +12,7 @@ HistogramMaker::HistogramMaker(QObject* parent)
 
 HistogramMaker::~HistogramMaker()
 {
+    monitor_.cancel();
     pool_.clear();
     pool_.waitForDone(); // what it posted goes with this object
 }
@@ -26,8 +27,10 @@ HistogramMaker::find(const std::shared_ptr<const Dataset>& dataset)
     std::erase_if(entries_, [](const auto& entry) { return entry.second.dataset.expired(); });
     entries_[dataset.get()] = {.dataset = dataset, .histogram = nullptr};
     pool_.start([this, dataset] {
-        auto histogram =
-            std::make_shared<const HeightHistogram>(heightHistogram(dataset->heightfield()));
+        HistogramOptions options;
+        options.monitor = &monitor_;
+        auto histogram = std::make_shared<const HeightHistogram>(
+            heightHistogram(dataset->heightfield(), options));
         QMetaObject::invokeMethod(
             this,
             [this, dataset, histogram = std::move(histogram)] {

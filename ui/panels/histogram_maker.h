@@ -1,6 +1,7 @@
 // Histograms of the session's maps, counted away from the GUI thread.
 #pragma once
 
+#include "core/base/job_monitor.h"
 #include "core/session/dataset.h"
 #include "core/terrain/height_histogram.h"
 
@@ -13,7 +14,7 @@
 namespace marsview {
 
 /// Counts each map once and forgets it with its dataset. Lives in the GUI thread; the destructor
-/// waits for the count that runs, which is some 10 ms.
+/// waits for the count that runs: some 10 ms, or as long as one tile takes to be read.
 class HistogramMaker final : public QObject {
     Q_OBJECT
 
@@ -34,6 +35,7 @@ private:
     };
 
     std::map<const Dataset*, Entry> entries_;
+    JobMonitor monitor_; // cancelled at the end
     QThreadPool pool_;
 };
 

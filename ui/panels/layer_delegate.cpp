@@ -50,7 +50,7 @@ struct LayerDelegate::Places {
     QRect facts;
     QRect histogram;
     QRect ramp;
-    QRect reason;
+    QRect note;
     int height = 0;
 };
 
@@ -84,19 +84,19 @@ LayerDelegate::Places LayerDelegate::placesOf(const QStyleOptionViewItem& option
     y += kHistogramHeight;
     places.ramp = QRect(left, y, width, kRampHeight);
     y += kRampHeight;
-    const QString reason = index.data(LayerModel::ReasonRole).toString();
-    if (!reason.isEmpty()) {
+    const QString note = index.data(LayerModel::NoteRole).toString();
+    if (!note.isEmpty()) {
         y += 2;
         const int height =
-            small.boundingRect(QRect(0, 0, width, 1000), Qt::TextWordWrap, reason).height();
-        places.reason = QRect(left, y, width, height);
+            small.boundingRect(QRect(0, 0, width, 1000), Qt::TextWordWrap, note).height();
+        places.note = QRect(left, y, width, height);
         y += height;
     }
     places.height = y + kMargin;
     const QPoint origin = option.rect.topLeft();
     const bool is_mirrored = option.direction == Qt::RightToLeft;
     for (QRect* place : {&places.check, &places.name, &places.facts, &places.histogram,
-                         &places.ramp, &places.reason}) {
+                         &places.ramp, &places.note}) {
         if (is_mirrored) {
             place->moveLeft(viewWidth(option) - place->left() - place->width());
         }
@@ -184,8 +184,8 @@ void LayerDelegate::paint(QPainter* painter,
     painter->setOpacity(1.0);
 
     painter->setPen(palette.color(QPalette::Text));
-    painter->drawText(places.reason, static_cast<int>(leading) | Qt::TextWordWrap,
-                      index.data(LayerModel::ReasonRole).toString());
+    painter->drawText(places.note, static_cast<int>(leading) | Qt::TextWordWrap,
+                      index.data(LayerModel::NoteRole).toString());
 
     if ((full.state & QStyle::State_HasFocus) != 0) {
         painter->setPen(QPen(accent, 2));

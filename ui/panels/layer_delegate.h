@@ -8,7 +8,7 @@ namespace marsview {
 class LayerModel;
 
 /// Checkbox and name; size and range; the histogram in the colours of the ramp; and, where a layer
-/// is not shown, why. For views of a LayerModel.
+/// is not shown, why, or that it is a preview. For views of a LayerModel.
 class LayerDelegate final : public QStyledItemDelegate {
     Q_OBJECT
 

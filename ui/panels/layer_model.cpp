@@ -156,6 +156,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
         const QString reason = reasonAt(index);
         const QString visibility = !reason.isEmpty()             ? reason
                                    : state == LayerState::Hidden ? tr("hidden")
+                                   : layer.dataset->isPreview()  ? tr("shown as a preview")
                                                                  : tr("shown");
         //: For screen readers: name, state, columns × rows and range of heights of a layer
         return tr("%1, %2, %3 samples, heights %4")
@@ -167,6 +168,11 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
         return range();
     case ReasonRole:
         return reasonAt(index);
+    case NoteRole: {
+        const QString reason = reasonAt(index);
+        //: Of a layer: what is shown is a smaller version of the map
+        return reason.isEmpty() && layer.dataset->isPreview() ? tr("Preview") : reason;
+    }
     case IsShownRole:
         return state == LayerState::Shown;
     case IsActiveRole:

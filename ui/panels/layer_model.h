@@ -21,6 +21,7 @@ public:
         SizeRole = Qt::UserRole, // "8,192 × 4,096"
         RangeRole,               // "−8,201 … 21,241 m"
         ReasonRole,              // why the layer is not shown; empty where it is, or is hidden
+        NoteRole,                // that, or else that a preview is shown
         IsShownRole,
         IsActiveRole,
     };

@@ -1,5 +1,5 @@
 #include "tests/support/make_raster.h"
-#include "ui/map_store.h"
+#include "ui/loaded_map_store.h"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,10 @@ LoadedMap mapIn(const test::TempFolder& folder, const std::string& name)
     return map;
 }
 
-TEST(MapStore, FindsWhatItKeptAndHoldsNothingItself)
+TEST(LoadedMapStore, FindsWhatItKeptAndHoldsNothingItself)
 {
     const test::TempFolder folder;
-    MapStore store;
+    LoadedMapStore store;
     const LoadedMap map = mapIn(folder, "a");
     const std::weak_ptr<const ReliefTile> relief = map.relief;
     auto kept = store.keep(map);
@@ -37,10 +37,10 @@ TEST(MapStore, FindsWhatItKeptAndHoldsNothingItself)
     EXPECT_FALSE(store.find(map.dataset));
 }
 
-TEST(MapStore, FreesAllOfAMapWithItsLastOwner)
+TEST(LoadedMapStore, FreesAllOfAMapWithItsLastOwner)
 {
     const test::TempFolder folder;
-    MapStore store;
+    LoadedMapStore store;
     std::weak_ptr<const ReliefTile> relief;
     std::shared_ptr<const Dataset> kept;
     {

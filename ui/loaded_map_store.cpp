@@ -1,4 +1,4 @@
-#include "ui/map_store.h"
+#include "ui/loaded_map_store.h"
 
 #include "core/base/check.h"
 
@@ -6,7 +6,7 @@
 
 namespace marsview {
 
-std::shared_ptr<const Dataset> MapStore::keep(const LoadedMap& map)
+std::shared_ptr<const Dataset> LoadedMapStore::keep(const LoadedMap& map)
 {
     MARSVIEW_CHECK(map.dataset != nullptr);
     std::erase_if(maps_, [](const auto& entry) { return entry.second.expired(); });
@@ -16,14 +16,14 @@ std::shared_ptr<const Dataset> MapStore::keep(const LoadedMap& map)
     return {std::move(owner), dataset};
 }
 
-LoadedMap MapStore::find(const std::shared_ptr<const Dataset>& dataset) const
+LoadedMap LoadedMapStore::find(const std::shared_ptr<const Dataset>& dataset) const
 {
     const auto hit = maps_.find(dataset.get());
     const auto map = hit != maps_.end() ? hit->second.lock() : nullptr;
     return map ? *map : LoadedMap{};
 }
 
-std::size_t MapStore::count() const
+std::size_t LoadedMapStore::count() const
 {
     return static_cast<std::size_t>(std::count_if(
         maps_.begin(), maps_.end(), [](const auto& entry) { return !entry.second.expired(); }));

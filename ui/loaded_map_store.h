@@ -11,7 +11,7 @@ namespace marsview {
 /// Finds the LoadedMap of a dataset. The session and its undo steps know datasets only; the pointer
 /// that keep() gives them owns the whole LoadedMap, so it goes when the last of them does, and this
 /// store holds nothing.
-class MapStore {
+class LoadedMapStore {
 public:
     /// The dataset of `map` (not null), as an owner of all of it.
     std::shared_ptr<const Dataset> keep(const LoadedMap& map);

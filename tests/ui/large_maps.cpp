@@ -1,0 +1,165 @@
+#include "tests/ui/large_maps.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// Of a raster of several hundred samples a side.
+constexpr std::size_t kPreviewSamples = 2500;
+
+SampleStatistics statisticsOf(const Heightfield& heightfield)
+{
+    const ElevationScale scale = heightfield.scale();
+    const HeightRange range = heightfield.range().value_or(HeightRange{});
+    SampleStatistics statistics;
+    statistics.raw_minimum = (range.minimum_m - scale.offset_m) / scale.gain;
+    statistics.raw_maximum = (range.maximum_m - scale.offset_m) / scale.gain;
+    statistics.sample_count = heightfield.columns() * heightfield.rows();
+    return statistics;
+}
+
+} // namespace
+
+MapOpener LargeMaps::opener()
+{
+    MapOpener opener;
+    opener.resources.tiles = std::make_shared<TileCache>(TileCacheOptions{});
+    opener.plan = [this](const DatasetSpec& spec, const MapResources&) -> Result<OpenPlan> {
+        const Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
+        if (!file) {
+            return file.error();
+        }
+        const std::lock_guard lock(mutex_);
+        const bool is_prepared =
+            std::find(prepared_.begin(), prepared_.end(), spec.path) != prepared_.end();
+        return OpenPlan{.store = is_prepared ? MapStore::Tiled : MapStore::Unprepared,
+                        .raster_path = spec.path,
+                        .level_path = {}};
+    };
+    opener.preview = [this](const DatasetSpec& spec, const DecimationLimits& limits,
+                            JobMonitor& monitor) {
+        DecimationLimits some = limits;
+        some.samples_max = kPreviewSamples;
+        if (are_previews_rough_ && limits.time_max < std::chrono::seconds(1)) {
+            some.now = [hours = std::make_shared<std::atomic<int>>(0)] {
+                return std::chrono::hours(++*hours);
+            };
+        } else {
+            some.time_max = std::chrono::hours(1);
+        }
+        return readPreview(spec, some, monitor);
+    };
+    opener.prepare = [this](const DatasetSpec& spec, const MapResources&, JobMonitor& monitor) {
+        return prepare(spec, monitor);
+    };
+    opener.open = [this](const DatasetSpec& spec, const OpenPlan&, const MapResources& resources,
+                         JobMonitor& monitor) { return openTiled(spec, resources, monitor); };
+    return opener;
+}
+
+void LargeMaps::finishPreparing(const std::optional<Error>& failure)
+{
+    const std::lock_guard lock(mutex_);
+    is_finishing_ = true;
+    failure_ = failure;
+    changed_.notify_all();
+}
+
+void LargeMaps::holdPreparing()
+{
+    const std::lock_guard lock(mutex_);
+    is_finishing_ = false;
+}
+
+void LargeMaps::losePrepared()
+{
+    const std::lock_guard lock(mutex_);
+    is_losing_ = true;
+}
+
+void LargeMaps::holdTiles(bool is_held)
+{
+    const std::lock_guard lock(mutex_);
+    are_tiles_held_ = is_held;
+    changed_.notify_all();
+}
+
+int LargeMaps::begunCount() const
+{
+    const std::lock_guard lock(mutex_);
+    return begun_count_;
+}
+
+int LargeMaps::stoppedCount() const
+{
+    const std::lock_guard lock(mutex_);
+    return stopped_count_;
+}
+
+std::vector<std::string> LargeMaps::prepared() const
+{
+    const std::lock_guard lock(mutex_);
+    return prepared_;
+}
+
+Status LargeMaps::prepare(const DatasetSpec& spec, JobMonitor& monitor)
+{
+    std::unique_lock lock(mutex_);
+    ++begun_count_;
+    monitor.report(0.37);
+    while (!is_finishing_ && !monitor.isCancelled()) {
+        changed_.wait_for(lock, std::chrono::milliseconds(5)); // nobody tells of a cancel
+    }
+    if (monitor.isCancelled()) {
+        ++stopped_count_;
+        return Error{ErrorCode::Cancelled, spec.path + ": preparing was cancelled"};
+    }
+    if (failure_) {
+        return *failure_;
+    }
+    if (!is_losing_) {
+        prepared_.push_back(spec.path);
+    }
+    return Done{};
+}
+
+Result<LoadedMap>
+LargeMaps::openTiled(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor)
+{
+    auto dataset = loadDataset(spec, monitor, std::size_t{1} << 30);
+    if (!dataset) {
+        return std::move(dataset).error();
+    }
+    Result<LoadedMap> whole = prepareMap(std::move(dataset).value(), monitor);
+    if (!whole) {
+        return whole;
+    }
+    const Heightfield& heightfield = whole->dataset->heightfield();
+    const auto source = std::make_shared<const test::GridTileSource>(
+        heightfield, test::GridTileSource::Options{
+                         .before_read = [this](const TileId& id) -> std::optional<Error> {
+                             std::unique_lock lock(mutex_);
+                             changed_.wait(lock, [&] { return !are_tiles_held_ || id.level > 0; });
+                             return std::nullopt;
+                         }});
+    auto tiles = TiledSamples::open(TiledRaster(*resources.tiles, source));
+    if (!tiles) {
+        return std::move(tiles).error();
+    }
+    MapLevels levels;
+    levels.layout = source->layout();
+    levels.statistics = statisticsOf(heightfield);
+    levels.analysis = whole->analysis;
+    return prepareTiledMap(tiledDataset({.spec = spec,
+                                         .file_info = whole->dataset->fileInfo(),
+                                         .info = whole->dataset->info(),
+                                         .statistics = levels.statistics,
+                                         .tiles = std::move(*tiles)}),
+                           std::make_shared<const MapLevels>(levels));
+}
+
+} // namespace marsview

@@ -1,0 +1,102 @@
+#include "ui/dialogs/address_dialog.h"
+
+#include "core/raster/remote_raster.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QUrl>
+#include <QVBoxLayout>
+
+namespace marsview {
+namespace {
+
+constexpr int kWidth = 520; // pixels: most of an address can be read
+
+} // namespace
+
+QString problemOfAddress(const QString& address)
+{
+    const QUrl url(address, QUrl::StrictMode);
+    if (!remoteNameFor(address.toStdString()) || !address.contains(QStringLiteral("://"))) {
+        return AddressDialog::tr("An address begins with https://, http://, s3:// or gs://.");
+    }
+    if (!url.isValid() || url.host().isEmpty()) {
+        return AddressDialog::tr(
+            "This is no address: the name of the server is missing, or a "
+            "letter that addresses do not have is in it.");
+    }
+    if (url.path().size() < 2 || url.path().endsWith(QLatin1Char('/'))) {
+        return AddressDialog::tr("The address names a server or a folder; name a file there.");
+    }
+    return {};
+}
+
+AddressDialog::AddressDialog(const QStringList& history, QWidget* parent)
+    : QDialog(parent)
+    , field_(new QComboBox(this))
+    , answer_(new QLabel(this))
+{
+    setWindowTitle(tr("Open Address"));
+    field_->setEditable(true);
+    field_->setInsertPolicy(QComboBox::NoInsert);
+    field_->addItems(history);
+    field_->setCurrentIndex(-1);
+    field_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    field_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    field_->setAccessibleName(tr("Address"));
+    field_->setObjectName(QStringLiteral("address"));
+    // An example is the same in every language.
+    field_->lineEdit()->setPlaceholderText(QStringLiteral("https://example.org/Mars_200m.tif"));
+    field_->lineEdit()->setClearButtonEnabled(true);
+    field_->lineEdit()->setAccessibleName(tr("Address"));
+    auto* about = new QLabel(
+        tr("A cloud-optimised GeoTIFF is read in pieces: only what is looked at or touched is "
+           "fetched, and kept for the next time."),
+        this);
+    about->setWordWrap(true);
+    answer_->setAccessibleName(tr("Whether this address can be opened"));
+    answer_->setObjectName(QStringLiteral("answer"));
+    answer_->setWordWrap(true);
+    answer_->setMinimumHeight(2 * fontMetrics().lineSpacing()); // no jumps while typing
+    answer_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    auto* form = new QFormLayout;
+    form->addRow(tr("&Address"), field_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    open_button_ = buttons->addButton(tr("&Open"), QDialogButtonBox::AcceptRole);
+    open_button_->setDefault(true);
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(about);
+    layout->addLayout(form);
+    layout->addWidget(answer_);
+    layout->addStretch(1);
+    layout->addWidget(buttons);
+    resize(kWidth, sizeHint().height());
+    connect(field_, &QComboBox::editTextChanged, this, &AddressDialog::check);
+    connect(buttons, &QDialogButtonBox::accepted, this, &AddressDialog::choose);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    field_->setFocus();
+    check();
+}
+
+void AddressDialog::check()
+{
+    const QString address = field_->currentText().trimmed();
+    const QString problem = address.isEmpty() ? QString() : problemOfAddress(address);
+    answer_->setText(problem);
+    open_button_->setEnabled(!address.isEmpty() && problem.isEmpty());
+}
+
+void AddressDialog::choose()
+{
+    const QString address = field_->currentText().trimmed();
+    if (!address.isEmpty() && problemOfAddress(address).isEmpty()) {
+        Q_EMIT addressChosen(address);
+        accept();
+    }
+}
+
+} // namespace marsview

@@ -1,0 +1,61 @@
+// The page of the preferences that is about maps too large to be held.
+#pragma once
+
+#include "ui/preferences.h"
+
+#include <QWidget>
+
+#include <cstddef>
+#include <filesystem>
+
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QSpinBox;
+class QTreeWidget;
+
+namespace marsview {
+
+/// What the program does where nothing is preferred.
+struct LargeMapDefaults {
+    std::filesystem::path folder; // of prepared maps
+    std::size_t tile_bytes = 0;   // of memory for tiles
+};
+
+/// How much memory their tiles take, where prepared maps lie and what is there.
+class LargeMapsPage final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent = nullptr);
+
+    void fill(const Preferences& preferences);
+    /// Puts what is chosen here in its place.
+    void apply(Preferences& preferences) const;
+
+Q_SIGNALS:
+    void changed();
+
+private:
+    std::filesystem::path folder() const;
+    void chooseFolder();
+    void showFolder();
+    void listMaps();
+    void showSelection();
+    void removeSelected();
+    void removeAll();
+    void removeMaps(const QStringList& names);
+
+    LargeMapDefaults standard_;
+    QString chosen_folder_; // empty: the standard one
+    QSpinBox* memory_ = nullptr;
+    QLineEdit* folder_ = nullptr;
+    QPushButton* open_button_ = nullptr;
+    QSpinBox* bound_ = nullptr;
+    QTreeWidget* maps_ = nullptr;
+    QLabel* total_ = nullptr;
+    QPushButton* remove_button_ = nullptr;
+    QPushButton* remove_all_button_ = nullptr;
+};
+
+} // namespace marsview
