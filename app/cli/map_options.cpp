@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace marsview {
 
@@ -60,6 +61,31 @@ RasterOverrides MapOptions::overrides() const
         overrides.transform = terms;
     }
     return overrides;
+}
+
+std::vector<std::string> MapOptions::overrideArguments() const
+{
+    std::vector<std::string> words;
+    const auto add = [&words](const char* name, const std::string& value) {
+        if (!value.empty()) {
+            words.insert(words.end(), {name, value});
+        }
+    };
+    const auto add_all = [&words](const char* name, const std::vector<double>& values) {
+        if (!values.empty()) {
+            words.emplace_back(name);
+            std::transform(values.begin(), values.end(), std::back_inserter(words), asText);
+        }
+    };
+    add("--band", std::to_string(band));
+    add("--crs", crs);
+    add("--body", body);
+    add_all("--radii", radii_m);
+    add_all("--geotransform", geotransform);
+    add("--unit", vertical_unit);
+    add("--nodata", nodata ? asText(*nodata) : std::string());
+    add("--latitude", latitude);
+    return words;
 }
 
 bool MapOptions::hasOverrides() const

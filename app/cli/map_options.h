@@ -30,6 +30,8 @@ struct MapOptions {
     /// All but the map itself.
     void addOverridesTo(CLI::App& command);
     RasterOverrides overrides() const;
+    /// The overrides as they were given: for another process.
+    std::vector<std::string> overrideArguments() const;
     /// Whether anything but the map itself was given.
     bool hasOverrides() const;
     /// How bare latitudes are meant for a map of that body (null: of no known one).
