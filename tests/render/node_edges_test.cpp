@@ -134,6 +134,7 @@ public:
         std::vector<NodeInstance> batch;
         atlas_.beginRound();
         const std::uint32_t number = next_map_++;
+        std::vector<TileId> missing; // none: the samples are held
         const auto flush = [&] {
             draw(batch, vertices);
             batch.clear();
@@ -141,10 +142,10 @@ public:
         };
         for (const SelectedNode& selected : selection.nodes) {
             const LayerNode key{.layer = number, .node = selected.node};
-            auto place = atlas_.place(key, surface);
+            auto place = atlas_.place(key, surface, 0, missing);
             if (!place) {
                 flush();
-                place = atlas_.place(key, surface);
+                place = atlas_.place(key, surface, 0, missing);
             }
             batch.push_back(nodeInstance(selected, anchor, *place,
                                          {.page = 0, .layer = 0, .node = selected.relief}));
