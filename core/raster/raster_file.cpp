@@ -449,8 +449,8 @@ std::optional<double> RasterFile::Impl::findTypicalSample()
     if (!can_hold_radius || !info.crs) {
         return std::nullopt;
     }
-    if (const int overviews = band->GetOverviewCount(); overviews > 0) {
-        // The smallest: whole rows of a large map may be far away.
+    if (const int overviews = band->GetOverviewCount(); remote && overviews > 0) {
+        // The smallest: whole rows of a map at a server take hundreds of requests.
         GDALRasterBand& smallest = *band->GetOverview(overviews - 1);
         const auto loaded =
             readFrom(smallest,
