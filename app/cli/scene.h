@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/map_options.h"
+#include "core/raster/tile_cache.h"
 #include "core/session/loaded_map.h"
 #include "core/view/navigation.h"
 #include "ui/render/egl_context.h"
@@ -15,6 +16,7 @@ namespace marsview {
 
 /// A map ready to be drawn on this thread.
 struct Scene {
+    std::shared_ptr<TileCache> tiles; // its threads load what the renderer lacks
     std::unique_ptr<EglContext> context; // outlives the renderer
     std::unique_ptr<TerrainRenderer> renderer;
     LoadedMap map;
