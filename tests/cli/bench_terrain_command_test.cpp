@@ -68,7 +68,7 @@ TEST(BenchTerrainCommand, MakesAMapOverTheSameGround)
 TEST(BenchTerrainCommand, MakesTheSameSamplesHoweverTheyAreStored)
 {
     const TempFolder folder;
-    const std::vector<std::string> size{"--size", "900x700", "--seed", "7"};
+    const std::vector<std::string> size{"--size", "3000x1700", "--seed", "7"};
     const auto with = [&size](std::vector<std::string> more) {
         more.insert(more.begin(), size.begin(), size.end());
         return more;
@@ -85,12 +85,12 @@ TEST(BenchTerrainCommand, MakesTheSameSamplesHoweverTheyAreStored)
         return readFile(raw);
     };
     const std::string expected = samples(tiles);
-    EXPECT_EQ(expected.size(), 2U * 900U * 700U);
+    EXPECT_EQ(expected.size(), 2U * 3000U * 1700U);
     EXPECT_TRUE(samples(strips) == expected);
     EXPECT_TRUE(samples(small) == expected);
     EXPECT_TRUE(samples(small_tiles) == expected);
     EXPECT_LT(std::filesystem::file_size(small), std::filesystem::file_size(strips));
-    EXPECT_FALSE(samples(made(folder, "other.tif", {"--size", "900x700", "--seed", "8"})) ==
+    EXPECT_FALSE(samples(made(folder, "other.tif", {"--size", "3000x1700", "--seed", "8"})) ==
                  expected);
 }
 
