@@ -24,6 +24,7 @@ NoticeBar::NoticeBar(QWidget* parent)
     const int side = style()->pixelMetric(QStyle::PM_SmallIconSize);
     icon->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(side, side));
     action_->setObjectName(QStringLiteral("noticeAction"));
+    action_->setAccessibleName(tr("What can be done about the notice"));
     auto* details = new QToolButton(this);
     details->setText(tr("Details"));
     details->setAutoRaise(true);
@@ -48,6 +49,9 @@ void NoticeBar::setNotices(const QStringList& notices, const QString& action)
 {
     action_->setText(action);
     action_->setVisible(!action.isEmpty());
+    if (!action.isEmpty()) {
+        action_->setAccessibleName(action);
+    }
     if (notices.isEmpty()) {
         hide();
         return;

@@ -284,14 +284,17 @@ void TerrainView::readUnderPointer()
         return;
     }
     const Heightfield& heightfield = ground_.maps()[ground->index].map.dataset->heightfield();
+    if (!heightfield.isExact(ground->grid)) {
+        static_cast<void>(heightfield.height(ground->grid)); // asks for it
+        if (heightfield.tiles()->isLoading()) {
+            pointer_timer_.start(kArrivalInterval);
+            return;
+        }
+    }
+    // It was there, or came at once, or cannot be read.
     if (heightfield.isExact(ground->grid)) {
         moveStylus();
         reportPointer();
-        return;
-    }
-    static_cast<void>(heightfield.height(ground->grid)); // asks for it
-    if (heightfield.tiles()->isLoading()) {
-        pointer_timer_.start(kArrivalInterval);
     }
 }
 

@@ -27,7 +27,7 @@ SampleStatistics statisticsOf(const Heightfield& heightfield)
 MapOpener LargeMaps::opener()
 {
     MapOpener opener;
-    opener.resources.tiles = std::make_shared<TileCache>(TileCacheOptions{});
+    opener.resources.tiles = tiles_;
     opener.plan = [this](const DatasetSpec& spec, const MapResources&) -> Result<OpenPlan> {
         const Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
         if (!file) {
@@ -141,6 +141,7 @@ LargeMaps::openTiled(const DatasetSpec& spec, const MapResources& resources, Job
     const Heightfield& heightfield = whole->dataset->heightfield();
     const auto source = std::make_shared<const test::GridTileSource>(
         heightfield, test::GridTileSource::Options{
+                         .mean_levels = 2, // as in any file that is read in tiles
                          .before_read = [this](const TileId& id) -> std::optional<Error> {
                              std::unique_lock lock(mutex_);
                              changed_.wait(lock, [&] { return !are_tiles_held_ || id.level > 0; });

@@ -31,6 +31,8 @@ public:
     void makeRoughPreviews() { are_previews_rough_ = true; }
     /// Tiles of the finest level are not read until this is taken back.
     void holdTiles(bool is_held);
+    /// Tiles that nobody holds on to have to be read again.
+    void forgetTiles() { tiles_->clear(); }
 
     int begunCount() const;
     int stoppedCount() const;
@@ -42,6 +44,7 @@ private:
     Result<LoadedMap>
     openTiled(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor);
 
+    std::shared_ptr<TileCache> tiles_ = std::make_shared<TileCache>(TileCacheOptions{});
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     bool is_finishing_ = false;

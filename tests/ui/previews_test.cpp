@@ -11,8 +11,9 @@
 #include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
+#include <QApplication>
 #include <QLabel>
-#include <QListView>
+#include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolButton>
@@ -57,6 +58,13 @@ protected:
     SessionController& controller() { return window_->controller(); }
     const Layer& layer(std::size_t index = 0) { return window_->session().layers.at(index); }
     TerrainView& view() { return *window_->view(); }
+    // By an event of its own: the pointer of the screen may lie there already.
+    void hover(QPoint position)
+    {
+        QMouseEvent event(QEvent::MouseMove, position, view().mapToGlobal(position), Qt::NoButton,
+                          Qt::NoButton, Qt::NoModifier);
+        QApplication::sendEvent(&view(), &event);
+    }
     template <typename Condition>
     static bool waitFor(const Condition& condition)
     {
@@ -376,14 +384,16 @@ TEST_F(PreviewsTest, MarkTheHeightsThatAreReadFromThem)
 {
     ASSERT_TRUE(openPreview(map()));
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
-    QTest::mouseMove(&view(), view().rect().center());
+    hover(view().rect().center());
     ASSERT_TRUE(waitFor([this] { return !window_->readout()->heightLabel().isEmpty(); }));
     EXPECT_TRUE(window_->readout()->heightLabel().startsWith(QStringLiteral("≈ ")));
-    // The tiles of the map itself are held back: coarser ones stand in.
-    large_.holdTiles(true);
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
-    QTest::mouseMove(&view(), view().rect().center() + QPoint(3, 1));
+    ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
+    // The tiles are given up and held back: coarser ones stand in.
+    large_.holdTiles(true);
+    large_.forgetTiles();
+    hover(view().rect().center() + QPoint(3, 1));
     EXPECT_TRUE(window_->readout()->heightLabel().startsWith(QStringLiteral("≈ ")));
     // And it becomes exact by itself.
     large_.holdTiles(false);

@@ -6,6 +6,7 @@
 #include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -26,7 +27,7 @@ bool isInside(const QWidget& widget)
     const QWidget* parent = widget.parentWidget();
     const bool is_title_button = qobject_cast<const QDockWidget*>(parent) != nullptr &&
                                  qobject_cast<const QAbstractButton*>(&widget) != nullptr;
-    bool is_part = false;
+    bool is_part = qobject_cast<const QHeaderView*>(&widget) != nullptr; // of its list
     for (const QWidget* ancestor = parent; ancestor != nullptr && !is_part;
          ancestor = ancestor->parentWidget()) {
         is_part = qobject_cast<const QAbstractSpinBox*>(ancestor) != nullptr ||

@@ -180,11 +180,12 @@ void GoToDialog::check()
         return;
     }
     const Heightfield& heightfield = dataset_->heightfield();
+    const bool is_there = heightfield.isExact(*place);  // before the height is read
     const double height_m = heightfield.height(*place); // asks for what is not there yet
-    const bool is_exact = heightfield.isExact(*place) && !dataset_->isPreview();
-    if (heightfield.isTiled() && !is_exact && heightfield.tiles()->isLoading()) {
+    if (!is_there && (heightfield.tiles()->isLoading() || heightfield.isExact(*place))) {
         arrival_timer_.start(kArrivalInterval);
     }
+    const bool is_exact = is_there && !dataset_->isPreview();
     const QString where =
         coordinateText(display(), dataset_->info(), dataset_->georeference(), *place);
     const QString height =

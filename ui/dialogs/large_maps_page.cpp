@@ -90,6 +90,7 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     maps_->setRootIsDecorated(false);
     maps_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     maps_->setUniformRowHeights(true);
+    maps_->header()->setFocusPolicy(Qt::NoFocus); // there is nothing to be done with it
     maps_->header()->setStretchLastSection(false);
     maps_->header()->setSectionResizeMode(Map, QHeaderView::Stretch);
     maps_->header()->setSectionResizeMode(Size, QHeaderView::ResizeToContents);

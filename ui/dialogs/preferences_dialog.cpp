@@ -53,6 +53,8 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     // The Enter key must not undo what was just chosen.
     buttons->button(QDialogButtonBox::RestoreDefaults)->setAutoDefault(false);
     buttons->button(QDialogButtonBox::Close)->setDefault(true);
+    pages_->setFocusPolicy(Qt::NoFocus); // its tabs have the focus
+    pages_->setAccessibleName(tr("Pages of the preferences"));
     //: A page of the preferences
     pages_->addTab(general, tr("&General"));
     //: A page of the preferences: about maps that do not fit into memory
