@@ -295,7 +295,9 @@ bool Preparation::tryResume()
     }
     tiles_ = std::move(tiles).value();
     const auto tile_rows = static_cast<std::size_t>(journal->tile_rows);
-    if (!findPages() || !overviews_.restore(tile_rows, journal->overviews)) {
+    const Result<std::uint64_t> bytes = tiles_->fileBytes();
+    if (!bytes || *bytes < journal->file_bytes || !findPages() ||
+        !overviews_.restore(tile_rows, journal->overviews)) {
         return false;
     }
     for (const std::vector<std::size_t>* pages : {&pages_, &mask_pages_}) {
@@ -453,8 +455,11 @@ Status Preparation::checkpoint()
     }
     tile_rows_noted_ = tile_rows_done_;
     const Clock::time_point now = Clock::now();
-    next_checkpoint_ =
-        now + std::max<Clock::duration>(job_.checkpoint_interval, (now - start) * kCheckpointShare);
+    const bool is_as_often_as_possible = job_.checkpoint_interval.count() == 0;
+    next_checkpoint_ = is_as_often_as_possible
+                           ? now
+                           : now + std::max<Clock::duration>(job_.checkpoint_interval,
+                                                             (now - start) * kCheckpointShare);
     return Done{};
 }
 
