@@ -422,7 +422,7 @@ TEST(LevelFile, SaysWhatTheAnalysisOfRealMapsSays)
     MARSVIEW_NEEDS_SHARED_DATA();
     for (const char* name :
          {"derived/moon_gld100_64ppd_crop_8192x4096.tif", "derived/W100N40_etopo5.DEM",
-          "derived/S11E120.hgt", "mars_mola/megt90n000cb.lbl"}) {
+          "srtm/N44W072.hgt", "mars_mola/megt90n000cb.lbl"}) {
         SCOPED_TRACE(name);
         auto file = RasterFile::open((test::sharedData() / name).string());
         ASSERT_TRUE(file) << file.error().message;
