@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/raster/gdal_runtime.h"
+#include "core/raster/gdal_types.h"
 #include "core/raster/overview_builder.h"
 #include "core/raster/tiff_tiles.h"
 #include "core/raster/tile.h"
@@ -27,32 +28,6 @@ constexpr const char* kDomain = "MARSVIEW";
 constexpr const char* kKey = "MADE_FROM";
 constexpr const char* kSource = "SOURCE";
 constexpr const char* kCrs = "CRS";
-
-GDALDataType gdalTypeOf(SampleType type)
-{
-    switch (type) {
-    case SampleType::UInt8:
-    case SampleType::Int8:
-        return GDT_Byte;
-    case SampleType::UInt16:
-        return GDT_UInt16;
-    case SampleType::Int16:
-        return GDT_Int16;
-    case SampleType::UInt32:
-        return GDT_UInt32;
-    case SampleType::Int32:
-        return GDT_Int32;
-    case SampleType::UInt64:
-        return GDT_UInt64;
-    case SampleType::Int64:
-        return GDT_Int64;
-    case SampleType::Float32:
-        return GDT_Float32;
-    case SampleType::Float64:
-        return GDT_Float64;
-    }
-    MARSVIEW_CHECK(false);
-}
 
 // Older readers know no differences of 64-bit whole numbers.
 const char* predictorFor(SampleType type)

@@ -1,7 +1,9 @@
 #include "core/raster/raster_file.h"
 
 #include "core/raster/gdal_runtime.h"
+#include "core/raster/gdal_types.h"
 #include "core/raster/geotiff_skeleton.h"
+#include "core/raster/mosaic.h"
 #include "core/raster/netcdf_extent.h"
 #include "core/raster/pds3_placement.h"
 #include "core/raster/raster_path.h"
@@ -21,10 +23,6 @@
 namespace marsview {
 namespace {
 
-// No raster that exists comes near: the Earth at 2.4 m has this many columns.
-constexpr int kSideMax = 1 << 24;
-constexpr std::uint64_t kSamplesMax = std::uint64_t{1} << 40;
-
 // Samples are read in bands of whole rows of about this size: large enough that the call costs
 // nothing, small enough that progress and cancel feel immediate.
 constexpr std::size_t kBandBytes = std::size_t{8} << 20;
@@ -36,36 +34,6 @@ struct DatasetCloser {
     void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
-
-std::optional<SampleType> sampleTypeOf(GDALRasterBand& band)
-{
-    switch (band.GetRasterDataType()) {
-    case GDT_Byte: {
-        // Before GDAL 3.7, signed bytes are bytes with a remark.
-        const char* pixel_type = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
-        return pixel_type != nullptr && EQUAL(pixel_type, "SIGNEDBYTE") ? SampleType::Int8
-                                                                        : SampleType::UInt8;
-    }
-    case GDT_UInt16:
-        return SampleType::UInt16;
-    case GDT_Int16:
-        return SampleType::Int16;
-    case GDT_UInt32:
-        return SampleType::UInt32;
-    case GDT_Int32:
-        return SampleType::Int32;
-    case GDT_UInt64:
-        return SampleType::UInt64;
-    case GDT_Int64:
-        return SampleType::Int64;
-    case GDT_Float32:
-        return SampleType::Float32;
-    case GDT_Float64:
-        return SampleType::Float64;
-    default:
-        return std::nullopt;
-    }
-}
 
 std::string listOfSubdatasets(GDALDataset& dataset)
 {
@@ -103,8 +71,40 @@ bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
 struct OpenedDataset {
     Dataset dataset;
     std::string name;
-    std::optional<RemoteVersion> remote; // of a raster at a server
+    std::optional<RemoteVersion> remote{};  // of a raster at a server
+    std::shared_ptr<const Mosaic> mosaic{}; // of a folder of rasters
 };
+
+bool isFolder(const std::string& path)
+{
+    VSIStatBufL status{};
+    return VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode);
+}
+
+// By GDAL's name, or its text of a virtual raster.
+Result<Dataset> openLocal(const std::string& name)
+{
+    const GdalMessages messages;
+    Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+    if (!dataset) {
+        return Error{ErrorCode::Unsupported, messages.firstFailure("")};
+    }
+    return dataset;
+}
+
+Result<OpenedDataset> openFolder(const std::string& path, int band)
+{
+    Result<std::shared_ptr<const Mosaic>> mosaic = mosaicOf(path, band);
+    if (!mosaic) {
+        return std::move(mosaic).error();
+    }
+    Result<Dataset> dataset = openLocal((*mosaic)->vrt);
+    if (!dataset) {
+        return Error{dataset.error().code, fmt::format("{}: {}", path, dataset.error().message)};
+    }
+    return OpenedDataset{
+        .dataset = std::move(dataset).value(), .name = path, .mosaic = std::move(mosaic).value()};
+}
 
 // On the condition that it is of `version`.
 Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version)
@@ -130,10 +130,11 @@ Result<OpenedDataset> openRemote(const std::string& name)
     if (!dataset) {
         return std::move(dataset).error();
     }
-    return OpenedDataset{std::move(dataset).value(), name, std::move(version).value()};
+    return OpenedDataset{
+        .dataset = std::move(dataset).value(), .name = name, .remote = std::move(version).value()};
 }
 
-Result<OpenedDataset> openDataset(const std::string& path)
+Result<OpenedDataset> openDataset(const std::string& path, int band)
 {
     Result<std::vector<std::string>> names = rasterNamesFor(path);
     if (!names) {
@@ -144,23 +145,17 @@ Result<OpenedDataset> openDataset(const std::string& path)
     }
     std::string first_failure;
     for (const std::string& name : *names) {
-        const GdalMessages messages;
-        Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+        Result<Dataset> dataset = openLocal(name);
         if (dataset) {
-            return OpenedDataset{std::move(dataset), name, std::nullopt};
+            return OpenedDataset{.dataset = std::move(dataset).value(), .name = name};
         }
         // The companion of a bare data file is the one that can tell what is wrong.
-        const std::string failure = messages.firstFailure("");
         if (first_failure.empty() || name != path) {
-            first_failure = failure;
+            first_failure = dataset.error().message;
         }
     }
-    VSIStatBufL status{};
-    if (VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode)) {
-        return Error{ErrorCode::Unsupported,
-                     fmt::format("{}: is a directory that holds no raster of its own; open a file "
-                                 "in it",
-                                 path)};
+    if (isFolder(path)) {
+        return openFolder(path, band);
     }
     const auto says = [&first_failure](const char* words) {
         return first_failure.find(words) != std::string::npos;
@@ -329,8 +324,9 @@ std::optional<NetcdfExtent> netcdfExtentOf(GDALDataset& dataset, const std::stri
 struct RasterFile::Impl {
     Dataset dataset;
     GDALRasterBand* band = nullptr;
-    std::optional<NetcdfExtent> netcdf;  // for classic netCDF files
-    std::optional<RemoteVersion> remote; // of a raster at a server
+    std::optional<NetcdfExtent> netcdf;   // for classic netCDF files
+    std::optional<RemoteVersion> remote;  // of a raster at a server
+    std::shared_ptr<const Mosaic> mosaic; // of a folder of rasters
     RasterInfo info;
     // After a read that failed, GDAL 3.6 returns other samples without a word.
     mutable bool is_spoilt = false;
@@ -369,12 +365,19 @@ const RasterInfo& RasterFile::info() const noexcept
 Result<RasterFile> RasterFile::open(const std::string& path, int band)
 {
     ensureGdal();
-    Result<OpenedDataset> opened = openDataset(path);
+    Result<OpenedDataset> opened = openDataset(path, band);
     if (!opened) {
         return std::move(opened).error();
     }
     auto impl = std::make_unique<Impl>();
     impl->dataset = std::move(opened->dataset);
+    if (opened->mosaic) {
+        impl->info = opened->mosaic->info;
+        impl->info.path = path;
+        impl->band = impl->dataset->GetRasterBand(1);
+        impl->mosaic = std::move(opened->mosaic);
+        return RasterFile(std::move(impl));
+    }
     GDALDataset& dataset = *impl->dataset;
     RasterInfo& info = impl->info;
     info.path = opened->name;
@@ -409,12 +412,8 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     const int rows = dataset.GetRasterYSize();
     info.columns = static_cast<std::size_t>(columns);
     info.rows = static_cast<std::size_t>(rows);
-    if (columns > kSideMax || rows > kSideMax || info.columns * info.rows > kSamplesMax) {
-        return refuse(
-            ErrorCode::TooLarge,
-            fmt::format("{} × {} samples cannot be a map; at most {} a side and {} in all "
-                        "are read",
-                        columns, rows, kSideMax, kSamplesMax));
+    if (Status size = checkMapSize(info.columns, info.rows); !size) {
+        return refuse(size.error().code, size.error().message);
     }
     const std::optional<SampleType> type = sampleTypeOf(*impl->band);
     if (!type) {
@@ -438,6 +437,24 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     info.typical_raw = impl->findTypicalSample();
     deduceHeightReference(info);
     return RasterFile(std::move(impl));
+}
+
+std::vector<std::string> RasterFile::files() const
+{
+    if (impl_->mosaic) {
+        return impl_->mosaic->files;
+    }
+    std::vector<std::string> files;
+    const CPLStringList listed(impl_->remote ? nullptr : impl_->dataset->GetFileList());
+    for (int i = 0; i < listed.Count(); ++i) {
+        files.emplace_back(listed[i]);
+    }
+    return files;
+}
+
+Status RasterFile::checkComplete() const
+{
+    return impl_->checkExtent({0, 0, impl_->info.columns, impl_->info.rows});
 }
 
 // One sample that is not void, from a few rows: enough to tell radii from heights. Only asked where
@@ -503,8 +520,11 @@ Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWind
                                          "try again",
                                          window.row, window.row + window.rows - 1));
     }
-    return readFailure(messages.firstFailure("the file is cut short or damaged; fetch it again"),
-                       window);
+    const std::string of_part = mosaic ? mosaic->failureIn(window) : std::string();
+    return readFailure(
+        of_part.empty() ? messages.firstFailure("the file is cut short or damaged; fetch it again")
+                        : of_part,
+        window);
 }
 
 // Opens it once more where a read has failed.
@@ -528,15 +548,17 @@ Status RasterFile::Impl::renew()
         }
         fresh = std::move(opened).value();
     } else {
-        const GdalMessages messages;
-        fresh.reset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
-        if (!fresh) {
+        Result<Dataset> opened = openLocal(mosaic ? mosaic->vrt : info.path);
+        if (!opened) {
+            const std::string& why = opened.error().message;
             return Error{ErrorCode::Unreadable,
-                         fmt::format("{}: {}", info.path, messages.firstFailure("is gone"))};
+                         fmt::format("{}: {}", info.path, why.empty() ? "is gone" : why)};
         }
+        fresh = std::move(opened).value();
     }
+    const int number = mosaic ? 1 : info.band;
     GDALRasterBand* const same =
-        info.band <= fresh->GetRasterCount() ? fresh->GetRasterBand(info.band) : nullptr;
+        number <= fresh->GetRasterCount() ? fresh->GetRasterBand(number) : nullptr;
     if (same == nullptr || same->GetXSize() != band->GetXSize() ||
         same->GetYSize() != band->GetYSize() ||
         same->GetRasterDataType() != band->GetRasterDataType() ||

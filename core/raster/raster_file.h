@@ -3,22 +3,16 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/raster/grid_window.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/sample_grid.h"
 
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace marsview {
-
-/// A rectangle of samples: columns [column, column + columns), rows likewise.
-struct GridWindow {
-    std::size_t column = 0;
-    std::size_t row = 0;
-    std::size_t columns = 0;
-    std::size_t rows = 0;
-};
 
 /// Samples in memory, and what they hold.
 struct LoadedSamples {
@@ -26,20 +20,14 @@ struct LoadedSamples {
     SampleStatistics statistics;
 };
 
-/// Columns and rows.
-struct GridSize {
-    std::size_t columns = 0;
-    std::size_t rows = 0;
-    bool operator==(const GridSize&) const = default;
-};
-
 /// An open raster. For one thread at a time; open it again for another thread. The user's file is
 /// never written to.
 class RasterFile {
 public:
     /// Opens anything that holds elevations and that GDAL understands: files, labels, headers,
-    /// archives with one raster, GDAL's connection strings. Refuses pictures (colour, indexed),
-    /// complex numbers and what is absurdly large. `band` counts from 1.
+    /// archives with one raster, folders of adjoining rasters (mosaic.h), GDAL's connection
+    /// strings. Refuses pictures (colour, indexed), complex numbers and what is absurdly large.
+    /// `band` counts from 1.
     ///
     /// Error messages begin with the path.
     static Result<RasterFile> open(const std::string& path, int band = 1);
@@ -49,6 +37,13 @@ public:
     ~RasterFile();
 
     const RasterInfo& info() const noexcept;
+
+    /// The files that it is made of, as GDAL names them, with overviews and statistics that lie
+    /// beside it; at a server none.
+    std::vector<std::string> files() const;
+    /// Whether raw data is as long as its header promises: the message that reading would fail
+    /// with. Of other formats only reading can tell.
+    Status checkComplete() const;
 
     /// All samples. Reports progress after every few megabytes and stops within one such step when
     /// cancelled. TooLarge where they need more than `memory_bytes_max`.

@@ -1,6 +1,7 @@
 #include "core/raster/source_identity.h"
 
 #include "core/raster/gdal_runtime.h"
+#include "core/raster/mosaic.h"
 #include "core/raster/raster_path.h"
 #include "core/raster/remote_raster.h"
 
@@ -102,31 +103,48 @@ std::string asOnDisk(const std::string& file)
     return {};
 }
 
-// The raster's files as GDAL lists them; only itself where GDAL does not open it.
-std::vector<std::string> filesOf(const std::string& path)
+// As GDAL lists them, or the parts of a mosaic; none where GDAL does not open it.
+std::vector<std::string> listedFilesOf(const std::string& path)
 {
-    std::vector<std::string> files;
     const Result<std::vector<std::string>> names = rasterNamesFor(path);
     if (!names) {
-        return files;
+        return {};
     }
     const GdalMessages messages;
     for (const std::string& name : *names) {
         const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
         if (dataset) {
             const CPLStringList listed(dataset->GetFileList());
-            for (int i = 0; i < listed.Count(); ++i) {
-                std::string file = isSidecar(listed[i]) ? std::string() : asOnDisk(listed[i]);
-                if (!file.empty()) {
-                    files.push_back(std::move(file));
-                }
-            }
-            break;
+            return {listed.List(), listed.List() + listed.Count()};
+        }
+    }
+    if (VSIStatBufL status{};
+        VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode) != 0) {
+        const Result<std::shared_ptr<const Mosaic>> mosaic = mosaicOf(path, 1);
+        return mosaic ? (*mosaic)->files : std::vector<std::string>();
+    }
+    return {};
+}
+
+std::vector<std::string> filesOf(const std::string& path)
+{
+    std::vector<std::string> files;
+    for (const std::string& listed : listedFilesOf(path)) {
+        std::string file = isSidecar(listed) ? std::string() : asOnDisk(listed);
+        if (!file.empty()) {
+            files.push_back(std::move(file));
         }
     }
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     return files;
+}
+
+// Of a folder without a slash at its end.
+std::string absolutePath(const std::string& path)
+{
+    const fs::path absolute = fs::absolute(path).lexically_normal();
+    return (absolute.has_filename() ? absolute : absolute.parent_path()).string();
 }
 
 // The head, some blocks in ascending order, as archives like it, and the tail.
@@ -199,8 +217,9 @@ Result<SourceIdentity> identify(const std::string& path)
                                        "told apart by")};
     }
     SourceIdentity identity;
-    const bool is_local_file = is_file && !isRemote(path) && !path.starts_with("/vsi");
-    identity.path = is_local_file ? fs::absolute(path).lexically_normal().string() : path;
+    std::error_code ignored;
+    const bool is_local = !isRemote(path) && !path.starts_with("/vsi") && fs::exists(path, ignored);
+    identity.path = is_local ? absolutePath(path) : path;
     Digest digest;
     std::size_t sampled = 0;
     for (const std::string& file : files) {

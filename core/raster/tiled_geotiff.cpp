@@ -78,29 +78,18 @@ std::string keyOf(const RasterInfo& info, const SourceIdentity& source)
         info.crs ? info.crs->wkt() : "none");
 }
 
-std::size_t blockRowsOf(const RasterInfo& info)
-{
-    const GdalMessages messages;
-    const GDALDatasetUniquePtr dataset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER));
-    int columns = 0;
-    int rows = 0;
-    if (dataset && dataset->GetRasterCount() >= info.band) {
-        dataset->GetRasterBand(info.band)->GetBlockSize(&columns, &rows);
-    }
-    return static_cast<std::size_t>(std::max(rows, 1));
-}
-
 // Rows to read at once: whole rows of tiles and, where they fit, whole rows of the source's blocks.
 struct Windows {
     std::size_t rows = kTileSide;
     bool reads_ahead = true;
 };
 
-Windows windowsFor(const RasterInfo& info)
+Windows windowsFor(const RasterFile& source, const RasterInfo& info)
 {
     const std::size_t row_bytes =
         info.columns * (sampleBytes(info.type) + (info.has_mask_band ? 1 : 0));
-    const std::size_t block_rows = (blockRowsOf(info) + kTileSide - 1) / kTileSide * kTileSide;
+    const std::size_t block_rows =
+        (std::max<std::size_t>(source.blockSize().rows, 1) + kTileSide - 1) / kTileSide * kTileSide;
     Windows windows;
     windows.rows = std::max(kTileSide, kWindowBytesWanted / row_bytes / kTileSide * kTileSide);
     if (block_rows > windows.rows) {
@@ -465,7 +454,7 @@ Status Preparation::checkpoint()
 
 Status Preparation::copy(JobMonitor& monitor)
 {
-    const Windows windows = windowsFor(info_);
+    const Windows windows = windowsFor(source_, info_);
     const auto window_at = [&](std::size_t row) {
         return GridWindow{0, row, info_.columns, std::min(windows.rows, info_.rows - row)};
     };
@@ -564,20 +553,20 @@ Status checkSpace(const TiledGeoTiffJob& job, const RasterInfo& info)
     return Done{};
 }
 
-Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterInfo& info)
+Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
 {
-    std::vector<std::string> files{job.source, info.path};
-    {
-        const GdalMessages messages;
-        const GDALDatasetUniquePtr dataset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER));
-        const CPLStringList listed(dataset ? dataset->GetFileList() : nullptr);
-        for (int i = 0; i < listed.Count(); ++i) {
-            files.emplace_back(listed[i]);
-        }
+    std::vector<std::string> files = source.files();
+    files.push_back(job.source);
+    files.push_back(source.info().path);
+    std::error_code ignored;
+    if (fs::equivalent(fs::absolute(job.path).parent_path(), job.source, ignored)) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: would become a part of the folder of rasters that it is made "
+                                 "of; choose another folder",
+                                 job.path)};
     }
     for (const std::string& file : files) {
         for (const char* ending : {"", ".part", ".part.journal", ".lock"}) {
-            std::error_code ignored;
             if (fs::equivalent(job.path + ending, file, ignored)) {
                 return Error{
                     ErrorCode::Invalid,
@@ -725,7 +714,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     if (!info) {
         return Error{info.error().code, fmt::format("{}: {}", job.source, info.error().message)};
     }
-    if (Status apart = checkIsNotSource(job, *info); !apart) {
+    if (Status apart = checkIsNotSource(job, *source); !apart) {
         return std::move(apart).error();
     }
     bool has_waited = false;

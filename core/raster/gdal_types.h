@@ -1,0 +1,25 @@
+// Our sample types and GDAL's. Used inside core/raster only.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/raster/sample_grid.h"
+
+#include <gdal.h>
+
+#include <cstddef>
+#include <optional>
+
+class GDALRasterBand;
+
+namespace marsview {
+
+/// Before GDAL 3.7, signed bytes are bytes with a remark (PIXELTYPE).
+GDALDataType gdalTypeOf(SampleType type);
+
+/// Nothing for complex numbers.
+std::optional<SampleType> sampleTypeOf(GDALRasterBand& band);
+
+/// TooLarge, without a path in the message, where no map has so many samples.
+Status checkMapSize(std::size_t columns, std::size_t rows);
+
+} // namespace marsview

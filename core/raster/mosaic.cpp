@@ -1,0 +1,484 @@
+#include "core/raster/mosaic.h"
+
+#include "core/base/parallel.h"
+#include "core/raster/gdal_types.h"
+#include "core/raster/mosaic_grid.h"
+#include "core/raster/raster_file.h"
+
+#include <cpl_minixml.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+// With less of the rectangle around them covered, rasters are not neighbours.
+constexpr double kCoveredMin = 0.02;
+
+constexpr std::size_t kRememberedMax = 8;
+
+// Never rasters themselves, though GDAL opens some of them as such.
+constexpr std::array<std::string_view, 12> kCompanionEndings{
+    ".aux.xml", ".ovr", ".msk", ".marsview", ".prj",  ".tfw",
+    ".wld",     ".txt", ".md",  ".pdf",      ".html", ".csv"};
+
+std::string lowerCase(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool isCompanion(const fs::path& path)
+{
+    const std::string name = lowerCase(path.filename().string());
+    return name.starts_with('.') ||
+           std::any_of(kCompanionEndings.begin(), kCompanionEndings.end(),
+                       [&name](std::string_view ending) { return name.ends_with(ending); });
+}
+
+struct FolderEntry {
+    std::string path;
+    std::uintmax_t bytes = 0;
+    fs::file_time_type modified;
+    bool operator==(const FolderEntry&) const = default;
+};
+
+using Listing = std::vector<FolderEntry>;
+
+Result<Listing> list(const std::string& folder)
+{
+    Listing listing;
+    std::error_code failure;
+    for (fs::directory_iterator it(folder, failure), end; !failure && it != end;
+         it.increment(failure)) {
+        std::error_code ignored; // a file that has just gone
+        if (it->is_regular_file(ignored) && !isCompanion(it->path())) {
+            listing.push_back(
+                {it->path().string(), it->file_size(ignored), it->last_write_time(ignored)});
+        }
+    }
+    if (failure) {
+        return Error{ErrorCode::Unreadable, fmt::format("{}: {}", folder, failure.message())};
+    }
+    std::sort(listing.begin(), listing.end(),
+              [](const FolderEntry& a, const FolderEntry& b) { return a.path < b.path; });
+    return listing;
+}
+
+// What is kept of a raster once it is closed: thousands cannot be open at once.
+struct Part {
+    RasterInfo info;
+    GridSize block;
+    std::vector<std::string> files;
+};
+
+struct Opened {
+    std::optional<Part> part;
+    std::string failure; // otherwise
+};
+
+Opened openPart(const std::string& path, int band)
+{
+    const Result<RasterFile> file = RasterFile::open(path, band);
+    if (!file) {
+        return {std::nullopt, file.error().message};
+    }
+    if (const Status complete = file->checkComplete(); !complete) {
+        return {std::nullopt, complete.error().message};
+    }
+    return {Part{file->info(), file->blockSize(), file->files()}, {}};
+}
+
+std::string nameOf(const Part& part)
+{
+    return fs::path(part.info.path).filename().string();
+}
+
+// The rasters among the files, each once: a label and its data are the same one.
+Result<std::vector<Part>> openParts(const std::string& folder, const Listing& listing, int band)
+{
+    std::vector<Opened> opened(listing.size());
+    parallelRanges(listing.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            opened[i] = openPart(listing[i].path, band);
+        }
+    });
+    std::vector<Part> parts;
+    std::set<std::string> names;   // of GDAL
+    std::set<std::string> endings; // of rasters
+    std::set<std::string> files;   // that belong to one
+    for (std::size_t i = 0; i < opened.size(); ++i) {
+        if (std::optional<Part>& part = opened[i].part) {
+            endings.insert(lowerCase(fs::path(listing[i].path).extension().string()));
+            files.insert(part->files.begin(), part->files.end());
+            if (names.insert(part->info.path).second) {
+                parts.push_back(std::move(*part));
+            }
+        }
+    }
+    if (parts.empty()) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: is a folder without rasters that can be shown; open one with "
+                                 "elevations in it",
+                                 folder)};
+    }
+    for (std::size_t i = 0; i < opened.size(); ++i) {
+        const std::string& path = listing[i].path;
+        if (!opened[i].failure.empty() && !files.contains(path) &&
+            endings.contains(lowerCase(fs::path(path).extension().string()))) {
+            return Error{
+                ErrorCode::Unreadable,
+                fmt::format("{}: one of its files cannot be part of a map ({}); mend it or "
+                            "move it elsewhere",
+                            folder, opened[i].failure)};
+        }
+    }
+    return parts;
+}
+
+bool isSameCrs(const std::optional<Crs>& a, const std::optional<Crs>& b)
+{
+    if (!a || !b || a->wkt() == b->wkt()) {
+        return a.has_value() == b.has_value();
+    }
+    OGRSpatialReference first;
+    OGRSpatialReference second;
+    const char* const options[] = {"CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+    return first.importFromWkt(a->wkt().c_str()) == OGRERR_NONE &&
+           second.importFromWkt(b->wkt().c_str()) == OGRERR_NONE &&
+           first.IsSame(&second, options) != 0;
+}
+
+// Why the part cannot be on one map with the first; empty where it can.
+std::string mismatch(const RasterInfo& part, const RasterInfo& first, const std::string& first_name)
+{
+    if (!isSameCrs(part.crs, first.crs)) {
+        return fmt::format("has {}, {} has {}", part.crs ? "the CRS " + part.crs->name() : "no CRS",
+                           first_name, first.crs ? first.crs->name() : "none");
+    }
+    if (part.type != first.type) {
+        return fmt::format("holds {} samples, {} holds {}", sampleTypeName(part.type), first_name,
+                           sampleTypeName(first.type));
+    }
+    if (part.elevationScale() != first.elevationScale() || part.unit != first.unit) {
+        return fmt::format("counts heights in another unit or from another level than {}",
+                           first_name);
+    }
+    if (!part.transform) {
+        return "says nothing of where it lies";
+    }
+    return {};
+}
+
+// A type that also has room for a void, where samples may have every value of `type`. The virtual
+// rasters of GDAL 3.6 know no voids in 64-bit whole numbers.
+SampleType withRoomForVoids(SampleType type)
+{
+    switch (type) {
+    case SampleType::UInt8:
+        return SampleType::Int16;
+    case SampleType::UInt16:
+        return SampleType::Int32;
+    case SampleType::UInt32:
+    case SampleType::Int64:
+    case SampleType::UInt64:
+        return SampleType::Float64;
+    default:
+        return type; // its lowest value is no height of anything
+    }
+}
+
+double lowestOf(SampleType type)
+{
+    return dispatchSampleType(type, [](auto zero) {
+        return static_cast<double>(std::numeric_limits<decltype(zero)>::lowest());
+    });
+}
+
+bool hasVoids(const Part& part)
+{
+    return part.info.nodata.has_value() || part.info.has_mask_band;
+}
+
+// Sets the type and nodata value of the whole.
+Status chooseVoids(const std::vector<Part>& parts, bool has_gaps, RasterInfo& whole)
+{
+    const std::optional<double> first = parts.front().info.nodata;
+    const bool all_alike = std::all_of(parts.begin(), parts.end(), [&first](const Part& part) {
+        const std::optional<double>& nodata = part.info.nodata;
+        const bool both_nan = first && nodata && std::isnan(*first) && std::isnan(*nodata);
+        return !part.info.has_mask_band && (nodata == first || both_nan);
+    });
+    whole.nodata = first;
+    whole.has_mask_band = false;
+    const bool is_wide = whole.type == SampleType::Int64 || whole.type == SampleType::UInt64;
+    if (all_alike && (first || !has_gaps)) {
+        whole.type = is_wide && first ? SampleType::Float64 : whole.type;
+        return Done{};
+    }
+    if (whole.type == SampleType::Int8) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("their {} samples have no value left for voids; convert them to "
+                                 "another type",
+                                 sampleTypeName(whole.type))};
+    }
+    whole.type = withRoomForVoids(whole.type);
+    whole.nodata = lowestOf(whole.type);
+    return Done{};
+}
+
+const char* gdalNameOf(SampleType type)
+{
+    return GDALGetDataTypeName(gdalTypeOf(type));
+}
+
+std::string numberText(double number)
+{
+    return std::isnan(number) ? "nan" : fmt::format("{:.17g}", number);
+}
+
+struct XmlFree {
+    void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
+};
+using XmlTree = std::unique_ptr<CPLXMLNode, XmlFree>;
+
+void setAttributes(CPLXMLNode* node,
+                   const std::vector<std::pair<const char*, std::string>>& attributes)
+{
+    for (const auto& [name, value] : attributes) {
+        CPLAddXMLAttributeAndValue(node, name, value.c_str());
+    }
+}
+
+void addSource(CPLXMLNode* band, const Part& part, const GridWindow& place, bool has_void_rule)
+{
+    CPLXMLNode* const source =
+        CPLCreateXMLNode(band, CXT_Element, has_void_rule ? "ComplexSource" : "SimpleSource");
+    CPLXMLNode* const name =
+        CPLCreateXMLElementAndValue(source, "SourceFilename", part.info.path.c_str());
+    setAttributes(name, {{"relativeToVRT", "0"}});
+    CPLCreateXMLElementAndValue(source, "SourceBand", fmt::format("{}", part.info.band).c_str());
+    // With these GDAL opens a part when it is first read, and closes it again when it has too many.
+    setAttributes(CPLCreateXMLNode(source, CXT_Element, "SourceProperties"),
+                  {{"RasterXSize", fmt::format("{}", part.info.columns)},
+                   {"RasterYSize", fmt::format("{}", part.info.rows)},
+                   {"DataType", gdalNameOf(part.info.type)},
+                   {"BlockXSize", fmt::format("{}", part.block.columns)},
+                   {"BlockYSize", fmt::format("{}", part.block.rows)}});
+    const std::string columns = fmt::format("{}", place.columns);
+    const std::string rows = fmt::format("{}", place.rows);
+    setAttributes(CPLCreateXMLNode(source, CXT_Element, "SrcRect"),
+                  {{"xOff", "0"}, {"yOff", "0"}, {"xSize", columns}, {"ySize", rows}});
+    setAttributes(CPLCreateXMLNode(source, CXT_Element, "DstRect"),
+                  {{"xOff", fmt::format("{}", place.column)},
+                   {"yOff", fmt::format("{}", place.row)},
+                   {"xSize", columns},
+                   {"ySize", rows}});
+    if (part.info.has_mask_band) {
+        CPLCreateXMLElementAndValue(source, "UseMaskBand", "true");
+    } else if (part.info.nodata) {
+        CPLCreateXMLElementAndValue(source, "NODATA", numberText(*part.info.nodata).c_str());
+    }
+}
+
+std::string vrtOf(const std::vector<Part>& parts, const MosaicGrid& grid, const RasterInfo& whole)
+{
+    const XmlTree root(CPLCreateXMLNode(nullptr, CXT_Element, "VRTDataset"));
+    setAttributes(root.get(), {{"rasterXSize", fmt::format("{}", grid.size.columns)},
+                               {"rasterYSize", fmt::format("{}", grid.size.rows)}});
+    CPLXMLNode* const band = CPLCreateXMLNode(root.get(), CXT_Element, "VRTRasterBand");
+    setAttributes(band, {{"dataType", gdalNameOf(whole.type)}, {"band", "1"}});
+    if (whole.type == SampleType::Int8) {
+        CPLXMLNode* const metadata = CPLCreateXMLNode(band, CXT_Element, "Metadata");
+        setAttributes(metadata, {{"domain", "IMAGE_STRUCTURE"}});
+        setAttributes(CPLCreateXMLElementAndValue(metadata, "MDI", "SIGNEDBYTE"),
+                      {{"key", "PIXELTYPE"}});
+    }
+    if (whole.nodata) {
+        CPLCreateXMLElementAndValue(band, "NoDataValue", numberText(*whole.nodata).c_str());
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        addSource(band, parts[i], grid.places[i], hasVoids(parts[i]));
+    }
+    char* const text = CPLSerializeXMLTree(root.get());
+    std::string vrt(text);
+    VSIFree(text);
+    return vrt;
+}
+
+void noteParts(const std::vector<Part>& parts, double covered, RasterInfo& whole)
+{
+    std::set<std::string> said;
+    std::vector<std::string> notices;
+    if (parts.size() > 1) {
+        notices.push_back(
+            covered < 1.0
+                ? fmt::format("{} rasters as one map; they cover {:.3g} % of its rectangle",
+                              parts.size(), std::min(100.0 * covered, 99.9))
+                : fmt::format("{} rasters as one map", parts.size()));
+    }
+    for (const Part& part : parts) {
+        for (const std::string& notice : part.info.notices) {
+            if (!notice.starts_with("opened through ") && said.insert(notice).second) {
+                notices.push_back(notice);
+            }
+        }
+    }
+    whole.notices = std::move(notices);
+}
+
+Result<std::shared_ptr<const Mosaic>>
+makeMosaic(const std::string& folder, const Listing& listing, int band)
+{
+    Result<std::vector<Part>> parts = openParts(folder, listing, band);
+    if (!parts) {
+        return std::move(parts).error();
+    }
+    const auto refuse = [&folder](const std::string& why) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: its rasters are not parts of one map: {}", folder, why)};
+    };
+    const RasterInfo& first = parts->front().info;
+    std::vector<MosaicPart> grids;
+    for (const Part& part : *parts) {
+        if (const std::string why = mismatch(part.info, first, nameOf(parts->front()));
+            !why.empty()) {
+            return refuse(fmt::format("{} {}", nameOf(part), why));
+        }
+        grids.push_back({nameOf(part), *part.info.transform, {part.info.columns, part.info.rows}});
+    }
+    const Result<MosaicGrid> grid =
+        layOutMosaic(grids, first.crs ? first.crs->turn() : std::nullopt);
+    if (!grid) {
+        return refuse(grid.error().message);
+    }
+    if (grid->covered < kCoveredMin) {
+        return refuse(
+            fmt::format("they lie apart and cover {:.1g} % of the rectangle around them; "
+                        "open them one by one",
+                        100.0 * grid->covered));
+    }
+    if (const Status size = checkMapSize(grid->size.columns, grid->size.rows); !size) {
+        return Error{size.error().code, fmt::format("{}: {}", folder, size.error().message)};
+    }
+    auto mosaic = std::make_shared<Mosaic>();
+    mosaic->info = first;
+    RasterInfo& info = mosaic->info;
+    info.path = folder;
+    info.driver = "VRT";
+    info.columns = grid->size.columns;
+    info.rows = grid->size.rows;
+    info.transform = grid->transform;
+    if (const Status chosen = chooseVoids(*parts, grid->covered < 1.0, info); !chosen) {
+        return refuse(chosen.error().message);
+    }
+    noteParts(*parts, grid->covered, info);
+    mosaic->vrt = vrtOf(*parts, *grid, info);
+    for (std::size_t i = 0; i < parts->size(); ++i) {
+        const Part& part = (*parts)[i];
+        mosaic->parts.push_back({part.info.path, part.info.band, grid->places[i]});
+        mosaic->files.insert(mosaic->files.end(), part.files.begin(), part.files.end());
+    }
+    std::sort(mosaic->files.begin(), mosaic->files.end());
+    mosaic->files.erase(std::unique(mosaic->files.begin(), mosaic->files.end()),
+                        mosaic->files.end());
+    return std::shared_ptr<const Mosaic>(std::move(mosaic));
+}
+
+// A map is opened several times over, once for each thread that reads it: its parts only once.
+class Remembered {
+public:
+    std::shared_ptr<const Mosaic> find(const std::string& key, const Listing& listing)
+    {
+        const std::scoped_lock lock(mutex_);
+        const auto found = mosaics_.find(key);
+        return found != mosaics_.end() && found->second.first == listing ? found->second.second
+                                                                         : nullptr;
+    }
+    void keep(const std::string& key, Listing listing, std::shared_ptr<const Mosaic> mosaic)
+    {
+        const std::scoped_lock lock(mutex_);
+        if (mosaics_.size() >= kRememberedMax) {
+            mosaics_.clear();
+        }
+        mosaics_.insert_or_assign(key, std::pair(std::move(listing), std::move(mosaic)));
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, std::pair<Listing, std::shared_ptr<const Mosaic>>> mosaics_;
+};
+
+// What of `place` lies within `window`, counted from the former's corner; empty where nothing does.
+GridWindow overlap(const GridWindow& place, const GridWindow& window)
+{
+    const std::size_t column = std::max(place.column, window.column);
+    const std::size_t row = std::max(place.row, window.row);
+    const std::size_t end_column =
+        std::min(place.column + place.columns, window.column + window.columns);
+    const std::size_t end_row = std::min(place.row + place.rows, window.row + window.rows);
+    if (column >= end_column || row >= end_row) {
+        return {};
+    }
+    return {column - place.column, row - place.row, end_column - column, end_row - row};
+}
+
+} // namespace
+
+std::string Mosaic::failureIn(const GridWindow& window) const
+{
+    for (const MosaicRaster& part : parts) {
+        const GridWindow within = overlap(part.place, window);
+        if (within.columns == 0) {
+            continue;
+        }
+        Result<RasterFile> file = RasterFile::open(part.path, part.band);
+        if (!file) {
+            return file.error().message;
+        }
+        if (const auto read = file->readWindow(within, {}); !read) {
+            return read.error().message;
+        }
+    }
+    return {};
+}
+
+Result<std::shared_ptr<const Mosaic>> mosaicOf(const std::string& path, int band)
+{
+    static Remembered remembered;
+    const fs::path given(path);
+    const std::string folder = (given.has_filename() ? given : given.parent_path()).string();
+    Result<Listing> listing = list(folder);
+    if (!listing) {
+        return std::move(listing).error();
+    }
+    const std::string key = fmt::format("{} {}", band, fs::absolute(folder).string());
+    if (std::shared_ptr<const Mosaic> mosaic = remembered.find(key, *listing)) {
+        return mosaic;
+    }
+    Result<std::shared_ptr<const Mosaic>> mosaic = makeMosaic(folder, *listing, band);
+    if (mosaic) {
+        remembered.keep(key, std::move(*listing), *mosaic);
+    }
+    return mosaic;
+}
+
+} // namespace marsview
