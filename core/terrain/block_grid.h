@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/grid_view.h"
+#include "core/base/large_vector.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/sample_grid.h"
 
@@ -16,8 +17,8 @@ namespace marsview {
 struct BlockGrid {
     std::size_t columns = 0;
     std::size_t rows = 0;
-    std::vector<float> means_m; // NaN where all samples are void
-    std::vector<float> shares;  // of samples that are not void, in [0, 1]; empty: all 1
+    LargeVector<float> means_m; // NaN where all samples are void
+    LargeVector<float> shares;  // of samples that are not void, in [0, 1]; empty: all 1
 };
 
 /// Samples that blocks are cut from.
@@ -60,7 +61,7 @@ struct BlockRows {
     std::size_t columns = 0;
     std::size_t level_rows = 0; // of the whole level
     std::size_t first_row = 0;
-    std::vector<float> heights_m; // of rows from first_row on
+    LargeVector<float> heights_m; // of rows from first_row on
 
     std::size_t endRow() const { return first_row + heights_m.size() / columns; }
     float operator()(std::size_t column, std::size_t row) const

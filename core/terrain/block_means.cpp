@@ -76,7 +76,7 @@ float BlockMeans::share(std::size_t level, std::size_t column, std::size_t row) 
 GridView<const float> BlockMeans::filledMeans() const
 {
     const BlockGrid& blocks = levels_.front();
-    const std::vector<float>& heights = filled_m_.empty() ? blocks.means_m : filled_m_;
+    const LargeVector<float>& heights = filled_m_.empty() ? blocks.means_m : filled_m_;
     return {heights.data(), blocks.columns, blocks.rows};
 }
 

@@ -47,7 +47,7 @@ private:
 
     BlockExtent extent_;
     std::vector<BlockGrid> levels_;
-    std::vector<float> filled_m_; // level 0 without gaps; empty where it has none
+    LargeVector<float> filled_m_; // level 0 without gaps; empty where it has none
 };
 
 } // namespace marsview

@@ -11,6 +11,9 @@
 namespace marsview {
 namespace {
 
+// Rows of corners that a thread takes at once: of small maps all.
+constexpr std::size_t kCornerRows = 128;
+
 std::size_t nodeCount(std::size_t samples, std::size_t level)
 {
     const std::size_t node_samples = DetailErrors::kNodeCells << level;
@@ -100,43 +103,60 @@ void DetailErrors::spreadToCorners()
     corners_.resize(nodes_.size());
     for (std::size_t k = 1; k < nodes_.size(); ++k) {
         const NodeLevel& level = nodes_[k];
-        CornerGrid& corners = corners_[k];
-        corners = {.columns = level.columns,
-                   .rows = level.rows,
-                   .values = std::vector<float>((level.columns + 1) * (level.rows + 1))};
-        for (std::size_t row = 0; row < level.rows; ++row) {
-            for (std::size_t column = 0; column < level.columns; ++column) {
-                const float error = level.errors_m[row * level.columns + column];
-                for (const std::size_t corner : {row * (level.columns + 1) + column,
-                                                 (row + 1) * (level.columns + 1) + column}) {
-                    corners.values[corner] = std::max(corners.values[corner], error);
-                    corners.values[corner + 1] = std::max(corners.values[corner + 1], error);
-                }
-            }
-        }
+        corners_[k] = largestAtCorners(level.columns, level.rows, level.errors_m);
         if (k > 1) {
-            growCorners(corners_[k - 1], corners);
+            growCorners(corners_[k - 1], corners_[k]);
         }
     }
 }
 
+CornerGrid largestAtCorners(std::size_t columns, std::size_t rows, std::span<const float> nodes)
+{
+    CornerGrid corners{
+        .columns = columns, .rows = rows, .values = LargeVector<float>((columns + 1) * (rows + 1))};
+    parallelRanges(rows + 1, kCornerRows, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) {
+            const float* above = nodes.data() + (std::max<std::size_t>(row, 1) - 1) * columns;
+            const float* below = nodes.data() + std::min(row, rows - 1) * columns;
+            float* value = corners.values.data() + row * (columns + 1);
+            float left = std::max(above[0], below[0]);
+            for (std::size_t column = 0; column < columns; ++column) {
+                const float right = std::max(above[column], below[column]);
+                *value++ = std::max(left, right);
+                left = right;
+            }
+            *value = left;
+        }
+    });
+    return corners;
+}
+
 void growCorners(const CornerGrid& finer, CornerGrid& coarser)
 {
-    for (std::size_t row = 0; row <= coarser.rows; ++row) {
-        for (std::size_t column = 0; column <= coarser.columns; ++column) {
+    parallelRanges(coarser.rows + 1, kCornerRows, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> largest(finer.columns + 1); // of the rows that a corner's nodes reach
+        for (std::size_t row = begin; row < end; ++row) {
             // The nodes that meet at a corner reach two finer nodes from it to either side.
-            const std::size_t left = 2 * std::max<std::size_t>(column, 1) - 2;
             const std::size_t upper = 2 * std::max<std::size_t>(row, 1) - 2;
-            float largest = 0.0F;
-            for (std::size_t r = upper; r <= std::min(2 * row + 2, finer.rows); ++r) {
-                for (std::size_t c = left; c <= std::min(2 * column + 2, finer.columns); ++c) {
-                    largest = std::max(largest, finer.values[r * (finer.columns + 1) + c]);
+            const std::size_t lower = std::min(2 * row + 2, finer.rows);
+            std::fill(largest.begin(), largest.end(), 0.0F);
+            for (std::size_t r = upper; r <= lower; ++r) {
+                const float* values = finer.values.data() + r * (finer.columns + 1);
+                for (std::size_t c = 0; c <= finer.columns; ++c) {
+                    largest[c] = std::max(largest[c], values[c]);
                 }
             }
-            float& value = coarser.values[row * (coarser.columns + 1) + column];
-            value = std::max(value, DetailErrors::kGrowth * largest);
+            float* value = coarser.values.data() + row * (coarser.columns + 1);
+            for (std::size_t column = 0; column <= coarser.columns; ++column) {
+                const std::size_t left = 2 * std::max<std::size_t>(column, 1) - 2;
+                const std::size_t right = std::min(2 * column + 2, finer.columns);
+                const float near =
+                    *std::max_element(largest.begin() + static_cast<std::ptrdiff_t>(left),
+                                      largest.begin() + static_cast<std::ptrdiff_t>(right) + 1);
+                value[column] = std::max(value[column], DetailErrors::kGrowth * near);
+            }
         }
-    }
+    });
 }
 
 } // namespace marsview

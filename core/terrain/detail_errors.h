@@ -6,10 +6,12 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
+#include "core/base/large_vector.h"
 #include "core/base/result.h"
 #include "core/terrain/drawn_surface.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace marsview {
@@ -26,7 +28,7 @@ struct DetailNode {
 struct CornerGrid {
     std::size_t columns = 0; // of nodes; there is one corner more
     std::size_t rows = 0;
-    std::vector<float> values;
+    LargeVector<float> values;
 };
 
 /// The measured errors, node by node. Immutable; any thread. Takes about 1/384 of a
@@ -48,7 +50,7 @@ public:
     struct NodeLevel {
         std::size_t columns = 0;
         std::size_t rows = 0;
-        std::vector<float> errors_m;
+        LargeVector<float> errors_m;
     };
     using NodeErrors = std::vector<NodeLevel>; // by level
     /// Of a map of columns × rows samples: 0 for every node.
@@ -87,6 +89,9 @@ private:
     NodeErrors nodes_;
     std::vector<CornerGrid> corners_; // by level >= 1
 };
+
+/// At every corner the largest value of the nodes that meet there, of columns × rows nodes.
+CornerGrid largestAtCorners(std::size_t columns, std::size_t rows, std::span<const float> nodes);
 
 /// Raises `coarser` to at least DetailErrors::kGrowth times the values of `finer`, the next finer
 /// level, at all corners of the nodes that meet at a corner.

@@ -279,7 +279,7 @@ errorsWithin(const SampleGrid& from, const ElevationScale& scale, JobMonitor& mo
 
 double meanSquare(const DetailErrors& errors, std::size_t level)
 {
-    const std::vector<float>& values = errors.nodeErrors()[level].errors_m;
+    const LargeVector<float>& values = errors.nodeErrors()[level].errors_m;
     double sum = 0.0;
     for (const float value : values) {
         sum += static_cast<double>(value) * static_cast<double>(value);
@@ -307,7 +307,7 @@ using FineErrors = std::vector<double>;
 
 double meanError(const DetailErrors& errors, std::size_t level)
 {
-    const std::vector<float>& values = errors.nodeErrors()[level].errors_m;
+    const LargeVector<float>& values = errors.nodeErrors()[level].errors_m;
     double sum = 0.0;
     for (const float value : values) {
         sum += static_cast<double>(value);

@@ -177,7 +177,7 @@ private:
             emptyBlocks(extent, layout_.has_voids ? BlockShares::Kept : BlockShares::None);
         measureBlocks(samples, extent.block_samples, options_.scale, 0, blocks.rows, blocks);
         const auto put = [&id](const BlockGrid& from, std::size_t side, std::size_t first_row,
-                               const std::vector<float>& values, float* to, std::size_t columns) {
+                               const LargeVector<float>& values, float* to, std::size_t columns) {
             for (std::size_t row = 0; row < from.rows; ++row) {
                 std::copy_n(values.data() + row * from.columns, from.columns,
                             to + (first_row + row) * columns + id.column * side);

@@ -1,10 +1,12 @@
 #include "core/terrain/packing.h"
 
 #include "core/base/check.h"
+#include "core/base/raw_array.h"
 
 #include <algorithm>
 #include <cstring>
-#include <zlib.h>
+#include <libdeflate.h>
+#include <memory>
 
 namespace marsview {
 namespace {
@@ -12,8 +14,16 @@ namespace {
 constexpr std::byte kStored{0};
 constexpr std::byte kDeflated{1};
 
-// Beyond, zlib takes twice as long for 2 % on elevation.
-constexpr int kEffort = 4;
+// Beyond, deflating takes twice as long for 2 % on elevation.
+constexpr int kEffort = 5;
+
+struct FreeDeflate {
+    void operator()(libdeflate_compressor* deflate) const { libdeflate_free_compressor(deflate); }
+    void operator()(libdeflate_decompressor* inflate) const
+    {
+        libdeflate_free_decompressor(inflate);
+    }
+};
 
 template <typename F>
 void dispatchUnsigned(std::size_t bytes, F&& function)
@@ -95,12 +105,13 @@ packed(const PackShape& shape, std::span<const std::byte> array, std::span<const
         difference<decltype(zero)>(shape, array.data(), plain.data());
     });
     std::copy(rest.begin(), rest.end(), plain.begin() + static_cast<std::ptrdiff_t>(array.size()));
-    std::vector<std::byte> bytes(1 + compressBound(plain.size()));
-    uLongf size = bytes.size() - 1;
-    const int outcome =
-        compress2(reinterpret_cast<Bytef*>(bytes.data() + 1), &size,
-                  reinterpret_cast<const Bytef*>(plain.data()), plain.size(), kEffort);
-    MARSVIEW_CHECK(outcome == Z_OK);
+    const std::unique_ptr<libdeflate_compressor, FreeDeflate> deflate(
+        libdeflate_alloc_compressor(kEffort));
+    MARSVIEW_CHECK(deflate != nullptr);
+    std::vector<std::byte> bytes(1 + libdeflate_zlib_compress_bound(deflate.get(), plain.size()));
+    const std::size_t size = libdeflate_zlib_compress(deflate.get(), plain.data(), plain.size(),
+                                                      bytes.data() + 1, bytes.size() - 1);
+    MARSVIEW_CHECK(size > 0);
     if (size >= plain.size()) {
         bytes.resize(1 + plain.size());
         bytes[0] = kStored;
@@ -122,15 +133,19 @@ bool unpack(std::span<const std::byte> bytes,
         return false;
     }
     const std::span<const std::byte> content = bytes.subspan(1);
-    std::vector<std::byte> inflated;
+    RawArray<std::byte> inflated;
     const std::size_t plain_bytes = array.size() + rest.size();
     const std::byte* plain = content.data();
     if (bytes[0] == kDeflated) {
-        inflated.resize(plain_bytes);
-        uLongf size = plain_bytes;
-        uLong used = content.size();
-        if (uncompress2(reinterpret_cast<Bytef*>(inflated.data()), &size,
-                        reinterpret_cast<const Bytef*>(content.data()), &used) != Z_OK ||
+        inflated = RawArray<std::byte>(plain_bytes);
+        const std::unique_ptr<libdeflate_decompressor, FreeDeflate> inflate(
+            libdeflate_alloc_decompressor());
+        MARSVIEW_CHECK(inflate != nullptr);
+        std::size_t used = 0;
+        std::size_t size = 0;
+        if (libdeflate_zlib_decompress_ex(inflate.get(), content.data(), content.size(),
+                                          inflated.data(), plain_bytes, &used,
+                                          &size) != LIBDEFLATE_SUCCESS ||
             size != plain_bytes || used != content.size()) {
             return false;
         }
@@ -146,8 +161,7 @@ bool unpack(std::span<const std::byte> bytes,
 
 std::uint32_t checksum(std::span<const std::byte> bytes)
 {
-    return static_cast<std::uint32_t>(crc32_z(
-        crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+    return libdeflate_crc32(0, bytes.data(), bytes.size());
 }
 
 } // namespace marsview

@@ -1,6 +1,7 @@
 #include "core/view/detail_selection.h"
 
 #include "core/base/check.h"
+#include "core/base/parallel.h"
 #include "core/view/frustum.h"
 
 #include <algorithm>
@@ -14,6 +15,9 @@ constexpr float kNever = 1e30F;
 
 // Distances are taken again in the graphics driver, as floats.
 constexpr double kRounding = 1.0001;
+
+// Rows of nodes that a thread takes at once.
+constexpr std::size_t kRangeRows = 64;
 
 double distance(const ScenePoint& eye, const SceneBox& box)
 {
@@ -215,26 +219,22 @@ void DetailSelector::setExaggeration(double exaggeration)
     const DetailErrors& errors = analysis_->errors;
     size_ranges_m_.assign(errors.levelCount(), {});
     for (std::size_t level = 1; level < errors.levelCount(); ++level) {
-        CornerGrid& corners = size_ranges_m_[level];
-        corners = {.columns = errors.columns(level), .rows = errors.rows(level), .values = {}};
-        corners.values.resize((corners.columns + 1) * (corners.rows + 1));
-        for (std::size_t row = 0; row < corners.rows; ++row) {
-            for (std::size_t column = 0; column < corners.columns; ++column) {
-                if (analysis_->bounds.bounds(level, column, row).isEmpty()) {
-                    continue;
-                }
-                const SceneBox box = boxOf({level, column, row});
-                const auto range =
-                    static_cast<float>(kRangePerSize * length(box.maximum - box.minimum));
-                for (const std::size_t corner : {row * (corners.columns + 1) + column,
-                                                 (row + 1) * (corners.columns + 1) + column}) {
-                    corners.values[corner] = std::max(corners.values[corner], range);
-                    corners.values[corner + 1] = std::max(corners.values[corner + 1], range);
+        const std::size_t columns = errors.columns(level);
+        const std::size_t rows = errors.rows(level);
+        LargeVector<float> ranges_m(columns * rows);
+        parallelRanges(rows, kRangeRows, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin * columns; i < end * columns; ++i) {
+                const DetailNode node{level, i % columns, i / columns};
+                if (!analysis_->bounds.bounds(level, node.column, node.row).isEmpty()) {
+                    const SceneBox box = boxOf(node);
+                    ranges_m[i] =
+                        static_cast<float>(kRangePerSize * length(box.maximum - box.minimum));
                 }
             }
-        }
+        });
+        size_ranges_m_[level] = largestAtCorners(columns, rows, ranges_m);
         if (level > 1) {
-            growCorners(size_ranges_m_[level - 1], corners);
+            growCorners(size_ranges_m_[level - 1], size_ranges_m_[level]);
         }
     }
 }

@@ -1,0 +1,41 @@
+// Vectors of many megabytes.
+#pragma once
+
+#include "core/base/raw_array.h"
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace marsview {
+
+/// Standard allocator that asks for large pages. Where a page of 4 KiB is dear to get, as on
+/// virtual machines, that is most of what making a large array costs.
+template <typename T>
+struct LargePageAllocator {
+    // NOLINTNEXTLINE(readability-identifier-naming): the standard's name
+    using value_type = T;
+
+    LargePageAllocator() = default;
+    template <typename U>
+    // NOLINTNEXTLINE(google-explicit-constructor): as allocators are
+    LargePageAllocator(const LargePageAllocator<U>& /*other*/) noexcept
+    {}
+
+    T* allocate(std::size_t count)
+    {
+        void* data = ::operator new (count * sizeof(T), std::align_val_t{alignof(T)});
+        useLargePages(static_cast<std::byte*>(data), count * sizeof(T));
+        return static_cast<T*>(data);
+    }
+    void deallocate(T* data, std::size_t /*count*/) noexcept
+    {
+        ::operator delete (data, std::align_val_t{alignof(T)});
+    }
+    bool operator==(const LargePageAllocator&) const = default;
+};
+
+template <typename T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
+
+} // namespace marsview
