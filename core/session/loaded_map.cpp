@@ -20,10 +20,14 @@ constexpr double kSlopeReach = 16.0;
 Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor& monitor)
 {
     const Heightfield& heightfield = dataset->heightfield();
-    auto analysis = analyse(heightfield, monitor);
+    auto analysis = [&] {
+        const JobPart analysing(monitor, 0.0, 0.95);
+        return analyse(heightfield, monitor);
+    }();
     if (!analysis) {
         return std::move(analysis).error();
     }
+    monitor.beginStage(0.95, 1.0);
     auto filled = FilledHeightfield::build(heightfield, *analysis, monitor);
     if (!filled) {
         return std::move(filled).error();

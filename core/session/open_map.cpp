@@ -105,7 +105,7 @@ Result<LoadedMap> openHeld(const DatasetSpec& spec, JobMonitor& monitor)
     if (!dataset) {
         return std::move(dataset).error();
     }
-    monitor.beginStage(0.6, 1.0);
+    const JobPart measuring(monitor, 0.6, 1.0);
     return prepareMap(std::move(dataset).value(), monitor);
 }
 

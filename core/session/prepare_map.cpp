@@ -148,7 +148,7 @@ Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor
     report.samples = std::uint64_t{info->columns} * info->rows;
     const Clock::time_point start = Clock::now();
     if (!report.is_source_used) {
-        monitor.beginStage(0.0, kCopyingShare);
+        const JobPart copying(monitor, 0.0, kCopyingShare);
         TiledGeoTiffJob copy;
         copy.source = job.spec.path;
         copy.band = job.spec.band;
@@ -164,7 +164,7 @@ Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor
         report.copy_seconds = secondsSince(start);
     }
     const Clock::time_point between = Clock::now();
-    monitor.beginStage(report.is_source_used ? 0.0 : kCopyingShare, 1.0);
+    const JobPart measuring(monitor, report.is_source_used ? 0.0 : kCopyingShare, 1.0);
     if (Status made = makeLevels(job, report, *info, monitor); !made) {
         return std::move(made).error();
     }

@@ -35,7 +35,7 @@ readPreview(const DatasetSpec& spec, const DecimationLimits& limits, JobMonitor&
                      fmt::format("{}: no height was found among {} samples all over it", spec.path,
                                  statistics.sample_count)};
     }
-    monitor.beginStage(0.8, 1.0);
+    const JobPart measuring(monitor, 0.8, 1.0);
     return prepareMap(
         previewDataset(
             {.spec = spec,
