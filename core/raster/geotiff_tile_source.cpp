@@ -73,9 +73,11 @@ private:
         const std::size_t step = std::size_t{1} << id.level;
         const std::size_t width = layout_.tileWidth(id);
         const std::size_t height = layout_.tileHeight(id);
-        GridWindow window{id.column * kTileSide * step, id.row * kTileSide * step,
+        // The last sample of a level is the raster's last, however far from the one before; it may
+        // have a tile of its own.
+        GridWindow window{std::min(id.column * kTileSide * step, layout_.columns - 1),
+                          std::min(id.row * kTileSide * step, layout_.rows - 1),
                           (width - 1) * step + 1, (height - 1) * step + 1};
-        // The last sample of a level is the raster's last, however far from the one before.
         window.columns = std::min(window.columns, layout_.columns - window.column);
         window.rows = std::min(window.rows, layout_.rows - window.row);
         Result<SampleGrid> all = gridOf(file_.readWindow(window, voids_));

@@ -1,5 +1,6 @@
 // The tiled copy against its source, by GDAL's tools and by brute force.
 #include "core/base/file_lock.h"
+#include "core/raster/geotiff_tile_source.h"
 #include "core/raster/overview_builder.h"
 #include "core/raster/prepare_journal.h"
 #include "core/raster/raster_file.h"
@@ -725,6 +726,47 @@ TEST(TiledGeoTiff, TakesNoticeOfTheFileThatItReplaces)
                  "band=\"1\"><NoDataValue>3</NoDataValue></PAMRasterBand></PAMDataset>");
     prepare(jobFor(source, path));
     expectSameMap(source, path);
+}
+
+// Where a level ends with a tile of a single column or row, that is the raster's last.
+TEST(TiledLayout, NestedLevelsEndWithTheRastersLastSamples)
+{
+    const test::TempFolder folder;
+    for (const auto& [columns, rows] :
+         {std::pair<std::size_t, std::size_t>{512, 300}, {513, 512}, {1024, 514}, {1023, 1024}}) {
+        std::vector<std::int16_t> samples(columns * rows);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            samples[i] = static_cast<std::int16_t>(i * 7 % 30011);
+        }
+        const auto file = RasterFile::open(
+            test::writeRaster(folder, "map.tif", "GTiff", test::recipeFor(columns, samples)));
+        ASSERT_TRUE(file);
+        const auto source = GeotiffTileSource::of(*file, {});
+        ASSERT_TRUE(source);
+        const TileLayout& layout = (*source)->layout();
+        const auto reader = (*source)->open();
+        ASSERT_TRUE(reader);
+        for (std::uint8_t level = 0; level <= GeotiffTileSource::kLastLevel; ++level) {
+            for (std::uint32_t y = 0; y < layout.tileRows(TileKind::Samples, level); ++y) {
+                for (std::uint32_t x = 0; x < layout.tileColumns(TileKind::Samples, level); ++x) {
+                    const auto tile = (*reader)->read({TileKind::Samples, level, x, y});
+                    ASSERT_TRUE(tile) << tile.error().message;
+                    tile->samples.visit([&, x, y](auto view) {
+                        for (std::size_t j = 0; j < tile->samples.rows(); ++j) {
+                            for (std::size_t i = 0; i < tile->samples.columns(); ++i) {
+                                const std::size_t column =
+                                    std::min((x * kTileSide + i) << level, columns - 1);
+                                const std::size_t row =
+                                    std::min((y * kTileSide + j) << level, rows - 1);
+                                ASSERT_EQ(static_cast<int>(view(i, j)),
+                                          static_cast<int>(samples[row * columns + column]));
+                            }
+                        }
+                    });
+                }
+            }
+        }
+    }
 }
 
 TEST(TiledLayout, TellsWhatCanBeUsedInPlace)
