@@ -78,7 +78,9 @@ void TerrainView::mousePressEvent(QMouseEvent* event)
         setCamera(onGround(navigator_.camera()));
     }
     buttons_.is_pressing = drag_action_ == DragAction::Touch;
+    has_hand_moved_ = false;
     moveStylus();
+    reportPointer();
 }
 
 void TerrainView::mouseMoveEvent(QMouseEvent* event)
@@ -86,6 +88,7 @@ void TerrainView::mouseMoveEvent(QMouseEvent* event)
     const QPointF from = pointer_.value_or(event->position());
     pointer_ = event->position();
     const QPointF moved = event->position() - drag_position_;
+    has_hand_moved_ = has_hand_moved_ || !moved.isNull();
     switch (drag_action_) {
     case DragAction::Pan:
         setCamera(dragged(navigator_.camera(), viewport(),
@@ -253,6 +256,9 @@ void TerrainView::refreshTouch()
     if (!stylus_.isWaiting()) {
         touch_timer_.stop();
     } else if (stylus_.refresh()) {
+        if (!has_hand_moved_) {
+            stylus_.pressAnew();
+        }
         update();
         Q_EMIT stylusMoved();
     }
@@ -294,6 +300,11 @@ void TerrainView::readUnderPointer()
     // It was there, or came at once, or cannot be read.
     if (heightfield.isExact(ground->grid)) {
         moveStylus();
+        if (!has_hand_moved_) {
+            stylus_.pressAnew();
+            update();
+            Q_EMIT stylusMoved();
+        }
         reportPointer();
     }
 }

@@ -110,6 +110,17 @@ bool Stylus::refresh()
     return true;
 }
 
+void Stylus::pressAnew()
+{
+    if (!model_ || pose_->mode != StylusMode::Press) {
+        return;
+    }
+    model_->place(pose_->goal);
+    model_->update(pose_->goal);
+    keepOnItsMap(pose_->goal);
+    updatePose(pose_->mode, pose_->goal);
+}
+
 void Stylus::deepen(double factor)
 {
     reach_.depth_points =

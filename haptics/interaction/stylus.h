@@ -41,6 +41,10 @@ public:
     /// have moved with it. For ground that comes in tiles, some thirty times a second while
     /// isWaiting().
     bool refresh();
+    /// For a hand that has not moved since it began to press: it presses once more, from straight
+    /// above, so that nothing is left of the coarser ground that it may have met at first. Nothing
+    /// where it does not press.
+    void pressAnew();
     /// Whether the ground below the stylus may still change by itself.
     bool isWaiting() const noexcept { return model_ != nullptr && touch_->isTiled(); }
     /// The pointer is over no ground, or has left.
