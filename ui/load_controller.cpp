@@ -89,13 +89,21 @@ Result<LoadedMap> LoadController::run(Job& job)
                 return std::move(dataset).error();
             }
         }
-        const Result<OpenPlan> plan = opener.plan(request.spec, opener.resources);
-        if (!plan) {
-            return plan.error();
+        for (;;) {
+            const Result<OpenPlan> plan = opener.plan(request.spec, opener.resources);
+            if (!plan) {
+                return plan.error();
+            }
+            if (plan->store == MapStore::Unprepared) {
+                return opener.preview(request.spec, {}, job.monitor);
+            }
+            Result<LoadedMap> map = opener.open(request.spec, *plan, opener.resources, job.monitor);
+            // What is damaged is made again. It ends, as nothing can be removed twice.
+            if (map || !isDamageToPrepared(*plan, map.error()) ||
+                !discardPrepared(*plan, opener.resources)) {
+                return map;
+            }
         }
-        return plan->store == MapStore::Unprepared
-                   ? opener.preview(request.spec, {}, job.monitor)
-                   : opener.open(request.spec, *plan, opener.resources, job.monitor);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::TooLarge, request.spec.path +
                                               ": needs more memory than there is; close other "

@@ -17,7 +17,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -189,6 +191,12 @@ struct SourceInUse {
     FileLock lock;
 };
 
+// The prepared map that a level file belongs to.
+std::string keptPathOf(const std::string& level_path)
+{
+    return level_path.substr(0, level_path.size() - LevelFile::pathFor("").size());
+}
+
 // What lies in the folder of prepared maps stays there as long as it is open.
 void keepInUse(const OpenPlan& plan, const MapResources& resources, OpenedTiles& opened)
 {
@@ -196,9 +204,7 @@ void keepInUse(const OpenPlan& plan, const MapResources& resources, OpenedTiles&
     if (!folder || !plan.level_path) {
         return;
     }
-    const std::string suffix = LevelFile::pathFor("");
-    const std::string kept = plan.level_path->substr(0, plan.level_path->size() - suffix.size());
-    Result<FileLock> lock = folder->use(kept);
+    Result<FileLock> lock = folder->use(keptPathOf(*plan.level_path));
     if (!lock) {
         return; // it lies elsewhere
     }
@@ -246,15 +252,19 @@ Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resour
             return OpenPlan{MapStore::Tiled, raster_path, LevelFile::pathFor(*kept)};
         }
     }
+    if (is_remote) {
+        return fits ? Result<OpenPlan>(OpenPlan{}) : in_place.error(); // says what to do
+    }
+    // What was prepared opens at once, however much memory there is. No folder is made just to
+    // look.
+    if (std::error_code error; std::filesystem::is_directory(resources.folder, error)) {
+        const Result<std::string> copy = preparedPathFor(spec, resources.folder);
+        if (copy && hasLevels(LevelFile::pathFor(*copy), *copy, 1, map->info)) {
+            return OpenPlan{MapStore::Tiled, *copy, LevelFile::pathFor(*copy)};
+        }
+    }
     if (fits) {
         return OpenPlan{};
-    }
-    if (is_remote) {
-        return in_place.error(); // says what to do
-    }
-    const Result<std::string> copy = preparedPathFor(spec, resources.folder);
-    if (copy && hasLevels(LevelFile::pathFor(*copy), *copy, 1, map->info)) {
-        return OpenPlan{MapStore::Tiled, *copy, LevelFile::pathFor(*copy)};
     }
     return OpenPlan{.store = MapStore::Unprepared, .raster_path = {}, .level_path = {}};
 }
@@ -279,7 +289,13 @@ prepareForOpening(const DatasetSpec& spec, const MapResources& resources, JobMon
                          .raster_path = is_in_place ? std::string() : *kept,
                          .level_path = LevelFile::pathFor(*kept),
                          .when_busy = TiledGeoTiffJob::WhenBusy::Wait};
-    const Result<PrepareReport> prepared = prepareMapFiles(job, monitor);
+    const bool is_copy_there = !is_in_place && fileExists(*kept);
+    Result<PrepareReport> prepared = prepareMapFiles(job, monitor);
+    // A copy that was there is not made again, and then it is what cannot be read.
+    if (!prepared && is_copy_there && prepared.error().code != ErrorCode::Cancelled &&
+        folder->remove(std::filesystem::path(*kept).filename().string())) {
+        prepared = prepareMapFiles(job, monitor);
+    }
     if (!prepared) {
         return prepared.error();
     }
@@ -343,6 +359,25 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
                            opened->levels);
 }
 
+bool isDamageToPrepared(const OpenPlan& plan, const Error& error)
+{
+    return plan.store == MapStore::Tiled && plan.level_path &&
+           (error.code == ErrorCode::Invalid || error.code == ErrorCode::Unreadable);
+}
+
+Status discardPrepared(const OpenPlan& plan, const MapResources& resources)
+{
+    const std::filesystem::path kept = plan.level_path ? keptPathOf(*plan.level_path) : "";
+    std::error_code failure;
+    if (kept.empty() ||
+        !std::filesystem::equivalent(kept.parent_path(), resources.folder, failure)) {
+        return Error{ErrorCode::NotFound, fmt::format("{}: was not prepared in {}", kept.string(),
+                                                      resources.folder.string())};
+    }
+    const Result<MapFolder> folder = MapFolder::open(resources.folder);
+    return folder ? folder->remove(kept.filename().string()) : Status(folder.error());
+}
+
 Result<LoadedMap>
 openMap(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor)
 {
@@ -365,7 +400,11 @@ openMap(const DatasetSpec& spec, const MapResources& resources, JobMonitor& moni
                                      spec.path, resources.folder.string())};
         }
     }
-    return openPlanned(spec, *plan, resources, monitor);
+    Result<LoadedMap> map = openPlanned(spec, *plan, resources, monitor);
+    if (map || !isDamageToPrepared(*plan, map.error()) || !discardPrepared(*plan, resources)) {
+        return map;
+    }
+    return openMap(spec, resources, monitor); // what is gone cannot be damaged again
 }
 
 } // namespace marsview

@@ -64,6 +64,13 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
                               const MapResources& resources,
                               JobMonitor& monitor);
 
+/// Whether openPlanned() may have failed with `error` because what was prepared is damaged, rather
+/// than the map itself.
+bool isDamageToPrepared(const OpenPlan& plan, const Error& error);
+/// Removes what was prepared, if it lies in the folder of prepared maps and nobody uses it:
+/// afterwards the map has another plan. The user's own files stay.
+Status discardPrepared(const OpenPlan& plan, const MapResources& resources);
+
 /// All of the above in turn, waiting for as long as it takes.
 Result<LoadedMap>
 openMap(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor);
