@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLabelWidth = 150; // pixels
 constexpr int kBarWidth = 110;
-constexpr int kPreparingLabelWidth = 290;
+constexpr int kPreparingLabelWidth = 340;
 constexpr int kPreparingBarWidth = 70;
 
 } // namespace

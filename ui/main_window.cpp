@@ -26,6 +26,7 @@
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QGridLayout>
 #include <QImage>
 #include <QMenu>
 #include <QMessageBox>
@@ -34,7 +35,6 @@
 #include <QOpenGLFunctions>
 #include <QSettings>
 #include <QStatusBar>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -68,6 +68,15 @@ QStringList mapsIn(const QMimeData& data)
         }
     }
     return files;
+}
+
+// A name in a sentence, cut short in its middle where it would fill a line of its own.
+QString shortName(const QString& name)
+{
+    constexpr qsizetype kLengthMax = 40;
+    return name.size() <= kLengthMax
+               ? name
+               : name.first(kLengthMax / 2) + QChar(0x2026) + name.last(kLengthMax / 2);
 }
 
 QString folderKey()
@@ -137,11 +146,14 @@ MainWindow::~MainWindow() = default;
 void MainWindow::makeCentre()
 {
     auto* centre = new QWidget(this);
-    auto* layout = new QVBoxLayout(centre);
+    // Notices lie over the map: the picture does not move when they come and go.
+    auto* layout = new QGridLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
-    layout->addWidget(notices_);
-    layout->addWidget(view_, 1);
+    layout->addWidget(view_, 0, 0);
+    layout->addWidget(notices_, 0, 0, Qt::AlignTop);
+    notices_->raise();
+    connect(notices_, &NoticeBar::coverChanged, this,
+            [this] { overlays_->setCovered(notices_->coveredHeight()); });
     setCentralWidget(centre);
 }
 
@@ -298,6 +310,8 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::mapShown, this, &MainWindow::showActive);
     connect(view_, &TerrainView::pictureCompleted, this, &MainWindow::settleIfIdle);
     connect(view_, &TerrainView::detailChanged, readout_, &StatusReadout::setDetail);
+    connect(view_, &TerrainView::loadingChanged, readout_, &StatusReadout::setLoading);
+    connect(view_, &TerrainView::problemChanged, this, &MainWindow::showPreparation);
 }
 
 void MainWindow::restoreWindow()
@@ -399,24 +413,24 @@ void MainWindow::showPreparation()
     const PreparationState state = preparation.state;
     const bool is_stopped = state == PreparationState::Stopped || state == PreparationState::Failed;
     actions_->layer.prepare->setEnabled(is_stopped);
-    if (dataset == noticed_ && state == noticed_state_) {
+    const QString problem = dataset ? view_->problem() : QString();
+    if (dataset == noticed_ && state == noticed_state_ && problem == noticed_problem_) {
         return; // it may have been closed
     }
     noticed_ = dataset;
     noticed_state_ = state;
+    noticed_problem_ = problem;
     QStringList notices = dataset ? noticesOf(dataset->info()) : QStringList();
     QString action;
     if (dataset && dataset->isPreview()) {
         notices.removeFirst(); // that it is one, in numbers
-        const QString name = QString::fromStdString(active->name);
+        const QString name = shortName(QString::fromStdString(active->name));
         switch (state) {
         case PreparationState::None:
         case PreparationState::Waiting:
         case PreparationState::Running:
             //: %1 is a layer
-            notices.prepend(tr("%1 is shown as a preview while it is being prepared; it sharpens "
-                               "when that is done")
-                                .arg(name));
+            notices.prepend(tr("%1 is shown as a preview while it is being prepared").arg(name));
             break;
         case PreparationState::Stopped:
             //: %1 is a layer
@@ -431,6 +445,11 @@ void MainWindow::showPreparation()
             action = tr("Try Again");
             break;
         }
+    }
+    if (!problem.isEmpty()) {
+        //: %1 says which file, and why
+        notices.prepend(tr("Part of the picture is coarse for now. %1").arg(problem));
+        action.clear(); // it is about the first of them
     }
     notices_->setNotices(notices, action);
 }

@@ -128,6 +128,7 @@ private:
     LightPopup* light_popup_ = nullptr;
     std::shared_ptr<const Dataset> noticed_; // whose notices were shown last
     PreparationState noticed_state_ = PreparationState::None;
+    QString noticed_problem_; // of the picture
     GoToEntry last_place_;
     QString last_folder_;
 };

@@ -103,6 +103,11 @@ void MapOverlays::paintOver(QImage& picture) const
     }
 }
 
+void MapOverlays::setCovered(int height)
+{
+    layout_->setCovered(height);
+}
+
 void MapOverlays::showMap()
 {
     layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());

@@ -35,6 +35,9 @@ public:
     /// as they are to be seen.
     void paintOver(QImage& picture) const;
 
+    /// So much of the view's upper edge is covered by something else.
+    void setCovered(int height);
+
     /// Checkable actions that show and hide the overlays which people may not want; each has an
     /// object name to be remembered by.
     const QList<QAction*>& visibilityActions() const noexcept { return actions_; }

@@ -19,7 +19,12 @@ NoticeBar::NoticeBar(QWidget* parent)
     setForegroundRole(QPalette::ToolTipText);
     text_->setObjectName(QStringLiteral("noticeText"));
     text_->setForegroundRole(QPalette::ToolTipText);
-    text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    // A failure's sentence names a file and says what to do: it is read whole, not cut short.
+    text_->setWordWrap(true);
+    text_->setTextFormat(Qt::PlainText);
+    QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    policy.setHeightForWidth(true);
+    text_->setSizePolicy(policy);
     auto* icon = new QLabel(this);
     const int side = style()->pixelMetric(QStyle::PM_SmallIconSize);
     icon->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(side, side));
@@ -62,6 +67,29 @@ void NoticeBar::setNotices(const QStringList& notices, const QString& action)
                              : tr("%1 (and %n more)", nullptr, more).arg(notices.front()));
     text_->setToolTip(notices.join(QLatin1Char('\n')));
     show();
+}
+
+int NoticeBar::coveredHeight() const
+{
+    return isHidden() ? 0 : height();
+}
+
+void NoticeBar::showEvent(QShowEvent* event)
+{
+    QFrame::showEvent(event);
+    Q_EMIT coverChanged();
+}
+
+void NoticeBar::hideEvent(QHideEvent* event)
+{
+    QFrame::hideEvent(event);
+    Q_EMIT coverChanged();
+}
+
+void NoticeBar::resizeEvent(QResizeEvent* event)
+{
+    QFrame::resizeEvent(event);
+    Q_EMIT coverChanged();
 }
 
 } // namespace marsview

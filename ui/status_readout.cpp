@@ -93,6 +93,7 @@ void StatusReadout::setDatasets(const std::shared_ptr<const Dataset>& scene,
         fillMenu();
         reserveWidths();
     }
+    showDetail();
     refresh();
 }
 
@@ -128,8 +129,29 @@ void StatusReadout::setHeightUnit(HeightUnit unit)
 
 void StatusReadout::setDetail(double pixels)
 {
-    //: How far the picture may be from the full map, in pixels
-    detail_->setWholeText(tr("detail %1 px").arg(numberText(pixels, 1)));
+    detail_px_ = pixels;
+    showDetail();
+}
+
+void StatusReadout::setLoading(bool is_loading)
+{
+    is_loading_ = is_loading;
+    showDetail();
+}
+
+// How far a preview is from its map, nobody knows yet.
+void StatusReadout::showDetail()
+{
+    if (is_loading_) {
+        //: In place of how far the picture may be from the full map: pieces of it are on their way
+        detail_->setWholeText(tr("loading…"));
+        return;
+    }
+    detail_->setWholeText(scene_ && scene_->isPreview()
+                              //: In place of how far the picture may be from the full map
+                              ? tr("preview")
+                              //: How far the picture may be from the full map, in pixels
+                              : tr("detail %1 px").arg(numberText(detail_px_, 1)));
 }
 
 QString StatusReadout::coordinateLabel() const

@@ -40,6 +40,8 @@ public:
     void setHeightUnit(HeightUnit unit);
     /// The screen-space error of the picture, in pixels.
     void setDetail(double pixels);
+    /// Whether pieces of the picture are on their way.
+    void setLoading(bool is_loading);
 
     QString coordinateLabel() const;
     QString heightLabel() const;
@@ -53,6 +55,7 @@ private:
     void fillMenu();
     void reserveWidths();
     void refresh();
+    void showDetail();
     struct ReadHeight {
         QString text;
         QString why_rough{}; // empty: it is the height of the map
@@ -66,6 +69,8 @@ private:
     bool is_display_wanted_ = false;                               // otherwise the map's usual one
     CoordinateDisplay display_ = CoordinateDisplay::Map;
     HeightUnit unit_ = HeightUnit::Metres;
+    double detail_px_ = 0.0;
+    bool is_loading_ = false;
     ReservedLabel* coordinate_ = nullptr;
     QToolButton* toggle_button_ = nullptr;
     QToolButton* display_button_ = nullptr;

@@ -92,6 +92,7 @@ TerrainView::TerrainView(QWidget* parent)
     still_timer_.setSingleShot(true);
     connect(&still_timer_, &QTimer::timeout, this, &TerrainView::refineWhenStill);
     connect(&navigator_, &Navigator::cameraChanged, this, [this] {
+        has_hand_moved_ = true; // over the ground
         redrawTerrain();
         moveStylus();
         reportPointer();

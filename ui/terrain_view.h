@@ -107,6 +107,8 @@ public:
     bool isReady() const noexcept { return renderer_ != nullptr; }
     /// True when the picture shows all there is, as well as can be, and nothing moves.
     bool isPictureComplete() const;
+    /// See problemChanged().
+    const QString& problem() const noexcept { return problem_; }
     const std::optional<StylusPose>& stylus() const noexcept { return stylus_.pose(); }
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture();
@@ -128,6 +130,10 @@ Q_SIGNALS:
     void sightChanged();
     /// The screen-space error of what is drawn, in pixels.
     void detailChanged(double pixels);
+    /// Whether pieces that the picture at rest lacks are on their way.
+    void loadingChanged(bool is_loading);
+    /// Why pieces of the picture cannot be read, or empty where all can.
+    void problemChanged(const QString& problem);
     /// Something of stylus() changed.
     void stylusMoved();
 
@@ -163,6 +169,7 @@ private:
     PixelArea areaOf(const CursorPicture& cursor) const;
     void refineWhenStill();
     void finishStage();
+    void report(const DrawReport& report);
     void redrawTerrain();
     void redrawWithNews();
     PictureStage lastStage() const;
@@ -203,6 +210,8 @@ private:
     bool is_terrain_current_ = false; // the picture that was kept is of now
     bool is_completion_reported_ = false;
     bool is_context_missing_ = false;
+    bool is_loading_ = false;
+    QString problem_;
     bool is_cursor_shown_ = true;
     QTimer pointer_timer_; // runs until what is under the pointer has been read
     QTimer touch_timer_;   // runs while finer ground may come below the stylus
@@ -215,6 +224,7 @@ private:
     double grabbed_z_m_ = 0.0; // of what the drag, or the stylus, has hold of
     std::optional<QPointF> pointer_;
     StylusButtons buttons_;
+    bool has_hand_moved_ = false; // since it began to press
     Stylus stylus_;
     QLabel* empty_hint_ = nullptr;
 };

@@ -121,7 +121,7 @@ void TerrainView::paintTerrain()
                                               style_, defaultFramebufferObject());
     last_paint_ = std::chrono::steady_clock::now();
     is_terrain_current_ = true;
-    Q_EMIT detailChanged(report.error_px);
+    this->report(report);
     if (stage_ == PictureStage::Moving) {
         if (!still_timer_.isActive()) { // news of shading is no motion
             still_timer_.start(kStillAfter);
@@ -129,6 +129,24 @@ void TerrainView::paintTerrain()
     } else if (report.is_complete) {
         // Input that came meanwhile goes first.
         QMetaObject::invokeMethod(this, &TerrainView::finishStage, Qt::QueuedConnection);
+    }
+}
+
+void TerrainView::report(const DrawReport& report)
+{
+    Q_EMIT detailChanged(report.error_px);
+    // In motion something is always on its way.
+    const bool is_loading = stage_ != PictureStage::Moving && !report.is_complete;
+    if (is_loading != is_loading_) {
+        is_loading_ = is_loading;
+        Q_EMIT loadingChanged(is_loading);
+    }
+    QString problem = report.problem ? QString::fromStdString(report.problem->message) : QString();
+    if (problem != problem_) {
+        problem_ = std::move(problem);
+        // Later: who hears of it may change the layout, which is not for the middle of painting.
+        QMetaObject::invokeMethod(
+            this, [this] { Q_EMIT problemChanged(problem_); }, Qt::QueuedConnection);
     }
 }
 

@@ -76,6 +76,14 @@ bool OverlayLayout::isWanted(const QWidget* part) const
     });
 }
 
+void OverlayLayout::setCovered(int height)
+{
+    if (height != covered_height_) {
+        covered_height_ = height;
+        arrange();
+    }
+}
+
 bool OverlayLayout::isNeeded(const QWidget* part) const
 {
     return part != nullptr && isWanted(part) && !part->sizeHint().isEmpty();
@@ -98,7 +106,7 @@ void OverlayLayout::arrange()
     }
     const QScopedValueRollback<bool> guard(is_arranging_, true);
     const QRect room = host_->rect();
-    const QRect inside = room.adjusted(kMargin, kMargin, -kMargin, -kMargin);
+    const QRect inside = room.adjusted(kMargin, covered_height_ + kMargin, -kMargin, -kMargin);
     std::vector<QRect> taken;
     // Shows a part there, in left-to-right terms, or hides it.
     const auto put = [&](QWidget* part, QPoint top_left) {

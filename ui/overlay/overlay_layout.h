@@ -41,6 +41,8 @@ public:
     /// Whether a part may be seen at all; true to begin with.
     void setWanted(QWidget* part, bool is_wanted);
     bool isWanted(const QWidget* part) const;
+    /// So much of the host's upper edge is covered by something else.
+    void setCovered(int height);
 
     bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -56,6 +58,7 @@ private:
     QWidget* host_ = nullptr;
     OverlayParts parts_;
     std::array<Entry, 5> entries_;
+    int covered_height_ = 0;
     bool is_arranging_ = false;
 };
 

@@ -126,11 +126,11 @@ struct Layer {
         return wishes ? source.heightfield->tiles()->raster().generation() : 0;
     }
     // Asks for the tiles that this picture lacked: the coarser ones first, so that all of it gets
-    // sharper together. Returns true when nothing can be waited for.
-    bool askForMissing()
+    // sharper together. Tells in `report` what can be waited for.
+    void askForMissing(DrawReport& report)
     {
         if (!wishes) {
-            return true;
+            return;
         }
         std::stable_sort(missing.begin(), missing.end(),
                          [](const TileId& a, const TileId& b) { return a.level > b.level; });
@@ -146,8 +146,13 @@ struct Layer {
             })) {
             tell();
         }
-        return std::all_of(wanted.begin(), wanted.end(),
-                           [&raster](const TileId& id) { return raster.failure(id).has_value(); });
+        for (const TileId& id : wanted) {
+            std::optional<Error> failure = raster.failure(id);
+            report.is_complete = report.is_complete && failure;
+            if (failure && !report.problem) {
+                report.problem = std::move(failure);
+            }
+        }
     }
 
     SceneBox box(double exaggeration) const
@@ -610,7 +615,7 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
     }
     report.is_complete = impl.reliefs.endRound();
     for (const auto& layer : impl.layers) {
-        report.is_complete = layer->askForMissing() && report.is_complete;
+        layer->askForMissing(report);
     }
     return report;
 }

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct DrawReport {
     std::size_t node_count = 0;
     double error_px = 0.0;   // of 99 in 100 pixels; see core/view/detail_selection.h
     bool is_complete = true; // shading included; otherwise draw again when told
+    /// Why pieces of it cannot be read at present, so that coarser ones stand in. They are tried
+    /// again for as long as they are wanted.
+    std::optional<Error> problem{};
 };
 
 /// Draws maps. Every call needs the context current in which the renderer was created, the
