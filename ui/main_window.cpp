@@ -62,7 +62,7 @@ QStringList mapsIn(const QMimeData& data)
     QStringList files;
     for (const QUrl& url : data.urls()) {
         if (url.isLocalFile()) {
-            files.append(url.toLocalFile());
+            files.append(QDir::cleanPath(url.toLocalFile())); // a folder has no slash at its end
         } else if (problemOfAddress(url.toString()).isEmpty()) {
             files.append(url.toString());
         }
@@ -169,6 +169,7 @@ void MainWindow::connectActions()
         connect(action, &QAction::triggered, this, reaction);
     };
     on(actions_->open, [this] { chooseFile(); });
+    on(actions_->open_folder, [this] { chooseFolder(); });
     on(actions_->open_address, [this] { chooseAddress(); });
     on(actions_->save_picture, [this] { savePicture(); });
     on(actions_->cancel_loading, [this] { cancelLoading(); });
@@ -353,6 +354,16 @@ void MainWindow::chooseFile()
     dialog->setNameFilters({tr("Elevation maps (*.tif *.tiff *.lbl *.img *.cub *.hgt *.dem *.asc "
                                "*.flt *.hdr *.bil *.nc *.cdf *.dt0 *.dt1 *.dt2 *.vrt *.xml *.zip)"),
                             tr("All files (*)")});
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QFileDialog::filesSelected, controller_, &SessionController::open);
+    dialog->open();
+}
+
+void MainWindow::chooseFolder()
+{
+    auto* dialog = new QFileDialog(this, tr("Open Folder of Rasters"), last_folder_);
+    dialog->setFileMode(QFileDialog::Directory);
+    dialog->setOption(QFileDialog::ShowDirsOnly);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::filesSelected, controller_, &SessionController::open);
     dialog->open();
@@ -590,8 +601,8 @@ void MainWindow::showAbout()
 
 void MainWindow::showKeys()
 {
-    QList<QAction*> actions{actions_->open, actions_->open_address, actions_->save_picture,
-                            actions_->go_to_coordinate};
+    QList<QAction*> actions{actions_->open, actions_->open_folder, actions_->open_address,
+                            actions_->save_picture, actions_->go_to_coordinate};
     actions += view_->actions();
     actions += {actions_->layer.move_up, actions_->layer.move_down, actions_->layer.rename,
                 actions_->layer.remove};

@@ -52,6 +52,7 @@ public:
     void cancelLoading();
     /// Asks for files, then opens them.
     void chooseFile();
+    void chooseFolder();
     /// Asks for an address, then opens it.
     void chooseAddress();
 

@@ -151,6 +151,9 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     open->setShortcut(QKeySequence::Open);
     open->setToolTip(tr("Open a map as a new layer (%1)")
                          .arg(open->shortcut().toString(QKeySequence::NativeText)));
+    open_folder = menu->addAction(tr("Open &Folder…"));
+    open_folder->setShortcut(QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O));
+    open_folder->setToolTip(tr("Open the adjoining rasters in a folder as one map"));
     open_address = menu->addAction(tr("Open &Address…"));
     open_address->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_U));
     open_address->setToolTip(tr("Open a cloud-optimised GeoTIFF on a server"));

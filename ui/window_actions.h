@@ -24,6 +24,7 @@ struct WindowActions {
     WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo_stack);
 
     QAction* open = nullptr;
+    QAction* open_folder = nullptr;
     QAction* open_address = nullptr;
     QMenu* recent = nullptr; // filled by RecentFiles
     QAction* save_picture = nullptr;

@@ -4,6 +4,8 @@
 #include "ui/status_readout.h"
 #include "ui/terrain_view.h"
 
+#include <QApplication>
+#include <QDir>
 #include <QDropEvent>
 #include <QFileDialog>
 #include <QLineEdit>
@@ -48,6 +50,41 @@ TEST_F(MainWindowTest, OpensAFileAskedForBeforeItWasShown)
     ASSERT_TRUE(waitUntilSettled(window));
     EXPECT_EQ(window.view()->map().dataset->spec().path, file.toStdString());
     EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("hill.asc")));
+}
+
+TEST_F(MainWindowTest, OpensAFolderOfAdjoiningRastersAsOneMap)
+{
+    const TestMaps::Height slope = [](int column, int row) { return column + 2.0 * row; };
+    ASSERT_TRUE(QDir().mkpath(maps_.path(QStringLiteral("tiles"))));
+    maps_.write(QStringLiteral("tiles/west.asc"), {}, slope);
+    maps_.write(QStringLiteral("tiles/east.asc"), {.x_lower_left = 500000.0 + 60 * 30.0}, slope);
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    window_->actionSet().open_folder->trigger();
+    auto* dialog = window_->findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    const QString folder = maps_.path(QStringLiteral("tiles"));
+    Q_EMIT dialog->filesSelected({folder});
+    dialog->close();
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_EQ(shownFile(), folder.toStdString());
+    ASSERT_TRUE(view().map());
+    EXPECT_EQ(view().map().dataset->info().columns, 120U);
+    EXPECT_EQ(view().map().dataset->heightfield().height({90.0, 10.0}), 30.0 + 20.0);
+    EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("tiles")));
+    EXPECT_TRUE(window_->recentFiles()->files().contains(folder));
+}
+
+TEST_F(MainWindowTest, OpensAFolderThatIsDropped)
+{
+    ASSERT_TRUE(QDir().mkpath(maps_.path(QStringLiteral("tiles"))));
+    maps_.hill(QStringLiteral("tiles/hill.asc"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(maps_.path(QStringLiteral("tiles/")))});
+    QDropEvent drop(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(window_.get(), &drop);
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    EXPECT_EQ(shownFile(), maps_.path(QStringLiteral("tiles")).toStdString());
 }
 
 TEST_F(MainWindowTest, OpensTheFileChosenInTheDialog)
