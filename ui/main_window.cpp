@@ -312,6 +312,7 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::pictureCompleted, this, &MainWindow::settleIfIdle);
     connect(view_, &TerrainView::detailChanged, readout_, &StatusReadout::setDetail);
     connect(view_, &TerrainView::loadingChanged, readout_, &StatusReadout::setLoading);
+    connect(view_, &TerrainView::problemChanged, readout_, &StatusReadout::setProblem);
     connect(view_, &TerrainView::problemChanged, this, &MainWindow::showPreparation);
 }
 

@@ -139,12 +139,21 @@ void StatusReadout::setLoading(bool is_loading)
     showDetail();
 }
 
+void StatusReadout::setProblem(const QString& problem)
+{
+    has_problem_ = !problem.isEmpty();
+    showDetail();
+}
+
 // How far a preview is from its map, nobody knows yet.
 void StatusReadout::showDetail()
 {
-    if (is_loading_) {
-        //: In place of how far the picture may be from the full map: pieces of it are on their way
-        detail_->setWholeText(tr("loading…"));
+    if (is_loading_ || has_problem_) {
+        detail_->setWholeText(
+            //: In place of how far the picture may be from the full map: pieces are on their way
+            is_loading_ ? tr("loading…")
+                        //: The same: pieces of it cannot be read
+                        : tr("incomplete"));
         return;
     }
     detail_->setWholeText(scene_ && scene_->isPreview()

@@ -42,6 +42,8 @@ public:
     void setDetail(double pixels);
     /// Whether pieces of the picture are on their way.
     void setLoading(bool is_loading);
+    /// Why pieces of the picture cannot be read; empty where all can.
+    void setProblem(const QString& problem);
 
     QString coordinateLabel() const;
     QString heightLabel() const;
@@ -71,6 +73,7 @@ private:
     HeightUnit unit_ = HeightUnit::Metres;
     double detail_px_ = 0.0;
     bool is_loading_ = false;
+    bool has_problem_ = false;
     ReservedLabel* coordinate_ = nullptr;
     QToolButton* toggle_button_ = nullptr;
     QToolButton* display_button_ = nullptr;

@@ -146,7 +146,12 @@ void TerrainView::report(const DrawReport& report)
         problem_ = std::move(problem);
         // Later: who hears of it may change the layout, which is not for the middle of painting.
         QMetaObject::invokeMethod(
-            this, [this] { Q_EMIT problemChanged(problem_); }, Qt::QueuedConnection);
+            this,
+            [this] {
+                Q_EMIT problemChanged(problem_);
+                reportPointer(); // what is under it may have come, too
+            },
+            Qt::QueuedConnection);
     }
 }
 

@@ -185,6 +185,7 @@ void LargeMapsPage::listMaps()
     const bool is_there = QFileInfo(QString::fromStdString(folder().string())).isDir();
     open_button_->setEnabled(is_there);
     std::uint64_t bytes = 0;
+    bool is_any_free = false; // to be removed
     QString problem;
     bound_->setSpecialValueText(tr("Automatic"));
     if (is_there) {
@@ -207,6 +208,7 @@ void LargeMapsPage::listMaps()
                 item->setData(Map, kNameRole, name);
                 item->setData(Map, kInUseRole, map.is_in_use);
                 bytes += map.bytes;
+                is_any_free = is_any_free || !map.is_in_use;
             }
         } else {
             problem = QString::fromStdString(listed.error().message);
@@ -220,10 +222,12 @@ void LargeMapsPage::listMaps()
     const int count = maps_->topLevelItemCount();
     total_->setText(!problem.isEmpty() ? problem
                     : count == 0       ? tr("Nothing has been prepared here.")
+                    //: %1 is a size
+                    : count == 1 ? tr("One map, %1").arg(bytesText(bytes))
                                  //: %n maps that take %1 together
                                  : tr("%n maps, %1", nullptr, count).arg(bytesText(bytes)));
     total_->setWordWrap(!problem.isEmpty());
-    remove_all_button_->setEnabled(count > 0);
+    remove_all_button_->setEnabled(is_any_free);
     showSelection();
 }
 
