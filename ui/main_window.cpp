@@ -161,6 +161,11 @@ void MainWindow::makeStatusBar()
 {
     statusBar()->addWidget(readout_, 1);
     statusBar()->addPermanentWidget(load_status_);
+    // As high without anything going on as with it: the map keeps its size.
+    load_status_->show();
+    statusBar()->ensurePolished();
+    statusBar()->setMinimumHeight(statusBar()->sizeHint().height());
+    load_status_->hide();
 }
 
 void MainWindow::connectActions()

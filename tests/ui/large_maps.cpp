@@ -88,6 +88,12 @@ void LargeMaps::holdTiles(bool is_held)
     changed_.notify_all();
 }
 
+void LargeMaps::failTiles(bool is_failing)
+{
+    const std::lock_guard lock(mutex_);
+    are_tiles_failing_ = is_failing;
+}
+
 int LargeMaps::begunCount() const
 {
     const std::lock_guard lock(mutex_);
@@ -145,7 +151,10 @@ LargeMaps::openTiled(const DatasetSpec& spec, const MapResources& resources, Job
                          .before_read = [this](const TileId& id) -> std::optional<Error> {
                              std::unique_lock lock(mutex_);
                              changed_.wait(lock, [&] { return !are_tiles_held_ || id.level > 0; });
-                             return std::nullopt;
+                             return are_tiles_failing_ && id.level == 0
+                                        ? std::optional(Error{ErrorCode::Unreadable,
+                                                              "large.asc: the disk is gone"})
+                                        : std::nullopt;
                          }});
     auto tiles = TiledSamples::open(TiledRaster(*resources.tiles, source));
     if (!tiles) {

@@ -31,6 +31,8 @@ public:
     void makeRoughPreviews() { are_previews_rough_ = true; }
     /// Tiles of the finest level are not read until this is taken back.
     void holdTiles(bool is_held);
+    /// Reading tiles of the finest level fails until this is taken back.
+    void failTiles(bool is_failing);
     /// Tiles that nobody holds on to have to be read again.
     void forgetTiles() { tiles_->clear(); }
 
@@ -51,6 +53,7 @@ private:
     bool is_losing_ = false;
     bool are_previews_rough_ = false;
     bool are_tiles_held_ = false;
+    bool are_tiles_failing_ = false;
     std::optional<Error> failure_;
     int begun_count_ = 0;
     int stopped_count_ = 0;

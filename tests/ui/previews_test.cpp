@@ -132,6 +132,8 @@ TEST_F(PreviewsTest, GiveWayToTheirMapsInPlace)
     view().setCamera(camera);
     view().setExaggeration(7.5);
     camera = view().camera();
+    const QRect place = view().geometry();
+    EXPECT_FALSE(notice().isEmpty());
     const Session before = window_->session();
     const int steps = window_->undoStack().count();
     large_.finishPreparing();
@@ -145,6 +147,7 @@ TEST_F(PreviewsTest, GiveWayToTheirMapsInPlace)
     EXPECT_EQ(window_->session().look, before.look);
     EXPECT_EQ(window_->session().active, before.active);
     EXPECT_EQ(view().camera(), camera);
+    EXPECT_EQ(view().geometry(), place); // though the notice is gone
     EXPECT_EQ(view().exaggeration(), 7.5);
     EXPECT_EQ(window_->undoStack().count(), steps);
     EXPECT_FALSE(notice().contains(QStringLiteral("preview")));
@@ -233,6 +236,12 @@ TEST_F(PreviewsTest, StayWhenPreparingIsStoppedUntilItGoesOn)
     ASSERT_TRUE(waitFor([this] { return large_.stoppedCount() == 1; }));
     EXPECT_TRUE(layer().dataset->isPreview());
     EXPECT_TRUE(window_->actionSet().layer.prepare->isEnabled());
+    // It can be looked at and touched as before.
+    ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
+    QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
+    ASSERT_TRUE(view().stylus());
+    EXPECT_TRUE(view().stylus()->is_in_contact);
+    QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
     EXPECT_NE(notice().indexOf(QStringLiteral("prepare it to see")), -1);
     EXPECT_TRUE(noticeButton()->isVisible());
     // Nothing else begins it again.
@@ -401,6 +410,27 @@ TEST_F(PreviewsTest, MarkTheHeightsThatAreReadFromThem)
         const QString label = window_->readout()->heightLabel();
         return !label.isEmpty() && !label.startsWith(QStringLiteral("≈ "));
     }));
+}
+
+// Tiles that cannot be read are told of while they are wanted, and tried again.
+TEST_F(PreviewsTest, AreFollowedByMapsThatSayWhatCannotBeRead)
+{
+    large_.finishPreparing();
+    window_->open(map());
+    ASSERT_TRUE(waitFor([this] { return !window_->session().layers.empty(); }));
+    ASSERT_TRUE(waitUntilWhole());
+    large_.failTiles(true);
+    large_.forgetTiles();
+    OrbitCamera camera = view().camera();
+    camera.distance_m *= 0.05;
+    view().setCamera(camera);
+    ASSERT_TRUE(waitFor([this] { return notice().contains(QStringLiteral("the disk is gone")); }));
+    EXPECT_EQ(window_->readout()->detailLabel(), QStringLiteral("incomplete"));
+    ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); })); // as far as it can be
+    large_.failTiles(false);
+    ASSERT_TRUE(waitFor([this] { return !notice().contains(QStringLiteral("the disk is gone")); }));
+    EXPECT_TRUE(waitFor(
+        [this] { return window_->readout()->detailLabel().startsWith(QStringLiteral("detail")); }));
 }
 
 TEST_F(PreviewsTest, SayHowFarPreparingIs)
