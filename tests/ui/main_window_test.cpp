@@ -1,8 +1,10 @@
 #include "tests/ui/test_map.h"
 #include "ui/main_window.h"
 #include "ui/panels/georeferencing_panel.h"
+#include "ui/recent_files.h"
 #include "ui/status_readout.h"
 #include "ui/terrain_view.h"
+#include "ui/window_actions.h"
 
 #include <QApplication>
 #include <QDir>
@@ -81,7 +83,10 @@ TEST_F(MainWindowTest, OpensAFolderThatIsDropped)
     ASSERT_TRUE(waitUntilSettled(*window_));
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(maps_.path(QStringLiteral("tiles/")))});
-    QDropEvent drop(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QDragEnterEvent enter({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(window_.get(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QApplication::sendEvent(window_.get(), &drop);
     ASSERT_TRUE(waitUntilSettled(*window_));
     EXPECT_EQ(shownFile(), maps_.path(QStringLiteral("tiles")).toStdString());
