@@ -4,6 +4,7 @@
 #include "app/cli/long_job.h"
 #include "app/cli/map_options.h"
 #include "app/cli/text_output.h"
+#include "core/session/open_map.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -168,14 +169,33 @@ void printForPeople(const Json& json, const RasterInfo& info)
     print("triangles", field("triangle_count"));
 }
 
+// A map that was prepared has been read once already, and one at a server is not fetched whole.
+Result<SampleStatistics> statisticsOf(OpenedMap& map, const MapOptions& options)
+{
+    LongJob job("reading");
+    const MapResources resources = defaultMapResources();
+    const DatasetSpec spec = options.spec();
+    const Result<OpenPlan> plan = planOpening(spec, resources);
+    if (plan && plan->store == MapStore::Tiled) {
+        const Result<LoadedMap> loaded = openPlanned(spec, *plan, resources, job.monitor());
+        if (loaded && !plan->level_path) {
+            map.info.notices.emplace_back(
+                "minimum, maximum and voids are estimated from an overview");
+        }
+        if (loaded) {
+            return loaded->levels->statistics;
+        }
+    }
+    return map.file.scan(job.monitor(), {map.info.nodata});
+}
+
 Status runInfo(const Options& options)
 {
     Result<OpenedMap> map = openMap(options.map);
     if (!map) {
         return std::move(map).error();
     }
-    LongJob job("reading");
-    Result<SampleStatistics> statistics = map->file.scan(job.monitor(), {map->info.nodata});
+    Result<SampleStatistics> statistics = statisticsOf(*map, options.map);
     if (!statistics) {
         return std::move(statistics).error();
     }

@@ -63,6 +63,11 @@ RasterOverrides MapOptions::overrides() const
     return overrides;
 }
 
+DatasetSpec MapOptions::spec() const
+{
+    return {.path = path, .band = band, .overrides = overrides()};
+}
+
 std::vector<std::string> MapOptions::overrideArguments() const
 {
     std::vector<std::string> words;

@@ -6,6 +6,7 @@
 #include "core/geo/georeference.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/raster_info.h"
+#include "core/session/dataset.h"
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -30,6 +31,7 @@ struct MapOptions {
     /// All but the map itself.
     void addOverridesTo(CLI::App& command);
     RasterOverrides overrides() const;
+    DatasetSpec spec() const;
     /// The overrides as they were given: for another process.
     std::vector<std::string> overrideArguments() const;
     /// Whether anything but the map itself was given.

@@ -39,8 +39,7 @@ struct Options {
 Result<PrepareJob> jobFor(const Options& options)
 {
     PrepareJob job;
-    job.spec = {
-        .path = options.map.path, .band = options.map.band, .overrides = options.map.overrides()};
+    job.spec = options.map.spec();
     job.when_busy =
         options.is_waiting ? TiledGeoTiffJob::WhenBusy::Wait : TiledGeoTiffJob::WhenBusy::Fail;
     job.checkpoint_interval =

@@ -51,8 +51,7 @@ Result<Scene> emptyScene(std::function<void()> notify)
     if (!renderer) {
         return std::move(renderer).error();
     }
-    return Scene{.tiles = nullptr,
-                 .context = std::move(context).value(),
+    return Scene{.context = std::move(context).value(),
                  .renderer = std::move(renderer).value(),
                  .map = {},
                  .exaggeration = 1.0};
@@ -77,11 +76,7 @@ openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()
         return scene;
     }
     LongJob job("reading");
-    const MapResources resources = defaultMapResources();
-    scene->tiles = resources.tiles;
-    Result<LoadedMap> map =
-        openMap({.path = options.path, .band = options.band, .overrides = options.overrides()},
-                resources, job.monitor());
+    Result<LoadedMap> map = openMap(options.spec(), defaultMapResources(), job.monitor());
     if (!map) {
         return std::move(map).error();
     }

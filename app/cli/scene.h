@@ -16,7 +16,6 @@ namespace marsview {
 
 /// A map ready to be drawn on this thread.
 struct Scene {
-    std::shared_ptr<TileCache> tiles; // its threads load what the renderer lacks
     std::unique_ptr<EglContext> context; // outlives the renderer
     std::unique_ptr<TerrainRenderer> renderer;
     LoadedMap map;

@@ -55,7 +55,6 @@ Result<BenchJson> measureFrames(const TerrainBenchOptions& options);
 
 /// The map in tiles however small it is, prepared first where it has to be.
 Result<LoadedMap> openInTiles(const TerrainBenchOptions& options, JobMonitor& monitor);
-DatasetSpec specOf(const MapOptions& options);
 /// Resources by which every map comes in tiles.
 MapResources tiledResources();
 

@@ -5,11 +5,6 @@
 
 namespace marsview {
 
-DatasetSpec specOf(const MapOptions& options)
-{
-    return {.path = options.path, .band = options.band, .overrides = options.overrides()};
-}
-
 MapResources tiledResources()
 {
     MapResources resources = defaultMapResources();
@@ -19,7 +14,7 @@ MapResources tiledResources()
 
 Result<LoadedMap> openInTiles(const TerrainBenchOptions& options, JobMonitor& monitor)
 {
-    return openMap(specOf(options.map), tiledResources(), monitor);
+    return openMap(options.map.spec(), tiledResources(), monitor);
 }
 
 TouchedTiles touchedTiles(const LoadedMap& map)

@@ -24,7 +24,7 @@ Result<BenchJson> measureFirstPicture(const TerrainBenchOptions& options)
         return std::move(stage).error();
     }
     LongJob job("opening");
-    const DatasetSpec spec = specOf(options.map);
+    const DatasetSpec spec = options.map.spec();
     const Clock::time_point begin = Clock::now();
     const auto since = [begin] {
         return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();

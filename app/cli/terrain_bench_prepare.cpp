@@ -29,7 +29,7 @@ double bytesBelow(const std::filesystem::path& folder)
 Result<BenchJson> measurePrepare(const TerrainBenchOptions& options)
 {
     const MapResources resources = tiledResources();
-    const DatasetSpec spec = specOf(options.map);
+    const DatasetSpec spec = options.map.spec();
     const Result<OpenedMap> opened = openMap(options.map);
     if (!opened) {
         return opened.error();

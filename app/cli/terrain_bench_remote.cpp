@@ -41,7 +41,7 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options)
         return std::move(stage).error();
     }
     LongJob job("fetching");
-    Result<LoadedMap> map = openMap(specOf(options.map), tiledResources(), job.monitor());
+    Result<LoadedMap> map = openMap(options.map.spec(), tiledResources(), job.monitor());
     if (!map) {
         return std::move(map).error();
     }

@@ -17,7 +17,7 @@ Result<BenchJson> measureSession(const TerrainBenchOptions& options)
     }
     const MapResources resources = tiledResources();
     LongJob job("a session");
-    Result<LoadedMap> map = openMap(specOf(options.map), resources, job.monitor());
+    Result<LoadedMap> map = openMap(options.map.spec(), resources, job.monitor());
     if (!map) {
         return std::move(map).error();
     }

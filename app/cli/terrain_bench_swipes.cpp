@@ -63,7 +63,7 @@ Result<BenchJson> measureSwipes(const TerrainBenchOptions& options)
 {
     LongJob job("swiping");
     const MapResources resources = tiledResources();
-    const Result<LoadedMap> map = openMap(specOf(options.map), resources, job.monitor());
+    const Result<LoadedMap> map = openMap(options.map.spec(), resources, job.monitor());
     if (!map) {
         return map.error();
     }

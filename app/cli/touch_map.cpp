@@ -9,8 +9,7 @@ namespace marsview {
 
 Result<TouchMap> openTouchMap(const MapOptions& options, TouchStore store, JobMonitor& monitor)
 {
-    const DatasetSpec spec{
-        .path = options.path, .band = options.band, .overrides = options.overrides()};
+    const DatasetSpec spec = options.spec();
     const MapResources resources = defaultMapResources();
     if (store == TouchStore::HeldOrTiled) {
         const Result<OpenPlan> plan = planOpening(spec, resources);

@@ -85,7 +85,6 @@ struct TileCache::Impl {
     mutable std::mutex mutex;
     std::condition_variable_any has_work;
     std::condition_variable has_result;
-    bool is_stopping = false;
 
     std::size_t bytes_max = 0;
     TileCacheStatistics statistics;
@@ -96,7 +95,6 @@ struct TileCache::Impl {
     std::unordered_set<Key, KeyHash> in_work;
     std::unordered_map<Key, Failure, KeyHash> failures;
     std::vector<TileWishes::Impl*> wishes;
-    std::vector<std::jthread> threads;
 
     // All of the following are called with the mutex locked.
 
@@ -324,31 +322,37 @@ TiledRasterState::~TiledRasterState()
     cache->sources.erase(number);
 }
 
+// The threads of a cache.
+struct TileCache::Loaders {
+    Loaders(const std::shared_ptr<Impl>& impl, std::size_t count)
+    {
+        for (std::size_t i = 0; i < count; ++i) {
+            threads_.emplace_back([impl](const std::stop_token& stop) { impl->run(stop); });
+        }
+    }
+    // All at once: each thread's own end would wait before it asks the next one to stop.
+    ~Loaders()
+    {
+        for (std::jthread& thread : threads_) {
+            thread.request_stop();
+        }
+    }
+    Loaders(const Loaders&) = delete;
+    Loaders& operator=(const Loaders&) = delete;
+
+private:
+    std::vector<std::jthread> threads_;
+};
+
 TileCache::TileCache(const TileCacheOptions& options)
     : impl_(std::make_shared<Impl>())
 {
     MARSVIEW_CHECK(options.loader_threads > 0);
     impl_->bytes_max = options.bytes_max;
-    for (std::size_t i = 0; i < options.loader_threads; ++i) {
-        impl_->threads.emplace_back(
-            [impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
-    }
+    loaders_ = std::make_shared<Loaders>(impl_, options.loader_threads);
 }
 
-TileCache::~TileCache()
-{
-    std::vector<std::jthread> threads;
-    {
-        const std::lock_guard lock(impl_->mutex);
-        impl_->is_stopping = true;
-        threads = std::move(impl_->threads);
-        for (std::jthread& thread : threads) {
-            thread.request_stop();
-        }
-    }
-    threads.clear();
-    impl_->has_result.notify_all();
-}
+TileCache::~TileCache() = default;
 
 std::size_t TileCache::bytesMax() const
 {
@@ -384,6 +388,7 @@ void TileCache::clear()
 
 TiledRaster::TiledRaster(const TileCache& cache, std::shared_ptr<const TileSource> source)
     : cache_(cache.impl_)
+    , loaders_(cache.loaders_)
     , source_(std::move(source))
 {
     MARSVIEW_CHECK(source_ != nullptr);
@@ -469,8 +474,7 @@ void TileWishes::waitForAll() const
     TileCache::Impl& cache = *impl_->raster.cache_;
     std::unique_lock lock(cache.mutex);
     cache.has_result.wait(lock, [&] {
-        return cache.is_stopping ||
-               std::none_of(impl_->wanted.begin(), impl_->wanted.end(),
+        return std::none_of(impl_->wanted.begin(), impl_->wanted.end(),
                             [&](const TileId& id) { return cache.isMissing(*impl_, id); });
     });
 }

@@ -44,7 +44,8 @@ struct TileCacheStatistics {
 class TileCache {
 public:
     explicit TileCache(const TileCacheOptions& options);
-    /// Waits for what is being read.
+    /// The loaders go on as long as there is a TiledRaster; the last of both waits for what is
+    /// being read.
     ~TileCache();
     TileCache(const TileCache&) = delete;
     TileCache& operator=(const TileCache&) = delete;
@@ -60,7 +61,9 @@ private:
     friend class TileWishes;
     friend struct TiledRasterState;
     struct Impl;
+    struct Loaders;
     std::shared_ptr<Impl> impl_;
+    std::shared_ptr<Loaders> loaders_;
 };
 
 /// A raster read through a cache. Copies share everything; any thread but the servo's.
@@ -85,6 +88,7 @@ private:
     friend class TileCache;
     friend class TileWishes;
     std::shared_ptr<TileCache::Impl> cache_;
+    std::shared_ptr<TileCache::Loaders> loaders_;
     std::shared_ptr<const TileSource> source_;
     std::uint64_t number_ = 0; // of the source in the cache
     std::shared_ptr<TiledRasterState> state_;

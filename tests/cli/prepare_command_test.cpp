@@ -111,6 +111,17 @@ TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
     const nlohmann::json info = checksumsOf(folder.file("map.tif"));
     EXPECT_EQ(firstBand(info)["checksum"], firstBand(source_info)["checksum"]);
     EXPECT_EQ(firstBand(info)["overviews"].size(), 7U);
+    // What is told of it comes from the level file, and is what reading the source tells.
+    const auto told = [](const std::string& path) {
+        const ProgramOutput told = runCli({"info", path, "--json"});
+        EXPECT_EQ(told.exit_status, 0) << told.err;
+        nlohmann::json fields = nlohmann::json::parse(told.out);
+        for (const char* field : {"file", "driver"}) {
+            fields.erase(field);
+        }
+        return fields;
+    };
+    EXPECT_EQ(told(folder.file("map.tif")), told(source));
     const ProgramOutput words = runCli({"prepare", source, "-o", folder.file("other.tif")});
     EXPECT_EQ(words.exit_status, 0);
     EXPECT_THAT(words.out, HasSubstr("throughput"));

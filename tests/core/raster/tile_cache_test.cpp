@@ -301,7 +301,7 @@ TEST(TileCache, ForgetsARasterWithItsLastUser)
     EXPECT_EQ(source.use_count(), 1);
 }
 
-TEST(TileCache, EndsWhileTilesAreWanted)
+TEST(TileCache, LoadsOnWhereOnlyItsRastersAreLeft)
 {
     for (int round = 0; round < 20; ++round) {
         const auto source = std::make_shared<GridTileSource>(terrain());
@@ -310,7 +310,21 @@ TEST(TileCache, EndsWhileTilesAreWanted)
         TileWishes wishes(raster, TileUrgency::View);
         wishes.want(allOfLevel0());
         cache.reset();
-        wishes.waitForAll(); // does not hang
+        wishes.waitForAll();
+        for (const TileId& id : allOfLevel0()) {
+            ASSERT_TRUE(raster.find(id));
+        }
+    }
+}
+
+TEST(TileCache, EndsWhileTilesAreWanted)
+{
+    for (int round = 0; round < 20; ++round) {
+        const auto source = std::make_shared<GridTileSource>(terrain());
+        const TileCache cache({.loader_threads = 2});
+        const TiledRaster raster(cache, source);
+        TileWishes wishes(raster, TileUrgency::View);
+        wishes.want(allOfLevel0());
     }
 }
 
