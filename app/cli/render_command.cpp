@@ -115,6 +115,9 @@ Status runRender(const Options& options)
     if (!picture) {
         return picture.error();
     }
+    if (const std::optional<Error>& problem = picture->report.problem) {
+        return *problem; // part of the ground would be coarser than asked for
+    }
     Status written = writePng(picture->colors, options.output);
     if (written) {
         std::fprintf(stderr, "%s: %zu triangles, 99 %% of the pixels within %.2g pixels\n",

@@ -17,6 +17,7 @@
 #include <gdal_priv.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -58,9 +59,11 @@ std::size_t tilesAlong(std::size_t samples)
     return (samples + kTileSide - 1) / kTileSide;
 }
 
-double gigabytes(std::uint64_t bytes)
+std::string sizeText(std::uint64_t bytes)
 {
-    return static_cast<double>(bytes) / 1e9;
+    const auto megabytes = static_cast<double>(bytes) / 1e6;
+    return megabytes < 1000.0 ? fmt::format("{:.0f} MB", std::ceil(megabytes))
+                              : fmt::format("{:.1f} GB", megabytes / 1000.0);
 }
 
 // What makes two preparations the same work. The place of the source does not.
@@ -545,10 +548,9 @@ Status checkSpace(const TiledGeoTiffJob& job, const RasterInfo& info)
     const std::uint64_t available = space.available + (failure ? 0 : begun);
     if (available < needed) {
         return Error{ErrorCode::TooLarge,
-                     fmt::format("{}: needs up to {:.1f} GB, but {} has only {:.1f} GB free; free "
+                     fmt::format("{}: needs up to {}, but {} has only {} free; free "
                                  "some or choose another folder",
-                                 job.path, gigabytes(needed), folder.string(),
-                                 gigabytes(available))};
+                                 job.path, sizeText(needed), folder.string(), sizeText(available))};
     }
     return Done{};
 }

@@ -201,12 +201,15 @@ std::string keptPathOf(const std::string& level_path)
 void keepInUse(const OpenPlan& plan, const MapResources& resources, OpenedTiles& opened)
 {
     Result<MapFolder> folder = MapFolder::open(resources.folder);
-    if (!folder || !plan.level_path) {
-        return;
+    std::error_code failure;
+    if (!folder || !plan.level_path ||
+        !std::filesystem::equivalent(std::filesystem::path(*plan.level_path).parent_path(),
+                                     resources.folder, failure)) {
+        return; // it lies elsewhere: nobody removes it
     }
     Result<FileLock> lock = folder->use(keptPathOf(*plan.level_path));
     if (!lock) {
-        return; // it lies elsewhere
+        return;
     }
     const auto in_use =
         std::make_shared<const SourceInUse>(SourceInUse{opened.source, std::move(*lock)});

@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace marsview {
@@ -26,8 +27,12 @@ const Tile* WaitingTerrain::fetch(std::size_t column, std::size_t row) const noe
     ++fetch_count_;
     const TileId id{TileKind::Samples, 0, static_cast<std::uint32_t>(column / kTileSide),
                     static_cast<std::uint32_t>(row / kTileSide)};
+    if (error_ && std::find(failed_.begin(), failed_.end(), id) != failed_.end()) {
+        return nullptr; // asked for over and over, it would be read as often
+    }
     auto tile = raster_.get(id);
     if (!tile) {
+        failed_.push_back(id);
         if (!error_) {
             error_ = tile.error();
         }

@@ -12,6 +12,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace marsview {
 
@@ -43,6 +44,7 @@ private:
     std::size_t tiles_max_;
     mutable std::array<std::shared_ptr<const Tile>, kTilesMax> tiles_; // by place
     mutable std::deque<std::size_t> places_; // that are taken, in the order of their taking
+    mutable std::vector<TileId> failed_;
     mutable std::optional<Error> error_;
     mutable std::uint64_t fetch_count_ = 0;
 };

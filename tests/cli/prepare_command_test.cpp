@@ -254,7 +254,7 @@ TEST(PrepareCommand, LooksForRoomBeforehand)
     }
     EXPECT_EQ(output.exit_status, 1);
     EXPECT_THAT(output.err, HasSubstr("needs up to 0.1 GB, but"));
-    EXPECT_THAT(output.err, HasSubstr("has only 0.0 GB free"));
+    EXPECT_THAT(output.err, HasSubstr(" MB free"));
 }
 
 TEST(PrepareCommand, UsesAMapInPlaceThatIsTiledAndHasOverviews)
