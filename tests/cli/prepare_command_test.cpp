@@ -113,9 +113,9 @@ TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
     EXPECT_EQ(firstBand(info)["overviews"].size(), 7U);
     // What is told of it comes from the level file, and is what reading the source tells.
     const auto told = [](const std::string& path) {
-        const ProgramOutput told = runCli({"info", path, "--json"});
-        EXPECT_EQ(told.exit_status, 0) << told.err;
-        nlohmann::json fields = nlohmann::json::parse(told.out);
+        const ProgramOutput output_of_info = runCli({"info", path, "--json"});
+        EXPECT_EQ(output_of_info.exit_status, 0) << output_of_info.err;
+        nlohmann::json fields = nlohmann::json::parse(output_of_info.out);
         for (const char* field : {"file", "driver"}) {
             fields.erase(field);
         }
@@ -253,7 +253,7 @@ TEST(PrepareCommand, LooksForRoomBeforehand)
         GTEST_SKIP() << "this machine lets nobody make a small disk: " << output.err;
     }
     EXPECT_EQ(output.exit_status, 1);
-    EXPECT_THAT(output.err, HasSubstr("needs up to 0.1 GB, but"));
+    EXPECT_THAT(output.err, HasSubstr("needs up to 57 MB, but"));
     EXPECT_THAT(output.err, HasSubstr(" MB free"));
 }
 
