@@ -1,0 +1,40 @@
+// What knows one kind of device: finds those that are there, and opens them.
+#pragma once
+
+#include "core/base/result.h"
+#include "haptics/device/haptic_device.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace marsview {
+
+/// A device that could be opened, or why it cannot.
+struct FoundDevice {
+    std::string uri;    // "sim:", "polhem:/dev/hidraw2"; what opens it
+    std::string name;   // for people
+    std::string reason; // why it cannot be used, one sentence; empty where it can
+    bool isUsable() const noexcept { return reason.empty(); }
+};
+
+/// Devices are named by URIs: the driver's scheme, a colon, and what only the driver understands:
+/// "null:", "sim:mass=0.1,delay_ms=2", "replay:goals.csv". For one thread at a time.
+class DeviceDriver {
+public:
+    virtual ~DeviceDriver() = default;
+    DeviceDriver(const DeviceDriver&) = delete;
+    DeviceDriver& operator=(const DeviceDriver&) = delete;
+
+    virtual std::string_view scheme() const noexcept = 0;
+    /// What is there now, usable or not. May take as long as looking at a bus does.
+    virtual std::vector<FoundDevice> find() = 0;
+    /// `address` is the URI without scheme and colon. The error names the URI.
+    virtual Result<std::unique_ptr<HapticDevice>> open(std::string_view address) = 0;
+
+protected:
+    DeviceDriver() = default;
+};
+
+} // namespace marsview
