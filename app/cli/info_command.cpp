@@ -185,6 +185,9 @@ Result<SampleStatistics> statisticsOf(OpenedMap& map, const MapOptions& options)
         if (loaded) {
             return loaded->levels->statistics;
         }
+        if (!map.info.remote_version.empty()) {
+            return loaded.error(); // it is not to be fetched whole
+        }
     }
     return map.file.scan(job.monitor(), {map.info.nodata});
 }

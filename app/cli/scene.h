@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/cli/map_options.h"
-#include "core/raster/tile_cache.h"
 #include "core/session/loaded_map.h"
 #include "core/view/navigation.h"
 #include "ui/render/egl_context.h"

@@ -4,13 +4,13 @@
 #include "core/raster/gdal_types.h"
 #include "core/raster/mosaic_grid.h"
 #include "core/raster/raster_file.h"
+#include "core/raster/raster_path.h"
 
 #include <cpl_minixml.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -38,13 +38,6 @@ constexpr std::size_t kRememberedMax = 8;
 constexpr std::array<std::string_view, 12> kCompanionEndings{
     ".aux.xml", ".ovr", ".msk", ".marsview", ".prj",  ".tfw",
     ".wld",     ".txt", ".md",  ".pdf",      ".html", ".csv"};
-
-std::string lowerCase(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 bool isCompanion(const fs::path& path)
 {

@@ -75,12 +75,6 @@ struct OpenedDataset {
     std::shared_ptr<const Mosaic> mosaic{}; // of a folder of rasters
 };
 
-bool isFolder(const std::string& path)
-{
-    VSIStatBufL status{};
-    return VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode);
-}
-
 // By GDAL's name, or its text of a virtual raster.
 Result<Dataset> openLocal(const std::string& name)
 {

@@ -28,13 +28,6 @@ constexpr std::array<std::string_view, 2> kLabelExtensions{".lbl", ".xml"};
 constexpr std::array<std::string_view, 7> kDataExtensions{".dem", ".flt", ".bil", ".bip",
                                                           ".bsq", ".img", ".dat"};
 
-std::string lowerCase(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool isFileName(const std::string& path)
 {
     return !path.starts_with("/vsi") && path.find("://") == std::string::npos;
@@ -69,6 +62,19 @@ void appendArchiveEntries(const std::string& path, std::vector<std::string>& nam
 }
 
 } // namespace
+
+bool isFolder(const std::string& path)
+{
+    VSIStatBufL status{};
+    return VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode);
+}
+
+std::string lowerCase(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
 
 Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
 {

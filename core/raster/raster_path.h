@@ -16,4 +16,9 @@ namespace marsview {
 /// unchecked.
 Result<std::vector<std::string>> rasterNamesFor(const std::string& path);
 
+bool isFolder(const std::string& path);
+
+/// Of ASCII letters: for extensions, which are written in either case.
+std::string lowerCase(std::string text);
+
 } // namespace marsview

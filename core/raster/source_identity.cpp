@@ -118,8 +118,7 @@ std::vector<std::string> listedFilesOf(const std::string& path)
             return {listed.List(), listed.List() + listed.Count()};
         }
     }
-    if (VSIStatBufL status{};
-        VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode) != 0) {
+    if (isFolder(path)) {
         const Result<std::shared_ptr<const Mosaic>> mosaic = mosaicOf(path, 1);
         return mosaic ? (*mosaic)->files : std::vector<std::string>();
     }

@@ -99,7 +99,8 @@ private:
 class TileWishes {
 public:
     /// `notify`, which may be empty, is called on a loader's thread after each wanted tile that
-    /// arrived or failed.
+    /// arrived or failed. It must not be what lets go of the last TiledRaster: that waits for the
+    /// loaders.
     TileWishes(const TiledRaster& raster, TileUrgency urgency, std::function<void()> notify = {});
     /// Returns when no call of `notify` is under way.
     ~TileWishes();

@@ -39,6 +39,18 @@ protected:
         return QTest::qWaitFor([this] { return !window_->loader().isLoading(); }, 30000);
     }
 
+    // As a file manager does.
+    void drop(const QString& file)
+    {
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(file)});
+        QDragEnterEvent enter({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(window_.get(), &enter);
+        EXPECT_TRUE(enter.isAccepted());
+        QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(window_.get(), &drop);
+    }
+
     TestMaps maps_;
     std::unique_ptr<MainWindow> window_;
 };
@@ -81,13 +93,7 @@ TEST_F(MainWindowTest, OpensAFolderThatIsDropped)
     ASSERT_TRUE(QDir().mkpath(maps_.path(QStringLiteral("tiles"))));
     maps_.hill(QStringLiteral("tiles/hill.asc"));
     ASSERT_TRUE(waitUntilSettled(*window_));
-    QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(maps_.path(QStringLiteral("tiles/")))});
-    QDragEnterEvent enter({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(window_.get(), &enter);
-    EXPECT_TRUE(enter.isAccepted());
-    QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(window_.get(), &drop);
+    drop(maps_.path(QStringLiteral("tiles/")));
     ASSERT_TRUE(waitUntilSettled(*window_));
     EXPECT_EQ(shownFile(), maps_.path(QStringLiteral("tiles")).toStdString());
 }
@@ -109,13 +115,7 @@ TEST_F(MainWindowTest, OpensAFileDroppedOnIt)
 {
     const QString file = maps_.hill();
     ASSERT_TRUE(waitUntilSettled(*window_));
-    QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(file)});
-    QDragEnterEvent enter({100, 100}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(window_.get(), &enter);
-    EXPECT_TRUE(enter.isAccepted());
-    QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QApplication::sendEvent(window_.get(), &drop);
+    drop(file);
     ASSERT_TRUE(waitUntilSettled(*window_));
     EXPECT_EQ(shownFile(), file.toStdString());
 }

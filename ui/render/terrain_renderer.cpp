@@ -657,10 +657,7 @@ DrawReport
 TerrainRenderer::drawComplete(const DrawRequest& request, const DrawStyle& style, unsigned target)
 {
     DrawReport report = draw(request, style, target);
-    // More rounds than a map has levels bring nothing new: what is missing then stays missing, and
-    // the report says so.
-    constexpr int kRoundsMax = 64;
-    for (int round = 0; !report.is_complete && round < kRoundsMax; ++round) {
+    while (!report.is_complete) {
         impl_->reliefs.waitForAll();
         for (const auto& layer : impl_->layers) {
             if (layer->wishes) {

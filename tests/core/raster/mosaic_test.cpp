@@ -5,6 +5,7 @@
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_types.h"
 #include "tests/support/temp_folder.h"
 
 #include <gmock/gmock.h>
@@ -105,17 +106,7 @@ protected:
 template <typename T>
 class MosaicOf : public MosaicTest {};
 
-using SampleTypes = testing::Types<std::uint8_t,
-                                   std::int8_t,
-                                   std::uint16_t,
-                                   std::int16_t,
-                                   std::uint32_t,
-                                   std::int32_t,
-                                   std::uint64_t,
-                                   std::int64_t,
-                                   float,
-                                   double>;
-TYPED_TEST_SUITE(MosaicOf, SampleTypes);
+TYPED_TEST_SUITE(MosaicOf, test::AllSampleTypes);
 
 TYPED_TEST(MosaicOf, IsTheMapThatItsPartsWereCutFrom)
 {

@@ -1,5 +1,6 @@
 #include "core/raster/sample_grid.h"
 #include "tests/support/random.h"
+#include "tests/support/sample_types.h"
 
 #include <gtest/gtest.h>
 
@@ -69,17 +70,7 @@ SampleGrid gridOf(std::size_t columns, const std::vector<T>& samples)
 template <typename T>
 class SampleGridOf : public testing::Test {};
 
-using AllTypes = testing::Types<std::uint8_t,
-                                std::int8_t,
-                                std::uint16_t,
-                                std::int16_t,
-                                std::uint32_t,
-                                std::int32_t,
-                                std::uint64_t,
-                                std::int64_t,
-                                float,
-                                double>;
-TYPED_TEST_SUITE(SampleGridOf, AllTypes);
+TYPED_TEST_SUITE(SampleGridOf, test::AllSampleTypes);
 
 // Whether a sample stands for "nothing measured", from the meaning alone: no number, or the number
 // that the file declares, as a reader of that type would store it.

@@ -9,6 +9,7 @@
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_types.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -321,17 +322,7 @@ void punchVoids(Truth<T>& truth, T value)
 
 template <typename T>
 class TiledGeoTiffType : public testing::Test {};
-using Types = testing::Types<std::uint8_t,
-                             std::int8_t,
-                             std::uint16_t,
-                             std::int16_t,
-                             std::uint32_t,
-                             std::int32_t,
-                             std::uint64_t,
-                             std::int64_t,
-                             float,
-                             double>;
-TYPED_TEST_SUITE(TiledGeoTiffType, Types);
+TYPED_TEST_SUITE(TiledGeoTiffType, test::AllSampleTypes);
 
 TYPED_TEST(TiledGeoTiffType, KeepsSamplesAndAveragesThoseThatAreNotVoid)
 {

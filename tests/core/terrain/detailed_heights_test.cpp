@@ -107,7 +107,8 @@ TEST(DetailedHeights, AreTheSameOnEveryMachine)
     for (std::size_t i = 0; i < heights.size(); ++i) {
         heights[i] = static_cast<float>((i * 7919) % 997) - 500.0F;
     }
-    EXPECT_EQ(hashOf(wholeOf(detailed(heights, {.columns = 1000, .rows = 900, .seed = 42}))), 15967326983371935708U);
+    EXPECT_EQ(hashOf(wholeOf(detailed(heights, {.columns = 1000, .rows = 900, .seed = 42}))),
+              15967326983371935708U);
 }
 
 TEST(DetailedHeights, AnotherSeedMakesOtherDetailOfTheSameLand)
