@@ -1,7 +1,9 @@
 // Doubles as floats that bound them.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace marsview {
@@ -22,6 +24,18 @@ inline float roundedUp(double value) noexcept
     return static_cast<double>(nearest) < value
                ? std::nextafterf(nearest, std::numeric_limits<float>::infinity())
                : nearest;
+}
+
+/// How much larger roundedUpShort() may be than its argument, as a share of it.
+inline constexpr float kShortRounding = 1.0F / 128.0F;
+
+/// The smallest float of 8 significant bits that is not below `value` >= 0. The other bits are 0,
+/// so that an array of them takes half the room when compressed.
+inline float roundedUpShort(float value) noexcept
+{
+    constexpr std::uint32_t kCutOff = 0xFFFF;
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    return std::bit_cast<float>((bits + kCutOff) & ~kCutOff);
 }
 
 } // namespace marsview

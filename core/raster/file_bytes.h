@@ -35,6 +35,7 @@ private:
 
     std::string path_;
     std::uint64_t size_ = 0;
+    bool has_exact_ranges_ = false;     // it is at a server
     std::unique_ptr<void, Close> file_; // GDAL's
 };
 

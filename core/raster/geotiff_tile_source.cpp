@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 namespace marsview {
@@ -24,11 +25,13 @@ public:
     GeotiffTileReader(RasterFile file,
                       const TileLayout& layout,
                       VoidRule voids,
-                      std::vector<std::size_t> overviews)
+                      std::vector<std::size_t> overviews,
+                      std::shared_ptr<const TileChecksums> checksums)
         : file_(std::move(file))
         , layout_(layout)
         , voids_(voids)
         , overviews_(std::move(overviews))
+        , checksums_(std::move(checksums))
     {}
 
     Result<Tile> read(const TileId& id) override
@@ -38,10 +41,24 @@ public:
         if (!samples) {
             return std::move(samples).error();
         }
+        if (checksums_ && TileChecksums::covers(id) &&
+            sampleChecksum(*samples) != checksums_->of(id)) {
+            return damaged(id);
+        }
         return Tile{.id = id, .samples = std::move(samples).value(), .filled_m = {}};
     }
 
 private:
+    Error damaged(const TileId& id) const
+    {
+        return {
+            ErrorCode::Unreadable,
+            fmt::format("{}: is damaged in the tile at column {}, row {} of {} {}, whose heights "
+                        "are not those that it was prepared with; prepare the map again",
+                        addressOf(file_.info().path), id.column, id.row,
+                        id.kind == TileKind::Means ? "overview" : "level", id.level)};
+    }
+
     static Result<SampleGrid> gridOf(Result<LoadedSamples> loaded)
     {
         if (!loaded) {
@@ -64,7 +81,7 @@ private:
         if (!means || (means->columns() == width && means->rows() == height)) {
             return means;
         }
-        return thinned(*means, 1, width, height); // the overview was rounded down
+        return thinned(*means, {0, 0, width, height}, 1); // the overview was rounded down
     }
 
     Result<SampleGrid> readSamples(const TileId& id)
@@ -75,33 +92,64 @@ private:
         const std::size_t height = layout_.tileHeight(id);
         // The last sample of a level is the raster's last, however far from the one before; it may
         // have a tile of its own.
-        GridWindow window{std::min(id.column * kTileSide * step, layout_.columns - 1),
-                          std::min(id.row * kTileSide * step, layout_.rows - 1),
-                          (width - 1) * step + 1, (height - 1) * step + 1};
+        const std::size_t first_column =
+            std::min(id.column * kTileSide * step, layout_.columns - 1);
+        const std::size_t first_row = std::min(id.row * kTileSide * step, layout_.rows - 1);
+        GridWindow window{first_column, first_row, (width - 1) * step + 1, (height - 1) * step + 1};
+        if (checksums_) { // which are of whole tiles
+            window = {first_column / kTileSide * kTileSide, first_row / kTileSide * kTileSide,
+                      kTileSide * step, kTileSide * step};
+        }
         window.columns = std::min(window.columns, layout_.columns - window.column);
         window.rows = std::min(window.rows, layout_.rows - window.row);
         Result<SampleGrid> all = gridOf(file_.readWindow(window, voids_));
         if (!all || id.level == 0) {
             return all;
         }
-        return thinned(*all, step, width, height);
+        if (checksums_) {
+            if (const std::optional<TileId> wrong = firstDamaged(*all, window)) {
+                return damaged(*wrong);
+            }
+        }
+        return thinned(*all, {first_column - window.column, first_row - window.row, width, height},
+                       step);
     }
 
-    // Every `step`-th sample, and where there are no more, the last.
-    static Result<SampleGrid>
-    thinned(const SampleGrid& all, std::size_t step, std::size_t width, std::size_t height)
+    // Of the level-0 tiles that the window is made of.
+    std::optional<TileId> firstDamaged(const SampleGrid& samples, const GridWindow& window) const
     {
-        Result<SampleGrid> few = SampleGrid::create(all.type(), width, height);
+        for (std::size_t row = 0; row < window.rows; row += kTileSide) {
+            for (std::size_t column = 0; column < window.columns; column += kTileSide) {
+                const TileId id{
+                    .kind = TileKind::Samples,
+                    .level = 0,
+                    .column = static_cast<std::uint32_t>((window.column + column) / kTileSide),
+                    .row = static_cast<std::uint32_t>((window.row + row) / kTileSide)};
+                const GridWindow part{column, row, layout_.tileWidth(id), layout_.tileHeight(id)};
+                if (sampleChecksum(samples, part) != checksums_->of(id)) {
+                    return id;
+                }
+            }
+        }
+        return std::nullopt;
+    }
+
+    // From the part's first sample on every `step`-th, as many as it has columns and rows, and
+    // where there are no more, the last.
+    static Result<SampleGrid>
+    thinned(const SampleGrid& all, const GridWindow& part, std::size_t step)
+    {
+        Result<SampleGrid> few = SampleGrid::create(all.type(), part.columns, part.rows);
         if (!few) {
             return few;
         }
         all.visit([&](auto view) {
             using T = std::remove_cvref_t<decltype(view(0, 0))>;
-            for (std::size_t j = 0; j < height; ++j) {
-                const std::size_t row = std::min(j * step, all.rows() - 1);
+            for (std::size_t j = 0; j < part.rows; ++j) {
+                const std::size_t row = std::min(part.row + j * step, all.rows() - 1);
                 std::byte* to = few->rowData(j);
-                for (std::size_t i = 0; i < width; ++i) {
-                    const std::size_t column = std::min(i * step, all.columns() - 1);
+                for (std::size_t i = 0; i < part.columns; ++i) {
+                    const std::size_t column = std::min(part.column + i * step, all.columns() - 1);
                     const T sample = view(column, row);
                     std::memcpy(to + i * sizeof(T), &sample, sizeof(T));
                     if (all.isVoid(column, row)) {
@@ -117,6 +165,7 @@ private:
     TileLayout layout_;
     VoidRule voids_;
     std::vector<std::size_t> overviews_;
+    std::shared_ptr<const TileChecksums> checksums_;
 };
 
 } // namespace
@@ -145,7 +194,8 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
               .type = info.type,
               .has_voids = info.has_mask_band || voids.nodata.has_value() ||
                            info.type == SampleType::Float32 || info.type == SampleType::Float64,
-              .mean_levels = 0};
+              .mean_levels = 0,
+              .is_remote = remoteNameFor(info.path).has_value()};
     source->overviews_.push_back(0);
     for (std::size_t level = 1;; ++level) {
         const GridSize wanted{layout.columnsAt(TileKind::Means, level),
@@ -174,6 +224,21 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
     return std::shared_ptr<const GeotiffTileSource>(std::move(source));
 }
 
+std::shared_ptr<const GeotiffTileSource>
+GeotiffTileSource::checkedBy(std::shared_ptr<const TileChecksums> checksums) const
+{
+    auto checked = std::shared_ptr<GeotiffTileSource>(new GeotiffTileSource);
+    checked->layout_ = layout_;
+    checked->path_ = path_;
+    checked->name_ = name_;
+    checked->remote_version_ = remote_version_;
+    checked->band_ = band_;
+    checked->voids_ = voids_;
+    checked->overviews_ = overviews_;
+    checked->checksums_ = std::move(checksums);
+    return checked;
+}
+
 Result<std::unique_ptr<TileReader>> GeotiffTileSource::open() const
 {
     Result<RasterFile> file = RasterFile::open(path_, band_);
@@ -186,8 +251,8 @@ Result<std::unique_ptr<TileReader>> GeotiffTileSource::open() const
         return Error{ErrorCode::Invalid,
                      name_ + ": has become another raster since it was opened; open it again"};
     }
-    return std::unique_ptr<TileReader>(
-        std::make_unique<GeotiffTileReader>(std::move(*file), layout_, voids_, overviews_));
+    return std::unique_ptr<TileReader>(std::make_unique<GeotiffTileReader>(
+        std::move(*file), layout_, voids_, overviews_, checksums_));
 }
 
 } // namespace marsview

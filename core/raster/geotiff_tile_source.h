@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/raster/raster_file.h"
+#include "core/raster/tile_checksums.h"
 #include "core/raster/tile_source.h"
 
 #include <memory>
@@ -24,6 +25,11 @@ public:
     static Result<std::shared_ptr<const GeotiffTileSource>> of(const RasterFile& file,
                                                                const VoidRule& voids);
 
+    /// The same raster, whose tiles are errors where they are not those that `checksums` were taken
+    /// of.
+    std::shared_ptr<const GeotiffTileSource>
+    checkedBy(std::shared_ptr<const TileChecksums> checksums) const;
+
     /// Samples at levels 0 … kLastLevel, Means at 1 … mean_levels. Voids without a fill.
     const TileLayout& layout() const noexcept override { return layout_; }
     const std::string& name() const noexcept override { return name_; }
@@ -38,7 +44,8 @@ private:
     std::string remote_version_; // RasterInfo's; all readers read the same
     int band_ = 1;
     VoidRule voids_;
-    std::vector<std::size_t> overviews_; // of the file, by level; [0] means nothing
+    std::vector<std::size_t> overviews_;             // of the file, by level; [0] means nothing
+    std::shared_ptr<const TileChecksums> checksums_; // null: nobody knows
 };
 
 } // namespace marsview

@@ -675,6 +675,10 @@ Result<LoadedSamples> RasterFile::Impl::readFrom(GDALRasterBand& from,
     if (!grid) {
         return std::move(grid).error();
     }
+    std::optional<ExactRanges> exact_ranges;
+    if (remote) {
+        exact_ranges.emplace();
+    }
     if (Status read = readRows(from, *grid, window, 0); !read) {
         return std::move(read).error();
     }

@@ -263,6 +263,16 @@ RemoteScope::RemoteScope(const std::string&, const RemoteVersion& version)
 
 RemoteScope::~RemoteScope() = default;
 
+struct ExactRanges::Settings {
+    CPLConfigOptionSetter has_ranges{"GTIFF_HAS_OPTIMIZED_READ_MULTI_RANGE", "YES", false};
+};
+
+ExactRanges::ExactRanges()
+    : settings_(new Settings)
+{}
+
+ExactRanges::~ExactRanges() = default;
+
 Error remoteFailure(const std::string& remote_name,
                     const RemoteVersion& version,
                     const GdalMessages& messages,

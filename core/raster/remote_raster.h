@@ -52,6 +52,21 @@ private:
     std::unique_ptr<Settings> settings_;
 };
 
+/// While it lives, this thread fetches the blocks of a GeoTIFF's overviews as it does those of the
+/// raster: their bytes and no more. GDAL 3.6 reads overviews in pieces of 16 KiB, ever more of them
+/// at once, which was twice the bytes.
+class ExactRanges {
+public:
+    ExactRanges();
+    ~ExactRanges();
+    ExactRanges(const ExactRanges&) = delete;
+    ExactRanges& operator=(const ExactRanges&) = delete;
+
+private:
+    struct Settings;
+    std::unique_ptr<Settings> settings_;
+};
+
 /// Why opening or reading failed, after asking the server once more: it is gone, has changed, does
 /// not serve pieces, does not answer; `otherwise` where none of these is found. Drops what GDAL
 /// keeps of the file, which may be cut short. The dataset must be closed and opened again: GDAL 3.6

@@ -54,6 +54,7 @@ struct TileLayout {
     SampleType type = SampleType::Int16;
     bool has_voids = false;      // some tile may have some
     std::size_t mean_levels = 0; // Means exist at levels 1 … mean_levels
+    bool is_remote = false;      // every tile costs a request to a server: few are to be wanted
 
     /// Samples of a level along an axis with `count` samples.
     static constexpr std::size_t

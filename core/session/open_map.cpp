@@ -133,7 +133,7 @@ struct OpenedTiles {
     std::shared_ptr<const MapLevels> levels;
 };
 
-Result<OpenedTiles> openWithLevels(const std::shared_ptr<const TileSource>& raster,
+Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource>& raster,
                                    const std::string& level_path,
                                    int band,
                                    const RasterInfo& info)
@@ -154,7 +154,8 @@ Result<OpenedTiles> openWithLevels(const std::shared_ptr<const TileSource>& rast
     TileLayout layout = raster->layout();
     layout.has_voids = levels->statistics.void_count > 0;
     OpenedTiles opened;
-    opened.source = mapTileSource({.raster = raster,
+    // Of a damaged tile GDAL may decode other samples without a word.
+    opened.source = mapTileSource({.raster = raster->checkedBy(levels->checksums),
                                    .level_path = level_path,
                                    .level_key = std::move(*key),
                                    .analysis = levels->analysis,
@@ -333,11 +334,11 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
     if (!source) {
         return std::move(source).error();
     }
-    const std::shared_ptr<const TileSource> tiles_of_raster =
-        plan.level_path ? *source : keptOnDisk(*source, resources, map->file_info, "raster");
     Result<OpenedTiles> opened =
-        plan.level_path ? openWithLevels(tiles_of_raster, *plan.level_path, band, map->info)
-                        : openWithoutLevels(tiles_of_raster, map->info, monitor);
+        plan.level_path
+            ? openWithLevels(*source, *plan.level_path, band, map->info)
+            : openWithoutLevels(keptOnDisk(*source, resources, map->file_info, "raster"), map->info,
+                                monitor);
     if (!opened) {
         return std::move(opened).error();
     }

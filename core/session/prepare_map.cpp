@@ -82,7 +82,8 @@ Status makeLevels(const PrepareJob& job,
     const LevelBuild build{.source = source->get(),
                            .scale = info.elevationScale(),
                            .key = key,
-                           .path = report.level_path};
+                           .path = report.level_path,
+                           .checkpoint_interval = job.checkpoint_interval};
     if (Status built = buildLevelFile(build, monitor); !built) {
         return built;
     }

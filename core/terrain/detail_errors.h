@@ -67,7 +67,8 @@ public:
     /// distances are taken at the samples that are not void, within each block of kNodeCells ×
     /// kNodeCells cells of level 0, its sides included. A block's error is 1.25 times their root
     /// mean square, or a kPeak-th of the largest where that is more; the node's is that of its
-    /// worst block. Errors below 1e-6 of the map's range are rounding. 0 at level 0.
+    /// worst block, rounded up to 8 bits (roundedUpShort). Errors below 1e-6 of the map's range are
+    /// rounding. 0 at level 0.
     float nodeError(const DetailNode& node) const noexcept
     {
         const NodeLevel& l = nodes_[node.level];

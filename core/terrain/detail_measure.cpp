@@ -11,6 +11,7 @@
 #include "core/terrain/detail_measure.h"
 
 #include "core/base/check.h"
+#include "core/base/float_rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -258,9 +259,26 @@ void DetailMeasure::include(std::size_t node_row,
         float* row = nodes.errors_m.data() + (node_row >> level) * nodes.columns;
         for (std::size_t i = 0; i < node_count; ++i) {
             float& error = row[(first_node + i) >> level];
-            error = std::max(error, errors[level * node_count + i]);
+            error = std::max(error, roundedUpShort(errors[level * node_count + i]));
         }
     }
+}
+
+void DetailMeasure::save(CheckpointWriter& to) const
+{
+    for (const DetailErrors::NodeLevel& level : errors_) {
+        to.putArray(level.errors_m);
+    }
+}
+
+bool DetailMeasure::restore(CheckpointReader& from)
+{
+    for (DetailErrors::NodeLevel& level : errors_) {
+        if (!from.getArray(level.errors_m)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 DetailErrors DetailMeasure::finish() &&

@@ -1,6 +1,7 @@
 // Measuring what drawing with fewer samples is off by, piece by piece.
 #pragma once
 
+#include "core/terrain/checkpoint_file.h"
 #include "core/terrain/detail_errors.h"
 
 #include <cstddef>
@@ -52,6 +53,10 @@ public:
 
     /// Once every part was measured.
     DetailErrors finish() &&;
+
+    /// What was measured so far. While nobody measures.
+    void save(CheckpointWriter& to) const;
+    bool restore(CheckpointReader& from);
 
 private:
     void include(std::size_t node_row,

@@ -484,7 +484,8 @@ MapLevels levelsOf(const TileLayout& layout,
     MapLevels levels{.layout = layout,
                      .statistics = statistics,
                      .analysis = std::move(analysis),
-                     .filled_maxima_m = {}};
+                     .filled_maxima_m = {},
+                     .checksums = nullptr};
     if (layout.has_voids) {
         levels.filled_maxima_m =
             filledMaxima(layout, levels.analysis->bounds, levels.analysis->means);

@@ -354,6 +354,8 @@ Result<MapLevels> LevelFile::readLevels(const ElevationScale& scale) const
         wanted.push_back({&impl_->plane("shares"), bytesOf(blocks.shares)});
         wanted.push_back({&impl_->plane("fills"), bytesOf(fills)});
     }
+    auto checksums = std::make_shared<TileChecksums>(layout);
+    wanted.push_back({&impl_->plane("checksums"), std::as_writable_bytes(checksums->values())});
     if (auto unpacked = impl_->unpackPlanes(region, wanted); !unpacked) {
         return std::move(unpacked).error();
     }
@@ -372,7 +374,8 @@ Result<MapLevels> LevelFile::readLevels(const ElevationScale& scale) const
                      .statistics = header.statistics,
                      .analysis =
                          analysisFrom(ranges, scale, std::move(blocks), extent, std::move(errors)),
-                     .filled_maxima_m = {}};
+                     .filled_maxima_m = {},
+                     .checksums = std::move(checksums)};
     if (header.hasVoids()) {
         const MinMaxPyramid& bounds = levels.analysis->bounds;
         const FillRange range(heightRange(header.statistics, scale));

@@ -12,8 +12,10 @@
 #include "core/raster/source_identity.h"
 #include "core/raster/tile.h"
 #include "core/raster/tile_cache.h"
+#include "core/raster/tile_checksums.h"
 #include "core/terrain/surface_analysis.h"
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -38,6 +40,7 @@ struct MapLevels {
     /// No filled sample of a node is higher; a level each as in the analysis' bounds, in metres.
     /// Empty where no sample is void.
     std::vector<std::vector<float>> filled_maxima_m;
+    std::shared_ptr<const TileChecksums> checksums; // of the raster; null where nobody took them
 };
 
 /// An open level file. For one thread at a time; open it again for another.
@@ -87,11 +90,14 @@ struct LevelBuild {
     /// The means of no more blocks than this are kept: those of blocks of 8 samples a side, or
     /// twice as many until they are few enough.
     std::size_t mean_blocks_max = 4'000'000;
+    /// How far a build that is stopped may fall back; more where saving takes long.
+    std::chrono::milliseconds checkpoint_interval{3'000};
 };
 
-/// Reads the raster twice, on all cores, and writes its level file. Fails, leaving nothing behind
-/// but what was at `path` before, when cancelled, when a tile cannot be read, when the disk is
-/// full.
+/// Reads the raster twice, on all cores, and writes its level file. What was at `path` before stays
+/// when it fails: when cancelled, when a tile cannot be read, when the disk is full. Stopped by one
+/// of these, or by the death of the program, the next call for the same build goes on from the last
+/// checkpoint; before the first, nothing is left behind.
 Status buildLevelFile(const LevelBuild& build, JobMonitor& monitor);
 
 } // namespace marsview

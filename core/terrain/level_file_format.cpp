@@ -270,6 +270,9 @@ std::vector<LevelPlane> planesOf(const LevelFileHeader& header)
                       .element_bytes = sizeof(float),
                       .interleaved = 2});
     }
+    add("checksums", {.columns = TileChecksums::countFor(layout),
+                      .rows = 1,
+                      .element_bytes = sizeof(std::uint32_t)});
     constexpr std::size_t kIndexBytes = sizeof(std::uint64_t);
     add("samples index",
         {.columns = keptTileCount(layout), .rows = 3, .element_bytes = kIndexBytes});

@@ -30,6 +30,7 @@
 //   shares           of samples that are not void; only with voids
 //   fills            smallest and largest fill of the void samples of each block of RawRanges by
 //                    turns, float metres, inf and -inf where none is void; only with voids
+//   checksums        TileChecksums of the raster, u32
 //   samples index    three rows, u64: offset, bytes, CRC-32 of every tile of samples, level by
 //   level fills index      four rows, u64: number, offset, bytes, CRC-32 of every level-0 tile with
 //   voids coarse index     the same of the tiles that samples index lists
@@ -56,7 +57,7 @@
 
 namespace marsview {
 
-inline constexpr std::uint32_t kLevelFileVersion = 1;
+inline constexpr std::uint32_t kLevelFileVersion = 2;
 inline constexpr std::size_t kPreambleBytes = 64;
 
 struct LevelFilePreamble {
@@ -108,7 +109,7 @@ struct LevelFileHeader {
 /// The planes that a file with this header has, without their chunks.
 std::vector<LevelPlane> planesOf(const LevelFileHeader& header);
 /// How many of them are in the tail.
-inline constexpr std::size_t kTailPlanes = 3;
+inline constexpr std::size_t kTailPlanes = 3; // the last ones
 
 std::string writtenHeader(const LevelFileHeader& header);
 /// Invalid where anything is missing, out of its range, or not what planesOf() says.

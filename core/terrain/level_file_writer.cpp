@@ -2,6 +2,7 @@
 
 #include "core/base/parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
@@ -43,9 +44,9 @@ void syncFolder([[maybe_unused]] const std::filesystem::path& folder)
 #endif
 }
 
-// An empty file that nobody else writes to; null, with errno, where that cannot be. What a killed
-// program left is overwritten; one that is being written is not.
-std::FILE* openForWriting(const std::string& path)
+// A file that nobody else writes to, cut to no more than `bytes_max` that a killed program left,
+// and to be written to behind these; null, with errno, where that cannot be.
+std::FILE* openForWriting(const std::string& path, std::uint64_t bytes_max)
 {
 #ifdef __unix__
     for (;;) {
@@ -60,7 +61,10 @@ std::FILE* openForWriting(const std::string& path)
         // Between opening and locking it may have got its final name.
         const bool is_named = is_ours && stat(path.c_str(), &named) == 0 &&
                               named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
-        if (is_named && ftruncate(descriptor, 0) == 0) {
+        const auto length = static_cast<off_t>(
+            std::min(bytes_max, static_cast<std::uint64_t>(is_ours ? opened.st_size : 0)));
+        if (is_named && ftruncate(descriptor, length) == 0 &&
+            lseek(descriptor, length, SEEK_SET) == length) {
             return fdopen(descriptor, "wb");
         }
         const int reason = errno;
@@ -71,6 +75,7 @@ std::FILE* openForWriting(const std::string& path)
         }
     }
 #else
+    static_cast<void>(bytes_max);
     return std::fopen(path.c_str(), "wb");
 #endif
 }
@@ -84,7 +89,7 @@ LevelFileWriter::LevelFileWriter(std::string path)
 
 LevelFileWriter::~LevelFileWriter()
 {
-    if (!is_published_ && file_) {
+    if (!is_published_ && !is_kept_ && file_) {
 #ifndef __unix__
         file_.reset(); // where open files cannot be removed
 #endif
@@ -103,7 +108,7 @@ Error LevelFileWriter::failed(const std::string& what) const
 Result<std::unique_ptr<LevelFileWriter>> LevelFileWriter::create(const std::string& path)
 {
     std::unique_ptr<LevelFileWriter> writer(new LevelFileWriter(path));
-    writer->file_.reset(openForWriting(writer->part_path_));
+    writer->file_.reset(openForWriting(writer->part_path_, 0));
     if (!writer->file_) {
         if (errno == EWOULDBLOCK) {
             return Error{ErrorCode::Unreadable,
@@ -117,6 +122,28 @@ Result<std::unique_ptr<LevelFileWriter>> LevelFileWriter::create(const std::stri
         return std::move(appended).error();
     }
     return writer;
+}
+
+Result<std::unique_ptr<LevelFileWriter>> LevelFileWriter::resume(const std::string& path,
+                                                                 std::uint64_t bytes)
+{
+    std::unique_ptr<LevelFileWriter> writer(new LevelFileWriter(path));
+    writer->file_.reset(openForWriting(writer->part_path_, bytes));
+    if (!writer->file_) {
+        return writer->failed("cannot be written");
+    }
+    writer->bytes_ = static_cast<std::uint64_t>(std::ftell(writer->file_.get()));
+    if (writer->bytes_ != bytes || bytes < kPreambleBytes) {
+        return Error{ErrorCode::Invalid, fmt::format("{}: has {} bytes instead of {}",
+                                                     writer->part_path_, writer->bytes_, bytes)};
+    }
+    return writer;
+}
+
+std::optional<std::uint64_t> LevelFileWriter::flush()
+{
+    const std::lock_guard lock(mutex_);
+    return std::fflush(file_.get()) == 0 ? std::optional(bytes_) : std::nullopt;
 }
 
 Result<FilePart> LevelFileWriter::append(std::span<const std::byte> bytes)

@@ -1,13 +1,12 @@
 #include "core/terrain/level_survey.h"
 
-#include "core/base/parallel.h"
 #include "core/terrain/detail_measure.h"
 #include "core/terrain/nested_levels.h"
+#include "core/terrain/tile_rows.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <fmt/format.h>
 #include <utility>
 
 namespace marsview {
@@ -24,9 +23,11 @@ BlockExtent surveyedBlocks(const TileLayout& layout, std::size_t blocks_max)
     return extent;
 }
 
-class Survey {
+} // namespace
+
+class LevelSurveyPass::Impl {
 public:
-    Survey(const SurveyOptions& options, LevelFileWriter& writer, JobMonitor& monitor)
+    Impl(const SurveyOptions& options, LevelFileWriter& writer, JobMonitor& monitor)
         : options_(options)
         , layout_(options.source->layout())
         , writer_(writer)
@@ -39,43 +40,72 @@ public:
                   top_level_ >= LevelFile::kFirstLevel ? LevelFile::kFirstLevel
                                                        : DetailMeasure::kSparseLevel,
                   std::max(top_level_, DetailMeasure::kSparseLevel))
-    {}
-
-    Result<LevelSurvey> run(TileReaders& readers)
     {
         found_.kept = surveyedBlocks(layout_, options_.mean_blocks_max);
         found_.ranges = RawRanges(layout_.type, layout_.columns, layout_.rows);
         found_.blocks =
             emptyBlocks(found_.kept, layout_.has_voids ? BlockShares::Kept : BlockShares::None);
         found_.has_voids.resize(tile_columns_ * tile_rows_);
-        found_.checksums.resize(found_.has_voids.size());
+        found_.checksums = std::make_shared<TileChecksums>(layout_);
         found_.samples_index.resize(keptTileCount(layout_));
-        constexpr std::size_t kSparse = DetailMeasure::kSparseLevel;
-        auto sparse =
-            SampleGrid::create(layout_.type, layout_.columnsAt(TileKind::Samples, kSparse),
-                               layout_.rowsAt(TileKind::Samples, kSparse));
-        auto first_rows = SampleGrid::create(layout_.type, layout_.columns,
-                                             std::max<std::size_t>(1, tile_rows_ - 1));
+    }
+
+    Status begin()
+    {
+        const auto [sparse_columns, sparse_rows] = sparseSize();
+        auto sparse = SampleGrid::create(layout_.type, sparse_columns, sparse_rows);
+        auto first_rows = SampleGrid::create(layout_.type, layout_.columns, firstRowCount());
         if (!sparse || !first_rows) {
             return sparse ? std::move(first_rows).error() : std::move(sparse).error();
         }
         found_.sparse = std::move(sparse).value();
         found_.first_rows = std::move(first_rows).value();
-        if (layout_.has_voids) {
-            auto fine = FineMeans::create(found_.kept, options_.path);
-            if (!fine) {
-                return std::move(fine).error();
-            }
-            found_.fine_means = std::move(fine).value();
+        return openFineMeans(FineMeans::Content::Empty);
+    }
+
+    bool save(CheckpointWriter& to) const
+    {
+        to.putArray(found_.ranges.bytes());
+        to.putArray(found_.blocks.means_m);
+        to.putArray(found_.blocks.shares);
+        to.putArray(found_.has_voids);
+        to.putArray(std::as_const(*found_.checksums).values());
+        for (const FilePart& part : found_.samples_index) {
+            to.put(part.offset);
+            to.put(part.bytes);
+            to.put(part.checksum);
         }
-        auto done = readers.eachTileRow(
-            [this](TileReader& reader, std::size_t tile_row) {
-                return surveyRow(reader, tile_row);
-            },
-            options_.threads_max, monitor_);
-        if (!done) {
-            return std::move(done).error();
+        to.put(void_count_.load());
+        to.put(std::uint64_t{done_});
+        to.putGrid(*found_.sparse);
+        to.putGrid(*found_.first_rows);
+        nested_.save(to);
+        return found_.fine_means.flush();
+    }
+
+    bool restore(CheckpointReader& from)
+    {
+        bool is_good = from.getArray(found_.ranges.bytes()) &&
+                       from.getArray(found_.blocks.means_m) && from.getAny(found_.blocks.shares) &&
+                       from.getArray(found_.has_voids) && from.getArray(found_.checksums->values());
+        for (FilePart& part : found_.samples_index) {
+            is_good =
+                is_good && from.get(part.offset) && from.get(part.bytes) && from.get(part.checksum);
         }
+        std::uint64_t void_count = 0;
+        std::uint64_t done = 0;
+        is_good = is_good && from.get(void_count) && from.get(done);
+        void_count_ = void_count;
+        done_ = done;
+        const auto [sparse_columns, sparse_rows] = sparseSize();
+        found_.sparse = from.getGrid(layout_.type, sparse_columns, sparse_rows);
+        found_.first_rows = from.getGrid(layout_.type, layout_.columns, firstRowCount());
+        return is_good && found_.sparse && found_.first_rows && nested_.restore(from) &&
+               openFineMeans(FineMeans::Content::AsItWas);
+    }
+
+    const LevelSurvey& finish()
+    {
         const SampleStatistics extremes = found_.ranges.extremes();
         found_.statistics = {.raw_minimum = extremes.raw_minimum,
                              .raw_maximum = extremes.raw_maximum,
@@ -84,10 +114,36 @@ public:
         if (void_count_ == 0) {
             found_.blocks.shares.clear();
         }
-        return std::move(found_);
+        return found_;
     }
 
-private:
+    std::size_t meanRowCount() const
+    {
+        std::size_t count = 0;
+        for (std::size_t level = 1; level <= layout_.mean_levels; ++level) {
+            count += layout_.tileRows(TileKind::Means, level);
+        }
+        return count;
+    }
+
+    Status surveyMeanRow(TileReader& reader, std::size_t row)
+    {
+        TileId id{.kind = TileKind::Means, .level = 1, .column = 0, .row = 0};
+        for (; row >= layout_.tileRows(TileKind::Means, id.level); ++id.level) {
+            row -= layout_.tileRows(TileKind::Means, id.level);
+        }
+        id.row = static_cast<std::uint32_t>(row);
+        for (; id.column < layout_.tileColumns(TileKind::Means, id.level); ++id.column) {
+            auto tile = readTile(reader, *options_.source, id, monitor_);
+            if (!tile) {
+                return std::move(tile).error();
+            }
+            found_.checksums->set(id, sampleChecksum(tile->samples));
+            countTile();
+        }
+        return Done{};
+    }
+
     Status surveyRow(TileReader& reader, std::size_t tile_row)
     {
         std::vector<BlockRows> fine;
@@ -113,8 +169,7 @@ private:
             if (auto surveyed = surveyTile(id, tile->samples, fine); !surveyed) {
                 return surveyed;
             }
-            monitor_.report(static_cast<double>(++done_) /
-                            static_cast<double>(tile_columns_ * tile_rows_));
+            countTile();
         }
         for (std::size_t level = 0; level < fine.size(); ++level) {
             if (auto written = found_.fine_means.write(level, fine[level]); !written) {
@@ -124,10 +179,37 @@ private:
         return Done{};
     }
 
+private:
+    GridSize sparseSize() const
+    {
+        return {layout_.columnsAt(TileKind::Samples, DetailMeasure::kSparseLevel),
+                layout_.rowsAt(TileKind::Samples, DetailMeasure::kSparseLevel)};
+    }
+    std::size_t firstRowCount() const { return std::max<std::size_t>(1, tile_rows_ - 1); }
+
+    Status openFineMeans(FineMeans::Content content)
+    {
+        if (!layout_.has_voids) {
+            return Done{};
+        }
+        auto fine = FineMeans::open(found_.kept, options_.means_path, content);
+        if (!fine) {
+            return std::move(fine).error();
+        }
+        found_.fine_means = std::move(fine).value();
+        return Done{};
+    }
+
+    void countTile()
+    {
+        monitor_.report(static_cast<double>(++done_) /
+                        static_cast<double>(TileChecksums::countFor(layout_)));
+    }
+
     Status surveyTile(const TileId& id, const SampleGrid& samples, std::vector<BlockRows>& fine)
     {
         const std::size_t number = id.row * tile_columns_ + id.column;
-        found_.checksums[number] = sampleChecksum(samples);
+        found_.checksums->set(id, sampleChecksum(samples));
         std::uint64_t void_count = 0;
         for (std::size_t row = 0; samples.hasVoids() && row < samples.rows(); ++row) {
             for (std::size_t column = 0; column < samples.columns(); ++column) {
@@ -243,7 +325,7 @@ private:
         }
     }
 
-    const SurveyOptions& options_;
+    SurveyOptions options_;
     TileLayout layout_;
     LevelFileWriter& writer_;
     JobMonitor& monitor_;
@@ -254,95 +336,50 @@ private:
     std::mutex mutex_; // of what tiles of several rows share in found_
     LevelSurvey found_;
     std::atomic<std::uint64_t> void_count_{0};
-    std::atomic<std::size_t> done_{0};
+    std::atomic<std::uint64_t> done_{0}; // tiles
 };
 
-} // namespace
-
-Status
-TileReaders::eachTileRow(const Work& work, std::size_t threads_max, const JobMonitor& monitor)
-{
-    std::mutex mutex;
-    std::optional<Error> failure; // the first
-    std::atomic<bool> has_failed{false};
-    const auto fail = [&](Error error) {
-        const std::lock_guard lock(mutex);
-        if (!failure) {
-            failure = std::move(error);
-        }
-        has_failed = true;
-    };
-    const std::size_t rows = source_.layout().tileRows(TileKind::Samples, 0);
-    parallelRanges(
-        rows, 1,
-        [&](std::size_t begin, std::size_t) {
-            if (has_failed || monitor.isCancelled()) {
-                return;
-            }
-            std::unique_ptr<TileReader> reader;
-            {
-                const std::lock_guard lock(mutex_);
-                if (!idle_.empty()) {
-                    reader = std::move(idle_.back());
-                    idle_.pop_back();
-                }
-            }
-            if (!reader) {
-                auto opened = source_.open();
-                if (!opened) {
-                    return fail(std::move(opened).error());
-                }
-                reader = std::move(opened).value();
-            }
-            if (auto done = work(*reader, begin); !done) {
-                fail(std::move(done).error());
-            }
-            const std::lock_guard lock(mutex_);
-            idle_.push_back(std::move(reader));
-        },
-        threads_max);
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
-    }
-    if (failure) {
-        return std::move(*failure);
-    }
-    return Done{};
-}
-
-Result<Tile>
-readTile(TileReader& reader, const TileSource& source, const TileId& id, const JobMonitor& monitor)
-{
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
-    }
-    auto tile = reader.read(id);
-    MARSVIEW_CHECK(!tile || (tile->samples.type() == source.layout().type &&
-                             tile->samples.columns() == source.layout().tileWidth(id) &&
-                             tile->samples.rows() == source.layout().tileHeight(id)));
-    if (tile && tile->samples.hasVoids() && !source.layout().has_voids) {
-        return Error{
-            ErrorCode::Invalid,
-            fmt::format("{}: has voids, which it had not when it was opened; open it again",
-                        source.name())};
-    }
-    return tile;
-}
-
-std::uint32_t sampleChecksum(const SampleGrid& samples)
-{
-    return samples.visit([](auto values) {
-        return checksum({reinterpret_cast<const std::byte*>(values.data()),
-                         values.columns() * values.rows() * sizeof(values(0, 0))});
-    });
-}
-
-Result<LevelSurvey> surveyLevels(const SurveyOptions& options,
-                                 TileReaders& readers,
+LevelSurveyPass::LevelSurveyPass(const SurveyOptions& options,
                                  LevelFileWriter& writer,
                                  JobMonitor& monitor)
+    : impl_(std::make_unique<Impl>(options, writer, monitor))
+{}
+
+LevelSurveyPass::~LevelSurveyPass() = default;
+
+Status LevelSurveyPass::begin()
 {
-    return Survey(options, writer, monitor).run(readers);
+    return impl_->begin();
+}
+
+bool LevelSurveyPass::restore(CheckpointReader& from)
+{
+    return impl_->restore(from);
+}
+
+bool LevelSurveyPass::save(CheckpointWriter& to) const
+{
+    return impl_->save(to);
+}
+
+Status LevelSurveyPass::surveyRow(TileReader& reader, std::size_t tile_row)
+{
+    return impl_->surveyRow(reader, tile_row);
+}
+
+std::size_t LevelSurveyPass::meanRowCount() const
+{
+    return impl_->meanRowCount();
+}
+
+Status LevelSurveyPass::surveyMeanRow(TileReader& reader, std::size_t row)
+{
+    return impl_->surveyMeanRow(reader, row);
+}
+
+const LevelSurvey& LevelSurveyPass::finish()
+{
+    return impl_->finish();
 }
 
 } // namespace marsview

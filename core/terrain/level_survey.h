@@ -3,42 +3,21 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/raster/tile_checksums.h"
 #include "core/raster/tile_source.h"
 #include "core/terrain/block_means.h"
+#include "core/terrain/checkpoint_file.h"
 #include "core/terrain/level_file_writer.h"
 #include "core/terrain/raw_ranges.h"
 #include "core/terrain/void_fills.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace marsview {
-
-/// Readers for as many threads as ask, opened when needed. Any thread.
-class TileReaders {
-public:
-    explicit TileReaders(const TileSource& source)
-        : source_(source)
-    {}
-
-    using Work = std::function<Status(TileReader& reader, std::size_t tile_row)>;
-    /// Calls `work` for every row of level-0 tiles, in ascending order as threads get free, until
-    /// one fails: its error, or Cancelled.
-    Status eachTileRow(const Work& work, std::size_t threads_max, const JobMonitor& monitor);
-
-private:
-    const TileSource& source_;
-    std::mutex mutex_; // of idle_
-    std::vector<std::unique_ptr<TileReader>> idle_;
-};
-
-/// The tile, or an error: what reading says, Cancelled, or that the reader gave something else.
-Result<Tile>
-readTile(TileReader& reader, const TileSource& source, const TileId& id, const JobMonitor& monitor);
 
 /// What the first pass finds.
 struct LevelSurvey {
@@ -47,28 +26,49 @@ struct LevelSurvey {
     BlockGrid blocks; // of `kept`; shares only where something is void
     BlockExtent kept; // no larger than a tile, even where that makes too many
     FineMeans fine_means;
-    std::vector<std::uint8_t> has_voids;  // by level-0 tile
-    std::vector<std::uint32_t> checksums; // of the samples of each tile
+    std::vector<std::uint8_t> has_voids; // by level-0 tile
+    std::shared_ptr<TileChecksums> checksums;
     std::optional<SampleGrid> first_rows; // of each row of tiles but the first
     std::optional<SampleGrid> sparse;     // the samples of DetailMeasure::kSparseLevel
     std::vector<FilePart> samples_index;  // of the tiles that were written
 };
 
-/// What tells whether a tile is the same when it is read again.
-std::uint32_t sampleChecksum(const SampleGrid& samples);
-
 struct SurveyOptions {
     const TileSource* source = nullptr;
     ElevationScale scale;
-    std::string path; // of the file that is written; temporary ones lie beside
-    std::size_t threads_max = 1;
+    std::string means_path; // of the file that FineMeans needs meanwhile
     std::size_t mean_blocks_max = 4'000'000;
 };
 
-/// Reads every tile once and writes those of the nested levels.
-Result<LevelSurvey> surveyLevels(const SurveyOptions& options,
-                                 TileReaders& readers,
-                                 LevelFileWriter& writer,
-                                 JobMonitor& monitor);
+/// The first pass. Its rows are worked on by any threads; all else by one, meanwhile.
+class LevelSurveyPass {
+public:
+    LevelSurveyPass(const SurveyOptions& options, LevelFileWriter& writer, JobMonitor& monitor);
+    ~LevelSurveyPass();
+    LevelSurveyPass(const LevelSurveyPass&) = delete;
+    LevelSurveyPass& operator=(const LevelSurveyPass&) = delete;
+
+    /// Before any row, of a map of which nothing is known yet.
+    Status begin();
+    /// Instead, of a map of which some rows are done. False where it is not what save() wrote of
+    /// such a map.
+    bool restore(CheckpointReader& from);
+    /// What the rows that are done have given; also after finish(). False where it is not safe.
+    bool save(CheckpointWriter& to) const;
+
+    /// All but errors of a row of level-0 tiles, and its part of the levels.
+    Status surveyRow(TileReader& reader, std::size_t tile_row);
+    /// Rows of tiles of means, of all levels.
+    std::size_t meanRowCount() const;
+    /// Takes the checksums of one of them.
+    Status surveyMeanRow(TileReader& reader, std::size_t row);
+
+    /// When all rows are done.
+    const LevelSurvey& finish();
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 } // namespace marsview

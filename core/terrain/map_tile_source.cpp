@@ -1,7 +1,6 @@
 #include "core/terrain/map_tile_source.h"
 
 #include "core/base/check.h"
-#include "core/terrain/tile_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,16 +24,6 @@ public:
         const bool is_kept = levels_.has_value() && id.kind == TileKind::Samples &&
                              id.level >= LevelFile::kFirstLevel;
         Result<Tile> tile = is_kept ? readKept(id) : raster_->read(id);
-        // Of a damaged tile GDAL may decode other samples without a word.
-        if (tile && levels_ && !is_kept && id.kind == TileKind::Samples &&
-            !isWithinBounds(tile->samples, id, tiles_->layout, tiles_->analysis->bounds,
-                            tiles_->scale)) {
-            return Error{ErrorCode::Unreadable,
-                         fmt::format("{}: is damaged in the tile at column {}, row {} of level {}, "
-                                     "whose heights are not those that it was prepared with; "
-                                     "prepare the map again",
-                                     tiles_->raster->name(), id.column, id.row, id.level)};
-        }
         if (!tile || id.kind == TileKind::Means || !tile->samples.hasVoids()) {
             return tile;
         }

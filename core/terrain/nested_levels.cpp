@@ -103,6 +103,47 @@ std::vector<LevelBand> NestedLevels::add(const TileId& id, const SampleGrid* sam
     return complete;
 }
 
+void NestedLevels::save(CheckpointWriter& to) const
+{
+    to.put(static_cast<std::uint64_t>(bands_.size()));
+    for (const auto& [place, band] : bands_) {
+        to.put(static_cast<std::uint64_t>(place.first));
+        to.put(static_cast<std::uint64_t>(place.second));
+        to.put(static_cast<std::uint64_t>(band.missing));
+        to.put(static_cast<std::uint8_t>(band.samples ? 1 : 0));
+        if (band.samples) {
+            to.putGrid(*band.samples);
+        }
+    }
+}
+
+bool NestedLevels::restore(CheckpointReader& from)
+{
+    std::uint64_t count = 0;
+    bool is_good = from.get(count);
+    for (std::uint64_t i = 0; is_good && i < count; ++i) {
+        std::uint64_t level = 0;
+        std::uint64_t tile_row = 0;
+        std::uint64_t missing = 0;
+        std::uint8_t has_samples = 0;
+        is_good = from.get(level) && from.get(tile_row) && from.get(missing) &&
+                  from.get(has_samples) && level >= first_ && level <= last_ &&
+                  tile_row < layout_.tileRows(TileKind::Samples, level);
+        if (!is_good) {
+            break;
+        }
+        Band band{.samples = {}, .missing = missing};
+        if (has_samples != 0) {
+            const std::size_t rows = std::min(kTileSide, layout_.rowsAt(TileKind::Samples, level) -
+                                                             tile_row * kTileSide);
+            band.samples = from.getGrid(type_, layout_.columnsAt(TileKind::Samples, level), rows);
+            is_good = band.samples.has_value();
+        }
+        bands_.insert_or_assign({level, tile_row}, std::move(band));
+    }
+    return is_good;
+}
+
 SampleGrid columnsOf(const SampleGrid& samples, std::size_t first_column, std::size_t columns)
 {
     SampleGrid part = SampleGrid::create(samples.type(), columns, samples.rows()).value();

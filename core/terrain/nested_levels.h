@@ -3,6 +3,7 @@
 
 #include "core/raster/sample_grid.h"
 #include "core/raster/tile.h"
+#include "core/terrain/checkpoint_file.h"
 
 #include <cstddef>
 #include <map>
@@ -30,6 +31,10 @@ public:
     /// Puts the tile's samples where they belong, with their voids. Null: there is nothing in this
     /// tile. Returns what is complete with it.
     std::vector<LevelBand> add(const TileId& id, const SampleGrid* samples);
+
+    /// The bands that were begun. While nobody adds.
+    void save(CheckpointWriter& to) const;
+    bool restore(CheckpointReader& from);
 
 private:
     struct Band {

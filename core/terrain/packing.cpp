@@ -7,6 +7,7 @@
 #include <cstring>
 #include <libdeflate.h>
 #include <memory>
+#include <type_traits>
 
 namespace marsview {
 namespace {
@@ -50,48 +51,79 @@ T load(const std::byte* from)
     return value;
 }
 
-// Calls `function(i, before)` for the index of every number and that of the one it resembles, or
-// its own for the very first ones, which resemble 0.
-template <typename F>
-void eachNumber(const PackShape& shape, F&& function)
+// Numbers are told apart from the mean of those to the left and above: of two equally noisy
+// neighbours the mean is the better guess. Differences of either sign become small numbers without
+// one, 0, -1, 1, -2 …, so that their upper bytes are alike. Against plain differences to the left
+// this makes tiles of noisy elevation a fifth shorter, and their extremes by blocks a seventh.
+
+// As signed numbers, whatever they stand for: floats of one sign are in order, too.
+template <typename T>
+T mean(T a, T b)
 {
-    const std::size_t leading = std::min(shape.interleaved, shape.columns);
-    for (std::size_t row = 0; row < shape.rows; ++row) {
-        const std::size_t first = row * shape.columns;
-        for (std::size_t i = first; i < first + leading; ++i) {
-            function(i, row == 0 ? i : i - shape.columns); // of the row above
-        }
-        for (std::size_t i = first + leading; i < first + shape.columns; ++i) {
-            function(i, i - shape.interleaved);
-        }
+    using Signed = std::make_signed_t<T>;
+    return static_cast<T>((a & b) + static_cast<T>(static_cast<Signed>(a ^ b) >> 1));
+}
+
+template <typename T>
+T folded(T difference)
+{
+    using Signed = std::make_signed_t<T>;
+    const auto sign = static_cast<T>(static_cast<Signed>(difference) >> (8 * sizeof(T) - 1));
+    return static_cast<T>(static_cast<T>(difference << 1) ^ sign);
+}
+
+template <typename T>
+T unfolded(T code)
+{
+    return static_cast<T>(static_cast<T>(code >> 1) ^ static_cast<T>(T{} - (code & 1U)));
+}
+
+// What the number at `i` is thought to be, by those before it in `numbers`.
+template <typename T>
+T guess(const PackShape& shape, const std::byte* numbers, std::size_t row, std::size_t column)
+{
+    const std::size_t i = row * shape.columns + column;
+    const auto at = [numbers](std::size_t index) { return load<T>(numbers + index * sizeof(T)); };
+    if (column < shape.interleaved) {
+        return row == 0 ? T{} : at(i - shape.columns);
     }
+    const T left = at(i - shape.interleaved);
+    return row == 0 ? left : mean(left, at(i - shape.columns));
 }
 
 template <typename T>
 void difference(const PackShape& shape, const std::byte* numbers, std::byte* sorted)
 {
     const std::size_t count = shape.columns * shape.rows;
-    eachNumber(shape, [&](std::size_t i, std::size_t before) {
-        const T reference = before == i ? T{} : load<T>(numbers + before * sizeof(T));
-        const auto step = static_cast<T>(load<T>(numbers + i * sizeof(T)) - reference);
-        for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
-            sorted[byte * count + i] = static_cast<std::byte>((step >> (8 * byte)) & 0xFFU);
+    for (std::size_t row = 0; row < shape.rows; ++row) {
+        for (std::size_t column = 0; column < shape.columns; ++column) {
+            const std::size_t i = row * shape.columns + column;
+            const T code = folded(static_cast<T>(load<T>(numbers + i * sizeof(T)) -
+                                                 guess<T>(shape, numbers, row, column)));
+            for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
+                sorted[byte * count + i] = static_cast<std::byte>((code >> (8 * byte)) & 0xFFU);
+            }
         }
-    });
+    }
 }
 
 template <typename T>
 void sum(const PackShape& shape, const std::byte* sorted, std::byte* numbers)
 {
     const std::size_t count = shape.columns * shape.rows;
-    eachNumber(shape, [&](std::size_t i, std::size_t before) {
-        T value = before == i ? T{} : load<T>(numbers + before * sizeof(T));
-        for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
-            value = static_cast<T>(
-                value + static_cast<T>(static_cast<T>(sorted[byte * count + i]) << (8 * byte)));
+    for (std::size_t row = 0; row < shape.rows; ++row) {
+        for (std::size_t column = 0; column < shape.columns; ++column) {
+            const std::size_t i = row * shape.columns + column;
+            T code{};
+            for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
+                code = static_cast<T>(
+                    code | static_cast<T>(static_cast<T>(sorted[byte * count + i]) << (8 * byte)));
+            }
+            const auto value =
+                static_cast<T>(guess<T>(shape, numbers, row, column) + unfolded(code));
+            std::memcpy(numbers + i * sizeof(T), &value, sizeof(T));
         }
-        std::memcpy(numbers + i * sizeof(T), &value, sizeof(T));
-    });
+    }
 }
 
 } // namespace

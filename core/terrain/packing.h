@@ -21,8 +21,8 @@ struct PackShape {
 /// No packed bytes are smaller than 1/kRatioMax of what they stand for.
 inline constexpr std::uint64_t kPackRatioMax = 1040;
 
-/// Differences of neighbours, sorted by bytes, deflated; or as it is where that is no shorter.
-/// `rest` follows the array, and is deflated with it. Any thread.
+/// Differences from what neighbours lead to expect, sorted by bytes, deflated; or not deflated
+/// where that is no shorter. `rest` follows the array, and is deflated with it. Any thread.
 std::vector<std::byte> packed(const PackShape& shape,
                               std::span<const std::byte> array,
                               std::span<const std::byte> rest = {});

@@ -447,8 +447,8 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
     return tileFrom(HeldRows(heightfield), frame, id, slope_max);
 }
 
-// Sixteen means stand for the samples of a texel: what lies within them cancels in a texel's slope,
-// but for half a mean at either end.
+// Sixteen means, or four, stand for the samples of a texel: what lies within them cancels in a
+// texel's slope, but for half a mean at either end.
 Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
                                   const SceneFrame& frame,
                                   const ReliefTileId& id,
@@ -458,7 +458,8 @@ Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
         return makeReliefTile(heightfield, frame, id, slope_max);
     }
     const TileLayout& layout = heightfield.tiles()->layout();
-    const std::size_t level = std::min(std::max<std::size_t>(id.level, 2) - 2, layout.mean_levels);
+    const std::size_t finer = layout.is_remote ? 1 : 2; // levels
+    const std::size_t level = std::min(std::max(id.level, finer) - finer, layout.mean_levels);
     const TileKind kind = level == 0 ? TileKind::Samples : TileKind::Means;
     const ReliefTileId within{.level = id.level - level, .column = id.column, .row = id.row};
     const Result<WindowRows> rows = WindowRows::load(

@@ -21,7 +21,7 @@ Error failed(const std::string& name, const char* what)
 
 } // namespace
 
-Result<FineMeans> FineMeans::create(const BlockExtent& kept, const std::string& beside)
+Result<FineMeans> FineMeans::open(const BlockExtent& kept, const std::string& path, Content content)
 {
     FineMeans means;
     for (BlockExtent level{kept.columns, kept.rows, BlockMeans::kBlock};
@@ -31,13 +31,18 @@ Result<FineMeans> FineMeans::create(const BlockExtent& kept, const std::string& 
     if (means.levels_.empty()) {
         return means;
     }
-    means.name_ = beside + ".means";
-    means.file_.reset(std::fopen(means.name_.c_str(), "wb+"));
+    means.name_ = path;
+    means.file_.reset(std::fopen(path.c_str(), content == Content::Empty ? "wb+" : "rb+"));
     if (!means.file_) {
         return failed(means.name_, "cannot be written");
     }
-    std::remove(means.name_.c_str()); // what is open stays
     return means;
+}
+
+bool FineMeans::flush() const
+{
+    const std::lock_guard lock(*mutex_);
+    return !file_ || std::fflush(file_.get()) == 0;
 }
 
 long FineMeans::offsetOf(std::size_t level, std::size_t row) const

@@ -6,6 +6,7 @@
 #include "core/terrain/tile_fill.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -15,11 +16,18 @@
 namespace marsview {
 
 /// The means of blocks of 8 × 8 samples and of those up to the blocks that are kept in memory, in a
-/// file that has no name and goes with the object. Any thread.
+/// file that goes with the object, but stays where the program is killed. Any thread.
 class FineMeans {
 public:
-    /// `kept` are the blocks that are not in here. The file lies in the folder of `beside`.
-    static Result<FineMeans> create(const BlockExtent& kept, const std::string& beside);
+    enum class Content : std::uint8_t { Empty, AsItWas };
+
+    /// `kept` are the blocks that are not in here. The file is `path`; there is none where no
+    /// blocks are finer than those.
+    static Result<FineMeans>
+    open(const BlockExtent& kept, const std::string& path, Content content);
+    FineMeans() = default;
+    FineMeans(FineMeans&&) noexcept = default;
+    FineMeans& operator=(FineMeans&&) noexcept = default;
 
     std::size_t levelCount() const noexcept { return levels_.size(); }
     const BlockExtent& extent(std::size_t level) const noexcept { return levels_[level]; }
@@ -27,6 +35,8 @@ public:
     Status write(std::size_t level, const BlockRows& rows);
     /// Fills rows.heights_m, which has the size of what is wanted, from rows.first_row on.
     Status read(std::size_t level, BlockRows& rows) const;
+    /// All that was written is the file's from here on, whatever becomes of the program.
+    bool flush() const;
 
 private:
     struct Close {

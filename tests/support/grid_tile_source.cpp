@@ -57,7 +57,8 @@ GridTileSource::GridTileSource(const Heightfield& heightfield, Options options)
               .rows = heightfield.rows(),
               .type = heightfield.samples().type(),
               .has_voids = heightfield.samples().hasVoids(),
-              .mean_levels = options_.mean_levels}
+              .mean_levels = options_.mean_levels,
+              .is_remote = options_.is_remote}
 {
     if (layout_.has_voids) {
         JobMonitor monitor;

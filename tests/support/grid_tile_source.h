@@ -20,6 +20,7 @@ public:
     struct Options {
         std::string name = "map in memory";
         std::size_t mean_levels = 0;
+        bool is_remote = false; // says so
         /// Called on the reading thread before each tile, outside all locks: may wait, and what it
         /// returns is the outcome of the read. Empty: every read succeeds.
         std::function<std::optional<Error>(const TileId&)> before_read{};

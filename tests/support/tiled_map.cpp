@@ -53,7 +53,8 @@ TiledMap tiledMap(const Heightfield& heightfield, GridTileSource::Options option
     MapLevels levels{.layout = map.source->layout(),
                      .statistics = {},
                      .analysis = analysis,
-                     .filled_maxima_m = {}};
+                     .filled_maxima_m = {},
+                     .checksums = nullptr};
     levels.statistics.sample_count = heightfield.columns() * heightfield.rows();
     const SampleGrid& samples = heightfield.samples();
     for (std::size_t row = 0; row < samples.rows(); ++row) {

@@ -46,6 +46,9 @@ constexpr StoreSizes kStoresOnGpu{512, 64, 64};
 // Relief tiles in a picture, of those in store, so that the next picture's find room.
 constexpr double kReliefShareMax = 0.75;
 
+// Of the size that is asked for: half the bytes from a server, for texels of 1.06 pixels on average.
+constexpr double kRemoteTexel = 1.5;
+
 // Around an eye inside a map's box texels stay large however coarse they may be.
 constexpr int kCoarserMax = 12;
 
@@ -304,13 +307,18 @@ void TerrainRenderer::Impl::drawSky(const DrawStyle& style) const
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-// Where a picture would need more relief than there is room for, texels become larger.
+// Where a picture would need more relief than there is room for, texels become larger. So they are
+// where relief comes from a server.
 DetailSelection
 TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double exaggeration) const
 {
     const auto room = static_cast<std::size_t>(
         kReliefShareMax * static_cast<double>(reliefs.size()) / static_cast<double>(layers.size()));
     DetailTarget target = request.detail;
+    const auto& tiles = layer.source.heightfield->tiles();
+    if (tiles && tiles->layout().is_remote) {
+        target.texel_px *= kRemoteTexel;
+    }
     for (int i = 0;; ++i) {
         DetailSelection selection = layer.selector.select(
             {.camera = request.camera, .viewport = request.viewport, .exaggeration = exaggeration},

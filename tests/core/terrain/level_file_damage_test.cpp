@@ -285,10 +285,10 @@ TEST_F(LevelFileDamage, SurvivesRandomHeaders)
 TEST_F(LevelFileDamage, IsToldFromOtherVersionsAndOtherFiles)
 {
     std::string other = bytes_;
-    other[8] = 2;
+    other[8] = 3;
     const auto version = LevelFile::open(written(other), someKey());
     ASSERT_FALSE(version);
-    EXPECT_NE(version.error().message.find("is of version 2"), std::string::npos);
+    EXPECT_NE(version.error().message.find("is of version 3"), std::string::npos);
     const auto text = LevelFile::open(written(std::string(1000, 'x')), someKey());
     ASSERT_FALSE(text);
     EXPECT_EQ(text.error().code, ErrorCode::Invalid);

@@ -9,15 +9,20 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <thread>
 #include <type_traits>
 #include <vector>
+#include <zlib.h>
 
 namespace marsview {
 namespace {
@@ -34,28 +39,53 @@ LevelFileKey someKey()
 struct Limits {
     std::size_t memory_bytes = std::size_t{1} << 30;
     std::size_t mean_blocks = 4'000'000;
+    std::vector<std::uint64_t>
+        stops{}; // tiles read by builds that are stopped, one after the other
 };
 
 /// The level file of a map in memory, in a folder of its own.
 class BuiltFile {
 public:
     explicit BuiltFile(const Heightfield& field, const Limits& limits = {})
-        : source_(field)
+        : source_(field,
+                  {.mean_levels = kMeanLevels,
+                   .before_read = [this](const TileId&) -> std::optional<Error> {
+                       if (stop_ && reads_++ >= *stop_) {
+                           monitor_->cancel();
+                       }
+                       return std::nullopt;
+                   }})
     {
         const LevelBuild build{.source = &source_,
                                .scale = field.scale(),
                                .key = someKey(),
                                .path = path(),
                                .memory_bytes_max = limits.memory_bytes,
-                               .mean_blocks_max = limits.mean_blocks};
-        JobMonitor monitor;
-        const Status status = buildLevelFile(build, monitor);
+                               .mean_blocks_max = limits.mean_blocks,
+                               .checkpoint_interval = std::chrono::milliseconds(0)};
+        for (const std::uint64_t stop : limits.stops) {
+            monitor_.emplace();
+            stop_ = stop;
+            reads_ = 0;
+            const Status status = buildLevelFile(build, *monitor_);
+            EXPECT_FALSE(status);
+            EXPECT_EQ(status.error().code, ErrorCode::Cancelled);
+        }
+        stop_.reset();
+        reads_before_ = source_.readCount();
+        monitor_.emplace();
+        const Status status = buildLevelFile(build, *monitor_);
         EXPECT_TRUE(status) << status.error().message;
-        EXPECT_EQ(monitor.fraction(), 1.0);
+        EXPECT_EQ(monitor_->fraction(), 1.0);
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()),
+                                std::filesystem::directory_iterator()),
+                  1);
     }
 
     std::string path() const { return folder_.file("map.tif.marsview"); }
     const test::GridTileSource& source() const { return source_; }
+    /// Tiles read by the build that was not stopped.
+    std::uint64_t readsAtLast() const { return source_.readCount() - reads_before_; }
     LevelFile open() const
     {
         auto file = LevelFile::open(path(), someKey());
@@ -64,7 +94,13 @@ public:
     }
 
 private:
+    static constexpr std::size_t kMeanLevels = 2;
+
     test::TempFolder folder_;
+    std::optional<JobMonitor> monitor_;
+    std::optional<std::uint64_t> stop_;
+    std::atomic<std::uint64_t> reads_{0};
+    std::uint64_t reads_before_ = 0;
     test::GridTileSource source_;
 };
 
@@ -196,6 +232,28 @@ void expectSameTiles(const LevelFile& file, const test::GridTileSource& source)
     }
 }
 
+/// The checksum of every tile that the raster stores, against the tile.
+void expectChecksums(const TileChecksums& checksums, const test::GridTileSource& source)
+{
+    const TileLayout& layout = source.layout();
+    std::size_t count = 0;
+    for (std::uint8_t level = 0; level <= layout.mean_levels; ++level) {
+        const TileKind kind = level == 0 ? TileKind::Samples : TileKind::Means;
+        for (std::uint32_t row = 0; row < layout.tileRows(kind, level); ++row) {
+            for (std::uint32_t column = 0; column < layout.tileColumns(kind, level); ++column) {
+                const TileId id{.kind = kind, .level = level, .column = column, .row = row};
+                SampleGrid tile = source.tile(id).samples;
+                const std::size_t bytes = tile.columns() * tile.rows() * sampleBytes(tile.type());
+                ASSERT_EQ(checksums.of(id),
+                          crc32_z(0, reinterpret_cast<const Bytef*>(tile.rowData(0)), bytes))
+                    << int{level} << ": " << column << ", " << row;
+                ++count;
+            }
+        }
+    }
+    EXPECT_EQ(checksums.values().size(), count);
+}
+
 /// All that a level file says, against the same map held in memory.
 void expectSameAsInMemory(const Heightfield& field, const Limits& limits = {})
 {
@@ -223,6 +281,8 @@ void expectSameAsInMemory(const Heightfield& field, const Limits& limits = {})
     expectSameMeans(levels->analysis->means, analysis->means);
     expectSameMaxima(levels->filled_maxima_m, filled);
     expectSameTiles(file, built.source());
+    ASSERT_NE(levels->checksums, nullptr);
+    expectChecksums(*levels->checksums, built.source());
 }
 
 constexpr std::array<std::array<std::size_t, 2>, 10> kSizes{{{2, 2},
@@ -306,6 +366,41 @@ TEST(LevelFile, SaysTheSameWithLittleMemory)
                                                                           : heights[r * 2500 + c];
                                             }),
                          {.memory_bytes = 1, .mean_blocks = 100});
+}
+
+TEST(LevelFile, SaysTheSameWhereItsBuildWasStoppedAndWentOn)
+{
+    test::Random random;
+    const auto heights = test::fractalHeights(random, 1030, 2600, 900.0, 0.6);
+    const auto terrain = [&](double void_share) {
+        return test::int16Terrain(1030, 2600, {}, [&](std::size_t c, std::size_t r) {
+            return random.chance(void_share) ? kNan : heights[r * 1030 + c];
+        });
+    };
+    // 55 tiles of samples, 18 and 6 of means, then those of samples again.
+    const std::vector<std::vector<std::uint64_t>> all_stops{
+        {20}, {54}, {60}, {75}, {90}, {130}, {12, 12, 12, 12, 12, 12, 12, 12}, {60, 30}};
+    for (const double void_share : {0.0, 0.05}) {
+        const Heightfield field = terrain(void_share);
+        for (const auto& stops : all_stops) {
+            SCOPED_TRACE(testing::PrintToString(stops));
+            expectSameAsInMemory(field, {.mean_blocks = 300, .stops = stops});
+        }
+    }
+}
+
+TEST(LevelFile, IsNotReadAgainWhereItsBuildWentOn)
+{
+    test::Random random;
+    const auto heights =
+        test::heightsFrom(test::fractalHeights(random, 1030, 2600, 900.0, 0.6), 1030);
+    const Heightfield field = test::int16Terrain(1030, 2600, {}, heights);
+    const std::uint64_t all = BuiltFile(field).readsAtLast();
+    const std::uint64_t threads = std::thread::hardware_concurrency();
+    for (const std::uint64_t stop : {40U, 70U, 100U}) {
+        // Each thread may have been in a row of five tiles.
+        EXPECT_LE(BuiltFile(field, {.stops = {stop}}).readsAtLast(), all - stop + 5 * threads);
+    }
 }
 
 /// Random samples of all the type's range; the value 7 is void.

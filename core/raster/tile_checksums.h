@@ -1,0 +1,56 @@
+// Telling damaged tiles of a raster by checksums that were taken when they were first read.
+#pragma once
+
+#include "core/raster/grid_window.h"
+#include "core/raster/sample_grid.h"
+#include "core/raster/tile.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace marsview {
+
+/// A checksum for every tile that is stored in a raster: Samples at level 0, and Means. Written by
+/// any threads, each tile once; afterwards immutable.
+///
+/// Of a compressed tile with a few wrong bytes GDAL may decode other samples without a word.
+class TileChecksums {
+public:
+    /// All are 0.
+    explicit TileChecksums(const TileLayout& layout);
+
+    /// How many tiles of a raster have one.
+    static std::size_t countFor(const TileLayout& layout);
+    /// Whether there is one for this tile.
+    static bool covers(const TileId& id) noexcept
+    {
+        return id.kind == TileKind::Means || id.level == 0;
+    }
+
+    std::uint32_t of(const TileId& id) const { return values_[numberOf(id)]; }
+    void set(const TileId& id, std::uint32_t checksum) { values_[numberOf(id)] = checksum; }
+
+    /// Samples row by row, then the means of each level.
+    std::span<const std::uint32_t> values() const noexcept { return values_; }
+    std::span<std::uint32_t> values() noexcept { return values_; }
+
+private:
+    std::size_t numberOf(const TileId& id) const;
+
+    struct Level {
+        std::size_t first = 0;
+        std::size_t tile_columns = 0;
+    };
+    std::vector<Level> levels_; // samples, then means from level 1 on
+    std::vector<std::uint32_t> values_;
+};
+
+/// CRC-32 of the raw samples.
+std::uint32_t sampleChecksum(const SampleGrid& samples);
+
+/// As above of a part of the samples; the same as if it were a grid of its own.
+std::uint32_t sampleChecksum(const SampleGrid& samples, const GridWindow& part);
+
+} // namespace marsview

@@ -1,0 +1,111 @@
+// A file that keeps how far a long job is, for the case that the program is killed.
+#pragma once
+
+#include "core/base/raw_array.h"
+#include "core/raster/sample_grid.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+
+namespace marsview {
+
+/// Writes PATH.new, and moves it to PATH when it is whole: whoever is killed meanwhile leaves the
+/// checkpoint before. Failing is remembered, and told once, by finish(). For one thread.
+class CheckpointWriter {
+public:
+    explicit CheckpointWriter(const std::string& path);
+    ~CheckpointWriter();
+    CheckpointWriter(const CheckpointWriter&) = delete;
+    CheckpointWriter& operator=(const CheckpointWriter&) = delete;
+
+    template <typename T>
+    void put(const T& value)
+    {
+        static_assert(std::is_arithmetic_v<T>);
+        putBytes(std::as_bytes(std::span(&value, 1)));
+    }
+    /// Arrays begin with their length. `values` is any contiguous range of numbers.
+    template <typename Range>
+    void putArray(const Range& values)
+    {
+        const std::span numbers(values);
+        put(static_cast<std::uint64_t>(numbers.size()));
+        putBytes(std::as_bytes(numbers));
+    }
+    void putGrid(const SampleGrid& samples);
+
+    /// False where it could not be written; then PATH is what it was.
+    bool finish();
+
+private:
+    struct Close {
+        void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+    };
+
+    void putBytes(std::span<const std::byte> bytes);
+
+    std::string path_;
+    std::unique_ptr<std::FILE, Close> file_;
+    std::uint32_t checksum_ = 0;
+    bool has_failed_ = false;
+};
+
+/// Reads back what was put, in the same order. What does not fit fails, and so does all after it.
+class CheckpointReader {
+public:
+    /// Nothing where there is no such file, or where it is damaged. Held in memory whole.
+    static std::optional<CheckpointReader> open(const std::string& path);
+
+    template <typename T>
+    bool get(T& value)
+    {
+        static_assert(std::is_arithmetic_v<T>);
+        return getBytes(std::as_writable_bytes(std::span(&value, 1)));
+    }
+    /// An array of the length that `values` has.
+    template <typename Range>
+    bool getArray(Range&& values)
+    {
+        const std::span numbers(values);
+        std::uint64_t count = 0;
+        return get(count) && count == numbers.size() && getBytes(std::as_writable_bytes(numbers));
+    }
+    /// An array of any length, as a vector or string.
+    template <typename Container>
+    bool getAny(Container& values)
+    {
+        std::uint64_t count = 0;
+        if (!get(count) || count > left() / sizeof(typename Container::value_type)) {
+            return fail();
+        }
+        values.resize(count);
+        return getBytes(std::as_writable_bytes(std::span(values)));
+    }
+    std::optional<SampleGrid> getGrid(SampleType type, std::size_t columns, std::size_t rows);
+
+    bool isAtEnd() const noexcept { return !has_failed_ && left() == 0; }
+
+private:
+    CheckpointReader() = default;
+
+    std::uint64_t left() const noexcept { return end_ - at_; }
+    bool getBytes(std::span<std::byte> bytes);
+    bool fail() noexcept
+    {
+        has_failed_ = true;
+        return false;
+    }
+
+    RawArray<std::byte> bytes_;
+    std::uint64_t at_ = 0;
+    std::uint64_t end_ = 0;
+    bool has_failed_ = false;
+};
+
+} // namespace marsview

@@ -1,0 +1,77 @@
+// The second pass over a map larger than memory: errors, and what voids are filled with.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/raster/tile_source.h"
+#include "core/terrain/checkpoint_file.h"
+#include "core/terrain/detail_errors.h"
+#include "core/terrain/level_file_writer.h"
+#include "core/terrain/level_survey.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+
+/// Some of the tiles of a map, by their numbers, and where they lie in the file. Any thread.
+class TileParts {
+public:
+    void add(std::uint64_t number, const FilePart& part)
+    {
+        const std::lock_guard lock(mutex_);
+        parts_.emplace_back(number, part);
+    }
+    std::size_t size() const { return parts_.size(); }
+    /// As the file has them, in ascending order: four rows.
+    std::vector<std::uint64_t> index() const;
+    bool restore(std::vector<std::uint64_t> index);
+
+private:
+    std::mutex mutex_;
+    std::vector<std::pair<std::uint64_t, FilePart>> parts_;
+};
+
+/// What the second pass finds.
+struct LevelErrors {
+    DetailErrors errors;
+    std::vector<float> fills_m; // the plane "fills"
+};
+
+/// The second pass. Its rows are worked on by any threads; all else by one, meanwhile.
+class LevelErrorPass {
+public:
+    LevelErrorPass(const TileSource& source,
+                   const ElevationScale& scale,
+                   const LevelSurvey& survey,
+                   LevelFileWriter& writer,
+                   JobMonitor& monitor);
+    ~LevelErrorPass();
+    LevelErrorPass(const LevelErrorPass&) = delete;
+    LevelErrorPass& operator=(const LevelErrorPass&) = delete;
+
+    /// Before anything else.
+    Status begin();
+    /// Then, where some rows are done already: what save() wrote.
+    bool restore(CheckpointReader& from);
+    void save(CheckpointWriter& to) const;
+
+    /// Compares the samples of a row of level-0 tiles with every level.
+    Status measureRow(TileReader& reader, std::size_t tile_row);
+
+    /// When all rows are done; once.
+    LevelErrors finish();
+    /// Tiles with voids at level 0 and at the levels that are kept.
+    const TileParts& tileFills() const;
+    const TileParts& coarseFills() const;
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace marsview
