@@ -16,6 +16,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run);
 void addBenchTerrainCommand(CLI::App& bench, CommandAction& run);
 void addBenchViewCommand(CLI::App& bench, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
+void addLoopCommand(CLI::App& app, CommandAction& run);
 void addPrepareCommand(CLI::App& app, CommandAction& run);
 void addRenderCommand(CLI::App& app, CommandAction& run);
 /// `has_stdin` tells beforehand whether `--stdin` is among the arguments: the position options then

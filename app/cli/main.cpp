@@ -33,6 +33,7 @@ int run(int argc, char** argv)
     marsview::addInfoCommand(app, action);
     marsview::addSampleCommand(app, action, has_stdin);
     marsview::addTraceCommand(app, action);
+    marsview::addLoopCommand(app, action);
     marsview::addPrepareCommand(app, action);
     marsview::addRenderCommand(app, action);
     CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
