@@ -312,7 +312,13 @@ private:
         }
         state_.goal = map_->frame.toScene(goal);
         state_.contact = map_->model->update(state_.goal);
-        state_.proxy = map_->frame.fromScene(state_.contact.proxy);
+        if (state_.contact.counters.refused != 0) {
+            return;
+        }
+        // To the digit the goal where it is free, as `trace` has it.
+        state_.proxy = state_.contact.is_in_contact || map_->frame.isClamped(goal)
+                           ? map_->frame.fromScene(state_.contact.proxy)
+                           : goal;
     }
 
     // Up above all ground, over to the new place: what is placed there is so by goals alone.

@@ -23,7 +23,7 @@ struct ServoMap {
 
 struct ServoMapOptions {
     ContactModelKind kind = kContactModelDefault;
-    ContactModelOptions contact;
+    ContactModelOptions contact{};
     std::uint64_t map_id = 1;
 };
 
