@@ -13,6 +13,7 @@ using CommandAction = std::function<Status()>;
 
 /// `bench` is the group of commands that measure.
 void addBenchContactCommand(CLI::App& bench, CommandAction& run);
+void addBenchStabilityCommand(CLI::App& bench, CommandAction& run);
 void addBenchTerrainCommand(CLI::App& bench, CommandAction& run);
 void addBenchViewCommand(CLI::App& bench, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);

@@ -41,6 +41,7 @@ int run(int argc, char** argv)
     marsview::addBenchViewCommand(*bench, action);
     marsview::addBenchContactCommand(*bench, action);
     marsview::addBenchTerrainCommand(*bench, action);
+    marsview::addBenchStabilityCommand(*bench, action);
     addVersionTo(app);
     try {
         app.parse(argc, argv);
