@@ -1,6 +1,8 @@
 #include "haptics/loop/real_time_thread.h"
 
 #include "core/base/check.h"
+#include "haptics/loop/page_lock.h"
+#include "haptics/loop/realtime_kit.h"
 
 #include <cerrno>
 #include <cstring>
@@ -107,7 +109,13 @@ void RealTimeThread::join()
 void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick)
 {
     grants_.scheduling_refusal = refusalOfScheduling(options.priority);
+    if (!grants_.hasScheduling() && options.asks_realtime_kit) {
+        const std::string refusal = askRealtimeKit(options.priority);
+        grants_.scheduling_refusal =
+            refusal.empty() ? std::string() : grants_.scheduling_refusal + "; " + refusal;
+    }
     grants_.locking_refusal = options.locks_memory ? refusalOfLocking() : "not asked for";
+    touchProgram();
     has_grants_.store(true, std::memory_order_release);
     touchStack(options.stack_bytes_touched);
 

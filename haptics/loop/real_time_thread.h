@@ -20,6 +20,8 @@ namespace marsview {
 struct RealTimeOptions {
     std::chrono::nanoseconds period{1'000'000};
     int priority = 80; // of SCHED_FIFO, 1 to 99
+    /// Where the system refuses that: asks RealtimeKit, which gives a lower priority.
+    bool asks_realtime_kit = true;
     /// Turns before those that are counted: the first calls of functions cost page faults that no
     /// later ones do.
     std::uint64_t uncounted_turns = 100;
