@@ -1,6 +1,7 @@
 #include "haptics/drivers/built_in_drivers.h"
 
 #include "haptics/drivers/null_driver.h"
+#include "haptics/drivers/record_driver.h"
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/drivers/sim_driver.h"
 
@@ -11,6 +12,7 @@ std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers()
     std::vector<std::unique_ptr<DeviceDriver>> drivers;
     drivers.push_back(makeSimDriver());
     drivers.push_back(makeReplayDriver());
+    drivers.push_back(makeRecordDriver());
     drivers.push_back(makeNullDriver());
     return drivers;
 }
