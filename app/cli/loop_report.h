@@ -22,7 +22,7 @@ struct LoopReport {
     LoopState state; // the last
     std::optional<WindowFeederStatistics> feeder{};
     std::optional<std::uint64_t> allocations{}; // nothing where nobody counted
-    std::uint64_t recorded = 0;               // updates
+    std::uint64_t recorded = 0;                 // updates
 };
 
 nlohmann::ordered_json asJson(const LoopReport& report);
