@@ -15,6 +15,7 @@ using CommandAction = std::function<Status()>;
 void addBenchContactCommand(CLI::App& bench, CommandAction& run);
 void addBenchTerrainCommand(CLI::App& bench, CommandAction& run);
 void addBenchViewCommand(CLI::App& bench, CommandAction& run);
+void addDevicesCommand(CLI::App& app, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
 void addPrepareCommand(CLI::App& app, CommandAction& run);
 void addRenderCommand(CLI::App& app, CommandAction& run);

@@ -35,6 +35,7 @@ int run(int argc, char** argv)
     marsview::addTraceCommand(app, action);
     marsview::addPrepareCommand(app, action);
     marsview::addRenderCommand(app, action);
+    marsview::addDevicesCommand(app, action);
     CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
     bench->require_subcommand(1);
     marsview::addBenchViewCommand(*bench, action);
