@@ -1,12 +1,14 @@
 #include "haptics/drivers/built_in_drivers.h"
 
 #include "haptics/device/plugin_driver.h"
+#include "haptics/drivers/openhaptics_driver.h"
 
 namespace marsview {
 
 std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers()
 {
     std::vector<std::unique_ptr<DeviceDriver>> drivers;
+    drivers.push_back(std::make_unique<OpenHapticsDriver>());
     drivers.push_back(std::make_unique<PluginDriver>());
     return drivers;
 }
