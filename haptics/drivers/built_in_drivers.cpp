@@ -2,6 +2,8 @@
 
 #include "haptics/device/plugin_driver.h"
 #include "haptics/drivers/openhaptics_driver.h"
+#include "haptics/drivers/polhem_driver.h"
+#include "haptics/drivers/spacemouse.h"
 
 namespace marsview {
 
@@ -9,6 +11,8 @@ std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers()
 {
     std::vector<std::unique_ptr<DeviceDriver>> drivers;
     drivers.push_back(std::make_unique<OpenHapticsDriver>());
+    drivers.push_back(std::make_unique<PolhemDriver>());
+    drivers.push_back(std::make_unique<SpaceMouseDriver>());
     drivers.push_back(std::make_unique<PluginDriver>());
     return drivers;
 }
