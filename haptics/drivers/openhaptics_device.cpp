@@ -225,7 +225,7 @@ unsigned int OpenHapticsDevice::frame() noexcept
         is_inside_.store(false);
         return hd::kCallbackDone;
     }
-    const Clock::time_point now = Clock::now();
+    const Clock::time_point now = Clock::now(); // before what may wait for the bus
     api_->beginFrame(handle_);
     beginFrame(now);
     is_in_frame_ = true;

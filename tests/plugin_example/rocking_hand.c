@@ -1,6 +1,6 @@
 /*
- * An example of a device plugin: a hand that nobody holds and that needs no hardware. It rocks to
- * and fro, and gives way to forces as if on a soft spring. Copy it and put your device in place of
+ * An example of a device plugin: a hand that nobody holds and that needs no hardware. It rocks back
+ * and forth, and gives way to forces as if on a soft spring. Copy it and put your device in place of
  * the arithmetic.
  *
  *     cmake -B build && cmake --build build && cmake --install build
@@ -26,7 +26,7 @@ struct MarsviewDevice {
     double force_n[3];
 };
 
-static int64_t nowNs(void)
+static int64_t steadyNs(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -51,7 +51,7 @@ static MarsviewDevice* openDevice(const char* id, char* error, uint32_t error_by
         snprintf(error, error_bytes, "there is no memory left for it");
         return NULL;
     }
-    device->began_ns = nowNs();
+    device->began_ns = steadyNs();
     return device;
 }
 
@@ -83,7 +83,7 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
 {
     const double give_m_per_n = 0.005;
     const double turns_per_s = 0.5;
-    const int64_t now_ns = nowNs();
+    const int64_t now_ns = steadyNs();
     const double s = (double)(now_ns - device->began_ns) * 1e-9;
     sample->position_m[0] =
         0.05 * sin(6.283185307179586 * turns_per_s * s) + give_m_per_n * device->force_n[0];

@@ -82,7 +82,7 @@ constexpr std::chrono::microseconds kPeriod{1000};
 
 TEST_F(CheckedDeviceTest, LetsAFastHandPass)
 {
-    // 8 m/s to and fro is faster than anybody swings a stylus.
+    // 8 m/s back and forth is faster than anybody swings a stylus.
     for (int i = 0; i < 1000; ++i) {
         const double x = 0.05 * std::sin(160.0 * 0.001 * i);
         ASSERT_EQ(readAt({x, 0.0, 0.1}, kPeriod), DeviceStatus::Fine) << i;

@@ -322,6 +322,19 @@ TEST_F(OpenHapticsDriverTest, LeavesNoForceOnWhereTheTickWritesNone)
     EXPECT_EQ(hd().force_n[0], 0.0);
 }
 
+TEST_F(OpenHapticsDriverTest, TellsByTheSamplesAgeThatTheBusStalls)
+{
+    HapticDevice& device = open();
+    Tick state{.device = device};
+    std::chrono::nanoseconds age{};
+    state.also = [&] { age = std::chrono::steady_clock::now() - state.sample.time; };
+    ASSERT_TRUE(device.startClock(tick, &state));
+    hd().stall_ms = 30;
+    run(1);
+    EXPECT_EQ(state.read, DeviceStatus::Fine);
+    EXPECT_GE(age, std::chrono::milliseconds(30)) << "what came late may have been measured early";
+}
+
 TEST_F(OpenHapticsDriverTest, WaitsForAFrameThatHasBegunWhenItStops)
 {
     HapticDevice& device = open();

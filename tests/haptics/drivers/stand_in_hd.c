@@ -7,6 +7,7 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 typedef struct {
@@ -73,6 +74,12 @@ EXPORT void standInRun(int turns)
     pthread_mutex_unlock(&mutex);
 }
 
+/* Two threads may misuse the library at a time. */
+static void noteMisuse(int is_one)
+{
+    __atomic_add_fetch(&state.misuses, is_one ? 1 : 0, __ATOMIC_RELAXED);
+}
+
 static void push(unsigned code)
 {
     if (error_count < kErrorsMax) {
@@ -106,7 +113,7 @@ EXPORT unsigned hdInitDevice(const char* name)
 EXPORT void hdDisableDevice(unsigned device)
 {
     if (device != 7 || state.scheduled > 0) {
-        state.misuses += 1;
+        noteMisuse(1);
     }
     state.open_devices -= 1;
     state.enabled_force_output = 0;
@@ -115,19 +122,23 @@ EXPORT void hdDisableDevice(unsigned device)
 
 EXPORT void hdMakeCurrentDevice(unsigned device)
 {
-    state.misuses += device != 7;
+    noteMisuse(device != 7);
 }
 
 EXPORT void hdBeginFrame(unsigned device)
 {
-    state.misuses += device != 7 || is_in_frame;
+    noteMisuse(device != 7 || is_in_frame);
     is_in_frame = 1;
+    if (state.stall_ms > 0) {
+        const struct timespec stall = {0, 1000000L * state.stall_ms};
+        nanosleep(&stall, NULL);
+    }
     memset(frame_force, 0, sizeof frame_force);
 }
 
 EXPORT void hdEndFrame(unsigned device)
 {
-    state.misuses += device != 7 || !is_in_frame;
+    noteMisuse(device != 7 || !is_in_frame);
     is_in_frame = 0;
     state.frames += 1;
     if (state.frame_error != 0) {
@@ -214,7 +225,7 @@ EXPORT const char* hdGetString(unsigned what)
 EXPORT void hdSetDoublev(unsigned what, const double* values)
 {
     if (what != 0x2700u || !is_in_frame) {
-        state.misuses += 1;
+        noteMisuse(1);
         return;
     }
     memcpy(frame_force, values, sizeof frame_force);
@@ -235,7 +246,7 @@ EXPORT unsigned long hdScheduleAsynchronous(Callback callback, void* user, unsig
 {
     unsigned long handle = 0;
     pthread_mutex_lock(&mutex);
-    state.misuses += priority != 0xFFFF;
+    noteMisuse(priority != 0xFFFF);
     while (handle < kCallbacksMax && callbacks[handle].is_there) {
         ++handle;
     }
@@ -255,7 +266,7 @@ EXPORT unsigned long hdScheduleAsynchronous(Callback callback, void* user, unsig
 EXPORT void hdUnschedule(unsigned long handle)
 {
     pthread_mutex_lock(&mutex);
-    state.misuses += handle >= kCallbacksMax || !callbacks[handle].is_there;
+    noteMisuse(handle >= kCallbacksMax || !callbacks[handle].is_there);
     callbacks[handle].is_there = 0;
     state.scheduled -= 1;
     pthread_mutex_unlock(&mutex);
@@ -297,7 +308,7 @@ EXPORT void hdStartScheduler(void)
         push(state.start_error);
         return;
     }
-    state.misuses += state.scheduler_runs;
+    noteMisuse(state.scheduler_runs);
     is_stopping = 0;
     state.scheduler_runs = 1;
     if (pthread_create(&thread, NULL, runScheduler, NULL) != 0) {
@@ -308,7 +319,7 @@ EXPORT void hdStartScheduler(void)
 EXPORT void hdStopScheduler(void)
 {
     pthread_mutex_lock(&mutex);
-    state.misuses += !state.scheduler_runs;
+    noteMisuse(!state.scheduler_runs);
     is_stopping = 1;
     pthread_cond_broadcast(&changed);
     pthread_mutex_unlock(&mutex);

@@ -21,6 +21,7 @@ typedef struct StandInState {
     int numbers_are_shifted; /* the numbering of other headers */
     int numbers_are_insane;
     int inits_that_hang;
+    int stall_ms; /* how long hdBeginFrame takes */
 
     char opened_name[64]; /* what hdInitDevice was given; "(default)" for null */
     double force_n[3];    /* of the last whole frame */
