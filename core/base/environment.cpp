@@ -14,7 +14,7 @@ std::string environmentVariable(const char* name)
 
 std::filesystem::path userFolder(const char* variable, const char* below_home)
 {
-    const std::filesystem::path folder = environmentVariable(variable);
+    std::filesystem::path folder = environmentVariable(variable);
     if (folder.is_absolute()) {
         return folder;
     }

@@ -26,6 +26,8 @@
 
 #include <stdint.h>
 
+/* NOLINTBEGIN(modernize-use-using): C has no other way */
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -123,6 +125,8 @@ typedef struct MarsviewPlugin {
 
 /* What a plugin exports. The table lives as long as the program. */
 MARSVIEW_PLUGIN_EXPORT const MarsviewPlugin* marsviewHapticPlugin(void);
+
+/* NOLINTEND(modernize-use-using) */
 
 #ifdef __cplusplus
 }

@@ -97,11 +97,10 @@ PluginDriver::PluginDriver(PluginOptions options)
 
 Error PluginDriver::hung(const fs::path& file, std::string_view what, std::string_view doing)
 {
-    const Error error{ErrorCode::Unreadable,
-                      fmt::format("{}: did not come back from {} within {:.1f} s; it is left out "
-                                  "until the program is started again",
-                                  what, doing,
-                                  std::chrono::duration<double>(options_.patience).count())};
+    Error error{ErrorCode::Unreadable,
+                fmt::format("{}: did not come back from {} within {:.1f} s; it is left out "
+                            "until the program is started again",
+                            what, doing, std::chrono::duration<double>(options_.patience).count())};
     known_.insert_or_assign(file, Known{stampOf(file), error});
     return error;
 }

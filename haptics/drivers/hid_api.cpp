@@ -11,12 +11,12 @@ const HidApi& systemHidApi()
 {
     static const HidApi kApi{
         .enumerate = hid_enumerate, // which also calls hid_init
-        .freeEnumeration = hid_free_enumeration,
-        .openPath = hid_open_path,
+        .free_enumeration = hid_free_enumeration,
+        .open_path = hid_open_path,
         .close = hid_close,
-        .readTimeout = hid_read_timeout,
+        .read_timeout = hid_read_timeout,
         .write = hid_write,
-        .accessError = [](const char* path) { return access(path, R_OK | W_OK) == 0 ? 0 : errno; },
+        .access_error = [](const char* path) { return access(path, R_OK | W_OK) == 0 ? 0 : errno; },
     };
     return kApi;
 }

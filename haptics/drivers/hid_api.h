@@ -12,13 +12,13 @@ namespace marsview {
 /// As in hidapi.h. Reading and writing one device is for one thread; the rest for one at a time.
 struct HidApi {
     hid_device_info* (*enumerate)(unsigned short vendor, unsigned short product);
-    void (*freeEnumeration)(hid_device_info* devices);
-    hid_device_* (*openPath)(const char* path);
+    void (*free_enumeration)(hid_device_info* devices);
+    hid_device_* (*open_path)(const char* path);
     void (*close)(hid_device_* device);
-    int (*readTimeout)(hid_device_* device, unsigned char* data, std::size_t bytes, int ms);
+    int (*read_timeout)(hid_device_* device, unsigned char* data, std::size_t bytes, int ms);
     int (*write)(hid_device_* device, const unsigned char* data, std::size_t bytes);
     /// What hidapi's access to the path would meet: 0 or an error number.
-    int (*accessError)(const char* path);
+    int (*access_error)(const char* path);
 };
 
 /// hidapi over the kernel's hidraw.

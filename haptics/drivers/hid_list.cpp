@@ -43,13 +43,13 @@ std::vector<HidEntry> hidDevices(const HidApi& api,
             wanted.push_back(entry);
         }
     }
-    api.freeEnumeration(all);
+    api.free_enumeration(all);
     return wanted;
 }
 
 std::string refusalToOpen(const HidApi& api, const std::string& path)
 {
-    const int error = api.accessError(path.c_str());
+    const int error = api.access_error(path.c_str());
     if (error == 0) {
         return {};
     }
@@ -68,7 +68,7 @@ Result<HidHandle> openHid(const HidApi& api, const std::string& path, std::strin
     if (std::string why = refusalToOpen(api, path); !why.empty()) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: {}", uri, why)};
     }
-    hid_device_* device = api.openPath(path.c_str());
+    hid_device_* device = api.open_path(path.c_str());
     if (device == nullptr) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: {} is there, but does not open as a HID device; plug it in "

@@ -46,26 +46,26 @@ Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsApi::load(const std::vector<s
             missing = name;
         }
     };
-    find(api->initDevice, "hdInitDevice");
-    find(api->disableDevice, "hdDisableDevice");
-    find(api->makeCurrentDevice, "hdMakeCurrentDevice");
-    find(api->beginFrame, "hdBeginFrame");
-    find(api->endFrame, "hdEndFrame");
-    find(api->getError, "hdGetError");
+    find(api->init_device, "hdInitDevice");
+    find(api->disable_device, "hdDisableDevice");
+    find(api->make_current_device, "hdMakeCurrentDevice");
+    find(api->begin_frame, "hdBeginFrame");
+    find(api->end_frame, "hdEndFrame");
+    find(api->get_error, "hdGetError");
     find(api->enable, "hdEnable");
     find(api->disable, "hdDisable");
-    find(api->getBooleanv, "hdGetBooleanv");
-    find(api->getIntegerv, "hdGetIntegerv");
-    find(api->getDoublev, "hdGetDoublev");
-    find(api->getString, "hdGetString");
-    find(api->setDoublev, "hdSetDoublev");
-    find(api->checkCalibration, "hdCheckCalibration");
-    find(api->updateCalibration, "hdUpdateCalibration");
-    find(api->scheduleAsynchronous, "hdScheduleAsynchronous");
+    find(api->get_booleanv, "hdGetBooleanv");
+    find(api->get_integerv, "hdGetIntegerv");
+    find(api->get_doublev, "hdGetDoublev");
+    find(api->get_string, "hdGetString");
+    find(api->set_doublev, "hdSetDoublev");
+    find(api->check_calibration, "hdCheckCalibration");
+    find(api->update_calibration, "hdUpdateCalibration");
+    find(api->schedule_asynchronous, "hdScheduleAsynchronous");
     find(api->unschedule, "hdUnschedule");
-    find(api->startScheduler, "hdStartScheduler");
-    find(api->stopScheduler, "hdStopScheduler");
-    find(api->setSchedulerRate, "hdSetSchedulerRate");
+    find(api->start_scheduler_, "hdStartScheduler");
+    find(api->stop_scheduler_, "hdStopScheduler");
+    find(api->set_scheduler_rate_, "hdSetSchedulerRate");
     if (!missing.empty()) {
         return Error{ErrorCode::Unsupported,
                      fmt::format("the library of OpenHaptics lacks the function {}; install "
@@ -82,9 +82,9 @@ unsigned int OpenHapticsApi::addSchedulerUser()
         ++scheduler_users_;
         return hd::kSuccess;
     }
-    setSchedulerRate(kRateHz);
+    set_scheduler_rate_(kRateHz);
     takeErrors(); // devices that know no other rate refuse it, and keep theirs
-    startScheduler();
+    start_scheduler_();
     const unsigned int error = takeErrors();
     scheduler_users_ += error == hd::kSuccess ? 1 : 0;
     return error;
@@ -94,7 +94,7 @@ void OpenHapticsApi::removeSchedulerUser()
 {
     const std::lock_guard lock(mutex_);
     if (--scheduler_users_ == 0) {
-        stopScheduler();
+        stop_scheduler_();
         takeErrors();
     }
 }
@@ -103,7 +103,7 @@ unsigned int OpenHapticsApi::takeErrors() const noexcept
 {
     unsigned int gravest = hd::kSuccess;
     for (int i = 0; i < kErrorsMax; ++i) {
-        const unsigned int code = getError().code;
+        const unsigned int code = get_error().code;
         if (code == hd::kSuccess) {
             break;
         }

@@ -85,24 +85,24 @@ public:
     /// Unsupported where one lacks a function.
     static Result<std::shared_ptr<OpenHapticsApi>> load(const std::vector<std::string>& names);
 
-    hd::Handle (*initDevice)(const char* name) = nullptr;
-    void (*disableDevice)(hd::Handle device) = nullptr;
-    void (*makeCurrentDevice)(hd::Handle device) = nullptr;
-    void (*beginFrame)(hd::Handle device) = nullptr;
-    void (*endFrame)(hd::Handle device) = nullptr;
-    hd::ErrorInfo (*getError)() = nullptr;
+    hd::Handle (*init_device)(const char* name) = nullptr;
+    void (*disable_device)(hd::Handle device) = nullptr;
+    void (*make_current_device)(hd::Handle device) = nullptr;
+    void (*begin_frame)(hd::Handle device) = nullptr;
+    void (*end_frame)(hd::Handle device) = nullptr;
+    hd::ErrorInfo (*get_error)() = nullptr;
     void (*enable)(hd::Enum what) = nullptr;
     void (*disable)(hd::Enum what) = nullptr;
-    void (*getBooleanv)(hd::Enum what, unsigned char* values) = nullptr;
-    void (*getIntegerv)(hd::Enum what, int* values) = nullptr;
-    void (*getDoublev)(hd::Enum what, double* values) = nullptr;
-    const char* (*getString)(hd::Enum what) = nullptr;
-    void (*setDoublev)(hd::Enum what, const double* values) = nullptr;
-    hd::Enum (*checkCalibration)() = nullptr;
-    void (*updateCalibration)(hd::Enum style) = nullptr;
-    hd::SchedulerHandle (*scheduleAsynchronous)(hd::Callback callback,
-                                                void* user,
-                                                unsigned short priority) = nullptr;
+    void (*get_booleanv)(hd::Enum what, unsigned char* values) = nullptr;
+    void (*get_integerv)(hd::Enum what, int* values) = nullptr;
+    void (*get_doublev)(hd::Enum what, double* values) = nullptr;
+    const char* (*get_string)(hd::Enum what) = nullptr;
+    void (*set_doublev)(hd::Enum what, const double* values) = nullptr;
+    hd::Enum (*check_calibration)() = nullptr;
+    void (*update_calibration)(hd::Enum style) = nullptr;
+    hd::SchedulerHandle (*schedule_asynchronous)(hd::Callback callback,
+                                                 void* user,
+                                                 unsigned short priority) = nullptr;
     void (*unschedule)(hd::SchedulerHandle handle) = nullptr;
 
     /// The scheduler is one for all devices: it runs from the first start to the last stop. The
@@ -114,9 +114,9 @@ public:
     unsigned int takeErrors() const noexcept;
 
 private:
-    void (*startScheduler)() = nullptr;
-    void (*stopScheduler)() = nullptr;
-    void (*setSchedulerRate)(unsigned long hz) = nullptr;
+    void (*start_scheduler_)() = nullptr;
+    void (*stop_scheduler_)() = nullptr;
+    void (*set_scheduler_rate_)(unsigned long hz) = nullptr;
 
     std::mutex mutex_;
     int scheduler_users_ = 0;

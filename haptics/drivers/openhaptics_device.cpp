@@ -56,12 +56,12 @@ Result<std::unique_ptr<HapticDevice>> OpenHapticsDevice::open(Options options)
     const std::shared_ptr<OpenHapticsApi> api = options.api;
     api->takeErrors();
     const hd::Handle handle =
-        api->initDevice(options.name.empty() ? nullptr : options.name.c_str());
+        api->init_device(options.name.empty() ? nullptr : options.name.c_str());
     const unsigned int error = api->takeErrors();
     if (handle == hd::kInvalidHandle || (error & hd::kErrorGroup) == hd::kDeviceErrors ||
         error == hd::kInvalidLicense) {
         if (handle != hd::kInvalidHandle) {
-            api->disableDevice(handle);
+            api->disable_device(handle);
             api->takeErrors();
         }
         return Error{ErrorCode::Unreadable,
@@ -81,9 +81,9 @@ Result<std::unique_ptr<HapticDevice>> OpenHapticsDevice::open(Options options)
 OpenHapticsDevice::~OpenHapticsDevice()
 {
     stopClock();
-    api_->makeCurrentDevice(handle_);
+    api_->make_current_device(handle_);
     api_->disable(hd::kForceOutput);
-    api_->disableDevice(handle_);
+    api_->disable_device(handle_);
     api_->takeErrors();
 }
 
@@ -97,30 +97,30 @@ bool OpenHapticsDevice::get(Get getter, hd::Enum what, T* values) const
 
 void OpenHapticsDevice::describe()
 {
-    api_->makeCurrentDevice(handle_);
-    const char* vendor = api_->getString(hd::kDeviceVendor);
-    const char* model = api_->getString(hd::kDeviceModelType);
+    api_->make_current_device(handle_);
+    const char* vendor = api_->get_string(hd::kDeviceVendor);
+    const char* model = api_->get_string(hd::kDeviceModelType);
     capabilities_.name = fmt::format("{} {}", vendor != nullptr ? vendor : "3D Systems",
                                      model != nullptr ? model : "haptic device");
     api_->takeErrors();
 
     std::array<double, 6> box{};
-    if (!get(api_->getDoublev, hd::kUsableWorkspaceDimensions, box.data()) || box[3] <= box[0]) {
-        get(api_->getDoublev, hd::kMaxWorkspaceDimensions, box.data());
+    if (!get(api_->get_doublev, hd::kUsableWorkspaceDimensions, box.data()) || box[3] <= box[0]) {
+        get(api_->get_doublev, hd::kMaxWorkspaceDimensions, box.data());
     }
     capabilities_.workspace = boxFromOpenHaptics(box);
     describeForces();
 
     int number = 0;
     capabilities_.rate_hz =
-        get(api_->getIntegerv, hd::kUpdateRate, &number) && number > 0 ? number : 1000;
-    capabilities_.axes_in = get(api_->getIntegerv, hd::kInputDof, &number) && number == 3 ? 3 : 6;
+        get(api_->get_integerv, hd::kUpdateRate, &number) && number > 0 ? number : 1000;
+    capabilities_.axes_in = get(api_->get_integerv, hd::kInputDof, &number) && number == 3 ? 3 : 6;
     capabilities_.axes_out = 3;
     capabilities_.buttons = kButtons;
     capabilities_.owns_clock = true;
     // Devices without an inkwell answer a question about its switch all the same.
     int styles = 0;
-    const bool has_styles = get(api_->getIntegerv, hd::kCalibrationStyle, &styles);
+    const bool has_styles = get(api_->get_integerv, hd::kCalibrationStyle, &styles);
     const bool has_inkwell = has_styles && (styles & hd::kCalibrationStyleInkwell) != 0;
     // The third style, resetting the encoders, takes a person who puts the arm into its position.
     for (const int style : {hd::kCalibrationStyleAuto, hd::kCalibrationStyleInkwell}) {
@@ -130,7 +130,7 @@ void OpenHapticsDevice::describe()
     }
     unsigned char switched = 0;
     capabilities_.has_presence =
-        has_inkwell && get(api_->getBooleanv, hd::kCurrentInkwellSwitch, &switched);
+        has_inkwell && get(api_->get_booleanv, hd::kCurrentInkwellSwitch, &switched);
 
     api_->enable(hd::kForceOutput);
     api_->enable(hd::kMaxForceClamping);
@@ -146,9 +146,9 @@ void OpenHapticsDevice::describeForces()
     capabilities_.force_n_continuous = kForceNContinuous;
     for (const unsigned int shift : {0U, 1U}) {
         ForceNumbers numbers;
-        if (get(api_->getDoublev, hd::kNominalMaxStiffness + shift, &numbers.stiffness_n_per_mm) &&
-            get(api_->getDoublev, hd::kNominalMaxForce + shift, &numbers.force_n) &&
-            get(api_->getDoublev, hd::kNominalMaxContinuousForce + shift, &numbers.continuous_n) &&
+        if (get(api_->get_doublev, hd::kNominalMaxStiffness + shift, &numbers.stiffness_n_per_mm) &&
+            get(api_->get_doublev, hd::kNominalMaxForce + shift, &numbers.force_n) &&
+            get(api_->get_doublev, hd::kNominalMaxContinuousForce + shift, &numbers.continuous_n) &&
             numbers.isSane()) {
             capabilities_.stiffness_n_per_m_max = numbers.stiffness_n_per_mm * 1000.0;
             capabilities_.force_n_peak = numbers.force_n;
@@ -175,7 +175,7 @@ DeviceStatus OpenHapticsDevice::write(const Vec3& force_n) noexcept
         return status_ == DeviceStatus::Lost ? DeviceStatus::Lost : DeviceStatus::Unready;
     }
     const std::array<double, 3> force = forceToOpenHaptics(force_n);
-    api_->setDoublev(hd::kCurrentForce, force.data());
+    api_->set_doublev(hd::kCurrentForce, force.data());
     return DeviceStatus::Fine;
 }
 
@@ -185,7 +185,7 @@ bool OpenHapticsDevice::startClock(ClockTick tick, void* self) noexcept
     tick_ = tick;
     tick_self_ = self;
     is_stopping_.store(false, std::memory_order_relaxed);
-    scheduled_ = api_->scheduleAsynchronous(
+    scheduled_ = api_->schedule_asynchronous(
         [](void* device) { return static_cast<OpenHapticsDevice*>(device)->frame(); }, this,
         hd::kPriorityMax);
     unsigned int error = api_->takeErrors();
@@ -226,12 +226,12 @@ unsigned int OpenHapticsDevice::frame() noexcept
         return hd::kCallbackDone;
     }
     const Clock::time_point now = Clock::now(); // before what may wait for the bus
-    api_->beginFrame(handle_);
+    api_->begin_frame(handle_);
     beginFrame(now);
     is_in_frame_ = true;
     tick_(tick_self_, now);
     is_in_frame_ = false;
-    api_->endFrame(handle_);
+    api_->end_frame(handle_);
     take(api_->takeErrors());
     ++frames_;
     is_inside_.store(false);
@@ -242,7 +242,7 @@ void OpenHapticsDevice::beginFrame(Clock::time_point now) noexcept
 {
     // Zero unless the tick says otherwise: forces of the frame before do not stay on.
     constexpr std::array<double, 3> kNoForce{};
-    api_->setDoublev(hd::kCurrentForce, kNoForce.data());
+    api_->set_doublev(hd::kCurrentForce, kNoForce.data());
     if (!is_calibrated_ || frames_ % kFramesBetweenCalibrationChecks == 0) {
         checkCalibration();
     }
@@ -250,13 +250,13 @@ void OpenHapticsDevice::beginFrame(Clock::time_point now) noexcept
     std::array<double, 3> gimbal{};
     int buttons = 0;
     unsigned char is_out_of_inkwell = 1; // the switch is 0 with the stylus in it
-    api_->getDoublev(hd::kCurrentPosition, position.data());
-    api_->getIntegerv(hd::kCurrentButtons, &buttons);
+    api_->get_doublev(hd::kCurrentPosition, position.data());
+    api_->get_integerv(hd::kCurrentButtons, &buttons);
     if (capabilities_.axes_in > 3) {
-        api_->getDoublev(hd::kCurrentGimbalAngles, gimbal.data());
+        api_->get_doublev(hd::kCurrentGimbalAngles, gimbal.data());
     }
     if (capabilities_.has_presence) {
-        api_->getBooleanv(hd::kCurrentInkwellSwitch, &is_out_of_inkwell);
+        api_->get_booleanv(hd::kCurrentInkwellSwitch, &is_out_of_inkwell);
     }
     sample_.position = fromOpenHaptics(position);
     sample_.twist_rad = gimbal[2];
@@ -269,11 +269,11 @@ void OpenHapticsDevice::beginFrame(Clock::time_point now) noexcept
 
 void OpenHapticsDevice::checkCalibration() noexcept
 {
-    const hd::Enum state = api_->checkCalibration();
+    const hd::Enum state = api_->check_calibration();
     calibration_.store(state, std::memory_order_relaxed);
     is_calibrated_ = state == hd::kCalibrationOk;
     if (state == hd::kCalibrationNeedsUpdate && calibration_style_ != 0) {
-        api_->updateCalibration(calibration_style_);
+        api_->update_calibration(calibration_style_);
     }
 }
 

@@ -152,7 +152,7 @@ bool PolhemDevice::readNewest() noexcept
     int patience_ms = kReadPatienceMs;
     for (int i = 0; i < kReportsAtOnceMax; ++i) {
         std::array<unsigned char, kReportBytesMax> bytes{};
-        const int read = api_.readTimeout(handle_.get(), bytes.data(), bytes.size(), patience_ms);
+        const int read = api_.read_timeout(handle_.get(), bytes.data(), bytes.size(), patience_ms);
         if (read < 0) {
             return false;
         }

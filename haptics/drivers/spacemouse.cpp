@@ -130,7 +130,7 @@ void SpaceMouse::run() noexcept
     while (!is_stopping_.load(std::memory_order_relaxed)) {
         std::array<unsigned char, kReportBytesMax> bytes{};
         const int read =
-            api_.readTimeout(handle_.get(), bytes.data(), bytes.size(), kReadPatienceMs);
+            api_.read_timeout(handle_.get(), bytes.data(), bytes.size(), kReadPatienceMs);
         if (read < 0) {
             break;
         }

@@ -33,7 +33,7 @@ const HidApi& FakeHid::api() const
 {
     static const HidApi kApi{
         .enumerate = [](unsigned short, unsigned short) { return the_fake->enumerate(); },
-        .freeEnumeration =
+        .free_enumeration =
             [](hid_device_info* first) {
                 while (first != nullptr) {
                     const std::unique_ptr<hid_device_info> info(first);
@@ -41,13 +41,13 @@ const HidApi& FakeHid::api() const
                     first = info->next;
                 }
             },
-        .openPath = [](const char* path) { return the_fake->open(path); },
+        .open_path = [](const char* path) { return the_fake->open(path); },
         .close = [](hid_device_*) { the_fake->close(); },
-        .readTimeout = [](hid_device_*, unsigned char* data, std::size_t bytes,
-                          int ms) { return the_fake->read(data, bytes, ms); },
+        .read_timeout = [](hid_device_*, unsigned char* data, std::size_t bytes,
+                           int ms) { return the_fake->read(data, bytes, ms); },
         .write = [](hid_device_*, const unsigned char* data,
                     std::size_t bytes) { return the_fake->write(data, bytes); },
-        .accessError = [](const char* path) { return the_fake->accessError(path); },
+        .access_error = [](const char* path) { return the_fake->accessError(path); },
     };
     return kApi;
 }
