@@ -16,6 +16,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run);
 void addBenchStabilityCommand(CLI::App& bench, CommandAction& run);
 void addBenchTerrainCommand(CLI::App& bench, CommandAction& run);
 void addBenchViewCommand(CLI::App& bench, CommandAction& run);
+void addDevicesCommand(CLI::App& app, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
 void addLoopCommand(CLI::App& app, CommandAction& run);
 void addPrepareCommand(CLI::App& app, CommandAction& run);

@@ -36,6 +36,7 @@ int run(int argc, char** argv)
     marsview::addLoopCommand(app, action);
     marsview::addPrepareCommand(app, action);
     marsview::addRenderCommand(app, action);
+    marsview::addDevicesCommand(app, action);
     CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
     bench->require_subcommand(1);
     marsview::addBenchViewCommand(*bench, action);

@@ -74,6 +74,10 @@ public:
     virtual bool startClock(ClockTick /*tick*/, void* /*self*/) noexcept { return false; }
     virtual void stopClock() noexcept {}
 
+    /// Why the last answer was Unready or Lost, in one sentence for people; empty where it was Fine
+    /// or nothing is known. Any thread but that of the tick: it allocates.
+    virtual std::string trouble() const { return {}; }
+
 protected:
     HapticDevice() = default;
 };
