@@ -13,9 +13,12 @@ using CommandAction = std::function<Status()>;
 
 /// `bench` is the group of commands that measure.
 void addBenchContactCommand(CLI::App& bench, CommandAction& run);
+void addBenchStabilityCommand(CLI::App& bench, CommandAction& run);
 void addBenchTerrainCommand(CLI::App& bench, CommandAction& run);
 void addBenchViewCommand(CLI::App& bench, CommandAction& run);
+void addDevicesCommand(CLI::App& app, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
+void addLoopCommand(CLI::App& app, CommandAction& run);
 void addPrepareCommand(CLI::App& app, CommandAction& run);
 void addRenderCommand(CLI::App& app, CommandAction& run);
 /// `has_stdin` tells beforehand whether `--stdin` is among the arguments: the position options then

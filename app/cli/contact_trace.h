@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
+#include "core/contact/goal_frame.h"
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -11,18 +12,6 @@
 #include <vector>
 
 namespace marsview {
-
-/// A goal or a proxy as files have it: x and y in map coordinates, z in metres, not exaggerated.
-struct TracePoint {
-    double x = 0.0;
-    double y = 0.0;
-    double z = 0.0;
-};
-
-/// The goals in `text`: a line "x,y,z", then a goal a line. Blanks, empty lines, CR before LF and a
-/// byte order mark do no harm; "nan" and "inf" are numbers. `name` is whose text it is, for the
-/// message that tells the line that cannot be read.
-Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::string& name);
 
 /// Between the points of the file and those that the model moves among.
 struct TraceFrame {

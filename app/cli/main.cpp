@@ -33,13 +33,16 @@ int run(int argc, char** argv)
     marsview::addInfoCommand(app, action);
     marsview::addSampleCommand(app, action, has_stdin);
     marsview::addTraceCommand(app, action);
+    marsview::addLoopCommand(app, action);
     marsview::addPrepareCommand(app, action);
     marsview::addRenderCommand(app, action);
+    marsview::addDevicesCommand(app, action);
     CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
     bench->require_subcommand(1);
     marsview::addBenchViewCommand(*bench, action);
     marsview::addBenchContactCommand(*bench, action);
     marsview::addBenchTerrainCommand(*bench, action);
+    marsview::addBenchStabilityCommand(*bench, action);
     addVersionTo(app);
     try {
         app.parse(argc, argv);

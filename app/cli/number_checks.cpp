@@ -1,9 +1,7 @@
 #include "app/cli/number_checks.h"
 
-#include <charconv>
 #include <cmath>
 #include <string>
-#include <system_error>
 
 namespace marsview {
 namespace {
@@ -32,19 +30,6 @@ CLI::Validator positiveNumber()
 {
     return numberCheck([](double value) { return std::isfinite(value) && value > 0.0; },
                        "positive number");
-}
-
-std::optional<double> parseNumber(std::string_view word)
-{
-    if (word.starts_with('+')) {
-        word.remove_prefix(1);
-    }
-    double value = 0.0;
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (failure != std::errc{} || end != word.data() + word.size()) {
-        return std::nullopt;
-    }
-    return value;
 }
 
 } // namespace marsview

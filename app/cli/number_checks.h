@@ -1,9 +1,7 @@
-// Numbers among the options and in files of numbers, for every command.
+// Numbers among the options of every command.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
-#include <string_view>
 
 namespace marsview {
 
@@ -12,9 +10,5 @@ namespace marsview {
 CLI::Validator finiteNumber();
 /// Finite and more than 0.
 CLI::Validator positiveNumber();
-
-/// The number that a word is, whatever the locale; a plus before it and "nan" and "inf" are
-/// understood. Nothing where anything else is in it.
-std::optional<double> parseNumber(std::string_view word);
 
 } // namespace marsview

@@ -3,17 +3,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <fmt/format.h>
 
 namespace marsview {
-
-std::string asText(double value)
-{
-    if (std::isnan(value)) {
-        return "nan";
-    }
-    return fmt::format("{:#}", value);
-}
 
 nlohmann::ordered_json asJson(double value)
 {

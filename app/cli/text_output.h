@@ -1,16 +1,14 @@
 // How results are written: independent of the locale, and exact.
 #pragma once
 
+#include "core/base/plain_number.h" // IWYU pragma: export
+
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace marsview {
 
-/// The shortest digits that read back as the same double, always with a point ("1500.0"); "nan"
-/// where there is no number.
-std::string asText(double value);
-
-/// The same number for JSON, which knows no NaN: null instead.
+/// A number for JSON, which knows no NaN: null instead.
 nlohmann::ordered_json asJson(double value);
 
 /// The text with spaces for line breaks and other control characters, which file names may hold.

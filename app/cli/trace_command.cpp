@@ -9,20 +9,17 @@
 #include "core/contact/resident_heights.h"
 #include "core/mesh/mesh_file.h"
 #include "core/terrain/waiting_terrain.h"
+#include "haptics/trace/goal_file.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace marsview {
@@ -39,19 +36,6 @@ struct Options {
     std::string output;
 };
 
-Result<std::string> contentOf(const std::string& path)
-{
-    if (path == "-") {
-        return std::string(std::istreambuf_iterator<char>(std::cin), {});
-    }
-    std::error_code ignored;
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path, ignored)) {
-        return Error{ErrorCode::NotFound, fmt::format("{}: cannot be read", path)};
-    }
-    return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
 Status write(const std::string& path, const std::string& text)
 {
     std::ofstream file(path, std::ios::binary);
@@ -64,37 +48,13 @@ Status write(const std::string& path, const std::string& text)
 }
 
 // Over a map: heights are those of `sample`, x and y are the CRS'.
-TraceFrame frameOf(const Dataset& dataset, double exaggeration)
+TraceFrame frameOf(const std::shared_ptr<const Dataset>& dataset, double exaggeration)
 {
-    const Georeference& georeference = dataset.georeference();
-    const auto is_on_grid = [&georeference](GridPoint grid) {
-        return grid.column >= 0.0 && grid.row >= 0.0 &&
-               grid.column <= static_cast<double>(georeference.columns() - 1) &&
-               grid.row <= static_cast<double>(georeference.rows() - 1);
-    };
+    const GoalFrame frame({dataset, &dataset->georeference()}, exaggeration);
     return {
-        .to_scene =
-            [&georeference, exaggeration](const TracePoint& goal) {
-                return georeference.sceneFrame().toScene(
-                    georeference.toGrid(MapPoint{goal.x, goal.y}), goal.z * exaggeration);
-            },
-        .from_scene =
-            [&georeference, exaggeration](const ContactState& state) {
-                GridPoint grid = georeference.sceneFrame().toGrid(state.proxy);
-                // On a sample: its place, without what rounding made of it on the way.
-                const GridPoint sample{std::round(grid.column), std::round(grid.row)};
-                constexpr double kRounding = 1e-9; // columns and rows
-                if (std::abs(sample.column - grid.column) < kRounding &&
-                    std::abs(sample.row - grid.row) < kRounding) {
-                    grid = sample;
-                }
-                const MapPoint map = georeference.toMap(grid);
-                return TracePoint{map.x, map.y, state.proxy.z / exaggeration};
-            },
-        .is_clamped =
-            [&georeference, is_on_grid](const TracePoint& goal) {
-                return !is_on_grid(georeference.toGrid(MapPoint{goal.x, goal.y}));
-            },
+        .to_scene = [frame](const TracePoint& goal) { return frame.toScene(goal); },
+        .from_scene = [frame](const ContactState& state) { return frame.fromScene(state.proxy); },
+        .is_clamped = [frame](const TracePoint& goal) { return frame.isClamped(goal); },
     };
 }
 
@@ -171,7 +131,7 @@ Result<Subject> mapSubject(const Options& options, ContactModelKind kind, JobMon
         (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
     const double radius_m = options.radius_m.value_or(half_cell_m);
     const SceneFrame frame = georeference.sceneFrame();
-    const TraceFrame trace_frame = frameOf(*dataset, options.exaggeration);
+    const TraceFrame trace_frame = frameOf(dataset, options.exaggeration);
     if (map->filled) {
         const HeightfieldSurface surface(map->filled, frame, options.exaggeration);
         return Subject{makeContactModel(kind, surface, {.radius_m = radius_m}), trace_frame,
@@ -188,7 +148,7 @@ Result<Subject> mapSubject(const Options& options, ContactModelKind kind, JobMon
 
 Status runTrace(const Options& options)
 {
-    const Result<std::string> text = contentOf(options.goals);
+    const Result<std::string> text = readGoalText(options.goals);
     if (!text) {
         return text.error();
     }

@@ -1,16 +1,15 @@
 #include "core/raster/map_folder.h"
 
+#include "core/base/environment.h"
 #include "core/raster/geotiff_skeleton.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
-#include <pwd.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
@@ -27,12 +26,6 @@ constexpr std::uint64_t kDiskShare = 5;
 constexpr const char* kMapEnding = ".map.tif"; // no other file in the folder has it in its name
 constexpr const char* kUseEnding = ".use";     // its time is that of the last use
 constexpr const char* kWorkEnding = ".lock";   // see writeTiledGeoTiff
-
-std::string variable(const char* name)
-{
-    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe)
-    return value != nullptr ? value : "";
-}
 
 Error folderError(const fs::path& folder, const std::string& why)
 {
@@ -102,19 +95,10 @@ bool isMerelyLock(const fs::path& file)
 
 fs::path MapFolder::defaultPath()
 {
-    if (const std::string chosen = variable("MARSVIEW_CACHE_DIR"); !chosen.empty()) {
+    if (const std::string chosen = environmentVariable("MARSVIEW_CACHE_DIR"); !chosen.empty()) {
         return chosen;
     }
-    fs::path caches = variable("XDG_CACHE_HOME");
-    if (!caches.is_absolute()) { // as the XDG base directory specification wants it
-        std::string home = variable("HOME");
-        if (home.empty()) {
-            const passwd* user = getpwuid(getuid()); // NOLINT(concurrency-mt-unsafe)
-            home = user != nullptr ? user->pw_dir : "/";
-        }
-        caches = fs::path(home) / ".cache";
-    }
-    return caches / "marsview" / "maps";
+    return userFolder("XDG_CACHE_HOME", ".cache") / "marsview" / "maps";
 }
 
 Result<MapFolder> MapFolder::open(const fs::path& folder)

@@ -1,6 +1,7 @@
 // A haptic device as the servo loop meets it: where the hand is, in; a force, out.
 #pragma once
 
+#include "core/contact/goal_frame.h"
 #include "haptics/device/workspace.h"
 
 #include <chrono>
@@ -29,13 +30,13 @@ struct DeviceCapabilities {
 
 /// Of one moment.
 struct DeviceSample {
-    WorkspacePoint position;
+    WorkspacePoint position{};
     double twist_rad = 0.0;    // of the stylus about its axis; 0 where axes_in is 3
     std::uint32_t buttons = 0; // bit 0: the stylus button
     /// False in the inkwell or with the dead-man switch released: nothing may push.
     bool is_held = true;
     /// When the device measured this; steady clock. Old samples make the loop let go.
-    std::chrono::steady_clock::time_point time;
+    std::chrono::steady_clock::time_point time{};
 };
 
 enum class DeviceStatus : std::uint8_t {
@@ -62,12 +63,20 @@ public:
     /// limited it; a driver clamps it to what its motors stand all the same.
     virtual DeviceStatus write(const Vec3& force_n) noexcept = 0;
 
+    /// A device that plays back a recording has no hand, but goals in map coordinates. Where this
+    /// is true, `goal` is that of the last sample, and its position means nothing.
+    virtual bool recordedGoal(TracePoint& /*goal*/) const noexcept { return false; }
+
     /// A device that owns the clock calls `tick(self, now)` once per period on its own thread from
     /// start() on, until stop() has returned; the tick reads and writes it. For a device that does
     /// not own the clock both do nothing, and start() is false.
     using ClockTick = void (*)(void* self, std::chrono::steady_clock::time_point now) noexcept;
     virtual bool startClock(ClockTick /*tick*/, void* /*self*/) noexcept { return false; }
     virtual void stopClock() noexcept {}
+
+    /// Why the last answer was Unready or Lost, in one sentence for people; empty where it was Fine
+    /// or nothing is known. Any thread but that of the tick: it allocates.
+    virtual std::string trouble() const { return {}; }
 
 protected:
     HapticDevice() = default;

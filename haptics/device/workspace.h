@@ -27,8 +27,8 @@ constexpr WorkspacePoint operator+(const WorkspacePoint& a, const Vec3& metres)
 
 /// What a device reaches.
 struct WorkspaceBox {
-    WorkspacePoint low;
-    WorkspacePoint high;
+    WorkspacePoint low{};
+    WorkspacePoint high{};
 
     constexpr bool operator==(const WorkspaceBox&) const = default;
 };

@@ -25,4 +25,9 @@ private:
     int error_ = 0;
 };
 
+/// Brings in the code and constants of the program itself and of the libraries that ticks call (C,
+/// C++ and mathematics), so that what is called for the first time an hour later costs no page
+/// fault. Milliseconds; not for the servo's turns.
+void touchProgram() noexcept;
+
 } // namespace marsview

@@ -1,6 +1,8 @@
 #include "haptics/loop/real_time_thread.h"
 
 #include "core/base/check.h"
+#include "haptics/loop/page_lock.h"
+#include "haptics/loop/realtime_kit.h"
 
 #include <cerrno>
 #include <cstring>
@@ -87,6 +89,7 @@ void RealTimeThread::start(const RealTimeOptions& options, std::shared_ptr<void>
 {
     MARSVIEW_CHECK(options.period.count() > 0);
     self_ = std::move(self);
+    published_ = std::make_unique<SeqLock<LoopStatistics>>();
     thread_ = std::thread([this, options, tick] { run(options, self_.get(), tick); });
 }
 
@@ -106,7 +109,14 @@ void RealTimeThread::join()
 void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick)
 {
     grants_.scheduling_refusal = refusalOfScheduling(options.priority);
+    if (!grants_.hasScheduling() && options.asks_realtime_kit) {
+        const std::string refusal = askRealtimeKit(options.priority);
+        grants_.scheduling_refusal =
+            refusal.empty() ? std::string() : grants_.scheduling_refusal + "; " + refusal;
+    }
     grants_.locking_refusal = options.locks_memory ? refusalOfLocking() : "not asked for";
+    touchProgram();
+    has_grants_.store(true, std::memory_order_release);
     touchStack(options.stack_bytes_touched);
 
     Faults before = faultsOfThisThread();
@@ -127,8 +137,17 @@ void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick)
             tick(self, {.number = number, .deadline = turn.deadline, .dt_s = dt_s});
         turn.end = now();
         turn.deadline = statistics_.add(turn, options.period);
+        // Between turns, where there is time: a microsecond.
+        constexpr std::uint64_t kPublishEvery = 128;
+        if (outcome == LoopOutcome::Stop || number % kPublishEvery == kPublishEvery - 1) {
+            const Faults after = faultsOfThisThread();
+            statistics_.minor_faults = after.minor - before.minor;
+            statistics_.major_faults = after.major - before.major;
+            published_->write(statistics_);
+            has_published_.store(true, std::memory_order_release);
+        }
         if (outcome == LoopOutcome::Stop) {
-            break;
+            return;
         }
     }
     const Faults after = faultsOfThisThread();

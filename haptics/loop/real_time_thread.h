@@ -2,12 +2,14 @@
 #pragma once
 
 #include "haptics/loop/loop_statistics.h"
+#include "haptics/sync/seq_lock.h"
 
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -18,6 +20,8 @@ namespace marsview {
 struct RealTimeOptions {
     std::chrono::nanoseconds period{1'000'000};
     int priority = 80; // of SCHED_FIFO, 1 to 99
+    /// Where the system refuses that: asks RealtimeKit, which gives a lower priority.
+    bool asks_realtime_kit = true;
     /// Turns before those that are counted: the first calls of functions cost page faults that no
     /// later ones do.
     std::uint64_t uncounted_turns = 100;
@@ -72,6 +76,18 @@ public:
     const RealTimeGrants& grants() const noexcept { return grants_; }
     const LoopStatistics& statistics() const noexcept { return statistics_; }
 
+    /// While it runs: those of some turns ago, nothing before the first. Any thread.
+    std::optional<LoopStatistics> latestStatistics() const noexcept
+    {
+        return has_published_.load(std::memory_order_acquire) ? std::optional(published_->read())
+                                                              : std::nullopt;
+    }
+    /// The same of what the system granted, which is known before the first turn.
+    std::optional<RealTimeGrants> latestGrants() const
+    {
+        return has_grants_.load(std::memory_order_acquire) ? std::optional(grants_) : std::nullopt;
+    }
+
 private:
     using Tick = LoopOutcome (*)(void* self, const LoopTick& turn) noexcept;
 
@@ -82,6 +98,10 @@ private:
     std::atomic<bool> is_stopping_{false};
     RealTimeGrants grants_;
     LoopStatistics statistics_;
+    // On the heap: it is large, and the histogram's pages are touched by the first write.
+    std::unique_ptr<SeqLock<LoopStatistics>> published_;
+    std::atomic<bool> has_grants_{false};
+    std::atomic<bool> has_published_{false};
     std::thread thread_;
 };
 

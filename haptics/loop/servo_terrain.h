@@ -4,6 +4,8 @@
 #include "core/terrain/resident_terrain.h"
 #include "haptics/loop/window_exchange.h"
 
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -35,6 +37,16 @@ public:
             exchange_->windows.take() && terrain_->show(*exchange_->windows.front(), motion.at);
         return terrain_->advance(motion.at, seconds) || is_shown;
     }
+
+    /// How long the feeder has said nothing; 0 where it has not begun.
+    std::chrono::nanoseconds silence(std::chrono::steady_clock::time_point now) const noexcept
+    {
+        const std::int64_t fed_ns = exchange_->fed_ns.load(std::memory_order_relaxed);
+        return fed_ns == 0 ? std::chrono::nanoseconds(0)
+                           : now.time_since_epoch() - std::chrono::nanoseconds(fed_ns);
+    }
+    /// For who stops the servo thread, after it has ended: there is no hand any more.
+    void leave() noexcept { exchange_->motion.write({}); }
 
 private:
     std::shared_ptr<WindowExchange> exchange_;

@@ -57,6 +57,18 @@ public:
         return maximum_;
     }
 
+    /// Calls `take(end, count)` for each bucket that is not empty, in order; `end` is the longest
+    /// span that it may hold.
+    template <typename F>
+    void visit(const F& take) const
+    {
+        for (std::size_t i = 0; i < counts_.size(); ++i) {
+            if (counts_[i] > 0) {
+                take(Span{static_cast<Span::rep>(endOf(i))}, counts_[i]);
+            }
+        }
+    }
+
 private:
     static constexpr unsigned kBits = 5; // of the mantissa
     static constexpr std::uint64_t kParts = 1U << kBits;

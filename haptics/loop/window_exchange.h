@@ -6,6 +6,8 @@
 #include "haptics/sync/seq_lock.h"
 #include "haptics/sync/triple_buffer.h"
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 
 namespace marsview {
@@ -17,6 +19,9 @@ struct WindowExchange {
 
     SeqLock<HandMotion> motion;                                  // the servo writes
     TripleBuffer<std::shared_ptr<const ResidentWindow>> windows; // the servo reads
+    /// When the feeder last looked, ns of the steady clock; 0: never. Where it goes silent, what
+    /// the servo has is not the ground any more.
+    std::atomic<std::int64_t> fed_ns{0};
 };
 
 } // namespace marsview

@@ -174,6 +174,8 @@ std::shared_ptr<const Tile> WindowFeeder::locked(std::shared_ptr<const Tile> til
 
 bool WindowFeeder::feed(Clock::time_point now)
 {
+    exchange_->fed_ns.store(now.time_since_epoch() / std::chrono::nanoseconds(1),
+                            std::memory_order_relaxed);
     HandMotion motion = exchange_->motion.read();
     const auto age = now.time_since_epoch() - std::chrono::nanoseconds(motion.time_ns);
     if (!motion.is_active || age > kSilence) {

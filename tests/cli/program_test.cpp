@@ -30,6 +30,7 @@ TEST(Program, RefusesWrongUsageWithStatusTwo)
     expectUsageError({});
     expectUsageError({"fly"});
     expectUsageError({"info"});
+    expectUsageError({"devices", "everything"});
     expectUsageError({"info", mars(), "--colour"});
     expectUsageError({"sample", mars()});
     expectUsageError({"sample", mars(), "--pixel", "1"});
@@ -40,8 +41,12 @@ TEST(Program, RefusesWrongUsageWithStatusTwo)
 
 TEST(Program, AnswersHelpAndVersionEverywhere)
 {
-    for (const std::vector<std::string>& command :
-         {std::vector<std::string>{}, {"info"}, {"sample"}, {"bench"}, {"bench", "view"}}) {
+    for (const std::vector<std::string>& command : {std::vector<std::string>{},
+                                                    {"info"},
+                                                    {"sample"},
+                                                    {"devices"},
+                                                    {"bench"},
+                                                    {"bench", "view"}}) {
         for (const char* option : {"--help", "--version"}) {
             std::vector<std::string> arguments = command;
             arguments.emplace_back(option);

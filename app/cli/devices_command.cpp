@@ -1,0 +1,94 @@
+// marsview-cli devices: what can be touched with, and why something cannot.
+
+#include "app/cli/devices_command.h"
+
+#include "app/cli/commands.h"
+#include "app/cli/text_output.h"
+#include "haptics/device/device_registry.h"
+#include "haptics/device/load_marker.h"
+#include "haptics/drivers/built_in_drivers.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace marsview {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    bool is_json = false;
+    bool tries_again = false;
+};
+
+Status runDevices(const Options& options)
+{
+    if (options.tries_again) {
+        LoadMarker::forgetFailures(LoadMarker::defaultFolder());
+    }
+    DeviceRegistry registry(builtInDrivers());
+    const std::vector<FoundDevice> devices = registry.find();
+    if (options.is_json) {
+        // Names come from devices and files, and need not be UTF-8.
+        printLine(devicesAsJson(devices, registry.schemes())
+                      .dump(-1, ' ', false, Json::error_handler_t::replace));
+    } else {
+        printLine(devicesAsTable(devices));
+    }
+    return Done{};
+}
+
+} // namespace
+
+std::string devicesAsTable(const std::vector<FoundDevice>& devices)
+{
+    struct Row {
+        std::string uri;
+        std::string name;
+        std::string state;
+    };
+    std::vector<Row> rows{{"URI", "name", "state"}};
+    for (const FoundDevice& device : devices) {
+        rows.push_back({asOneLine(device.uri), asOneLine(device.name),
+                        device.isUsable() ? "ready" : asOneLine(device.reason)});
+    }
+    std::size_t uri_width = 0;
+    std::size_t name_width = 0;
+    for (const Row& row : rows) {
+        uri_width = std::max(uri_width, row.uri.size());
+        name_width = std::max(name_width, row.name.size());
+    }
+    std::string table;
+    for (const Row& row : rows) {
+        table += fmt::format("{}{:<{}}  {:<{}}  {}", table.empty() ? "" : "\n", row.uri, uri_width,
+                             row.name, name_width, row.state);
+    }
+    return table;
+}
+
+Json devicesAsJson(const std::vector<FoundDevice>& devices, const std::vector<std::string>& schemes)
+{
+    Json list = Json::array();
+    for (const FoundDevice& device : devices) {
+        list.push_back({{"uri", device.uri},
+                        {"name", device.name},
+                        {"usable", device.isUsable()},
+                        {"reason", device.isUsable() ? Json(nullptr) : Json(device.reason)}});
+    }
+    return {{"devices", list}, {"schemes", schemes}};
+}
+
+void addDevicesCommand(CLI::App& app, CommandAction& run)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("devices", "List haptic devices and plugins, and why one is not usable");
+    command->add_flag("--json", options->is_json, "for machines");
+    command->add_flag("--retry", options->tries_again,
+                      "try plugins again that were left out because the program ended while they "
+                      "were being loaded");
+    command->callback([options, &run] { run = [options] { return runDevices(*options); }; });
+}
+
+} // namespace marsview

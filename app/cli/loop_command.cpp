@@ -1,0 +1,206 @@
+// marsview-cli loop: the real servo thread on a device, and how punctual it was.
+
+#include "app/cli/commands.h"
+#include "app/cli/long_job.h"
+#include "app/cli/loop_map.h"
+#include "app/cli/loop_report.h"
+#include "app/cli/number_checks.h"
+#include "app/cli/text_output.h"
+#include "haptics/device/device_registry.h"
+#include "haptics/drivers/built_in_drivers.h"
+#include "haptics/loop/rt_scope.h"
+#include "haptics/trace/session_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+struct Options {
+    MapOptions map;
+    std::string device;
+    LoopMapOptions loop;
+    std::string model{contactModelName(kContactModelDefault)};
+    double seconds = 10.0;
+    std::optional<double> across_cells;
+    double stiffness_n_per_m = 300.0;
+    std::string record;
+    std::string flight;
+    bool is_json = false;
+};
+
+// What the hand reaches: the whole map, or the middle of it.
+WorkspaceFrame
+frameFor(const Options& options, const LoopMap& map, const DeviceCapabilities& device)
+{
+    const WorkspaceBox reach = reachWithin(device.workspace);
+    WorkspaceFrame frame = frameForMap(map.box, reach);
+    if (options.across_cells) {
+        frame.scene_per_metre = *options.across_cells * map.cell_m / (reach.high.x - reach.low.x);
+    }
+    return frame;
+}
+
+// A simulated hand that swipes counts in cells; only the frame tells how wide these are for it.
+Result<std::unique_ptr<HapticDevice>>
+openDevice(DeviceRegistry& registry, const Options& options, const LoopMap& map)
+{
+    const std::string& uri = options.device;
+    const bool is_swipe = uri.starts_with("sim:") && uri.find("swipe=") != std::string::npos &&
+                          uri.find("cell_m=") == std::string::npos;
+    if (!is_swipe) {
+        return registry.open(uri);
+    }
+    const Result<std::unique_ptr<HapticDevice>> plain = registry.open("sim:");
+    if (!plain) {
+        return plain.error();
+    }
+    const WorkspaceFrame frame = frameFor(options, map, (*plain)->capabilities());
+    return registry.open(fmt::format("{},cell_m={}", uri, map.cell_m / frame.scene_per_metre));
+}
+
+Status runLoop(const Options& options)
+{
+    std::optional<LoopMap> map;
+    {
+        LongJob job("reading");
+        Result<LoopMap> opened = openLoopMap(options.map, options.loop, job.monitor());
+        if (!opened) {
+            return std::move(opened).error();
+        }
+        map = std::move(opened).value();
+    }
+    DeviceRegistry registry(builtInDrivers());
+    Result<std::unique_ptr<HapticDevice>> device = openDevice(registry, options, *map);
+    if (!device) {
+        return std::move(device).error();
+    }
+
+    const double rate_hz = (*device)->capabilities().rate_hz;
+    ServoLoopOptions loop_options;
+    loop_options.ticks_max = loop_options.thread.uncounted_turns +
+                             static_cast<std::uint64_t>(std::ceil(options.seconds * rate_hz));
+    ServoLoop loop(std::move(device).value(), loop_options);
+    std::unique_ptr<SessionRecorder> recorder;
+    if (!options.record.empty()) {
+        Result<std::unique_ptr<SessionRecorder>> begun =
+            SessionRecorder::begin(loop, options.record);
+        if (!begun) {
+            return std::move(begun).error();
+        }
+        recorder = std::move(begun).value();
+    }
+    const std::uint64_t allocations_before = RtScope::allocationCount();
+    {
+        LongJob job("running");
+        loop.set({.map = map->map,
+                  .frame = frameFor(options, *map, loop.device()),
+                  .frame_number = 1,
+                  .stiffness_n_per_m = options.stiffness_n_per_m});
+        constexpr std::chrono::milliseconds kLook{20};
+        while (!loop.hasEnded() && !job.monitor().isCancelled()) {
+            std::this_thread::sleep_for(kLook);
+            job.monitor().report(std::min(1.0, static_cast<double>(loop.state().tick) /
+                                                   static_cast<double>(loop_options.ticks_max)));
+        }
+        loop.stop();
+    }
+    LoopReport report{.file = options.map.path,
+                      .device_uri = options.device,
+                      .device_name = loop.device().name,
+                      .model = options.model,
+                      .exaggeration = options.loop.exaggeration,
+                      .rate_hz = rate_hz,
+                      .statistics = loop.statistics(),
+                      .grants = loop.grants(),
+                      .state = loop.state()};
+#ifdef MARSVIEW_COUNTS_ALLOCATIONS
+    report.allocations = RtScope::allocationCount() - allocations_before;
+#else
+    (void)allocations_before;
+#endif
+    if (map->feeder) {
+        report.feeder = map->feeder->statistics();
+    }
+    if (recorder) {
+        if (Status written = recorder->finish(); !written) {
+            return written;
+        }
+        report.recorded = recorder->updates();
+    }
+    if (!options.flight.empty()) {
+        if (Status written = saveFlight(loop.flight(), options.flight); !written) {
+            return written;
+        }
+    }
+    if (options.is_json) {
+        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+        printLine(asJson(report).dump(2, ' ', false, replace));
+    } else {
+        const std::string text = asText(report);
+        std::fwrite(text.data(), 1, text.size(), stdout);
+    }
+    printNotices(map->opened.dataset->info());
+    return Done{};
+}
+
+} // namespace
+
+void addLoopCommand(CLI::App& app, CommandAction& run)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "loop", "Run the servo loop on a device and print how long its updates took");
+    options->map.addTo(*command);
+    command
+        ->add_option("--device", options->device,
+                     "its URI: null:, sim:swipe=10,delay_ms=1, replay:GOALS.csv, …")
+        ->required();
+    command->add_option("--seconds", options->seconds, "how long, unless the device ends first")
+        ->capture_default_str()
+        ->check(positiveNumber());
+    std::vector<std::string> names;
+    for (const ContactModelKind kind : kContactModelKinds) {
+        names.emplace_back(contactModelName(kind));
+    }
+    command->add_option("--model", options->model, "contact model")
+        ->capture_default_str()
+        ->check(CLI::IsMember(names));
+    command
+        ->add_option("--radius", options->loop.radius_m,
+                     "of the sphere of virtual-proxy, scene metres; default half a cell")
+        ->check(positiveNumber());
+    command->add_option("--exaggeration", options->loop.exaggeration, "of heights")
+        ->capture_default_str()
+        ->check(positiveNumber());
+    command
+        ->add_option("--across", options->across_cells,
+                     "cells that the workspace is wide, around the map's middle; default the whole "
+                     "map")
+        ->check(positiveNumber());
+    command
+        ->add_option("--stiffness", options->stiffness_n_per_m,
+                     "of the ground in N/m; never more than the device is stable with")
+        ->capture_default_str()
+        ->check(positiveNumber());
+    command->add_option("--record", options->record,
+                        "CSV file for what happens; trace --goals and replay: read it");
+    command->add_option("--flight", options->flight,
+                        "CSV file for the last ten seconds of the flight recorder");
+    command->add_flag("--json", options->is_json, "print JSON");
+    command->callback([options, &run] {
+        options->loop.kind = contactModelKind(options->model).value_or(kContactModelDefault);
+        run = [options] { return runLoop(*options); };
+    });
+}
+
+} // namespace marsview

@@ -1,0 +1,34 @@
+// A map for a servo loop: in memory, or in tiles with the thread that brings them.
+#pragma once
+
+#include "app/cli/touch_map.h"
+#include "core/contact/contact_model.h"
+#include "core/view/scene_box.h"
+#include "haptics/loop/servo_map.h"
+#include "haptics/loop/window_feeder.h"
+
+#include <memory>
+#include <optional>
+
+namespace marsview {
+
+struct LoopMapOptions {
+    ContactModelKind kind = kContactModelDefault;
+    double exaggeration = 1.0;
+    std::optional<double> radius_m; // of virtual-proxy; default half a cell
+};
+
+/// Feeds while it lives. The map is the servo's until the loop has ended.
+struct LoopMap {
+    TouchMap opened;
+    std::unique_ptr<WindowFeeder> feeder; // null where the map is held
+    std::shared_ptr<ServoMap> map;
+    SceneBox box;          // of the whole map
+    double cell_m = 1.0;   // scene metres, the mean of both sides
+    double radius_m = 0.0; // that virtual-proxy has
+};
+
+Result<LoopMap>
+openLoopMap(const MapOptions& map, const LoopMapOptions& options, JobMonitor& monitor);
+
+} // namespace marsview

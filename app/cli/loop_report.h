@@ -1,0 +1,31 @@
+// What `marsview-cli loop` tells of a loop that has run.
+#pragma once
+
+#include "haptics/loop/servo_loop.h"
+#include "haptics/loop/window_feeder.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace marsview {
+
+struct LoopReport {
+    std::string file;
+    std::string device_uri;
+    std::string device_name;
+    std::string model;
+    double exaggeration = 1.0;
+    double rate_hz = 1000.0;
+    LoopStatistics statistics;
+    RealTimeGrants grants;
+    LoopState state; // the last
+    std::optional<WindowFeederStatistics> feeder{};
+    std::optional<std::uint64_t> allocations{}; // nothing where nobody counted
+    std::uint64_t recorded = 0;                 // updates
+};
+
+nlohmann::ordered_json asJson(const LoopReport& report);
+std::string asText(const LoopReport& report);
+
+} // namespace marsview

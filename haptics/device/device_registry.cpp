@@ -1,0 +1,61 @@
+#include "haptics/device/device_registry.h"
+
+#include "core/base/check.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <utility>
+
+namespace marsview {
+
+DeviceRegistry::DeviceRegistry(std::vector<std::unique_ptr<DeviceDriver>> drivers)
+    : drivers_(std::move(drivers))
+{
+    std::vector<std::string> names = schemes();
+    std::sort(names.begin(), names.end());
+    MARSVIEW_CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+}
+
+std::vector<FoundDevice> DeviceRegistry::find()
+{
+    std::vector<FoundDevice> all;
+    for (const auto& driver : drivers_) {
+        std::vector<FoundDevice> found = driver->find();
+        std::move(found.begin(), found.end(), std::back_inserter(all));
+    }
+    return all;
+}
+
+Result<std::unique_ptr<HapticDevice>> DeviceRegistry::open(std::string_view uri)
+{
+    const auto colon = uri.find(':');
+    const std::string known = fmt::format("{}", fmt::join(schemes(), ", "));
+    if (colon == std::string_view::npos) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: is not the URI of a device; one begins with a scheme and a "
+                                 "colon, and the known schemes are {}",
+                                 uri, known)};
+    }
+    const std::string_view scheme = uri.substr(0, colon);
+    const auto driver =
+        std::find_if(drivers_.begin(), drivers_.end(),
+                     [scheme](const auto& candidate) { return candidate->scheme() == scheme; });
+    if (driver == drivers_.end()) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: no driver has the scheme \"{}\"; the known schemes are {}",
+                                 uri, scheme, known)};
+    }
+    return (*driver)->open(uri.substr(colon + 1));
+}
+
+std::vector<std::string> DeviceRegistry::schemes() const
+{
+    std::vector<std::string> names;
+    for (const auto& driver : drivers_) {
+        names.emplace_back(driver->scheme());
+    }
+    return names;
+}
+
+} // namespace marsview

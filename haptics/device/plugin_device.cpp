@@ -1,0 +1,146 @@
+#include "haptics/device/plugin_device.h"
+
+#include "haptics/device/capability_check.h"
+#include "haptics/device/watched_call.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+namespace marsview {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kClosePatience{2000};
+constexpr std::uint32_t kSmallNumberMax = 255;
+
+// Answers that the interface does not know are those of a broken device.
+DeviceStatus statusOf(std::uint32_t answer) noexcept
+{
+    switch (answer) {
+    case MARSVIEW_FINE:
+        return DeviceStatus::Fine;
+    case MARSVIEW_UNREADY:
+        return DeviceStatus::Unready;
+    case MARSVIEW_FINISHED:
+        return DeviceStatus::Finished;
+    default:
+        return DeviceStatus::Lost;
+    }
+}
+
+std::uint8_t smallNumber(std::uint32_t value) noexcept
+{
+    return static_cast<std::uint8_t>(std::min(value, kSmallNumberMax));
+}
+
+// std::chrono::steady_clock is CLOCK_MONOTONIC. A sample from the future would never grow old.
+Clock::time_point timeOf(std::int64_t time_ns) noexcept
+{
+    const Clock::time_point now = Clock::now();
+    if (time_ns == 0) {
+        return now;
+    }
+    return std::min(now, Clock::time_point(std::chrono::nanoseconds(time_ns)));
+}
+
+} // namespace
+
+PluginDevice::PluginDevice(const MarsviewPlugin& table, MarsviewDevice* device)
+    : table_(table)
+    , device_(device)
+{}
+
+PluginDevice::~PluginDevice()
+{
+    stopClock();
+    callWatched(kClosePatience, [close = table_.close, device = device_] {
+        close(device);
+        return true;
+    });
+}
+
+std::optional<std::string> PluginDevice::describe(const std::string& plugin_name)
+{
+    alignas(std::max_align_t) std::array<std::byte, kCapabilitiesBytesMax> room{};
+    auto* theirs = reinterpret_cast<MarsviewCapabilities*>(room.data());
+    if (table_.capabilities(device_, theirs) != MARSVIEW_FINE) {
+        return "does not say what it is";
+    }
+    MarsviewCapabilities c;
+    std::memcpy(&c, room.data(), sizeof c);
+    const auto point = [](const double(&p)[3]) { // NOLINT(modernize-avoid-c-arrays): C's
+        return WorkspacePoint{p[0], p[1], p[2]};
+    };
+    capabilities_.name.assign(c.name, strnlen(c.name, sizeof c.name));
+    if (capabilities_.name.empty()) {
+        capabilities_.name = plugin_name;
+    }
+    capabilities_.workspace = {point(c.workspace_low_m), point(c.workspace_high_m)};
+    capabilities_.force_n_peak = c.force_n_peak;
+    capabilities_.force_n_continuous = c.force_n_continuous;
+    capabilities_.stiffness_n_per_m_max = c.stiffness_n_per_m_max;
+    capabilities_.rate_hz = c.rate_hz;
+    capabilities_.axes_in = smallNumber(c.axes_in);
+    capabilities_.axes_out = smallNumber(c.axes_out);
+    capabilities_.buttons = smallNumber(c.buttons);
+    capabilities_.owns_clock = (c.flags & MARSVIEW_OWNS_CLOCK) != 0;
+    capabilities_.has_presence = (c.flags & MARSVIEW_HAS_PRESENCE) != 0;
+    if (capabilities_.owns_clock && table_.start_clock == nullptr) {
+        return "states that it owns the clock without a function to start it";
+    }
+    return impossibilityOf(capabilities_);
+}
+
+DeviceStatus PluginDevice::read(DeviceSample& sample) noexcept
+{
+    sample_.fill(std::byte{0});
+    const DeviceStatus status =
+        statusOf(table_.read(device_, reinterpret_cast<MarsviewSample*>(sample_.data())));
+    if (status != DeviceStatus::Fine) {
+        return status;
+    }
+    MarsviewSample theirs;
+    std::memcpy(&theirs, sample_.data(), sizeof theirs);
+    sample.position = {theirs.position_m[0], theirs.position_m[1], theirs.position_m[2]};
+    sample.twist_rad = theirs.twist_rad;
+    sample.buttons = theirs.buttons;
+    sample.is_held = !capabilities_.has_presence || theirs.is_held != 0;
+    sample.time = timeOf(theirs.time_ns);
+    return status;
+}
+
+DeviceStatus PluginDevice::write(const Vec3& force_n) noexcept
+{
+    const double force[3] = {force_n.x, force_n.y, force_n.z}; // NOLINT(modernize-avoid-c-arrays)
+    return statusOf(table_.write(device_, force));
+}
+
+bool PluginDevice::startClock(ClockTick tick, void* self) noexcept
+{
+    if (!capabilities_.owns_clock) {
+        return false;
+    }
+    tick_ = tick;
+    tick_self_ = self;
+    const auto forward = [](void* device) noexcept {
+        const auto* me = static_cast<const PluginDevice*>(device);
+        me->tick_(me->tick_self_, Clock::now());
+    };
+    if (table_.start_clock(device_, forward, this) != MARSVIEW_FINE) {
+        tick_ = nullptr;
+        return false;
+    }
+    return true;
+}
+
+void PluginDevice::stopClock() noexcept
+{
+    if (tick_ != nullptr) {
+        table_.stop_clock(device_);
+        tick_ = nullptr;
+    }
+}
+
+} // namespace marsview

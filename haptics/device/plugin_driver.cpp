@@ -1,0 +1,236 @@
+#include "haptics/device/plugin_driver.h"
+
+#include "core/base/environment.h"
+#include "haptics/device/load_marker.h"
+#include "haptics/device/watched_call.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <iterator>
+#include <optional>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEnding = ".so";
+constexpr const char* kFolderVariable = "MARSVIEW_PLUGIN_PATH";
+
+using Library = std::shared_ptr<const PluginLibrary>;
+
+std::string stampOf(const fs::path& file)
+{
+    std::error_code none;
+    return fmt::format("{} {}", fs::file_size(file, none),
+                       fs::last_write_time(file, none).time_since_epoch().count());
+}
+
+std::vector<fs::path> pluginsIn(const fs::path& folder)
+{
+    std::vector<fs::path> files;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none)) {
+        if (entry.path().extension() == kEnding && entry.is_regular_file(none)) {
+            files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+struct Address {
+    fs::path file;
+    std::string id;
+};
+
+// A library that hangs while it is loaded keeps the system's lock on loading, which exit() wants to
+// have too: it would never return.
+void exitWithoutUnloading()
+{
+    on_exit(
+        [](int status, void* /*nothing*/) {
+            std::fflush(nullptr);
+            _exit(status);
+        },
+        nullptr);
+}
+
+// A path may have a # of its own, so whatever is a file is taken as one.
+Address split(std::string_view address)
+{
+    std::error_code none;
+    const auto hash = address.rfind('#');
+    if (hash == std::string_view::npos || fs::exists(fs::path(address), none)) {
+        return {address, {}};
+    }
+    return {address.substr(0, hash), std::string(address.substr(hash + 1))};
+}
+
+} // namespace
+
+PluginOptions PluginOptions::standard()
+{
+    PluginOptions options;
+    const std::string chosen = environmentVariable(kFolderVariable);
+    for (std::size_t begin = 0; begin < chosen.size();) {
+        const std::size_t end = std::min(chosen.find(':', begin), chosen.size());
+        if (end > begin) {
+            options.folders.emplace_back(chosen.substr(begin, end - begin));
+        }
+        begin = end + 1;
+    }
+    options.folders.push_back(userFolder("XDG_DATA_HOME", ".local/share") / "marsview" / "plugins");
+    options.folders.emplace_back(MARSVIEW_PLUGIN_FOLDER);
+    options.marker_folder = LoadMarker::defaultFolder();
+    return options;
+}
+
+PluginDriver::PluginDriver(PluginOptions options)
+    : options_(std::move(options))
+{}
+
+Error PluginDriver::hung(const fs::path& file, std::string_view what, std::string_view doing)
+{
+    Error error{ErrorCode::Unreadable,
+                fmt::format("{}: did not come back from {} within {:.1f} s; it is left out "
+                            "until the program is started again",
+                            what, doing, std::chrono::duration<double>(options_.patience).count())};
+    known_.insert_or_assign(file, Known{stampOf(file), error});
+    return error;
+}
+
+Result<Library> PluginDriver::load(const fs::path& file)
+{
+    const std::string stamp = stampOf(file);
+    if (const auto known = known_.find(file); known != known_.end()) {
+        if (known->second.stamp == stamp) {
+            return known->second.library;
+        }
+        known_.erase(known);
+    }
+    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file);
+    if (!marker) {
+        return std::move(marker).error();
+    }
+    // The marker goes with the thread: one that hangs keeps it to the program's end.
+    auto library =
+        callWatched(options_.patience,
+                    [file, held = std::optional(std::move(*marker))]() mutable -> Result<Library> {
+                        Result<PluginLibrary> loaded = PluginLibrary::load(file);
+                        held.reset();
+                        if (!loaded) {
+                            return std::move(loaded).error();
+                        }
+                        return Library(std::make_shared<const PluginLibrary>(std::move(*loaded)));
+                    });
+    if (!library) {
+        exitWithoutUnloading();
+        return hung(file, file.string(), "being loaded");
+    }
+    known_.insert_or_assign(file, Known{stamp, *library});
+    return *library;
+}
+
+std::vector<FoundDevice> PluginDriver::devicesOf(const fs::path& file)
+{
+    const std::string uri = fmt::format("{}:{}", scheme(), file.string());
+    const auto refused = [&](const Error& error) {
+        return std::vector<FoundDevice>{{uri, file.filename().string(), error.message}};
+    };
+    const Result<Library> library = load(file);
+    if (!library) {
+        return refused(library.error());
+    }
+    const auto entries =
+        callWatched(options_.patience, [library = *library] { return library->enumerate(); });
+    if (!entries) {
+        return refused(hung(file, file.string(), "listing its devices"));
+    }
+    std::vector<FoundDevice> found;
+    for (const PluginEntry& entry : *entries) {
+        found.push_back({entry.id.empty() ? uri : fmt::format("{}#{}", uri, entry.id),
+                         entry.name.empty() ? (*library)->name() : entry.name, entry.reason});
+    }
+    if (found.empty()) {
+        found.push_back({uri, (*library)->name(), "none of its devices is connected"});
+    }
+    return found;
+}
+
+std::vector<FoundDevice> PluginDriver::find()
+{
+    std::vector<FoundDevice> all;
+    for (const fs::path& folder : options_.folders) {
+        for (const fs::path& file : pluginsIn(folder)) {
+            for (FoundDevice& device : devicesOf(file)) {
+                all.push_back(std::move(device));
+            }
+        }
+    }
+    return all;
+}
+
+std::string PluginDriver::folderNames() const
+{
+    std::vector<std::string> names;
+    for (const fs::path& folder : options_.folders) {
+        names.push_back(folder.string());
+    }
+    return fmt::format("{}", fmt::join(names, " or "));
+}
+
+Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view address)
+{
+    const std::string uri = fmt::format("{}:{}", scheme(), address);
+    auto [file, id] = split(address);
+    std::error_code none;
+    if (!file.has_parent_path()) {
+        for (const fs::path& folder : options_.folders) {
+            if (fs::is_regular_file(folder / file, none)) {
+                file = folder / file;
+                break;
+            }
+        }
+    }
+    if (!fs::is_regular_file(file, none)) {
+        return Error{ErrorCode::NotFound,
+                     fmt::format("{}: there is no such plugin; give its path, or put it into {}",
+                                 uri, folderNames())};
+    }
+    const Result<Library> library = load(file);
+    if (!library) {
+        return library.error();
+    }
+    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file);
+    if (!marker) {
+        return std::move(marker).error();
+    }
+    using Opened = Result<std::unique_ptr<HapticDevice>>;
+    auto device = callWatched(options_.patience,
+                              [library = *library, id = id, uri,
+                               held = std::optional(std::move(*marker))]() mutable -> Opened {
+                                  Opened opened = library->open(id, uri);
+                                  held.reset();
+                                  return opened;
+                              });
+    if (!device) {
+        return hung(file, uri, "being opened");
+    }
+    return std::move(*device);
+}
+
+void PluginDriver::forgetFailures()
+{
+    LoadMarker::forgetFailures(options_.marker_folder);
+    for (auto known = known_.begin(); known != known_.end();) {
+        known = known->second.library ? std::next(known) : known_.erase(known);
+    }
+}
+
+} // namespace marsview

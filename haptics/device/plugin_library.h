@@ -1,0 +1,47 @@
+// A device plugin in this process: its table, checked, in this program's own size.
+#pragma once
+
+#include "core/base/result.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/plugin_abi.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace marsview {
+
+/// What a plugin tells of one of its devices.
+struct PluginEntry {
+    std::string id;
+    std::string name;
+    std::string reason; // empty where it can be opened
+};
+
+/// Loaded libraries stay loaded. All calls run the plugin's code and may hang or crash with it:
+/// PluginDriver guards them. Any thread, one at a time.
+class PluginLibrary {
+public:
+    /// Refuses, with the reason, a file that is no shared library, has no table, or whose table is
+    /// of another version, too small, or incomplete.
+    static Result<PluginLibrary> load(const std::filesystem::path& file);
+
+    const std::string& name() const noexcept { return name_; }
+    std::vector<PluginEntry> enumerate() const;
+    /// Refuses devices that state what is impossible. The device is checked (CheckedDevice).
+    /// Errors begin with `uri`.
+    Result<std::unique_ptr<HapticDevice>> open(const std::string& id, std::string_view uri) const;
+
+private:
+    PluginLibrary(const MarsviewPlugin& table, std::string name)
+        : table_(table)
+        , name_(std::move(name))
+    {}
+
+    MarsviewPlugin table_;
+    std::string name_;
+};
+
+} // namespace marsview

@@ -1,0 +1,50 @@
+// Calling what may never return.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+namespace marsview {
+
+/// Runs `work` on a thread of its own and waits for what it returns. Nothing where that takes
+/// longer than `patience`: the thread is left alone then, and destroys late results itself, so
+/// `work` owns all that it uses. `work` does not throw.
+template <typename F>
+auto callWatched(std::chrono::milliseconds patience, F work)
+    -> std::optional<std::invoke_result_t<F&>>
+{
+    using Outcome = std::invoke_result_t<F&>;
+    struct State {
+        explicit State(F w)
+            : work(std::move(w))
+        {}
+        F work;
+        std::mutex mutex;
+        std::condition_variable done;
+        std::optional<Outcome> outcome;
+        bool is_abandoned = false;
+    };
+    const auto state = std::make_shared<State>(std::move(work));
+    std::thread([state] {
+        std::optional<Outcome> outcome = state->work();
+        const std::lock_guard lock(state->mutex);
+        if (!state->is_abandoned) {
+            state->outcome = std::move(outcome);
+            state->done.notify_one();
+        }
+    }).detach();
+    std::unique_lock lock(state->mutex);
+    if (!state->done.wait_for(lock, patience, [&] { return state->outcome.has_value(); })) {
+        state->is_abandoned = true;
+        return std::nullopt;
+    }
+    return std::move(state->outcome);
+}
+
+} // namespace marsview

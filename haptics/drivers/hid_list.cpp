@@ -1,0 +1,81 @@
+#include "haptics/drivers/hid_list.h"
+
+#include <hidapi.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace marsview {
+namespace {
+
+// Product names are ASCII on all devices that are known here.
+std::string asAscii(const wchar_t* text)
+{
+    std::string ascii;
+    for (; text != nullptr && *text != L'\0'; ++text) {
+        ascii += *text >= L' ' && *text < 0x7F ? static_cast<char>(*text) : '?';
+    }
+    return ascii;
+}
+
+} // namespace
+
+std::vector<HidEntry> hidDevices(const HidApi& api,
+                                 const std::function<bool(const HidEntry&)>& is_wanted)
+{
+    std::vector<HidEntry> wanted;
+    hid_device_info* all = api.enumerate(0, 0);
+    for (const hid_device_info* info = all; info != nullptr; info = info->next) {
+        const HidEntry entry{.path = info->path != nullptr ? info->path : "",
+                             .product = asAscii(info->product_string),
+                             .vendor_id = info->vendor_id,
+                             .product_id = info->product_id,
+                             .usage_page = info->usage_page,
+                             .usage = info->usage,
+                             .interface_number = info->interface_number};
+        // A path is listed once for each of its usages.
+        const bool is_known = std::any_of(wanted.begin(), wanted.end(), [&](const HidEntry& other) {
+            return other.path == entry.path;
+        });
+        if (!is_known && is_wanted(entry)) {
+            wanted.push_back(entry);
+        }
+    }
+    api.free_enumeration(all);
+    return wanted;
+}
+
+std::string refusalToOpen(const HidApi& api, const std::string& path)
+{
+    const int error = api.access_error(path.c_str());
+    if (error == 0) {
+        return {};
+    }
+    if (error == EACCES || error == EPERM) {
+        return fmt::format(
+            "you may not open {}; install 70-marsview-haptics.rules into "
+            "/etc/udev/rules.d and plug the device in again",
+            path);
+    }
+    return fmt::format("{} cannot be opened ({}); plug the device in again", path,
+                       std::strerror(error)); // NOLINT(concurrency-mt-unsafe): glibc's is
+}
+
+Result<HidHandle> openHid(const HidApi& api, const std::string& path, std::string_view uri)
+{
+    if (std::string why = refusalToOpen(api, path); !why.empty()) {
+        return Error{ErrorCode::Unreadable, fmt::format("{}: {}", uri, why)};
+    }
+    hid_device_* device = api.open_path(path.c_str());
+    if (device == nullptr) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: {} is there, but does not open as a HID device; plug it in "
+                                 "again",
+                                 uri, path)};
+    }
+    return HidHandle(device, api.close);
+}
+
+} // namespace marsview

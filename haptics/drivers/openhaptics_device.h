@@ -1,0 +1,78 @@
+// A PHANTOM or Touch device.
+#pragma once
+
+#include "core/base/file_lock.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/drivers/openhaptics_api.h"
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace marsview {
+
+/// Driven by the vendor's scheduler: one frame a tick. read() and write() work within the tick
+/// only, and answer Unready outside of one.
+class OpenHapticsDevice final : public HapticDevice {
+public:
+    struct Options {
+        std::shared_ptr<OpenHapticsApi> api;
+        std::string name; // as the vendor's configuration has it; empty: the default one
+        std::string uri;  // for errors
+        std::optional<FileLock> lock; // keeps other programs away from it
+    };
+
+    /// Takes seconds.
+    static Result<std::unique_ptr<HapticDevice>> open(Options options);
+    /// Stops the clock, and leaves the motors without force.
+    ~OpenHapticsDevice() override;
+
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceStatus read(DeviceSample& sample) noexcept override;
+    DeviceStatus write(const Vec3& force_n) noexcept override;
+    bool startClock(ClockTick tick, void* self) noexcept override;
+    void stopClock() noexcept override;
+    std::string trouble() const override;
+
+private:
+    OpenHapticsDevice(Options options, hd::Handle handle);
+
+    void describe();
+    void describeForces();
+    template <typename T, typename Get>
+    bool get(Get getter, hd::Enum what, T* values) const;
+
+    unsigned int frame() noexcept;
+    void beginFrame(std::chrono::steady_clock::time_point now) noexcept;
+    void checkCalibration() noexcept;
+    void take(unsigned int error) noexcept;
+    void updateStatus() noexcept;
+
+    std::shared_ptr<OpenHapticsApi> api_;
+    std::optional<FileLock> lock_;
+    hd::Handle handle_;
+    DeviceCapabilities capabilities_;
+    hd::Enum calibration_style_ = 0; // that needs nobody's help; 0: there is none
+
+    // Of the scheduler's thread.
+    DeviceSample sample_;
+    DeviceStatus status_ = DeviceStatus::Unready;
+    bool is_in_frame_ = false;
+    bool is_calibrated_ = false;
+    unsigned frames_ = 0;
+    unsigned frames_of_rest_ = 0;
+
+    // Between it and the thread that starts and stops.
+    ClockTick tick_ = nullptr;
+    void* tick_self_ = nullptr;
+    hd::SchedulerHandle scheduled_ = 0;
+    bool is_scheduled_ = false;
+    std::atomic<bool> is_stopping_{false};
+    std::atomic<bool> is_inside_{false};
+    // What trouble() tells: an error code, or that the device is not calibrated.
+    std::atomic<unsigned int> error_{hd::kSuccess};
+    std::atomic<unsigned int> calibration_{hd::kCalibrationOk};
+};
+
+} // namespace marsview

@@ -1,0 +1,121 @@
+#include "haptics/drivers/openhaptics_driver.h"
+
+#include "core/base/environment.h"
+#include "haptics/device/device_lock.h"
+#include "haptics/device/watched_call.h"
+#include "haptics/drivers/openhaptics_device.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFamily = "PHANTOM or Touch (OpenHaptics)";
+
+// "Left Device.config" stands for a device that is opened as "Left Device". What the older drivers
+// write is one numbered file a device, with the name inside in a form that is not published: only
+// their default is known by its name.
+std::set<std::string> configuredNames(const std::vector<fs::path>& folders)
+{
+    std::set<std::string> names;
+    for (const fs::path& folder : folders) {
+        std::error_code none;
+        for (const auto& entry : fs::directory_iterator(folder, none)) {
+            if (entry.path().extension() == ".config") {
+                names.insert(entry.path().stem().string());
+            } else if (entry.path().extension() == ".ini") {
+                names.insert("Default PHANToM");
+            }
+        }
+    }
+    return names;
+}
+
+} // namespace
+
+OpenHapticsOptions OpenHapticsOptions::standard()
+{
+    OpenHapticsOptions options;
+    options.libraries = OpenHapticsApi::defaultNames();
+    if (std::string chosen = environmentVariable("MARSVIEW_OPENHAPTICS_LIBRARY"); !chosen.empty()) {
+        options.libraries.insert(options.libraries.begin(), std::move(chosen));
+    }
+    if (const std::string home = environmentVariable("GTDD_HOME"); !home.empty()) {
+        options.config_folders.push_back(fs::path(home) / "config");
+    }
+    options.config_folders.push_back(userFolder("", ".3dsystems") / "config");
+    options.config_folders.emplace_back("/usr/share/3DSystems/config");
+    options.config_folders.emplace_back("/etc/SensAble/PHANToMDeviceDrivers");
+    options.lock_folder = deviceLockFolder();
+    return options;
+}
+
+OpenHapticsDriver::OpenHapticsDriver(OpenHapticsOptions options)
+    : options_(std::move(options))
+{}
+
+Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsDriver::load()
+{
+    if (api_ == nullptr) {
+        Result<std::shared_ptr<OpenHapticsApi>> api = OpenHapticsApi::load(options_.libraries);
+        if (!api) {
+            return api;
+        }
+        api_ = *api;
+    }
+    return api_;
+}
+
+std::vector<FoundDevice> OpenHapticsDriver::find()
+{
+    const std::string any = fmt::format("{}:", scheme());
+    if (const auto api = load(); !api) {
+        return {{any, kFamily, api.error().message}};
+    }
+    std::vector<FoundDevice> found;
+    for (const std::string& name : configuredNames(options_.config_folders)) {
+        found.push_back({any + name, fmt::format("{}, {}", name, kFamily), {}});
+    }
+    if (found.empty()) {
+        found.push_back(
+            {any, kFamily, "no device is set up; run the vendor's setup program (Touch_Setup)"});
+    }
+    return found;
+}
+
+Result<std::unique_ptr<HapticDevice>> OpenHapticsDriver::open(std::string_view address)
+{
+    const std::string uri = fmt::format("{}:{}", scheme(), address);
+    const auto api = load();
+    if (!api) {
+        return Error{api.error().code, fmt::format("{}: {}", uri, api.error().message)};
+    }
+    Result<std::optional<FileLock>> lock = lockDevice(uri, options_.lock_folder);
+    if (!lock) {
+        return std::move(lock).error();
+    }
+    using Opened = Result<std::unique_ptr<HapticDevice>>;
+    auto device = callWatched(
+        options_.patience,
+        [options = OpenHapticsDevice::Options{.api = *api,
+                                              .name = std::string(address),
+                                              .uri = uri,
+                                              .lock = std::move(*lock)}]() mutable -> Opened {
+            return OpenHapticsDevice::open(std::move(options));
+        });
+    if (!device) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: the vendor's library did not open it within {} s; check the "
+                                 "device's power and start the program again",
+                                 uri, options_.patience.count() / 1000)};
+    }
+    return std::move(*device);
+}
+
+} // namespace marsview

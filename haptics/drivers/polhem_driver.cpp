@@ -1,0 +1,154 @@
+#include "haptics/drivers/polhem_driver.h"
+
+#include "core/base/bundled_file.h"
+#include "core/base/environment.h"
+#include "haptics/device/capability_check.h"
+#include "haptics/device/checked_device.h"
+#include "haptics/device/device_lock.h"
+#include "haptics/drivers/hid_list.h"
+#include "haptics/drivers/polhem_device.h"
+#include "haptics/drivers/polhem_parameters.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Any gadget built around a Teensy may have these numbers, so nothing is sent before somebody
+// connects to it. The second interface of such a board is a serial line.
+constexpr std::uint16_t kTeensyVendor = 0x16C0;
+constexpr std::uint16_t kTeensyRawHid = 0x0486;
+constexpr std::uint16_t kRawHidUsagePage = 0xFFAB;
+constexpr std::uint16_t kOlderVendor = 0x1234;
+constexpr std::uint16_t kOlderProduct = 0x0006;
+
+bool isTeensy(const HidEntry& entry)
+{
+    return entry.vendor_id == kTeensyVendor && entry.product_id == kTeensyRawHid &&
+           (entry.usage_page == kRawHidUsagePage ||
+            (entry.usage_page == 0 && entry.interface_number <= 0));
+}
+
+bool isArm(const HidEntry& entry)
+{
+    return isTeensy(entry) ||
+           (entry.vendor_id == kOlderVendor && entry.product_id == kOlderProduct);
+}
+
+struct Address {
+    std::string path;
+    fs::path parameters;
+    bool homes_at_once = false;
+};
+
+Result<Address> parseAddress(std::string_view uri, std::string_view address)
+{
+    constexpr std::string_view kParameters = "parameters=";
+    Address parsed;
+    bool is_first = true;
+    while (is_first || !address.empty()) {
+        const std::string_view part = address.substr(0, address.find(','));
+        address.remove_prefix(std::min(part.size() + 1, address.size()));
+        if (is_first && (part.empty() || part.front() == '/')) {
+            parsed.path = part;
+        } else if (part == "home") {
+            parsed.homes_at_once = true;
+        } else if (part.starts_with(kParameters)) {
+            parsed.parameters = part.substr(kParameters.size());
+        } else {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: \"{}\" is not understood; a path, \"home\" and "
+                                     "\"parameters=FILE\" are",
+                                     uri, part)};
+        }
+        is_first = false;
+    }
+    return parsed;
+}
+
+} // namespace
+
+PolhemOptions PolhemOptions::standard()
+{
+    PolhemOptions options;
+    options.parameter_files = {userFolder("XDG_CONFIG_HOME", ".config") / "marsview" / "devices" /
+                                   "polhem.json",
+                               bundledFile("devices/polhem-v1.json")};
+    options.lock_folder = deviceLockFolder();
+    return options;
+}
+
+PolhemDriver::PolhemDriver(PolhemOptions options)
+    : options_(std::move(options))
+{}
+
+std::vector<FoundDevice> PolhemDriver::find()
+{
+    std::vector<FoundDevice> found;
+    for (const HidEntry& entry : hidDevices(*options_.api, isArm)) {
+        found.push_back({fmt::format("{}:{}", scheme(), entry.path),
+                         fmt::format("WoodenHaptics or Polhem ({})",
+                                     entry.product.empty() ? "no name" : entry.product),
+                         refusalToOpen(*options_.api, entry.path)});
+    }
+    return found;
+}
+
+Result<std::unique_ptr<HapticDevice>> PolhemDriver::open(std::string_view address)
+{
+    const std::string uri = fmt::format("{}:{}", scheme(), address);
+    Result<Address> parsed = parseAddress(uri, address);
+    if (!parsed) {
+        return std::move(parsed).error();
+    }
+    const std::vector<HidEntry> arms = hidDevices(*options_.api, [&](const HidEntry& entry) {
+        return isArm(entry) && (parsed->path.empty() || entry.path == parsed->path);
+    });
+    if (arms.empty()) {
+        return Error{ErrorCode::NotFound,
+                     fmt::format("{}: no WoodenHaptics or Polhem arm is connected there; plug it "
+                                 "in, and see marsview-cli devices",
+                                 uri)};
+    }
+    if (parsed->parameters.empty()) {
+        const auto file = std::find_if(options_.parameter_files.begin(),
+                                       options_.parameter_files.end(), [](const fs::path& path) {
+                                           std::error_code none;
+                                           return fs::exists(path, none);
+                                       });
+        parsed->parameters = file != options_.parameter_files.end() ? *file : "polhem-v1.json";
+    }
+    Result<PolhemParameters> parameters = readPolhemParameters(parsed->parameters);
+    if (!parameters) {
+        return std::move(parameters).error();
+    }
+    Result<std::optional<FileLock>> lock =
+        lockDevice(fmt::format("{}:{}", scheme(), arms.front().path), options_.lock_folder);
+    if (!lock) {
+        return std::move(lock).error();
+    }
+    Result<HidHandle> handle = openHid(*options_.api, arms.front().path, uri);
+    if (!handle) {
+        return std::move(handle).error();
+    }
+    auto device = std::make_unique<PolhemDevice>(PolhemDevice::Options{
+        .api = options_.api,
+        .handle = std::move(*handle),
+        .layout = isTeensy(arms.front()) ? PolhemLayout::RawHid : PolhemLayout::Short,
+        .parameters = std::move(*parameters),
+        .homes_at_once = parsed->homes_at_once,
+        .lock = std::move(*lock)});
+    if (const auto fault = impossibilityOf(device->capabilities())) {
+        return Error{ErrorCode::Invalid, fmt::format("{}: {}, which is impossible",
+                                                     parsed->parameters.string(), *fault)};
+    }
+    return std::unique_ptr<HapticDevice>(std::make_unique<CheckedDevice>(std::move(device)));
+}
+
+} // namespace marsview

@@ -1,0 +1,37 @@
+// WoodenHaptics and Polhem arms over USB HID.
+#pragma once
+
+#include "haptics/device/device_driver.h"
+#include "haptics/drivers/hid_api.h"
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace marsview {
+
+struct PolhemOptions {
+    const HidApi* api = &systemHidApi();
+    /// Files of parameters (polhem_parameters.h), of which the first that exists counts.
+    std::vector<std::filesystem::path> parameter_files;
+    std::filesystem::path lock_folder;
+
+    /// $XDG_CONFIG_HOME/marsview/devices/polhem.json, else ~/.config/…, else the bundled one.
+    static PolhemOptions standard();
+};
+
+/// "polhem:/dev/hidraw2", or "polhem:" for the first one; then, if need be, ",home" where the arm
+/// is in its rest position, and ",parameters=FILE" for one that differs.
+class PolhemDriver final : public DeviceDriver {
+public:
+    explicit PolhemDriver(PolhemOptions options = PolhemOptions::standard());
+
+    std::string_view scheme() const noexcept override { return "polhem"; }
+    std::vector<FoundDevice> find() override;
+    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override;
+
+private:
+    PolhemOptions options_;
+};
+
+} // namespace marsview

@@ -1,0 +1,156 @@
+#include "haptics/drivers/record_driver.h"
+
+#include "core/base/plain_number.h"
+#include "haptics/device/device_registry.h"
+#include "haptics/drivers/built_in_drivers.h"
+#include "haptics/sync/spsc_queue.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <thread>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr std::string_view kColumns =
+    "time_s,status,x,y,z,twist_rad,buttons,is_held,force_x_n,force_y_n,force_z_n\n";
+
+struct Reading {
+    DeviceSample sample;
+    DeviceStatus status = DeviceStatus::Fine;
+    Vec3 force_n{}; // that was written last
+};
+
+std::string_view nameOf(DeviceStatus status)
+{
+    switch (status) {
+    case DeviceStatus::Fine:
+        return "fine";
+    case DeviceStatus::Unready:
+        return "unready";
+    case DeviceStatus::Lost:
+        return "lost";
+    case DeviceStatus::Finished:
+        return "finished";
+    }
+    return "unknown";
+}
+
+class RecordDevice final : public HapticDevice {
+public:
+    RecordDevice(std::unique_ptr<HapticDevice> device, std::FILE* file)
+        : device_(std::move(device))
+        , file_(file)
+    {
+        std::fwrite(kColumns.data(), 1, kColumns.size(), file_);
+        thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    }
+    ~RecordDevice() override
+    {
+        device_->stopClock();
+        thread_.request_stop();
+        thread_.join();
+        std::fclose(file_); // NOLINT(cppcoreguidelines-owning-memory)
+    }
+    RecordDevice(const RecordDevice&) = delete;
+    RecordDevice& operator=(const RecordDevice&) = delete;
+
+    const DeviceCapabilities& capabilities() const noexcept override
+    {
+        return device_->capabilities();
+    }
+    DeviceStatus read(DeviceSample& sample) noexcept override
+    {
+        reading_.status = device_->read(sample);
+        reading_.sample = sample;
+        queue_.put(reading_); // a full queue means a disk that does not keep up: lines are left out
+        return reading_.status;
+    }
+    DeviceStatus write(const Vec3& force_n) noexcept override
+    {
+        reading_.force_n = force_n;
+        return device_->write(force_n);
+    }
+    bool recordedGoal(TracePoint& goal) const noexcept override
+    {
+        return device_->recordedGoal(goal);
+    }
+    bool startClock(ClockTick tick, void* self) noexcept override
+    {
+        return device_->startClock(tick, self);
+    }
+    void stopClock() noexcept override { device_->stopClock(); }
+
+private:
+    void run(const std::stop_token& stop)
+    {
+        constexpr std::chrono::milliseconds kLook{20};
+        while (!stop.stop_requested()) {
+            drain();
+            std::this_thread::sleep_for(kLook);
+        }
+        drain();
+    }
+    void drain()
+    {
+        Reading r;
+        while (queue_.take(r)) {
+            if (begin_ == decltype(begin_){}) {
+                begin_ = r.sample.time;
+            }
+            const double time_s = std::chrono::duration<double>(r.sample.time - begin_).count();
+            const std::string line =
+                fmt::format("{:.6f},{},{},{},{},{},{},{},{},{},{}\n", time_s, nameOf(r.status),
+                            asText(r.sample.position.x), asText(r.sample.position.y),
+                            asText(r.sample.position.z), asText(r.sample.twist_rad),
+                            r.sample.buttons, r.sample.is_held ? 1 : 0, asText(r.force_n.x),
+                            asText(r.force_n.y), asText(r.force_n.z));
+            std::fwrite(line.data(), 1, line.size(), file_);
+        }
+    }
+
+    std::unique_ptr<HapticDevice> device_;
+    std::FILE* file_;
+    Reading reading_;
+    SpscQueue<Reading, 1U << 13> queue_;
+    std::chrono::steady_clock::time_point begin_{};
+    std::jthread thread_;
+};
+
+class RecordDriver final : public DeviceDriver {
+public:
+    std::string_view scheme() const noexcept override { return "record"; }
+    std::vector<FoundDevice> find() override { return {}; }
+    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
+    {
+        const std::size_t comma = address.find(',');
+        if (comma == 0 || comma == std::string_view::npos || comma + 1 == address.size()) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("record:{}: needs a file and the URI of a device, as in "
+                                     "record:touch.csv,sim:",
+                                     address)};
+        }
+        const std::string path(address.substr(0, comma));
+        Result<std::unique_ptr<HapticDevice>> device =
+            DeviceRegistry(builtInDrivers()).open(address.substr(comma + 1));
+        if (!device) {
+            return std::move(device).error();
+        }
+        std::FILE* file =
+            std::fopen(path.c_str(), "wbe"); // NOLINT(cppcoreguidelines-owning-memory)
+        if (file == nullptr) {
+            return Error{ErrorCode::Unreadable, fmt::format("record:{}: cannot be written", path)};
+        }
+        return std::unique_ptr<HapticDevice>(new RecordDevice(std::move(device).value(), file));
+    }
+};
+
+} // namespace
+
+std::unique_ptr<DeviceDriver> makeRecordDriver()
+{
+    return std::make_unique<RecordDriver>();
+}
+
+} // namespace marsview

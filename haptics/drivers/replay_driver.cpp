@@ -1,0 +1,90 @@
+#include "haptics/drivers/replay_driver.h"
+
+#include "haptics/trace/goal_file.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr std::string_view kLoop = "#loop";
+
+class ReplayDriver final : public DeviceDriver {
+public:
+    std::string_view scheme() const noexcept override { return "replay"; }
+    std::vector<FoundDevice> find() override { return {}; }
+    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
+    {
+        const bool is_loop = address.ends_with(kLoop);
+        if (is_loop) {
+            address.remove_suffix(kLoop.size());
+        }
+        const std::string path(address);
+        if (path.empty() || path == "-") {
+            return Error{ErrorCode::Invalid, fmt::format("replay:{}: needs a file of goals, as in "
+                                                         "replay:goals.csv",
+                                                         path)};
+        }
+        const Result<std::string> text = readGoalText(path);
+        if (!text) {
+            return Error{text.error().code, "replay:" + text.error().message};
+        }
+        Result<std::vector<TracePoint>> goals = readGoals(*text, "replay:" + path);
+        if (!goals) {
+            return std::move(goals).error();
+        }
+        if (goals->empty()) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("replay:{}: has no goals after its header", path)};
+        }
+        return std::unique_ptr<HapticDevice>(new ReplayDevice(
+            std::move(goals).value(), is_loop ? ReplayEnd::BeginAnew : ReplayEnd::Finish));
+    }
+};
+
+} // namespace
+
+ReplayDevice::ReplayDevice(std::vector<TracePoint> goals, ReplayEnd end)
+    : goals_(std::move(goals))
+    , end_(end)
+{
+    capabilities_.name = "Replay";
+    capabilities_.workspace = {{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
+    capabilities_.buttons = 0;
+    capabilities_.axes_out = 0;
+}
+
+DeviceStatus ReplayDevice::read(DeviceSample& sample) noexcept
+{
+    if (next_ == goals_.size()) {
+        if (end_ == ReplayEnd::Finish || goals_.empty()) {
+            return DeviceStatus::Finished;
+        }
+        next_ = 0;
+    }
+    ++next_;
+    sample = {.time = std::chrono::steady_clock::now()};
+    return DeviceStatus::Fine;
+}
+
+DeviceStatus ReplayDevice::write(const Vec3& /*force_n*/) noexcept
+{
+    return DeviceStatus::Fine;
+}
+
+bool ReplayDevice::recordedGoal(TracePoint& goal) const noexcept
+{
+    if (next_ == 0) {
+        return false;
+    }
+    goal = goals_[next_ - 1];
+    return true;
+}
+
+std::unique_ptr<DeviceDriver> makeReplayDriver()
+{
+    return std::make_unique<ReplayDriver>();
+}
+
+} // namespace marsview

@@ -1,0 +1,37 @@
+// A file of goals as a device: what was aimed at once is aimed at again, one goal an update.
+#pragma once
+
+#include "core/contact/goal_frame.h"
+#include "haptics/device/device_driver.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace marsview {
+
+enum class ReplayEnd { Finish, BeginAnew };
+
+/// Goals are in map coordinates, so it tells them by recordedGoal(); positions stay in the middle
+/// of the workspace. It can push nobody.
+class ReplayDevice final : public HapticDevice {
+public:
+    explicit ReplayDevice(std::vector<TracePoint> goals, ReplayEnd end = ReplayEnd::Finish);
+
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceStatus read(DeviceSample& sample) noexcept override;
+    DeviceStatus write(const Vec3& force_n) noexcept override;
+    bool recordedGoal(TracePoint& goal) const noexcept override;
+
+private:
+    DeviceCapabilities capabilities_;
+    std::vector<TracePoint> goals_;
+    ReplayEnd end_;
+    std::size_t next_ = 0;
+};
+
+/// Scheme "replay". The address is the file, with "#loop" behind it if it should begin anew at its
+/// end.
+std::unique_ptr<DeviceDriver> makeReplayDriver();
+
+} // namespace marsview

@@ -1,0 +1,159 @@
+#include "haptics/drivers/sim_driver.h"
+
+#include "haptics/drivers/uri_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+constexpr WorkspaceBox kWorkspace{{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
+constexpr double kInsideM = 0.01; // strokes turn back so far before the walls
+
+// What the options look like in a URI.
+struct UriNumbers {
+    double tremor_mm = 0.0;
+    double encoder_mm = 0.02;
+    double delay_ms = 0.0;
+    double seed = 1.0;
+    double swipe_cells = 0.0;
+    double cell_m = 0.0;
+};
+
+class SimDriver final : public DeviceDriver {
+public:
+    std::string_view scheme() const noexcept override { return "sim"; }
+    std::vector<FoundDevice> find() override { return {{"sim:", "Simulated hand", ""}}; }
+    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
+    {
+        const std::string uri = fmt::format("sim:{}", address);
+        SimOptions options;
+        UriNumbers numbers;
+        const Status read =
+            readUriParameters(uri, address,
+                              {{"mass", &options.hand.mass_kg, 0.001, 10.0},
+                               {"damping", &options.hand.damping_n_s_per_m, 0.0, 1000.0},
+                               {"grip", &options.hand.grip_n_per_m, 0.0, 1e5},
+                               {"tremor_mm", &numbers.tremor_mm, 0.0, 10.0},
+                               {"encoder_mm", &numbers.encoder_mm, 0.0, 10.0},
+                               {"delay_ms", &numbers.delay_ms, 0.0, HandOptions::kDelayMaxS * 1e3},
+                               {"seed", &numbers.seed, 0.0, 1e15},
+                               {"force", &options.force_n_peak, 0.0, 40.0},
+                               {"stiffness", &options.stiffness_n_per_m_max, 0.0, 1e5},
+                               {"press", &options.press_n, 0.0, 10.0},
+                               {"lift_s", &options.lift_s, 0.0, 1e6},
+                               {"grab_s", &options.grab_s, 0.0, 1e6},
+                               {"speed", &options.speed_m_per_s, 0.0, 10.0},
+                               {"swipe", &numbers.swipe_cells, 0.0, 1e6},
+                               {"cell_m", &numbers.cell_m, 0.0, 1.0}});
+        if (!read) {
+            return read.error();
+        }
+        if (numbers.swipe_cells > 0.0) {
+            if (numbers.cell_m == 0.0) {
+                return Error{ErrorCode::Invalid,
+                             uri +
+                                 ": swipe is in cells an update; say with cell_m how wide a cell "
+                                 "is at the hand, in metres"};
+            }
+            options.speed_m_per_s = numbers.swipe_cells * numbers.cell_m * options.rate_hz;
+        }
+        options.hand.tremor_m = numbers.tremor_mm * 1e-3;
+        options.hand.encoder_m = numbers.encoder_mm * 1e-3;
+        options.hand.delay_s = numbers.delay_ms * 1e-3;
+        options.hand.seed = static_cast<std::uint64_t>(numbers.seed);
+        return std::unique_ptr<HapticDevice>(new SimDevice(options));
+    }
+};
+
+// Whether it is time for what is done for `share` of each span of `every_s`, at its end.
+bool isTimeFor(double every_s, double share, double seconds) noexcept
+{
+    return every_s > 0.0 && std::fmod(seconds, every_s) > (1.0 - share) * every_s;
+}
+
+} // namespace
+
+SimDevice::SimDevice(const SimOptions& options)
+    : options_(options)
+    , hand_(options.hand)
+    , random_state_(options.hand.seed)
+{
+    capabilities_.name = "Simulated hand";
+    capabilities_.workspace = kWorkspace;
+    capabilities_.force_n_peak = options.force_n_peak;
+    capabilities_.force_n_continuous = options.force_n_peak;
+    capabilities_.stiffness_n_per_m_max = options.stiffness_n_per_m_max;
+    capabilities_.rate_hz = options.rate_hz;
+    heading_rad_ = 2.0 * std::numbers::pi * random();
+}
+
+DeviceStatus SimDevice::read(DeviceSample& sample) noexcept
+{
+    wander();
+    hand_.advance(1.0 / options_.rate_hz);
+    sample = {.position = hand_.measured(),
+              .buttons = isTimeFor(options_.grab_s, 0.2, hand_.seconds()) ? 1U : 0U,
+              .time = std::chrono::steady_clock::now()};
+    return DeviceStatus::Fine;
+}
+
+DeviceStatus SimDevice::write(const Vec3& force_n) noexcept
+{
+    hand_.push(force_n);
+    return DeviceStatus::Fine;
+}
+
+// splitmix64: in [0, 1)
+double SimDevice::random() noexcept
+{
+    random_state_ += 0x9e3779b97f4a7c15U;
+    std::uint64_t x = random_state_;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    x ^= x >> 31U;
+    return static_cast<double>(x >> 11U) * 0x1p-53;
+}
+
+// Strokes that curve a little and turn back before the walls. The hand leans on the stylus with a
+// constant force, so that it follows the ground without knowing it.
+void SimDevice::wander() noexcept
+{
+    const double dt_s = 1.0 / options_.rate_hz;
+    if (until_turn_s_ <= 0.0) {
+        until_turn_s_ = 0.1 + 0.4 * random();
+        turn_rad_per_s_ = 4.0 * (2.0 * random() - 1.0);
+    }
+    until_turn_s_ -= dt_s;
+    heading_rad_ += turn_rad_per_s_ * dt_s;
+    const double speed = options_.speed_m_per_s;
+    Vec3 velocity{speed * std::cos(heading_rad_), speed * std::sin(heading_rad_), 0.0};
+    const auto isLeaving = [](double at, double v, double low, double high) {
+        return (at < low + kInsideM && v < 0.0) || (at > high - kInsideM && v > 0.0);
+    };
+    if (isLeaving(aim_.x, velocity.x, kWorkspace.low.x, kWorkspace.high.x)) {
+        heading_rad_ = std::numbers::pi - heading_rad_;
+        velocity.x = -velocity.x;
+    }
+    if (isLeaving(aim_.y, velocity.y, kWorkspace.low.y, kWorkspace.high.y)) {
+        heading_rad_ = -heading_rad_;
+        velocity.y = -velocity.y;
+    }
+    aim_ = aim_ + velocity * dt_s;
+    const bool is_lifting = isTimeFor(options_.lift_s, 0.1, hand_.seconds());
+    const double lean_m =
+        options_.hand.grip_n_per_m > 0.0 ? options_.press_n / options_.hand.grip_n_per_m : 0.0;
+    const double up_m = is_lifting ? 2.0 * lean_m : -lean_m;
+    aim_.z = std::clamp(hand_.position().z + up_m, kWorkspace.low.z, kWorkspace.high.z);
+    hand_.aimAt(aim_, velocity);
+}
+
+std::unique_ptr<DeviceDriver> makeSimDriver()
+{
+    return std::make_unique<SimDriver>();
+}
+
+} // namespace marsview

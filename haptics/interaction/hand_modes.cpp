@@ -1,0 +1,70 @@
+#include "haptics/interaction/hand_modes.h"
+
+#include <algorithm>
+
+namespace marsview {
+namespace {
+
+ModeStep pan(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)
+{
+    PanOptions held = options.pan;
+    held.grip_n_per_m = std::min(held.grip_n_per_m, std::max(input.stiffness_n_per_m, 1.0));
+    const PanStep moved = pullMap(held, state.pan, input.hand_shift, input.free_share, dt_s);
+    Vec3 force_n = moved.force_n;
+    force_n.z = -input.stiffness_n_per_m * (input.hand.z - state.grabbed.z);
+    return {.frame = input.frame.panned(moved.shift_m),
+            .force_n = force_n,
+            .has_moved_map = !(moved.shift_m == Vec3{})};
+}
+
+ModeStep zoom(const ModeOptions& options, const ModeInput& input, ModeState& state)
+{
+    const double scale = input.frame.scene_per_metre;
+    const double wanted = scale / zoomFactor(options.zoom, input.hand_shift.z);
+    const double next = std::clamp(wanted, std::min(scale, options.scene_per_metre_min),
+                                   std::max(scale, options.scene_per_metre_max));
+    const WorkspaceFrame zoomed = input.frame.zoomed(input.hand, scale / next);
+    const double hold = input.stiffness_n_per_m * input.free_share;
+    return {.frame = zoomed.turned(input.hand, Angle::radians(input.twist_change_rad)),
+            .force_n = {-hold * (input.hand.x - state.grabbed.x),
+                        -hold * (input.hand.y - state.grabbed.y),
+                        detentForce(options.zoom, aboveDetent(options.zoom, next))},
+            .has_moved_map = next != scale || input.twist_change_rad != 0.0};
+}
+
+ModeStep glide(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)
+{
+    const PanStep moved = glideMap(options.pan, state.pan, input.free_share, dt_s);
+    if (moved.shift_m == Vec3{}) {
+        return {.frame = input.frame};
+    }
+    return {.frame = input.frame.panned(moved.shift_m), .has_moved_map = true};
+}
+
+} // namespace
+
+ModeStep stepModes(const ModeOptions& options,
+                   const ModeInput& input,
+                   ModeState& state,
+                   double dt_s) noexcept
+{
+    const StylusMode last = state.mode;
+    state.mode =
+        nextMode(last, {.is_pressing = input.is_in_contact, .is_grabbing = input.is_grabbing},
+                 input.is_in_contact);
+    const bool has_changed = state.mode != last && (isHolding(state.mode) || isHolding(last));
+    if (has_changed && isHolding(state.mode)) {
+        state.grabbed = input.hand;
+        grabMap(state.pan);
+    }
+    if (state.mode == StylusMode::Zoom) {
+        state.pan = {};
+    }
+    ModeStep step = state.mode == StylusMode::Pan    ? pan(options, input, state, dt_s)
+                    : state.mode == StylusMode::Zoom ? zoom(options, input, state)
+                                                     : glide(options, input, state, dt_s);
+    step.has_changed_mode = has_changed;
+    return step;
+}
+
+} // namespace marsview

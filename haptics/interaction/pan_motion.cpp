@@ -1,0 +1,73 @@
+#include "haptics/interaction/pan_motion.h"
+
+#include <algorithm>
+
+namespace marsview {
+namespace {
+
+Vec3 level(const Vec3& v) noexcept
+{
+    return {v.x, v.y, 0.0};
+}
+
+Vec3 bounded(const Vec3& v, double length_max) noexcept
+{
+    const double l = length(v);
+    return l > length_max ? v * (length_max / l) : v;
+}
+
+} // namespace
+
+void grabMap(PanState& state) noexcept
+{
+    state.stretch_m = {};
+}
+
+// With m the mass, k and b the hold's spring and damper, c the drag, s the stretch and v' the map's
+// velocity after the step:
+//   m (v' - v) / dt = F - m c v',   F = k (s + hand_shift - v' dt) + b (hand_shift / dt - v')
+PanStep pullMap(const PanOptions& options,
+                PanState& state,
+                const Vec3& hand_shift,
+                double mass_share,
+                double dt_s) noexcept
+{
+    if (!(dt_s > 0.0)) {
+        return {.shift_m = {}, .force_n = state.stretch_m * -options.grip_n_per_m};
+    }
+    const double mass_kg = options.mass_kg * std::clamp(mass_share, 0.0, 1.0);
+    const double k = options.grip_n_per_m;
+    const double b = options.grip_n_s_per_m;
+    const Vec3 hand_m_per_s = level(hand_shift) * (1.0 / dt_s);
+    const Vec3 stretch_m = state.stretch_m + level(hand_shift);
+    const double mass_rate = mass_kg / dt_s;
+    const Vec3 driving_n = state.velocity_m_per_s * mass_rate + stretch_m * k + hand_m_per_s * b;
+    state.velocity_m_per_s =
+        driving_n * (1.0 / (mass_rate + mass_kg * options.drag_per_s + k * dt_s + b));
+    PanStep step;
+    step.shift_m = state.velocity_m_per_s * dt_s;
+    state.stretch_m = stretch_m - step.shift_m;
+    step.force_n = -(state.stretch_m * k + (hand_m_per_s - state.velocity_m_per_s) * b);
+    return step;
+}
+
+PanStep
+glideMap(const PanOptions& options, PanState& state, double mass_share, double dt_s) noexcept
+{
+    state.stretch_m = {};
+    if (!(mass_share > 0.0)) {
+        state.velocity_m_per_s = {};
+    }
+    if (!(dt_s > 0.0)) {
+        return {};
+    }
+    state.velocity_m_per_s = bounded(state.velocity_m_per_s, options.speed_m_per_s_max) *
+                             (1.0 / (1.0 + options.drag_per_s * dt_s));
+    constexpr double kRestMPerS = 1e-4;
+    if (length(state.velocity_m_per_s) < kRestMPerS) {
+        state.velocity_m_per_s = {};
+    }
+    return {.shift_m = state.velocity_m_per_s * dt_s, .force_n = {}};
+}
+
+} // namespace marsview

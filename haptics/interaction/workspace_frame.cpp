@@ -1,0 +1,132 @@
+#include "haptics/interaction/workspace_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace marsview {
+namespace {
+
+// Counter-clockwise about the vertical.
+Vec3 turnedBy(const Vec3& v, Angle angle) noexcept
+{
+    const double c = std::cos(angle.radians());
+    const double s = std::sin(angle.radians());
+    return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+}
+
+WorkspacePoint centreOf(const WorkspaceBox& box) noexcept
+{
+    return {0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y),
+            0.5 * (box.low.z + box.high.z)};
+}
+
+// Bounds of turned points.
+struct Bounds {
+    Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0.0};
+    Vec3 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+              0.0};
+    void add(const Vec3& p) noexcept
+    {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0.0};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0.0};
+    }
+};
+
+double share(double scene_m, double workspace_m) noexcept
+{
+    return workspace_m > 0.0 ? scene_m / workspace_m : 0.0;
+}
+
+// `low` and `high` are in the scene's metres but the workspace's axes.
+WorkspaceFrame frameAround(const Vec3& low, const Vec3& high, Angle turn, const WorkspaceBox& reach)
+{
+    const Vec3 size = reach.high - reach.low;
+    const Vec3 extent = high - low;
+    const double scale =
+        std::max({share(extent.x, size.x), share(extent.y, size.y), share(extent.z, size.z)});
+    return {.anchor = centreOf(reach),
+            .place = turnedBy((low + high) * 0.5, turn),
+            .scene_per_metre = scale > 0.0 ? scale : 1.0,
+            .turn = turn};
+}
+
+} // namespace
+
+ScenePoint WorkspaceFrame::toScene(const WorkspacePoint& point) const noexcept
+{
+    return place + differenceToScene(point - anchor);
+}
+
+WorkspacePoint WorkspaceFrame::toWorkspace(const ScenePoint& point) const noexcept
+{
+    return anchor + differenceToWorkspace(point - place);
+}
+
+Vec3 WorkspaceFrame::differenceToWorkspace(const Vec3& scene_m) const noexcept
+{
+    return turnedBy(scene_m, -turn) * (1.0 / scene_per_metre);
+}
+
+Vec3 WorkspaceFrame::differenceToScene(const Vec3& workspace_m) const noexcept
+{
+    return turnedBy(workspace_m, turn) * scene_per_metre;
+}
+
+WorkspaceFrame WorkspaceFrame::panned(const Vec3& shift) const noexcept
+{
+    WorkspaceFrame result = *this;
+    result.place = place - differenceToScene(shift);
+    return result;
+}
+
+WorkspaceFrame WorkspaceFrame::zoomed(const WorkspacePoint& fixed, double factor) const noexcept
+{
+    return {.anchor = fixed,
+            .place = toScene(fixed),
+            .scene_per_metre = scene_per_metre / factor,
+            .turn = turn};
+}
+
+WorkspaceFrame WorkspaceFrame::turned(const WorkspacePoint& fixed, Angle angle) const noexcept
+{
+    return {.anchor = fixed,
+            .place = toScene(fixed),
+            .scene_per_metre = scene_per_metre,
+            .turn = turn + -angle};
+}
+
+bool WorkspaceFrame::isSound() const noexcept
+{
+    const double sum = anchor.x + anchor.y + anchor.z + place.x + place.y + place.z +
+                       scene_per_metre + turn.radians();
+    return std::isfinite(sum) && scene_per_metre > 0.0;
+}
+
+WorkspaceFrame frameForView(const OrbitCamera& camera,
+                            const Viewport& viewport,
+                            const MapPlan& map,
+                            const SceneBox& box,
+                            const WorkspaceBox& reach)
+{
+    const Angle turn = -camera.azimuth; // headings count clockwise
+    Bounds bounds;
+    for (const GridPoint& corner : footprint(camera, viewport, map)) {
+        bounds.add(turnedBy(map.frame.toScene(corner, 0.0), -turn));
+    }
+    if (!(bounds.low.x < bounds.high.x) || !(bounds.low.y < bounds.high.y)) {
+        const Vec3 target = turnedBy(camera.target, -turn);
+        bounds.add(target + Vec3{camera.distance_m, camera.distance_m, 0.0} * 0.5);
+        bounds.add(target - Vec3{camera.distance_m, camera.distance_m, 0.0} * 0.5);
+    }
+    bounds.low.z = box.minimum.z;
+    bounds.high.z = box.maximum.z;
+    return frameAround(bounds.low, bounds.high, turn, reach);
+}
+
+WorkspaceFrame frameForMap(const SceneBox& box, const WorkspaceBox& reach) noexcept
+{
+    return frameAround(box.minimum, box.maximum, Angle{}, reach);
+}
+
+} // namespace marsview

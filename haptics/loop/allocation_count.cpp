@@ -1,0 +1,97 @@
+// An operator new and delete that count within RtScope: for programs that say how much their ticks
+// allocate, and for tests that allow none. Not part of the library: linked by those who ask for it.
+#include "haptics/loop/rt_scope.h"
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+// Not inlined, lest the compiler take what is deleted for malloc's.
+[[gnu::noinline]] void* counted(std::size_t bytes) noexcept
+{
+    marsview::RtScope::countAllocation();
+    return std::malloc(bytes == 0 ? 1 : bytes); // NOLINT
+}
+
+[[gnu::noinline]] void* countedAligned(std::size_t bytes, std::align_val_t alignment) noexcept
+{
+    marsview::RtScope::countAllocation();
+    const auto step = static_cast<std::size_t>(alignment);
+    return std::aligned_alloc(step, (bytes + step - 1) / step * step + (bytes == 0 ? step : 0));
+}
+
+void* orThrow(void* memory)
+{
+    if (memory == nullptr) {
+        throw std::bad_alloc();
+    }
+    return memory;
+}
+
+[[gnu::noinline]] void release(void* memory) noexcept
+{
+    if (memory != nullptr) {
+        marsview::RtScope::countAllocation();
+    }
+    std::free(memory); // NOLINT
+}
+
+} // namespace
+
+void* operator new(std::size_t bytes)
+{
+    return orThrow(counted(bytes));
+}
+void* operator new[](std::size_t bytes)
+{
+    return orThrow(counted(bytes));
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+    return counted(bytes);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
+{
+    return counted(bytes);
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment)
+{
+    return orThrow(countedAligned(bytes, alignment));
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment)
+{
+    return orThrow(countedAligned(bytes, alignment));
+}
+void operator delete(void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept
+{
+    release(memory);
+}

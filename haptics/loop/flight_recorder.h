@@ -1,0 +1,54 @@
+// The last seconds of a loop, for finding out afterwards what happened.
+#pragma once
+
+#include "haptics/loop/loop_state.h"
+#include "haptics/sync/seq_lock.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace marsview {
+
+/// A ring of ticks, made beforehand. The servo thread adds without waiting; any other reads what is
+/// there, and a tick that is overwritten meanwhile is left out.
+class FlightRecorder {
+public:
+    explicit FlightRecorder(std::size_t ticks = 10'000)
+        : ring_(std::make_unique<SeqLock<TickRecord>[]>(ticks)) // NOLINT(modernize-avoid-c-arrays)
+        , size_(ticks)
+    {}
+
+    /// The servo thread.
+    void add(const TickRecord& record) noexcept
+    {
+        const std::uint64_t number = count_.load(std::memory_order_relaxed);
+        ring_[number % size_].write(record);
+        count_.store(number + 1, std::memory_order_release);
+    }
+
+    /// Any other thread: the oldest first.
+    std::vector<TickRecord> records() const
+    {
+        const std::uint64_t end = count_.load(std::memory_order_acquire);
+        const std::uint64_t begin = end > size_ ? end - size_ : 0;
+        std::vector<TickRecord> result;
+        result.reserve(static_cast<std::size_t>(end - begin));
+        for (std::uint64_t i = begin; i < end; ++i) {
+            const auto record = ring_[i % size_].tryRead();
+            if (record && (result.empty() || record->tick >= result.back().tick)) {
+                result.push_back(*record);
+            }
+        }
+        return result;
+    }
+
+private:
+    std::unique_ptr<SeqLock<TickRecord>[]> ring_; // NOLINT(modernize-avoid-c-arrays)
+    std::size_t size_;
+    std::atomic<std::uint64_t> count_{0};
+};
+
+} // namespace marsview

@@ -1,0 +1,420 @@
+#include "haptics/loop/haptic_tick.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr double kStepMaxS = 0.01; // what dynamics count a longer time as
+
+bool isFinite(const Vec3& v) noexcept
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Vec3 asVector(const WorkspacePoint& p) noexcept
+{
+    return {p.x, p.y, p.z};
+}
+
+// A place that the device cannot be at: wrong units, or a broken encoder.
+bool isBeyond(const WorkspaceBox& box, const WorkspacePoint& p) noexcept
+{
+    const auto isOut = [](double at, double low, double high) {
+        constexpr double kMarginM = 0.25;
+        const double margin = std::max(kMarginM, high - low);
+        return !(at >= low - margin && at <= high + margin); // also where NaN
+    };
+    return isOut(p.x, box.low.x, box.high.x) || isOut(p.y, box.low.y, box.high.y) ||
+           isOut(p.z, box.low.z, box.high.z);
+}
+
+// No hand moves its stylus faster than 5 m/s.
+bool isJump(const Vec3& shift_m, double dt_s) noexcept
+{
+    constexpr double kSpeedMaxMPerS = 5.0;
+    constexpr double kSlackM = 0.01;
+    return !(length(shift_m) <= kSlackM + kSpeedMaxMPerS * std::min(dt_s, 0.1));
+}
+
+LetGoReason reasonOf(DeviceStatus status) noexcept
+{
+    switch (status) {
+    case DeviceStatus::Fine:
+        return LetGoReason::None;
+    case DeviceStatus::Unready:
+        return LetGoReason::DeviceUnready;
+    case DeviceStatus::Lost:
+        return LetGoReason::DeviceLost;
+    case DeviceStatus::Finished:
+        return LetGoReason::DeviceFinished;
+    }
+    return LetGoReason::Fault;
+}
+
+// One tick, with what it hands from step to step.
+class Tick {
+public:
+    Tick(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept
+        : options_(options)
+        , input_(input)
+        , settings_(*input.settings)
+        , state_(state)
+        , given_dt_s_(dt_s)
+        , dt_s_(std::isfinite(dt_s) ? std::clamp(dt_s, 0.0, kStepMaxS) : 0.0)
+        , map_(settings_.map.get())
+    {}
+
+    StepResult run() noexcept
+    {
+        learnPeriod();
+        takeFrame();
+        takeMap();
+        const bool is_known = takeHand();
+        Vec3 force_n{};
+        if (is_known && map_ != nullptr) {
+            force_n = interact();
+        }
+        limit(force_n);
+        publish();
+        return result_;
+    }
+
+private:
+    void learnPeriod() noexcept
+    {
+        if (!(dt_s_ > 0.0)) {
+            return;
+        }
+        constexpr double kShare = 0.02; // some 50 ticks
+        state_.period_s = state_.period_s > 0.0
+                              ? state_.period_s + kShare * (dt_s_ - state_.period_s)
+                              : std::max(dt_s_, options_.period_s);
+        result_.stiffness_n_per_m = 0.0;
+    }
+
+    void takeFrame() noexcept
+    {
+        if (state_.has_frame && state_.frame_number == settings_.frame_number) {
+            return;
+        }
+        if (!settings_.frame.isSound()) {
+            return;
+        }
+        // A camera that moves smoothly takes the map along; one that jumps puts another place
+        // there.
+        constexpr double kJumpM = 2e-3;
+        const Vec3 moved_m =
+            state_.has_frame
+                ? settings_.frame.toWorkspace(state_.frame.toScene(state_.hand)) - state_.hand
+                : Vec3{};
+        if (state_.has_frame && !(length(moved_m) < kJumpM)) {
+            has_jumped_ = true;
+        }
+        state_.frame = settings_.frame;
+        state_.frame_number = settings_.frame_number;
+        state_.has_frame = true;
+    }
+
+    void takeMap() noexcept
+    {
+        const std::uint64_t serial = map_ != nullptr ? map_->serial : 0;
+        if (serial == state_.map_serial) {
+            return;
+        }
+        if (map_ != nullptr && map_->map_id == state_.map_id && state_.has_touched) {
+            is_other_model_ = true; // of the same map: it goes on where the last one was
+        } else {
+            has_jumped_ = state_.map_serial != 0 || map_ == nullptr;
+            is_fresh_ = true;
+        }
+        state_.map_serial = serial;
+        state_.map_id = map_ != nullptr ? map_->map_id : 0;
+        state_.has_touched = false;
+    }
+
+    // Whether there is a hand to interact with.
+    bool takeHand() noexcept
+    {
+        result_.reason =
+            settings_.is_stopped ? LetGoReason::EmergencyStop : reasonOf(input_.status);
+        if (input_.status != DeviceStatus::Fine) {
+            return false;
+        }
+        WorkspacePoint at = input_.sample.position;
+        if (input_.recorded_goal != nullptr && map_ != nullptr) {
+            at = state_.frame.toWorkspace(map_->frame.toScene(*input_.recorded_goal));
+        } else {
+            note(ageReason());
+            if (!isFinite(asVector(at)) || isBeyond(input_.device->workspace, at) ||
+                !std::isfinite(input_.sample.twist_rad)) {
+                note(LetGoReason::DeviceNonsense);
+                return false;
+            }
+            if (state_.has_hand && isJump(at - state_.hand, dt_s_)) {
+                note(LetGoReason::DeviceNonsense); // and it goes on from there
+                has_jumped_ = true;
+                state_.has_hand = false;
+            }
+            if (!input_.sample.is_held) {
+                note(LetGoReason::NotHeld);
+            }
+        }
+        shift_m_ = state_.has_hand ? at - state_.hand : Vec3{};
+        twist_change_rad_ = state_.has_hand
+                                ? std::remainder(input_.sample.twist_rad - state_.twist_rad,
+                                                 2.0 * 3.14159265358979323846)
+                                : 0.0;
+        state_.hand = at;
+        state_.twist_rad = input_.sample.twist_rad;
+        state_.has_hand = true;
+        return true;
+    }
+
+    LetGoReason ageReason() const noexcept
+    {
+        const nanoseconds age = input_.now - input_.sample.time;
+        const bool is_stale = age > options_.sample_age_max || age < -options_.sample_age_max;
+        return is_stale ? LetGoReason::DeviceStale : LetGoReason::None;
+    }
+
+    void note(LetGoReason reason) noexcept
+    {
+        if (result_.reason == LetGoReason::None) {
+            result_.reason = reason;
+        }
+    }
+
+    Vec3 interact() noexcept
+    {
+        const double stiffness = usedStiffness(settings_.stiffness_n_per_m, *input_.device,
+                                               options_.period_s, state_.period_s);
+        result_.stiffness_n_per_m = stiffness;
+        WallContact walls;
+        if (settings_.has_walls && input_.recorded_goal == nullptr) {
+            walls = wallsAt(input_.device->workspace, state_.hand, stiffness);
+        }
+        const double share = options_.mixing == ForceMixing::Fade ? walls.ground_share : 1.0;
+        result_.ground_share = share;
+
+        const bool is_grabbing = (input_.sample.buttons & 1U) != 0 || settings_.is_grabbing;
+        const ModeStep mode = stepModes(settings_.modes,
+                                        {.hand = state_.hand,
+                                         .hand_shift = shift_m_,
+                                         .twist_change_rad = twist_change_rad_,
+                                         .is_grabbing = is_grabbing,
+                                         .is_in_contact = state_.contact.is_in_contact,
+                                         .free_share = share,
+                                         .stiffness_n_per_m = stiffness,
+                                         .frame = state_.frame},
+                                        state_.modes, dt_s_);
+        result_.has_changed_mode = mode.has_changed_mode;
+        if (mode.frame.isSound()) {
+            state_.frame = mode.frame;
+        }
+        refreshTerrain(stiffness);
+        Vec3 force_n = mode.force_n + walls.force_n;
+        if (!isHolding(state_.modes.mode)) {
+            force_n = force_n + touch() * (stiffness * share);
+        }
+        force_n = force_n * std::clamp(settings_.force_share, 0.0, 1.0);
+        if (!options_.is_passivity_kept) {
+            return force_n;
+        }
+        const PassivityStep passive =
+            keepPassive(options_.passivity, force_n, shift_m_, state_.passivity, dt_s_);
+        result_.damping_n_s_per_m = passive.damping_n_s_per_m;
+        return passive.force_n;
+    }
+
+    void refreshTerrain(double stiffness) noexcept
+    {
+        if (map_->terrain == nullptr) {
+            return;
+        }
+        ServoTerrain& terrain = *map_->terrain;
+        const GridPoint at = onGrid(map_->frame.frame().toGrid(
+            state_.has_touched ? state_.contact.proxy : state_.frame.toScene(state_.hand)));
+        const double per_s = dt_s_ > 0.0 && state_.has_touched ? 1.0 / dt_s_ : 0.0;
+        const HandMotion motion{.at = at,
+                                .columns_per_s = (at.column - state_.at.column) * per_s,
+                                .rows_per_s = (at.row - state_.at.row) * per_s,
+                                .time_ns = input_.now.time_since_epoch() / nanoseconds(1),
+                                .is_active = true};
+        state_.at = at;
+        // What arrives may change the force by no more than this.
+        constexpr double kForceRateNPerS = 20.0;
+        terrain.resident().setRate(
+            std::max(1e-3, kForceRateNPerS * state_.frame.scene_per_metre /
+                               (std::max(stiffness, 1.0) * map_->frame.exaggeration())));
+        terrain.resident().resetMisses();
+        if (terrain.refresh(motion, dt_s_)) {
+            map_->model->terrainChanged();
+        }
+        if (terrain.silence(input_.now) > options_.terrain_age_max) {
+            note(LetGoReason::TerrainStale);
+        }
+    }
+
+    GridPoint onGrid(const GridPoint& at) const noexcept
+    {
+        const Georeference& georeference = map_->frame.georeference();
+        const auto along = [](double value, std::size_t count) {
+            const auto last = static_cast<double>(count - 1);
+            return value >= 0.0 ? std::min(value, last) : 0.0; // also where NaN
+        };
+        return {along(at.column, georeference.columns()), along(at.row, georeference.rows())};
+    }
+
+    // From the hand to the proxy, in metres of the workspace.
+    Vec3 touch() noexcept
+    {
+        const TracePoint aimed = input_.recorded_goal != nullptr ? *input_.recorded_goal : aim();
+        if (is_other_model_) {
+            goOnAtProxy();
+        } else if (map_->is_touched && (has_jumped_ || !state_.has_touched)) {
+            putStraightAbove(aimed);
+        }
+        update(aimed);
+        state_.has_touched = true;
+        map_->is_touched = true;
+        if (map_->terrain != nullptr) {
+            const auto missed = map_->terrain->resident().misses().count;
+            result_.missed_samples =
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(missed, UINT32_MAX));
+        }
+        if (!state_.contact.is_in_contact || state_.contact.counters.refused != 0) {
+            return {};
+        }
+        return state_.frame.differenceToWorkspace(state_.contact.proxy - clamped(state_.goal));
+    }
+
+    // Beyond the map's border the ground goes on level, without a wall at its edge.
+    ScenePoint clamped(const ScenePoint& goal) const noexcept
+    {
+        const SceneFrame& frame = map_->frame.frame();
+        return frame.toScene(onGrid(frame.toGrid(goal)), goal.z);
+    }
+
+    TracePoint aim() const noexcept
+    {
+        return map_->frame.fromScene(clamped(state_.frame.toScene(state_.hand)));
+    }
+
+    // The goal is derived from what a recording holds, so that one that is replayed gives the same.
+    void update(const TracePoint& goal) noexcept
+    {
+        if (result_.goals.count < TickGoals::kMax) {
+            result_.goals.goals[result_.goals.count++] = goal;
+        }
+        state_.goal = map_->frame.toScene(goal);
+        state_.contact = map_->model->update(state_.goal);
+        if (state_.contact.counters.refused != 0) {
+            return;
+        }
+        // To the digit the goal where it is free, as `trace` has it.
+        state_.proxy = state_.contact.is_in_contact || map_->frame.isClamped(goal)
+                           ? map_->frame.fromScene(state_.contact.proxy)
+                           : goal;
+    }
+
+    // Up above all ground, over to the new place: what is placed there is so by goals alone.
+    void putStraightAbove(const TracePoint& goal) noexcept
+    {
+        constexpr double kAboveAllM = 1e6;
+        const TracePoint last = map_->frame.fromScene(map_->model->state().proxy);
+        update({last.x, last.y, kAboveAllM});
+        update({goal.x, goal.y, kAboveAllM});
+    }
+
+    // A hair's breadth below the last model's proxy, the new one's is the nearest point of the
+    // ground.
+    void goOnAtProxy() noexcept
+    {
+        if (!state_.contact.is_in_contact) {
+            return;
+        }
+        constexpr double kHairM = 1e-6;
+        const double depth = kHairM * state_.frame.scene_per_metre / map_->frame.exaggeration();
+        update({state_.proxy.x, state_.proxy.y, state_.proxy.z - depth});
+    }
+
+    void limit(const Vec3& force_n) noexcept
+    {
+        if (map_ == nullptr) {
+            note(LetGoReason::NoTouch);
+        }
+        state_.misses = input_.has_missed_deadline ? state_.misses + 1 : 0;
+        if (state_.misses > options_.misses_max) {
+            state_.misses = options_.misses_max + 1;
+            note(LetGoReason::MissedDeadline);
+        }
+        result_.has_changed_map = has_jumped_ || is_fresh_;
+        const SafetyOutput safe =
+            limitForce(options_.limits,
+                       {.force_n = force_n,
+                        .reason = result_.reason,
+                        .has_changed = result_.has_changed_mode || result_.has_changed_map},
+                       state_.safety, given_dt_s_);
+        result_.reason = safe.reason;
+        result_.force_n = safe.force_n;
+        noteWritten(state_.passivity, safe.force_n);
+    }
+
+    void publish() noexcept
+    {
+        result_.mode = state_.modes.mode;
+        result_.hand = state_.hand;
+        result_.goal = state_.goal;
+        result_.contact = state_.contact;
+        result_.proxy = state_.proxy;
+    }
+
+    const TickOptions& options_;
+    const TickInput& input_;
+    const LoopSettings& settings_;
+    TickState& state_;
+    double given_dt_s_;
+    double dt_s_;
+    ServoMap* map_;
+    StepResult result_;
+    Vec3 shift_m_{};
+    double twist_change_rad_ = 0.0;
+    bool has_jumped_ = false;
+    bool is_fresh_ = false;
+    bool is_other_model_ = false;
+};
+
+} // namespace
+
+TickOptions tickOptionsFor(const DeviceCapabilities& device)
+{
+    TickOptions options;
+    options.limits.force_n_max = device.force_n_peak;
+    options.period_s = device.rate_hz > 0.0 ? 1.0 / device.rate_hz : 1e-3;
+    return options;
+}
+
+double usedStiffness(double wanted_n_per_m,
+                     const DeviceCapabilities& device,
+                     double nominal_period_s,
+                     double period_s) noexcept
+{
+    // A device that cannot push has no limit; what would be felt is shown all the same.
+    const double stable =
+        device.stiffness_n_per_m_max > 0.0 ? device.stiffness_n_per_m_max : wanted_n_per_m;
+    const double rate = period_s > nominal_period_s ? nominal_period_s / period_s : 1.0;
+    const double used = std::min(wanted_n_per_m, stable * rate);
+    return used > 0.0 ? used : 0.0; // also where NaN
+}
+
+StepResult
+step(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept
+{
+    return Tick(options, input, state, dt_s).run();
+}
+
+} // namespace marsview

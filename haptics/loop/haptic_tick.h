@@ -1,0 +1,120 @@
+// One tick of the servo loop: from where the hand is to the force on it, without clock or device.
+#pragma once
+
+#include "haptics/device/haptic_device.h"
+#include "haptics/interaction/hand_modes.h"
+#include "haptics/interaction/workspace_walls.h"
+#include "haptics/loop/passivity_observer.h"
+#include "haptics/loop/safety_limiter.h"
+#include "haptics/loop/servo_map.h"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace marsview {
+
+/// What the program tells the loop. Copies share the map.
+struct LoopSettings {
+    std::shared_ptr<ServoMap> map;    // null: there is nothing to be felt
+    WorkspaceFrame frame;             // taken over when `frame_number` changes
+    std::uint64_t frame_number = 0;   // otherwise the loop goes on with what its hand made of it
+    double stiffness_n_per_m = 300.0; // of ground and walls; bounded by what the device stands
+    double force_share = 1.0;         // of all forces, 0 to 1
+    bool has_walls = true;
+    bool is_grabbing = false; // with a key instead of the stylus' button
+    bool is_stopped = false;  // emergency stop
+    ModeOptions modes{};
+};
+
+/// How ground and walls are put together. All but Fade is there for measuring why it is there.
+enum class ForceMixing : std::uint8_t { Fade, NaiveSum };
+
+/// Constant while a device is open.
+struct TickOptions {
+    SafetyLimits limits;
+    PassivityOptions passivity;
+    bool is_passivity_kept = true;
+    ForceMixing mixing = ForceMixing::Fade;
+    double period_s = 1e-3; // as it should be
+    std::chrono::nanoseconds sample_age_max{15'000'000};
+    std::chrono::nanoseconds terrain_age_max{500'000'000};
+    unsigned misses_max = 5; // deadlines missed one after the other before it lets go
+};
+
+/// Those for a device, with its peak force as the limit.
+TickOptions tickOptionsFor(const DeviceCapabilities& device);
+
+struct TickInput {
+    const LoopSettings* settings = nullptr;
+    const DeviceCapabilities* device = nullptr;
+    DeviceStatus status = DeviceStatus::Fine;
+    DeviceSample sample;
+    /// Of a device that plays back: takes the place of the sample's position.
+    const TracePoint* recorded_goal = nullptr;
+    std::chrono::steady_clock::time_point now{};
+    bool has_missed_deadline = false; // the last tick ended, or this one began, too late
+};
+
+/// Goals of one tick: one, or those by which the proxy is put elsewhere.
+struct TickGoals {
+    static constexpr std::size_t kMax = 4;
+    std::array<TracePoint, kMax> goals{};
+    std::size_t count = 0;
+};
+
+struct TickState {
+    bool has_hand = false; // a position has been taken over
+    WorkspacePoint hand{};
+    double twist_rad = 0.0;
+    bool has_frame = false;
+    WorkspaceFrame frame;
+    std::uint64_t frame_number = 0;
+    std::uint64_t map_serial = 0; // 0: none
+    std::uint64_t map_id = 0;
+    bool has_touched = false; // this map, since it came
+    ContactState contact;     // the last
+    TracePoint proxy{};       // the same on the map
+    ScenePoint goal{};
+    GridPoint at{}; // of the proxy, in the last tick
+    ModeState modes;
+    PassivityState passivity;
+    SafetyState safety;
+    double period_s = 0.0; // smoothed
+    unsigned misses = 0;
+};
+
+struct StepResult {
+    Vec3 force_n{}; // to be written
+    LetGoReason reason = LetGoReason::None;
+    StylusMode mode = StylusMode::Hover;
+    bool has_changed_mode = false;
+    bool has_changed_map = false; // another map, or the same one jumped
+    WorkspacePoint hand{};
+    ScenePoint goal{};
+    ContactState contact;
+    TracePoint proxy{};
+    TickGoals goals;                  // that the contact model was given, in order
+    double ground_share = 1.0;        // of the ground's force that the walls let through
+    double stiffness_n_per_m = 0;     // that was used
+    double damping_n_s_per_m = 0;     // that was added to stay passive
+    std::uint32_t missed_samples = 0; // of terrain that was not there at full resolution
+};
+
+/// The tick. Everything that it knows is in its arguments, and in the contact model that the
+/// settings hold; the same again gives the same again. Neither allocates nor waits.
+StepResult
+step(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept;
+
+/// The stiffness that is used where `wanted` is asked for: no more than the device is stable with,
+/// and less where the loop runs slower than it should, as a sampled spring is stable only up to a
+/// stiffness that falls with its period (J. E. Colgate and G. Schenkel, Passivity of a class of
+/// sampled-data systems, 1997).
+double usedStiffness(double wanted_n_per_m,
+                     const DeviceCapabilities& device,
+                     double nominal_period_s,
+                     double period_s) noexcept;
+
+} // namespace marsview

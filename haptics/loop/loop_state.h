@@ -1,0 +1,72 @@
+// What the servo loop tells of itself while it runs.
+#pragma once
+
+#include "core/contact/contact.h"
+#include "core/contact/goal_frame.h"
+#include "haptics/interaction/mouse_stylus.h"
+#include "haptics/interaction/workspace_frame.h"
+#include "haptics/loop/safety_limiter.h"
+
+#include <cstdint>
+
+namespace marsview {
+
+/// Sums since the loop began; those of the first ticks are left out like their times.
+struct LoopCounts {
+    std::uint64_t ticks = 0;
+    std::uint64_t in_contact = 0;
+    std::uint64_t cut_short = 0;         // updates of the contact model that its bound ended
+    std::uint64_t ticks_with_misses = 0; // some terrain was not there at full resolution
+    std::uint64_t samples_missed = 0;
+    std::uint64_t let_go = 0;       // ticks without force, whatever the reason
+    std::uint64_t damped = 0;       // ticks in which damping was added to stay passive
+    std::uint64_t read_errors = 0;  // of the device
+    std::uint64_t not_recorded = 0; // ticks that a recording could not take
+};
+
+/// Of one tick. Trivially copyable, for a SeqLock.
+struct LoopState {
+    std::uint64_t tick = 0;
+    std::int64_t time_ns = 0; // steady clock
+    WorkspacePoint hand{};
+    ScenePoint goal{};
+    ContactState contact;
+    StylusMode mode = StylusMode::Hover;
+    LetGoReason reason = LetGoReason::NoTouch;
+    Vec3 force_n{};
+    double ground_share = 1.0;
+    double stiffness_n_per_m = 0.0;
+    double tick_s = 0.0; // how long the tick took
+    /// As the hand has moved the map; `frame_number` is that of the settings it began with.
+    WorkspaceFrame frame;
+    std::uint64_t frame_number = 0;
+    LoopCounts counts;
+    bool is_finished = false; // the device has ended, or was lost
+};
+
+/// Something that happened, in order.
+enum class LoopEventKind : std::uint8_t { ModeChanged, MapChanged, LetGo, Holding };
+
+struct LoopEvent {
+    LoopEventKind kind = LoopEventKind::LetGo;
+    StylusMode mode = StylusMode::Hover;
+    LetGoReason reason = LetGoReason::None; // of letting go
+    std::uint64_t tick = 0;
+};
+
+/// One update of the contact model, and the tick it was part of: what is recorded.
+struct TickRecord {
+    std::uint64_t tick = 0;
+    std::int64_t time_ns = 0; // steady clock
+    TracePoint goal{};
+    TracePoint proxy{};
+    Vec3 force_n{}; // on the hand
+    WorkspacePoint hand{};
+    StylusMode mode = StylusMode::Hover;
+    LetGoReason reason = LetGoReason::None;
+    bool is_in_contact = false;
+    bool has_goal = false; // false: the contact model was not asked in this tick
+    float tick_us = 0.0F;
+};
+
+} // namespace marsview

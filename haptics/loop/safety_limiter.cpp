@@ -1,0 +1,109 @@
+#include "haptics/loop/safety_limiter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+constexpr std::array<std::string_view, kLetGoReasonCount> kNames{
+    "none",         "emergency stop",   "device lost", "device finished", "device unready",
+    "device stale", "device nonsense",  "not held",    "missed deadline", "terrain stale",
+    "fault",        "nothing to touch",
+};
+
+bool isFinite(const Vec3& v) noexcept
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Lengths of vectors whose squares overflow are finite too.
+double safeLength(const Vec3& v) noexcept
+{
+    return std::hypot(v.x, v.y, v.z);
+}
+
+// Rounding must not take the vector over the bound: a hair below it.
+Vec3 shortened(const Vec3& v, double length_max) noexcept
+{
+    constexpr double kHair = 1e-15;
+    const double longest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (!(longest > 0.0) || !(length_max > 0.0)) {
+        return {};
+    }
+    const Vec3 unit = v * (1.0 / longest); // its length is 1 to sqrt(3)
+    if (!isFinite(unit)) {
+        return {};
+    }
+    return unit * (length_max * (1.0 - kHair) / safeLength(unit));
+}
+
+double bound(double value) noexcept
+{
+    return value > 0.0 ? std::min(value, 1e6) : 0.0; // also where NaN
+}
+
+} // namespace
+
+std::string_view letGoReasonName(LetGoReason reason) noexcept
+{
+    return kNames[std::min<std::size_t>(static_cast<std::size_t>(reason), kNames.size() - 1)];
+}
+
+SafetyOutput limitForce(const SafetyLimits& limits,
+                        const SafetyInput& input,
+                        SafetyState& state,
+                        double dt_s) noexcept
+{
+    SafetyOutput output{.force_n = {}, .reason = input.reason, .is_bounded = false};
+    const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
+    if (output.reason == LetGoReason::None && (!is_time || !isFinite(input.force_n))) {
+        output.reason = LetGoReason::Fault;
+    }
+    const double step_s = is_time ? std::min(dt_s, kSafetyStepMaxS) : kSafetyStepFallbackS;
+    const double force_n_max = bound(limits.force_n_max);
+    if (!isFinite(state.force_n) || !std::isfinite(state.gain)) {
+        state = {};
+    }
+
+    const bool is_letting_go = output.reason != LetGoReason::None;
+    Vec3 wanted_n{};
+    if (is_letting_go) {
+        state.gain = 0.0;
+        state.ramp_s = 0.0;
+    } else {
+        if (state.ramp_s <= 0.0) {
+            state.gain = 0.0;
+            state.ramp_s = std::max(bound(limits.ramp_s), 1e-6);
+        } else if (input.has_changed) {
+            // One that has only begun goes on as slowly as it began.
+            state.ramp_s = state.gain < 1.0 ? state.ramp_s : bound(limits.change_ramp_s);
+            state.ramp_s = std::max(state.ramp_s, 1e-6);
+            state.gain = 0.0;
+        }
+        state.gain = std::clamp(state.gain + step_s / state.ramp_s, 0.0, 1.0);
+        wanted_n = input.force_n;
+        if (safeLength(wanted_n) > force_n_max) {
+            wanted_n = shortened(wanted_n, force_n_max);
+            output.is_bounded = true;
+        }
+        wanted_n = wanted_n * state.gain;
+    }
+
+    const double rate = is_letting_go ? limits.release_n_per_s_max : limits.rate_n_per_s_max;
+    const double change_n_max = bound(rate) * step_s;
+    const Vec3 change_n = wanted_n - state.force_n;
+    if (safeLength(change_n) > change_n_max) {
+        wanted_n = state.force_n + shortened(change_n, change_n_max);
+        output.is_bounded = true;
+    }
+    if (safeLength(wanted_n) > force_n_max) {
+        wanted_n = shortened(wanted_n, force_n_max);
+    }
+    state.force_n = wanted_n;
+    output.force_n = wanted_n;
+    return output;
+}
+
+} // namespace marsview

@@ -1,0 +1,75 @@
+// The last stage before the motors. It trusts nobody: whatever comes before it, the force on the
+// hand is finite, bounded, changes at a bounded rate, and goes to zero where anything is wrong.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace marsview {
+
+/// Why there is no force. The first that holds, in this order, is told.
+enum class LetGoReason : std::uint8_t {
+    None,           // there may be force
+    EmergencyStop,  // somebody has asked for it
+    DeviceLost,     // unplugged or dead
+    DeviceFinished, // a recording has ended
+    DeviceUnready,  // not calibrated, or its own stop is pressed
+    DeviceStale,    // what it measured is too old
+    DeviceNonsense, // it measured what is no number, or a place that no hand gets to in the time
+    NotHeld,        // in the inkwell, or the dead-man switch is released
+    MissedDeadline, // the loop itself came too late, too often
+    TerrainStale,   // whoever brings the terrain has gone silent
+    Fault,          // the program computed what is no force, or was given what is no time
+    NoTouch,        // there is nothing to be felt
+};
+
+inline constexpr std::uint8_t kLetGoReasonCount = 12;
+
+/// In lower case, for people and for files: "emergency stop".
+std::string_view letGoReasonName(LetGoReason reason) noexcept;
+
+/// Constant while a device is open.
+struct SafetyLimits {
+    double force_n_max = 0.0;            // of the vector
+    double rate_n_per_s_max = 500.0;     // of the vector's change
+    double release_n_per_s_max = 2000.0; // the same while letting go
+    double ramp_s = 0.5;                 // from nothing to all of it, whenever it begins
+    double change_ramp_s = 0.15;         // the same after a change of mode or map
+};
+
+struct SafetyInput {
+    Vec3 force_n{};
+    LetGoReason reason = LetGoReason::None; // what others have found wrong
+    bool has_changed = false;               // the mode or the map; ramps in anew
+};
+
+struct SafetyState {
+    Vec3 force_n{};     // the last
+    double gain = 0.0;  // of what is let through: 0 to 1
+    double ramp_s = 0.; // how long the gain takes from 0 to 1 this time; 0: has not begun
+};
+
+struct SafetyOutput {
+    Vec3 force_n{};
+    LetGoReason reason = LetGoReason::None;
+    bool is_bounded = false; // by magnitude or by rate
+};
+
+/// A time step that is longer counts as this: after a pause nothing may jump.
+inline constexpr double kSafetyStepMaxS = 0.01;
+/// And where it is no time at all, letting go counts it as this.
+inline constexpr double kSafetyStepFallbackS = 0.001;
+
+/// The bounds hold for any input and state, NaN and infinities included:
+/// |force| <= force_n_max, and |force - last force| <= rate × min(dt_s, kSafetyStepMaxS), where the
+/// rate is release_n_per_s_max while letting go. Only where the limits themselves have become
+/// smaller than the last force, the magnitude comes before the rate. A limit that is no number, or
+/// negative, is 0. Servo thread.
+SafetyOutput limitForce(const SafetyLimits& limits,
+                        const SafetyInput& input,
+                        SafetyState& state,
+                        double dt_s) noexcept;
+
+} // namespace marsview

@@ -1,0 +1,56 @@
+// Writes what a servo loop does into a file, as long as it lasts.
+#pragma once
+
+#include "core/base/result.h"
+#include "haptics/loop/servo_loop.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace marsview {
+
+/// A line a contact update. The first three columns are those of a file of goals: `trace --goals`
+/// gives the same proxies again, to the bit, and "replay:" aims at the same places.
+inline constexpr std::string_view kSessionColumns =
+    "x,y,z,time_s,tick,contact,proxy_x,proxy_y,proxy_z,force_x_n,force_y_n,force_z_n,mode,reason";
+
+/// One line with its end; times count from `begin_ns`.
+std::string sessionLine(const TickRecord& record, std::int64_t begin_ns);
+
+/// A thread of its own writes; the servo thread only hands over. Made and finished by the thread
+/// that owns the loop, before the loop ends.
+class SessionRecorder {
+public:
+    /// Begins. The loop outlives the recorder. Unreadable where the file cannot be made.
+    static Result<std::unique_ptr<SessionRecorder>> begin(ServoLoop& loop, const std::string& path);
+    ~SessionRecorder();
+    SessionRecorder(const SessionRecorder&) = delete;
+    SessionRecorder& operator=(const SessionRecorder&) = delete;
+
+    /// Writes what there is and closes the file. Says where that failed, as on a full disk.
+    Status finish();
+    std::uint64_t updates() const noexcept { return updates_; } // after finish()
+
+private:
+    SessionRecorder(ServoLoop& loop, const std::string& path, std::FILE* file);
+    void run(const std::stop_token& stop);
+    void drain();
+
+    ServoLoop& loop_;
+    std::string path_;
+    std::FILE* file_;
+    std::uint64_t updates_ = 0;
+    std::int64_t begin_ns_ = 0;
+    bool has_failed_ = false;
+    std::jthread thread_;
+};
+
+/// The flight recorder's ticks, in the same columns but with the time that each tick took.
+Status saveFlight(const FlightRecorder& flight, const std::string& path);
+
+} // namespace marsview

@@ -1,0 +1,146 @@
+#include "app/cli/devices_command.h"
+#include "tests/cli/run_cli.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace marsview::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// The program with folders of its own for plugins and for what it remembers of them.
+class DevicesCommand : public testing::Test {
+protected:
+    void SetUp() override { fs::create_directories(plugins()); }
+
+    fs::path plugins() const { return folder_.path() / "data" / "marsview" / "plugins"; }
+    void add(const std::string& behaviour) const
+    {
+        const std::string name = behaviour + ".so";
+        fs::copy_file(fs::path(MARSVIEW_TEST_PLUGINS) / name, plugins() / name);
+    }
+    ProgramOutput devices(const std::vector<std::string>& options = {}) const
+    {
+        std::vector<std::string> arguments{
+            "env",
+            "XDG_DATA_HOME=" + folder_.file("data"),
+            "XDG_STATE_HOME=" + folder_.file("state"),
+            "MARSVIEW_PLUGIN_PATH=",
+            MARSVIEW_CLI,
+            "devices",
+        };
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return runProgram(arguments);
+    }
+    // What is said about the plugin of this behaviour.
+    nlohmann::json entry(const std::string& behaviour) const
+    {
+        const ProgramOutput output = devices({"--json"});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        const nlohmann::json report = nlohmann::json::parse(output.out);
+        for (const auto& device : report["devices"]) {
+            const auto uri = device["uri"].get<std::string>();
+            if (uri.find(behaviour + ".so") != std::string::npos) {
+                return device;
+            }
+        }
+        return {};
+    }
+
+    TempFolder folder_;
+};
+
+} // namespace
+
+TEST_F(DevicesCommand, ListsPluginsOfTheUsersFolderAndWhyOneIsRefused)
+{
+    add("is_good");
+    add("has_other_version");
+    const nlohmann::json good = entry("is_good");
+    EXPECT_EQ(good["uri"], "plugin:" + (plugins() / "is_good.so").string());
+    EXPECT_EQ(good["name"], "Tiny");
+    EXPECT_EQ(good["usable"], true);
+    EXPECT_TRUE(good["reason"].is_null());
+    const nlohmann::json other = entry("has_other_version");
+    EXPECT_EQ(other["usable"], false);
+    EXPECT_THAT(other["reason"].get<std::string>(), HasSubstr("is made for version 2"));
+
+    const ProgramOutput table = devices();
+    EXPECT_EQ(table.exit_status, 0) << table.err;
+    EXPECT_THAT(table.out, StartsWith("URI "));
+    EXPECT_THAT(table.out, HasSubstr("is_good.so            Tiny  "));
+    EXPECT_THAT(table.out, HasSubstr("is made for version 2"));
+}
+
+TEST_F(DevicesCommand, SaysWhichSchemesThereAre)
+{
+    const ProgramOutput output = devices({"--json"});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    const auto schemes =
+        nlohmann::json::parse(output.out)["schemes"].get<std::vector<std::string>>();
+    EXPECT_NE(std::find(schemes.begin(), schemes.end(), "plugin"), schemes.end());
+}
+
+TEST_F(DevicesCommand, LeavesOutAPluginThatBroughtItDownUntilToldToTryAgain)
+{
+    add("crashes_loading");
+    EXPECT_NE(devices().exit_status, 0);
+    const nlohmann::json refused = entry("crashes_loading");
+    EXPECT_EQ(refused["usable"], false);
+    EXPECT_THAT(refused["reason"].get<std::string>(), HasSubstr("left out"));
+    EXPECT_NE(devices({"--retry"}).exit_status, 0);
+}
+
+TEST(DevicesTable, AlignsItsColumnsAndKeepsEveryDeviceOnOneLine)
+{
+    EXPECT_EQ(devicesAsTable({{"null:", "Nothing", ""}, {"x:1\n2", "A hand", "no\npower"}}),
+              "URI    name     state\n"
+              "null:  Nothing  ready\n"
+              "x:1 2  A hand   no power");
+}
+
+// As its makers would do it: from an installed program, by CMake's and by pkg-config's way.
+TEST_F(DevicesCommand, ListsTheExamplePluginOnceItsMakersHaveBuiltIt)
+{
+    const std::string prefix = folder_.file("prefix");
+    const std::string example = (sourceRoot() / "tests/plugin_example").string();
+    const std::string build = folder_.file("build");
+    runTool({"cmake", "--install", MARSVIEW_BUILD, "--component", "plugin_development", "--prefix",
+             prefix});
+    runTool({"cmake", "-S", example, "-B", build, "-DCMAKE_PREFIX_PATH=" + prefix,
+             "-DCMAKE_BUILD_TYPE=Release"});
+    runTool({"cmake", "--build", build});
+    runTool({"cmake", "--install", build});
+    fs::path installed;
+    for (const auto& entry : fs::recursive_directory_iterator(prefix)) {
+        if (entry.path().filename() == "rocking_hand.so") {
+            installed = entry.path();
+        }
+    }
+    EXPECT_THAT(installed.string(), HasSubstr("/marsview/plugins/rocking_hand.so"));
+
+    const std::string variable = "PKG_CONFIG_PATH=" + prefix + "/share/pkgconfig";
+    std::string flags = runTool({"env", variable, "pkg-config", "--cflags", "marsview-plugin"});
+    flags.erase(flags.find_last_not_of(" \n") + 1);
+    const std::string plugin_folder =
+        runTool({"env", variable, "pkg-config", "--variable=plugindir", "marsview-plugin"});
+    EXPECT_EQ(fs::weakly_canonical(plugin_folder.substr(0, plugin_folder.find('\n'))),
+              fs::weakly_canonical(installed.parent_path()));
+    runTool({"cc", "-std=c99", "-shared", "-fPIC", flags, example + "/rocking_hand.c", "-lm", "-o",
+             (plugins() / "rocking_hand.so").string()});
+    const nlohmann::json found = entry("rocking_hand");
+    EXPECT_EQ(found["name"], "Rocking hand");
+    EXPECT_EQ(found["usable"], true) << found["reason"];
+    EXPECT_THAT(found["uri"].get<std::string>(), testing::EndsWith("rocking_hand.so#left"));
+}
+
+} // namespace marsview::test

@@ -1,0 +1,130 @@
+#include "tests/cli/run_cli.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+std::string mars()
+{
+    return (bundledSamples() / "mars_mola_4ppd.tif").string();
+}
+
+nlohmann::json looped(std::vector<std::string> more)
+{
+    std::vector<std::string> arguments{"loop", mars(), "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramOutput output = runCli(arguments);
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    return output.exit_status == 0 ? nlohmann::json::parse(output.out) : nlohmann::json();
+}
+
+// The columns of a file, counted from 0, line by line.
+std::vector<std::string> columnsOf(const std::string& text, const std::vector<std::size_t>& wanted)
+{
+    std::vector<std::string> lines;
+    for (std::size_t at = text.find('\n') + 1; at < text.size();) {
+        const std::size_t end = text.find('\n', at);
+        std::vector<std::string> words{""};
+        for (const char c : text.substr(at, end - at)) {
+            if (c == ',') {
+                words.emplace_back();
+            } else {
+                words.back() += c;
+            }
+        }
+        std::string line;
+        for (const std::size_t column : wanted) {
+            line += words.at(column) + ",";
+        }
+        lines.push_back(line);
+        at = end + 1;
+    }
+    return lines;
+}
+
+TEST(LoopCommand, RunsASimulatedHandAndTellsHowPunctualItWas)
+{
+    const nlohmann::json loop = looped({"--device", "sim:swipe=3,lift_s=0.2", "--seconds", "0.5"});
+    ASSERT_FALSE(loop.is_null());
+    EXPECT_GE(loop["ticks"], 500);
+    EXPECT_GT(loop["in_contact"], 100);
+    EXPECT_GE(loop["update_ns"]["count"], 500);
+    EXPECT_GT(loop["update_ns"]["p50"], 0);
+    EXPECT_GE(loop["update_ns"]["max"], loop["update_ns"]["p999"]);
+    std::uint64_t sum = 0;
+    for (const auto& bucket : loop["update_histogram_ns"]) {
+        sum += bucket[1].get<std::uint64_t>();
+    }
+    EXPECT_EQ(sum, loop["update_ns"]["count"].get<std::uint64_t>());
+    EXPECT_TRUE(loop["allocations"].is_null() || loop["allocations"] == 0);
+    EXPECT_TRUE(loop["real_time_scheduling"] == true || loop["real_time_scheduling"].is_string());
+    for (const char* name :
+         {"lateness_ns", "missed_by_tick", "missed_by_waking", "skipped", "ticks_with_tile_misses",
+          "minor_faults", "major_faults", "locked_memory"}) {
+        EXPECT_TRUE(loop.contains(name)) << name;
+    }
+}
+
+TEST(LoopCommand, WhatItRecordsIsTheSameAgainInTraceAndInReplay)
+{
+    const TempFolder folder;
+    const std::string first = folder.file("first.csv");
+    const std::string again = folder.file("again.csv");
+    const std::string traced = folder.file("traced.csv");
+    const nlohmann::json loop = looped({"--device", "sim:swipe=5,lift_s=0.3,grab_s=0.5,seed=4",
+                                        "--seconds", "1", "--record", first});
+    ASSERT_GT(loop["recorded"], 500);
+    EXPECT_EQ(loop["not_recorded"], 0);
+    looped({"--device", "replay:" + first, "--seconds", "10", "--record", again});
+    const std::vector<std::size_t> recorded{5, 6, 7, 8};
+    const auto a = columnsOf(readFile(first), recorded);
+    EXPECT_EQ(a, columnsOf(readFile(again), recorded));
+    const ProgramOutput trace = runCli({"trace", mars(), "--goals", first, "-o", traced});
+    ASSERT_EQ(trace.exit_status, 0) << trace.err;
+    EXPECT_EQ(a, columnsOf(readFile(traced), {3, 0, 1, 2}));
+}
+
+TEST(LoopCommand, RecordsADeviceAsItMeasures)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("device.csv");
+    looped({"--device", "record:" + path + ",sim:speed=0.1", "--seconds", "0.2"});
+    const std::string text = readFile(path);
+    EXPECT_EQ(text.rfind("time_s,status,x,y,z,", 0), 0U);
+    EXPECT_GE(columnsOf(text, {0}).size(), 200U);
+}
+
+TEST(LoopCommand, PrintsAHistogramForPeople)
+{
+    const ProgramOutput output = runCli({"loop", mars(), "--device", "null:", "--seconds", "0.1"});
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    for (const char* word : {"update time", "up to", "lateness", "missed deadlines", "tile misses",
+                             "page faults", "real-time scheduling"}) {
+        EXPECT_NE(output.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST(LoopCommand, SaysWhichDeviceItCannotOpenAndWhy)
+{
+    const auto refusal = [](const std::string& uri) {
+        const ProgramOutput output = runCli({"loop", mars(), "--device", uri, "--seconds", "0.1"});
+        EXPECT_EQ(output.exit_status, 1) << uri;
+        EXPECT_EQ(output.out, "");
+        return output.err;
+    };
+    EXPECT_NE(refusal("sim:wings=2").find("marsview-cli: sim:wings=2: "), std::string::npos);
+    EXPECT_NE(refusal("harp:").find("harp"), std::string::npos);
+    EXPECT_NE(refusal("replay:/nowhere.csv").find("cannot be read"), std::string::npos);
+    EXPECT_NE(refusal("record:x.csv").find("needs a file"), std::string::npos);
+    EXPECT_EQ(runCli({"loop", mars()}).exit_status, 2);
+    EXPECT_EQ(runCli({"loop", mars(), "--device", "null:", "--seconds", "-1"}).exit_status, 2);
+}
+
+} // namespace
+} // namespace marsview::test

@@ -1,0 +1,416 @@
+#include "haptics/device/plugin_driver.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+#include <fstream>
+#include <semaphore>
+
+namespace marsview::test {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// A folder with copies of plugins, which nothing has loaded before.
+class PluginFolder {
+public:
+    // Long enough for a machine under load to load a small library; only what hangs takes it all.
+    explicit PluginFolder(milliseconds patience = milliseconds(60'000))
+        : patience_(patience)
+    {
+        fs::create_directory(plugins());
+    }
+    fs::path plugins() const { return folder_.path() / "plugins"; }
+    fs::path add(const std::string& behaviour, const std::string& name = "x") const
+    {
+        const fs::path copy = plugins() / (name + ".so");
+        fs::copy_file(fs::path(MARSVIEW_TEST_PLUGINS) / (behaviour + ".so"), copy,
+                      fs::copy_options::overwrite_existing);
+        return copy;
+    }
+    PluginOptions options() const
+    {
+        return {.folders = {folder_.path() / "nothing here", plugins()},
+                .marker_folder = folder_.path() / "markers",
+                .patience = patience_};
+    }
+    std::size_t markers() const
+    {
+        std::error_code none;
+        const fs::directory_iterator files(folder_.path() / "markers", none);
+        return static_cast<std::size_t>(std::distance(fs::begin(files), fs::end(files)));
+    }
+
+private:
+    TempFolder folder_;
+    milliseconds patience_;
+};
+
+// The one thing that a driver finds in a folder with one plugin.
+FoundDevice only(PluginDriver& driver)
+{
+    const std::vector<FoundDevice> found = driver.find();
+    EXPECT_EQ(found.size(), 1U);
+    return found.empty() ? FoundDevice{} : found.front();
+}
+
+FoundDevice foundOf(const std::string& behaviour)
+{
+    const PluginFolder folder;
+    folder.add(behaviour);
+    PluginDriver driver(folder.options());
+    return only(driver);
+}
+
+std::string refusalOf(const std::string& behaviour)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add(behaviour);
+    PluginDriver driver(folder.options());
+    const auto device = driver.open(file.string());
+    EXPECT_FALSE(device);
+    return device ? "" : device.error().message;
+}
+
+} // namespace
+
+TEST(PluginDriver, OpensADeviceAndPassesEverythingOnInBothDirections)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("is_good");
+    PluginDriver driver(folder.options());
+    const FoundDevice found = only(driver);
+    EXPECT_EQ(found.uri, "plugin:" + file.string());
+    EXPECT_EQ(found.name, "Tiny");
+    EXPECT_TRUE(found.isUsable()) << found.reason;
+
+    auto device = driver.open(file.string());
+    ASSERT_TRUE(device) << device.error().message;
+    const DeviceCapabilities& c = (*device)->capabilities();
+    EXPECT_EQ(c.name, "Tiny One");
+    EXPECT_EQ(c.workspace, (WorkspaceBox{{-0.08, -0.06, -0.05}, {0.08, 0.06, 0.07}}));
+    EXPECT_EQ(c.force_n_peak, 3.3);
+    EXPECT_EQ(c.force_n_continuous, 0.9);
+    EXPECT_EQ(c.stiffness_n_per_m_max, 1500.0);
+    EXPECT_EQ(c.rate_hz, 1000.0);
+    EXPECT_EQ(c.axes_in, 6);
+    EXPECT_EQ(c.axes_out, 3);
+    EXPECT_EQ(c.buttons, 2);
+    EXPECT_TRUE(c.has_presence);
+    EXPECT_FALSE(c.owns_clock);
+
+    const auto before = std::chrono::steady_clock::now();
+    EXPECT_EQ((*device)->write({1.0, -2.0, 0.5}), DeviceStatus::Fine);
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ(sample.position, (WorkspacePoint{0.001, -0.002, 0.0005}));
+    EXPECT_EQ(sample.twist_rad, 0.25);
+    EXPECT_EQ(sample.buttons, 2U);
+    EXPECT_TRUE(sample.is_held);
+    EXPECT_GE(sample.time, before);
+    EXPECT_LE(sample.time, std::chrono::steady_clock::now());
+}
+
+TEST(PluginDriver, ClampsForcesToThePeakThatTheDeviceStates)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("is_good").string());
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ((*device)->write({0.0, 33.0, 0.0}), DeviceStatus::Fine);
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    EXPECT_NEAR(sample.position.y, 3.3e-3, 1e-12); // the tiny device shows its force as a position
+}
+
+TEST(PluginDriver, ClosesADeviceWhenItIsDestroyed)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("is_good");
+    PluginDriver driver(folder.options());
+    auto device = driver.open(file.string());
+    ASSERT_TRUE(device) << device.error().message;
+    void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD);
+    ASSERT_NE(library, nullptr);
+    const auto* closed = static_cast<const std::atomic<int>*>(dlsym(library, "tiny_closed"));
+    ASSERT_NE(closed, nullptr);
+    EXPECT_EQ(closed->load(), 0);
+    device->reset();
+    EXPECT_EQ(closed->load(), 1);
+    dlclose(library);
+}
+
+TEST(PluginDriver, FindsPluginsByTheirNamesInTheFoldersToo)
+{
+    const PluginFolder folder;
+    folder.add("is_good", "hand");
+    PluginDriver driver(folder.options());
+    EXPECT_TRUE(driver.open("hand.so"));
+    const auto missing = driver.open("other.so");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(missing.error().message,
+                AllOf(StartsWith("plugin:other.so: there is no such plugin"),
+                      HasSubstr(folder.plugins().string())));
+}
+
+TEST(PluginDriver, TakesPathsThatHoldAHash)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("is_good", "a#b");
+    PluginDriver driver(folder.options());
+    EXPECT_TRUE(driver.open(file.string()));
+    const auto other = driver.open(file.string() + "#c");
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().message,
+              "plugin:" + file.string() + "#c: could not be opened: there is no c");
+}
+
+TEST(PluginDriver, ListsAllDevicesOfAPluginWithTheirReasons)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("has_two");
+    PluginDriver driver(folder.options());
+    const std::vector<FoundDevice> found = driver.find();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[1].uri, "plugin:" + file.string() + "#b");
+    EXPECT_EQ(found[1].name, "Tiny B") << "a line break";
+    EXPECT_EQ(found[1].reason, "its cover is open");
+    EXPECT_EQ(foundOf("has_none").reason, "none of its devices is connected");
+    EXPECT_EQ(foundOf("has_none").name, "Tiny plugin");
+}
+
+TEST(PluginDriver, KeepsWorkingWithPluginsWhoseStructsHaveGrown)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("is_newer").string());
+    ASSERT_TRUE(device) << device.error().message;
+    DeviceSample sample;
+    EXPECT_EQ((*device)->write({1.0, 0.0, 0.0}), DeviceStatus::Fine);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ(sample.position.x, 0.001);
+}
+
+TEST(PluginDriver, SaysWhyItRefusesALibrary)
+{
+    EXPECT_THAT(foundOf("has_other_version").reason,
+                EndsWith("x.so: is made for version 2 of the plugin interface, and this program "
+                         "has version 1; get a build of it for this one"));
+    EXPECT_THAT(foundOf("lacks_symbol").reason,
+                EndsWith("x.so: is no device plugin: it has no function marsviewHapticPlugin"));
+    EXPECT_THAT(foundOf("lacks_table").reason, EndsWith("x.so: gave no table of functions"));
+    EXPECT_THAT(foundOf("lacks_read").reason, HasSubstr("x.so: lacks the function \"read\";"));
+    EXPECT_THAT(foundOf("has_small_table").reason,
+                HasSubstr("x.so: says that its MarsviewPlugin takes 40 bytes, where 96 to"));
+    EXPECT_THAT(foundOf("has_small_samples").reason,
+                HasSubstr("x.so: says that its MarsviewSample takes 24 bytes, where 48 to"));
+    EXPECT_FALSE(foundOf("has_other_version").isUsable());
+}
+
+TEST(PluginDriver, SaysWhyItCannotLoadAFileThatIsNoLibrary)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.plugins() / "text.so";
+    std::ofstream(file) << "not a library";
+    PluginDriver driver(folder.options());
+    const FoundDevice found = only(driver);
+    EXPECT_EQ(found.name, "text.so");
+    EXPECT_EQ(found.reason, file.string() + ": cannot be loaded (file too short)");
+    EXPECT_EQ(driver.open(file.string()).error().message, found.reason);
+    EXPECT_EQ(folder.markers(), 0U);
+}
+
+TEST(PluginDriver, SaysWhyItRefusesADevice)
+{
+    EXPECT_THAT(refusalOf("fails_opening"),
+                EndsWith("x.so: could not be opened: the cover is open"));
+    EXPECT_THAT(refusalOf("is_nan"), HasSubstr("x.so: states a largest stiffness of "));
+    EXPECT_THAT(refusalOf("is_negative"), HasSubstr("x.so: states a peak force of -3 N;"));
+    EXPECT_THAT(refusalOf("is_empty"),
+                HasSubstr("x.so: states a workspace from -0.06 to -0.06 m along y;"));
+}
+
+TEST(PluginDriver, DropsADeviceWhoseSamplesAreNotFinite)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("says_nan").string());
+    ASSERT_TRUE(device) << device.error().message;
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    const DeviceSample last = sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
+    EXPECT_EQ((*device)->write({1.0, 0.0, 0.0}), DeviceStatus::Lost);
+    EXPECT_EQ(sample.position, last.position) << "withheld";
+    EXPECT_EQ((*device)->trouble(), "its samples hold numbers that are not finite");
+}
+
+TEST(PluginDriver, DropsADeviceThatSpeaksInMillimetres)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("says_millimetres").string());
+    ASSERT_TRUE(device) << device.error().message;
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
+    EXPECT_THAT((*device)->trouble(), HasSubstr("units may be wrong"));
+}
+
+TEST(PluginDriver, TakesUnknownAnswersForALostDevice)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("answers_nonsense").string());
+    ASSERT_TRUE(device) << device.error().message;
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
+}
+
+TEST(PluginDriver, LetsADeviceThatOwnsTheClockDriveTheTick)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("owns_clock").string());
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_TRUE((*device)->capabilities().owns_clock);
+    struct Ticks {
+        HapticDevice* device;
+        std::atomic<int> count{0};
+        std::atomic<int> fine{0};
+        std::counting_semaphore<> ten{0};
+    } ticks{.device = device->get()};
+    const bool has_started = (*device)->startClock(
+        [](void* self, std::chrono::steady_clock::time_point) noexcept {
+            auto* t = static_cast<Ticks*>(self);
+            DeviceSample sample;
+            t->fine += t->device->read(sample) == DeviceStatus::Fine ? 1 : 0;
+            if (++t->count == 10) {
+                t->ten.release();
+            }
+        },
+        &ticks);
+    ASSERT_TRUE(has_started);
+    ticks.ten.acquire();
+    (*device)->stopClock();
+    const int count = ticks.count;
+    EXPECT_GE(count, 10);
+    EXPECT_EQ(ticks.fine, count);
+    device->reset();
+    EXPECT_EQ(ticks.count, count) << "a tick after the clock was stopped";
+}
+
+TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItOpensADevice)
+{
+    const PluginFolder folder(milliseconds(1000));
+    const fs::path file = folder.add("hangs_opening");
+    PluginDriver driver(folder.options());
+    EXPECT_TRUE(only(driver).isUsable());
+    const auto device = driver.open(file.string());
+    ASSERT_FALSE(device);
+    const std::string expected = "plugin:" + file.string() +
+                                 ": did not come back from being opened within 1.0 s; it is left "
+                                 "out until the program is started again";
+    EXPECT_EQ(device.error().message, expected);
+    EXPECT_EQ(only(driver).reason, expected);
+    EXPECT_EQ(driver.open(file.string()).error().message, expected) << "without trying again";
+}
+
+TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItListsOrCloses)
+{
+    const PluginFolder folder(milliseconds(1000));
+    folder.add("hangs_listing");
+    PluginDriver driver(folder.options());
+    EXPECT_THAT(only(driver).reason, HasSubstr("did not come back from listing its devices"));
+
+    const PluginFolder other;
+    PluginDriver other_driver(other.options());
+    auto device = other_driver.open(other.add("hangs_closing").string());
+    ASSERT_TRUE(device) << device.error().message;
+    device->reset(); // comes back
+}
+
+using PluginDriverDeathTest = testing::Test;
+
+TEST(PluginDriverDeathTest, LeavesOutWhatBroughtTheProgramDownUntilToldToTryAgain)
+{
+    for (const char* behaviour : {"crashes_loading", "crashes_opening"}) {
+        SCOPED_TRACE(behaviour);
+        const PluginFolder folder;
+        const fs::path file = folder.add(behaviour);
+        EXPECT_DEATH(
+            {
+                PluginDriver driver(folder.options());
+                (void)driver.find();
+                (void)driver.open(file.string());
+            },
+            "");
+        EXPECT_EQ(folder.markers(), 1U);
+        PluginDriver driver(folder.options());
+        const auto refused = driver.open(file.string());
+        ASSERT_FALSE(refused);
+        EXPECT_THAT(refused.error().message,
+                    AllOf(StartsWith(file.string() + ": the program ended while this plugin was "
+                                                     "being loaded the last time"),
+                          HasSubstr("to try it again")));
+        EXPECT_EQ(only(driver).reason, refused.error().message);
+
+        // Another build of it is another plugin.
+        folder.add("is_good");
+        EXPECT_TRUE(only(driver).isUsable());
+        fs::remove(file);
+        driver.forgetFailures();
+        EXPECT_EQ(folder.markers(), 0U);
+    }
+}
+
+TEST(PluginDriverDeathTest, ComesToAnEndAlthoughALibraryHangsWhileItIsLoaded)
+{
+    const PluginFolder folder(milliseconds(1000));
+    folder.add("hangs_loading");
+    EXPECT_EXIT(
+        {
+            PluginDriver driver(folder.options());
+            const FoundDevice found = only(driver);
+            std::exit(found.reason.find("did not come back from being loaded") != std::string::npos
+                          ? 7
+                          : 8);
+        },
+        testing::ExitedWithCode(7), "");
+    PluginDriver driver(folder.options());
+    EXPECT_THAT(only(driver).reason, HasSubstr("the program ended while this plugin was"));
+}
+
+TEST(PluginOptions, LookIntoChosenUsersAndSystemsFoldersInThisOrder)
+{
+    setenv("MARSVIEW_PLUGIN_PATH", "/a::/b", 1);
+    setenv("XDG_DATA_HOME", "/data", 1);
+    const std::vector<fs::path> folders = PluginOptions::standard().folders;
+    unsetenv("MARSVIEW_PLUGIN_PATH");
+    unsetenv("XDG_DATA_HOME");
+    ASSERT_EQ(folders.size(), 4U);
+    EXPECT_EQ(folders[0], "/a");
+    EXPECT_EQ(folders[1], "/b");
+    EXPECT_EQ(folders[2], "/data/marsview/plugins");
+    EXPECT_TRUE(folders[3].is_absolute());
+    EXPECT_THAT(folders[3].string(), EndsWith("/marsview/plugins"));
+}
+
+} // namespace marsview::test

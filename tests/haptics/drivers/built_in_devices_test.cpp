@@ -1,0 +1,165 @@
+// The devices that need no hardware, opened as the program opens them.
+#include "haptics/device/device_registry.h"
+#include "haptics/drivers/built_in_drivers.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+std::string refusalOf(const std::string& uri)
+{
+    const auto device = DeviceRegistry(builtInDrivers()).open(uri);
+    return device ? std::string() : device.error().message;
+}
+
+std::unique_ptr<HapticDevice> opened(const std::string& uri)
+{
+    auto device = DeviceRegistry(builtInDrivers()).open(uri);
+    EXPECT_TRUE(device) << refusalOf(uri);
+    return device ? std::move(device).value() : nullptr;
+}
+
+TEST(NullDevice, RestsAndPushesNobody)
+{
+    const auto device = opened("null:");
+    DeviceSample sample;
+    EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ(sample.position, WorkspacePoint{});
+    EXPECT_EQ(device->write({1.0, 2.0, 3.0}), DeviceStatus::Fine);
+    EXPECT_EQ(device->capabilities().force_n_peak, 0.0);
+    EXPECT_NE(refusalOf("null:mass=1"), "");
+}
+
+TEST(SimDevice, DoesTheSameEveryTimeHoweverFastItIsRead)
+{
+    const auto a = opened("sim:seed=7,tremor_mm=0.2,delay_ms=2,speed=0.1");
+    const auto b = opened("sim:seed=7,tremor_mm=0.2,delay_ms=2,speed=0.1");
+    const auto other = opened("sim:seed=8,tremor_mm=0.2,delay_ms=2,speed=0.1");
+    bool has_differed = false;
+    for (int i = 0; i < 3000; ++i) {
+        DeviceSample p;
+        DeviceSample q;
+        DeviceSample r;
+        ASSERT_EQ(a->read(p), DeviceStatus::Fine);
+        ASSERT_EQ(b->read(q), DeviceStatus::Fine);
+        ASSERT_EQ(other->read(r), DeviceStatus::Fine);
+        ASSERT_EQ(p.position, q.position);
+        has_differed = has_differed || !(p.position == r.position);
+        const Vec3 force_n{0.0, 0.0, p.position.z < 0.0 ? -300.0 * p.position.z : 0.0};
+        a->write(force_n);
+        b->write(force_n);
+        other->write(force_n);
+    }
+    EXPECT_TRUE(has_differed);
+}
+
+TEST(SimDevice, LeansOnWhatIsBelowAndStaysWithinItsWorkspace)
+{
+    const auto device = opened("sim:press=0.7,lift_s=0,speed=0.1");
+    const WorkspaceBox box = device->capabilities().workspace;
+    double pressed = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+        DeviceSample sample;
+        device->read(sample);
+        EXPECT_GT(sample.position.x, box.low.x);
+        EXPECT_LT(sample.position.x, box.high.x);
+        EXPECT_GT(sample.position.y, box.low.y);
+        EXPECT_LT(sample.position.y, box.high.y);
+        pressed = sample.position.z < 0.0 ? -300.0 * sample.position.z : 0.0;
+        device->write({0.0, 0.0, pressed});
+    }
+    EXPECT_NEAR(pressed, 0.7, 0.05);
+}
+
+TEST(SimDevice, SwipesAsManyCellsAnUpdateAsItIsTold)
+{
+    const auto device = opened("sim:swipe=10,cell_m=1e-5,encoder_mm=0,lift_s=0");
+    double way_m = 0.0;
+    WorkspacePoint last;
+    for (int i = 0; i < 10'000; ++i) {
+        DeviceSample sample;
+        device->read(sample);
+        const Vec3 step = sample.position - last;
+        way_m += i > 0 ? std::hypot(step.x, step.y) : 0.0;
+        last = sample.position;
+    }
+    EXPECT_NEAR(way_m / 10'000 / 1e-5, 10.0, 1.0); // less while it turns round
+}
+
+TEST(SimDevice, RefusesWhatItDoesNotUnderstand)
+{
+    EXPECT_EQ(refusalOf("sim:mass=fast"),
+              "sim:mass=fast: mass has to be a number from 0.001 to 10");
+    EXPECT_EQ(refusalOf("sim:delay_ms=51"),
+              "sim:delay_ms=51: delay_ms has to be a number from 0 to 50");
+    EXPECT_NE(refusalOf("sim:mass=nan"), "");
+    EXPECT_NE(refusalOf("sim:mass"), "");
+    EXPECT_NE(refusalOf("sim:swipe=3"), ""); // of what width?
+    const std::string unknown = refusalOf("sim:wings=2");
+    EXPECT_NE(unknown.find("\"wings\""), std::string::npos) << unknown;
+    EXPECT_NE(unknown.find("mass"), std::string::npos) << unknown;
+}
+
+TEST(ReplayDevice, TellsItsGoalsOnceAndFinishes)
+{
+    const TempFolder folder;
+    const std::string path = folder.write("goals.csv", "x,y,z,time_s\n1,2,3,0\n4,5,6.5,0.001\n");
+    const auto device = opened("replay:" + path);
+    DeviceSample sample;
+    TracePoint goal;
+    EXPECT_FALSE(device->recordedGoal(goal));
+    EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
+    ASSERT_TRUE(device->recordedGoal(goal));
+    EXPECT_EQ(goal, (TracePoint{1.0, 2.0, 3.0}));
+    EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
+    ASSERT_TRUE(device->recordedGoal(goal));
+    EXPECT_EQ(goal, (TracePoint{4.0, 5.0, 6.5}));
+    EXPECT_EQ(device->read(sample), DeviceStatus::Finished);
+    EXPECT_EQ(device->read(sample), DeviceStatus::Finished);
+}
+
+TEST(ReplayDevice, BeginsAnewWhereAskedTo)
+{
+    const TempFolder folder;
+    const std::string path = folder.write("goals.csv", "x,y,z\n1,2,3\n4,5,6\n");
+    const auto device = opened("replay:" + path + "#loop");
+    DeviceSample sample;
+    TracePoint goal;
+    for (int i = 0; i < 9; ++i) {
+        ASSERT_EQ(device->read(sample), DeviceStatus::Fine);
+        ASSERT_TRUE(device->recordedGoal(goal));
+        EXPECT_EQ(goal.x, i % 2 == 0 ? 1.0 : 4.0);
+    }
+}
+
+TEST(ReplayDevice, SaysWhatIsWrongWithItsFile)
+{
+    const TempFolder folder;
+    EXPECT_EQ(refusalOf("replay:/nowhere/goals.csv"), "replay:/nowhere/goals.csv: cannot be read");
+    EXPECT_NE(refusalOf("replay:"), "");
+    EXPECT_NE(refusalOf("replay:" + folder.write("goals.csv", "x,y,z\n")), "");
+    const std::string bad = refusalOf("replay:" + folder.write("goals.csv", "x,y,z\n1,2\n"));
+    EXPECT_NE(bad.find("line 2"), std::string::npos) << bad;
+}
+
+TEST(BuiltInDevices, AreFoundWithoutHardware)
+{
+    std::vector<std::string> uris;
+    for (const FoundDevice& device : DeviceRegistry(builtInDrivers()).find()) {
+        uris.push_back(device.uri);
+    }
+    EXPECT_NE(std::find(uris.begin(), uris.end(), "sim:"), uris.end());
+    EXPECT_NE(std::find(uris.begin(), uris.end(), "null:"), uris.end());
+}
+
+} // namespace
+} // namespace marsview::test

@@ -1,0 +1,84 @@
+// HID devices that a test plugs in, lets speak, and unplugs, in place of hidapi.
+#pragma once
+
+#include "haptics/drivers/hid_api.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+
+struct FakeHidDevice {
+    std::string path;
+    std::uint16_t vendor_id = 0;
+    std::uint16_t product_id = 0;
+    std::uint16_t usage_page = 0;
+    std::uint16_t usage = 0;
+    int interface_number = 0;
+    int access_error = 0;
+};
+
+/// One at a time: hidapi's functions know no object. All members may be called from any thread.
+class FakeHid {
+public:
+    using Report = std::vector<unsigned char>;
+
+    FakeHid();
+    ~FakeHid();
+    FakeHid(const FakeHid&) = delete;
+    FakeHid& operator=(const FakeHid&) = delete;
+
+    const HidApi& api() const;
+    void plugIn(const FakeHidDevice& device);
+
+    /// What the open device says at every reading from now on; empty: nothing.
+    void say(const Report& report);
+    /// What it says once, before that.
+    void sayOnce(const Report& report);
+    void unplug();
+    void refuseToOpen();
+    /// Writing does not return until it is let go on.
+    void stallWriting();
+    void goOnWriting();
+
+    std::size_t writes() const;
+    std::size_t openDevices() const;
+    Report lastWritten() const;
+    std::vector<Report> written() const;
+
+    /// Waits, reading after reading and report after report of the driver, until `is_so`. False
+    /// where that does not come within a hundred thousand of them.
+    bool waitUntil(const std::function<bool()>& is_so);
+
+    // The functions of the table.
+    hid_device_info* enumerate();
+    hid_device_* open(const char* path);
+    void close();
+    int read(unsigned char* data, std::size_t bytes, int ms);
+    int write(const unsigned char* data, std::size_t bytes);
+    int accessError(const std::string& path) const;
+
+private:
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<FakeHidDevice> devices_;
+    std::deque<Report> once_;
+    Report always_;
+    std::vector<Report> written_;
+    std::uint64_t turns_ = 0;
+    std::size_t open_ = 0;
+    bool is_unplugged_ = false;
+    bool does_not_open_ = false;
+    bool is_stalled_ = false;
+};
+
+/// Little-endian int16, as all of these devices speak; `first` stands in front, if anything.
+FakeHid::Report
+reportOf(const std::vector<int>& numbers, std::size_t bytes, const FakeHid::Report& first = {});
+
+} // namespace marsview::test

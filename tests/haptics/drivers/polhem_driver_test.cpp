@@ -1,0 +1,347 @@
+// The whole driver of WoodenHaptics and Polhem arms, against devices that a test plugs in.
+#include "haptics/drivers/polhem_driver.h"
+#include "haptics/drivers/polhem_report.h"
+#include "tests/haptics/drivers/fake_hid.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+
+namespace marsview::test {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+
+constexpr std::size_t kRawHidBytes = 64;
+const FakeHidDevice kTeensy{"/dev/hidraw7", 0x16C0, 0x0486, 0xFFAB, 0x0200};
+const FakeHidDevice kOlderBoard{"/dev/hidraw8", 0x1234, 0x0006};
+
+// At home: the upper body level towards the user, its tip at (0, 0.007, 0.132).
+FakeHid::Report atHome(std::size_t bytes = kRawHidBytes)
+{
+    return reportOf({0, 0, -5000, 0, 0, 256, 0}, bytes);
+}
+
+int int16In(const FakeHid::Report& report, std::size_t index)
+{
+    const std::size_t at = 1 + 2 * index;
+    return static_cast<std::int16_t>(
+        static_cast<std::uint16_t>(report.at(at) | (report.at(at + 1) << 8)));
+}
+
+class PolhemDriverTest : public testing::Test {
+protected:
+    PolhemOptions options() const
+    {
+        return {.api = &hid_.api(),
+                .parameter_files = {folder_.path() / "none.json",
+                                    sourceRoot() / "resources/devices/polhem-v1.json"},
+                .lock_folder = folder_.path() / "locks"};
+    }
+    HapticDevice& open(std::string_view address = "")
+    {
+        PolhemDriver driver(options());
+        auto device = driver.open(address);
+        EXPECT_TRUE(device) << device.error().message;
+        opened_ = std::move(*device);
+        return *opened_;
+    }
+    std::string refusal(std::string_view address = "")
+    {
+        PolhemDriver driver(options());
+        const auto device = driver.open(address);
+        EXPECT_FALSE(device);
+        return device ? "" : device.error().message;
+    }
+    bool comesTo(DeviceStatus wanted)
+    {
+        return hid_.waitUntil([&] { return opened_->read(sample_) == wanted; });
+    }
+    // As the loop does: writes again and again, lest the watchdog bites, until this current is out.
+    bool sends(const Vec3& force_n, std::size_t motor, int ma)
+    {
+        return hid_.waitUntil([&] {
+            (void)opened_->read(sample_);
+            (void)opened_->write(force_n);
+            const FakeHid::Report report = hid_.lastWritten();
+            return report.size() > 7 && int16In(report, motor) == ma;
+        });
+    }
+
+    FakeHid hid_;
+    TempFolder folder_;
+    DeviceSample sample_;
+    std::unique_ptr<HapticDevice> opened_;
+};
+
+} // namespace
+
+TEST(PolhemReport, ReadsBothLayoutsAndRefusesShortOnes)
+{
+    const auto long_one = parsePolhemReport(reportOf({1, -2, 300, -400, 5, -32768, 1}, 64));
+    ASSERT_TRUE(long_one);
+    EXPECT_EQ(long_one->encoders, (PolhemEncoders{1, -2, 300, -400, 5, -32768}));
+    EXPECT_TRUE(long_one->wants_calibration);
+    const auto short_one = parsePolhemReport(reportOf({1, -2, 300, -400, 5, 6, 0}, 14));
+    ASSERT_TRUE(short_one);
+    EXPECT_EQ(short_one->encoders, (PolhemEncoders{1, -2, 300, -400, 5, 6}));
+    EXPECT_FALSE(short_one->wants_calibration);
+    const auto oldest = parsePolhemReport(reportOf({1, -2, 300, 1}, 8));
+    ASSERT_TRUE(oldest);
+    EXPECT_EQ(oldest->encoders, (PolhemEncoders{1, -2, 300, 0, 0, 0}));
+    EXPECT_FALSE(oldest->wants_calibration);
+    for (const std::size_t bytes : {0U, 1U, 7U, 9U, 13U}) {
+        EXPECT_FALSE(parsePolhemReport(reportOf({1, 2, 3, 4, 5, 6, 7}, bytes))) << bytes;
+    }
+}
+
+TEST(PolhemReport, WritesCurrentsAndEncodersAsTheBoardsReadThem)
+{
+    const PolhemCommand currents =
+        polhemCurrentCommand(PolhemLayout::RawHid, {0.258, -1.5, 1000.0});
+    ASSERT_EQ(currents.size, 65U);
+    EXPECT_EQ(currents.bytes[0], 0);    // the report's number
+    EXPECT_EQ(currents.bytes[1], 0x02); // 258 = 0x0102
+    EXPECT_EQ(currents.bytes[2], 0x01);
+    EXPECT_EQ(currents.bytes[3], 0x24); // -1500 = 0xFA24
+    EXPECT_EQ(currents.bytes[4], 0xFA);
+    EXPECT_EQ(currents.bytes[5], 0xFF); // 32767
+    EXPECT_EQ(currents.bytes[6], 0x7F);
+    EXPECT_EQ(currents.bytes[7], 0); // no command
+
+    const PolhemCommand home =
+        polhemHomeCommand(PolhemLayout::Short, PolhemEncoders{1, 2, -5000, 4, 5, 6});
+    ASSERT_EQ(home.size, 15U);
+    const FakeHid::Report expected = reportOf({4, 5, 6, 1, 1, 2, -5000}, 15, {0});
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), home.bytes.begin()));
+
+    EXPECT_EQ(polhemCurrentCommand(PolhemLayout::Oldest, {}).size, 9U);
+}
+
+TEST_F(PolhemDriverTest, ListsArmsAndWhyOneMayNotBeOpened)
+{
+    hid_.plugIn({"/dev/hidraw1", 0x046D, 0xC077});                    // a mouse
+    hid_.plugIn({"/dev/hidraw6", 0x16C0, 0x0486, 0xFFC9, 0x0004, 1}); // the Teensy's serial line
+    hid_.plugIn(kTeensy);
+    FakeHidDevice older = kOlderBoard;
+    older.access_error = EACCES;
+    hid_.plugIn(older);
+    PolhemDriver driver(options());
+    const std::vector<FoundDevice> found = driver.find();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].uri, "polhem:/dev/hidraw7");
+    EXPECT_EQ(found[0].name, "WoodenHaptics or Polhem (Fake)");
+    EXPECT_TRUE(found[0].isUsable());
+    EXPECT_EQ(found[1].reason,
+              "you may not open /dev/hidraw8; install "
+              "70-marsview-haptics.rules into /etc/udev/rules.d and plug the "
+              "device in again");
+    EXPECT_EQ(refusal("/dev/hidraw8"), "polhem:/dev/hidraw8: " + found[1].reason);
+}
+
+TEST_F(PolhemDriverTest, TellsWhereTheHandIsAndPushesIt)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    HapticDevice& device = open("/dev/hidraw7");
+    EXPECT_EQ(device.capabilities().name, "Polhem v1");
+    EXPECT_EQ(device.capabilities().axes_in, 6);
+    ASSERT_TRUE(comesTo(DeviceStatus::Fine));
+    EXPECT_NEAR(sample_.position.x, 0.0, 1e-12);
+    EXPECT_NEAR(sample_.position.y, 0.007, 1e-12);
+    EXPECT_NEAR(sample_.position.z, 0.132, 1e-12);
+    EXPECT_NEAR(sample_.twist_rad, -1.5707963267948966, 1e-12);
+    EXPECT_EQ(device.trouble(), "");
+    // 1 N up: 0.133 N·m, a tenth at the motor, over 0.0538 N·m/A: 247 mA.
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+    EXPECT_EQ(hid_.lastWritten().size(), 65U);
+    // 1 N away from the user: the lower body, 0.174 N·m: 323 mA.
+    EXPECT_TRUE(sends({0.0, 1.0, 0.0}, 1, 323));
+}
+
+TEST_F(PolhemDriverTest, LetsGoWhenTheLoopStopsWriting)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    (void)open();
+    ASSERT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+    EXPECT_TRUE(hid_.waitUntil([&] { return int16In(hid_.lastWritten(), 2) == 0; }));
+    EXPECT_TRUE(comesTo(DeviceStatus::Fine)) << "it goes on reading";
+}
+
+TEST_F(PolhemDriverTest, LetsGoWhenTheBoardFallsSilentAndGoesOnWithIt)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    HapticDevice& device = open();
+    ASSERT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+    hid_.say({});
+    EXPECT_TRUE(comesTo(DeviceStatus::Unready));
+    EXPECT_THAT(device.trouble(), HasSubstr("sends no complete reports"));
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0)) << "however much the loop asks for";
+    hid_.say(atHome());
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+}
+
+TEST_F(PolhemDriverTest, TakesShortReportsForSilence)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(reportOf({0, 0, -5000, 0, 0, 0}, 12));
+    (void)open();
+    // Hundreds of them, and none counts.
+    const std::size_t before = hid_.writes();
+    ASSERT_TRUE(hid_.waitUntil([&] { return hid_.writes() > before + 200; }));
+    EXPECT_EQ(opened_->read(sample_), DeviceStatus::Unready);
+    hid_.say(atHome());
+    EXPECT_TRUE(comesTo(DeviceStatus::Fine));
+}
+
+TEST_F(PolhemDriverTest, IsLostWhenItIsUnplugged)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    HapticDevice& device = open();
+    ASSERT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+    hid_.unplug();
+    EXPECT_TRUE(comesTo(DeviceStatus::Lost));
+    EXPECT_EQ(device.write({0.0, 0.0, 1.0}), DeviceStatus::Lost);
+    EXPECT_THAT(device.trouble(), HasSubstr("unplugged"));
+    EXPECT_TRUE(hid_.waitUntil([&] { return hid_.openDevices() == 0; }));
+}
+
+TEST_F(PolhemDriverTest, AnswersTheLoopWhileTheBusStalls)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    HapticDevice& device = open();
+    ASSERT_TRUE(comesTo(DeviceStatus::Fine));
+    hid_.stallWriting();
+    // Sooner or later the other thread is in a write that does not return, and no sample is new.
+    DeviceSample last;
+    int same = 0;
+    ASSERT_TRUE(hid_.waitUntil([&] {
+        EXPECT_EQ(device.read(sample_), DeviceStatus::Fine);
+        EXPECT_EQ(device.write({0.0, 0.0, 1.0}), DeviceStatus::Fine);
+        same = sample_.time == last.time ? same + 1 : 0;
+        last = sample_;
+        return same >= 20;
+    })) << "the sample's age tells the loop";
+    hid_.goOnWriting();
+    EXPECT_TRUE(hid_.waitUntil([&] {
+        (void)device.read(sample_);
+        return sample_.time > last.time;
+    }));
+}
+
+TEST_F(PolhemDriverTest, LeavesTheMotorsWithoutCurrent)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    (void)open();
+    ASSERT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+    opened_.reset();
+    EXPECT_EQ(hid_.openDevices(), 0U);
+    for (std::size_t motor = 0; motor < 3; ++motor) {
+        EXPECT_EQ(int16In(hid_.lastWritten(), motor), 0);
+    }
+}
+
+TEST_F(PolhemDriverTest, ClampsWhatTheLoopAsksFor)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    (void)open();
+    // 50 N are clamped to 5 N, which take 1236 mA; more than 2 A is never sent.
+    EXPECT_TRUE(sends({0.0, 0.0, 50.0}, 2, -1236));
+    for (const FakeHid::Report& report : hid_.written()) {
+        for (std::size_t motor = 0; motor < 3; ++motor) {
+            ASSERT_LE(std::abs(int16In(report, motor)), 2000);
+        }
+    }
+}
+
+TEST_F(PolhemDriverTest, IsUnreadyUntilItsEncodersHaveBeenSet)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(reportOf({1, 0, -2, 0, 0, 0, 0}, kRawHidBytes)); // as after power-on
+    HapticDevice& device = open();
+    ASSERT_TRUE(hid_.waitUntil([&] { return hid_.writes() > 20; }));
+    EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
+    EXPECT_THAT(device.trouble(), HasSubstr("is not calibrated"));
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0));
+    // Somebody presses the board's button: it asks to have its encoders set.
+    hid_.say(reportOf({1, 0, -2, 0, 0, 0, 1}, kRawHidBytes));
+    const FakeHid::Report home = reportOf({0, 0, 0, 1, 0, 0, -5000}, 65, {0});
+    EXPECT_TRUE(hid_.waitUntil([&] { return hid_.lastWritten() == home; }));
+    hid_.say(atHome());
+    EXPECT_TRUE(comesTo(DeviceStatus::Fine));
+    EXPECT_NEAR(sample_.position.z, 0.132, 1e-12);
+}
+
+TEST_F(PolhemDriverTest, SetsTheEncodersAtOnceWhenToldTo)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(reportOf({0, 0, 0, 0, 0, 0, 0}, kRawHidBytes));
+    (void)open("/dev/hidraw7,home");
+    const FakeHid::Report home = reportOf({0, 0, 0, 1, 0, 0, -5000}, 65, {0});
+    EXPECT_TRUE(hid_.waitUntil([&] {
+        const auto written = hid_.written();
+        return std::find(written.begin(), written.end(), home) != written.end();
+    }));
+}
+
+TEST_F(PolhemDriverTest, SpeaksTheOlderLayoutsToo)
+{
+    hid_.plugIn(kOlderBoard);
+    hid_.say(atHome(14));
+    (void)open();
+    ASSERT_TRUE(comesTo(DeviceStatus::Fine));
+    EXPECT_NEAR(sample_.position.z, 0.132, 1e-12);
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+    EXPECT_EQ(hid_.lastWritten().size(), 15U);
+    opened_.reset();
+
+    // The oldest cannot set its encoders: what they read at home is taken off here.
+    hid_.say(reportOf({10, 20, 30, 0}, 8));
+    (void)open("/dev/hidraw8,home");
+    ASSERT_TRUE(comesTo(DeviceStatus::Fine));
+    EXPECT_NEAR(sample_.position.y, 0.007, 1e-12);
+    EXPECT_NEAR(sample_.position.z, 0.132, 1e-12);
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
+    EXPECT_EQ(hid_.lastWritten().size(), 9U);
+}
+
+TEST_F(PolhemDriverTest, SaysWhatItCannotOpen)
+{
+    EXPECT_THAT(refusal(), HasSubstr("polhem:: no WoodenHaptics or Polhem arm is connected"));
+    hid_.plugIn(kTeensy);
+    EXPECT_THAT(refusal("/dev/hidraw9"), HasSubstr("no WoodenHaptics"));
+    EXPECT_EQ(refusal("/dev/hidraw7,speed=3"),
+              "polhem:/dev/hidraw7,speed=3: \"speed=3\" is not understood; a path, \"home\" and "
+              "\"parameters=FILE\" are");
+    EXPECT_THAT(refusal("/dev/hidraw7,parameters=/nowhere.json"),
+                HasSubstr("/nowhere.json: the arm's parameters cannot be read"));
+    hid_.refuseToOpen();
+    EXPECT_EQ(refusal(),
+              "polhem:: /dev/hidraw7 is there, but does not open as a HID device; plug "
+              "it in again");
+}
+
+TEST_F(PolhemDriverTest, GivesOneArmToOneHolderOnly)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    (void)open();
+    EXPECT_THAT(refusal("/dev/hidraw7"),
+                EndsWith("hidraw7: is in use by this program already; close it there first"));
+    opened_.reset();
+    (void)open("/dev/hidraw7");
+}
+
+} // namespace marsview::test

@@ -1,0 +1,166 @@
+#include "haptics/interaction/hand_modes.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+// A hand that goes where it is told, a step at a time.
+struct Hand {
+    ModeOptions options;
+    ModeState state;
+    ModeInput input{.stiffness_n_per_m = 400.0, .frame = {.scene_per_metre = 1e4}};
+
+    ModeStep move(const Vec3& shift, double twist_rad = 0.0)
+    {
+        input.hand = input.hand + shift;
+        input.hand_shift = shift;
+        input.twist_change_rad = twist_rad;
+        const ModeStep step = stepModes(options, input, state, kDt);
+        input.frame = step.frame;
+        return step;
+    }
+};
+
+TEST(HandModes, AGrabPansInContactAndZoomsInFreeSpace)
+{
+    Hand hand;
+    hand.input.is_in_contact = true;
+    EXPECT_FALSE(hand.move({}).has_changed_mode);
+    EXPECT_EQ(hand.state.mode, StylusMode::Press);
+    hand.input.is_grabbing = true;
+    EXPECT_TRUE(hand.move({}).has_changed_mode);
+    EXPECT_EQ(hand.state.mode, StylusMode::Pan);
+    hand.input.is_in_contact = false; // it goes on until it lets go
+    EXPECT_FALSE(hand.move({}).has_changed_mode);
+    EXPECT_EQ(hand.state.mode, StylusMode::Pan);
+    hand.input.is_grabbing = false;
+    EXPECT_TRUE(hand.move({}).has_changed_mode);
+    EXPECT_EQ(hand.state.mode, StylusMode::Hover);
+    hand.input.is_grabbing = true;
+    EXPECT_TRUE(hand.move({}).has_changed_mode);
+    EXPECT_EQ(hand.state.mode, StylusMode::Zoom);
+}
+
+TEST(HandModes, HoveringAndPressingFeelTheSameAndMoveNothing)
+{
+    Hand hand;
+    const WorkspaceFrame frame = hand.input.frame;
+    const ModeStep step = hand.move({0.01, 0.0, 0.0});
+    EXPECT_EQ(step.force_n, Vec3{});
+    EXPECT_EQ(step.frame, frame);
+    EXPECT_FALSE(step.has_moved_map);
+}
+
+TEST(HandModes, PanningHoldsTheHeightAndTakesTheMapAlong)
+{
+    Hand hand;
+    hand.input.is_in_contact = true;
+    hand.input.is_grabbing = true;
+    hand.move({});
+    const ScenePoint grabbed = hand.input.frame.toScene(hand.input.hand);
+    for (int i = 0; i < 100; ++i) {
+        hand.move({1e-4, -5e-5, 0.0});
+    }
+    ModeStep step;
+    for (int i = 0; i < 20'000; ++i) {
+        step = hand.move({});
+    }
+    EXPECT_NEAR(length(hand.input.frame.toScene(hand.input.hand) - grabbed), 0.0, 1.0); // of 1e4
+    step = hand.move({0.0, 0.0, 0.002});
+    EXPECT_NEAR(step.force_n.z, -0.8, 1e-12); // 2 mm of 400 N/m
+    EXPECT_NEAR(step.force_n.x, 0.0, 1e-3);
+}
+
+TEST(HandModes, TheMapGoesOnWhenItIsLetGoInMotion)
+{
+    Hand hand;
+    hand.options.pan.drag_per_s = 0.0;
+    hand.input.is_in_contact = true;
+    hand.input.is_grabbing = true;
+    hand.move({});
+    for (int i = 0; i < 5000; ++i) {
+        hand.move({1e-4, 0.0, 0.0}); // 0.1 m/s
+    }
+    hand.input.is_grabbing = false;
+    hand.move({});
+    const ScenePoint before = hand.input.frame.place;
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_EQ(hand.move({}).force_n, Vec3{});
+    }
+    EXPECT_NEAR((before - hand.input.frame.place).x, 0.1 * 1e4, 1.0);
+    hand.input.free_share = 0.0; // a wall
+    hand.move({});
+    EXPECT_FALSE(hand.move({}).has_moved_map);
+}
+
+TEST(HandModes, ZoomingHoldsThePlaceAndZoomsByHeight)
+{
+    Hand hand;
+    hand.input.is_grabbing = true;
+    hand.move({});
+    const double before = hand.input.frame.scene_per_metre;
+    ModeStep step;
+    for (int i = 0; i < 300; ++i) {
+        step = hand.move({0.0, 0.0, 1e-4}); // 30 mm: one doubling
+    }
+    EXPECT_NEAR(hand.input.frame.scene_per_metre, 0.5 * before, 1e-9 * before);
+    step = hand.move({0.001, -0.002, 0.0});
+    EXPECT_NEAR(step.force_n.x, -0.4, 1e-12);
+    EXPECT_NEAR(step.force_n.y, 0.8, 1e-12);
+    EXPECT_LE(std::abs(step.force_n.z), 0.25);
+}
+
+TEST(HandModes, TwistingTurnsTheMapAboutTheHand)
+{
+    Hand hand;
+    hand.input.hand = {0.03, 0.01, 0.0};
+    hand.input.is_grabbing = true;
+    hand.move({});
+    const ScenePoint held = hand.input.frame.toScene(hand.input.hand);
+    const ScenePoint right = hand.input.frame.toScene(hand.input.hand + Vec3{0.01, 0.0, 0.0});
+    for (int i = 0; i < 90; ++i) {
+        hand.move({}, 3.14159265358979 / 180.0);
+    }
+    EXPECT_NEAR(length(hand.input.frame.toScene(hand.input.hand) - held), 0.0, 1e-6);
+    const Vec3 now = hand.input.frame.toWorkspace(right) - hand.input.hand;
+    EXPECT_NEAR(now.x, 0.0, 1e-9);
+    EXPECT_NEAR(now.y, 0.01, 1e-9);
+}
+
+TEST(HandModes, ZoomsEndWhereTheyAreToldTo)
+{
+    Hand hand;
+    hand.options.scene_per_metre_min = 2000.0;
+    hand.input.is_grabbing = true;
+    hand.move({});
+    for (int i = 0; i < 2000; ++i) {
+        hand.move({0.0, 0.0, 1e-4});
+    }
+    EXPECT_NEAR(hand.input.frame.scene_per_metre, 2000.0, 1e-6);
+}
+
+TEST(HandModes, StayFiniteWhateverTheHandDoes)
+{
+    Random random;
+    Hand hand;
+    for (int i = 0; i < 200'000; ++i) {
+        hand.input.is_grabbing =
+            random.chance(0.01) ? !hand.input.is_grabbing : hand.input.is_grabbing;
+        hand.input.is_in_contact = random.chance(0.5);
+        hand.input.free_share = random.chance(0.1) ? 0.0 : random.unit();
+        const ModeStep step = hand.move(
+            {random.uniform(-1e-2, 1e-2), random.uniform(-1e-2, 1e-2), random.uniform(-1e-2, 1e-2)},
+            random.uniform(-0.1, 0.1));
+        ASSERT_TRUE(step.frame.isSound());
+        ASSERT_TRUE(std::isfinite(length(step.force_n)));
+    }
+}
+
+} // namespace
+} // namespace marsview::test

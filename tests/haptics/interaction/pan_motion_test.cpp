@@ -1,0 +1,142 @@
+#include "haptics/interaction/pan_motion.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+PanOptions withoutDrag()
+{
+    PanOptions options;
+    options.drag_per_s = 0.0;
+    return options;
+}
+
+TEST(PanMotion, WhatIsLetGoGoesOnForEverWithoutDrag)
+{
+    PanState state{.velocity_m_per_s = {0.12, -0.05, 0.0}};
+    Vec3 way{};
+    for (int i = 0; i < 10'000; ++i) {
+        const PanStep step = glideMap(withoutDrag(), state, 1.0, kDt);
+        way = way + step.shift_m;
+        EXPECT_EQ(step.force_n, Vec3{});
+    }
+    EXPECT_EQ(state.velocity_m_per_s, (Vec3{0.12, -0.05, 0.0})); // to the bit
+    EXPECT_NEAR(way.x, 1.2, 1e-9);
+    EXPECT_NEAR(way.y, -0.5, 1e-9);
+}
+
+TEST(PanMotion, DragSlowsItDownToRest)
+{
+    PanOptions options;
+    options.drag_per_s = 2.0;
+    PanState state{.velocity_m_per_s = {0.4, 0.0, 0.0}};
+    for (int i = 0; i < 500; ++i) {
+        glideMap(options, state, 1.0, kDt);
+    }
+    EXPECT_NEAR(state.velocity_m_per_s.x, 0.4 * std::exp(-1.0), 1e-3);
+    for (int i = 0; i < 10'000; ++i) {
+        glideMap(options, state, 1.0, kDt);
+    }
+    EXPECT_EQ(state.velocity_m_per_s, Vec3{});
+}
+
+TEST(PanMotion, MomentumIsWhatTheHandHasGiven)
+{
+    Random random;
+    const PanOptions options = withoutDrag();
+    PanState state;
+    grabMap(state);
+    Vec3 impulse{}; // of the hand on the map
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 shift{random.uniform(-3e-4, 5e-4), random.uniform(-4e-4, 4e-4), 0.0};
+        impulse = impulse - pullMap(options, state, shift, 1.0, kDt).force_n * kDt;
+        const Vec3 momentum = state.velocity_m_per_s * options.mass_kg;
+        ASSERT_NEAR(length(momentum - impulse), 0.0, 1e-12);
+    }
+}
+
+TEST(PanMotion, ASteadyHandFeelsNothingAndAChangeIsResisted)
+{
+    const PanOptions options = withoutDrag();
+    PanState state;
+    grabMap(state);
+    const Vec3 shift{1e-4, 0.0, 0.0};                                   // 0.1 m/s
+    EXPECT_LT(pullMap(options, state, shift, 1.0, kDt).force_n.x, 0.0); // it must be brought along
+    PanStep step;
+    for (int i = 0; i < 20'000; ++i) {
+        step = pullMap(options, state, shift, 1.0, kDt);
+    }
+    EXPECT_NEAR(step.force_n.x, 0.0, 1e-6);
+    EXPECT_NEAR(state.velocity_m_per_s.x, 0.1, 1e-6);
+    // Stopping: it pushes on.
+    for (int i = 0; i < 5; ++i) {
+        step = pullMap(options, state, {}, 1.0, kDt);
+    }
+    EXPECT_GT(step.force_n.x, 0.0);
+}
+
+TEST(PanMotion, WithoutMassThereIsNoForceAndTheMapFollows)
+{
+    Random random;
+    const PanOptions options;
+    PanState state{.velocity_m_per_s = {0.3, 0.1, 0.0}, .stretch_m = {0.002, 0.0, 0.0}};
+    Vec3 hand{0.002, 0.0, 0.0};
+    Vec3 map{};
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 shift = i < 1000 ? Vec3{random.uniform(-1e-3, 1e-3), 0.0, 0.0} : Vec3{};
+        const PanStep step = pullMap(options, state, shift, 0.0, kDt);
+        EXPECT_NEAR(length(step.force_n), 0.0, 1e-12);
+        hand = hand + shift;
+        map = map + step.shift_m;
+    }
+    EXPECT_NEAR(length(hand - map), 0.0, 1e-9);
+}
+
+TEST(PanMotion, ForcesAreContinuousInTheMass)
+{
+    Random random;
+    for (int i = 0; i < 1000; ++i) {
+        const PanState state{.velocity_m_per_s = {random.uniform(-0.3, 0.3), 0.0, 0.0},
+                             .stretch_m = {random.uniform(-0.01, 0.01), 0.0, 0.0}};
+        const Vec3 shift{random.uniform(-1e-3, 1e-3), 0.0, 0.0};
+        const double share = random.unit();
+        PanState a = state;
+        PanState b = state;
+        const double force_a = pullMap({}, a, shift, share, kDt).force_n.x;
+        const double force_b = pullMap({}, b, shift, share * (1.0 - 1e-6), kDt).force_n.x;
+        EXPECT_NEAR(force_a, force_b, 1e-4);
+    }
+}
+
+TEST(PanMotion, AWallTakesTheMomentum)
+{
+    PanState state{.velocity_m_per_s = {0.4, 0.0, 0.0}};
+    EXPECT_EQ(glideMap({}, state, 0.0, kDt).shift_m, Vec3{});
+    EXPECT_EQ(glideMap({}, state, 1.0, kDt).shift_m, Vec3{}); // for good
+}
+
+TEST(PanMotion, TakesAnyTimeStep)
+{
+    for (const double dt_s : {0.0, 1e-9, 1e-4, 0.01, 1.0, std::nan("")}) {
+        PanState state{.velocity_m_per_s = {0.4, 0.0, 0.0}};
+        for (int i = 0; i < 100; ++i) {
+            const PanStep step = pullMap({}, state, {1e-3, 0.0, 0.0}, 0.5, dt_s);
+            EXPECT_TRUE(std::isfinite(step.force_n.x) && std::isfinite(step.shift_m.x)) << dt_s;
+        }
+    }
+}
+
+TEST(PanMotion, NothingMovesUpOrDown)
+{
+    PanState state;
+    EXPECT_EQ(pullMap({}, state, {0.0, 0.0, 0.01}, 1.0, kDt).shift_m, Vec3{});
+}
+
+} // namespace
+} // namespace marsview::test

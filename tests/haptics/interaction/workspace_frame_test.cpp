@@ -1,0 +1,143 @@
+#include "haptics/interaction/workspace_frame.h"
+#include "tests/support/make_terrain.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview::test {
+namespace {
+
+WorkspaceFrame randomFrame(Random& random)
+{
+    return {
+        .anchor = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.02},
+        .place = {random.uniform(-1e6, 1e6), random.uniform(-1e6, 1e6), random.uniform(-1e3, 1e3)},
+        .scene_per_metre = std::pow(10.0, random.uniform(-1.0, 7.0)),
+        .turn = Angle::radians(random.uniform(-10.0, 10.0))};
+}
+
+WorkspacePoint randomPoint(Random& random)
+{
+    return {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};
+}
+
+double distance(const WorkspacePoint& a, const WorkspacePoint& b)
+{
+    return length(a - b);
+}
+
+TEST(WorkspaceFrame, QuarterTurnByHand)
+{
+    // Heading east: away from the user is east in the scene, and right is south.
+    const WorkspaceFrame frame{.anchor = {0.01, 0.02, 0.03},
+                               .place = {100.0, 200.0, 300.0},
+                               .scene_per_metre = 1000.0,
+                               .turn = Angle::degrees(-90.0)};
+    const ScenePoint away = frame.toScene({0.01, 0.12, 0.03});
+    EXPECT_NEAR(away.x, 200.0, 1e-9);
+    EXPECT_NEAR(away.y, 200.0, 1e-9);
+    EXPECT_NEAR(away.z, 300.0, 1e-9);
+    const ScenePoint right = frame.toScene({0.11, 0.02, 0.08});
+    EXPECT_NEAR(right.x, 100.0, 1e-9);
+    EXPECT_NEAR(right.y, 100.0, 1e-9);
+    EXPECT_NEAR(right.z, 350.0, 1e-9);
+}
+
+TEST(WorkspaceFrame, ThereAndBackIsTheSamePlace)
+{
+    Random random;
+    for (int i = 0; i < 1000; ++i) {
+        const WorkspaceFrame frame = randomFrame(random);
+        const WorkspacePoint p = randomPoint(random);
+        const WorkspacePoint q = frame.toWorkspace(frame.toScene(p));
+        const double rounding = 1e-15 * (1e6 / frame.scene_per_metre + 1.0) * 16;
+        EXPECT_NEAR(distance(p, q), 0.0, rounding);
+    }
+}
+
+TEST(WorkspaceFrame, IsASimilarity)
+{
+    Random random;
+    for (int i = 0; i < 1000; ++i) {
+        const WorkspaceFrame frame = randomFrame(random);
+        const WorkspacePoint a = randomPoint(random);
+        const WorkspacePoint b = randomPoint(random);
+        const double scene_m = length(frame.toScene(a) - frame.toScene(b));
+        EXPECT_NEAR(scene_m, distance(a, b) * frame.scene_per_metre, 1e-9 + 1e-9 * scene_m);
+    }
+}
+
+TEST(WorkspaceFrame, PanningTakesTheMapAlong)
+{
+    Random random;
+    for (int i = 0; i < 100; ++i) {
+        WorkspaceFrame frame = randomFrame(random);
+        frame.scene_per_metre = 1e5;
+        const WorkspacePoint p = randomPoint(random);
+        const Vec3 shift{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.0};
+        const ScenePoint grabbed = frame.toScene(p);
+        EXPECT_NEAR(distance(frame.panned(shift).toWorkspace(grabbed), p + shift), 0.0, 1e-12);
+    }
+}
+
+TEST(WorkspaceFrame, ZoomingAndTurningKeepTheirPlace)
+{
+    Random random;
+    for (int i = 0; i < 100; ++i) {
+        WorkspaceFrame frame = randomFrame(random);
+        frame.scene_per_metre = 1e5;
+        const WorkspacePoint fixed = randomPoint(random);
+        const WorkspacePoint other = randomPoint(random);
+        const ScenePoint held = frame.toScene(fixed);
+        const ScenePoint seen = frame.toScene(other);
+        const double factor = random.uniform(0.2, 5.0);
+        const WorkspaceFrame zoomed = frame.zoomed(fixed, factor);
+        EXPECT_NEAR(distance(zoomed.toWorkspace(held), fixed), 0.0, 1e-12);
+        const Vec3 grown = zoomed.toWorkspace(seen) - fixed;
+        EXPECT_NEAR(length(grown - (other - fixed) * factor), 0.0, 1e-11);
+        // A quarter counter-clockwise: what was right of the hand is away from the user.
+        const WorkspaceFrame turned = frame.turned(fixed, Angle::degrees(90.0));
+        EXPECT_NEAR(distance(turned.toWorkspace(held), fixed), 0.0, 1e-12);
+        const Vec3 before = other - fixed;
+        const Vec3 after = turned.toWorkspace(seen) - fixed;
+        EXPECT_NEAR(length(after - Vec3{-before.y, before.x, before.z}), 0.0, 1e-11);
+    }
+}
+
+TEST(WorkspaceFrame, TheHandReachesWhatTheCameraSees)
+{
+    Random random;
+    const WorkspaceBox reach{{-0.07, -0.05, -0.06}, {0.09, 0.05, 0.06}};
+    const MapPlan map{.frame = northUpFrame(1000, 800, 100.0), .columns = 1000, .rows = 800};
+    const SceneBox box{{-5e4, -4e4, -3000.0}, {5e4, 4e4, 5000.0}};
+    for (int i = 0; i < 200; ++i) {
+        const OrbitCamera camera{.target = {random.uniform(-3e4, 3e4), random.uniform(-3e4, 3e4),
+                                            random.uniform(-1000.0, 1000.0)},
+                                 .distance_m = std::pow(10.0, random.uniform(3.0, 5.0)),
+                                 .azimuth = Angle::degrees(random.uniform(0.0, 360.0)),
+                                 .tilt = Angle::degrees(random.uniform(0.0, 80.0))};
+        const Viewport viewport{1200, 800};
+        const WorkspaceFrame frame = frameForView(camera, viewport, map, box, reach);
+        ASSERT_TRUE(frame.isSound());
+        for (const GridPoint& corner : footprint(camera, viewport, map)) {
+            for (const double z : {box.minimum.z, box.maximum.z}) {
+                const WorkspacePoint at = frame.toWorkspace(map.frame.toScene(corner, z));
+                EXPECT_GE(at.x, reach.low.x - 1e-9);
+                EXPECT_LE(at.x, reach.high.x + 1e-9);
+                EXPECT_GE(at.y, reach.low.y - 1e-9);
+                EXPECT_LE(at.y, reach.high.y + 1e-9);
+                EXPECT_GE(at.z, reach.low.z - 1e-9);
+                EXPECT_LE(at.z, reach.high.z + 1e-9);
+            }
+        }
+        // Away from the user is where the camera looks.
+        const Vec3 away = frame.differenceToScene({0.0, 1.0, 0.0});
+        EXPECT_NEAR(std::atan2(away.x, away.y),
+                    std::remainder(camera.azimuth.radians(), 2.0 * 3.14159265358979), 1e-9);
+    }
+}
+
+} // namespace
+} // namespace marsview::test

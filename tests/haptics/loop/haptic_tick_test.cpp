@@ -1,0 +1,446 @@
+#include "haptics/loop/haptic_tick.h"
+#include "haptics/loop/rt_scope.h"
+#include "tests/haptics/loop/tick_fixture.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kDt = 1e-3;
+
+// A level plane at 10 m; 1 m of the scene is 1 mm of the workspace, whose middle is over the map's,
+// 20 m above the plane.
+struct Rig {
+    DeviceCapabilities device = desktopDevice();
+    TickOptions options = tickOptionsFor(device);
+    LoopSettings settings;
+    TickState state;
+    TickInput input;
+
+    explicit Rig(std::shared_ptr<ServoMap> map = servoMap(201, 201, [](std::size_t, std::size_t) {
+                     return 10.0;
+                 }))
+    {
+        settings.map = std::move(map);
+        settings.frame = {.place = {0.0, 0.0, 30.0}, .scene_per_metre = 1000.0};
+        settings.frame_number = 1;
+        settings.stiffness_n_per_m = 400.0;
+        options.limits.ramp_s = 1e-3; // whole at once
+        options.limits.change_ramp_s = 1e-3;
+        options.limits.rate_n_per_s_max = 1e5;
+        options.is_passivity_kept = false;
+    }
+
+    StepResult at(const WorkspacePoint& hand, double dt_s = kDt)
+    {
+        input.settings = &settings;
+        input.device = &device;
+        input.now += std::chrono::milliseconds(1);
+        input.sample.position = hand;
+        input.sample.time = input.now;
+        return step(options, input, state, dt_s);
+    }
+    // Straight there, slowly enough to be a hand.
+    StepResult to(const WorkspacePoint& hand)
+    {
+        const Vec3 way = hand - state.hand;
+        StepResult last;
+        const WorkspacePoint begin = state.hand;
+        for (int i = 1; i <= 100; ++i) {
+            last = at(begin + way * (0.01 * i));
+        }
+        return last;
+    }
+};
+
+TEST(HapticTick, PressesBackByTheDepthInTheWorkspace)
+{
+    Rig rig;
+    EXPECT_EQ(rig.at({}).force_n, Vec3{});                // 20 mm above
+    const StepResult result = rig.to({0.0, 0.0, -0.025}); // 5 mm below
+    EXPECT_TRUE(result.contact.is_in_contact);
+    EXPECT_EQ(result.mode, StylusMode::Press);
+    EXPECT_NEAR(result.force_n.z, 2.0, 1e-9); // of 400 N/m
+    EXPECT_NEAR(std::hypot(result.force_n.x, result.force_n.y), 0.0, 1e-9);
+    EXPECT_NEAR(result.proxy.z, 10.0, 1e-9);
+    EXPECT_EQ(result.reason, LetGoReason::None);
+}
+
+TEST(HapticTick, FeelsASlopeAtARightAngleHoweverTheMapIsTurned)
+{
+    const auto slope = [](std::size_t column, std::size_t) {
+        return 0.5 * (static_cast<double>(column) - 100.0);
+    };
+    for (const double turn_deg : {0.0, 90.0, -37.0}) {
+        Rig rig(servoMap(201, 201, slope));
+        rig.settings.frame.place.z = 0.0;
+        rig.settings.frame.turn = Angle::degrees(turn_deg);
+        rig.at({0.0, 0.0, 0.02});
+        const StepResult result = rig.to({0.0, 0.0, -0.003});
+        ASSERT_TRUE(result.contact.is_in_contact);
+        const double force = 400.0 * 0.003 / std::sqrt(1.25); // depth along the normal
+        EXPECT_NEAR(length(result.force_n), force, 1e-6);
+        // Downhill is west in the scene.
+        const Vec3 in_scene = rig.state.frame.differenceToScene(result.force_n);
+        EXPECT_NEAR(in_scene.y, 0.0, 1e-6 * 1000.0);
+        EXPECT_NEAR(in_scene.x / in_scene.z, -0.5, 1e-6);
+    }
+}
+
+TEST(HapticTick, AtAWallTheGroundIsGone)
+{
+    Rig rig;
+    rig.at({});
+    EXPECT_NEAR(rig.to({0.0, 0.0, -0.025}).force_n.z, 2.0, 1e-9);
+    const StepResult half = rig.to({0.08 - 0.5 * kWallFadeM, 0.0, -0.025});
+    EXPECT_NEAR(half.force_n.z, 1.0, 1e-9);
+    EXPECT_NEAR(half.force_n.x, 0.0, 1e-9);
+    const StepResult beyond = rig.to({0.082, 0.0, -0.025});
+    EXPECT_NEAR(beyond.force_n.z, 0.0, 1e-9);
+    EXPECT_NEAR(beyond.force_n.x, -0.8, 1e-9);
+    rig.settings.has_walls = false;
+    EXPECT_NEAR(rig.at({0.082, 0.0, -0.025}).force_n.x, 0.0, 1e-9);
+}
+
+TEST(HapticTick, BeyondTheMapTheGroundGoesOnLevel)
+{
+    Rig rig;
+    rig.settings.frame.scene_per_metre = 4000.0; // the map is 50 mm wide
+    rig.at({});
+    const StepResult result = rig.to({0.06, 0.0, -0.01});
+    EXPECT_TRUE(result.contact.is_in_contact);
+    EXPECT_NEAR(result.force_n.x, 0.0, 1e-9);
+    EXPECT_NEAR(result.force_n.z, 400.0 * 0.005, 1e-9);
+}
+
+TEST(HapticTick, LetsGoForEveryReason)
+{
+    const auto reasonAfter = [](auto&& spoil) {
+        Rig rig;
+        rig.at({});
+        EXPECT_GT(rig.to({0.0, 0.0, -0.025}).force_n.z, 1.9);
+        spoil(rig);
+        StepResult result;
+        for (int i = 0; i < 10; ++i) {
+            rig.input.settings = &rig.settings;
+            rig.input.now += 1ms;
+            result = step(rig.options, rig.input, rig.state, kDt);
+        }
+        EXPECT_EQ(result.force_n, Vec3{});
+        return result.reason;
+    };
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.settings.is_stopped = true; }),
+              LetGoReason::EmergencyStop);
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.status = DeviceStatus::Lost; }),
+              LetGoReason::DeviceLost);
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.status = DeviceStatus::Unready; }),
+              LetGoReason::DeviceUnready);
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.status = DeviceStatus::Finished; }),
+              LetGoReason::DeviceFinished);
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.now += 16ms; }), LetGoReason::DeviceStale);
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.sample.time += 1h; }), LetGoReason::DeviceStale);
+    const auto fresh = [](Rig& r) { r.input.sample.time = r.input.now + 10ms; };
+    EXPECT_EQ(reasonAfter([&](Rig& r) {
+                  fresh(r);
+                  r.input.sample.position.y = kNan;
+              }),
+              LetGoReason::DeviceNonsense);
+    EXPECT_EQ(reasonAfter([&](Rig& r) {
+                  fresh(r);
+                  r.input.sample.position.x = 25.0; // millimetres
+              }),
+              LetGoReason::DeviceNonsense);
+    EXPECT_EQ(reasonAfter([&](Rig& r) {
+                  fresh(r);
+                  r.input.sample.is_held = false;
+              }),
+              LetGoReason::NotHeld);
+    EXPECT_EQ(reasonAfter([&](Rig& r) {
+                  fresh(r);
+                  r.input.has_missed_deadline = true;
+              }),
+              LetGoReason::MissedDeadline);
+    EXPECT_EQ(reasonAfter([&](Rig& r) {
+                  fresh(r);
+                  r.settings.map = nullptr;
+              }),
+              LetGoReason::NoTouch);
+}
+
+TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
+{
+    Rig rig;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.025});
+    EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, LetGoReason::DeviceNonsense);
+    EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, LetGoReason::None);
+}
+
+TEST(HapticTick, AMapThatJumpsPutsTheProxyStraightAboveTheHand)
+{
+    // A ridge between here and there, higher than the hand: a proxy that slid over would stay
+    // before it.
+    const auto ridge = [](std::size_t column, std::size_t) {
+        return column > 60 && column < 80 ? 500.0 : 10.0;
+    };
+    Rig rig(servoMap(201, 201, ridge));
+    rig.at({});
+    EXPECT_TRUE(rig.to({0.0, 0.0, -0.025}).contact.is_in_contact);
+    rig.settings.frame = rig.settings.frame.panned({0.08, 0.0, 0.0}); // now over column 20
+    rig.settings.frame_number = 2;
+    const StepResult result = rig.at({0.0, 0.0, -0.025});
+    EXPECT_TRUE(result.has_changed_map);
+    EXPECT_NEAR(result.proxy.x, 20.0, 1e-6);
+    EXPECT_NEAR(result.proxy.z, 10.0, 1e-6);
+    EXPECT_EQ(result.goals.count, 3U);
+}
+
+TEST(HapticTick, AnotherModelOfTheSameMapGoesOnWhereTheLastOneWas)
+{
+    const auto bumps = [](std::size_t column, std::size_t row) {
+        return 10.0 + 3.0 * std::sin(0.3 * static_cast<double>(column)) +
+               2.0 * std::cos(0.2 * static_cast<double>(row));
+    };
+    const auto filled = filledTerrain(201, 201, bumps);
+    const auto made = [&](ContactModelKind kind) {
+        return makeServoMap(metreFrame(201, 201), filled, {.kind = kind});
+    };
+    Rig rig(made(ContactModelKind::ContinuousWalk));
+    rig.at({});
+    const StepResult before = rig.to({0.01, 0.02, -0.024});
+    ASSERT_TRUE(before.contact.is_in_contact);
+    for (const ContactModelKind kind :
+         {ContactModelKind::SurfaceWalk, ContactModelKind::ProxyGraph,
+          ContactModelKind::GodObjectRelease, ContactModelKind::ContinuousWalk}) {
+        rig.settings.map = made(kind);
+        const StepResult after = rig.at({0.01, 0.02, -0.024});
+        EXPECT_FALSE(after.has_changed_map);
+        EXPECT_NEAR(after.proxy.x, before.proxy.x, 1e-3);
+        EXPECT_NEAR(after.proxy.y, before.proxy.y, 1e-3);
+        EXPECT_NEAR(length(after.force_n - before.force_n), 0.0, 1e-3);
+    }
+}
+
+TEST(HapticTick, PansAndZoomsByTheButton)
+{
+    Rig rig;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.022});
+    rig.input.sample.buttons = 1;
+    EXPECT_EQ(rig.at({0.0, 0.0, -0.022}).mode, StylusMode::Pan);
+    const ScenePoint before = rig.state.frame.place;
+    rig.to({0.03, 0.0, -0.022});
+    EXPECT_LT(rig.state.frame.place.x, before.x - 10.0); // pulled to the right
+    rig.input.sample.buttons = 0;
+    EXPECT_EQ(rig.at({0.03, 0.0, -0.022}).mode, StylusMode::Press);
+    rig.to({0.03, 0.0, 0.01});
+    rig.to({0.03, 0.0, 0.011});
+    EXPECT_EQ(rig.at({0.03, 0.0, 0.011}).mode, StylusMode::Hover);
+    rig.settings.is_grabbing = true; // the key does the same
+    EXPECT_EQ(rig.at({0.03, 0.0, 0.011}).mode, StylusMode::Zoom);
+    rig.to({0.03, 0.0, 0.041});
+    EXPECT_NEAR(rig.state.frame.scene_per_metre, 500.0, 1e-6);
+}
+
+TEST(HapticTick, StiffnessIsNoMoreThanTheDeviceAndTheLoopStand)
+{
+    const DeviceCapabilities device = desktopDevice(); // 600 N/m
+    EXPECT_EQ(usedStiffness(400.0, device, 1e-3, 1e-3), 400.0);
+    EXPECT_EQ(usedStiffness(900.0, device, 1e-3, 1e-3), 600.0);
+    EXPECT_NEAR(usedStiffness(900.0, device, 1e-3, 2e-3), 300.0, 1e-9); // half the rate
+    EXPECT_EQ(usedStiffness(900.0, device, 1e-3, 0.5e-3), 600.0);
+    EXPECT_EQ(usedStiffness(-1.0, device, 1e-3, 1e-3), 0.0);
+    EXPECT_EQ(usedStiffness(std::nan(""), device, 1e-3, 1e-3), 0.0);
+}
+
+TEST(HapticTick, AModelThatIsGivenTheGoalsAgainGivesTheSameProxiesToTheBit)
+{
+    Random random;
+    const auto heights = heightsFrom(fractalHeights(random, 201, 201, 20.0, 0.6), 201);
+    for (const ContactModelKind kind : kContactModelKinds) {
+        Rig rig(servoMap(201, 201, heights, {.kind = kind, .contact = {.radius_m = 0.5}}));
+        rig.settings.frame.place.z = 0.0;
+        const auto again =
+            servoMap(201, 201, heights, {.kind = kind, .contact = {.radius_m = 0.5}});
+        WorkspacePoint hand{};
+        Vec3 velocity{};
+        for (int i = 0; i < 4000; ++i) {
+            velocity = velocity * 0.98 +
+                       Vec3{random.uniform(-1e-4, 1e-4), random.uniform(-1e-4, 1e-4),
+                            random.uniform(-1e-4, 1e-4)} -
+                       (hand - WorkspacePoint{}) * 1e-3;
+            hand = hand + velocity;
+            if (i % 1000 == 999) { // the map jumps
+                rig.settings.frame = rig.state.frame.panned({0.02, -0.01, 0.0});
+                ++rig.settings.frame_number;
+            }
+            rig.input.sample.buttons = i % 700 > 600 ? 1 : 0;
+            const StepResult result = rig.at(hand);
+            for (std::size_t g = 0; g < result.goals.count; ++g) {
+                again->model->update(again->frame.toScene(result.goals.goals[g]));
+            }
+            ASSERT_EQ(again->model->state().proxy, result.contact.proxy)
+                << contactModelName(kind) << " tick " << i;
+        }
+    }
+}
+
+// What the loop itself must keep to, whatever is around it.
+TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
+{
+    Random random;
+    const auto heights = heightsFrom(fractalHeights(random, 101, 101, 20.0, 0.7), 101);
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto anyNumber = [&random] {
+        constexpr std::array kBad{std::numeric_limits<double>::quiet_NaN(),
+                                  kInfinity,
+                                  -kInfinity,
+                                  1e300,
+                                  -1e300,
+                                  1e-300,
+                                  0.0};
+        return kBad[random.below(kBad.size())];
+    };
+    std::vector<std::shared_ptr<ServoMap>> maps{nullptr};
+    for (const ContactModelKind kind : kContactModelKinds) {
+        maps.push_back(
+            servoMap(101, 101, heights, {.kind = kind, .contact = {.radius_m = 0.5}, .map_id = 1}));
+        maps.push_back(
+            servoMap(101, 101, heights, {.kind = kind, .contact = {.radius_m = 0.5}, .map_id = 2}));
+    }
+    Rig rig;
+    std::uint64_t pushed = 0;
+    std::array<std::uint64_t, kLetGoReasonCount> reasons{};
+    Vec3 last{};
+    WorkspacePoint hand{};
+    Vec3 velocity{};
+    constexpr int kTicks = 1'000'000;
+    for (int i = 0; i < kTicks; ++i) {
+        if (i % 20'000 == 0) {
+            rig.device.force_n_peak = random.uniform(0.5, 10.0);
+            rig.device.stiffness_n_per_m_max = random.uniform(100.0, 2000.0);
+            rig.options = tickOptionsFor(rig.device);
+            rig.options.is_passivity_kept = random.chance(0.8);
+            rig.options.limits.ramp_s = random.uniform(0.0, 0.2);
+            rig.state = {};
+            last = {};
+        }
+        if (random.chance(0.001)) {
+            rig.settings.map = maps[random.below(maps.size())];
+        }
+        if (random.chance(0.002)) {
+            rig.settings.frame = {.place = {random.uniform(-60.0, 60.0),
+                                            random.uniform(-60.0, 60.0),
+                                            random.uniform(-20.0, 20.0)},
+                                  .scene_per_metre = std::pow(10.0, random.uniform(1.0, 4.0)),
+                                  .turn = Angle::radians(random.uniform(-4.0, 4.0))};
+            if (random.chance(0.05)) {
+                rig.settings.frame.scene_per_metre = anyNumber();
+            }
+            if (random.chance(0.05)) {
+                rig.settings.frame.place.y = anyNumber();
+            }
+            ++rig.settings.frame_number;
+        }
+        if (random.chance(0.002)) {
+            rig.settings.stiffness_n_per_m =
+                random.chance(0.1) ? anyNumber() : random.uniform(0.0, 3000.0);
+            rig.settings.force_share = random.chance(0.1) ? anyNumber() : random.unit();
+            rig.settings.has_walls = random.chance(0.8);
+            rig.settings.is_stopped = random.chance(0.05);
+            rig.settings.is_grabbing = random.chance(0.2);
+        }
+        velocity = velocity * 0.99 +
+                   Vec3{random.uniform(-2e-4, 2e-4), random.uniform(-2e-4, 2e-4),
+                        random.uniform(-2e-4, 2e-4)} -
+                   (hand - WorkspacePoint{}) * 2e-3;
+        hand = hand + velocity;
+        rig.input.sample.position = hand;
+        rig.input.sample.twist_rad = random.chance(0.001) ? anyNumber() : 0.01 * i;
+        rig.input.sample.buttons =
+            random.chance(0.003) ? 1U - rig.input.sample.buttons : rig.input.sample.buttons & 1U;
+        rig.input.sample.is_held = !random.chance(0.001);
+        if (random.chance(0.002)) {
+            rig.input.sample.position = {anyNumber(), anyNumber(), random.uniform(-5.0, 5.0)};
+        }
+        rig.input.status =
+            random.chance(0.001) ? static_cast<DeviceStatus>(random.below(4)) : DeviceStatus::Fine;
+        rig.input.has_missed_deadline = random.chance(i % 50'000 < 100 ? 0.9 : 0.01);
+        rig.input.now += 1ms;
+        rig.input.sample.time = rig.input.now - (random.chance(0.001) ? 20ms : 1ms);
+        rig.input.settings = &rig.settings;
+        rig.input.device = &rig.device;
+        const double dt_s = random.chance(0.002) ? anyNumber() : random.uniform(0.5e-3, 1.5e-3);
+
+        const StepResult result = step(rig.options, rig.input, rig.state, dt_s);
+
+        const double magnitude_n = length(result.force_n);
+        ASSERT_LE(magnitude_n, rig.device.force_n_peak) << "tick " << i; // false where NaN
+        const double step_s =
+            std::isfinite(dt_s) && dt_s >= 0.0 ? std::min(dt_s, kSafetyStepMaxS) : 1e-3;
+        const double rate = result.reason == LetGoReason::None
+                                ? rig.options.limits.rate_n_per_s_max
+                                : rig.options.limits.release_n_per_s_max;
+        ASSERT_LE(length(result.force_n - last), rate * step_s + 1e-13) << "tick " << i;
+        last = result.force_n;
+        pushed += magnitude_n > 0.1 ? 1U : 0U;
+        ++reasons[static_cast<std::size_t>(result.reason)];
+    }
+    std::printf("%llu of %d ticks with force;", static_cast<unsigned long long>(pushed), kTicks);
+    for (std::uint8_t i = 0; i < kLetGoReasonCount; ++i) {
+        std::printf(" %s %llu", std::string(letGoReasonName(LetGoReason{i})).c_str(),
+                    static_cast<unsigned long long>(reasons[i]));
+    }
+    std::printf("\n");
+    EXPECT_GT(pushed, 100'000U); // or nothing was tried
+}
+
+TEST(HapticTick, AllocatesNothingInAnyModelOrMode)
+{
+#ifndef MARSVIEW_COUNTS_ALLOCATIONS
+    GTEST_SKIP() << "allocations are not counted in this build";
+#else
+    Random random;
+    const auto heights = heightsFrom(fractalHeights(random, 201, 201, 20.0, 0.6), 201);
+    { // the counter counts
+        const std::uint64_t before = RtScope::allocationCount();
+        const RtScope scope;
+        const std::unique_ptr<int> one(new int(1));
+        EXPECT_EQ(RtScope::allocationCount(), before + 1);
+    }
+    for (const ContactModelKind kind : kContactModelKinds) {
+        Rig rig(servoMap(201, 201, heights, {.kind = kind, .contact = {.radius_m = 0.5}}));
+        rig.options.is_passivity_kept = true;
+        rig.settings.frame.place.z = 0.0;
+        const std::uint64_t before = RtScope::allocationCount();
+        std::array<int, 4> modes{};
+        for (int i = 0; i < 20'000; ++i) {
+            const RtScope scope;
+            rig.input.sample.buttons = i % 1000 > 800 ? 1 : 0;
+            rig.settings.frame_number += i % 5000 == 0 ? 1 : 0;
+            rig.settings.is_stopped = i % 3000 == 1500;
+            const double t = 1e-3 * i;
+            const StepResult result = rig.at(
+                {0.07 * std::sin(3.0 * t), 0.06 * std::cos(2.3 * t), 0.03 * std::sin(7.1 * t)});
+            ++modes[static_cast<std::size_t>(result.mode)];
+        }
+        EXPECT_EQ(RtScope::allocationCount(), before) << contactModelName(kind);
+        for (const int count : modes) {
+            EXPECT_GT(count, 100); // each mode was there
+        }
+    }
+#endif
+}
+
+} // namespace
+} // namespace marsview::test

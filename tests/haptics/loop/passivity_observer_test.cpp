@@ -1,0 +1,94 @@
+#include "haptics/loop/passivity_observer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+TEST(PassivityObserver, LeavesASpringThatTakesEnergyAlone)
+{
+    PassivityState state;
+    double x_m = 0.0;
+    for (int i = 0; i < 1000; ++i) { // pressing in
+        const Vec3 wanted{-200.0 * x_m, 0.0, 0.0};
+        const PassivityStep step = keepPassive({}, wanted, {1e-5, 0.0, 0.0}, state, kDt);
+        EXPECT_EQ(step.force_n, wanted);
+        noteWritten(state, step.force_n);
+        x_m += 1e-5;
+    }
+    EXPECT_GT(state.energy_j, 0.0);
+}
+
+TEST(PassivityObserver, CountsTheWorkOfTheHand)
+{
+    PassivityState state;
+    noteWritten(state, {-2.0, 1.0, 0.0});
+    keepPassive({.energy_j_max = 1.0}, {-2.0, 1.0, 0.0}, {0.003, 0.001, 0.5}, state, kDt);
+    EXPECT_NEAR(state.energy_j, 0.006 - 0.001, 1e-12);
+}
+
+TEST(PassivityObserver, DampsWhatGivesMoreThanItGot)
+{
+    PassivityState state;
+    noteWritten(state, {1.0, 0.0, 0.0});
+    const PassivityStep step = keepPassive({}, {1.0, 0.0, 0.0}, {1e-4, 0.0, 0.0}, state, kDt);
+    EXPECT_LT(state.energy_j, 0.0); // it pushes along the motion: energy from nowhere
+    EXPECT_GT(step.damping_n_s_per_m, 0.0);
+    EXPECT_LT(step.force_n.x, 1.0);
+    EXPECT_LE(step.damping_n_s_per_m, PassivityOptions{}.damping_n_s_per_m_max);
+}
+
+// A mass that a late spring drives: without the observer it oscillates ever more.
+TEST(PassivityObserver, KeepsADelayedSpringFromGrowing)
+{
+    const auto lastSwing = [](bool is_kept) {
+        PassivityState state;
+        double x_m = 1e-3;
+        double v = 0.0;
+        double last_n = 0.0; // acts a period late
+        double most_m = 0.0;
+        for (int i = 0; i < 3000; ++i) {
+            const double wanted_n = -300.0 * x_m;
+            const double before_m = x_m;
+            v += (last_n - 0.05 * v) * kDt / 0.1;
+            x_m += v * kDt;
+            last_n = wanted_n;
+            if (is_kept) {
+                const Vec3 force_n{wanted_n, 0.0, 0.0};
+                last_n = keepPassive({.damping_n_s_per_m_max = 3.0}, force_n,
+                                     {x_m - before_m, 0.0, 0.0}, state, kDt)
+                             .force_n.x;
+                noteWritten(state, {last_n, 0.0, 0.0});
+            }
+            most_m = i > 2500 ? std::max(most_m, std::abs(x_m)) : most_m;
+        }
+        return most_m;
+    };
+    EXPECT_GT(lastSwing(false), 3e-3);
+    EXPECT_LT(lastSwing(true), 1.2e-3);
+}
+
+TEST(PassivityObserver, ForgetsWhatWasGatheredInFreeSpace)
+{
+    PassivityState state{.energy_j = 1.0};
+    keepPassive({}, {}, {1e-4, 0.0, 0.0}, state, kDt);
+    EXPECT_EQ(state.energy_j, 0.0);
+}
+
+TEST(PassivityObserver, PassesForcesOnWhereThereIsNoTime)
+{
+    for (const double dt_s : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                              std::numeric_limits<double>::infinity()}) {
+        PassivityState state{.energy_j = -1.0};
+        EXPECT_EQ(keepPassive({}, {1.0, 2.0, 3.0}, {1e-3, 0.0, 0.0}, state, dt_s).force_n,
+                  (Vec3{1.0, 2.0, 3.0}));
+    }
+}
+
+} // namespace
+} // namespace marsview::test

@@ -1,0 +1,222 @@
+#include "haptics/loop/safety_limiter.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace marsview::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDt = 1e-3;
+
+constexpr SafetyLimits kLimits{.force_n_max = 3.0,
+                               .rate_n_per_s_max = 500.0,
+                               .release_n_per_s_max = 2000.0,
+                               .ramp_s = 0.1,
+                               .change_ramp_s = 0.02};
+
+// Its state after `count` steps with the same force.
+SafetyOutput steps(SafetyState& state, const Vec3& force_n, int count)
+{
+    SafetyOutput last;
+    for (int i = 0; i < count; ++i) {
+        last = limitForce(kLimits, {.force_n = force_n}, state, kDt);
+    }
+    return last;
+}
+
+TEST(SafetyLimiter, BeginsWithNothingAndEndsWithAllOfIt)
+{
+    SafetyState state;
+    double before = 0.0;
+    for (int i = 1; i <= 99; ++i) {
+        const SafetyOutput output = limitForce(kLimits, {.force_n = {0.0, 0.0, 1.0}}, state, kDt);
+        EXPECT_NEAR(output.force_n.z, 0.01 * i, 1e-12); // a hundredth of the ramp each
+        EXPECT_GT(output.force_n.z, before);
+        before = output.force_n.z;
+    }
+    EXPECT_EQ(steps(state, {0.0, 0.0, 1.0}, 2).force_n, (Vec3{0.0, 0.0, 1.0}));
+}
+
+TEST(SafetyLimiter, KeepsTheDirectionOfWhatIsTooStrong)
+{
+    SafetyState state;
+    const Vec3 force_n = steps(state, {30.0, 40.0, 0.0}, 500).force_n;
+    EXPECT_NEAR(force_n.x, 1.8, 1e-12);
+    EXPECT_NEAR(force_n.y, 2.4, 1e-12);
+    EXPECT_LE(length(force_n), 3.0);
+}
+
+TEST(SafetyLimiter, ChangesNoFasterThanItsRate)
+{
+    SafetyState state;
+    steps(state, {3.0, 0.0, 0.0}, 500);
+    const SafetyOutput output = limitForce(kLimits, {.force_n = {-3.0, 0.0, 0.0}}, state, kDt);
+    EXPECT_NEAR(output.force_n.x, 2.5, 1e-12); // 500 N/s for a millisecond
+    EXPECT_TRUE(output.is_bounded);
+}
+
+TEST(SafetyLimiter, LetsGoFasterThanItPushesAndRampsInAnew)
+{
+    SafetyState state;
+    steps(state, {3.0, 0.0, 0.0}, 500);
+    SafetyInput lost{.force_n = {3.0, 0.0, 0.0}, .reason = LetGoReason::DeviceLost};
+    EXPECT_NEAR(limitForce(kLimits, lost, state, kDt).force_n.x, 1.0, 1e-12);
+    const SafetyOutput output = limitForce(kLimits, lost, state, kDt);
+    EXPECT_EQ(output.force_n, Vec3{});
+    EXPECT_EQ(output.reason, LetGoReason::DeviceLost);
+    EXPECT_NEAR(steps(state, {1.0, 0.0, 0.0}, 1).force_n.x, 0.01, 1e-12);
+}
+
+TEST(SafetyLimiter, RampsInAnewAfterAChange)
+{
+    SafetyState state;
+    steps(state, {0.4, 0.0, 0.0}, 500);
+    const SafetyInput changed{.force_n = {0.4, 0.0, 0.0}, .has_changed = true};
+    const SafetyOutput output = limitForce(kLimits, changed, state, kDt);
+    EXPECT_NEAR(output.force_n.x, 0.02, 1e-12);
+    EXPECT_NEAR(steps(state, {0.4, 0.0, 0.0}, 20).force_n.x, 0.4, 1e-12);
+    // One change after the other, as while a map is dragged: nothing builds up.
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_LE(limitForce(kLimits, changed, state, kDt).force_n.x, 0.021);
+        if (i == 0) {
+            continue;
+        }
+        EXPECT_NEAR(state.gain, 0.05, 1e-12);
+    }
+}
+
+TEST(SafetyLimiter, WhatIsNoForceOrNoTimeIsAFault)
+{
+    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            SafetyState state;
+            steps(state, {3.0, 0.0, 0.0}, 500);
+            const Vec3 force_n{axis == 0 ? bad : 1.0, axis == 1 ? bad : 1.0, axis == 2 ? bad : 1.0};
+            const SafetyOutput output = limitForce(kLimits, {.force_n = force_n}, state, kDt);
+            EXPECT_EQ(output.reason, LetGoReason::Fault);
+            EXPECT_NEAR(output.force_n.x, 1.0, 1e-12);
+        }
+        SafetyState state;
+        steps(state, {3.0, 0.0, 0.0}, 500);
+        EXPECT_EQ(limitForce(kLimits, {.force_n = {3.0, 0.0, 0.0}}, state, bad).reason,
+                  LetGoReason::Fault);
+        EXPECT_NEAR(state.force_n.x, 1.0, 1e-12); // as in a millisecond
+    }
+}
+
+TEST(SafetyLimiter, NothingJumpsAfterAPause)
+{
+    SafetyState state;
+    steps(state, {3.0, 0.0, 0.0}, 500);
+    const SafetyOutput output = limitForce(kLimits, {.force_n = {-3.0, 0.0, 0.0}}, state, 60.0);
+    EXPECT_NEAR(output.force_n.x, -2.0, 1e-12); // 500 N/s for 10 ms
+}
+
+TEST(SafetyLimiter, NoTimeNoChange)
+{
+    SafetyState state;
+    const Vec3 before = steps(state, {1.0, 2.0, 0.5}, 500).force_n;
+    EXPECT_EQ(limitForce(kLimits, {.force_n = {-3.0, 0.0, 0.0}}, state, 0.0).force_n, before);
+}
+
+TEST(SafetyLimiter, LimitsThatAreNoLimitsLetNothingThrough)
+{
+    for (const double bad : {kNan, -kInfinity, -1.0, 0.0}) {
+        SafetyState state;
+        for (int i = 0; i < 100; ++i) {
+            const SafetyLimits limits{.force_n_max = bad};
+            EXPECT_EQ(limitForce(limits, {.force_n = {1.0, 0.0, 0.0}}, state, kDt).force_n, Vec3{});
+        }
+    }
+}
+
+TEST(SafetyLimiter, EveryReasonHasAName)
+{
+    for (std::uint8_t i = 0; i < kLetGoReasonCount; ++i) {
+        for (std::uint8_t j = 0; j < i; ++j) {
+            EXPECT_NE(letGoReasonName(LetGoReason{i}), letGoReasonName(LetGoReason{j}));
+        }
+    }
+}
+
+// A number that somebody's bug may come up with.
+double anyNumber(Random& random)
+{
+    switch (random.below(10)) {
+    case 0:
+        return kNan;
+    case 1:
+        return random.chance(0.5) ? kInfinity : -kInfinity;
+    case 2:
+        return (random.chance(0.5) ? 1.0 : -1.0) * std::numeric_limits<double>::max();
+    case 3:
+        return std::numeric_limits<double>::denorm_min();
+    case 4:
+        return 0.0;
+    case 5:
+        return std::pow(10.0, random.uniform(-300.0, 300.0));
+    default:
+        return random.uniform(-10.0, 10.0);
+    }
+}
+
+TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
+{
+    Random random;
+    SafetyState state;
+    SafetyLimits limits;
+    Vec3 last{};
+    double longest = 0.0;
+    double fastest = 0.0; // as a share of what is allowed
+    for (int i = 0; i < 1'000'000; ++i) {
+        if (i % 10'000 == 0) { // another device
+            state = {};
+            last = {};
+            limits = {.force_n_max = random.uniform(0.1, 40.0),
+                      .rate_n_per_s_max = random.uniform(10.0, 5000.0),
+                      .release_n_per_s_max = random.uniform(10.0, 20000.0),
+                      .ramp_s = random.chance(0.1) ? anyNumber(random) : random.uniform(0.0, 1.0),
+                      .change_ramp_s =
+                          random.chance(0.1) ? anyNumber(random) : random.uniform(0.0, 0.3)};
+        }
+        SafetyInput input{
+            .force_n = random.chance(0.05)
+                           ? Vec3{anyNumber(random), anyNumber(random), anyNumber(random)}
+                           : Vec3{random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0),
+                                  random.uniform(-9.0, 9.0)},
+            .reason = random.chance(0.01)
+                          ? LetGoReason{static_cast<std::uint8_t>(random.below(kLetGoReasonCount))}
+                          : LetGoReason::None,
+            .has_changed = random.chance(0.003)};
+        const double dt_s = random.chance(0.05) ? anyNumber(random) : random.uniform(0.0, 0.003);
+        const SafetyOutput output = limitForce(limits, input, state, dt_s);
+        const double magnitude_n = length(output.force_n);
+        ASSERT_LE(magnitude_n, limits.force_n_max) << "tick " << i; // false where NaN
+        const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
+        const double step_s = is_time ? std::min(dt_s, 0.01) : 0.001;
+        const double rate = output.reason == LetGoReason::None ? limits.rate_n_per_s_max
+                                                               : limits.release_n_per_s_max;
+        const double change_n = length(output.force_n - last);
+        ASSERT_LE(change_n, rate * step_s + 1e-14 * limits.force_n_max) << "tick " << i;
+        if (output.reason != LetGoReason::None) {
+            ASSERT_LE(magnitude_n, length(last)) << "tick " << i;
+        }
+        longest = std::max(longest, magnitude_n / limits.force_n_max);
+        fastest = std::max(fastest, step_s > 1e-6 ? change_n / (rate * step_s) : 0.0);
+        last = output.force_n;
+    }
+    std::printf("largest force %.6f and fastest change %.6f of what is allowed\n", longest,
+                fastest);
+    EXPECT_GT(longest, 0.99); // or the bounds were never tried
+    EXPECT_GT(fastest, 0.99);
+}
+
+} // namespace
+} // namespace marsview::test

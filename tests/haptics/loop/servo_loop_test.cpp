@@ -1,0 +1,294 @@
+#include "haptics/drivers/replay_driver.h"
+#include "haptics/drivers/sim_driver.h"
+#include "haptics/loop/servo_loop.h"
+#include "haptics/trace/goal_file.h"
+#include "haptics/trace/session_recorder.h"
+#include "tests/haptics/loop/tick_fixture.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+double bumps(std::size_t column, std::size_t row)
+{
+    return 3.0 * std::sin(0.3 * static_cast<double>(column)) +
+           2.0 * std::cos(0.2 * static_cast<double>(row));
+}
+
+LoopSettings settingsFor(std::shared_ptr<ServoMap> map)
+{
+    LoopSettings settings;
+    settings.map = std::move(map);
+    settings.frame = {.place = {0.0, 0.0, 0.0}, .scene_per_metre = 1000.0};
+    settings.frame_number = 1;
+    return settings;
+}
+
+ServoLoopOptions quick(std::uint64_t ticks)
+{
+    ServoLoopOptions options;
+    options.thread.locks_memory = false;
+    options.thread.uncounted_turns = 0;
+    options.ticks_max = ticks;
+    return options;
+}
+
+std::unique_ptr<HapticDevice> simulated(double rate_hz = 5000.0)
+{
+    SimOptions options;
+    options.rate_hz = rate_hz;
+    options.lift_s = 0.1;
+    options.grab_s = 0.3;
+    return std::make_unique<SimDevice>(options);
+}
+
+void waitFor(const ServoLoop& loop)
+{
+    while (!loop.hasEnded()) {
+        std::this_thread::yield();
+    }
+}
+
+// What is written to a device that somebody else holds.
+struct Writes {
+    std::vector<Vec3> forces_n;
+    std::atomic<int> reads{0};
+};
+
+class WatchedDevice final : public HapticDevice {
+public:
+    explicit WatchedDevice(Writes& writes)
+        : writes_(writes)
+        , capabilities_(desktopDevice())
+    {
+        writes_.forces_n.reserve(1'000'000);
+    }
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceStatus read(DeviceSample& sample) noexcept override
+    {
+        ++writes_.reads;
+        sample.position = {0.0, 0.0, -0.005};
+        sample.time = std::chrono::steady_clock::now();
+        return DeviceStatus::Fine;
+    }
+    DeviceStatus write(const Vec3& force_n) noexcept override
+    {
+        writes_.forces_n.push_back(force_n);
+        return DeviceStatus::Fine;
+    }
+
+private:
+    Writes& writes_;
+    DeviceCapabilities capabilities_;
+};
+
+TEST(ServoLoop, RunsOnlyWhileThereIsSomethingToFeel)
+{
+    Writes writes;
+    ServoLoop loop(std::make_unique<WatchedDevice>(writes), quick(0));
+    loop.set({});
+    EXPECT_FALSE(loop.isRunning());
+    EXPECT_EQ(writes.reads, 0);
+    loop.set(settingsFor(servoMap(101, 101, bumps)));
+    EXPECT_TRUE(loop.isRunning());
+    while (writes.reads < 20) {
+        std::this_thread::yield();
+    }
+    loop.set({});
+    EXPECT_FALSE(loop.isRunning());
+    const int reads = writes.reads;
+    std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(writes.reads, reads);
+    EXPECT_EQ(writes.forces_n.back(), Vec3{}); // and leaves the motors at rest
+}
+
+TEST(ServoLoop, FadesOutInsteadOfDroppingTheForce)
+{
+    Writes writes;
+    {
+        ServoLoop loop(std::make_unique<WatchedDevice>(writes), quick(0));
+        loop.set(settingsFor(servoMap(101, 101, [](auto, auto) { return 0.0; })));
+        while (loop.state().force_n.z < 1.0) {
+            std::this_thread::yield();
+        }
+    }
+    EXPECT_EQ(writes.forces_n.back(), Vec3{});
+    for (std::size_t i = 1; i < writes.forces_n.size(); ++i) {
+        const double change_n = length(writes.forces_n[i] - writes.forces_n[i - 1]);
+        EXPECT_LE(change_n, 2000.0 * kSafetyStepMaxS);
+    }
+}
+
+TEST(ServoLoop, TellsItsStateEventsAndStatistics)
+{
+    ServoLoop loop(simulated(), quick(5000));
+    loop.set(settingsFor(servoMap(201, 201, bumps)));
+    waitFor(loop);
+    loop.stop();
+    const LoopState state = loop.state();
+    EXPECT_GE(state.tick, 5000U);
+    EXPECT_EQ(state.force_n, Vec3{});
+    EXPECT_GT(state.counts.in_contact, 500U);
+    EXPECT_GE(loop.statistics().tick.count(), 5000U);
+    bool has_held = false;
+    bool has_changed = false;
+    LoopEvent event;
+    while (loop.nextEvent(event)) {
+        has_held = has_held || event.kind == LoopEventKind::Holding;
+        has_changed = has_changed || event.kind == LoopEventKind::ModeChanged;
+    }
+    EXPECT_TRUE(has_held);
+    EXPECT_TRUE(has_changed);
+    EXPECT_EQ(loop.flight().records().size(), std::min<std::size_t>(10'000, state.tick));
+}
+
+TEST(ServoLoop, TakesOtherSettingsWhileItRuns)
+{
+    ServoLoop loop(simulated(), quick(0));
+    const auto filled = filledTerrain(201, 201, bumps);
+    for (int i = 0; i < 60; ++i) {
+        LoopSettings settings =
+            settingsFor(makeServoMap(metreFrame(201, 201), filled,
+                                     {.kind = kContactModelKinds[static_cast<std::size_t>(i) % 6],
+                                      .contact = {.radius_m = 0.5},
+                                      .map_id = static_cast<std::uint64_t>(i / 10)}));
+        settings.frame_number = static_cast<std::uint64_t>(i / 5);
+        settings.is_stopped = i % 7 == 0;
+        loop.set(settings);
+        const std::uint64_t until = loop.state().tick + 20;
+        while (loop.state().tick < until) {
+            (void)loop.statistics();
+            (void)loop.flight().records();
+            std::this_thread::yield();
+        }
+    }
+    loop.stop();
+    EXPECT_EQ(loop.state().force_n, Vec3{});
+}
+
+// A device with a thread of its own, as vendors' schedulers are.
+class ClockDevice final : public HapticDevice {
+public:
+    ClockDevice()
+        : capabilities_(desktopDevice())
+    {
+        capabilities_.owns_clock = true;
+    }
+    ~ClockDevice() override { stopClock(); }
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceStatus read(DeviceSample& sample) noexcept override
+    {
+        sample.position = {0.0, 0.0, -0.003};
+        sample.time = std::chrono::steady_clock::now();
+        return DeviceStatus::Fine;
+    }
+    DeviceStatus write(const Vec3& /*force_n*/) noexcept override { return DeviceStatus::Fine; }
+    bool startClock(ClockTick tick, void* self) noexcept override
+    {
+        is_stopping_ = false;
+        thread_ = std::thread([this, tick, self] {
+            while (!is_stopping_) {
+                tick(self, std::chrono::steady_clock::now());
+                std::this_thread::sleep_for(200us);
+            }
+        });
+        return true;
+    }
+    void stopClock() noexcept override
+    {
+        is_stopping_ = true;
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+
+private:
+    DeviceCapabilities capabilities_;
+    std::atomic<bool> is_stopping_{false};
+    std::thread thread_;
+};
+
+TEST(ServoLoop, LetsADeviceThatOwnsTheClockCallTheTick)
+{
+    ServoLoop loop(std::make_unique<ClockDevice>(), quick(0));
+    loop.set(settingsFor(servoMap(101, 101, [](auto, auto) { return 0.0; })));
+    while (loop.state().force_n.z < 0.5) {
+        std::this_thread::yield();
+    }
+    loop.stop();
+    EXPECT_FALSE(loop.isRunning());
+    EXPECT_GT(loop.statistics().tick.count(), 10U);
+    EXPECT_NE(loop.grants().scheduling_refusal, "");
+}
+
+TEST(ServoLoop, ARecordingReplaysToTheSameProxiesToTheBit)
+{
+    const TempFolder folder;
+    const std::string first = folder.file("first.csv");
+    const std::string second = folder.file("second.csv");
+    const auto filled = filledTerrain(201, 201, bumps);
+    const auto record = [&](std::unique_ptr<HapticDevice> device, const std::string& path,
+                            std::uint64_t ticks) {
+        ServoLoop loop(std::move(device), quick(ticks));
+        auto recorder = SessionRecorder::begin(loop, path);
+        ASSERT_TRUE(recorder);
+        loop.set(settingsFor(makeServoMap(metreFrame(201, 201), filled, {})));
+        waitFor(loop);
+        loop.stop();
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+        EXPECT_GT((*recorder)->updates(), 1000U);
+    };
+    record(simulated(), first, 5000);
+    auto goals = readGoals(*readGoalText(first), first);
+    ASSERT_TRUE(goals);
+    record(std::make_unique<ReplayDevice>(*goals), second, 0);
+
+    // Goals, contact and proxies: the first three columns, the sixth to the ninth.
+    const auto columns = [](const std::string& path) {
+        std::vector<std::string> lines;
+        const std::string text = readFile(path);
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = text.find('\n', at);
+            std::string line;
+            std::size_t begin = at;
+            for (int column = 0; column < 9; ++column) {
+                const std::size_t comma = text.find(',', begin);
+                if (column < 3 || column > 4) {
+                    line += text.substr(begin, comma - begin) + ",";
+                }
+                begin = comma + 1;
+            }
+            lines.push_back(line);
+            at = end + 1;
+        }
+        return lines;
+    };
+    const auto a = columns(first);
+    const auto b = columns(second);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ASSERT_EQ(a[i], b[i]) << "line " << i + 1;
+    }
+}
+
+TEST(SessionRecorder, SaysWhereItCannotWrite)
+{
+    ServoLoop loop(simulated(), quick(10));
+    const auto recorder = SessionRecorder::begin(loop, "/nowhere/session.csv");
+    ASSERT_FALSE(recorder);
+    EXPECT_EQ(recorder.error().message, "/nowhere/session.csv: cannot be written");
+}
+
+} // namespace
+} // namespace marsview::test
