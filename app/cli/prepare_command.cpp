@@ -58,6 +58,10 @@ Result<PrepareJob> jobFor(const Options& options)
         }
     }
     job.raster_path = options.output;
+    if (std::filesystem::is_directory(job.raster_path, ignored)) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: is a folder; name the file to write in it", options.output)};
+    }
     if (job.raster_path.empty()) {
         Result<std::string> kept = preparedPathFor(job.spec, MapFolder::defaultPath());
         if (!kept) {
@@ -106,7 +110,7 @@ Status runPrepare(const Options& options)
     if (!report) {
         return std::move(report).error();
     }
-    for (const std::string& note : report->copy.notes) {
+    for (const std::string& note : report->notes) {
         std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(note).c_str());
     }
     const double seconds = report->copy_seconds + report->level_seconds;
@@ -119,7 +123,7 @@ Status runPrepare(const Options& options)
     json["samples_read"] = report->copy.samples_read;
     json["bytes"] = bytesOf(report->raster_path);
     json["level_file_bytes"] = bytesOf(report->level_path);
-    json["notes"] = report->copy.notes;
+    json["notes"] = report->notes;
     json["copy_seconds"] = report->copy_seconds;
     json["level_seconds"] = report->level_seconds;
     json["seconds"] = seconds;

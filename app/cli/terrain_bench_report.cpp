@@ -149,6 +149,17 @@ std::string growth(const BenchJson& found)
     return text;
 }
 
+// One of those that `pictures` is made of.
+std::string picture(const BenchJson& found)
+{
+    std::string text;
+    line(text, "{}, {}: open after {:.0f} ms, first picture {:.0f} ms, sharp {:.0f} ms",
+         found.at("is_prepared").get<bool>() ? "prepared" : "not prepared",
+         found.at("is_warm").get<bool>() ? "warm" : "cold", number(found, "opened_ms"),
+         number(found, "first_picture_ms"), number(found, "sharp_picture_ms"));
+    return text;
+}
+
 std::string remote(const BenchJson& found)
 {
     std::string text;
@@ -186,6 +197,7 @@ std::string frames(const BenchJson& found)
 std::string terrainReport(std::string_view measurement, const BenchJson& found)
 {
     return measurement == "prepare"    ? preparing(found)
+           : measurement == "picture"  ? picture(found)
            : measurement == "open"     ? pictures(found)
            : measurement == "session"  ? session(found)
            : measurement == "swipes"   ? swipes(found)

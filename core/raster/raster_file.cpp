@@ -15,9 +15,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <unistd.h>
 
 namespace marsview {
@@ -114,7 +116,7 @@ Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version
     return dataset;
 }
 
-Result<OpenedDataset> openRemote(const std::string& name)
+Result<OpenedDataset> openRemoteOnce(const std::string& name)
 {
     Result<RemoteVersion> version = askRemote(name);
     if (!version) {
@@ -126,6 +128,25 @@ Result<OpenedDataset> openRemote(const std::string& name)
     }
     return OpenedDataset{
         .dataset = std::move(dataset).value(), .name = name, .remote = std::move(version).value()};
+}
+
+// A connection that breaks off is tried again, which GDAL does for some answers alone; a server
+// that takes its time to fail is not.
+Result<OpenedDataset> openRemote(const std::string& name)
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr int kAttempts = 3;
+    constexpr std::chrono::milliseconds kPause{300};
+    constexpr std::chrono::seconds kAtOnce{2};
+    for (int attempt = 1;; ++attempt) {
+        const Clock::time_point start = Clock::now();
+        Result<OpenedDataset> opened = openRemoteOnce(name);
+        if (opened || opened.error().code != ErrorCode::Unreadable || attempt == kAttempts ||
+            Clock::now() - start > kAtOnce) {
+            return opened;
+        }
+        std::this_thread::sleep_for(attempt * kPause);
+    }
 }
 
 Result<OpenedDataset> openDataset(const std::string& path, int band)

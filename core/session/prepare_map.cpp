@@ -54,7 +54,7 @@ lockFor(const std::string& level_path, TiledGeoTiffJob::WhenBusy when_busy, JobM
 }
 
 Status makeLevels(const PrepareJob& job,
-                  const PrepareReport& report,
+                  PrepareReport& report,
                   const RasterInfo& info,
                   JobMonitor& monitor)
 {
@@ -68,8 +68,13 @@ Status makeLevels(const PrepareJob& job,
         return std::move(identity).error();
     }
     const LevelFileKey key{.raster = *identity, .band = band, .nodata = info.nodata};
-    if (LevelFile::open(report.level_path, key)) {
+    const Result<LevelFile> there = LevelFile::open(report.level_path, key);
+    if (there) {
         return Done{};
+    }
+    if (there.error().code != ErrorCode::NotFound) {
+        const std::string& why = there.error().message;
+        report.notes.push_back(why.substr(0, why.rfind(';')) + "; it is made anew");
     }
     Result<RasterFile> raster = RasterFile::open(report.raster_path, band);
     if (!raster) {
@@ -170,6 +175,7 @@ Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor
         return std::move(made).error();
     }
     report.level_seconds = secondsSince(between);
+    report.notes.insert(report.notes.begin(), report.copy.notes.begin(), report.copy.notes.end());
     return report;
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace marsview {
 
@@ -31,6 +32,7 @@ struct PrepareReport {
     std::uint64_t samples = 0;
     double copy_seconds = 0.0;
     double level_seconds = 0.0;
+    std::vector<std::string> notes; // sentences for the user, those of the copy included
 };
 
 /// Whether the raster of `spec` is one whose tiles can be read where it lies.

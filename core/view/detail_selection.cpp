@@ -185,6 +185,26 @@ SceneBox DetailSelector::boxOf(const DetailNode& node) const
     return box;
 }
 
+// Of boxOf(node), without making it: there are millions of nodes.
+double DetailSelector::diagonalOf(const DetailNode& node) const
+{
+    const MinMaxPyramid::Bounds& bounds =
+        analysis_->bounds.bounds(node.level, node.column, node.row);
+    if (bounds.isEmpty()) {
+        return 0.0;
+    }
+    const std::size_t side = DetailErrors::kNodeCells << node.level;
+    const auto width =
+        static_cast<double>(std::min((node.column + 1) * side, columns_ - 1) - node.column * side);
+    const auto height =
+        static_cast<double>(std::min((node.row + 1) * side, rows_ - 1) - node.row * side);
+    return length(
+        {std::abs(frame_.east_per_column) * width + std::abs(frame_.east_per_row) * height,
+         std::abs(frame_.north_per_column) * width + std::abs(frame_.north_per_row) * height,
+         (static_cast<double>(bounds.maximum_m) - static_cast<double>(bounds.minimum_m)) *
+             exaggeration_});
+}
+
 float DetailSelector::rangeAt(std::size_t level,
                               std::size_t column,
                               std::size_t row,
@@ -225,11 +245,7 @@ void DetailSelector::setExaggeration(double exaggeration)
         parallelRanges(rows, kRangeRows, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin * columns; i < end * columns; ++i) {
                 const DetailNode node{level, i % columns, i / columns};
-                if (!analysis_->bounds.bounds(level, node.column, node.row).isEmpty()) {
-                    const SceneBox box = boxOf(node);
-                    ranges_m[i] =
-                        static_cast<float>(kRangePerSize * length(box.maximum - box.minimum));
-                }
+                ranges_m[i] = static_cast<float>(kRangePerSize * diagonalOf(node));
             }
         });
         size_ranges_m_[level] = largestAtCorners(columns, rows, ranges_m);

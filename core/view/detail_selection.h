@@ -91,6 +91,7 @@ private:
 
     void setExaggeration(double exaggeration);
     SceneBox boxOf(const DetailNode& node) const;
+    double diagonalOf(const DetailNode& node) const;
     void visit(const DetailNode& node, bool has_relief, SelectedNode& selected, Pass& pass) const;
     float rangeAt(std::size_t level, std::size_t column, std::size_t row, const Pass& pass) const;
     CornerRanges rangesOf(const DetailNode& node, const Pass& pass) const;

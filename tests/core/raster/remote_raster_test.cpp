@@ -208,6 +208,21 @@ TEST_F(RemoteRasterTest, AServerInTroubleIsAskedAgain)
     }
 }
 
+TEST_F(RemoteRasterTest, AConnectionThatIsCutWhileOpeningIsTriedAgain)
+{
+    // What GDAL knows of a file it does not ask for again: every attempt is of a file of its own.
+    for (const std::size_t body_bytes : {0U, 100U, 5000U}) {
+        const std::string name = "cut_" + std::to_string(body_bytes) + ".tif";
+        std::filesystem::copy_file(folder_.file("map.tif"), folder_.file(name));
+        server_.cutNext(1, body_bytes);
+        const Result<RasterFile> file = RasterFile::open(server_.url(name), 1);
+        ASSERT_TRUE(file) << file.error().message;
+        EXPECT_EQ(file->info().columns, kSide);
+        EXPECT_EQ(server_.counts().failures, 1U);
+        server_.resetCounts();
+    }
+}
+
 TEST_F(RemoteRasterTest, CutConnectionsNeverTearATile)
 {
     RasterFile file = opened(server_.url("map.tif"));
