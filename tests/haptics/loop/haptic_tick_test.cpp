@@ -2,6 +2,7 @@
 #include "haptics/loop/rt_scope.h"
 #include "tests/haptics/loop/tick_fixture.h"
 #include "tests/support/random.h"
+#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 
@@ -175,6 +176,33 @@ TEST(HapticTick, LetsGoForEveryReason)
                   r.settings.map = nullptr;
               }),
               LetGoReason::NoTouch);
+}
+
+TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
+{
+    const TiledMap tiles =
+        tiledMap(floatTerrain(201, 201, [](std::size_t, std::size_t) { return 10.0; }));
+    const auto exchange = std::make_shared<WindowExchange>(
+        std::make_shared<const ResidentWindow>(tiles.window({100.0, 100.0})));
+    Rig rig(makeServoMap(metreFrame(201, 201),
+                         std::make_shared<ServoTerrain>(exchange, tiles.heights), {}));
+    const auto feed = [&] { exchange->fed_ns = rig.input.now.time_since_epoch() / 1ns; };
+    rig.at({});
+    const WorkspacePoint pressed{0.0, 0.0, -0.025};
+    EXPECT_NEAR(rig.to(pressed).force_n.z, 2.0, 1e-9) << "one that has not begun is not silent";
+    feed();
+    for (int i = 1; i <= 500; ++i) {
+        ASSERT_EQ(rig.at(pressed).reason, LetGoReason::None) << i << " ms";
+    }
+    rig.at(pressed);
+    for (int i = 0; i < 100; ++i) {
+        const StepResult result = rig.at(pressed);
+        ASSERT_EQ(result.reason, LetGoReason::TerrainStale);
+        ASSERT_EQ(result.force_n, Vec3{});
+    }
+    feed();
+    EXPECT_EQ(rig.at(pressed).reason, LetGoReason::None);
+    EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
 }
 
 TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
