@@ -394,6 +394,8 @@ TickOptions tickOptionsFor(const DeviceCapabilities& device)
 {
     TickOptions options;
     options.limits.force_n_max = device.force_n_peak;
+    options.limits.force_n_continuous =
+        device.force_n_continuous > 0.0 ? device.force_n_continuous : device.force_n_peak;
     options.period_s = device.rate_hz > 0.0 ? 1.0 / device.rate_hz : 1e-3;
     return options;
 }

@@ -44,7 +44,8 @@ struct TickOptions {
     unsigned misses_max = 5; // deadlines missed one after the other before it lets go
 };
 
-/// Those for a device, with its peak force as the limit.
+/// Those for a device, with its peak force as the limit for moments and its continuous force, where
+/// it states one, as the limit for long.
 TickOptions tickOptionsFor(const DeviceCapabilities& device);
 
 struct TickInput {

@@ -53,7 +53,11 @@ void ServoLoop::start()
     const WorkspaceFrame frame = tick_.frame;
     const std::uint64_t frame_number = tick_.frame_number;
     const bool has_frame = tick_.has_frame;
+    const double heat_n2 =
+        cooledHeat(tick_options_.limits, tick_.safety.heat_n2,
+                   std::chrono::duration<double>(steady_clock::now() - stopped_).count());
     tick_ = {};
+    tick_.safety.heat_n2 = heat_n2;
     tick_.frame = frame;
     tick_.frame_number = frame_number;
     tick_.has_frame = has_frame;
@@ -100,6 +104,7 @@ void ServoLoop::stop()
         thread_.reset();
     }
     device_->write({});
+    stopped_ = steady_clock::now();
     is_running_ = false;
     if (const auto& map = settings_.front().map; map && map->terrain) {
         map->terrain->leave();

@@ -205,6 +205,23 @@ TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
     EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
 }
 
+TEST(HapticTick, KeepsWhatADeviceStandsForLong)
+{
+    DeviceCapabilities device = desktopDevice();
+    EXPECT_EQ(tickOptionsFor(device).limits.force_n_continuous, 3.3) << "not stated";
+    device.force_n_continuous = 0.9;
+    Rig rig;
+    rig.options.limits.force_n_continuous = tickOptionsFor(device).limits.force_n_continuous;
+    rig.at({});
+    EXPECT_NEAR(rig.to({0.0, 0.0, -0.025}).force_n.z, 2.0, 1e-9);
+    StepResult result;
+    for (int i = 0; i < 40'000; ++i) {
+        result = rig.at({0.0, 0.0, -0.025});
+    }
+    EXPECT_NEAR(result.force_n.z, 0.9, 1e-3);
+    EXPECT_EQ(result.reason, LetGoReason::None);
+}
+
 TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
 {
     Rig rig;
@@ -356,6 +373,8 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
     for (int i = 0; i < kTicks; ++i) {
         if (i % 20'000 == 0) {
             rig.device.force_n_peak = random.uniform(0.5, 10.0);
+            rig.device.force_n_continuous =
+                random.chance(0.5) ? random.uniform(0.1, rig.device.force_n_peak) : 0.0;
             rig.device.stiffness_n_per_m_max = random.uniform(100.0, 2000.0);
             rig.options = tickOptionsFor(rig.device);
             rig.options.is_passivity_kept = random.chance(0.8);
