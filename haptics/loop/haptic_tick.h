@@ -63,6 +63,8 @@ struct TickInput {
 struct TickGoals {
     static constexpr std::size_t kMax = 4;
     std::array<TracePoint, kMax> goals{};
+    std::array<TracePoint, kMax> proxies{}; // after each
+    std::array<bool, kMax> are_in_contact{};
     std::size_t count = 0;
 };
 
