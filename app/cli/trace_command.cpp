@@ -13,14 +13,19 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -28,9 +33,9 @@ namespace {
 struct Options {
     MapOptions map;
     std::string goals;
-    std::string model{contactModelName(kContactModelDefault)};
+    std::optional<std::string> model; // these three: a recording's, or else the default
     std::optional<double> radius_m;
-    double exaggeration = 1.0;
+    std::optional<double> exaggeration;
     bool has_timing = false;
     std::string summary;
     std::string output;
@@ -81,23 +86,36 @@ bool isMesh(const std::string& path)
     return ending == ".obj" || ending == ".ply" || ending == ".stl";
 }
 
-// What is touched: a map or a mesh.
-struct Subject {
+// How ground is touched by the goals from `first` on.
+struct Touch {
+    std::size_t first = 0;
+    std::uint64_t part = 0; // of a recording: another number is another model
+    ContactModelKind kind = kContactModelDefault;
+    double radius_m = 1.0;
+    double exaggeration = 1.0;
+};
+
+struct Toucher {
     std::unique_ptr<ContactModel> model;
     TraceFrame frame;
-    double radius_m = 0.0;
+};
+
+// What is touched: a map or a mesh.
+struct Subject {
+    std::function<Toucher(const Touch&)> make;
+    double radius_m = 1.0;                         // where nobody has told another
     std::shared_ptr<const Dataset> dataset;        // null for a mesh
     std::shared_ptr<const WaitingTerrain> terrain; // of a map in tiles
 };
 
-Result<Subject> meshSubject(const Options& options, ContactModelKind kind, JobMonitor& monitor)
+Result<Subject> meshSubject(const Options& options, JobMonitor& monitor)
 {
     if (options.map.hasOverrides()) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: a mesh has no CRS, body, band or unit to be told otherwise",
                                  options.map.path)};
     }
-    if (kind == ContactModelKind::VirtualProxy && !options.radius_m) {
+    if (options.model == contactModelName(ContactModelKind::VirtualProxy) && !options.radius_m) {
         return Error{ErrorCode::Invalid,
                      "--radius: is needed with virtual-proxy over a mesh, which has no cell to be "
                      "half of"};
@@ -106,44 +124,143 @@ Result<Subject> meshSubject(const Options& options, ContactModelKind kind, JobMo
     if (!soup) {
         return std::move(soup).error();
     }
+    const double exaggeration = options.exaggeration.value_or(1.0);
     for (ScenePoint& vertex : soup.value().vertices) {
-        vertex.z *= options.exaggeration;
+        vertex.z *= exaggeration;
     }
     const auto mesh = TriangleMesh::build(std::move(soup).value(), monitor);
     if (!mesh) {
         return Error{mesh.error().code,
                      fmt::format("{}: {}", options.map.path, mesh.error().message)};
     }
-    const double radius_m = options.radius_m.value_or(1.0);
-    return Subject{makeContactModel(kind, MeshSurface(mesh.value()), {.radius_m = radius_m}),
-                   meshFrame(options.exaggeration), radius_m, nullptr, nullptr};
+    const MeshSurface surface(mesh.value());
+    return Subject{.make =
+                       [surface, exaggeration](const Touch& touch) {
+                           return Toucher{
+                               makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                               meshFrame(exaggeration)};
+                       },
+                   .radius_m = 1.0,
+                   .dataset = nullptr,
+                   .terrain = nullptr};
 }
 
-Result<Subject> mapSubject(const Options& options, ContactModelKind kind, JobMonitor& monitor)
+Result<Subject> mapSubject(const Options& options, JobMonitor& monitor)
 {
     Result<TouchMap> map = openTouchMap(options.map, TouchStore::HeldOrTiled, monitor);
     if (!map) {
         return std::move(map).error();
     }
-    const auto dataset = map.value().dataset;
+    const auto dataset = map->dataset;
     const Georeference& georeference = dataset->georeference();
-    const double half_cell_m =
-        (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
-    const double radius_m = options.radius_m.value_or(half_cell_m);
     const SceneFrame frame = georeference.sceneFrame();
-    const TraceFrame trace_frame = frameOf(dataset, options.exaggeration);
+    Subject subject{.make = {},
+                    .radius_m =
+                        (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0,
+                    .dataset = dataset,
+                    .terrain = nullptr};
     if (map->filled) {
-        const HeightfieldSurface surface(map->filled, frame, options.exaggeration);
-        return Subject{makeContactModel(kind, surface, {.radius_m = radius_m}), trace_frame,
-                       radius_m, dataset, nullptr};
+        subject.make = [dataset, frame, filled = map->filled](const Touch& touch) {
+            const HeightfieldSurface surface(filled, frame, touch.exaggeration);
+            return Toucher{makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                           frameOf(dataset, touch.exaggeration)};
+        };
+        return subject;
     }
     const Heightfield& heightfield = dataset->heightfield();
-    const auto terrain = std::make_shared<const WaitingTerrain>(
+    subject.terrain = std::make_shared<const WaitingTerrain>(
         heightfield.tiles()->raster(),
         std::make_shared<const TileHeights>(map->levels, heightfield.scale()));
-    const TiledHeightfieldSurface surface(terrain, frame, options.exaggeration);
-    return Subject{makeContactModel(kind, surface, {.radius_m = radius_m}), trace_frame, radius_m,
-                   dataset, terrain};
+    subject.make = [dataset, frame, terrain = subject.terrain](const Touch& touch) {
+        const TiledHeightfieldSurface surface(terrain, frame, touch.exaggeration);
+        return Toucher{makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                       frameOf(dataset, touch.exaggeration)};
+    };
+    return subject;
+}
+
+// What the command line says holds throughout; otherwise what a recording says.
+Result<std::vector<Touch>>
+touchesOf(const Options& options, const GoalRecording& recording, const Subject& subject)
+{
+    Touch said{.kind = contactModelKind(options.model.value_or("")).value_or(kContactModelDefault),
+               .radius_m = options.radius_m.value_or(subject.radius_m),
+               .exaggeration = options.exaggeration.value_or(1.0)};
+    if (recording.parts.empty() || subject.dataset == nullptr) {
+        return std::vector<Touch>{said};
+    }
+    std::vector<Touch> touches;
+    for (const GoalPart& part : recording.parts) {
+        if (part.map != recording.parts.front().map) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: from line {} on it is a recording of another map; cut "
+                                     "it in two there",
+                                     options.goals, part.line)};
+        }
+        touches.push_back({.first = part.first,
+                           .part = part.part,
+                           .kind = options.model ? said.kind : part.kind,
+                           .radius_m = options.radius_m.value_or(part.radius_m),
+                           .exaggeration = options.exaggeration.value_or(part.exaggeration)});
+    }
+    return touches;
+}
+
+// One model after the other; one that comes back goes on where it was.
+Result<std::vector<TraceUpdate>> traceAll(const Subject& subject,
+                                          const std::vector<Touch>& touches,
+                                          const std::vector<TracePoint>& goals,
+                                          JobMonitor& monitor)
+{
+    std::map<std::uint64_t, Toucher> touchers;
+    std::vector<TraceUpdate> updates;
+    updates.reserve(goals.size());
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+        const std::size_t end = i + 1 < touches.size() ? touches[i + 1].first : goals.size();
+        const std::vector<TracePoint> part(goals.begin() +
+                                               static_cast<std::ptrdiff_t>(touches[i].first),
+                                           goals.begin() + static_cast<std::ptrdiff_t>(end));
+        auto found = touchers.find(touches[i].part);
+        if (found == touchers.end()) {
+            found = touchers.emplace(touches[i].part, subject.make(touches[i])).first;
+        }
+        const auto traced = trace(*found->second.model, found->second.frame, part, monitor);
+        if (!traced) {
+            return traced.error();
+        }
+        updates.insert(updates.end(), traced->begin(), traced->end());
+    }
+    return updates;
+}
+
+nlohmann::ordered_json touchJson(const Touch& touch)
+{
+    nlohmann::ordered_json json = {{"model", contactModelName(touch.kind)},
+                                   {"radius_m", nullptr},
+                                   {"exaggeration", touch.exaggeration}};
+    if (touch.kind == ContactModelKind::VirtualProxy) {
+        json["radius_m"] = touch.radius_m;
+    }
+    return json;
+}
+
+// That of the first goals; "parts" has all, where there are several.
+nlohmann::ordered_json summaryOf(const Options& options,
+                                 const std::vector<Touch>& touches,
+                                 const std::vector<TraceUpdate>& updates)
+{
+    nlohmann::ordered_json summary = {{"file", options.map.path}};
+    summary.update(touchJson(touches.front()));
+    if (touches.size() > 1) {
+        nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+        for (const Touch& touch : touches) {
+            parts.push_back(touchJson(touch));
+            parts.back()["first_update"] = touch.first;
+        }
+        summary["parts"] = parts;
+    }
+    summary.update(traceSummary(updates));
+    return summary;
 }
 
 Status runTrace(const Options& options)
@@ -152,25 +269,27 @@ Status runTrace(const Options& options)
     if (!text) {
         return text.error();
     }
-    const Result<std::vector<TracePoint>> goals =
-        readGoals(*text, options.goals == "-" ? "--goals" : options.goals);
-    if (!goals) {
-        return goals.error();
+    const Result<GoalRecording> recording =
+        readGoalRecording(*text, options.goals == "-" ? "--goals" : options.goals);
+    if (!recording) {
+        return recording.error();
     }
-    const ContactModelKind kind = contactModelKind(options.model).value_or(kContactModelDefault);
     std::optional<Subject> subject;
     {
         LongJob job("reading");
-        Result<Subject> opened = isMesh(options.map.path)
-                                     ? meshSubject(options, kind, job.monitor())
-                                     : mapSubject(options, kind, job.monitor());
+        Result<Subject> opened = isMesh(options.map.path) ? meshSubject(options, job.monitor())
+                                                          : mapSubject(options, job.monitor());
         if (!opened) {
             return std::move(opened).error();
         }
         subject = std::move(opened).value();
     }
+    const Result<std::vector<Touch>> touches = touchesOf(options, *recording, *subject);
+    if (!touches) {
+        return touches.error();
+    }
     LongJob job("tracing");
-    const auto updates = trace(*subject->model, subject->frame, *goals, job.monitor());
+    const auto updates = traceAll(*subject, *touches, recording->goals, job.monitor());
     if (!updates) {
         return Error{updates.error().code,
                      fmt::format("{}: {}", options.map.path, updates.error().message)};
@@ -186,14 +305,7 @@ Status runTrace(const Options& options)
         return written;
     }
     if (!options.summary.empty()) {
-        nlohmann::ordered_json summary = {{"file", options.map.path},
-                                          {"model", options.model},
-                                          {"radius_m", nullptr},
-                                          {"exaggeration", options.exaggeration}};
-        if (kind == ContactModelKind::VirtualProxy) {
-            summary["radius_m"] = subject->radius_m;
-        }
-        summary.update(traceSummary(*updates));
+        const nlohmann::ordered_json summary = summaryOf(options, *touches, *updates);
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
         if (Status written = write(options.summary, summary.dump(2, ' ', false, replace) + "\n");
             !written) {
@@ -225,22 +337,26 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     for (const ContactModelKind kind : kContactModelKinds) {
         names.emplace_back(contactModelName(kind));
     }
-    command->add_option("--model", options->model, "contact model")
-        ->capture_default_str()
+    command
+        ->add_option("--model", options->model,
+                     fmt::format("contact model; default what a recording says, or else {}",
+                                 contactModelName(kContactModelDefault)))
         ->check(CLI::IsMember(names));
     command
         ->add_option("--radius", options->radius_m,
-                     "of the sphere of virtual-proxy, scene metres; default half a cell")
+                     "of the sphere of virtual-proxy, scene metres; default what a recording says, "
+                     "or else half a cell")
         ->check(positiveNumber());
-    command->add_option("--exaggeration", options->exaggeration, "of heights")
-        ->capture_default_str()
+    command
+        ->add_option("--exaggeration", options->exaggeration,
+                     "of heights; default what a recording says, or else 1")
         ->check(positiveNumber());
     command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
     command->add_option("--summary", options->summary, "JSON file for totals, means and times");
     command->add_option("-o,--output", options->output, "CSV file to write, default stdout");
     command->callback([options, &run] {
         const auto needs_radius = contactModelName(ContactModelKind::VirtualProxy);
-        if (options->radius_m && options->model != needs_radius) {
+        if (options->radius_m && options->model.value_or("") != needs_radius) {
             throw CLI::ValidationError("--radius",
                                        fmt::format("only --model {} has one", needs_radius));
         }

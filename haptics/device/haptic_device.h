@@ -15,7 +15,7 @@ struct DeviceCapabilities {
     std::string name;                   // for people: maker and model
     WorkspaceBox workspace;             // what the hand reaches
     double force_n_peak = 0.0;          // for moments; 0: it feels, but cannot push
-    double force_n_continuous = 0.0;    // without getting hot
+    double force_n_continuous = 0.0;    // without getting hot; 0: not stated, as the peak
     double stiffness_n_per_m_max = 0.0; // of a stable wall, as its maker states it
     double rate_hz = 1000.0;            // of its samples
     std::uint8_t axes_in = 3;           // 3: position; 6: orientation as well

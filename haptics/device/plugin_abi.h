@@ -57,7 +57,7 @@ typedef struct MarsviewCapabilities {
     double workspace_low_m[3]; /* corners of the box that the hand reaches */
     double workspace_high_m[3];
     double force_n_peak;          /* for moments; 0: it feels, but cannot push */
-    double force_n_continuous;    /* without getting hot */
+    double force_n_continuous;    /* without getting hot; 0: not stated, taken as the peak */
     double stiffness_n_per_m_max; /* of a stable wall, at rate_hz */
     double rate_hz;               /* of its samples */
     uint32_t axes_in;             /* 3: position; 6: orientation as well */

@@ -307,18 +307,21 @@ private:
     // The goal is derived from what a recording holds, so that one that is replayed gives the same.
     void update(const TracePoint& goal) noexcept
     {
-        if (result_.goals.count < TickGoals::kMax) {
-            result_.goals.goals[result_.goals.count++] = goal;
-        }
         state_.goal = map_->frame.toScene(goal);
         state_.contact = map_->model->update(state_.goal);
-        if (state_.contact.counters.refused != 0) {
-            return;
+        if (state_.contact.counters.refused == 0) {
+            // To the digit the goal where it is free, as `trace` has it.
+            state_.proxy = state_.contact.is_in_contact || map_->frame.isClamped(goal)
+                               ? map_->frame.fromScene(state_.contact.proxy)
+                               : goal;
         }
-        // To the digit the goal where it is free, as `trace` has it.
-        state_.proxy = state_.contact.is_in_contact || map_->frame.isClamped(goal)
-                           ? map_->frame.fromScene(state_.contact.proxy)
-                           : goal;
+        TickGoals& goals = result_.goals;
+        if (goals.count < TickGoals::kMax) {
+            goals.goals[goals.count] = goal;
+            goals.proxies[goals.count] = state_.proxy;
+            goals.are_in_contact[goals.count] = state_.contact.is_in_contact;
+            ++goals.count;
+        }
     }
 
     // Up above all ground, over to the new place: what is placed there is so by goals alone.
@@ -394,6 +397,8 @@ TickOptions tickOptionsFor(const DeviceCapabilities& device)
 {
     TickOptions options;
     options.limits.force_n_max = device.force_n_peak;
+    options.limits.force_n_continuous =
+        device.force_n_continuous > 0.0 ? device.force_n_continuous : device.force_n_peak;
     options.period_s = device.rate_hz > 0.0 ? 1.0 / device.rate_hz : 1e-3;
     return options;
 }

@@ -44,7 +44,8 @@ struct TickOptions {
     unsigned misses_max = 5; // deadlines missed one after the other before it lets go
 };
 
-/// Those for a device, with its peak force as the limit.
+/// Those for a device, with its peak force as the limit for moments and its continuous force, where
+/// it states one, as the limit for long.
 TickOptions tickOptionsFor(const DeviceCapabilities& device);
 
 struct TickInput {
@@ -62,6 +63,8 @@ struct TickInput {
 struct TickGoals {
     static constexpr std::size_t kMax = 4;
     std::array<TracePoint, kMax> goals{};
+    std::array<TracePoint, kMax> proxies{}; // after each
+    std::array<bool, kMax> are_in_contact{};
     std::size_t count = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact/contact.h"
+#include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
 #include "haptics/interaction/mouse_stylus.h"
 #include "haptics/interaction/workspace_frame.h"
@@ -54,6 +55,17 @@ struct LoopEvent {
     std::uint64_t tick = 0;
 };
 
+/// What ground was touched, and how.
+struct TouchedGround {
+    std::uint64_t serial = 0; // ServoMap's: no two contact models have the same
+    std::uint64_t map_id = 0;
+    ContactModelKind kind = kContactModelDefault;
+    double radius_m = 1.0; // of VirtualProxy's sphere, scene metres
+    double exaggeration = 1.0;
+
+    bool operator==(const TouchedGround&) const = default;
+};
+
 /// One update of the contact model, and the tick it was part of: what is recorded.
 struct TickRecord {
     std::uint64_t tick = 0;
@@ -67,6 +79,7 @@ struct TickRecord {
     bool is_in_contact = false;
     bool has_goal = false; // false: the contact model was not asked in this tick
     float tick_us = 0.0F;
+    TouchedGround ground{};
 };
 
 } // namespace marsview

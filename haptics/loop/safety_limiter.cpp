@@ -44,11 +44,40 @@ double bound(double value) noexcept
     return value > 0.0 ? std::min(value, 1e6) : 0.0; // also where NaN
 }
 
+// With a force that has been on for so long.
+double heatAfter(const SafetyLimits& limits, double heat_n2, double force_n2, double dt_s) noexcept
+{
+    const double share = -std::expm1(-dt_s / std::max(bound(limits.heat_s), 1e-3));
+    const double heat = heat_n2 + share * (force_n2 - heat_n2);
+    // No force that was allowed makes it hotter than this; what is no heat counts as that.
+    const double hottest_n2 = bound(limits.force_n_max) * bound(limits.force_n_max);
+    return heat >= 0.0 ? std::min(heat, hottest_n2) : hottest_n2;
+}
+
 } // namespace
 
 std::string_view letGoReasonName(LetGoReason reason) noexcept
 {
     return kNames[std::min<std::size_t>(static_cast<std::size_t>(reason), kNames.size() - 1)];
+}
+
+double cooledHeat(const SafetyLimits& limits, double heat_n2, double seconds) noexcept
+{
+    return heatAfter(limits, heat_n2, 0.0, std::max(seconds, 0.0));
+}
+
+double warmForceMax(const SafetyLimits& limits, double heat_n2) noexcept
+{
+    const double peak_n = bound(limits.force_n_max);
+    const double lasting_n = std::min(bound(limits.force_n_continuous), peak_n);
+    const double hot_n2 = lasting_n * lasting_n;
+    constexpr double kWarm = 0.64; // of that
+    if (!(hot_n2 > 0.0)) {
+        return 0.0;
+    }
+    const double share = std::clamp((heat_n2 / hot_n2 - kWarm) / (1.0 - kWarm), 0.0, 1.0);
+    const double force_n = std::sqrt(peak_n * peak_n + share * (hot_n2 - peak_n * peak_n));
+    return std::clamp(force_n, lasting_n, peak_n); // also where rounding has left them
 }
 
 SafetyOutput limitForce(const SafetyLimits& limits,
@@ -64,8 +93,11 @@ SafetyOutput limitForce(const SafetyLimits& limits,
     const double step_s = is_time ? std::min(dt_s, kSafetyStepMaxS) : kSafetyStepFallbackS;
     const double force_n_max = bound(limits.force_n_max);
     if (!isFinite(state.force_n) || !std::isfinite(state.gain)) {
-        state = {};
+        state = {.heat_n2 = state.heat_n2};
     }
+    const double last_n = safeLength(state.force_n);
+    state.heat_n2 =
+        heatAfter(limits, state.heat_n2, last_n * last_n, is_time ? dt_s : kSafetyStepFallbackS);
 
     const bool is_letting_go = output.reason != LetGoReason::None;
     Vec3 wanted_n{};
@@ -84,8 +116,9 @@ SafetyOutput limitForce(const SafetyLimits& limits,
         }
         state.gain = std::clamp(state.gain + step_s / state.ramp_s, 0.0, 1.0);
         wanted_n = input.force_n;
-        if (safeLength(wanted_n) > force_n_max) {
-            wanted_n = shortened(wanted_n, force_n_max);
+        const double warm_n_max = warmForceMax(limits, state.heat_n2);
+        if (safeLength(wanted_n) > warm_n_max) {
+            wanted_n = shortened(wanted_n, warm_n_max);
             output.is_bounded = true;
         }
         wanted_n = wanted_n * state.gain;

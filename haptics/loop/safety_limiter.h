@@ -5,6 +5,7 @@
 #include "core/base/vec.h"
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace marsview {
@@ -32,7 +33,10 @@ std::string_view letGoReasonName(LetGoReason reason) noexcept;
 
 /// Constant while a device is open.
 struct SafetyLimits {
-    double force_n_max = 0.0;            // of the vector
+    double force_n_max = 0.0; // of the vector
+    /// What the motors stand for hours, as root mean square over heat_s.
+    double force_n_continuous = std::numeric_limits<double>::infinity();
+    double heat_s = 5.0;                 // in which small motors' windings warm up and cool down
     double rate_n_per_s_max = 500.0;     // of the vector's change
     double release_n_per_s_max = 2000.0; // the same while letting go
     double ramp_s = 0.5;                 // from nothing to all of it, whenever it begins
@@ -46,15 +50,16 @@ struct SafetyInput {
 };
 
 struct SafetyState {
-    Vec3 force_n{};     // the last
-    double gain = 0.0;  // of what is let through: 0 to 1
-    double ramp_s = 0.; // how long the gain takes from 0 to 1 this time; 0: has not begun
+    Vec3 force_n{};       // the last
+    double gain = 0.0;    // of what is let through: 0 to 1
+    double ramp_s = 0.;   // how long the gain takes from 0 to 1 this time; 0: has not begun
+    double heat_n2 = 0.0; // low-pass of the squared force, as currents heat windings
 };
 
 struct SafetyOutput {
     Vec3 force_n{};
     LetGoReason reason = LetGoReason::None;
-    bool is_bounded = false; // by magnitude or by rate
+    bool is_bounded = false; // by magnitude, heat or rate
 };
 
 /// A time step that is longer counts as this: after a pause nothing may jump.
@@ -62,11 +67,21 @@ inline constexpr double kSafetyStepMaxS = 0.01;
 /// And where it is no time at all, letting go counts it as this.
 inline constexpr double kSafetyStepFallbackS = 0.001;
 
+/// SafetyState::heat_n2 after `seconds` without force.
+double cooledHeat(const SafetyLimits& limits, double heat_n2, double seconds) noexcept;
+
+/// The force that the motors stand at `heat_n2`: all of force_n_max up to 0.64 of what the
+/// continuous force brings about in the end, and from there less, down to force_n_continuous
+/// itself. So what is pressed for moments is strong, what is pressed for long fades to what may
+/// last, and what does not exceed 0.8 of that never changes.
+double warmForceMax(const SafetyLimits& limits, double heat_n2) noexcept;
+
 /// The bounds hold for any input and state, NaN and infinities included:
 /// |force| <= force_n_max, and |force - last force| <= rate × min(dt_s, kSafetyStepMaxS), where the
 /// rate is release_n_per_s_max while letting go. Only where the limits themselves have become
-/// smaller than the last force, the magnitude comes before the rate. A limit that is no number, or
-/// negative, is 0. Servo thread.
+/// smaller than the last force, the magnitude comes before the rate. The force goes down to
+/// force_n_continuous, no faster than the rate, as its heat comes near that one's. A limit that is
+/// no number, or negative, is 0. Servo thread.
 SafetyOutput limitForce(const SafetyLimits& limits,
                         const SafetyInput& input,
                         SafetyState& state,

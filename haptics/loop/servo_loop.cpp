@@ -53,7 +53,11 @@ void ServoLoop::start()
     const WorkspaceFrame frame = tick_.frame;
     const std::uint64_t frame_number = tick_.frame_number;
     const bool has_frame = tick_.has_frame;
+    const double heat_n2 =
+        cooledHeat(tick_options_.limits, tick_.safety.heat_n2,
+                   std::chrono::duration<double>(steady_clock::now() - stopped_).count());
     tick_ = {};
+    tick_.safety.heat_n2 = heat_n2;
     tick_.frame = frame;
     tick_.frame_number = frame_number;
     tick_.has_frame = has_frame;
@@ -100,6 +104,7 @@ void ServoLoop::stop()
         thread_.reset();
     }
     device_->write({});
+    stopped_ = steady_clock::now();
     is_running_ = false;
     if (const auto& map = settings_.front().map; map && map->terrain) {
         map->terrain->leave();
@@ -249,9 +254,18 @@ void ServoLoop::record(const StepResult& result, double tick_s) noexcept
                       .is_in_contact = result.contact.is_in_contact,
                       .has_goal = result.goals.count > 0,
                       .tick_us = static_cast<float>(tick_s * 1e6)};
+    if (const auto& map = settings_.front().map; map != nullptr) {
+        record.ground = {.serial = map->serial,
+                         .map_id = map->map_id,
+                         .kind = map->kind,
+                         .radius_m = map->radius_m,
+                         .exaggeration = map->frame.exaggeration()};
+    }
     const bool is_kept = keeps_records_.load(std::memory_order_relaxed);
     for (std::size_t i = 0; i < result.goals.count; ++i) {
         record.goal = result.goals.goals[i];
+        record.proxy = result.goals.proxies[i];
+        record.is_in_contact = result.goals.are_in_contact[i];
         if (is_kept && !records_->put(record)) {
             ++counts_.not_recorded;
         }

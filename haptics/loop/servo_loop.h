@@ -80,6 +80,7 @@ private:
     ServoLoopOptions options_;
     TickOptions tick_options_;
     bool is_running_ = false;
+    LoopTime stopped_{}; // the last time; motors cool down meanwhile
     bool owns_clock_ = false;
 
     // Between the threads.

@@ -17,12 +17,14 @@ std::uint64_t nextSerial()
 std::shared_ptr<ServoMap> madeOf(const GoalFrame& frame,
                                  std::unique_ptr<MapContactModel> model,
                                  std::shared_ptr<ServoTerrain> terrain,
-                                 std::uint64_t map_id)
+                                 const ServoMapOptions& options)
 {
     return std::make_shared<ServoMap>(ServoMap{.frame = frame,
                                                .model = std::move(model),
                                                .terrain = std::move(terrain),
-                                               .map_id = map_id,
+                                               .kind = options.kind,
+                                               .radius_m = options.contact.radius_m,
+                                               .map_id = options.map_id,
                                                .serial = nextSerial()});
 }
 
@@ -34,7 +36,7 @@ std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
 {
     const HeightfieldSurface surface(std::move(filled), frame.frame(), frame.exaggeration());
     return madeOf(frame, makeContactModel(options.kind, surface, options.contact), nullptr,
-                  options.map_id);
+                  options);
 }
 
 std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
@@ -43,7 +45,7 @@ std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
 {
     const TiledHeightfieldSurface surface(terrain->terrain(), frame.frame(), frame.exaggeration());
     auto model = makeContactModel(options.kind, surface, options.contact);
-    return madeOf(frame, std::move(model), std::move(terrain), options.map_id);
+    return madeOf(frame, std::move(model), std::move(terrain), options);
 }
 
 } // namespace marsview

@@ -15,10 +15,12 @@ namespace marsview {
 struct ServoMap {
     GoalFrame frame;
     std::unique_ptr<MapContactModel> model;
-    std::shared_ptr<ServoTerrain> terrain; // null where the map is held in memory
-    std::uint64_t map_id = 0;              // of what is touched: another one is another map
-    std::uint64_t serial = 0;              // of this object; no two are alike
-    bool is_touched = false;               // the model has a proxy already
+    std::shared_ptr<ServoTerrain> terrain;        // null where the map is held in memory
+    ContactModelKind kind = kContactModelDefault; // of the model
+    double radius_m = 1.0;                        // the same of its sphere, where it has one
+    std::uint64_t map_id = 0;                     // of what is touched: another one is another map
+    std::uint64_t serial = 0;                     // of this object; no two are alike
+    bool is_touched = false;                      // the model has a proxy already
 };
 
 struct ServoMapOptions {

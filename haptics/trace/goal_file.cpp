@@ -2,7 +2,9 @@
 
 #include "core/base/plain_number.h"
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -11,6 +13,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -66,6 +69,81 @@ std::optional<TracePoint> parseGoal(std::string_view line, std::size_t columns)
     return x && y && z ? std::optional<TracePoint>({*x, *y, *z}) : std::nullopt;
 }
 
+// Where a recording's columns are, those that tell what goals were aimed at with.
+struct PartColumns {
+    static constexpr std::array<std::string_view, 5> kNames{"map", "part", "model", "radius_m",
+                                                            "exaggeration"};
+    std::array<std::size_t, kNames.size()> at{};
+    std::size_t count = 0; // of all columns
+};
+
+std::vector<std::string_view> allWordsOf(std::string_view line)
+{
+    std::vector<std::string_view> words;
+    while (true) {
+        const std::size_t comma = line.find(',');
+        words.push_back(trimmed(line.substr(0, comma)));
+        if (comma == std::string_view::npos) {
+            return words;
+        }
+        line.remove_prefix(comma + 1);
+    }
+}
+
+std::optional<PartColumns> partColumnsOf(std::string_view header)
+{
+    const std::vector<std::string_view> words = allWordsOf(header);
+    PartColumns columns{.count = words.size()};
+    for (std::size_t i = 0; i < columns.at.size(); ++i) {
+        const auto found = std::find(words.begin(), words.end(), PartColumns::kNames[i]);
+        if (found == words.end()) {
+            return std::nullopt;
+        }
+        columns.at[i] = static_cast<std::size_t>(found - words.begin());
+    }
+    return columns;
+}
+
+std::optional<std::uint64_t> countOf(std::string_view word)
+{
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool is_whole = error == std::errc() && end == word.data() + word.size();
+    return is_whole ? std::optional(value) : std::nullopt;
+}
+
+std::optional<GoalPart> parsePart(std::string_view line, const PartColumns& columns)
+{
+    const std::vector<std::string_view> words = allWordsOf(line);
+    if (words.size() != columns.count) {
+        return std::nullopt;
+    }
+    const auto word = [&](std::size_t i) { return words[columns.at[i]]; };
+    const auto map = countOf(word(0));
+    const auto part = countOf(word(1));
+    const auto kind = contactModelKind(word(2));
+    const auto radius = parseNumber(word(3));
+    const auto exaggeration = parseNumber(word(4));
+    constexpr double kMax = 1e12;
+    const auto isSound = [](const std::optional<double>& value) {
+        return value && *value > 0.0 && *value < kMax;
+    };
+    if (!map || !part || !kind || !isSound(radius) || !isSound(exaggeration)) {
+        return std::nullopt;
+    }
+    return GoalPart{.map = *map,
+                    .part = *part,
+                    .kind = *kind,
+                    .radius_m = *radius,
+                    .exaggeration = *exaggeration};
+}
+
+bool isSamePart(const GoalPart& a, const GoalPart& b)
+{
+    return a.map == b.map && a.part == b.part && a.kind == b.kind && a.radius_m == b.radius_m &&
+           a.exaggeration == b.exaggeration;
+}
+
 std::string quoted(std::string_view line)
 {
     constexpr std::size_t kQuotedMax = 60;
@@ -77,12 +155,22 @@ std::string quoted(std::string_view line)
 
 Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::string& name)
 {
+    Result<GoalRecording> recording = readGoalRecording(text, name);
+    if (!recording) {
+        return std::move(recording).error();
+    }
+    return std::move(recording->goals);
+}
+
+Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name)
+{
     std::string_view rest = text;
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
     if (rest.starts_with(kByteOrderMark)) {
         rest.remove_prefix(kByteOrderMark.size());
     }
-    std::vector<TracePoint> goals;
+    GoalRecording recording;
+    std::optional<PartColumns> part_columns;
     std::size_t columns = 0; // 0: no header yet; 4: or more
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::size_t end = rest.find('\n');
@@ -99,6 +187,7 @@ Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::st
                                          name, number, quoted(line), kHeader)};
             }
             columns = wordsOf(line).count;
+            part_columns = partColumnsOf(line);
             continue;
         }
         const std::optional<TracePoint> goal = parseGoal(line, columns);
@@ -108,14 +197,28 @@ Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::st
                                      "them are needed",
                                      name, number, quoted(line))};
         }
-        goals.push_back(*goal);
+        if (part_columns) {
+            std::optional<GoalPart> part = parsePart(line, *part_columns);
+            if (!part) {
+                return Error{ErrorCode::Invalid,
+                             fmt::format("{}: line {} does not tell map, part, model, radius_m "
+                                         "and exaggeration as a recording does",
+                                         name, number)};
+            }
+            if (recording.parts.empty() || !isSamePart(recording.parts.back(), *part)) {
+                part->first = recording.goals.size();
+                part->line = number;
+                recording.parts.push_back(*part);
+            }
+        }
+        recording.goals.push_back(*goal);
     }
     if (columns == 0) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: is empty; the header \"{}\" and a goal a line are needed",
                                  name, kHeader)};
     }
-    return goals;
+    return recording;
 }
 
 Result<std::string> readGoalText(const std::string& path)

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,7 +18,28 @@ namespace marsview {
 /// cannot be read.
 Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::string& name);
 
-/// The same of a file, or of standard input where `path` is "-".
+/// What goals were aimed at with, from `first` on.
+struct GoalPart {
+    std::size_t first = 0;  // of the goals
+    std::size_t line = 0;   // of the file, from 1
+    std::uint64_t map = 0;  // another number is another map
+    std::uint64_t part = 0; // another number is another contact model; one may come back
+    ContactModelKind kind = kContactModelDefault;
+    double radius_m = 1.0;
+    double exaggeration = 1.0;
+};
+
+/// Goals, and what a recording tells of them.
+struct GoalRecording {
+    std::vector<TracePoint> goals;
+    std::vector<GoalPart> parts; // in order; none where the file is but goals
+};
+
+/// The same as readGoals(), with the columns "map,part,model,radius_m,exaggeration" where the
+/// header has them.
+Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name);
+
+/// The text of a file, or of standard input where `path` is "-".
 Result<std::string> readGoalText(const std::string& path);
 
 } // namespace marsview

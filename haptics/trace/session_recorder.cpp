@@ -29,13 +29,15 @@ bool write(std::FILE* file, std::string_view text)
 
 std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
 {
-    return fmt::format("{},{},{},{:.6f},{},{},{},{},{},{},{},{},{},{}\n", asText(record.goal.x),
-                       asText(record.goal.y), asText(record.goal.z),
+    return fmt::format("{},{},{},{:.6f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                       asText(record.goal.x), asText(record.goal.y), asText(record.goal.z),
                        static_cast<double>(record.time_ns - begin_ns) * 1e-9, record.tick,
                        record.is_in_contact ? 1 : 0, asText(record.proxy.x), asText(record.proxy.y),
                        asText(record.proxy.z), asText(record.force_n.x), asText(record.force_n.y),
                        asText(record.force_n.z), nameOf(record.mode),
-                       letGoReasonName(record.reason));
+                       letGoReasonName(record.reason), record.ground.map_id, record.ground.serial,
+                       contactModelName(record.ground.kind), asText(record.ground.radius_m),
+                       asText(record.ground.exaggeration));
 }
 
 Result<std::unique_ptr<SessionRecorder>> SessionRecorder::begin(ServoLoop& loop,

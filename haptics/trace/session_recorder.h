@@ -15,9 +15,12 @@
 namespace marsview {
 
 /// A line a contact update. The first three columns are those of a file of goals: `trace --goals`
-/// gives the same proxies again, to the bit, and "replay:" aims at the same places.
+/// gives the same proxies again, to the bit, and "replay:" aims at the same places. The last five
+/// tell what they were aimed at with: `map` and `part` are numbers of the program's, another map
+/// and another contact model having another one.
 inline constexpr std::string_view kSessionColumns =
-    "x,y,z,time_s,tick,contact,proxy_x,proxy_y,proxy_z,force_x_n,force_y_n,force_z_n,mode,reason";
+    "x,y,z,time_s,tick,contact,proxy_x,proxy_y,proxy_z,force_x_n,force_y_n,force_z_n,mode,reason,"
+    "map,part,model,radius_m,exaggeration";
 
 /// One line with its end; times count from `begin_ns`.
 std::string sessionLine(const TickRecord& record, std::int64_t begin_ns);

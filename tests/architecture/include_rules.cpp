@@ -141,6 +141,9 @@ std::optional<std::string> violation(std::string_view path, std::string_view inc
         !path.starts_with("tests/haptics/drivers/")) {
         return refused("hidapi belongs to haptics/drivers");
     }
+    if (header.starts_with("AL/") && !path.starts_with("haptics/sound/")) {
+        return refused("OpenAL belongs to haptics/sound");
+    }
     if (!startsWithAny(header, kOurs)) {
         return is_system ? std::nullopt
                          : std::optional(refused("own headers are named from the source root"));

@@ -538,4 +538,60 @@ TEST(TraceCommand, PrintsNothingForNoGoals)
     EXPECT_EQ(json["ns"]["mean"], 0.0);
 }
 
+// As `loop --record` writes them, without what trace does not read.
+TEST(TraceCommand, FollowsWhatARecordingWasTouchedWith)
+{
+    // Goals that sink into the mountain and slide along in it.
+    const auto goal = [](int i) {
+        return fmt::format("{},{},{}", 562000 + 40 * i, 5115000 + 25 * i, 4000 - 150 * i);
+    };
+    const std::string columns = "x,y,z,time_s,map,part,model,radius_m,exaggeration\n";
+    std::string recording = columns;
+    std::string all_one = columns;
+    std::string plain = "x,y,z\n";
+    std::string first = plain;
+    std::string second = plain;
+    for (int i = 0; i < 60; ++i) {
+        // The first model comes back at the end, and goes on where it was.
+        const bool is_first = i < 20 || i >= 40;
+        recording += goal(i);
+        recording += is_first ? ",0,1,5,virtual-proxy,40,1\n" : ",0,1,6,god-object,1,3\n";
+        (is_first ? first : second) += goal(i) + "\n";
+        all_one += goal(i) + ",0,1,5,god-object,1,3\n";
+        plain += goal(i) + "\n";
+    }
+    const auto words = [](const std::vector<Row>& rows) {
+        std::vector<std::vector<std::string>> all;
+        for (const Row& row : rows) {
+            all.push_back(row.words);
+        }
+        return all;
+    };
+    const auto a = words(traced(helens(), first, {"--model", "virtual-proxy", "--radius", "40"}));
+    const auto b =
+        words(traced(helens(), second, {"--model", "god-object", "--exaggeration", "3"}));
+    auto expected = std::vector(a.begin(), a.begin() + 20);
+    expected.insert(expected.end(), b.begin(), b.end());
+    expected.insert(expected.end(), a.begin() + 20, a.end());
+    const auto rows = traced(helens(), recording);
+    EXPECT_EQ(words(rows), expected);
+    EXPECT_TRUE(rows.at(19).is_in_contact && rows.at(39).is_in_contact &&
+                rows.at(59).is_in_contact);
+    EXPECT_NE(a, words(traced(helens(), first))) << "or models do not matter here";
+
+    // What the command line says holds.
+    const std::vector<std::string> other{"--model", "surface-walk", "--exaggeration", "2"};
+    EXPECT_EQ(words(traced(helens(), all_one, other)), words(traced(helens(), plain, other)));
+
+    // Two maps are more than one.
+    const TempFolder folder;
+    const std::string two =
+        folder.write("two.csv", recording + goal(60) + ",0,2,7,god-object,1,1\n");
+    const ProgramOutput refused = runCli({"trace", helens(), "--goals", two});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_NE(refused.err.find("from line 62 on it is a recording of another map"),
+              std::string::npos)
+        << refused.err;
+}
+
 } // namespace marsview::test

@@ -2,6 +2,7 @@
 #include "haptics/loop/rt_scope.h"
 #include "tests/haptics/loop/tick_fixture.h"
 #include "tests/support/random.h"
+#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 
@@ -177,6 +178,50 @@ TEST(HapticTick, LetsGoForEveryReason)
               LetGoReason::NoTouch);
 }
 
+TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
+{
+    const TiledMap tiles =
+        tiledMap(floatTerrain(201, 201, [](std::size_t, std::size_t) { return 10.0; }));
+    const auto exchange = std::make_shared<WindowExchange>(
+        std::make_shared<const ResidentWindow>(tiles.window({100.0, 100.0})));
+    Rig rig(makeServoMap(metreFrame(201, 201),
+                         std::make_shared<ServoTerrain>(exchange, tiles.heights), {}));
+    const auto feed = [&] { exchange->fed_ns = rig.input.now.time_since_epoch() / 1ns; };
+    rig.at({});
+    const WorkspacePoint pressed{0.0, 0.0, -0.025};
+    EXPECT_NEAR(rig.to(pressed).force_n.z, 2.0, 1e-9) << "one that has not begun is not silent";
+    feed();
+    for (int i = 1; i <= 500; ++i) {
+        ASSERT_EQ(rig.at(pressed).reason, LetGoReason::None) << i << " ms";
+    }
+    rig.at(pressed);
+    for (int i = 0; i < 100; ++i) {
+        const StepResult result = rig.at(pressed);
+        ASSERT_EQ(result.reason, LetGoReason::TerrainStale);
+        ASSERT_EQ(result.force_n, Vec3{});
+    }
+    feed();
+    EXPECT_EQ(rig.at(pressed).reason, LetGoReason::None);
+    EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
+}
+
+TEST(HapticTick, KeepsWhatADeviceStandsForLong)
+{
+    DeviceCapabilities device = desktopDevice();
+    EXPECT_EQ(tickOptionsFor(device).limits.force_n_continuous, 3.3) << "not stated";
+    device.force_n_continuous = 0.9;
+    Rig rig;
+    rig.options.limits.force_n_continuous = tickOptionsFor(device).limits.force_n_continuous;
+    rig.at({});
+    EXPECT_NEAR(rig.to({0.0, 0.0, -0.025}).force_n.z, 2.0, 1e-9);
+    StepResult result;
+    for (int i = 0; i < 40'000; ++i) {
+        result = rig.at({0.0, 0.0, -0.025});
+    }
+    EXPECT_NEAR(result.force_n.z, 0.9, 1e-3);
+    EXPECT_EQ(result.reason, LetGoReason::None);
+}
+
 TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
 {
     Rig rig;
@@ -328,6 +373,8 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
     for (int i = 0; i < kTicks; ++i) {
         if (i % 20'000 == 0) {
             rig.device.force_n_peak = random.uniform(0.5, 10.0);
+            rig.device.force_n_continuous =
+                random.chance(0.5) ? random.uniform(0.1, rig.device.force_n_peak) : 0.0;
             rig.device.stiffness_n_per_m_max = random.uniform(100.0, 2000.0);
             rig.options = tickOptionsFor(rig.device);
             rig.options.is_passivity_kept = random.chance(0.8);

@@ -137,6 +137,121 @@ TEST(SafetyLimiter, LimitsThatAreNoLimitsLetNothingThrough)
     }
 }
 
+// Of a small desktop device.
+constexpr SafetyLimits kWarmLimits{.force_n_max = 3.3,
+                                   .force_n_continuous = 0.9,
+                                   .heat_s = 5.0,
+                                   .rate_n_per_s_max = 500.0,
+                                   .release_n_per_s_max = 2000.0,
+                                   .ramp_s = 1e-3,
+                                   .change_ramp_s = 1e-3};
+
+TEST(SafetyLimiter, StrongForMomentsAndContinuousForLong)
+{
+    SafetyState state;
+    double root_mean_square_n = 0.0;
+    double squares_n2 = 0.0; // an independent low-pass, by Euler's steps
+    for (int i = 1; i <= 60'000; ++i) {
+        const Vec3 force_n =
+            limitForce(kWarmLimits, {.force_n = {0.0, 30.0, 40.0}}, state, kDt).force_n;
+        EXPECT_NEAR(force_n.z * 0.75, force_n.y, 1e-9); // its direction stays
+        squares_n2 += kDt / 5.0 * (dot(force_n, force_n) - squares_n2);
+        root_mean_square_n = std::max(root_mean_square_n, std::sqrt(squares_n2));
+        // By hand: 3.3² (1 - exp(-t / 5 s)) is 0.64 × 0.9² at 0.244 s.
+        if (i > 10 && i < 240) {
+            EXPECT_NEAR(length(force_n), 3.3, 1e-9) << i;
+        }
+        if (i == 260) {
+            EXPECT_LT(length(force_n), 3.29);
+        }
+    }
+    EXPECT_NEAR(length(state.force_n), 0.9, 1e-6);
+    EXPECT_LE(root_mean_square_n, 0.9001);
+}
+
+TEST(SafetyLimiter, NoForcesHeatMoreThanTheContinuousOneDoes)
+{
+    Random random;
+    double hottest = 0.0; // root mean square, as a share of the continuous force
+    for (int device = 0; device < 40; ++device) {
+        const double lasting_n = random.uniform(0.5, 3.0);
+        const SafetyLimits limits{.force_n_max = lasting_n * random.uniform(1.0, 8.0),
+                                  .force_n_continuous = lasting_n,
+                                  .heat_s = random.uniform(1.0, 10.0),
+                                  .rate_n_per_s_max = random.uniform(300.0, 3000.0),
+                                  .ramp_s = 0.1,
+                                  .change_ramp_s = 0.02};
+        SafetyState state;
+        double squares_n2 = 0.0;
+        Vec3 force_n{};
+        for (int i = 0; i < 30'000; ++i) {
+            const double dt_s = random.uniform(0.5e-3, 1.5e-3);
+            // The last force is on until this tick.
+            squares_n2 += dt_s / limits.heat_s * (dot(force_n, force_n) - squares_n2);
+            SafetyInput input{.has_changed = random.chance(1e-4)};
+            const double strength_n = i / 5'000 % 2 == 0 ? 40.0 : 2.0 * lasting_n;
+            input.force_n = {random.uniform(-0.1, 1.0) * strength_n,
+                             random.uniform(-0.1, 1.0) * strength_n, 0.0};
+            force_n = limitForce(limits, input, state, dt_s).force_n;
+            const double share = std::sqrt(squares_n2) / lasting_n;
+            ASSERT_LE(share, 1.001) << "device " << device << " tick " << i;
+            hottest = std::max(hottest, share);
+        }
+    }
+    std::printf("hottest: %.6f of what the continuous force brings about\n", hottest);
+    EXPECT_GT(hottest, 0.95); // or the bound was never tried
+}
+
+TEST(SafetyLimiter, WhatMayLastIsNeverTouched)
+{
+    SafetyState state;
+    for (int i = 1; i <= 60'000; ++i) {
+        const SafetyOutput output =
+            limitForce(kWarmLimits, {.force_n = {0.9, 0.0, 0.0}}, state, kDt);
+        if (i > 10) {
+            ASSERT_NEAR(output.force_n.x, 0.9, 1e-12);
+        }
+    }
+    // And without a continuous force there is the peak alone.
+    SafetyState strong;
+    steps(strong, {3.0, 0.0, 0.0}, 60'000);
+    EXPECT_NEAR(strong.force_n.x, 3.0, 1e-12);
+}
+
+TEST(SafetyLimiter, CoolsDownWhileNothingPushes)
+{
+    SafetyState state;
+    const auto hold = [&state](const Vec3& force_n, LetGoReason reason, int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            limitForce(kWarmLimits, {.force_n = force_n, .reason = reason}, state, kDt);
+        }
+        return length(state.force_n);
+    };
+    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, LetGoReason::None, 30'000), 0.9, 1e-3);
+    EXPECT_EQ(hold({3.3, 0.0, 0.0}, LetGoReason::NotHeld, 1'000), 0.0);
+    EXPECT_LT(hold({3.3, 0.0, 0.0}, LetGoReason::None, 100), 2.5) << "still warm";
+    EXPECT_EQ(hold({}, LetGoReason::NotHeld, 20'000), 0.0);
+    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, LetGoReason::None, 100), 3.3, 1e-9) << "cold again";
+    EXPECT_NEAR(cooledHeat(kWarmLimits, 4.0, 5.0), 4.0 / std::exp(1.0), 1e-12);
+    EXPECT_EQ(cooledHeat(kWarmLimits, 4.0, -5.0), 4.0);
+}
+
+TEST(SafetyLimiter, AHeatThatIsNoNumberIsHot)
+{
+    for (const double bad : {kNan, kInfinity, -1.0}) {
+        SafetyState state{.heat_n2 = bad};
+        for (int i = 0; i < 100; ++i) {
+            EXPECT_LE(
+                length(limitForce(kWarmLimits, {.force_n = {3.3, 0.0, 0.0}}, state, kDt).force_n),
+                0.9 + 1e-12);
+        }
+    }
+    for (const double bad : {kNan, 0.0, -1.0}) {
+        EXPECT_EQ(warmForceMax({.force_n_max = 3.0, .force_n_continuous = bad}, 0.0), 0.0);
+    }
+    EXPECT_EQ(warmForceMax({.force_n_max = 3.0, .force_n_continuous = 5.0}, 1e9), 3.0);
+}
+
 TEST(SafetyLimiter, EveryReasonHasAName)
 {
     for (std::uint8_t i = 0; i < kLetGoReasonCount; ++i) {
@@ -180,6 +295,9 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
             state = {};
             last = {};
             limits = {.force_n_max = random.uniform(0.1, 40.0),
+                      .force_n_continuous =
+                          random.chance(0.1) ? anyNumber(random) : random.uniform(0.1, 40.0),
+                      .heat_s = random.chance(0.1) ? anyNumber(random) : random.uniform(0.1, 9.0),
                       .rate_n_per_s_max = random.uniform(10.0, 5000.0),
                       .release_n_per_s_max = random.uniform(10.0, 20000.0),
                       .ramp_s = random.chance(0.1) ? anyNumber(random) : random.uniform(0.0, 1.0),

@@ -1,3 +1,4 @@
+#include "core/base/plain_number.h"
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/drivers/sim_driver.h"
 #include "haptics/loop/servo_loop.h"
@@ -10,6 +11,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <fmt/format.h>
+#include <map>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -279,6 +282,94 @@ TEST(ServoLoop, ARecordingReplaysToTheSameProxiesToTheBit)
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         ASSERT_EQ(a[i], b[i]) << "line " << i + 1;
+    }
+}
+
+TEST(SessionRecorder, ARecordingTellsWhatItWasTouchedWithWhereThatChanges)
+{
+    // Other models and exaggerations while the hand is on the ground, and one that comes back.
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    const auto filled = filledTerrain(201, 201, bumps);
+    const auto made = [&](ContactModelKind kind, double exaggeration, double radius_m) {
+        const GoalFrame frame(std::make_shared<const Georeference>(
+                                  201, 201,
+                                  GeoTransform::fromTerms({-0.5, 1.0, 0.0, 0.5, 0.0, -1.0}).value(),
+                                  std::nullopt),
+                              exaggeration);
+        return makeServoMap(frame, filled, {.kind = kind, .contact = {.radius_m = radius_m}});
+    };
+    const std::vector maps{made(ContactModelKind::ContinuousWalk, 1.0, 1.0),
+                           made(ContactModelKind::VirtualProxy, 1.0, 0.75),
+                           made(ContactModelKind::GodObject, 2.5, 1.0)};
+    {
+        ServoLoop loop(simulated(), quick(0));
+        auto recorder = SessionRecorder::begin(loop, path);
+        ASSERT_TRUE(recorder);
+        for (int i = 0; i < 8; ++i) {
+            loop.set(settingsFor(maps[static_cast<std::size_t>(i) % maps.size()]));
+            const std::uint64_t until = loop.state().tick + 500;
+            while (loop.state().tick < until) {
+                std::this_thread::yield();
+            }
+        }
+        loop.stop();
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+    }
+    const std::string text = readFile(path);
+    const auto recording = readGoalRecording(text, path);
+    ASSERT_TRUE(recording) << recording.error().message;
+    ASSERT_EQ(recording->parts.size(), 8U);
+    EXPECT_EQ(recording->parts[1].kind, ContactModelKind::VirtualProxy);
+    EXPECT_EQ(recording->parts[1].radius_m, 0.75);
+    EXPECT_EQ(recording->parts[2].exaggeration, 2.5);
+    EXPECT_EQ(recording->parts[3].part, recording->parts[0].part);
+    EXPECT_EQ(recording->parts[7].map, recording->parts[0].map);
+
+    // Models made anew from what the file tells go the same ways, to the bit.
+    std::map<std::uint64_t, std::shared_ptr<ServoMap>> again;
+    std::size_t begin = text.find('\n') + 1;
+    std::size_t in_contact = 0;
+    for (std::size_t p = 0; p < recording->parts.size(); ++p) {
+        const GoalPart& part = recording->parts[p];
+        auto& map = again[part.part];
+        map = map ? map : made(part.kind, part.exaggeration, part.radius_m);
+        const std::size_t end = p + 1 < recording->parts.size() ? recording->parts[p + 1].first
+                                                                : recording->goals.size();
+        for (std::size_t i = part.first; i < end; ++i) {
+            const TracePoint& goal = recording->goals[i];
+            const ContactState state = map->model->update(map->frame.toScene(goal));
+            const TracePoint proxy = state.is_in_contact || map->frame.isClamped(goal)
+                                         ? map->frame.fromScene(state.proxy)
+                                         : goal;
+            const std::size_t line_end = text.find('\n', begin);
+            const std::string line = text.substr(begin, line_end - begin);
+            ASSERT_NE(line.find(fmt::format(",{},{},{},{},", state.is_in_contact ? 1 : 0,
+                                            asText(proxy.x), asText(proxy.y), asText(proxy.z))),
+                      std::string::npos)
+                << "goal " << i << " of part " << p << ": " << line;
+            begin = line_end + 1;
+            in_contact += state.is_in_contact ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(in_contact, 500U);
+}
+
+TEST(GoalFile, SaysWhichLineOfARecordingItCannotRead)
+{
+    const std::string header = "x,y,z,map,part,model,radius_m,exaggeration\n";
+    const auto goals = readGoalRecording(header + "1,2,3,1,7,god-object,0.5,2\n", "a.csv");
+    ASSERT_TRUE(goals);
+    ASSERT_EQ(goals->parts.size(), 1U);
+    EXPECT_EQ(goals->parts[0].kind, ContactModelKind::GodObject);
+    EXPECT_TRUE(readGoalRecording("x,y,z\n1,2,3\n", "a.csv")->parts.empty());
+    for (const char* line : {"1,2,3,1,7,god-objects,0.5,2", "1,2,3,1,7,god-object,0.5",
+                             "1,2,3,1,7,god-object,0,2", "1,2,3,1,7,god-object,0.5,nan",
+                             "1,2,3,-1,7,god-object,0.5,2", "1,2,3,1,,god-object,0.5,2"}) {
+        const auto refused = readGoalRecording(header + line + "\n", "a.csv");
+        ASSERT_FALSE(refused) << line;
+        EXPECT_TRUE(refused.error().message.starts_with("a.csv: line 2 ")) << line;
     }
 }
 

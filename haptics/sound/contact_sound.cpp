@@ -1,0 +1,51 @@
+#include "haptics/sound/contact_sound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+// Of each, what makes 63 % of the effect: presses, strokes and slopes as hands and maps have them.
+constexpr double kForceN = 1.0;
+constexpr double kSpeedMPerS = 0.05;
+constexpr double kRoughnessRad = 0.15;
+
+// Smooth ground hisses as well, or sliding over it would not be heard.
+constexpr double kSmoothShare = 0.25;
+
+// 0 at 0 and below, towards 1 far above `scale`.
+double saturated(double value, double scale) noexcept
+{
+    return value > 0.0 ? -std::expm1(-value / scale) : 0.0;
+}
+
+bool isNumber(const ContactFeel& feel) noexcept
+{
+    return !std::isnan(feel.force_n) && !std::isnan(feel.speed_m_per_s) &&
+           !std::isnan(feel.roughness_rad) && !std::isnan(feel.height_share) &&
+           !std::isnan(feel.across);
+}
+
+} // namespace
+
+SoundState contactSound(const ContactFeel& feel) noexcept
+{
+    if (!feel.is_in_contact || !isNumber(feel)) {
+        return {};
+    }
+    const double press = saturated(feel.force_n, kForceN);
+    const double slide = saturated(feel.speed_m_per_s, kSpeedMPerS);
+    const double rough = saturated(feel.roughness_rad, kRoughnessRad);
+    const double height = std::clamp(feel.height_share, 0.0, 1.0);
+    const double texture = kSmoothShare + (1.0 - kSmoothShare) * rough;
+    // Ears hear ratios: equal steps of height are equal intervals.
+    return {.noise_gain = kNoiseGainMax * press * slide * texture,
+            .noise_pitch = std::clamp(0.5 * std::exp2(2.0 * slide), 0.5, 2.0),
+            .tone_gain = kToneGainMax * press,
+            .tone_hz = std::clamp(kToneHzMin * std::pow(kToneHzMax / kToneHzMin, height),
+                                  kToneHzMin, kToneHzMax),
+            .pan = std::clamp(feel.across, -1.0, 1.0)};
+}
+
+} // namespace marsview
