@@ -67,6 +67,10 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     connect(finder_, &DeviceFinder::opened, this, [this] { start(finder_->takeOpened()); });
     connect(finder_, &DeviceFinder::refused, this, [this](const QString& problem) {
         connection_ = HapticsConnection::None;
+        if (is_quiet_) {
+            wanted_uri_ = uri_;
+            was_wanted_gone_ = true;
+        }
         setProblem(problem);
         setLooking(is_looking_);
     });
@@ -139,7 +143,7 @@ void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
             return device.isUsable() && QString::fromStdString(device.uri) == wanted_uri_;
         });
     if (is_there && was_wanted_gone_) {
-        connectTo(wanted_uri_);
+        connectTo(QString(wanted_uri_)); // which is cleared by it
     }
     was_wanted_gone_ = was_wanted_gone_ || !is_there;
 }
@@ -148,11 +152,20 @@ void HapticsController::connectTo(const QString& uri)
 {
     close();
     wanted_uri_.clear();
+    is_quiet_ = false;
     uri_ = uri;
     connection_ = HapticsConnection::Opening;
     setProblem({});
     setLooking(is_looking_);
     finder_->open(uri);
+}
+
+void HapticsController::connectToRemembered()
+{
+    if (!settings_.device.isEmpty()) {
+        connectTo(QString(settings_.device));
+        is_quiet_ = true;
+    }
 }
 
 void HapticsController::disconnectDevice()
@@ -170,6 +183,7 @@ void HapticsController::start(std::unique_ptr<HapticDevice> device)
 {
     loop_ = std::make_unique<ServoLoop>(std::move(device));
     connection_ = HapticsConnection::Connected;
+    is_quiet_ = false;
     if (isToBeRemembered(uri_)) {
         HapticsSettings settings = settings_;
         settings.device = uri_;
@@ -228,7 +242,7 @@ void HapticsController::finishLost(const LoopState& state)
     if (state.reason == LetGoReason::DeviceFinished) {
         setProblem(tr("The recording has ended"));
     } else {
-        wanted_uri_ = uri;
+        wanted_uri_ = uri; // once it is there again
         was_wanted_gone_ = false;
         setProblem(trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
                                    //: %1 is a device, %2 a sentence about it

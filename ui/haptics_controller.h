@@ -46,6 +46,9 @@ public:
 
     /// In place of what is connected.
     void connectTo(const QString& uri);
+    /// The device of the settings. Where it is not there nobody is bothered; it is connected when
+    /// it is found.
+    void connectToRemembered();
     /// And forgets it.
     void disconnectDevice();
     /// The same, but it is connected again at the next start.
@@ -58,6 +61,8 @@ public:
     /// Why the last device was refused, or is no longer connected; empty where all is well. A
     /// sentence for people.
     const QString& problem() const noexcept { return problem_; }
+    /// The same, but empty where it can wait until somebody looks for it.
+    QString notice() const { return is_quiet_ ? QString() : problem_; }
 
     // What is felt.
 
@@ -131,6 +136,7 @@ private:
     HapticsConnection connection_ = HapticsConnection::None;
     QString uri_;
     QString problem_;
+    bool is_quiet_ = false; // nobody has asked for the device this time
     HapticsSettings settings_;
     ContactModelKind model_ = kContactModelDefault;
     bool is_stopped_ = false;

@@ -154,9 +154,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectHaptics();
     setPreferences(isRemembered() ? preferencesFrom(QSettings()) : Preferences{});
     showSession();
-    if (const QString device = haptics_->settings().device; !device.isEmpty()) {
-        haptics_->connectTo(device);
-    }
+    haptics_->connectToRemembered();
     view_->setFocus();
 }
 
@@ -268,8 +266,10 @@ void MainWindow::connectPanels()
             });
     connect(notices_, &NoticeBar::detailsRequested, this,
             [this] { docks_->reveal(*docks_->georeferencing()); });
-    connect(notices_, &NoticeBar::actionRequested, this,
-            [this] { controller_->prepare(session().active); });
+    connect(notices_, &NoticeBar::actionRequested, this, [this] {
+        haptics_->isStopped() ? haptics_->setStopped(false)
+                              : controller_->prepare(session().active);
+    });
     connect(tool_bar_, &MainToolBar::exaggerationRequested, view_, &TerrainView::setExaggeration);
     connect(light_popup_, &LightPopup::lightChanged, controller_, &SessionController::setLight);
     connect(load_status_, &LoadStatus::cancelRequested, this, &MainWindow::cancelLoading);
@@ -354,16 +354,7 @@ void MainWindow::connectHaptics()
             save(haptics_->settings(), settings);
         }
     });
-    connect(haptics_, &HapticsController::stoppedChanged, this, [this](bool is_stopped) {
-        if (is_stopped) {
-            //: In the status bar
-            statusBar()->showMessage(
-                tr("Emergency stop: no force until it is taken back in the "
-                   "haptics panel"));
-        } else {
-            statusBar()->clearMessage();
-        }
-    });
+    connect(haptics_, &HapticsController::stoppedChanged, this, &MainWindow::showHaptics);
     connect(haptics_, &HapticsController::recordingFailed, this,
             [this](const QString& problem) { reportFailure(tr("Cannot Record"), problem); });
     connect(actions_->haptic_devices, &QAction::triggered, this, [this] {
@@ -499,7 +490,9 @@ void MainWindow::showPreparation()
     const bool is_stopped = state == PreparationState::Stopped || state == PreparationState::Failed;
     actions_->layer.prepare->setEnabled(is_stopped);
     const QString problem = dataset ? view_->problem() : QString();
-    const QString device = haptics_->problem();
+    const QString device = haptics_->isStopped()
+                               ? tr("Emergency stop: the haptic device does not push")
+                               : haptics_->notice();
     if (dataset == noticed_ && state == noticed_state_ && problem == noticed_problem_ &&
         device == noticed_device_) {
         return; // it may have been closed
@@ -541,7 +534,8 @@ void MainWindow::showPreparation()
     }
     if (!device.isEmpty()) {
         notices.prepend(device);
-        action.clear();
+        //: On a button: after an emergency stop of the haptic device
+        action = haptics_->isStopped() ? tr("Let Forces Return") : QString();
     }
     notices_->setNotices(notices, action);
 }

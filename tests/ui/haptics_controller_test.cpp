@@ -18,7 +18,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <set>
 
@@ -70,6 +72,51 @@ protected:
     {
         hand_->moveTo({0.0, 0.0, -0.055});
         return waitFor([&] { return hand_->force_n > 0.5; });
+    }
+
+    bool record(const QString& file)
+    {
+        QSignalSpy recorded(&haptics(), &HapticsController::recorded);
+        if (!haptics().startRecording(file)) {
+            return false;
+        }
+        const std::int64_t begin_ns =
+            std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+        const bool is_long_enough = waitFor([&] {
+            const LoopState now = state();
+            return now.time_ns > begin_ns && now.counts.in_contact > 500;
+        });
+        haptics().stopRecording();
+        EXPECT_EQ(state().counts.not_recorded, 0U);
+        return is_long_enough && recorded.count() == 1 && recorded[0][1].toULongLong() > 500;
+    }
+    // As a batch does it: the goals alone, to a model that nothing has touched.
+    void expectSameProxies(const QString& file)
+    {
+        const SceneMap& map = view().ground().maps().front();
+        const auto& dataset = map.map.dataset;
+        const double exaggeration = view().exaggeration();
+        const GoalFrame frame({dataset, &dataset->georeference()}, map.frame, exaggeration);
+        const auto model = makeContactModel(
+            kContactModelDefault, {map.map.filled, map.frame, exaggeration}, {.radius_m = 1.0});
+        QFile text(file);
+        ASSERT_TRUE(text.open(QIODevice::ReadOnly));
+        const QList<QByteArray> lines = text.readAll().trimmed().split('\n');
+        ASSERT_GT(lines.size(), 500);
+        ASSERT_EQ(lines[0].trimmed().toStdString(), kSessionColumns);
+        int contacts = 0;
+        for (int i = 1; i < lines.size(); ++i) {
+            const QList<QByteArray> cells = lines[i].split(',');
+            const TracePoint goal{cells[0].toDouble(), cells[1].toDouble(), cells[2].toDouble()};
+            const ContactState at = model->update(frame.toScene(goal));
+            const TracePoint proxy = at.is_in_contact ? frame.fromScene(at.proxy) : goal;
+            ASSERT_EQ(cells[5].toInt() != 0, at.is_in_contact) << "line " << i;
+            ASSERT_EQ(cells[6].toDouble(), proxy.x) << "line " << i;
+            ASSERT_EQ(cells[7].toDouble(), proxy.y) << "line " << i;
+            ASSERT_EQ(cells[8].toDouble(), proxy.z) << "line " << i;
+            contacts += at.is_in_contact ? 1 : 0;
+        }
+        EXPECT_GT(contacts, 300);
     }
 
     TestMaps maps_;
@@ -314,41 +361,11 @@ TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
 {
     ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.2,lift_s=1")));
     ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
-    QSignalSpy recorded(&haptics(), &HapticsController::recorded);
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    ASSERT_TRUE(haptics().startRecording(file));
-    const auto begun_ticks = state().counts.in_contact;
-    ASSERT_TRUE(waitFor([&] { return state().counts.in_contact > begun_ticks + 500; }));
-    haptics().stopRecording();
-    ASSERT_EQ(recorded.count(), 1);
-    EXPECT_GT(recorded[0][1].toULongLong(), 500U);
-    EXPECT_EQ(state().counts.not_recorded, 0U);
-
-    // As a batch does it: the goals alone, to a model that nothing has touched.
-    const SceneMap& map = view().ground().maps().front();
-    const auto& dataset = map.map.dataset;
-    const GoalFrame frame({dataset, &dataset->georeference()}, map.frame, view().exaggeration());
-    const auto model =
-        makeContactModel(kContactModelDefault, {map.map.filled, map.frame, view().exaggeration()},
-                         {.radius_m = 1.0});
-    QFile text(file);
-    ASSERT_TRUE(text.open(QIODevice::ReadOnly));
-    const QList<QByteArray> lines = text.readAll().trimmed().split('\n');
-    ASSERT_GT(lines.size(), 500);
-    ASSERT_EQ(lines[0].trimmed().toStdString(), kSessionColumns);
-    int contacts = 0;
-    for (int i = 1; i < lines.size(); ++i) {
-        const QList<QByteArray> cells = lines[i].split(',');
-        const TracePoint goal{cells[0].toDouble(), cells[1].toDouble(), cells[2].toDouble()};
-        const ContactState at = model->update(frame.toScene(goal));
-        const TracePoint proxy = at.is_in_contact ? frame.fromScene(at.proxy) : goal;
-        ASSERT_EQ(cells[5].toInt() != 0, at.is_in_contact) << "line " << i;
-        ASSERT_EQ(cells[6].toDouble(), proxy.x) << "line " << i;
-        ASSERT_EQ(cells[7].toDouble(), proxy.y) << "line " << i;
-        ASSERT_EQ(cells[8].toDouble(), proxy.z) << "line " << i;
-        contacts += at.is_in_contact ? 1 : 0;
+    for (int i = 0; i < 2; ++i) { // the second knows nothing of the first
+        ASSERT_TRUE(record(file));
+        expectSameProxies(file);
     }
-    EXPECT_GT(contacts, 300);
 
     // And the program: the same hand without one.
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
@@ -404,6 +421,21 @@ TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
     makeWindow(WindowOptions::Geometry::Remembered);
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
     EXPECT_EQ(haptics().settings().stiffness_n_per_m, 120.0);
+    QSettings().remove(QStringLiteral("haptics"));
+}
+
+TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
+{
+    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:"));
+    makeWindow(WindowOptions::Geometry::Remembered);
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_NE(haptics().problem(), QString()); // for who looks into the panel
+    EXPECT_EQ(haptics().notice(), QString());
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("gone:"));
+    haptics().connectTo(QStringLiteral("gone:"));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_NE(haptics().notice(), QString());
     QSettings().remove(QStringLiteral("haptics"));
 }
 

@@ -90,6 +90,8 @@ TEST_F(HapticsPanelTest, ShowsForceAndTimesWhileConnected)
 {
     ASSERT_TRUE(connectByKeys(2));
     EXPECT_TRUE(text("hapticStatus").startsWith(QStringLiteral("Simulated hand")));
+    EXPECT_TRUE(list().item(2)->font().bold());
+    EXPECT_FALSE(list().item(0)->font().bold());
     auto& force = part<QProgressBar>("force");
     EXPECT_TRUE(waitFor([&] { return force.value() > 10; }));
     EXPECT_EQ(text("letGoReason"), QStringLiteral("Touching the ground"));

@@ -9,6 +9,7 @@
 #include <QBoxLayout>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QEvent>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
@@ -58,8 +59,8 @@ QHBoxLayout* makeLine(QLabel* caption, QLabel* value)
 {
     auto* line = new QHBoxLayout;
     line->addWidget(caption);
-    line->addStretch(1);
-    line->addWidget(value);
+    line->addWidget(value, 1);
+    value->setAlignment(Qt::AlignTrailing | Qt::AlignVCenter);
     return line;
 }
 
@@ -87,6 +88,7 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     scroll->setFocusPolicy(Qt::NoFocus); // its controls scroll into sight
     auto* content = new QWidget(scroll);
     auto* layout = new QVBoxLayout(content);
+    layout->setContentsMargins(6, 6, 6, 6);
     layout->setSpacing(4);
     makeDevices(*layout);
     makeForce(*layout);
@@ -129,8 +131,8 @@ void HapticsPanel::makeDevices(QBoxLayout& layout)
     list_->setTextElideMode(Qt::ElideNone);
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setResizeMode(QListView::Adjust);
-    list_->setMinimumHeight(fontMetrics().height() * 7);
-    list_->setMaximumHeight(fontMetrics().height() * 11);
+    list_->setSpacing(2);
+    list_->setFixedHeight(fontMetrics().height() * 9);
     connect(list_, &QListWidget::currentItemChanged, this, &HapticsPanel::showConnectButton);
     connect(list_, &QListWidget::itemActivated, this, [this](QListWidgetItem* item) {
         if (item->data(kUsableRole).toBool()) {
@@ -221,7 +223,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     connect(models_, &QComboBox::activated, this,
             [this](int index) { model_actions_.actions().at(index)->trigger(); });
     layout.addWidget(models_);
-    walls_ = new QCheckBox(tr("&Walls around the workspace"), this);
+    walls_ = new QCheckBox(tr("&Walls at the edges"), this);
     walls_->setObjectName(QStringLiteral("walls"));
     walls_->setToolTip(tr("Keep the hand where the device works best"));
     connect(walls_, &QCheckBox::toggled, this, [this](bool has_walls) {
@@ -243,6 +245,11 @@ void HapticsPanel::makeTimes(QBoxLayout& layout)
            "the longest.");
     const auto make_plot = [&](TimePlot*& plot, QLabel*& value, const QString& text) {
         value = new QLabel(this);
+        // No wider than there is room: the tip and the plot tell the rest.
+        value->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+        QFont small = value->font();
+        small.setPointSizeF(small.pointSizeF() * 0.88);
+        value->setFont(small);
         value->setToolTip(tip);
         value->setObjectName(QStringLiteral("times"));
         plot = new TimePlot(this);
@@ -298,6 +305,16 @@ void HapticsPanel::hideEvent(QHideEvent* event)
     controller_.setLooking(false);
 }
 
+// Colours of our own go by the palette.
+void HapticsPanel::changeEvent(QEvent* event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && stop_ != nullptr) {
+        showDevices();
+        showStopped();
+    }
+}
+
 void HapticsPanel::showDevices()
 {
     const QString before = chosenUri();
@@ -330,6 +347,7 @@ void HapticsPanel::showDevices()
             }
         }
     }
+    markConnected();
     showConnectButton();
 }
 
@@ -367,8 +385,25 @@ void HapticsPanel::showConnectButton()
     }
 }
 
+// The device that is connected stands out, and is the current one when it comes.
+void HapticsPanel::markConnected()
+{
+    const bool is_connected = controller_.connection() == HapticsConnection::Connected;
+    for (int i = 0; i < list_->count(); ++i) {
+        QListWidgetItem* item = list_->item(i);
+        const bool is_it = is_connected && item->data(kUriRole).toString() == controller_.uri();
+        QFont font = item->font();
+        if (is_it && !font.bold()) {
+            list_->setCurrentItem(item);
+        }
+        font.setBold(is_it);
+        item->setFont(font);
+    }
+}
+
 void HapticsPanel::showConnection()
 {
+    markConnected();
     showConnectButton();
     switch (controller_.connection()) {
     case HapticsConnection::None:
@@ -390,6 +425,7 @@ void HapticsPanel::showConnection()
     }
     showNoState();
     showSettings();
+    showStopped();
     showRecording();
 }
 
@@ -423,13 +459,15 @@ void HapticsPanel::showSettings()
 void HapticsPanel::showStopped()
 {
     const bool is_stopped = controller_.isStopped();
+    const bool is_of_use = is_stopped || controller_.loop() != nullptr;
+    stop_->setEnabled(is_of_use);
     stop_->setText(is_stopped ? tr("Let Forces Return") : tr("Emergency &Stop"));
     stop_->setToolTip(is_stopped ? tr("The device may push again; forces come back gently")
                                  : tr("Let go of everything at once (Ctrl+. or Pause, anywhere)"));
     // Red as such buttons are everywhere, with white text, in every palette.
     QPalette colors = palette();
-    if (!is_stopped) {
-        colors.setColor(QPalette::Button, QColor(176, 32, 32));
+    if (is_of_use && !is_stopped) {
+        colors.setColor(QPalette::Button, QColor(150, 20, 20));
         colors.setColor(QPalette::ButtonText, Qt::white);
     }
     stop_->setPalette(colors);

@@ -43,6 +43,7 @@ public Q_SLOTS:
 protected:
     void showEvent(QShowEvent* event) override;
     void hideEvent(QHideEvent* event) override;
+    void changeEvent(QEvent* event) override;
 
 private:
     void makeDevices(QBoxLayout& layout);
@@ -50,6 +51,7 @@ private:
     void makeTimes(QBoxLayout& layout);
     void makeRecording(QBoxLayout& layout);
     void showDevices();
+    void markConnected();
     void showConnection();
     void showConnectButton();
     void showSettings();

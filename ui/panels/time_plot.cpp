@@ -43,7 +43,7 @@ void TimePlot::clear()
 
 QSize TimePlot::sizeHint() const
 {
-    return {160, fontMetrics().height() * 5 / 2};
+    return {160, fontMetrics().height() * 2};
 }
 
 void TimePlot::paintEvent(QPaintEvent* /*event*/)
