@@ -1,10 +1,12 @@
 #include "ui/main_window.h"
 
 #include "core/view/exaggeration.h"
+#include "haptics/drivers/built_in_drivers.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/keys_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
+#include "ui/haptics_controller.h"
 #include "ui/light_popup.h"
 #include "ui/load_status.h"
 #include "ui/main_tool_bar.h"
@@ -12,6 +14,7 @@
 #include "ui/notice_bar.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
+#include "ui/panels/haptics_panel.h"
 #include "ui/recent_files.h"
 #include "ui/status_readout.h"
 #include "ui/terrain_view.h"
@@ -28,6 +31,7 @@
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QImage>
+#include <QListWidget>
 #include <QMenu>
 #include <QMessageBox>
 #include <QMimeData>
@@ -79,6 +83,11 @@ QString shortName(const QString& name)
                : name.first(kLengthMax / 2) + QChar(0x2026) + name.last(kLengthMax / 2);
 }
 
+DriverMaker driversOf(const WindowOptions& options)
+{
+    return options.make_drivers ? options.make_drivers : [] { return builtInDrivers(); };
+}
+
 QString folderKey()
 {
     return QStringLiteral("files/folder");
@@ -106,7 +115,11 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     , notices_(new NoticeBar(this))
     , datasets_(new DatasetPanel(actions_->layer, this))
     , georeferencing_(new GeoreferencingPanel(this))
-    , docks_(new WindowDocks(*this, datasets_, georeferencing_))
+    , haptics_(new HapticsController(*view_, driversOf(options), this))
+    , haptics_panel_(new HapticsPanel(*haptics_, *actions_->contact_model_group, this))
+    , docks_(new WindowDocks(
+          *this,
+          {.datasets = datasets_, .georeferencing = georeferencing_, .haptics = haptics_panel_}))
     , tool_bar_(new MainToolBar(*actions_, this))
     , readout_(new StatusReadout(this))
     , load_status_(new LoadStatus(this))
@@ -127,6 +140,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     makeStatusBar();
     actions_->panels->addAction(docks_->datasets()->toggleViewAction());
     actions_->panels->addAction(docks_->georeferencing()->toggleViewAction());
+    actions_->panels->addAction(docks_->haptics()->toggleViewAction());
     actions_->panels->addSeparator();
     actions_->panels->addActions(overlays_->visibilityActions());
     connectActions();
@@ -135,13 +149,20 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectView();
     if (isRemembered()) {
         restoreWindow();
+        haptics_->setSettings(hapticsSettingsFrom(QSettings()));
     }
+    connectHaptics();
     setPreferences(isRemembered() ? preferencesFrom(QSettings()) : Preferences{});
     showSession();
+    haptics_->connectToRemembered();
     view_->setFocus();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow()
+{
+    delete haptics_panel_; // it looks at the controller
+    delete haptics_;       // and that at the view
+}
 
 void MainWindow::makeCentre()
 {
@@ -245,8 +266,10 @@ void MainWindow::connectPanels()
             });
     connect(notices_, &NoticeBar::detailsRequested, this,
             [this] { docks_->reveal(*docks_->georeferencing()); });
-    connect(notices_, &NoticeBar::actionRequested, this,
-            [this] { controller_->prepare(session().active); });
+    connect(notices_, &NoticeBar::actionRequested, this, [this] {
+        haptics_->isStopped() ? haptics_->setStopped(false)
+                              : controller_->prepare(session().active);
+    });
     connect(tool_bar_, &MainToolBar::exaggerationRequested, view_, &TerrainView::setExaggeration);
     connect(light_popup_, &LightPopup::lightChanged, controller_, &SessionController::setLight);
     connect(load_status_, &LoadStatus::cancelRequested, this, &MainWindow::cancelLoading);
@@ -319,6 +342,42 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::loadingChanged, readout_, &StatusReadout::setLoading);
     connect(view_, &TerrainView::problemChanged, readout_, &StatusReadout::setProblem);
     connect(view_, &TerrainView::problemChanged, this, &MainWindow::showPreparation);
+}
+
+void MainWindow::connectHaptics()
+{
+    connect(haptics_, &HapticsController::connectionChanged, this, &MainWindow::showHaptics);
+    connect(haptics_, &HapticsController::recordingChanged, this, &MainWindow::showHaptics);
+    connect(haptics_, &HapticsController::settingsChanged, this, [this] {
+        if (isRemembered()) {
+            QSettings settings;
+            save(haptics_->settings(), settings);
+        }
+    });
+    connect(haptics_, &HapticsController::stoppedChanged, this, &MainWindow::showHaptics);
+    connect(haptics_, &HapticsController::recordingFailed, this,
+            [this](const QString& problem) { reportFailure(tr("Cannot Record"), problem); });
+    connect(actions_->haptic_devices, &QAction::triggered, this, [this] {
+        docks_->reveal(*docks_->haptics());
+        haptics_panel_->list()->setFocus();
+    });
+    connect(actions_->record_touch, &QAction::triggered, this, [this] {
+        haptics_->isRecording() ? haptics_->stopRecording() : haptics_panel_->chooseRecording();
+    });
+    connect(actions_->replay_touch, &QAction::triggered, haptics_panel_,
+            &HapticsPanel::chooseReplay);
+    connect(actions_->emergency_stop, &QAction::triggered, this,
+            [this] { haptics_->setStopped(true); });
+}
+
+void MainWindow::showHaptics()
+{
+    const bool is_connected = haptics_->connection() == HapticsConnection::Connected;
+    actions_->emergency_stop->setEnabled(is_connected);
+    actions_->record_touch->setEnabled(haptics_->isRecording() || haptics_->canRecord());
+    actions_->record_touch->setText(haptics_->isRecording() ? tr("Stop &Recording Touch")
+                                                            : tr("&Record Touch…"));
+    showPreparation();
 }
 
 void MainWindow::restoreWindow()
@@ -431,12 +490,17 @@ void MainWindow::showPreparation()
     const bool is_stopped = state == PreparationState::Stopped || state == PreparationState::Failed;
     actions_->layer.prepare->setEnabled(is_stopped);
     const QString problem = dataset ? view_->problem() : QString();
-    if (dataset == noticed_ && state == noticed_state_ && problem == noticed_problem_) {
+    const QString device = haptics_->isStopped()
+                               ? tr("Emergency stop: the haptic device does not push")
+                               : haptics_->notice();
+    if (dataset == noticed_ && state == noticed_state_ && problem == noticed_problem_ &&
+        device == noticed_device_) {
         return; // it may have been closed
     }
     noticed_ = dataset;
     noticed_state_ = state;
     noticed_problem_ = problem;
+    noticed_device_ = device;
     QStringList notices = dataset ? noticesOf(dataset->info()) : QStringList();
     QString action;
     if (dataset && dataset->isPreview()) {
@@ -467,6 +531,11 @@ void MainWindow::showPreparation()
         //: %1 says which file, and why
         notices.prepend(tr("Part of the picture is coarse for now. %1").arg(problem));
         action.clear(); // it is about the first of them
+    }
+    if (!device.isEmpty()) {
+        notices.prepend(device);
+        //: On a button: after an emergency stop of the haptic device
+        action = haptics_->isStopped() ? tr("Let Forces Return") : QString();
     }
     notices_->setNotices(notices, action);
 }
@@ -576,6 +645,7 @@ void MainWindow::setPreferences(const Preferences& preferences)
     view_->setAntialiasing(preferences.has_antialiasing);
     view_->setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));
     view_->setContactModel(preferences.contact_model);
+    haptics_->setContactModel(preferences.contact_model);
     MapOpener opener = options_.opener;
     opener.resources = resourcesFor(opener.resources, preferences);
     opener.resources.tiles->setBytesMax(
@@ -611,7 +681,7 @@ void MainWindow::showKeys()
                             actions_->save_picture, actions_->go_to_coordinate};
     actions += view_->actions();
     actions += {actions_->layer.move_up, actions_->layer.move_down, actions_->layer.rename,
-                actions_->layer.remove};
+                actions_->layer.remove, actions_->emergency_stop};
     auto* dialog = new KeysDialog(actions, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->show();
@@ -632,6 +702,7 @@ void MainWindow::settleIfIdle()
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
+    haptics_->close();
     controller_->stopAll();
     if (isRemembered()) {
         QSettings settings;

@@ -1,6 +1,7 @@
 // The window: puts the map, the panels, the toolbar and the dialogs together.
 #pragma once
 
+#include "ui/device_finder.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/preferences.h"
 #include "ui/session_controller.h"
@@ -14,6 +15,8 @@ namespace marsview {
 
 class DatasetPanel;
 class GeoreferencingPanel;
+class HapticsController;
+class HapticsPanel;
 class LightPopup;
 class LoadStatus;
 class MapOverlays;
@@ -34,6 +37,8 @@ struct WindowOptions {
     enum class Failures { InDialogs, BySignalOnly } failures = Failures::InDialogs;
     /// How maps are read, and what they share where the user prefers nothing else.
     MapOpener opener{};
+    /// Of haptic devices; empty for those that come with the program.
+    DriverMaker make_drivers{};
 };
 
 class MainWindow final : public QMainWindow {
@@ -60,6 +65,8 @@ public:
     StatusReadout* readout() const noexcept { return readout_; }
     DatasetPanel* datasetPanel() const noexcept { return datasets_; }
     GeoreferencingPanel* georeferencingPanel() const noexcept { return georeferencing_; }
+    HapticsPanel* hapticsPanel() const noexcept { return haptics_panel_; }
+    HapticsController& haptics() noexcept { return *haptics_; }
     WindowDocks* docks() const noexcept { return docks_; }
     MapOverlays* overlays() const noexcept { return overlays_; }
     RecentFiles* recentFiles() const noexcept { return recent_; }
@@ -101,6 +108,8 @@ private:
     void connectPanels();
     void connectController();
     void connectView();
+    void connectHaptics();
+    void showHaptics();
     void restoreWindow();
     void showSession();
     void showActive();
@@ -121,6 +130,8 @@ private:
     NoticeBar* notices_ = nullptr;
     DatasetPanel* datasets_ = nullptr;
     GeoreferencingPanel* georeferencing_ = nullptr;
+    HapticsController* haptics_ = nullptr;
+    HapticsPanel* haptics_panel_ = nullptr;
     WindowDocks* docks_ = nullptr;
     MainToolBar* tool_bar_ = nullptr;
     StatusReadout* readout_ = nullptr;
@@ -130,6 +141,7 @@ private:
     std::shared_ptr<const Dataset> noticed_; // whose notices were shown last
     PreparationState noticed_state_ = PreparationState::None;
     QString noticed_problem_; // of the picture
+    QString noticed_device_;  // what became of the haptic device
     GoToEntry last_place_;
     QString last_folder_;
 };

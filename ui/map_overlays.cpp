@@ -2,7 +2,6 @@
 
 #include "core/view/map_preview.h"
 #include "core/view/scale_bar.h"
-#include "haptics/interaction/mouse_stylus.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/legend.h"
@@ -148,7 +147,7 @@ void MapOverlays::showLegend()
 
 void MapOverlays::showTouch()
 {
-    const auto& stylus = view_.stylus();
+    const auto& stylus = view_.shownStylus();
     if (!stylus || !stylus->is_in_contact) {
         force_meter_->release();
         return;
@@ -158,7 +157,8 @@ void MapOverlays::showTouch()
     const Vec3 right{std::cos(azimuth), -std::sin(azimuth), 0.0};
     const Vec3 away{std::sin(azimuth), std::cos(azimuth), 0.0};
     const Vec3& force_n = stylus->force_n;
-    force_meter_->setForce({dot(force_n, right), dot(force_n, away), force_n.z}, kForceNMax);
+    force_meter_->setForce({dot(force_n, right), dot(force_n, away), force_n.z},
+                           stylus->force_n_max);
 }
 
 } // namespace marsview

@@ -110,6 +110,10 @@ public:
     /// See problemChanged().
     const QString& problem() const noexcept { return problem_; }
     const std::optional<StylusPose>& stylus() const noexcept { return stylus_.pose(); }
+    /// Where a haptic device has its stylus; nothing for none.
+    void showDevice(const std::optional<StylusPose>& pose);
+    /// What is drawn: a device's stylus, unless the mouse presses or grabs.
+    const std::optional<StylusPose>& shownStylus() const noexcept;
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture();
 
@@ -134,8 +138,10 @@ Q_SIGNALS:
     void loadingChanged(bool is_loading);
     /// Why pieces of the picture cannot be read, or empty where all can.
     void problemChanged(const QString& problem);
-    /// Something of stylus() changed.
+    /// Something of shownStylus() changed.
     void stylusMoved();
+    /// The key that grabs is held, or is no more.
+    void grabbingChanged(bool is_grabbing);
 
 protected:
     void initializeGL() override;
@@ -226,6 +232,7 @@ private:
     StylusButtons buttons_;
     bool has_hand_moved_ = false; // since it began to press
     Stylus stylus_;
+    std::optional<StylusPose> device_;
     QLabel* empty_hint_ = nullptr;
 };
 

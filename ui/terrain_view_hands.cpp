@@ -192,6 +192,23 @@ void TerrainView::setContactModel(ContactModelKind model)
     Q_EMIT stylusMoved();
 }
 
+void TerrainView::showDevice(const std::optional<StylusPose>& pose)
+{
+    if (pose == device_) {
+        return;
+    }
+    device_ = pose;
+    update();
+    Q_EMIT stylusMoved();
+}
+
+const std::optional<StylusPose>& TerrainView::shownStylus() const noexcept
+{
+    const auto& mouse = stylus_.pose();
+    const bool is_mouse_at_work = mouse && mouse->mode != StylusMode::Hover;
+    return device_ && !is_mouse_at_work ? device_ : mouse;
+}
+
 // The scene point under a position: on the surface, or else where `camera` finds one beside it.
 ScenePoint TerrainView::anchorAt(QPointF position, const OrbitCamera& camera) const
 {
@@ -225,6 +242,7 @@ void TerrainView::setGrabbing(bool is_grabbing)
     if (is_grabbing != buttons_.is_grabbing) {
         buttons_.is_grabbing = is_grabbing;
         moveStylus();
+        Q_EMIT grabbingChanged(is_grabbing);
     }
 }
 

@@ -113,12 +113,13 @@ void TerrainView::paintTerrain()
     if (!std::exchange(are_layers_sent_, true)) {
         renderer_->setLayers(layers_);
     }
-    const DrawReport report = picture_->paint({.camera = navigator_.camera(),
-                                               .viewport = viewport(),
-                                               .stage = stage_,
-                                               .is_touching = buttons_.is_pressing,
-                                               .is_kept = true},
-                                              style_, defaultFramebufferObject());
+    const DrawReport report =
+        picture_->paint({.camera = navigator_.camera(),
+                         .viewport = viewport(),
+                         .stage = stage_,
+                         .is_touching = buttons_.is_pressing || (device_ && device_->is_in_contact),
+                         .is_kept = true},
+                        style_, defaultFramebufferObject());
     last_paint_ = std::chrono::steady_clock::now();
     is_terrain_current_ = true;
     this->report(report);
@@ -157,7 +158,7 @@ void TerrainView::report(const DrawReport& report)
 
 void TerrainView::paintCursor()
 {
-    const auto& pose = stylus_.pose();
+    const auto& pose = shownStylus();
     if (!pose || !is_cursor_shown_) {
         return;
     }

@@ -294,6 +294,21 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
         action->setStatusTip(tr(entry.tip));
         contact_model_group->addAction(action);
     }
+    haptic_devices = menu->addAction(tr("&Devices…"));
+    haptic_devices->setStatusTip(tr("Connect a haptic device and set what is felt"));
+    menu->addSeparator();
+    record_touch = menu->addAction(tr("&Record Touch…"));
+    record_touch->setStatusTip(tr("Write what the hand with a device does into a file"));
+    record_touch->setEnabled(false);
+    replay_touch = menu->addAction(tr("Re&play Touch…"));
+    replay_touch->setStatusTip(tr("Let a recording touch the map in place of a device"));
+    menu->addSeparator();
+    emergency_stop = menu->addAction(tr("Emergency &Stop"));
+    emergency_stop->setShortcuts(
+        {QKeySequence(Qt::CTRL | Qt::Key_Period), QKeySequence(Qt::Key_Pause)});
+    emergency_stop->setShortcutContext(Qt::ApplicationShortcut);
+    emergency_stop->setStatusTip(tr("Let go of everything at once"));
+    emergency_stop->setEnabled(false);
 }
 
 void WindowActions::makeHelpMenu(QMainWindow& window)

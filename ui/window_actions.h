@@ -53,6 +53,10 @@ struct WindowActions {
 
     QMenu* contact_models = nullptr;
     QActionGroup* contact_model_group = nullptr; // data(): the ContactModelKind
+    QAction* haptic_devices = nullptr;
+    QAction* emergency_stop = nullptr;
+    QAction* record_touch = nullptr;
+    QAction* replay_touch = nullptr;
 
     QAction* keys = nullptr;
     QAction* about = nullptr;

@@ -12,7 +12,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kStateVersion = 2; // of saveState(); raise when docks or toolbars change meaning
+constexpr int kStateVersion = 3; // of saveState(); raise when docks or toolbars change meaning
 
 constexpr int kDockShareOfWidth = 3;
 constexpr int kDockWidthMin = 200;
@@ -25,16 +25,20 @@ bool isDocked(const QDockWidget& dock)
 
 } // namespace
 
-WindowDocks::WindowDocks(QMainWindow& window, QWidget* datasets, QWidget* georeferencing)
+WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     : QObject(&window)
     , window_(window)
 {
-    makeDock(datasets_, tr("Datasets"), QStringLiteral("datasetDock"), datasets);
+    makeDock(datasets_, tr("Datasets"), QStringLiteral("datasetDock"), contents.datasets);
     makeDock(georeferencing_, tr("Georeferencing"), QStringLiteral("georeferencingDock"),
-             georeferencing);
+             contents.georeferencing);
+    makeDock(haptics_, tr("Haptics"), QStringLiteral("hapticsDock"), contents.haptics);
     window_.addDockWidget(Qt::LeftDockWidgetArea, datasets_.widget);
     window_.addDockWidget(Qt::RightDockWidgetArea, georeferencing_.widget);
-    for (const Dock* dock : {&datasets_, &georeferencing_}) {
+    window_.addDockWidget(Qt::RightDockWidgetArea, haptics_.widget);
+    window_.tabifyDockWidget(georeferencing_.widget, haptics_.widget);
+    haptics_.widget->hide();
+    for (const Dock* dock : all()) {
         connect(dock->widget, &QDockWidget::topLevelChanged, this, &WindowDocks::fit);
         connect(dock->widget, &QDockWidget::dockLocationChanged, this, &WindowDocks::fit);
     }
@@ -66,7 +70,11 @@ void WindowDocks::reveal(QDockWidget& widget)
 {
     widget.show();
     widget.raise();
-    userToggled(&widget == datasets_.widget ? datasets_ : georeferencing_, true);
+    for (Dock* dock : all()) {
+        if (dock->widget == &widget) {
+            userToggled(*dock, true);
+        }
+    }
 }
 
 void WindowDocks::fold(Dock& dock, bool is_folded)
@@ -83,7 +91,7 @@ void WindowDocks::fit()
         return;
     }
     const QScopedValueRollback fitting(is_fitting_, true);
-    std::array<Dock*, 2> by_turn{&datasets_, &georeferencing_};
+    std::array<Dock*, 3> by_turn = all();
     std::stable_sort(by_turn.begin(), by_turn.end(),
                      [](const Dock* a, const Dock* b) { return a->turn > b->turn; });
     const int width_max = window_.width() / kDockShareOfWidth;
@@ -126,7 +134,7 @@ void WindowDocks::save(QSettings& settings)
 {
     // What is only folded is open.
     const QScopedValueRollback fitting(is_fitting_, true);
-    for (Dock* dock : {&datasets_, &georeferencing_}) {
+    for (Dock* dock : all()) {
         fold(*dock, false);
     }
     settings.setValue(QStringLiteral("window/state"), window_.saveState(kStateVersion));

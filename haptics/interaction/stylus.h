@@ -17,7 +17,10 @@ struct StylusPose {
     ScenePoint proxy;
     ScenePoint goal;
     bool is_in_contact = false;
-    Vec3 force_n{}; // on the hand
+    Vec3 force_n{};                  // on the hand
+    double force_n_max = kForceNMax; // that it can be
+
+    bool operator==(const StylusPose&) const = default;
 };
 
 /// In contact while it presses, free while it hovers; a grab keeps it as it was. The proxy is never

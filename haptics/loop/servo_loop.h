@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace marsview {
 
@@ -49,6 +50,8 @@ public:
     /// ticks_max are done. Any thread.
     bool hasEnded() const noexcept { return has_ended_.load(std::memory_order_acquire); }
     const DeviceCapabilities& device() const noexcept { return device_->capabilities(); }
+    /// Why the device is not as it should be, in one sentence; empty where nothing is known.
+    std::string trouble() const { return device_->trouble(); }
 
     /// Of the last tick. Any thread.
     LoopState state() const noexcept { return state_.read(); }

@@ -34,6 +34,23 @@ public:
         maximum_ = other.maximum_ > maximum_ ? other.maximum_ : maximum_;
     }
 
+    /// What was recorded after `earlier`, which is a copy of this from before. Its maximum is that
+    /// of a bucket.
+    TimeHistogram since(const TimeHistogram& earlier) const noexcept
+    {
+        TimeHistogram result;
+        for (std::size_t i = 0; i < counts_.size(); ++i) {
+            result.counts_[i] = counts_[i] - earlier.counts_[i];
+            if (result.counts_[i] > 0) {
+                const Span end{static_cast<Span::rep>(endOf(i))};
+                result.maximum_ = end < maximum_ ? end : maximum_;
+            }
+        }
+        result.count_ = count_ - earlier.count_;
+        result.sum_ = sum_ - earlier.sum_;
+        return result;
+    }
+
     std::uint64_t count() const noexcept { return count_; }
     /// Exact; 0 where nothing was recorded.
     Span maximum() const noexcept { return maximum_; }

@@ -56,6 +56,10 @@ SessionRecorder::SessionRecorder(ServoLoop& loop, const std::string& path, std::
     , file_(file)
 {
     has_failed_ = !write(file_, fmt::format("{}\n", kSessionColumns));
+    // A tick that ran while an earlier recording ended may have left one.
+    TickRecord left;
+    while (loop_.takeRecord(left)) {
+    }
     loop_.keepRecords(true);
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }

@@ -5,6 +5,7 @@
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/light_popup.h"
 #include "ui/panels/georeferencing_panel.h"
+#include "ui/panels/haptics_panel.h"
 #include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
@@ -85,6 +86,9 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheWindow)
     expectReached(*window_);
     window_->georeferencingPanel()->edit();
     expectReached(*window_);
+    window_->docks()->reveal(*window_->docks()->haptics());
+    window_->hapticsPanel()->setFocus();
+    expectReached(*window_);
 }
 
 TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
@@ -121,7 +125,8 @@ TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
           actions.light, actions.exaggerate_more, actions.exaggerate_less, actions.layer.remove,
           actions.layer.move_up, actions.layer.move_down, actions.shading->menuAction(),
           actions.ramps->menuAction(), actions.cancel_loading, actions.stop_preparing,
-          actions.layer.prepare}) {
+          actions.layer.prepare, actions.emergency_stop, actions.record_touch,
+          actions.replay_touch}) {
         EXPECT_TRUE(in_menus.count(action) != 0) << action->text().toStdString();
     }
 }

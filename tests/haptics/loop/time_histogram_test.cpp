@@ -55,6 +55,34 @@ TEST(TimeHistogram, MergesAsIfRecordedInOne)
     }
 }
 
+TEST(TimeHistogram, TellsWhatWasRecordedSince)
+{
+    test::Random random;
+    TimeHistogram all;
+    TimeHistogram later;
+    const auto some = [&] {
+        return TimeHistogram::Span(static_cast<std::int64_t>(random.uniform(10.0, 1e6)));
+    };
+    for (int i = 0; i < 500; ++i) {
+        all.record(some());
+    }
+    all.record(std::chrono::seconds(1)); // a long one that is over
+    const TimeHistogram earlier = all;
+    for (int i = 0; i < 300; ++i) {
+        const auto span = some();
+        all.record(span);
+        later.record(span);
+    }
+    const TimeHistogram since = all.since(earlier);
+    EXPECT_EQ(since.count(), 300U);
+    EXPECT_DOUBLE_EQ(since.meanNanoseconds(), later.meanNanoseconds());
+    EXPECT_EQ(since.quantile(0.5), later.quantile(0.5));
+    EXPECT_GE(since.maximum(), later.maximum());
+    EXPECT_LE(since.maximum().count(), later.maximum().count() * 33 / 32 + 1);
+    EXPECT_EQ(all.since(all).count(), 0U);
+    EXPECT_EQ(all.since(all).maximum().count(), 0);
+}
+
 TEST(TimeHistogram, TakesEverySpan)
 {
     TimeHistogram histogram;

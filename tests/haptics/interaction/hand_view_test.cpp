@@ -1,0 +1,71 @@
+#include "haptics/interaction/hand_view.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview::test {
+namespace {
+
+constexpr Viewport kViewport{.width = 1000, .height = 700};
+
+HandView randomView(Random& random)
+{
+    return {.camera = {.target = {random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4), 50.0},
+                       .distance_m = random.uniform(500.0, 5e4),
+                       .azimuth = Angle::degrees(random.uniform(-180.0, 180.0)),
+                       .tilt = Angle::degrees(random.uniform(0.0, 80.0))},
+            .frame = {.anchor = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.01},
+                      .place = {random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4), 20.0},
+                      .scene_per_metre = random.uniform(1e3, 1e5),
+                      .turn = Angle::degrees(random.uniform(-180.0, 180.0))}};
+}
+
+// What lies at a place of the workspace is in the same place of the picture, whatever the hand has
+// made of the map.
+TEST(HandView, TheCameraSeesTheWorkspaceAsBefore)
+{
+    Random random;
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(i);
+        const HandView before = randomView(random);
+        const WorkspaceFrame now =
+            before.frame.panned({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.0})
+                .zoomed({0.02, -0.03, 0.01}, random.uniform(0.3, 3.0))
+                .turned({-0.05, 0.01, 0.0}, Angle::degrees(random.uniform(-90.0, 90.0)));
+        const OrbitCamera camera = cameraFollowing(before, now);
+        for (int j = 0; j < 5; ++j) {
+            const WorkspacePoint at =
+                before.frame.toWorkspace(before.camera.target) +
+                Vec3{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                     random.uniform(-1.0, 1.0)} *
+                    (0.2 * before.camera.distance_m / before.frame.scene_per_metre);
+            const auto then = project(before.camera, kViewport, before.frame.toScene(at));
+            const auto seen = project(camera, kViewport, now.toScene(at));
+            ASSERT_TRUE(then && seen);
+            EXPECT_NEAR(seen->x, then->x, 1e-5);
+            EXPECT_NEAR(seen->y, then->y, 1e-5);
+        }
+    }
+}
+
+TEST(HandView, TheFrameFollowsTheCameraBack)
+{
+    Random random;
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(i);
+        const HandView before = randomView(random);
+        const HandView other = randomView(random);
+        OrbitCamera camera = other.camera;
+        camera.tilt = before.camera.tilt;
+        const WorkspaceFrame frame = frameFollowing(before, camera);
+        const OrbitCamera back = cameraFollowing(before, frame);
+        EXPECT_LT(length(back.target - camera.target), 1e-6);
+        EXPECT_NEAR(back.distance_m / camera.distance_m, 1.0, 1e-12);
+        EXPECT_NEAR(std::remainder((back.azimuth - camera.azimuth).degrees(), 360.0), 0.0, 1e-9);
+    }
+}
+
+} // namespace
+} // namespace marsview::test

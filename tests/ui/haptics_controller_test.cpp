@@ -1,0 +1,454 @@
+// Devices in a real window: what they touch, what they move, and how they end.
+#include "core/contact/contact_model.h"
+#include "core/view/exaggeration.h"
+#include "haptics/trace/goal_file.h"
+#include "tests/ui/test_device.h"
+#include "tests/ui/test_map.h"
+#include "ui/haptics_controller.h"
+#include "ui/map_overlays.h"
+#include "ui/overlay/force_meter.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+
+#include <QApplication>
+#include <QFile>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <set>
+
+namespace marsview {
+namespace {
+
+constexpr int kTimeout = 30000; // ms
+
+class HapticsControllerTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        makeWindow(WindowOptions::Geometry::Fixed);
+        ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    }
+    void TearDown() override
+    {
+        hand_->is_held_up = false;
+        window_.reset();
+        EXPECT_EQ(hand_->open_count, 0);
+        EXPECT_EQ(hand_->force_n, 0.0);
+    }
+
+    void makeWindow(WindowOptions::Geometry geometry)
+    {
+        WindowOptions options = testWindowOptions();
+        options.geometry = geometry;
+        options.make_drivers = testDrivers(hand_);
+        window_ = std::make_unique<MainWindow>(options);
+        window_->resize(1000, 700);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there is no window manager
+    }
+    HapticsController& haptics() { return window_->haptics(); }
+    TerrainView& view() { return *window_->view(); }
+    template <typename F>
+    static bool waitFor(F condition)
+    {
+        return QTest::qWaitFor(condition, kTimeout);
+    }
+    bool connectTo(const QString& uri)
+    {
+        haptics().connectTo(uri);
+        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; });
+    }
+    LoopState state() { return haptics().loop()->state(); }
+    // Down until the ground is felt.
+    bool pressDown()
+    {
+        hand_->moveTo({0.0, 0.0, -0.055});
+        return waitFor([&] { return hand_->force_n > 0.5; });
+    }
+
+    bool record(const QString& file)
+    {
+        QSignalSpy recorded(&haptics(), &HapticsController::recorded);
+        if (!haptics().startRecording(file)) {
+            return false;
+        }
+        const std::int64_t begin_ns =
+            std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+        const bool is_long_enough = waitFor([&] {
+            const LoopState now = state();
+            return now.time_ns > begin_ns && now.counts.in_contact > 500;
+        });
+        haptics().stopRecording();
+        EXPECT_EQ(state().counts.not_recorded, 0U);
+        return is_long_enough && recorded.count() == 1 && recorded[0][1].toULongLong() > 500;
+    }
+    // As a batch does it: the goals alone, to a model that nothing has touched.
+    void expectSameProxies(const QString& file)
+    {
+        const SceneMap& map = view().ground().maps().front();
+        const auto& dataset = map.map.dataset;
+        const double exaggeration = view().exaggeration();
+        const GoalFrame frame({dataset, &dataset->georeference()}, map.frame, exaggeration);
+        const auto model = makeContactModel(
+            kContactModelDefault, {map.map.filled, map.frame, exaggeration}, {.radius_m = 1.0});
+        QFile text(file);
+        ASSERT_TRUE(text.open(QIODevice::ReadOnly));
+        const QList<QByteArray> lines = text.readAll().trimmed().split('\n');
+        ASSERT_GT(lines.size(), 500);
+        ASSERT_EQ(lines[0].trimmed().toStdString(), kSessionColumns);
+        int contacts = 0;
+        for (int i = 1; i < lines.size(); ++i) {
+            const QList<QByteArray> cells = lines[i].split(',');
+            const TracePoint goal{cells[0].toDouble(), cells[1].toDouble(), cells[2].toDouble()};
+            const ContactState at = model->update(frame.toScene(goal));
+            const TracePoint proxy = at.is_in_contact ? frame.fromScene(at.proxy) : goal;
+            ASSERT_EQ(cells[5].toInt() != 0, at.is_in_contact) << "line " << i;
+            ASSERT_EQ(cells[6].toDouble(), proxy.x) << "line " << i;
+            ASSERT_EQ(cells[7].toDouble(), proxy.y) << "line " << i;
+            ASSERT_EQ(cells[8].toDouble(), proxy.z) << "line " << i;
+            contacts += at.is_in_contact ? 1 : 0;
+        }
+        EXPECT_GT(contacts, 300);
+    }
+
+    TestMaps maps_;
+    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(HapticsControllerTest, ASimulatedHandMovesTheStylusAndFillsTheMeter)
+{
+    EXPECT_FALSE(view().shownStylus());
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    std::set<double> places;
+    EXPECT_TRUE(waitFor([&] {
+        const auto& pose = view().shownStylus();
+        if (pose && pose->is_in_contact && length(pose->force_n) > 0.1) {
+            places.insert(pose->proxy.x);
+        }
+        return places.size() > 5;
+    }));
+    EXPECT_TRUE(window_->overlays()->forceMeter()->isInUse());
+    EXPECT_GT(state().counts.in_contact, 0U);
+    haptics().disconnectDevice();
+    EXPECT_FALSE(view().shownStylus());
+    EXPECT_FALSE(window_->overlays()->forceMeter()->isInUse());
+    EXPECT_EQ(haptics().loop(), nullptr);
+}
+
+TEST_F(HapticsControllerTest, TheProxyRestsOnTheGroundThatIsShown)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    const LoopState now = state();
+    ASSERT_TRUE(now.contact.is_in_contact);
+    const ScenePoint proxy = now.contact.proxy;
+    EXPECT_NEAR(proxy.z, view().ground().height(proxy.x, proxy.y) * view().exaggeration(), 1e-3);
+    EXPECT_LT(now.goal.z, proxy.z);
+}
+
+TEST_F(HapticsControllerTest, TheHandReachesWhatIsSeen)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(waitFor([&] { return state().tick > 10; }));
+    const auto spread = [&] {
+        const WorkspaceFrame frame = state().frame;
+        return frame.scene_per_metre;
+    };
+    const double before = spread();
+    OrbitCamera camera = view().camera();
+    camera.distance_m /= 4.0;
+    camera.azimuth = Angle::degrees(90.0);
+    view().setCamera(camera);
+    EXPECT_TRUE(waitFor([&] { return spread() < 0.6 * before; }));
+    // Away from the user is the heading of the view: east.
+    const Vec3 away = state().frame.differenceToScene({0.0, 1.0, 0.0});
+    EXPECT_NEAR(away.y / away.x, 0.0, 1e-9);
+    EXPECT_GT(away.x, 0.0);
+}
+
+TEST_F(HapticsControllerTest, PullingTheMapMovesTheCamera)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    OrbitCamera near = view().camera();
+    near.distance_m /= 3.0;
+    view().setCamera(near);
+    ASSERT_TRUE(pressDown());
+    hand_->buttons = 1;
+    ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Pan; }));
+    const OrbitCamera before = view().camera();
+    const WorkspaceFrame frame = state().frame;
+    hand_->moveTo({0.02, 0.0, -0.055});
+    ASSERT_TRUE(waitFor([&] { return length(view().camera().target - before.target) > 10.0; }));
+    hand_->buttons = 0;
+    ASSERT_TRUE(waitFor([&] { return state().mode != StylusMode::Pan; }));
+    // The map has gone to the right with the hand, so that what is seen lies further left.
+    const Vec3 moved = frame.differenceToWorkspace(view().camera().target - before.target);
+    EXPECT_LT(moved.x, 0.0);
+    EXPECT_LT(std::abs(moved.y), 0.2 * std::abs(moved.x));
+    EXPECT_NEAR(view().camera().distance_m, before.distance_m, 0.05 * before.distance_m);
+}
+
+TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    OrbitCamera near = view().camera();
+    near.distance_m /= 2.0;
+    view().setCamera(near);
+    hand_->moveTo({0.0, 0.0, 0.05});
+    ASSERT_TRUE(waitFor([&] { return state().hand.z > 0.049; }));
+    ASSERT_FALSE(state().contact.is_in_contact);
+    hand_->buttons = 1;
+    ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Zoom; }));
+    const double before = view().camera().distance_m;
+    const double scale = state().frame.scene_per_metre;
+    hand_->moveTo({0.0, 0.0, 0.02});
+    ASSERT_TRUE(waitFor([&] {
+        return std::abs(std::log(view().camera().distance_m / before)) > 0.1 &&
+               std::abs(state().hand.z - 0.02) < 1e-3;
+    }));
+    hand_->buttons = 0;
+    ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Hover; }));
+    QTest::qWait(100); // the view is some frames behind
+    EXPECT_NEAR(view().camera().distance_m / before, state().frame.scene_per_metre / scale, 0.02);
+}
+
+TEST_F(HapticsControllerTest, ADeviceThatCannotBeOpenedSaysWhy)
+{
+    haptics().connectTo(QStringLiteral("gone:"));
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("may not be opened")));
+    EXPECT_EQ(haptics().settings().device, QString());
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    EXPECT_EQ(haptics().problem(), QString());
+}
+
+TEST_F(HapticsControllerTest, OpeningHoldsNothingUpAndCanBeCancelled)
+{
+    hand_->is_held_up = true;
+    haptics().connectTo(QStringLiteral("hand:"));
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
+    OrbitCamera camera = view().camera();
+    camera.distance_m *= 0.5;
+    view().setCamera(camera); // the window goes on
+    haptics().disconnectDevice();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    hand_->is_held_up = false;
+    // What comes late is closed, and never connected.
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    EXPECT_TRUE(waitFor([&] { return hand_->open_count == 0; }));
+    EXPECT_EQ(haptics().uri(), QStringLiteral("sim:"));
+}
+
+TEST_F(HapticsControllerTest, ALostDeviceIsToldAndEverythingElseGoesOn)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    hand_->is_lost = true;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("Test hand")));
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("The plug was pulled")));
+    EXPECT_EQ(hand_->open_count, 0);
+    EXPECT_FALSE(view().shownStylus());
+    EXPECT_TRUE(openAndWait(*window_, maps_.ring()));
+}
+
+TEST_F(HapticsControllerTest, ALostDeviceThatIsThereAgainIsConnectedAnew)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(waitFor([&] { return state().tick > 10; }));
+    hand_->is_lost = true;
+    hand_->is_there = false;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    const auto look = [&] {
+        haptics().findDevices();
+        return waitFor([&] { return !haptics().isFinding(); });
+    };
+    ASSERT_TRUE(look());
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    hand_->is_lost = false;
+    hand_->is_there = true;
+    ASSERT_TRUE(look());
+    EXPECT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
+}
+
+TEST_F(HapticsControllerTest, AnotherMapIsTouchedInPlaceOfTheFirst)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.write(QStringLiteral("flat.asc"), {}, [](int, int) { return 40.0; })));
+    EXPECT_TRUE(waitFor([&] {
+        const LoopState now = state();
+        const ScenePoint at = now.contact.proxy;
+        return now.contact.is_in_contact && std::abs(at.z - 40.0 * view().exaggeration()) < 1e-6 &&
+               hand_->force_n > 0.1;
+    }));
+    window_->controller().remove(window_->session().active);
+    window_->controller().remove(window_->session().active);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+    EXPECT_FALSE(haptics().loop()->isRunning());
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Connected);
+}
+
+TEST_F(HapticsControllerTest, ExaggerationIsFelt)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    view().setExaggeration(view().exaggeration() * 2.0);
+    EXPECT_TRUE(waitFor([&] {
+        const LoopState now = state();
+        const ScenePoint at = now.contact.proxy;
+        return now.contact.is_in_contact && hand_->force_n > 0.1 &&
+               std::abs(at.z - view().ground().height(at.x, at.y) * view().exaggeration()) < 1e-3;
+    }));
+}
+
+TEST_F(HapticsControllerTest, TheEmergencyStopLetsGoFromAnywhere)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    QTest::keyClick(window_->menuWidget(), Qt::Key_Period, Qt::ControlModifier);
+    EXPECT_TRUE(haptics().isStopped());
+    ASSERT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+    EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
+    // Pressed again, it stays.
+    QTest::keyClick(&view(), Qt::Key_Pause);
+    EXPECT_TRUE(haptics().isStopped());
+    QTest::qWait(100);
+    EXPECT_EQ(hand_->force_n, 0.0);
+    haptics().setStopped(false);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+}
+
+TEST_F(HapticsControllerTest, StiffnessAndScaleAreFelt)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    HapticsSettings settings = haptics().settings();
+    settings.stiffness_n_per_m = 1e6;
+    haptics().setSettings(settings);
+    EXPECT_EQ(haptics().stiffnessMax(), 400.0);
+    EXPECT_TRUE(waitFor([&] { return state().stiffness_n_per_m > 300.0; }));
+    EXPECT_LE(state().stiffness_n_per_m, 400.0);
+    settings.force_share = 0.0;
+    haptics().setSettings(settings);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+}
+
+TEST_F(HapticsControllerTest, TheSpaceBarGrabsForTheDevice)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    view().setFocus();
+    QTest::keyPress(&view(), Qt::Key_Space);
+    EXPECT_TRUE(waitFor([&] { return state().mode == StylusMode::Pan; }));
+    EXPECT_EQ(view().shownStylus()->is_in_contact, true);
+    QTest::keyRelease(&view(), Qt::Key_Space);
+    EXPECT_TRUE(waitFor([&] { return state().mode != StylusMode::Pan; }));
+}
+
+TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.2,lift_s=1")));
+    ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    for (int i = 0; i < 2; ++i) { // the second knows nothing of the first
+        ASSERT_TRUE(record(file));
+        expectSameProxies(file);
+    }
+
+    // And the program: the same hand without one.
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    EXPECT_TRUE(
+        waitFor([&] { return view().shownStylus() && view().shownStylus()->is_in_contact; }));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
+}
+
+TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("a.csv"))));
+    EXPECT_TRUE(haptics().isRecording());
+    haptics().setContactModel(ContactModelKind::GodObject);
+    EXPECT_FALSE(haptics().isRecording());
+    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("b.csv"))));
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill(QStringLiteral("other.asc"))));
+    EXPECT_FALSE(haptics().isRecording());
+    const Status refused = haptics().startRecording(QStringLiteral("/no/such/folder/a.csv"));
+    EXPECT_FALSE(refused);
+    EXPECT_FALSE(haptics().isRecording());
+    EXPECT_TRUE(haptics().loop()->isRunning()); // it is felt all the same
+}
+
+TEST_F(HapticsControllerTest, NothingRunsWhileNothingIsConnected)
+{
+    EXPECT_EQ(haptics().loop(), nullptr);
+    QSignalSpy polled(&haptics(), &HapticsController::polled);
+    QTest::qWait(200);
+    EXPECT_EQ(polled.count(), 0);
+    EXPECT_FALSE(haptics().isFinding());
+}
+
+TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
+{
+    QSettings().remove(QStringLiteral("haptics"));
+    makeWindow(WindowOptions::Geometry::Remembered);
+    HapticsSettings settings;
+    settings.stiffness_n_per_m = 120.0;
+    settings.force_share = 0.5;
+    settings.has_walls = false;
+    haptics().setSettings(settings);
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    window_->close();
+    EXPECT_EQ(hand_->open_count, 0);
+    makeWindow(WindowOptions::Geometry::Remembered);
+    settings.device = QStringLiteral("hand:");
+    EXPECT_EQ(haptics().settings(), settings);
+    EXPECT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
+    haptics().disconnectDevice();
+    makeWindow(WindowOptions::Geometry::Remembered);
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, 120.0);
+    QSettings().remove(QStringLiteral("haptics"));
+}
+
+TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
+{
+    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:"));
+    makeWindow(WindowOptions::Geometry::Remembered);
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_NE(haptics().problem(), QString()); // for who looks into the panel
+    EXPECT_EQ(haptics().notice(), QString());
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("gone:"));
+    haptics().connectTo(QStringLiteral("gone:"));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_NE(haptics().notice(), QString());
+    QSettings().remove(QStringLiteral("haptics"));
+}
+
+TEST_F(HapticsControllerTest, SettingsThatMakeNoSenseAreDefaults)
+{
+    QSettings settings;
+    settings.setValue(QStringLiteral("haptics/stiffness"), QStringLiteral("hard"));
+    settings.setValue(QStringLiteral("haptics/forceShare"), 7.0);
+    const HapticsSettings read = hapticsSettingsFrom(settings);
+    EXPECT_EQ(read.stiffness_n_per_m, HapticsSettings{}.stiffness_n_per_m);
+    EXPECT_EQ(read.force_share, 1.0);
+    settings.remove(QStringLiteral("haptics"));
+}
+
+} // namespace
+} // namespace marsview

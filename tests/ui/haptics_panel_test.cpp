@@ -1,0 +1,189 @@
+#include "tests/ui/test_device.h"
+#include "tests/ui/test_map.h"
+#include "ui/haptics_controller.h"
+#include "ui/panels/haptics_panel.h"
+#include "ui/panels/time_plot.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+#include "ui/window_docks.h"
+
+#include <QActionGroup>
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLabel>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSlider>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+constexpr int kTimeout = 30000; // ms
+
+class HapticsPanelTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        WindowOptions options = testWindowOptions();
+        options.make_drivers = testDrivers(hand_);
+        window_ = std::make_unique<MainWindow>(options);
+        window_->resize(1280, 800);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+        window_->actionSet().haptic_devices->trigger();
+        ASSERT_TRUE(waitFor([&] { return list().count() == 3; }));
+    }
+
+    template <typename F>
+    static bool waitFor(F condition)
+    {
+        return QTest::qWaitFor(condition, kTimeout);
+    }
+    HapticsPanel& panel() { return *window_->hapticsPanel(); }
+    HapticsController& haptics() { return window_->haptics(); }
+    QListWidget& list() { return *panel().list(); }
+    template <typename T>
+    T& part(const char* name)
+    {
+        return *panel().findChild<T*>(QLatin1String(name));
+    }
+    QString text(const char* name) { return part<QLabel>(name).text(); }
+    bool connectByKeys(int row)
+    {
+        list().setFocus();
+        list().setCurrentRow(row);
+        QTest::keyClick(&list(), Qt::Key_Return);
+        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; });
+    }
+
+    TestMaps maps_;
+    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(HapticsPanelTest, ListsDevicesWithTheReasonWhyNot)
+{
+    EXPECT_TRUE(window_->docks()->haptics()->isVisible());
+    EXPECT_TRUE(list().hasFocus());
+    EXPECT_EQ(list().item(0)->text(), QStringLiteral("Test hand"));
+    EXPECT_TRUE(list().item(1)->text().startsWith(QStringLiteral("Arm\nMay not be opened")));
+    EXPECT_EQ(list().item(2)->text(), QStringLiteral("Simulated hand"));
+    auto& connect = part<QPushButton>("connectDevice");
+    EXPECT_TRUE(connect.isEnabled());
+    list().setCurrentRow(1);
+    EXPECT_FALSE(connect.isEnabled());
+    QTest::keyClick(&list(), Qt::Key_Return);
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    // The two lines of the second have room.
+    const QRect one = list().visualItemRect(list().item(0));
+    EXPECT_GE(list().visualItemRect(list().item(1)).height(), 2 * one.height() - 8);
+}
+
+TEST_F(HapticsPanelTest, ShowsForceAndTimesWhileConnected)
+{
+    ASSERT_TRUE(connectByKeys(2));
+    EXPECT_TRUE(text("hapticStatus").startsWith(QStringLiteral("Simulated hand")));
+    EXPECT_TRUE(list().item(2)->font().bold());
+    EXPECT_FALSE(list().item(0)->font().bold());
+    auto& force = part<QProgressBar>("force");
+    EXPECT_TRUE(waitFor([&] { return force.value() > 10; }));
+    EXPECT_EQ(text("letGoReason"), QStringLiteral("Touching the ground"));
+    EXPECT_TRUE(waitFor([&] {
+        return panel().findChild<TimePlot*>()->moments().size() > 2 && !text("times").isEmpty();
+    }));
+    EXPECT_TRUE(text("times").contains(QStringLiteral("µs")));
+    EXPECT_TRUE(text("realTime").contains(QStringLiteral("real time")));
+    part<QPushButton>("connectDevice").click();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(force.value(), 0);
+    EXPECT_EQ(panel().findChild<TimePlot*>()->moments().size(), 0U);
+}
+
+TEST_F(HapticsPanelTest, TheStopButtonStopsAndLetsReturn)
+{
+    ASSERT_TRUE(connectByKeys(0));
+    hand_->moveTo({0.0, 0.0, -0.055});
+    ASSERT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+    auto& stop = part<QPushButton>("emergencyStop");
+    const QString before = stop.text();
+    stop.setFocus();
+    QTest::keyClick(&stop, Qt::Key_Space);
+    EXPECT_TRUE(haptics().isStopped());
+    EXPECT_NE(stop.text(), before);
+    ASSERT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+    EXPECT_TRUE(waitFor([&] { return text("letGoReason").contains(QStringLiteral("emergency")); }));
+    stop.click();
+    EXPECT_FALSE(haptics().isStopped());
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+}
+
+TEST_F(HapticsPanelTest, SlidersAreBoundedByTheDevice)
+{
+    auto& stiffness = part<QSlider>("stiffness");
+    stiffness.setValue(stiffness.maximum());
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax);
+    ASSERT_TRUE(connectByKeys(0));
+    EXPECT_EQ(stiffness.value(), stiffness.maximum());
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax); // as it was wanted
+    stiffness.setFocus();
+    QTest::keyClick(&stiffness, Qt::Key_Left);
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, 390.0);
+    part<QSlider>("forceScale").setValue(10);
+    EXPECT_EQ(haptics().settings().force_share, 0.5);
+    part<QCheckBox>("walls").click();
+    EXPECT_FALSE(haptics().settings().has_walls);
+}
+
+TEST_F(HapticsPanelTest, TheModelIsThatOfTheMenu)
+{
+    auto& models = part<QComboBox>("contactModel");
+    models.setFocus();
+    QTest::keyClick(&models, Qt::Key_Down);
+    const ContactModelKind chosen = window_->preferences().contact_model;
+    EXPECT_NE(chosen, kContactModelDefault);
+    EXPECT_EQ(window_->view()->contactModel(), chosen);
+    window_->actionSet().contact_model_group->actions().front()->trigger();
+    EXPECT_EQ(models.currentIndex(), 0);
+}
+
+TEST_F(HapticsPanelTest, SaysWhyADeviceWasLost)
+{
+    ASSERT_TRUE(connectByKeys(0));
+    hand_->is_lost = true;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(text("hapticStatus").contains(QStringLiteral("The plug was pulled")));
+}
+
+TEST_F(HapticsPanelTest, RecordsOnlyWhatIsTouched)
+{
+    EXPECT_FALSE(part<QPushButton>("record").isEnabled());
+    ASSERT_TRUE(connectByKeys(0));
+    EXPECT_TRUE(part<QPushButton>("record").isEnabled());
+    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("touch.csv"))));
+    EXPECT_EQ(text("recording"), QStringLiteral("Recording into touch.csv"));
+    ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > 100; }));
+    part<QPushButton>("record").click();
+    EXPECT_FALSE(haptics().isRecording());
+    EXPECT_TRUE(text("recording").contains(QStringLiteral("updates recorded")));
+}
+
+TEST_F(HapticsPanelTest, LooksForDevicesOnlyWhileItIsOpenAndNothingIsConnected)
+{
+    hand_->is_there = false;
+    EXPECT_TRUE(waitFor([&] { return list().count() == 2; })); // found to be gone by itself
+    ASSERT_TRUE(connectByKeys(1));
+    hand_->is_there = true;
+    QTest::qWait(200);
+    EXPECT_FALSE(haptics().isFinding());
+    EXPECT_EQ(list().count(), 2);
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,60 @@
+#include "ui/hand_map.h"
+
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// The GUI thread alone counts.
+std::uint64_t nextMapId()
+{
+    static std::uint64_t last = 0;
+    return ++last;
+}
+
+double meanCellSideM(const SceneFrame& frame)
+{
+    return 0.5 * (std::hypot(frame.east_per_column, frame.north_per_column) +
+                  std::hypot(frame.east_per_row, frame.north_per_row));
+}
+
+} // namespace
+
+HandMap::HandMap(const SceneMap& map)
+    : map_(map)
+    , map_id_(nextMapId())
+{
+    const Heightfield& heightfield = map_.map.dataset->heightfield();
+    if (map_.map.filled || !heightfield.isTiled()) {
+        return;
+    }
+    auto feeder = WindowFeeder::create(
+        heightfield.tiles()->raster(),
+        std::make_shared<const TileHeights>(map_.map.levels, heightfield.scale()));
+    if (!feeder) {
+        return;
+    }
+    feeder_ = std::move(*feeder);
+    terrain_ = std::make_shared<ServoTerrain>(feeder_->exchange(), feeder_->heights());
+    feeder_->start();
+}
+
+std::shared_ptr<ServoMap> HandMap::make(ContactModelKind kind, double exaggeration) const
+{
+    const auto& dataset = map_.map.dataset;
+    const GoalFrame frame({dataset, &dataset->georeference()}, map_.frame, exaggeration);
+    const ServoMapOptions options{
+        .kind = kind, .contact = {.radius_m = 0.5 * meanCellSideM(map_.frame)}, .map_id = map_id_};
+    if (map_.map.filled) {
+        return makeServoMap(frame, map_.map.filled, options);
+    }
+    return terrain_ ? makeServoMap(frame, terrain_, options) : nullptr;
+}
+
+void HandMap::beginAnew()
+{
+    map_id_ = nextMapId();
+}
+
+} // namespace marsview

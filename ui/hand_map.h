@@ -1,0 +1,38 @@
+// A map of the scene for the servo thread.
+#pragma once
+
+#include "core/session/scene_surface.h"
+#include "haptics/loop/servo_map.h"
+#include "haptics/loop/window_feeder.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace marsview {
+
+/// Makes what the servo thread touches of one map, again and again with other models and
+/// exaggerations. Lives in the GUI thread; for a map in tiles a thread brings them while this is
+/// there.
+class HandMap {
+public:
+    explicit HandMap(const SceneMap& map);
+
+    bool isOf(const SceneMap& map) const
+    {
+        return map.map.dataset == map_.map.dataset && map.frame == map_.frame;
+    }
+    const SceneMap& map() const noexcept { return map_; }
+
+    /// Null where the map cannot be touched: what comes in tiles and failed to begin.
+    std::shared_ptr<ServoMap> make(ContactModelKind kind, double exaggeration) const;
+    /// What make() makes from now on is not touched before: no model goes on from there.
+    void beginAnew();
+
+private:
+    SceneMap map_;
+    std::uint64_t map_id_ = 0;
+    std::unique_ptr<WindowFeeder> feeder_; // of a map in tiles
+    std::shared_ptr<ServoTerrain> terrain_;
+};
+
+} // namespace marsview

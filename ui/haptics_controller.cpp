@@ -1,0 +1,462 @@
+#include "ui/haptics_controller.h"
+
+#include "ui/hand_sight.h"
+#include "ui/terrain_view.h"
+
+#include <QCoreApplication>
+#include <QKeyEvent>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kPollInterval{16};
+constexpr milliseconds kLookInterval{3000};
+
+// What a window has no use for: no device at all, and the mouse, which touches without one.
+bool isForWindows(const FoundDevice& device)
+{
+    return !device.uri.starts_with("null:") && !device.uri.starts_with("mouse:");
+}
+
+// A file that is played back is not a device to come back to.
+bool isToBeRemembered(const QString& uri)
+{
+    return !uri.startsWith(QStringLiteral("replay:"));
+}
+
+bool isEmergencyKey(const QKeyEvent& event)
+{
+    return event.key() == Qt::Key_Pause ||
+           (event.key() == Qt::Key_Period && (event.modifiers() & Qt::ControlModifier) != 0);
+}
+
+// Whether the hand would notice that a camera is not where it should be.
+bool isElsewhere(const OrbitCamera& camera, const OrbitCamera& wanted)
+{
+    constexpr double kShare = 1e-3;
+    return length(camera.target - wanted.target) > kShare * wanted.distance_m ||
+           std::abs(camera.distance_m / wanted.distance_m - 1.0) > kShare ||
+           std::abs(std::remainder((camera.azimuth - wanted.azimuth).degrees(), 360.0)) > 0.05;
+}
+
+QString sentence(const std::string& text)
+{
+    QString result = QString::fromStdString(text);
+    if (!result.isEmpty()) {
+        result[0] = result[0].toUpper();
+    }
+    return result;
+}
+
+} // namespace
+
+HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers, QObject* parent)
+    : QObject(parent)
+    , view_(view)
+    , finder_(new DeviceFinder(std::move(make_drivers), this))
+    , exaggeration_(view.exaggeration())
+{
+    connect(finder_, &DeviceFinder::found, this, &HapticsController::takeDevices);
+    connect(finder_, &DeviceFinder::opened, this, [this] { start(finder_->takeOpened()); });
+    connect(finder_, &DeviceFinder::refused, this, [this](const QString& problem) {
+        connection_ = HapticsConnection::None;
+        if (is_quiet_) {
+            wanted_uri_ = uri_;
+            was_wanted_gone_ = true;
+        }
+        setProblem(problem);
+        setLooking(is_looking_);
+    });
+    look_timer_.setInterval(kLookInterval);
+    connect(&look_timer_, &QTimer::timeout, this, &HapticsController::findDevices);
+    poll_timer_.setInterval(kPollInterval);
+    poll_timer_.setTimerType(Qt::PreciseTimer);
+    connect(&poll_timer_, &QTimer::timeout, this, &HapticsController::poll);
+    connect(&view_, &TerrainView::layersChanged, this, &HapticsController::takeGround);
+    connect(&view_, &TerrainView::exaggerationChanged, this, &HapticsController::takeExaggeration);
+    connect(&view_, &TerrainView::sightChanged, this, &HapticsController::takeSight);
+    connect(&view_, &TerrainView::grabbingChanged, this, [this](bool is_grabbing) {
+        is_grabbing_ = is_grabbing;
+        push();
+    });
+    QCoreApplication::instance()->installEventFilter(this);
+}
+
+HapticsController::~HapticsController()
+{
+    blockSignals(true);
+    close();
+}
+
+bool HapticsController::eventFilter(QObject* watched, QEvent* event)
+{
+    if (loop_ && (event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) &&
+        isEmergencyKey(static_cast<const QKeyEvent&>(*event))) {
+        setStopped(true);
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+void HapticsController::findDevices()
+{
+    finder_->find();
+}
+
+void HapticsController::setLooking(bool is_looking)
+{
+    is_looking_ = is_looking;
+    const bool is_to_run = is_looking && connection_ == HapticsConnection::None;
+    if (is_to_run == look_timer_.isActive()) {
+        return;
+    }
+    if (is_to_run) {
+        look_timer_.start();
+        findDevices();
+    } else {
+        look_timer_.stop();
+    }
+}
+
+void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
+{
+    std::vector<FoundDevice> kept;
+    std::copy_if(devices.begin(), devices.end(), std::back_inserter(kept), isForWindows);
+    const auto is_same = [](const FoundDevice& a, const FoundDevice& b) {
+        return a.uri == b.uri && a.name == b.name && a.reason == b.reason;
+    };
+    if (!std::equal(kept.begin(), kept.end(), devices_.begin(), devices_.end(), is_same)) {
+        devices_ = std::move(kept);
+        Q_EMIT devicesChanged();
+    }
+    if (wanted_uri_.isEmpty() || connection_ != HapticsConnection::None) {
+        return;
+    }
+    const bool is_there =
+        std::any_of(devices_.begin(), devices_.end(), [this](const FoundDevice& device) {
+            return device.isUsable() && QString::fromStdString(device.uri) == wanted_uri_;
+        });
+    if (is_there && was_wanted_gone_) {
+        connectTo(QString(wanted_uri_)); // which is cleared by it
+    }
+    was_wanted_gone_ = was_wanted_gone_ || !is_there;
+}
+
+void HapticsController::connectTo(const QString& uri)
+{
+    close();
+    wanted_uri_.clear();
+    is_quiet_ = false;
+    uri_ = uri;
+    connection_ = HapticsConnection::Opening;
+    setProblem({});
+    setLooking(is_looking_);
+    finder_->open(uri);
+}
+
+void HapticsController::connectToRemembered()
+{
+    if (!settings_.device.isEmpty()) {
+        connectTo(QString(settings_.device));
+        is_quiet_ = true;
+    }
+}
+
+void HapticsController::disconnectDevice()
+{
+    wanted_uri_.clear();
+    close();
+    HapticsSettings settings = settings_;
+    settings.device.clear();
+    setSettings(settings);
+    setProblem({});
+    setLooking(is_looking_);
+}
+
+void HapticsController::start(std::unique_ptr<HapticDevice> device)
+{
+    loop_ = std::make_unique<ServoLoop>(std::move(device));
+    connection_ = HapticsConnection::Connected;
+    is_quiet_ = false;
+    if (isToBeRemembered(uri_)) {
+        HapticsSettings settings = settings_;
+        settings.device = uri_;
+        setSettings(settings);
+    }
+    loop_settings_ = {};
+    hand_map_.reset();
+    takeGround();
+    Q_EMIT connectionChanged();
+}
+
+// Whatever the connection is, there is none after this.
+void HapticsController::close()
+{
+    finder_->cancelOpening();
+    stopRecording();
+    poll_timer_.stop();
+    loop_.reset();
+    hand_map_.reset();
+    loop_settings_ = {};
+    view_.showDevice(std::nullopt);
+    connection_ = HapticsConnection::None;
+}
+
+void HapticsController::setProblem(const QString& problem)
+{
+    problem_ = problem;
+    Q_EMIT connectionChanged();
+}
+
+void HapticsController::poll()
+{
+    const LoopState state = loop_->state();
+    LoopEvent event;
+    while (loop_->nextEvent(event)) {
+        // What they tell is in the state as well; they are only kept from filling up.
+    }
+    if (loop_->hasEnded()) {
+        finishLost(state);
+        return;
+    }
+    if (state.tick > 0) {
+        followHand(state);
+        showHand(state);
+        chooseMap(state);
+    }
+    Q_EMIT polled(state);
+}
+
+void HapticsController::finishLost(const LoopState& state)
+{
+    const QString name = QString::fromStdString(loop_->device().name);
+    const std::string trouble = loop_->trouble();
+    const QString uri = uri_;
+    close();
+    if (state.reason == LetGoReason::DeviceFinished) {
+        setProblem(tr("The recording has ended"));
+    } else {
+        wanted_uri_ = uri; // once it is there again
+        was_wanted_gone_ = false;
+        setProblem(trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
+                                   //: %1 is a device, %2 a sentence about it
+                                   : tr("%1 was lost: %2").arg(name, sentence(trouble)));
+    }
+    setLooking(is_looking_);
+}
+
+void HapticsController::setSettings(const HapticsSettings& settings)
+{
+    if (settings != settings_) {
+        settings_ = settings;
+        push();
+        Q_EMIT settingsChanged();
+    }
+}
+
+double HapticsController::stiffnessMax() const
+{
+    return loop_ && loop_->device().stiffness_n_per_m_max > 0.0
+               ? std::clamp(loop_->device().stiffness_n_per_m_max, kStiffnessMin, kStiffnessMax)
+               : kStiffnessMax;
+}
+
+void HapticsController::setContactModel(ContactModelKind kind)
+{
+    if (kind != model_) {
+        model_ = kind;
+        remakeMap();
+    }
+}
+
+void HapticsController::setStopped(bool is_stopped)
+{
+    if (is_stopped != is_stopped_) {
+        is_stopped_ = is_stopped;
+        push();
+        Q_EMIT stoppedChanged(is_stopped);
+    }
+}
+
+Status HapticsController::startRecording(const QString& file)
+{
+    stopRecording();
+    if (!canRecord()) {
+        return Error{ErrorCode::Invalid,
+                     tr("%1: there is nothing to be recorded; connect a device and open a map")
+                         .arg(file)
+                         .toStdString()};
+    }
+    // From a model that nothing has touched yet, so that a replay has all that it needs.
+    LoopSettings nothing = loop_settings_;
+    nothing.map = nullptr;
+    loop_->set(nothing);
+    Result<std::unique_ptr<SessionRecorder>> recorder =
+        SessionRecorder::begin(*loop_, file.toStdString());
+    hand_map_->beginAnew();
+    loop_settings_.map = hand_map_->make(model_, exaggeration_);
+    push();
+    if (!recorder) {
+        return std::move(recorder).error();
+    }
+    recorder_ = std::move(recorder).value();
+    recording_file_ = file;
+    Q_EMIT recordingChanged();
+    return Done{};
+}
+
+void HapticsController::stopRecording()
+{
+    if (!recorder_) {
+        return;
+    }
+    const Status written = recorder_->finish();
+    const qulonglong updates = recorder_->updates();
+    recorder_.reset();
+    Q_EMIT recordingChanged();
+    if (written) {
+        Q_EMIT recorded(recording_file_, updates);
+    } else {
+        Q_EMIT recordingFailed(QString::fromStdString(written.error().message));
+    }
+}
+
+// The hand stays on its map as long as that is shown, and begins on the uppermost.
+void HapticsController::takeGround()
+{
+    if (!loop_) {
+        return;
+    }
+    const auto& maps = view_.ground().maps();
+    if (maps.empty()) {
+        stopRecording();
+        hand_map_.reset();
+        loop_settings_.map = nullptr;
+        push();
+        view_.showDevice(std::nullopt);
+        return;
+    }
+    const bool is_kept =
+        hand_map_ && std::any_of(maps.begin(), maps.end(),
+                                 [this](const SceneMap& map) { return hand_map_->isOf(map); });
+    exaggeration_ = view_.exaggeration();
+    takeSight();
+    if (!is_kept) {
+        setMap(0);
+    }
+}
+
+void HapticsController::setMap(std::size_t index)
+{
+    stopRecording();
+    hand_map_ = std::make_unique<HandMap>(view_.ground().maps()[index]);
+    loop_settings_.map = hand_map_->make(model_, exaggeration_);
+    push();
+}
+
+// The same map otherwise: the hand goes on where it is.
+void HapticsController::remakeMap()
+{
+    if (hand_map_) {
+        stopRecording();
+        loop_settings_.map = hand_map_->make(model_, exaggeration_);
+        push();
+    }
+}
+
+void HapticsController::takeExaggeration()
+{
+    if (view_.exaggeration() != exaggeration_) {
+        exaggeration_ = view_.exaggeration();
+        remakeMap();
+        takeSight();
+    }
+}
+
+// Where several maps are shown, what lies uppermost below the hand is touched.
+void HapticsController::chooseMap(const LoopState& state)
+{
+    const SceneSurface& ground = view_.ground();
+    if (ground.maps().size() < 2 || !hand_map_ || recorder_) {
+        return;
+    }
+    const auto index = ground.mapAt(state.goal.x, state.goal.y);
+    if (index && !hand_map_->isOf(ground.maps()[*index])) {
+        setMap(*index);
+    }
+}
+
+// Others have moved the camera: the hand reaches what is seen now.
+void HapticsController::takeSight()
+{
+    if (!loop_ || is_following_ || view_.ground().isEmpty()) {
+        return;
+    }
+    hand_view_ = {.camera = view_.camera(),
+                  .frame = frameForSight(view_.camera(), view_.viewport(), view_.ground(),
+                                         view_.exaggeration(), loop_->device().workspace)};
+    loop_settings_.frame = hand_view_.frame;
+    ++loop_settings_.frame_number;
+    push();
+}
+
+// The hand has moved the map: the camera moves along, as far as it may, and where it may not the
+// hand's map comes back to it.
+void HapticsController::followHand(const LoopState& state)
+{
+    if (state.frame_number != loop_settings_.frame_number || state.frame == hand_view_.frame) {
+        return;
+    }
+    const OrbitCamera wanted = cameraFollowing(hand_view_, state.frame);
+    is_following_ = true;
+    view_.setCamera(wanted);
+    is_following_ = false;
+    hand_view_ = {.camera = wanted, .frame = state.frame};
+    const OrbitCamera& camera = view_.camera();
+    if (isElsewhere(camera, wanted)) {
+        hand_view_.frame = frameFollowing(hand_view_, camera);
+        hand_view_.camera = camera;
+        loop_settings_.frame = hand_view_.frame;
+        ++loop_settings_.frame_number;
+        push();
+    }
+}
+
+void HapticsController::showHand(const LoopState& state)
+{
+    const ContactState& contact = state.contact;
+    const Vec3 force_n =
+        state.frame.differenceToScene(state.force_n) * (1.0 / state.frame.scene_per_metre);
+    view_.showDevice(StylusPose{.mode = state.mode,
+                                .proxy = contact.is_in_contact ? contact.proxy : state.goal,
+                                .goal = state.goal,
+                                .is_in_contact = contact.is_in_contact,
+                                .force_n = force_n,
+                                .force_n_max = loop_->device().force_n_peak});
+}
+
+void HapticsController::push()
+{
+    if (!loop_) {
+        return;
+    }
+    loop_settings_.stiffness_n_per_m = settings_.stiffness_n_per_m;
+    loop_settings_.force_share = settings_.force_share;
+    loop_settings_.has_walls = settings_.has_walls;
+    loop_settings_.is_stopped = is_stopped_;
+    loop_settings_.is_grabbing = is_grabbing_;
+    const bool was_running = loop_->isRunning();
+    loop_->set(loop_settings_);
+    if (loop_->isRunning() != was_running) {
+        loop_->isRunning() ? poll_timer_.start() : poll_timer_.stop();
+        Q_EMIT recordingChanged();
+    }
+}
+
+} // namespace marsview

@@ -1,0 +1,157 @@
+// Haptic devices in the window: the only bridge between them, the servo loop, and the view.
+#pragma once
+
+#include "haptics/interaction/hand_view.h"
+#include "haptics/loop/servo_loop.h"
+#include "haptics/trace/session_recorder.h"
+#include "ui/device_finder.h"
+#include "ui/hand_map.h"
+#include "ui/haptics_settings.h"
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+class TerrainView;
+
+enum class HapticsConnection { None, Opening, Connected };
+
+/// Connects one device at a time and lets it touch what the view shows: the device reaches what is
+/// in sight, and a hand that pulls, zooms or turns the map moves the view's camera. The servo loop
+/// runs while a device is connected and a map is shown. Lives in the GUI thread, which waits for a
+/// device only while its force fades out, some milliseconds; must not outlive the view.
+class HapticsController final : public QObject {
+    Q_OBJECT
+
+public:
+    HapticsController(TerrainView& view, DriverMaker make_drivers, QObject* parent = nullptr);
+    /// Without a word: nothing is told any more.
+    ~HapticsController() override;
+
+    // Devices.
+
+    /// What was found last, without what has no place in a window; see devicesChanged().
+    const std::vector<FoundDevice>& devices() const noexcept { return devices_; }
+    void findDevices();
+    bool isFinding() const noexcept { return finder_->isFinding(); }
+    /// Looks for devices every few seconds while nothing is connected, and connects anew to one
+    /// that was lost and is there again.
+    void setLooking(bool is_looking);
+
+    /// In place of what is connected.
+    void connectTo(const QString& uri);
+    /// The device of the settings. Where it is not there nobody is bothered; it is connected when
+    /// it is found.
+    void connectToRemembered();
+    /// And forgets it.
+    void disconnectDevice();
+    /// The same, but it is connected again at the next start.
+    void close();
+    HapticsConnection connection() const noexcept { return connection_; }
+    /// Of what is connected or being opened.
+    const QString& uri() const noexcept { return uri_; }
+    /// Nothing unless connected.
+    const ServoLoop* loop() const noexcept { return loop_.get(); }
+    /// Why the last device was refused, or is no longer connected; empty where all is well. A
+    /// sentence for people.
+    const QString& problem() const noexcept { return problem_; }
+    /// The same, but empty where it can wait until somebody looks for it.
+    QString notice() const { return is_quiet_ ? QString() : problem_; }
+
+    // What is felt.
+
+    const HapticsSettings& settings() const noexcept { return settings_; }
+    /// Takes effect with the next tick. The device in it is only remembered, see connectTo().
+    void setSettings(const HapticsSettings& settings);
+    /// What the device that is connected stands; kStiffnessMax where there is none.
+    double stiffnessMax() const;
+    void setContactModel(ContactModelKind kind);
+
+    /// Lets go of everything with the next tick, until it is taken back; also for devices that are
+    /// connected later.
+    void setStopped(bool is_stopped);
+    bool isStopped() const noexcept { return is_stopped_; }
+
+    // Recording.
+
+    /// Of what is touched from now on, until the map, its exaggeration or the contact model is
+    /// another, or the device is disconnected. Needs a loop that runs.
+    Status startRecording(const QString& file);
+    void stopRecording();
+    bool isRecording() const noexcept { return recorder_ != nullptr; }
+    const QString& recordingFile() const noexcept { return recording_file_; }
+    bool canRecord() const noexcept { return loop_ != nullptr && loop_->isRunning(); }
+
+Q_SIGNALS:
+    void devicesChanged();
+    /// connection(), problem() or stiffnessMax().
+    void connectionChanged();
+    void settingsChanged();
+    void stoppedChanged(bool is_stopped);
+    /// isRecording(), canRecord().
+    void recordingChanged();
+    /// "FILE: WHY" of what could not be written.
+    void recordingFailed(const QString& problem);
+    /// A recording of so many updates is complete.
+    void recorded(const QString& file, qulonglong updates);
+    /// Some sixty times a second while the loop runs.
+    void polled(const LoopState& state);
+
+protected:
+    /// Hears the keys of the emergency stop wherever they are pressed.
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void start(std::unique_ptr<HapticDevice> device);
+    void takeDevices(const std::vector<FoundDevice>& devices);
+    void poll();
+    void finishLost(const LoopState& state);
+    void setProblem(const QString& problem);
+
+    void takeGround();
+    void takeExaggeration();
+    void chooseMap(const LoopState& state);
+    void setMap(std::size_t index);
+    void remakeMap();
+    void takeSight();
+    void followHand(const LoopState& state);
+    void showHand(const LoopState& state);
+    void push();
+    bool isMapWanted() const { return hand_map_ != nullptr; }
+
+    TerrainView& view_;
+    DeviceFinder* finder_ = nullptr;
+    std::vector<FoundDevice> devices_;
+    QTimer look_timer_; // runs only while nothing is connected and somebody looks
+    bool is_looking_ = false;
+    QString wanted_uri_; // of a device that was lost
+    bool was_wanted_gone_ = false;
+
+    HapticsConnection connection_ = HapticsConnection::None;
+    QString uri_;
+    QString problem_;
+    bool is_quiet_ = false; // nobody has asked for the device this time
+    HapticsSettings settings_;
+    ContactModelKind model_ = kContactModelDefault;
+    bool is_stopped_ = false;
+    bool is_grabbing_ = false; // by a key
+
+    double exaggeration_ = 1.0;
+    std::unique_ptr<HandMap> hand_map_; // null where nothing is shown
+    LoopSettings loop_settings_;
+    HandView hand_view_; // that loop_settings_.frame_number is of
+    bool is_following_ = false;
+
+    QTimer poll_timer_; // runs only while the loop does
+    std::unique_ptr<ServoLoop> loop_;
+    std::unique_ptr<SessionRecorder> recorder_; // before the loop ends
+    QString recording_file_;
+};
+
+} // namespace marsview

@@ -1,0 +1,94 @@
+#include "ui/haptics_text.h"
+
+#include "ui/number_text.h"
+
+#include <QCoreApplication>
+
+namespace marsview {
+namespace {
+
+QString tr(const char* text)
+{
+    return QCoreApplication::translate("HapticsText", text);
+}
+
+} // namespace
+
+QString letGoText(LetGoReason reason)
+{
+    switch (reason) {
+    case LetGoReason::None:
+        return {};
+    case LetGoReason::EmergencyStop:
+        return tr("No force: the emergency stop is on");
+    case LetGoReason::DeviceLost:
+        return tr("No force: the device is lost; plug it in again");
+    case LetGoReason::DeviceFinished:
+        return tr("No force: the recording has ended");
+    case LetGoReason::DeviceUnready:
+        return tr("No force: the device is not ready; calibrate it, or release its own stop");
+    case LetGoReason::DeviceStale:
+        return tr("No force: the device answers too late");
+    case LetGoReason::DeviceNonsense:
+        return tr("No force: the device measures what cannot be");
+    case LetGoReason::NotHeld:
+        return tr("No force: nobody holds the stylus");
+    case LetGoReason::MissedDeadline:
+        return tr("No force: this computer is too busy to keep time");
+    case LetGoReason::TerrainStale:
+        return tr("No force: the ground under the hand does not come");
+    case LetGoReason::Fault:
+        return tr("No force: the program computed what is no force");
+    case LetGoReason::NoTouch:
+        return tr("No force: there is no map to touch");
+    }
+    return {};
+}
+
+QString modeText(StylusMode mode, bool is_in_contact)
+{
+    switch (mode) {
+    case StylusMode::Hover:
+    case StylusMode::Press:
+        //: What the hand with a haptic device does
+        return is_in_contact ? tr("Touching the ground") : tr("In the air");
+    case StylusMode::Pan:
+        return tr("Moving the map");
+    case StylusMode::Zoom:
+        return tr("Zooming the map");
+    }
+    return {};
+}
+
+QString realTimeText(const RealTimeGrants& grants)
+{
+    const QString scheduling = QString::fromStdString(grants.scheduling_refusal);
+    const QString locking = QString::fromStdString(grants.locking_refusal);
+    if (grants.hasScheduling() && grants.hasLocking()) {
+        return tr("The system granted real time and locked memory.");
+    }
+    if (grants.hasScheduling()) {
+        //: %1 is the system's reason
+        return tr("The system granted real time, but no locked memory (%1). It still works.")
+            .arg(locking);
+    }
+    //: %1 is the system's reason
+    return tr("The system did not grant real time (%1). It still works, less steadily when the "
+              "computer is busy.")
+        .arg(scheduling);
+}
+
+QString spanText(std::chrono::nanoseconds span)
+{
+    const double us = static_cast<double>(span.count()) / 1e3;
+    if (us < 9.95) {
+        return tr("%1 µs").arg(numberText(us, 1));
+    }
+    if (us < 999.5) {
+        return tr("%1 µs").arg(numberText(us, 0));
+    }
+    return us < 9950.0 ? tr("%1 ms").arg(numberText(us / 1e3, 1))
+                       : tr("%1 ms").arg(numberText(us / 1e3, 0));
+}
+
+} // namespace marsview

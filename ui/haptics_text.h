@@ -1,0 +1,23 @@
+// Words for what a servo loop tells.
+#pragma once
+
+#include "haptics/interaction/mouse_stylus.h"
+#include "haptics/loop/real_time_thread.h"
+#include "haptics/loop/safety_limiter.h"
+
+#include <QString>
+
+#include <chrono>
+
+namespace marsview {
+
+/// A sentence: why there is no force; empty where there may be.
+QString letGoText(LetGoReason reason);
+/// What the hand is doing.
+QString modeText(StylusMode mode, bool is_in_contact);
+/// A sentence, and that all works without.
+QString realTimeText(const RealTimeGrants& grants);
+/// "12 µs", "3.4 ms"; two significant digits at least.
+QString spanText(std::chrono::nanoseconds span);
+
+} // namespace marsview

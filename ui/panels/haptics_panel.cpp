@@ -1,0 +1,586 @@
+#include "ui/panels/haptics_panel.h"
+
+#include "ui/haptics_text.h"
+#include "ui/number_text.h"
+#include "ui/panels/time_plot.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QBoxLayout>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGridLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QScrollArea>
+#include <QSlider>
+
+#include <algorithm>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+constexpr int kTimesInterval = 250; // ms; what an eye follows
+constexpr int kForceSteps = 200;    // of the meter
+constexpr int kStiffnessStep = 10;  // N/m
+constexpr int kShareStep = 5;       // %
+
+constexpr int kUriRole = Qt::UserRole;
+constexpr int kUsableRole = Qt::UserRole + 1;
+
+QLabel* makeText(QWidget* parent, const QString& name)
+{
+    auto* label = new QLabel(parent);
+    label->setWordWrap(true);
+    label->setAccessibleName(name);
+    return label;
+}
+
+// A word above what it is about, small and quiet as in the other panels.
+QLabel* makeCaption(QWidget* parent, const QString& text)
+{
+    auto* caption = new QLabel(text, parent);
+    caption->setForegroundRole(QPalette::PlaceholderText);
+    QFont small = caption->font();
+    small.setPointSizeF(small.pointSizeF() * 0.88);
+    caption->setFont(small);
+    return caption;
+}
+
+// A caption with a value at the other end of its line.
+QHBoxLayout* makeLine(QLabel* caption, QLabel* value)
+{
+    auto* line = new QHBoxLayout;
+    line->addWidget(caption);
+    line->addWidget(value, 1);
+    value->setAlignment(Qt::AlignTrailing | Qt::AlignVCenter);
+    return line;
+}
+
+QString timesText(const TimeHistogram& times)
+{
+    //: How long something took: half of the time at most, all but a thousandth, ever
+    return HapticsPanel::tr("%1 · %2 · %3")
+        .arg(spanText(times.quantile(0.5)), spanText(times.quantile(0.999)),
+             spanText(times.maximum()));
+}
+
+} // namespace
+
+HapticsPanel::HapticsPanel(HapticsController& controller,
+                           QActionGroup& contact_models,
+                           QWidget* parent)
+    : QWidget(parent)
+    , controller_(controller)
+    , model_actions_(contact_models)
+{
+    auto* scroll = new QScrollArea(this);
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setFocusPolicy(Qt::NoFocus); // its controls scroll into sight
+    auto* content = new QWidget(scroll);
+    auto* layout = new QVBoxLayout(content);
+    layout->setContentsMargins(6, 6, 6, 6);
+    layout->setSpacing(4);
+    makeDevices(*layout);
+    makeForce(*layout);
+    makeTimes(*layout);
+    makeRecording(*layout);
+    layout->addStretch(1);
+    scroll->setWidget(content);
+    auto* outer = new QVBoxLayout(this);
+    outer->setContentsMargins(0, 0, 0, 0);
+    outer->addWidget(scroll);
+
+    connect(&controller_, &HapticsController::devicesChanged, this, &HapticsPanel::showDevices);
+    connect(&controller_, &HapticsController::connectionChanged, this,
+            &HapticsPanel::showConnection);
+    connect(&controller_, &HapticsController::settingsChanged, this, &HapticsPanel::showSettings);
+    connect(&controller_, &HapticsController::stoppedChanged, this, &HapticsPanel::showStopped);
+    connect(&controller_, &HapticsController::recordingChanged, this, &HapticsPanel::showRecording);
+    connect(&controller_, &HapticsController::polled, this, &HapticsPanel::showState);
+    connect(&controller_, &HapticsController::recordingFailed, recording_, &QLabel::setText);
+    connect(&controller_, &HapticsController::recorded, this,
+            [this](const QString& file, qulonglong updates) {
+                //: %1 is a file, %2 a number
+                recording_->setText(tr("%1: %2 updates recorded")
+                                        .arg(QFileInfo(file).fileName(),
+                                             countText(static_cast<std::size_t>(updates))));
+            });
+    showDevices();
+    showConnection();
+    showSettings();
+    showStopped();
+    showRecording();
+}
+
+void HapticsPanel::makeDevices(QBoxLayout& layout)
+{
+    list_ = new QListWidget(this);
+    list_->setAccessibleName(tr("Haptic devices"));
+    list_->setObjectName(QStringLiteral("hapticDevices"));
+    list_->setWordWrap(true);
+    list_->setTextElideMode(Qt::ElideNone);
+    list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    list_->setResizeMode(QListView::Adjust);
+    list_->setSpacing(2);
+    list_->setFixedHeight(fontMetrics().height() * 9);
+    connect(list_, &QListWidget::currentItemChanged, this, &HapticsPanel::showConnectButton);
+    connect(list_, &QListWidget::itemActivated, this, [this](QListWidgetItem* item) {
+        if (item->data(kUsableRole).toBool()) {
+            controller_.connectTo(item->data(kUriRole).toString());
+        }
+    });
+    layout.addWidget(list_);
+    connect_ = new QPushButton(this);
+    connect_->setObjectName(QStringLiteral("connectDevice"));
+    connect(connect_, &QPushButton::clicked, this, &HapticsPanel::toggleConnection);
+    layout.addWidget(connect_);
+    status_ = makeText(this, tr("Connection"));
+    status_->setObjectName(QStringLiteral("hapticStatus"));
+    status_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    layout.addWidget(status_);
+    layout.addSpacing(6);
+}
+
+void HapticsPanel::makeForce(QBoxLayout& layout)
+{
+    stop_ = new QPushButton(this);
+    stop_->setObjectName(QStringLiteral("emergencyStop"));
+    QFont bold = stop_->font();
+    bold.setBold(true);
+    stop_->setFont(bold);
+    stop_->setMinimumHeight(fontMetrics().height() * 5 / 2);
+    connect(stop_, &QPushButton::clicked, this,
+            [this] { controller_.setStopped(!controller_.isStopped()); });
+    layout.addWidget(stop_);
+
+    force_ = new QProgressBar(this);
+    force_->setObjectName(QStringLiteral("force"));
+    force_->setAccessibleName(tr("Force on the hand"));
+    force_->setRange(0, kForceSteps);
+    layout.addWidget(force_);
+    reason_ = makeText(this, tr("What the hand does"));
+    reason_->setObjectName(QStringLiteral("letGoReason"));
+    // As high with two lines as with one: what is below stays where it is.
+    reason_->setMinimumHeight(fontMetrics().height() * 2);
+    reason_->setAlignment(Qt::AlignLeading | Qt::AlignTop);
+    layout.addWidget(reason_);
+
+    const auto make_slider = [&](QSlider*& slider, QLabel*& value, const QString& text,
+                                 const QString& name) {
+        QLabel* caption = makeCaption(this, text);
+        value = new QLabel(this);
+        slider = new QSlider(Qt::Horizontal, this);
+        slider->setObjectName(name);
+        slider->setAccessibleName(QString(text).remove(QLatin1Char('&')));
+        caption->setBuddy(slider);
+        layout.addLayout(makeLine(caption, value));
+        layout.addWidget(slider);
+    };
+    make_slider(stiffness_, stiffness_text_, tr("St&iffness"), QStringLiteral("stiffness"));
+    stiffness_->setSingleStep(1);
+    stiffness_->setPageStep(5);
+    connect(stiffness_, &QSlider::valueChanged, this, [this](int value) {
+        if (!is_filling_) {
+            HapticsSettings settings = controller_.settings();
+            settings.stiffness_n_per_m = value * kStiffnessStep;
+            controller_.setSettings(settings);
+        }
+    });
+    make_slider(share_, share_text_, tr("F&orce scale"), QStringLiteral("forceScale"));
+    share_->setRange(0, 100 / kShareStep);
+    share_->setPageStep(5);
+    connect(share_, &QSlider::valueChanged, this, [this](int value) {
+        if (!is_filling_) {
+            HapticsSettings settings = controller_.settings();
+            settings.force_share = value * kShareStep / 100.0;
+            controller_.setSettings(settings);
+        }
+    });
+
+    QLabel* caption = makeCaption(this, tr("Contact &model"));
+    layout.addWidget(caption);
+    models_ = new QComboBox(this);
+    models_->setObjectName(QStringLiteral("contactModel"));
+    models_->setAccessibleName(tr("Contact model"));
+    models_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    models_->setMinimumContentsLength(6);
+    caption->setBuddy(models_);
+    for (const QAction* action : model_actions_.actions()) {
+        models_->addItem(action->text().remove(QLatin1Char('&')));
+        models_->setItemData(models_->count() - 1, action->statusTip(), Qt::ToolTipRole);
+        connect(action, &QAction::toggled, this, &HapticsPanel::showSettings);
+    }
+    connect(models_, &QComboBox::activated, this,
+            [this](int index) { model_actions_.actions().at(index)->trigger(); });
+    layout.addWidget(models_);
+    walls_ = new QCheckBox(tr("&Walls at the edges"), this);
+    walls_->setObjectName(QStringLiteral("walls"));
+    walls_->setToolTip(tr("Keep the hand where the device works best"));
+    connect(walls_, &QCheckBox::toggled, this, [this](bool has_walls) {
+        if (!is_filling_) {
+            HapticsSettings settings = controller_.settings();
+            settings.has_walls = has_walls;
+            controller_.setSettings(settings);
+        }
+    });
+    layout.addWidget(walls_);
+    layout.addSpacing(6);
+}
+
+void HapticsPanel::makeTimes(QBoxLayout& layout)
+{
+    const QString tip =
+        tr("Of the time since it began: the usual span, what one in a thousand takes longer than, "
+           "and the longest. The line shows the last half minute from 1 µs to 10 ms, the pale one "
+           "the longest.");
+    const auto make_plot = [&](TimePlot*& plot, QLabel*& value, const QString& text) {
+        value = new QLabel(this);
+        // No wider than there is room: the tip and the plot tell the rest.
+        value->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+        QFont small = value->font();
+        small.setPointSizeF(small.pointSizeF() * 0.88);
+        value->setFont(small);
+        value->setToolTip(tip);
+        value->setObjectName(QStringLiteral("times"));
+        plot = new TimePlot(this);
+        plot->setAccessibleName(text);
+        plot->setToolTip(tip);
+        layout.addLayout(makeLine(makeCaption(this, text), value));
+        layout.addWidget(plot);
+    };
+    make_plot(update_plot_, update_text_, tr("Update"));
+    make_plot(lateness_plot_, lateness_text_, tr("Lateness"));
+    missed_ = makeText(this, tr("Missed updates"));
+    layout.addWidget(missed_);
+    real_time_ = makeText(this, tr("Real time"));
+    real_time_->setObjectName(QStringLiteral("realTime"));
+    layout.addWidget(real_time_);
+    layout.addSpacing(6);
+}
+
+void HapticsPanel::makeRecording(QBoxLayout& layout)
+{
+    auto* line = new QHBoxLayout;
+    record_ = new QPushButton(this);
+    record_->setObjectName(QStringLiteral("record"));
+    record_->setToolTip(tr("Write what the hand does on this map into a file"));
+    connect(record_, &QPushButton::clicked, this, [this] {
+        controller_.isRecording() ? controller_.stopRecording() : chooseRecording();
+    });
+    replay_ = new QPushButton(tr("Re&play…"), this);
+    replay_->setObjectName(QStringLiteral("replay"));
+    replay_->setToolTip(tr("Let a recording touch this map in place of a device"));
+    connect(replay_, &QPushButton::clicked, this, &HapticsPanel::chooseReplay);
+    for (QPushButton* button : {record_, replay_}) {
+        button->setMinimumWidth(0);
+        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+        line->addWidget(button);
+    }
+    layout.addLayout(line);
+    recording_ = makeText(this, tr("Recording"));
+    recording_->setObjectName(QStringLiteral("recording"));
+    layout.addWidget(recording_);
+}
+
+void HapticsPanel::showEvent(QShowEvent* event)
+{
+    QWidget::showEvent(event);
+    controller_.setLooking(true);
+    showConnection();
+}
+
+void HapticsPanel::hideEvent(QHideEvent* event)
+{
+    QWidget::hideEvent(event);
+    controller_.setLooking(false);
+}
+
+// Colours of our own go by the palette.
+void HapticsPanel::changeEvent(QEvent* event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && stop_ != nullptr) {
+        showDevices();
+        showStopped();
+    }
+}
+
+void HapticsPanel::showDevices()
+{
+    const QString before = chosenUri();
+    const QScopedValueRollback filling(is_filling_, true);
+    list_->clear();
+    for (const FoundDevice& device : controller_.devices()) {
+        const QString uri = QString::fromStdString(device.uri);
+        const QString name = device.name.empty() ? uri : QString::fromStdString(device.name);
+        QString reason = QString::fromStdString(device.reason);
+        if (!reason.isEmpty()) {
+            reason[0] = reason[0].toUpper();
+        }
+        auto* item =
+            new QListWidgetItem(reason.isEmpty() ? name : name + QLatin1Char('\n') + reason, list_);
+        item->setData(kUriRole, uri);
+        item->setData(kUsableRole, device.isUsable());
+        item->setToolTip(uri);
+        if (!device.isUsable()) {
+            item->setForeground(palette().color(QPalette::PlaceholderText));
+        }
+        if (uri == (before.isEmpty() ? controller_.uri() : before)) {
+            list_->setCurrentItem(item);
+        }
+    }
+    if (list_->currentItem() == nullptr) {
+        for (int i = 0; i < list_->count(); ++i) {
+            if (list_->item(i)->data(kUsableRole).toBool()) {
+                list_->setCurrentRow(i);
+                break;
+            }
+        }
+    }
+    markConnected();
+    showConnectButton();
+}
+
+QString HapticsPanel::chosenUri() const
+{
+    const QListWidgetItem* item = list_->currentItem();
+    return item != nullptr ? item->data(kUriRole).toString() : QString();
+}
+
+void HapticsPanel::toggleConnection()
+{
+    if (controller_.connection() != HapticsConnection::None) {
+        controller_.disconnectDevice();
+    } else if (!chosenUri().isEmpty()) {
+        controller_.connectTo(chosenUri());
+    }
+}
+
+void HapticsPanel::showConnectButton()
+{
+    const QListWidgetItem* item = list_->currentItem();
+    switch (controller_.connection()) {
+    case HapticsConnection::None:
+        connect_->setText(tr("&Connect"));
+        connect_->setEnabled(item != nullptr && item->data(kUsableRole).toBool());
+        break;
+    case HapticsConnection::Opening:
+        connect_->setText(tr("&Cancel"));
+        connect_->setEnabled(true);
+        break;
+    case HapticsConnection::Connected:
+        connect_->setText(tr("Dis&connect"));
+        connect_->setEnabled(true);
+        break;
+    }
+}
+
+// The device that is connected stands out, and is the current one when it comes.
+void HapticsPanel::markConnected()
+{
+    const bool is_connected = controller_.connection() == HapticsConnection::Connected;
+    for (int i = 0; i < list_->count(); ++i) {
+        QListWidgetItem* item = list_->item(i);
+        const bool is_it = is_connected && item->data(kUriRole).toString() == controller_.uri();
+        QFont font = item->font();
+        if (is_it && !font.bold()) {
+            list_->setCurrentItem(item);
+        }
+        font.setBold(is_it);
+        item->setFont(font);
+    }
+}
+
+void HapticsPanel::showConnection()
+{
+    markConnected();
+    showConnectButton();
+    switch (controller_.connection()) {
+    case HapticsConnection::None:
+        status_->setText(!controller_.problem().isEmpty() ? controller_.problem()
+                                                          : tr("No device is connected."));
+        break;
+    case HapticsConnection::Opening:
+        //: %1 names a device
+        status_->setText(tr("Connecting to %1…").arg(controller_.uri()));
+        break;
+    case HapticsConnection::Connected: {
+        const DeviceCapabilities& device = controller_.loop()->device();
+        //: %1 is a device, %2 a force in newtons
+        status_->setText(
+            tr("%1, up to %2 N")
+                .arg(QString::fromStdString(device.name), shortNumberText(device.force_n_peak, 2)));
+        break;
+    }
+    }
+    showNoState();
+    showSettings();
+    showStopped();
+    showRecording();
+}
+
+void HapticsPanel::showSettings()
+{
+    const QScopedValueRollback filling(is_filling_, true);
+    const HapticsSettings& settings = controller_.settings();
+    const double most = controller_.stiffnessMax();
+    stiffness_->setRange(static_cast<int>(kStiffnessMin) / kStiffnessStep,
+                         static_cast<int>(most) / kStiffnessStep);
+    const double stiffness = std::min(settings.stiffness_n_per_m, most);
+    stiffness_->setValue(static_cast<int>(std::lround(stiffness / kStiffnessStep)));
+    //: Newtons per metre
+    stiffness_text_->setText(tr("%1 N/m").arg(numberText(stiffness, 0)));
+    stiffness_->setToolTip(controller_.loop() != nullptr
+                               //: %1 is a number of newtons per metre
+                               ? tr("The device is stable up to %1 N/m").arg(numberText(most, 0))
+                               : tr("How hard the ground is"));
+    share_->setValue(static_cast<int>(std::lround(settings.force_share * 100.0 / kShareStep)));
+    share_->setToolTip(tr("How much of all forces reaches the hand"));
+    share_text_->setText(tr("%1 %").arg(numberText(settings.force_share * 100.0, 0)));
+    walls_->setChecked(settings.has_walls);
+    const QList<QAction*> models = model_actions_.actions();
+    for (int i = 0; i < models.size(); ++i) {
+        if (models[i]->isChecked()) {
+            models_->setCurrentIndex(i);
+        }
+    }
+}
+
+void HapticsPanel::showStopped()
+{
+    const bool is_stopped = controller_.isStopped();
+    const bool is_of_use = is_stopped || controller_.loop() != nullptr;
+    stop_->setEnabled(is_of_use);
+    stop_->setText(is_stopped ? tr("Let Forces Return") : tr("Emergency &Stop"));
+    stop_->setToolTip(is_stopped ? tr("The device may push again; forces come back gently")
+                                 : tr("Let go of everything at once (Ctrl+. or Pause, anywhere)"));
+    // Red as such buttons are everywhere, with white text, in every palette.
+    QPalette colors = palette();
+    if (is_of_use && !is_stopped) {
+        colors.setColor(QPalette::Button, QColor(150, 20, 20));
+        colors.setColor(QPalette::ButtonText, Qt::white);
+    }
+    stop_->setPalette(colors);
+}
+
+void HapticsPanel::showNoState()
+{
+    if (!controller_.canRecord()) {
+        force_->setValue(0);
+        force_->setFormat(tr("%1 N").arg(numberText(0.0, 2)));
+        reason_->setText(controller_.loop() != nullptr ? letGoText(LetGoReason::NoTouch)
+                                                       : QString());
+        update_text_->clear();
+        lateness_text_->clear();
+        missed_->hide();
+        real_time_->hide();
+        update_plot_->clear();
+        lateness_plot_->clear();
+        last_ = {};
+    }
+}
+
+void HapticsPanel::showState(const LoopState& state)
+{
+    if (!isVisible()) {
+        return;
+    }
+    const double most_n = controller_.loop()->device().force_n_peak;
+    const double force_n = length(state.force_n);
+    force_->setValue(
+        most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
+                     : 0);
+    //: A force in newtons
+    force_->setFormat(tr("%1 N").arg(numberText(force_n, 2)));
+    const QString reason = letGoText(state.reason);
+    const QString text =
+        reason.isEmpty() ? modeText(state.mode, state.contact.is_in_contact) : reason;
+    if (text != reason_->text()) {
+        reason_->setText(text);
+    }
+    if (!since_times_.isValid() || since_times_.hasExpired(kTimesInterval)) {
+        since_times_.start();
+        showTimes();
+    }
+}
+
+void HapticsPanel::showTimes()
+{
+    const LoopStatistics now = controller_.loop()->statistics();
+    if (now.tick.count() == 0) {
+        return;
+    }
+    const bool is_same_run = now.tick.count() >= last_.tick.count();
+    const LoopStatistics last = is_same_run ? last_ : LoopStatistics{};
+    const TimeHistogram ticks = now.tick.since(last.tick);
+    const TimeHistogram late = now.lateness.since(last.lateness);
+    if (ticks.count() > 0) {
+        update_plot_->add({.usual = ticks.quantile(0.5), .longest = ticks.maximum()});
+        lateness_plot_->add({.usual = late.quantile(0.5), .longest = late.maximum()});
+    }
+    last_ = now;
+    update_text_->setText(timesText(now.tick));
+    lateness_text_->setText(timesText(now.lateness));
+    const auto missed = static_cast<std::size_t>(now.missed_by_tick + now.missed_by_waking);
+    //: %1 and %2 are numbers
+    missed_->setText(
+        tr("%1 of %2 updates too late")
+            .arg(countText(missed), countText(static_cast<std::size_t>(now.tick.count()))));
+    missed_->show();
+    real_time_->setText(realTimeText(controller_.loop()->grants()));
+    real_time_->show();
+}
+
+void HapticsPanel::showRecording()
+{
+    record_->setText(controller_.isRecording() ? tr("S&top Recording") : tr("&Record…"));
+    record_->setEnabled(controller_.isRecording() || controller_.canRecord());
+    if (controller_.isRecording()) {
+        //: %1 is a file
+        recording_->setText(
+            tr("Recording into %1").arg(QFileInfo(controller_.recordingFile()).fileName()));
+    }
+    showNoState();
+}
+
+void HapticsPanel::chooseRecording()
+{
+    auto* dialog = new QFileDialog(this, tr("Record Touch"), folder_);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setNameFilters({tr("Touch recording (*.csv)")});
+    dialog->setDefaultSuffix(QStringLiteral("csv"));
+    dialog->selectFile(tr("touch") + QStringLiteral(".csv"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
+        folder_ = QFileInfo(file).absolutePath();
+        if (const Status begun = controller_.startRecording(file); !begun) {
+            recording_->setText(QString::fromStdString(begun.error().message));
+        }
+    });
+    dialog->open();
+}
+
+void HapticsPanel::chooseReplay()
+{
+    auto* dialog = new QFileDialog(this, tr("Replay Touch"), folder_);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    dialog->setNameFilters({tr("Touch recording (*.csv)"), tr("All files (*)")});
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
+        folder_ = QFileInfo(file).absolutePath();
+        controller_.connectTo(QStringLiteral("replay:") + file);
+    });
+    dialog->open();
+}
+
+} // namespace marsview

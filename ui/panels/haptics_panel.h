@@ -1,0 +1,96 @@
+// The panel for touching with a device.
+#pragma once
+
+#include "haptics/loop/loop_statistics.h"
+#include "ui/haptics_controller.h"
+
+#include <QElapsedTimer>
+#include <QWidget>
+
+class QAction;
+class QActionGroup;
+class QBoxLayout;
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QListWidget;
+class QProgressBar;
+class QPushButton;
+class QSlider;
+
+namespace marsview {
+
+class TimePlot;
+
+/// Devices, what is felt, how punctual the loop is, and recordings of it. Shows what the controller
+/// tells and asks it for changes. Looks for devices while it is to be seen.
+class HapticsPanel final : public QWidget {
+    Q_OBJECT
+
+public:
+    /// `contact_models` has an action for each model, see WindowActions.
+    HapticsPanel(HapticsController& controller,
+                 QActionGroup& contact_models,
+                 QWidget* parent = nullptr);
+
+    QListWidget* list() const noexcept { return list_; }
+
+public Q_SLOTS:
+    /// Asks for a file.
+    void chooseRecording();
+    void chooseReplay();
+
+protected:
+    void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void makeDevices(QBoxLayout& layout);
+    void makeForce(QBoxLayout& layout);
+    void makeTimes(QBoxLayout& layout);
+    void makeRecording(QBoxLayout& layout);
+    void showDevices();
+    void markConnected();
+    void showConnection();
+    void showConnectButton();
+    void showSettings();
+    void showStopped();
+    void showRecording();
+    void showState(const LoopState& state);
+    void showNoState();
+    void showTimes();
+    void toggleConnection();
+    QString chosenUri() const;
+
+    HapticsController& controller_;
+    QActionGroup& model_actions_;
+    QListWidget* list_ = nullptr;
+    QPushButton* connect_ = nullptr;
+    QLabel* status_ = nullptr;
+    QPushButton* stop_ = nullptr;
+    QProgressBar* force_ = nullptr;
+    QLabel* reason_ = nullptr;
+    QSlider* stiffness_ = nullptr;
+    QLabel* stiffness_text_ = nullptr;
+    QSlider* share_ = nullptr;
+    QLabel* share_text_ = nullptr;
+    QComboBox* models_ = nullptr;
+    QCheckBox* walls_ = nullptr;
+    QLabel* update_text_ = nullptr;
+    TimePlot* update_plot_ = nullptr;
+    QLabel* lateness_text_ = nullptr;
+    TimePlot* lateness_plot_ = nullptr;
+    QLabel* missed_ = nullptr;
+    QLabel* real_time_ = nullptr;
+    QPushButton* record_ = nullptr;
+    QPushButton* replay_ = nullptr;
+    QLabel* recording_ = nullptr;
+
+    QElapsedTimer since_times_;
+    LoopStatistics last_; // when the plots got their last moment
+    QString folder_;
+    bool is_filling_ = false;
+};
+
+} // namespace marsview
