@@ -2,6 +2,7 @@
 
 #include "core/view/exaggeration.h"
 #include "haptics/drivers/built_in_drivers.h"
+#include "ui/contact_sounds.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/keys_dialog.h"
@@ -152,6 +153,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
         haptics_->setSettings(hapticsSettingsFrom(QSettings()));
     }
     connectHaptics();
+    connectSounds();
     setPreferences(isRemembered() ? preferencesFrom(QSettings()) : Preferences{});
     showSession();
     haptics_->connectToRemembered();
@@ -160,6 +162,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
 
 MainWindow::~MainWindow()
 {
+    delete sounds_;        // it listens to the view
     delete haptics_panel_; // it looks at the controller
     delete haptics_;       // and that at the view
 }
@@ -368,6 +371,31 @@ void MainWindow::connectHaptics()
             &HapticsPanel::chooseReplay);
     connect(actions_->emergency_stop, &QAction::triggered, this,
             [this] { haptics_->setStopped(true); });
+}
+
+void MainWindow::connectSounds()
+{
+    sounds_ = new ContactSounds(*view_, &SoundPlayer::open, this);
+    const QString key = QStringLiteral("haptics/sound");
+    if (isRemembered() && QSettings().value(key, false).toBool()) {
+        sounds_->setOn(true); // where it fails nobody is bothered
+        actions_->contact_sound->setChecked(true);
+    }
+    connect(actions_->contact_sound, &QAction::triggered, this, [this, key](bool is_on) {
+        sounds_->setOn(is_on);
+        if (isRemembered()) {
+            QSettings().setValue(key, is_on);
+        }
+        // Whoever asks is told why there is none.
+        connect(sounds_, &ContactSounds::failed, this, &MainWindow::tellNoSound,
+                Qt::UniqueConnection);
+    });
+    connect(sounds_, &ContactSounds::onChanged, actions_->contact_sound, &QAction::setChecked);
+}
+
+void MainWindow::tellNoSound(const QString& why)
+{
+    reportFailure(tr("Cannot Play Sound"), why);
 }
 
 void MainWindow::showHaptics()

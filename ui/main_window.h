@@ -15,6 +15,7 @@ namespace marsview {
 
 class DatasetPanel;
 class GeoreferencingPanel;
+class ContactSounds;
 class HapticsController;
 class HapticsPanel;
 class LightPopup;
@@ -109,6 +110,8 @@ private:
     void connectController();
     void connectView();
     void connectHaptics();
+    void connectSounds();
+    void tellNoSound(const QString& why);
     void showHaptics();
     void restoreWindow();
     void showSession();
@@ -132,6 +135,7 @@ private:
     GeoreferencingPanel* georeferencing_ = nullptr;
     HapticsController* haptics_ = nullptr;
     HapticsPanel* haptics_panel_ = nullptr;
+    ContactSounds* sounds_ = nullptr;
     WindowDocks* docks_ = nullptr;
     MainToolBar* tool_bar_ = nullptr;
     StatusReadout* readout_ = nullptr;

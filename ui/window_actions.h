@@ -53,6 +53,7 @@ struct WindowActions {
 
     QMenu* contact_models = nullptr;
     QActionGroup* contact_model_group = nullptr; // data(): the ContactModelKind
+    QAction* contact_sound = nullptr; // checkable
     QAction* haptic_devices = nullptr;
     QAction* emergency_stop = nullptr;
     QAction* record_touch = nullptr;

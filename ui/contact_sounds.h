@@ -1,0 +1,68 @@
+// The sound of what the stylus in the view touches, a device's or the mouse's.
+#pragma once
+
+#include "haptics/sound/contact_listener.h"
+#include "haptics/sound/sound_player.h"
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace marsview {
+
+class TerrainView;
+
+/// Off until it is switched on. Plays from the GUI thread's timer, which runs only while something
+/// is touched or fades out; the output is opened on a thread of its own. Must not outlive the view.
+class ContactSounds final : public QObject {
+    Q_OBJECT
+
+public:
+    /// Opens an output; any thread.
+    using OpenPlayer = std::function<Result<SoundPlayer>()>;
+
+    explicit ContactSounds(TerrainView& view,
+                           OpenPlayer open = &SoundPlayer::open,
+                           QObject* parent = nullptr);
+    ~ContactSounds() override;
+
+    void setOn(bool is_on);
+    bool isOn() const noexcept { return is_on_; }
+    /// The output is open.
+    bool isReady() const noexcept { return player_.has_value(); }
+    /// What was asked to be played last.
+    const SoundState& sound() const noexcept { return sound_; }
+    /// Null until it is open: for tests with an output into memory.
+    SoundPlayer* player() noexcept { return player_ ? &*player_ : nullptr; }
+
+Q_SIGNALS:
+    void onChanged(bool is_on);
+    /// There is no output: a sentence for people. It is off again.
+    void failed(const QString& why);
+
+private:
+    struct Opening;
+
+    void open();
+    void opened(Result<SoundPlayer> player);
+    void listenAnew();
+    void takeSight();
+    void play();
+    ContactMoment moment() const;
+
+    TerrainView& view_;
+    OpenPlayer open_;
+    std::shared_ptr<Opening> opening_; // what the opening thread knows of this object
+    bool is_on_ = false;
+    std::optional<SoundPlayer> player_;
+    std::optional<ContactListener> listener_;
+    WorkspaceFrame frame_; // of a hand that reaches all that is seen
+    SoundState sound_;
+    QTimer timer_;
+};
+
+} // namespace marsview
