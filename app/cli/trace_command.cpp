@@ -334,6 +334,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
                      "in metres, not exaggerated; - for standard input")
         ->required();
     std::vector<std::string> names;
+    names.reserve(kContactModelKinds.size());
     for (const ContactModelKind kind : kContactModelKinds) {
         names.emplace_back(contactModelName(kind));
     }

@@ -15,7 +15,7 @@ constexpr double kFullScale = 32767.0;
 
 std::vector<std::int16_t> noiseLoop()
 {
-    constexpr std::size_t kSamples = 2 * kLoopRateHz;
+    constexpr std::size_t kSamples = std::size_t{2} * kLoopRateHz;
     constexpr double kSoftness = 0.6; // of a one-pole low-pass
     constexpr double kRms = 0.25;     // peaks of four times that are cut off, and rare
     std::minstd_rand random(1);       // whose numbers the standard specifies

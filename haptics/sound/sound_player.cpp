@@ -54,16 +54,18 @@ const Extensions& extensions()
 class Current {
 public:
     explicit Current(ALCcontext* context)
-        : before_(extensions().context())
     {
-        extensions().set_context(context);
+        const Extensions& found = extensions();
+        MARSVIEW_CHECK(found.context != nullptr && found.set_context != nullptr); // open() has seen
+        before_ = found.context();
+        found.set_context(context);
     }
     ~Current() { extensions().set_context(before_); }
     Current(const Current&) = delete;
     Current& operator=(const Current&) = delete;
 
 private:
-    ALCcontext* before_;
+    ALCcontext* before_ = nullptr;
 };
 
 float bounded(double value, double low, double high)
@@ -86,7 +88,7 @@ public:
     Output& operator=(const Output&) = delete;
 
     bool start();
-    void set(const SoundState& state);
+    void set(const SoundState& wanted);
     bool isConnected() const;
     void render(std::span<float> samples);
 
@@ -202,8 +204,9 @@ bool SoundPlayer::Output::isConnected() const
 
 void SoundPlayer::Output::render(std::span<float> samples)
 {
-    MARSVIEW_CHECK(is_loopback_ && samples.size() % 2 == 0);
-    extensions().render(device_, samples.data(), static_cast<ALCsizei>(samples.size() / 2));
+    const Extensions& found = extensions();
+    MARSVIEW_CHECK(is_loopback_ && found.render != nullptr && samples.size() % 2 == 0);
+    found.render(device_, samples.data(), static_cast<ALCsizei>(samples.size() / 2));
 }
 
 Result<SoundPlayer> SoundPlayer::open()

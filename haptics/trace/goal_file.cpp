@@ -112,6 +112,12 @@ std::optional<std::uint64_t> countOf(std::string_view word)
     return is_whole ? std::optional(value) : std::nullopt;
 }
 
+bool isScale(const std::optional<double>& value)
+{
+    constexpr double kMax = 1e12;
+    return value && *value > 0.0 && *value < kMax;
+}
+
 std::optional<GoalPart> parsePart(std::string_view line, const PartColumns& columns)
 {
     const std::vector<std::string_view> words = allWordsOf(line);
@@ -124,11 +130,7 @@ std::optional<GoalPart> parsePart(std::string_view line, const PartColumns& colu
     const auto kind = contactModelKind(word(2));
     const auto radius = parseNumber(word(3));
     const auto exaggeration = parseNumber(word(4));
-    constexpr double kMax = 1e12;
-    const auto isSound = [](const std::optional<double>& value) {
-        return value && *value > 0.0 && *value < kMax;
-    };
-    if (!map || !part || !kind || !isSound(radius) || !isSound(exaggeration)) {
+    if (!map || !part || !kind || !isScale(radius) || !isScale(exaggeration)) {
         return std::nullopt;
     }
     return GoalPart{.map = *map,
