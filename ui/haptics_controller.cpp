@@ -128,6 +128,9 @@ void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
 {
     std::vector<FoundDevice> kept;
     std::copy_if(devices.begin(), devices.end(), std::back_inserter(kept), isForWindows);
+    // Reasons may be long: what can be used is seen first.
+    std::stable_partition(kept.begin(), kept.end(),
+                          [](const FoundDevice& device) { return device.isUsable(); });
     const auto is_same = [](const FoundDevice& a, const FoundDevice& b) {
         return a.uri == b.uri && a.name == b.name && a.reason == b.reason;
     };

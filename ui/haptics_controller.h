@@ -36,7 +36,8 @@ public:
 
     // Devices.
 
-    /// What was found last, without what has no place in a window; see devicesChanged().
+    /// What was found last, usable ones first, without what has no place in a window; see
+    /// devicesChanged().
     const std::vector<FoundDevice>& devices() const noexcept { return devices_; }
     void findDevices();
     bool isFinding() const noexcept { return finder_->isFinding(); }

@@ -1,7 +1,9 @@
 // Devices in a real window: what they touch, what they move, and how they end.
 #include "core/contact/contact_model.h"
-#include "core/view/exaggeration.h"
+#include "core/view/color_ramp.h"
 #include "haptics/trace/goal_file.h"
+#include "tests/support/map_maker.h"
+#include "tests/ui/large_maps.h"
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
 #include "ui/haptics_controller.h"
@@ -448,6 +450,51 @@ TEST_F(HapticsControllerTest, SettingsThatMakeNoSenseAreDefaults)
     EXPECT_EQ(read.stiffness_n_per_m, HapticsSettings{}.stiffness_n_per_m);
     EXPECT_EQ(read.force_share, 1.0);
     settings.remove(QStringLiteral("haptics"));
+}
+
+TEST(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
+{
+    const TestMaps maps;
+    LargeMaps large;
+    TestMaps::Shape shape;
+    shape.columns = 900;
+    shape.rows = 600; // 4 × 3 tiles
+    const QString file = maps.write(QStringLiteral("map.asc"), shape, [](int c, int r) {
+        return 900.0 * std::sin(c / 61.0) * std::cos(r / 47.0) + 25.0 * std::sin(c / 3.0 + r / 4.0);
+    });
+    const DatasetSpec spec{.path = file.toStdString()};
+    const SceneSurface whole({test::loadedMap(spec.path)});
+    const MapOpener opener = large.opener();
+    JobMonitor monitor;
+    const auto tiled = opener.open(spec, {}, opener.resources, monitor);
+    ASSERT_TRUE(tiled) << tiled.error().message;
+    ASSERT_TRUE(tiled->dataset->heightfield().isTiled());
+
+    const auto hand = std::make_shared<TestHand>();
+    TerrainView view;
+    view.resize(500, 400);
+    HapticsController haptics(view, testDrivers(hand));
+    view.show();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return view.isReady(); }, kTimeout));
+    view.setLayers({{.map = *tiled, .ramp = colorRampNamed("grey")}});
+    haptics.connectTo(QStringLiteral("hand:"));
+    for (const WorkspacePoint& at :
+         {WorkspacePoint{0.0, 0.0, -0.055}, WorkspacePoint{-0.04, 0.02, -0.055}}) {
+        hand->moveTo(at);
+        EXPECT_TRUE(QTest::qWaitFor(
+            [&] {
+                if (haptics.loop() == nullptr) {
+                    return false;
+                }
+                const LoopState now = haptics.loop()->state();
+                const ScenePoint proxy = now.contact.proxy;
+                return now.contact.is_in_contact && length(now.hand - at) < 1e-9 &&
+                       hand->force_n > 0.1 &&
+                       std::abs(proxy.z - whole.height(proxy.x, proxy.y) * view.exaggeration()) <
+                           1e-3;
+            },
+            kTimeout));
+    }
 }
 
 } // namespace
