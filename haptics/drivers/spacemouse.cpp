@@ -156,7 +156,7 @@ std::vector<FoundDevice> SpaceMouseDriver::find()
     std::vector<FoundDevice> found = SpaceMouse::find(api_);
     for (FoundDevice& device : found) {
         if (device.isUsable()) {
-            device.reason = "steers the camera in the window; it cannot touch";
+            device.reason = "is no stylus: it cannot touch";
         }
     }
     return found;
@@ -165,7 +165,7 @@ std::vector<FoundDevice> SpaceMouseDriver::find()
 Result<std::unique_ptr<HapticDevice>> SpaceMouseDriver::open(std::string_view address)
 {
     return Error{ErrorCode::Unsupported,
-                 fmt::format("{}: a SpaceMouse steers the camera in the window; it cannot touch",
+                 fmt::format("{}: a SpaceMouse is no stylus and cannot touch; name another device",
                              uriOf(address))};
 }
 

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -216,6 +217,10 @@ TEST_F(PreparationTest, WhatIsDamagedIsPreparedAgain)
         std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
         file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path) / 2));
         file << std::string(64, '\x5a');
+        file.close();
+        // Files are known again by whole seconds, and a test takes less.
+        std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) +
+                                                   std::chrono::seconds(2));
     };
     const auto cut_in_half = [](const std::string& path) {
         std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);

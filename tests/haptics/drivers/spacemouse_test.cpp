@@ -130,7 +130,7 @@ TEST(SpaceMouseDriver, ListsItAndSaysThatItCannotTouch)
     ASSERT_EQ(found.size(), 1U);
     EXPECT_THAT(found[0].reason, HasSubstr("cannot touch"));
     EXPECT_THAT(driver.open("/dev/hidraw2").error().message,
-                testing::StartsWith("spacemouse:/dev/hidraw2: a SpaceMouse steers the camera"));
+                testing::StartsWith("spacemouse:/dev/hidraw2: a SpaceMouse is no stylus"));
 }
 
 } // namespace marsview::test
