@@ -46,7 +46,8 @@ constexpr StoreSizes kStoresOnGpu{512, 64, 64};
 // Relief tiles in a picture, of those in store, so that the next picture's find room.
 constexpr double kReliefShareMax = 0.75;
 
-// Of the size that is asked for: half the bytes from a server, for texels of 1.06 pixels on average.
+// Of the size that is asked for: half the bytes from a server, for texels of 1.06 pixels on
+// average.
 constexpr double kRemoteTexel = 1.5;
 
 // Around an eye inside a map's box texels stay large however coarse they may be.
@@ -315,8 +316,8 @@ TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double e
     const auto room = static_cast<std::size_t>(
         kReliefShareMax * static_cast<double>(reliefs.size()) / static_cast<double>(layers.size()));
     DetailTarget target = request.detail;
-    const auto& tiles = layer.source.heightfield->tiles();
-    if (tiles && tiles->layout().is_remote) {
+    const Heightfield& heightfield = *layer.source.heightfield;
+    if (heightfield.isTiled() && heightfield.tiles()->layout().is_remote) {
         target.texel_px *= kRemoteTexel;
     }
     for (int i = 0;; ++i) {
