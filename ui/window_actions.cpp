@@ -294,7 +294,7 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
         action->setStatusTip(tr(entry.tip));
         contact_model_group->addAction(action);
     }
-    contact_sound = menu->addAction(tr("&Sound of Touch"));
+    contact_sound = menu->addAction(tr("So&und of Touch"));
     contact_sound->setCheckable(true);
     contact_sound->setStatusTip(
         tr("Hear the ground that is touched: its roughness as a hiss, its height as a tone"));
