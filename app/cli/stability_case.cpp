@@ -1,6 +1,7 @@
 #include "app/cli/stability_case.h"
 
 #include "core/base/check.h"
+#include "core/base/split_mix.h"
 #include "core/terrain/filled_heightfield.h"
 #include "core/terrain/surface_analysis.h"
 
@@ -119,17 +120,6 @@ Intent intentAt(StabilityScene scene, double seconds, double press_m)
     }
 }
 
-// splitmix64: in [-1, 1)
-double random(std::uint64_t& state)
-{
-    state += 0x9e3779b97f4a7c15U;
-    std::uint64_t x = state;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    x ^= x >> 31U;
-    return 2.0 * static_cast<double>(x >> 11U) * 0x1p-53 - 1.0;
-}
-
 // Of values at equal times: how far they are spread around a straight line through them.
 double rippleOf(const std::vector<double>& values)
 {
@@ -226,7 +216,7 @@ StabilityResult runStability(StabilityScene scene, const StabilityOptions& optio
     int change = 0;
     while (hand.seconds() < kSeconds) {
         const Intent intent = intentAt(scene, hand.seconds(), kPressM);
-        const double dt_s = kPeriodS + options.jitter_s * random(random_state);
+        const double dt_s = kPeriodS + options.jitter_s * (2.0 * nextRandom(random_state) - 1.0);
         hand.aimAt(intent.aim);
         hand.advance(dt_s);
         if (intent.change != change) {

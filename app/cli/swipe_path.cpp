@@ -1,5 +1,6 @@
 #include "app/cli/swipe_path.h"
 
+#include "core/base/split_mix.h"
 #include "core/contact/reference_proxy.h"
 
 #include <algorithm>
@@ -13,22 +14,11 @@ SwipePath::SwipePath(const SwipeArea& area, const SwipeOptions& options) noexcep
     , options_(options)
     , state_(options.seed)
 {
-    at_ = {area.first.column + random() * (area.last.column - area.first.column),
-           area.first.row + random() * (area.last.row - area.first.row)};
-    const double heading = 2.0 * std::numbers::pi * random();
+    at_ = {area.first.column + nextRandom(state_) * (area.last.column - area.first.column),
+           area.first.row + nextRandom(state_) * (area.last.row - area.first.row)};
+    const double heading = 2.0 * std::numbers::pi * nextRandom(state_);
     columns_ = std::cos(heading);
     rows_ = std::sin(heading);
-}
-
-// splitmix64
-double SwipePath::random() noexcept
-{
-    state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t x = state_;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    x ^= x >> 31U;
-    return static_cast<double>(x >> 11U) * 0x1p-53;
 }
 
 GridPoint SwipePath::next() noexcept
@@ -38,8 +28,8 @@ GridPoint SwipePath::next() noexcept
     constexpr double kUpdatesMore = 400.0;
     constexpr double kTurnMost = 0.004;
     if (until_turn_ <= 0.0) {
-        until_turn_ = kUpdatesMin + kUpdatesMore * random();
-        turn_ = kTurnMost * (2.0 * random() - 1.0);
+        until_turn_ = kUpdatesMin + kUpdatesMore * nextRandom(state_);
+        turn_ = kTurnMost * (2.0 * nextRandom(state_) - 1.0);
     }
     until_turn_ -= 1.0;
     const double cosine = std::cos(turn_);

@@ -30,7 +30,6 @@ public:
     GridPoint next() noexcept;
 
 private:
-    double random() noexcept; // in [0, 1)
 
     SwipeArea area_;
     SwipeOptions options_;

@@ -38,4 +38,9 @@ inline Vec3 normalized(const Vec3& a)
     return a * (1.0 / length(a));
 }
 
+inline bool isFinite(const Vec3& a) noexcept
+{
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
 } // namespace marsview

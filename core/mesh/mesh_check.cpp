@@ -27,7 +27,7 @@ struct HalfEdge {
     }
 };
 
-bool isFinite(const ScenePoint& p) noexcept
+bool isWithinBounds(const ScenePoint& p) noexcept
 {
     constexpr double kMax = TriangleMesh::kCoordinateMaxM;
     return std::abs(p.x) <= kMax && std::abs(p.y) <= kMax && std::abs(p.z) <= kMax;
@@ -193,7 +193,7 @@ private:
     void checkVertices()
     {
         for (std::size_t v = 0; v < vertices_.size(); ++v) {
-            if (!isFinite(vertices_[v])) {
+            if (!isWithinBounds(vertices_[v])) {
                 const auto number = static_cast<std::uint32_t>(v);
                 add(MeshFaultKind::BadCoordinate, {number, number}, vertices_[v]);
             }
@@ -214,7 +214,7 @@ private:
                 continue;
             }
             const auto [a, b, c] = points(number);
-            if (!isFinite(a) || !isFinite(b) || !isFinite(c)) {
+            if (!isWithinBounds(a) || !isWithinBounds(b) || !isWithinBounds(c)) {
                 continue;
             }
             if (isDegenerate(a, b, c)) {

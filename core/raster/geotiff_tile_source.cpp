@@ -20,29 +20,24 @@ bool isAlmost(const GridSize& size, const GridSize& wanted)
            is_close(size.rows, wanted.rows);
 }
 
-class GeotiffTileReader final : public TileReader {
+} // namespace
+
+class GeotiffTileSource::Reader final : public TileReader {
 public:
-    GeotiffTileReader(RasterFile file,
-                      const TileLayout& layout,
-                      VoidRule voids,
-                      std::vector<std::size_t> overviews,
-                      std::shared_ptr<const TileChecksums> checksums)
+    Reader(RasterFile file, const Raster& raster)
         : file_(std::move(file))
-        , layout_(layout)
-        , voids_(voids)
-        , overviews_(std::move(overviews))
-        , checksums_(std::move(checksums))
+        , raster_(raster)
     {}
 
     Result<Tile> read(const TileId& id) override
     {
-        MARSVIEW_CHECK(layout_.contains(id));
+        MARSVIEW_CHECK(raster_.layout.contains(id));
         Result<SampleGrid> samples = id.kind == TileKind::Means ? readMeans(id) : readSamples(id);
         if (!samples) {
             return std::move(samples).error();
         }
-        if (checksums_ && TileChecksums::covers(id) &&
-            sampleChecksum(*samples) != checksums_->of(id)) {
+        if (raster_.checksums && TileChecksums::covers(id) &&
+            sampleChecksum(*samples) != raster_.checksums->of(id)) {
             return damaged(id);
         }
         return Tile{.id = id, .samples = std::move(samples).value(), .filled_m = {}};
@@ -69,15 +64,15 @@ private:
 
     Result<SampleGrid> readMeans(const TileId& id)
     {
-        const std::size_t overview = overviews_[id.level];
+        const std::size_t overview = raster_.overviews[id.level];
         const GridSize size = file_.overviewSize(overview);
         const std::size_t column = std::min(id.column * kTileSide, size.columns - 1);
         const std::size_t row = std::min(id.row * kTileSide, size.rows - 1);
-        const std::size_t width = layout_.tileWidth(id);
-        const std::size_t height = layout_.tileHeight(id);
+        const std::size_t width = raster_.layout.tileWidth(id);
+        const std::size_t height = raster_.layout.tileHeight(id);
         const GridWindow window{column, row, std::min(width, size.columns - column),
                                 std::min(height, size.rows - row)};
-        Result<SampleGrid> means = gridOf(file_.readOverview(overview, window, voids_));
+        Result<SampleGrid> means = gridOf(file_.readOverview(overview, window, raster_.voids));
         if (!means || (means->columns() == width && means->rows() == height)) {
             return means;
         }
@@ -88,25 +83,25 @@ private:
     {
         MARSVIEW_CHECK(id.level <= GeotiffTileSource::kLastLevel);
         const std::size_t step = std::size_t{1} << id.level;
-        const std::size_t width = layout_.tileWidth(id);
-        const std::size_t height = layout_.tileHeight(id);
+        const std::size_t width = raster_.layout.tileWidth(id);
+        const std::size_t height = raster_.layout.tileHeight(id);
         // The last sample of a level is the raster's last, however far from the one before; it may
         // have a tile of its own.
         const std::size_t first_column =
-            std::min(id.column * kTileSide * step, layout_.columns - 1);
-        const std::size_t first_row = std::min(id.row * kTileSide * step, layout_.rows - 1);
+            std::min(id.column * kTileSide * step, raster_.layout.columns - 1);
+        const std::size_t first_row = std::min(id.row * kTileSide * step, raster_.layout.rows - 1);
         GridWindow window{first_column, first_row, (width - 1) * step + 1, (height - 1) * step + 1};
-        if (checksums_) { // which are of whole tiles
+        if (raster_.checksums) { // which are of whole tiles
             window = {first_column / kTileSide * kTileSide, first_row / kTileSide * kTileSide,
                       kTileSide * step, kTileSide * step};
         }
-        window.columns = std::min(window.columns, layout_.columns - window.column);
-        window.rows = std::min(window.rows, layout_.rows - window.row);
-        Result<SampleGrid> all = gridOf(file_.readWindow(window, voids_));
+        window.columns = std::min(window.columns, raster_.layout.columns - window.column);
+        window.rows = std::min(window.rows, raster_.layout.rows - window.row);
+        Result<SampleGrid> all = gridOf(file_.readWindow(window, raster_.voids));
         if (!all || id.level == 0) {
             return all;
         }
-        if (checksums_) {
+        if (raster_.checksums) {
             if (const std::optional<TileId> wrong = firstDamaged(*all, window)) {
                 return damaged(*wrong);
             }
@@ -125,8 +120,9 @@ private:
                     .level = 0,
                     .column = static_cast<std::uint32_t>((window.column + column) / kTileSide),
                     .row = static_cast<std::uint32_t>((window.row + row) / kTileSide)};
-                const GridWindow part{column, row, layout_.tileWidth(id), layout_.tileHeight(id)};
-                if (sampleChecksum(samples, part) != checksums_->of(id)) {
+                const GridWindow part{column, row, raster_.layout.tileWidth(id),
+                                      raster_.layout.tileHeight(id)};
+                if (sampleChecksum(samples, part) != raster_.checksums->of(id)) {
                     return id;
                 }
             }
@@ -162,13 +158,12 @@ private:
     }
 
     RasterFile file_;
-    TileLayout layout_;
-    VoidRule voids_;
-    std::vector<std::size_t> overviews_;
-    std::shared_ptr<const TileChecksums> checksums_;
+    Raster raster_;
 };
 
-} // namespace
+GeotiffTileSource::GeotiffTileSource(Raster raster)
+    : raster_(std::move(raster))
+{}
 
 Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const RasterFile& file,
                                                                        const VoidRule& voids)
@@ -187,8 +182,14 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
                         "pieces",
                         block.columns, block.rows));
     }
-    auto source = std::shared_ptr<GeotiffTileSource>(new GeotiffTileSource);
-    TileLayout& layout = source->layout_;
+    Raster raster{.layout = {},
+                  .path = info.path,
+                  .name = addressOf(info.path),
+                  .remote_version = info.remote_version,
+                  .band = info.band,
+                  .voids = voids,
+                  .overviews = {0}};
+    TileLayout& layout = raster.layout;
     layout = {.columns = info.columns,
               .rows = info.rows,
               .type = info.type,
@@ -196,7 +197,6 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
                            info.type == SampleType::Float32 || info.type == SampleType::Float64,
               .mean_levels = 0,
               .is_remote = remoteNameFor(info.path).has_value()};
-    source->overviews_.push_back(0);
     for (std::size_t level = 1;; ++level) {
         const GridSize wanted{layout.columnsAt(TileKind::Means, level),
                               layout.rowsAt(TileKind::Means, level)};
@@ -207,7 +207,7 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
         if (overview == file.overviewCount()) {
             break;
         }
-        source->overviews_.push_back(overview);
+        raster.overviews.push_back(overview);
         layout.mean_levels = level;
     }
     // A picture of all of it has to be cheap.
@@ -216,43 +216,31 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
                  layout.rowsAt(TileKind::Means, layout.mean_levels)) > kCoarsestMax) {
         return refuse("it has no overviews down to a small picture of it");
     }
-    source->path_ = info.path;
-    source->name_ = addressOf(info.path);
-    source->remote_version_ = info.remote_version;
-    source->band_ = info.band;
-    source->voids_ = voids;
-    return std::shared_ptr<const GeotiffTileSource>(std::move(source));
+    return std::shared_ptr<const GeotiffTileSource>(new GeotiffTileSource(std::move(raster)));
 }
 
 std::shared_ptr<const GeotiffTileSource>
 GeotiffTileSource::checkedBy(std::shared_ptr<const TileChecksums> checksums) const
 {
-    auto checked = std::shared_ptr<GeotiffTileSource>(new GeotiffTileSource);
-    checked->layout_ = layout_;
-    checked->path_ = path_;
-    checked->name_ = name_;
-    checked->remote_version_ = remote_version_;
-    checked->band_ = band_;
-    checked->voids_ = voids_;
-    checked->overviews_ = overviews_;
-    checked->checksums_ = std::move(checksums);
-    return checked;
+    Raster raster = raster_;
+    raster.checksums = std::move(checksums);
+    return std::shared_ptr<const GeotiffTileSource>(new GeotiffTileSource(std::move(raster)));
 }
 
 Result<std::unique_ptr<TileReader>> GeotiffTileSource::open() const
 {
-    Result<RasterFile> file = RasterFile::open(path_, band_);
+    Result<RasterFile> file = RasterFile::open(raster_.path, raster_.band);
     if (!file) {
         return std::move(file).error();
     }
     const RasterInfo& info = file->info();
-    if (info.columns != layout_.columns || info.rows != layout_.rows || info.type != layout_.type ||
-        info.remote_version != remote_version_) {
+    if (info.columns != raster_.layout.columns || info.rows != raster_.layout.rows ||
+        info.type != raster_.layout.type || info.remote_version != raster_.remote_version) {
         return Error{ErrorCode::Invalid,
-                     name_ + ": has become another raster since it was opened; open it again"};
+                     raster_.name +
+                         ": has become another raster since it was opened; open it again"};
     }
-    return std::unique_ptr<TileReader>(std::make_unique<GeotiffTileReader>(
-        std::move(*file), layout_, voids_, overviews_, checksums_));
+    return std::unique_ptr<TileReader>(std::make_unique<Reader>(std::move(*file), raster_));
 }
 
 } // namespace marsview

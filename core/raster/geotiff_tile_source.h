@@ -31,21 +31,27 @@ public:
     checkedBy(std::shared_ptr<const TileChecksums> checksums) const;
 
     /// Samples at levels 0 … kLastLevel, Means at 1 … mean_levels. Voids without a fill.
-    const TileLayout& layout() const noexcept override { return layout_; }
-    const std::string& name() const noexcept override { return name_; }
+    const TileLayout& layout() const noexcept override { return raster_.layout; }
+    const std::string& name() const noexcept override { return raster_.name; }
     Result<std::unique_ptr<TileReader>> open() const override;
 
 private:
-    GeotiffTileSource() = default;
+    // What its readers need to know.
+    struct Raster {
+        TileLayout layout;
+        std::string path;
+        std::string name;           // as the user knows it
+        std::string remote_version; // RasterInfo's; all readers read the same
+        int band = 1;
+        VoidRule voids;
+        std::vector<std::size_t> overviews; // of the file, by level; [0] means nothing
+        std::shared_ptr<const TileChecksums> checksums = nullptr; // null: nobody knows
+    };
+    class Reader;
 
-    TileLayout layout_;
-    std::string path_;
-    std::string name_;           // as the user knows it
-    std::string remote_version_; // RasterInfo's; all readers read the same
-    int band_ = 1;
-    VoidRule voids_;
-    std::vector<std::size_t> overviews_;             // of the file, by level; [0] means nothing
-    std::shared_ptr<const TileChecksums> checksums_; // null: nobody knows
+    explicit GeotiffTileSource(Raster raster);
+
+    Raster raster_;
 };
 
 } // namespace marsview

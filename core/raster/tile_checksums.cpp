@@ -5,30 +5,35 @@
 #include <libdeflate.h>
 
 namespace marsview {
+namespace {
+
+TileKind kindAt(std::size_t level)
+{
+    return level == 0 ? TileKind::Samples : TileKind::Means;
+}
+
+std::size_t countBelow(const TileLayout& layout, std::size_t end_level)
+{
+    std::size_t count = 0;
+    for (std::size_t level = 0; level < end_level; ++level) {
+        count += layout.tileColumns(kindAt(level), level) * layout.tileRows(kindAt(level), level);
+    }
+    return count;
+}
+
+} // namespace
 
 TileChecksums::TileChecksums(const TileLayout& layout)
 {
-    std::size_t count = 0;
-    const auto add = [&](TileKind kind, std::size_t level) {
-        levels_.push_back({count, layout.tileColumns(kind, level)});
-        count += layout.tileColumns(kind, level) * layout.tileRows(kind, level);
-    };
-    add(TileKind::Samples, 0);
-    for (std::size_t level = 1; level <= layout.mean_levels; ++level) {
-        add(TileKind::Means, level);
+    for (std::size_t level = 0; level <= layout.mean_levels; ++level) {
+        levels_.push_back({countBelow(layout, level), layout.tileColumns(kindAt(level), level)});
     }
-    values_.resize(count);
+    values_.resize(countFor(layout));
 }
 
 std::size_t TileChecksums::countFor(const TileLayout& layout)
 {
-    std::size_t count =
-        layout.tileColumns(TileKind::Samples, 0) * layout.tileRows(TileKind::Samples, 0);
-    for (std::size_t level = 1; level <= layout.mean_levels; ++level) {
-        count +=
-            layout.tileColumns(TileKind::Means, level) * layout.tileRows(TileKind::Means, level);
-    }
-    return count;
+    return countBelow(layout, layout.mean_levels + 1);
 }
 
 std::size_t TileChecksums::numberOf(const TileId& id) const

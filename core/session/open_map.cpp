@@ -1,7 +1,9 @@
 #include "core/session/open_map.h"
 
 #include "core/base/check.h"
+#include "core/base/environment.h"
 #include "core/base/file_lock.h"
+#include "core/base/plain_number.h"
 #include "core/raster/geotiff_tile_source.h"
 #include "core/raster/map_folder.h"
 #include "core/raster/mean_samples_source.h"
@@ -16,9 +18,9 @@
 #include "core/terrain/map_tile_source.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -90,13 +92,11 @@ int bandOf(const DatasetSpec& spec, const std::string& raster_path, const Raster
 
 std::size_t megabytesFrom(const char* variable, std::size_t otherwise)
 {
-    const char* text = std::getenv(variable); // NOLINT(concurrency-mt-unsafe): only read
-    if (text == nullptr) {
-        return otherwise;
-    }
-    char* end = nullptr;
-    const unsigned long long megabytes = std::strtoull(text, &end, 10);
-    return end != text && *end == '\0' ? static_cast<std::size_t>(megabytes) << 20 : otherwise;
+    constexpr double kMost = 1e9;
+    const std::optional<double> megabytes = parseNumber(environmentVariable(variable));
+    return megabytes && *megabytes >= 0.0 && *megabytes <= kMost
+               ? static_cast<std::size_t>(*megabytes * 0x1p20)
+               : otherwise;
 }
 
 Result<LoadedMap> openHeld(const DatasetSpec& spec, JobMonitor& monitor)

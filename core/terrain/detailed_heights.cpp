@@ -1,6 +1,7 @@
 #include "core/terrain/detailed_heights.h"
 
 #include "core/base/check.h"
+#include "core/base/split_mix.h"
 
 #include <algorithm>
 #include <array>
@@ -27,13 +28,6 @@ constexpr std::size_t kBlockSide = 256;
 constexpr double kHalvingLeast = 0.268;
 constexpr double kHalvingMost = 0.5;
 
-std::uint64_t mixed(std::uint64_t x)
-{
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31U);
-}
-
 // What is the same along a row of an octave's lattice.
 struct RowKey {
     std::uint32_t before = 0;
@@ -42,8 +36,8 @@ struct RowKey {
 
 RowKey rowKey(std::uint64_t seed, std::size_t octave, std::int64_t row)
 {
-    const std::uint64_t key = mixed(mixed(seed + 0x9e3779b97f4a7c15U * (octave + 1)) +
-                                    0x9e3779b97f4a7c15U * static_cast<std::uint64_t>(row));
+    const std::uint64_t key = splitMix(splitMix(seed + kSplitMixStep * (octave + 1)) +
+                                       kSplitMixStep * static_cast<std::uint64_t>(row));
     return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)};
 }
 

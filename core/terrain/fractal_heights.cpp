@@ -1,6 +1,7 @@
 #include "core/terrain/fractal_heights.h"
 
 #include "core/base/check.h"
+#include "core/base/split_mix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,11 @@ namespace {
 constexpr std::uint64_t kOctaves = 11;
 constexpr double kSlope = 0.3;
 
-// In [-1, 1): the finaliser of splitmix64 over the lattice point.
+// In [-1, 1), for a point of the lattice.
 double latticeValue(std::uint64_t seed, std::uint64_t octave, std::uint64_t c, std::uint64_t r)
 {
-    std::uint64_t x = seed + 0x9e3779b97f4a7c15U * (octave * 0x100000001U + (c << 32U) + r + 1U);
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    x ^= x >> 31U;
+    const std::uint64_t x =
+        splitMix(seed + kSplitMixStep * (octave * 0x100000001U + (c << 32U) + r + 1U));
     return static_cast<double>(x >> 11U) * 0x1p-52 - 1.0;
 }
 

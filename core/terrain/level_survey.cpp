@@ -203,7 +203,7 @@ private:
     void countTile()
     {
         monitor_.report(static_cast<double>(++done_) /
-                        static_cast<double>(TileChecksums::countFor(layout_)));
+                        static_cast<double>(found_.checksums->values().size()));
     }
 
     Status surveyTile(const TileId& id, const SampleGrid& samples, std::vector<BlockRows>& fine)

@@ -1,5 +1,6 @@
 #include "haptics/drivers/sim_driver.h"
 
+#include "core/base/split_mix.h"
 #include "haptics/drivers/uri_parameters.h"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ SimDevice::SimDevice(const SimOptions& options)
     capabilities_.force_n_continuous = options.force_n_peak;
     capabilities_.stiffness_n_per_m_max = options.stiffness_n_per_m_max;
     capabilities_.rate_hz = options.rate_hz;
-    heading_rad_ = 2.0 * std::numbers::pi * random();
+    heading_rad_ = 2.0 * std::numbers::pi * nextRandom(random_state_);
 }
 
 DeviceStatus SimDevice::read(DeviceSample& sample) noexcept
@@ -107,25 +108,14 @@ DeviceStatus SimDevice::write(const Vec3& force_n) noexcept
     return DeviceStatus::Fine;
 }
 
-// splitmix64: in [0, 1)
-double SimDevice::random() noexcept
-{
-    random_state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t x = random_state_;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    x ^= x >> 31U;
-    return static_cast<double>(x >> 11U) * 0x1p-53;
-}
-
 // Strokes that curve a little and turn back before the walls. The hand leans on the stylus with a
 // constant force, so that it follows the ground without knowing it.
 void SimDevice::wander() noexcept
 {
     const double dt_s = 1.0 / options_.rate_hz;
     if (until_turn_s_ <= 0.0) {
-        until_turn_s_ = 0.1 + 0.4 * random();
-        turn_rad_per_s_ = 4.0 * (2.0 * random() - 1.0);
+        until_turn_s_ = 0.1 + 0.4 * nextRandom(random_state_);
+        turn_rad_per_s_ = 4.0 * (2.0 * nextRandom(random_state_) - 1.0);
     }
     until_turn_s_ -= dt_s;
     heading_rad_ += turn_rad_per_s_ * dt_s;

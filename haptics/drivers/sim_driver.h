@@ -31,7 +31,6 @@ public:
 
 private:
     void wander() noexcept;
-    double random() noexcept;
 
     SimOptions options_;
     DeviceCapabilities capabilities_;

@@ -1,5 +1,7 @@
 #include "haptics/drivers/simulated_hand.h"
 
+#include "core/base/split_mix.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,17 +10,6 @@ namespace marsview {
 namespace {
 
 constexpr double kStepMaxS = 1e-4;
-
-// splitmix64: in [0, 1)
-double random(std::uint64_t& state) noexcept
-{
-    state += 0x9e3779b97f4a7c15U;
-    std::uint64_t x = state;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    x ^= x >> 31U;
-    return static_cast<double>(x >> 11U) * 0x1p-53;
-}
 
 double quantised(double value, double step) noexcept
 {
@@ -37,8 +28,8 @@ SimulatedHand::SimulatedHand(const HandOptions& options, const WorkspacePoint& a
     options_.delay_s = std::clamp(options_.delay_s, 0.0, HandOptions::kDelayMaxS);
     std::uint64_t state = options_.seed;
     for (std::size_t axis = 0; axis < phases_.size(); ++axis) {
-        phases_[axis] = 2.0 * std::numbers::pi * random(state);
-        rad_per_s_[axis] = 2.0 * std::numbers::pi * (kTremorHz + kTremorHzMore * random(state));
+        phases_[axis] = 2.0 * std::numbers::pi * nextRandom(state);
+        rad_per_s_[axis] = 2.0 * std::numbers::pi * (kTremorHz + kTremorHzMore * nextRandom(state));
     }
 }
 

@@ -10,11 +10,6 @@ using std::chrono::nanoseconds;
 
 constexpr double kStepMaxS = 0.01; // what dynamics count a longer time as
 
-bool isFinite(const Vec3& v) noexcept
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 Vec3 asVector(const WorkspacePoint& p) noexcept
 {
     return {p.x, p.y, p.z};

@@ -13,11 +13,6 @@ constexpr std::array<std::string_view, kLetGoReasonCount> kNames{
     "fault",        "nothing to touch",
 };
 
-bool isFinite(const Vec3& v) noexcept
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // Lengths of vectors whose squares overflow are finite too.
 double safeLength(const Vec3& v) noexcept
 {

@@ -27,11 +27,6 @@ constexpr double kRimShown = 0.85;
 // Forces weaker than this share of the largest have no direction worth showing.
 constexpr double kDirectionFrom = 0.01;
 
-bool isFinite(const Vec3& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 } // namespace
 
 ForceMeter::ForceMeter(QWidget* parent)

@@ -3,6 +3,7 @@
 #include "core/geo/extent.h"
 #include "core/session/dataset.h"
 #include "ui/coordinate_text.h"
+#include "ui/panels/caption.h"
 
 #include <QComboBox>
 #include <QFormLayout>
@@ -291,11 +292,7 @@ void GeoreferencingPanel::fillFacts()
 // A name above its value: beside it, neither has room in a narrow panel.
 void GeoreferencingPanel::addFact(const QString& name, const QString& value)
 {
-    auto* caption = new QLabel(name, this);
-    caption->setForegroundRole(QPalette::PlaceholderText);
-    QFont small = caption->font();
-    small.setPointSizeF(small.pointSizeF() * 0.88);
-    caption->setFont(small);
+    QLabel* caption = makeCaption(name, this);
     caption->setContentsMargins(0, facts_->rowCount() == 0 ? 0 : 6, 0, 0);
     QLabel* fact = makeFact(this);
     fact->setText(value);

@@ -2,7 +2,8 @@
 
 #include "ui/haptics_text.h"
 #include "ui/number_text.h"
-#include "ui/panels/time_plot.h"
+#include "ui/panels/caption.h"
+#include "ui/panels/loop_times.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -12,7 +13,6 @@
 #include <QEvent>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QGridLayout>
 #include <QLabel>
 #include <QListWidget>
 #include <QProgressBar>
@@ -27,10 +27,9 @@
 namespace marsview {
 namespace {
 
-constexpr int kTimesInterval = 250; // ms; what an eye follows
-constexpr int kForceSteps = 200;    // of the meter
-constexpr int kStiffnessStep = 10;  // N/m
-constexpr int kShareStep = 5;       // %
+constexpr int kForceSteps = 200;   // of the meter
+constexpr int kStiffnessStep = 10; // N/m
+constexpr int kShareStep = 5;      // %
 
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kUsableRole = Qt::UserRole + 1;
@@ -41,35 +40,6 @@ QLabel* makeText(QWidget* parent, const QString& name)
     label->setWordWrap(true);
     label->setAccessibleName(name);
     return label;
-}
-
-// A word above what it is about, small and quiet as in the other panels.
-QLabel* makeCaption(QWidget* parent, const QString& text)
-{
-    auto* caption = new QLabel(text, parent);
-    caption->setForegroundRole(QPalette::PlaceholderText);
-    QFont small = caption->font();
-    small.setPointSizeF(small.pointSizeF() * 0.88);
-    caption->setFont(small);
-    return caption;
-}
-
-// A caption with a value at the other end of its line.
-QHBoxLayout* makeLine(QLabel* caption, QLabel* value)
-{
-    auto* line = new QHBoxLayout;
-    line->addWidget(caption);
-    line->addWidget(value, 1);
-    value->setAlignment(Qt::AlignTrailing | Qt::AlignVCenter);
-    return line;
-}
-
-QString timesText(const TimeHistogram& times)
-{
-    //: How long something took: half of the time at most, all but a thousandth, ever
-    return HapticsPanel::tr("%1 · %2 · %3")
-        .arg(spanText(times.quantile(0.5)), spanText(times.quantile(0.999)),
-             spanText(times.maximum()));
 }
 
 } // namespace
@@ -92,7 +62,9 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     layout->setSpacing(4);
     makeDevices(*layout);
     makeForce(*layout);
-    makeTimes(*layout);
+    times_ = new LoopTimes(this);
+    layout->addWidget(times_);
+    layout->addSpacing(6);
     makeRecording(*layout);
     layout->addStretch(1);
     scroll->setWidget(content);
@@ -177,13 +149,13 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
 
     const auto make_slider = [&](QSlider*& slider, QLabel*& value, const QString& text,
                                  const QString& name) {
-        QLabel* caption = makeCaption(this, text);
+        QLabel* caption = makeCaption(text, this);
         value = new QLabel(this);
         slider = new QSlider(Qt::Horizontal, this);
         slider->setObjectName(name);
         slider->setAccessibleName(QString(text).remove(QLatin1Char('&')));
         caption->setBuddy(slider);
-        layout.addLayout(makeLine(caption, value));
+        layout.addLayout(makeCaptionLine(caption, value));
         layout.addWidget(slider);
     };
     make_slider(stiffness_, stiffness_text_, tr("St&iffness"), QStringLiteral("stiffness"));
@@ -207,7 +179,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
         }
     });
 
-    QLabel* caption = makeCaption(this, tr("Contact &model"));
+    QLabel* caption = makeCaption(tr("Contact &model"), this);
     layout.addWidget(caption);
     models_ = new QComboBox(this);
     models_->setObjectName(QStringLiteral("contactModel"));
@@ -234,37 +206,6 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
         }
     });
     layout.addWidget(walls_);
-    layout.addSpacing(6);
-}
-
-void HapticsPanel::makeTimes(QBoxLayout& layout)
-{
-    const QString tip =
-        tr("Of the time since it began: the usual span, what one in a thousand takes longer than, "
-           "and the longest. The line shows the last half minute from 1 µs to 10 ms, the pale one "
-           "the longest.");
-    const auto make_plot = [&](TimePlot*& plot, QLabel*& value, const QString& text) {
-        value = new QLabel(this);
-        // No wider than there is room: the tip and the plot tell the rest.
-        value->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-        QFont small = value->font();
-        small.setPointSizeF(small.pointSizeF() * 0.88);
-        value->setFont(small);
-        value->setToolTip(tip);
-        value->setObjectName(QStringLiteral("times"));
-        plot = new TimePlot(this);
-        plot->setAccessibleName(text);
-        plot->setToolTip(tip);
-        layout.addLayout(makeLine(makeCaption(this, text), value));
-        layout.addWidget(plot);
-    };
-    make_plot(update_plot_, update_text_, tr("Update"));
-    make_plot(lateness_plot_, lateness_text_, tr("Lateness"));
-    missed_ = makeText(this, tr("Missed updates"));
-    layout.addWidget(missed_);
-    real_time_ = makeText(this, tr("Real time"));
-    real_time_->setObjectName(QStringLiteral("realTime"));
-    layout.addWidget(real_time_);
     layout.addSpacing(6);
 }
 
@@ -480,13 +421,7 @@ void HapticsPanel::showNoState()
         force_->setFormat(tr("%1 N").arg(numberText(0.0, 2)));
         reason_->setText(controller_.loop() != nullptr ? letGoText(LetGoReason::NoTouch)
                                                        : QString());
-        update_text_->clear();
-        lateness_text_->clear();
-        missed_->hide();
-        real_time_->hide();
-        update_plot_->clear();
-        lateness_plot_->clear();
-        last_ = {};
+        times_->clear();
     }
 }
 
@@ -508,37 +443,9 @@ void HapticsPanel::showState(const LoopState& state)
     if (text != reason_->text()) {
         reason_->setText(text);
     }
-    if (!since_times_.isValid() || since_times_.hasExpired(kTimesInterval)) {
-        since_times_.start();
-        showTimes();
+    if (times_->isDue()) {
+        times_->showLoop(controller_.loop()->statistics(), controller_.loop()->grants());
     }
-}
-
-void HapticsPanel::showTimes()
-{
-    const LoopStatistics now = controller_.loop()->statistics();
-    if (now.tick.count() == 0) {
-        return;
-    }
-    const bool is_same_run = now.tick.count() >= last_.tick.count();
-    const LoopStatistics last = is_same_run ? last_ : LoopStatistics{};
-    const TimeHistogram ticks = now.tick.since(last.tick);
-    const TimeHistogram late = now.lateness.since(last.lateness);
-    if (ticks.count() > 0) {
-        update_plot_->add({.usual = ticks.quantile(0.5), .longest = ticks.maximum()});
-        lateness_plot_->add({.usual = late.quantile(0.5), .longest = late.maximum()});
-    }
-    last_ = now;
-    update_text_->setText(timesText(now.tick));
-    lateness_text_->setText(timesText(now.lateness));
-    const auto missed = static_cast<std::size_t>(now.missed_by_tick + now.missed_by_waking);
-    //: %1 and %2 are numbers
-    missed_->setText(
-        tr("%1 of %2 updates too late")
-            .arg(countText(missed), countText(static_cast<std::size_t>(now.tick.count()))));
-    missed_->show();
-    real_time_->setText(realTimeText(controller_.loop()->grants()));
-    real_time_->show();
 }
 
 void HapticsPanel::showRecording()

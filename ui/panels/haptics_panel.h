@@ -1,10 +1,8 @@
 // The panel for touching with a device.
 #pragma once
 
-#include "haptics/loop/loop_statistics.h"
 #include "ui/haptics_controller.h"
 
-#include <QElapsedTimer>
 #include <QWidget>
 
 class QAction;
@@ -20,7 +18,7 @@ class QSlider;
 
 namespace marsview {
 
-class TimePlot;
+class LoopTimes;
 
 /// Devices, what is felt, how punctual the loop is, and recordings of it. Shows what the controller
 /// tells and asks it for changes. Looks for devices while it is to be seen.
@@ -48,7 +46,6 @@ protected:
 private:
     void makeDevices(QBoxLayout& layout);
     void makeForce(QBoxLayout& layout);
-    void makeTimes(QBoxLayout& layout);
     void makeRecording(QBoxLayout& layout);
     void showDevices();
     void markConnected();
@@ -59,7 +56,6 @@ private:
     void showRecording();
     void showState(const LoopState& state);
     void showNoState();
-    void showTimes();
     void toggleConnection();
     QString chosenUri() const;
 
@@ -77,18 +73,11 @@ private:
     QLabel* share_text_ = nullptr;
     QComboBox* models_ = nullptr;
     QCheckBox* walls_ = nullptr;
-    QLabel* update_text_ = nullptr;
-    TimePlot* update_plot_ = nullptr;
-    QLabel* lateness_text_ = nullptr;
-    TimePlot* lateness_plot_ = nullptr;
-    QLabel* missed_ = nullptr;
-    QLabel* real_time_ = nullptr;
+    LoopTimes* times_ = nullptr;
     QPushButton* record_ = nullptr;
     QPushButton* replay_ = nullptr;
     QLabel* recording_ = nullptr;
 
-    QElapsedTimer since_times_;
-    LoopStatistics last_; // when the plots got their last moment
     QString folder_;
     bool is_filling_ = false;
 };

@@ -1,5 +1,6 @@
 #include "ui/panels/layer_delegate.h"
 
+#include "ui/panels/caption.h"
 #include "ui/panels/layer_model.h"
 #include "ui/ramp_text.h"
 
@@ -22,13 +23,6 @@ constexpr int kRampHeight = 4;
 
 // A plain or a sea would press everything else flat: bars end at this many times the mean.
 constexpr double kBarMax = 6.0;
-
-QFont smallFont(const QFont& font)
-{
-    QFont smaller = font;
-    smaller.setPointSizeF(font.pointSizeF() * 0.88);
-    return smaller;
-}
 
 QColor mixed(const QColor& a, const QColor& b, double share_of_b)
 {
@@ -64,7 +58,7 @@ LayerDelegate::Places LayerDelegate::placesOf(const QStyleOptionViewItem& option
 {
     const QStyle* style = option.widget != nullptr ? option.widget->style() : QApplication::style();
     const QFontMetrics big(option.font);
-    const QFontMetrics small(smallFont(option.font));
+    const QFontMetrics small(captionFont(option.font));
     const int side = style->pixelMetric(QStyle::PM_IndicatorWidth, &option, option.widget);
     const int line = std::max(side, big.height());
     const int left = kMargin + side + kGap;
@@ -158,7 +152,7 @@ void LayerDelegate::paint(QPainter* painter,
                       QFontMetrics(name_font).elidedText(index.data().toString(), Qt::ElideMiddle,
                                                          places.name.width()));
 
-    const QFont small = smallFont(full.font);
+    const QFont small = captionFont(full.font);
     const QFontMetrics metrics(small);
     painter->setFont(small);
     painter->setPen(quiet);

@@ -1,0 +1,108 @@
+#include "ui/panels/loop_times.h"
+
+#include "ui/haptics_text.h"
+#include "ui/number_text.h"
+#include "ui/panels/caption.h"
+#include "ui/panels/time_plot.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+
+namespace marsview {
+namespace {
+
+constexpr int kIntervalMs = 250; // what an eye follows
+
+QString timesText(const TimeHistogram& times)
+{
+    //: How long something took: half of the time at most, all but a thousandth, ever
+    return LoopTimes::tr("%1 · %2 · %3")
+        .arg(spanText(times.quantile(0.5)), spanText(times.quantile(0.999)),
+             spanText(times.maximum()));
+}
+
+} // namespace
+
+LoopTimes::LoopTimes(QWidget* parent)
+    : QWidget(parent)
+{
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(4);
+    update_ = makeLine(*layout, tr("Update"));
+    lateness_ = makeLine(*layout, tr("Lateness"));
+    missed_ = new QLabel(this);
+    missed_->setAccessibleName(tr("Missed updates"));
+    real_time_ = new QLabel(this);
+    real_time_->setAccessibleName(tr("Real time"));
+    real_time_->setObjectName(QStringLiteral("realTime"));
+    for (QLabel* label : {missed_, real_time_}) {
+        label->setWordWrap(true);
+        layout->addWidget(label);
+    }
+}
+
+LoopTimes::Line LoopTimes::makeLine(QBoxLayout& layout, const QString& name)
+{
+    const QString tip =
+        tr("Of the time since it began: the usual span, what one in a thousand takes longer than, "
+           "and the longest. The line shows the last half minute from 1 µs to 10 ms, the pale one "
+           "the longest.");
+    const Line line{.text = new QLabel(this), .plot = new TimePlot(this)};
+    // No wider than there is room: the tip and the plot tell the rest.
+    line.text->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    line.text->setFont(captionFont(line.text->font()));
+    line.text->setToolTip(tip);
+    line.text->setObjectName(QStringLiteral("times"));
+    line.plot->setAccessibleName(name);
+    line.plot->setToolTip(tip);
+    layout.addLayout(makeCaptionLine(makeCaption(name, this), line.text));
+    layout.addWidget(line.plot);
+    return line;
+}
+
+bool LoopTimes::isDue() const
+{
+    return !since_shown_.isValid() || since_shown_.hasExpired(kIntervalMs);
+}
+
+void LoopTimes::showLoop(const LoopStatistics& now, const RealTimeGrants& grants)
+{
+    since_shown_.start();
+    if (now.tick.count() == 0) {
+        return;
+    }
+    const bool is_same_run = now.tick.count() >= last_.tick.count();
+    const LoopStatistics last = is_same_run ? last_ : LoopStatistics{};
+    const TimeHistogram ticks = now.tick.since(last.tick);
+    const TimeHistogram late = now.lateness.since(last.lateness);
+    if (ticks.count() > 0) {
+        update_.plot->add({.usual = ticks.quantile(0.5), .longest = ticks.maximum()});
+        lateness_.plot->add({.usual = late.quantile(0.5), .longest = late.maximum()});
+    }
+    last_ = now;
+    update_.text->setText(timesText(now.tick));
+    lateness_.text->setText(timesText(now.lateness));
+    const auto missed = static_cast<std::size_t>(now.missed_by_tick + now.missed_by_waking);
+    //: %1 and %2 are numbers
+    missed_->setText(
+        tr("%1 of %2 updates too late")
+            .arg(countText(missed), countText(static_cast<std::size_t>(now.tick.count()))));
+    missed_->show();
+    real_time_->setText(realTimeText(grants));
+    real_time_->show();
+}
+
+void LoopTimes::clear()
+{
+    update_.text->clear();
+    lateness_.text->clear();
+    update_.plot->clear();
+    lateness_.plot->clear();
+    missed_->hide();
+    real_time_->hide();
+    last_ = {};
+}
+
+} // namespace marsview
