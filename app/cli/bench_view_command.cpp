@@ -8,10 +8,12 @@
 #include "app/cli/view_bench.h"
 #include "core/session/sample_map.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>

@@ -3,8 +3,11 @@
 
 #include "core/base/result.h"
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace marsview {
 

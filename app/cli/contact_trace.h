@@ -7,7 +7,7 @@
 #include "core/contact/goal_frame.h"
 
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

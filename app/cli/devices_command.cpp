@@ -8,9 +8,11 @@
 #include "haptics/device/load_marker.h"
 #include "haptics/drivers/built_in_drivers.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 namespace marsview {
 namespace {

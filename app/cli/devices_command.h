@@ -3,7 +3,7 @@
 
 #include "haptics/device/device_driver.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -6,10 +6,12 @@
 #include "app/cli/text_output.h"
 #include "core/session/open_map.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -11,11 +11,13 @@
 #include "haptics/loop/rt_scope.h"
 #include "haptics/trace/session_recorder.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>

@@ -4,7 +4,7 @@
 #include "haptics/loop/servo_loop.h"
 #include "haptics/loop/window_feeder.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 

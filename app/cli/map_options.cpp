@@ -3,6 +3,7 @@
 #include "app/cli/text_output.h"
 #include "core/session/dataset.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>

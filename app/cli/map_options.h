@@ -8,10 +8,13 @@
 #include "core/raster/raster_info.h"
 #include "core/session/dataset.h"
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace marsview {
 

@@ -1,5 +1,6 @@
 #include "app/cli/number_checks.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <string>
 

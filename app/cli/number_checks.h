@@ -1,7 +1,9 @@
 // Numbers among the options of every command.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class Validator;
+}
 
 namespace marsview {
 

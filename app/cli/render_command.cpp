@@ -6,6 +6,7 @@
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cmath>

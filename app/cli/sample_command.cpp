@@ -6,10 +6,12 @@
 #include "app/cli/text_output.h"
 #include "core/terrain/surface_reader.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>

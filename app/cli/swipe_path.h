@@ -30,7 +30,6 @@ public:
     GridPoint next() noexcept;
 
 private:
-
     SwipeArea area_;
     SwipeOptions options_;
     std::uint64_t state_;

@@ -2,6 +2,7 @@
 #include "app/cli/terrain_bench.h"
 #include "app/cli/view_bench.h"
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace marsview {

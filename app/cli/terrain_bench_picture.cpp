@@ -5,6 +5,7 @@
 #include "app/cli/terrain_stage.h"
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace marsview {

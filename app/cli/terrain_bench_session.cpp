@@ -5,6 +5,7 @@
 #include "app/cli/tile_swipe.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace marsview {

@@ -3,7 +3,7 @@
 
 #include "core/base/plain_number.h" // IWYU pragma: export
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace marsview {

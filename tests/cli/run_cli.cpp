@@ -1,5 +1,6 @@
 #include "tests/cli/run_cli.h"
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 

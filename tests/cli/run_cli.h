@@ -3,7 +3,7 @@
 
 #include "tests/support/run_program.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -219,8 +219,11 @@ TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
     }));
     hand_->buttons = 0;
     ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Hover; }));
-    QTest::qWait(100); // the view is some frames behind
-    EXPECT_NEAR(view().camera().distance_m / before, state().frame.scene_per_metre / scale, 0.02);
+    EXPECT_TRUE(waitFor([&] { // the view is some frames behind
+        const double wanted = state().frame.scene_per_metre / scale;
+        return std::abs(view().camera().distance_m / before - wanted) < 0.02;
+    })) << view().camera().distance_m / before
+        << " instead of " << state().frame.scene_per_metre / scale;
 }
 
 TEST_F(HapticsControllerTest, ADeviceThatCannotBeOpenedSaysWhy)

@@ -24,6 +24,7 @@
 #include <functional>
 #include <future>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 #include <type_traits>
