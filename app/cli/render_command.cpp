@@ -69,12 +69,12 @@ Result<OrbitCamera> cameraFrom(const Options& options,
                          fmt::format("--look-at: {},{} is not on the map", options.look_at.front(),
                                      options.look_at.back())};
         }
-        const double height_m = scene.map.dataset->heightfield().height(grid);
+        const double height_m = scene.map.dataset->heightfield().heightWaiting(grid);
         camera.target = georeference.sceneFrame().toScene(
             grid, std::isnan(height_m) ? 0.0 : height_m * exaggeration);
     }
     camera.distance_m = options.distance_m.value_or(home_distance_m);
-    return scene.bounded(camera, exaggeration);
+    return scene.bounded(camera, exaggeration, Scene::Ground::Waiting);
 }
 
 Status runRender(const Options& options)

@@ -25,20 +25,25 @@ SceneBox Scene::box(double with_exaggeration) const
                     with_exaggeration);
 }
 
-double Scene::ground(double east_m, double north_m, double with_exaggeration) const
+double Scene::ground(double east_m, double north_m, double with_exaggeration, Ground which) const
 {
     const GridPoint grid = map.dataset->georeference().sceneFrame().toGrid({east_m, north_m, 0.0});
-    return map.dataset->heightfield().height(grid) * with_exaggeration;
+    const Heightfield& heightfield = map.dataset->heightfield();
+    const double height_m =
+        which == Ground::Waiting ? heightfield.heightWaiting(grid) : heightfield.height(grid);
+    return height_m * with_exaggeration;
 }
 
-OrbitCamera Scene::bounded(const OrbitCamera& camera, double with_exaggeration) const
+OrbitCamera Scene::bounded(const OrbitCamera& camera, double with_exaggeration, Ground which) const
 {
     const Georeference& georeference = map.dataset->georeference();
     return constrained(
         camera,
         navigationLimits(box(with_exaggeration), std::min(georeference.pixelWidthMetres(),
                                                           georeference.pixelHeightMetres())),
-        [&](double east_m, double north_m) { return ground(east_m, north_m, with_exaggeration); });
+        [&](double east_m, double north_m) {
+            return ground(east_m, north_m, with_exaggeration, which);
+        });
 }
 
 Result<Scene> emptyScene(std::function<void()> notify)

@@ -22,10 +22,18 @@ struct Scene {
 
     /// The box of the map at an exaggeration.
     SceneBox box(double with_exaggeration) const;
+    /// Which ground counts where tiles of the map are missing: what stands in for them now, or
+    /// their own, which is waited for.
+    enum class Ground { Now, Waiting };
+
     /// Height of the ground in scene metres; NaN beside the map and in voids.
-    double ground(double east_m, double north_m, double with_exaggeration) const;
+    double ground(double east_m,
+                  double north_m,
+                  double with_exaggeration,
+                  Ground which = Ground::Now) const;
     /// The camera within the bounds of navigation, above the ground.
-    OrbitCamera bounded(const OrbitCamera& camera, double with_exaggeration) const;
+    OrbitCamera
+    bounded(const OrbitCamera& camera, double with_exaggeration, Ground which = Ground::Now) const;
 };
 
 /// A renderer without a map; `notify` is TerrainRenderer's. This first, as it fails at once.

@@ -399,6 +399,7 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     impl->remote = std::move(opened->remote);
     if (impl->remote) {
         info.remote_version = impl->remote->text();
+        info.has_named_version = impl->remote->isNamed();
     }
     const auto refuse = [&path](ErrorCode code, const std::string& why) {
         return Error{code, fmt::format("{}: {}", path, why)};

@@ -28,6 +28,9 @@ struct RasterInfo {
     std::string path; // what was opened; may differ from what was asked for (a label for its data)
     /// Of a raster at a server: tells it from another that is put in its place. Empty for files.
     std::string remote_version;
+    /// The server names versions, by ETag or time, so that what was fetched may be kept and known
+    /// to be of this one later. Otherwise a change shows in nothing but perhaps the size.
+    bool has_named_version = false;
     std::string driver; // GDAL's short name, "GTiff"
     std::size_t columns = 0;
     std::size_t rows = 0;

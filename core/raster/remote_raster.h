@@ -30,6 +30,8 @@ struct RemoteVersion {
     std::string modified;    // an HTTP date
     bool operator==(const RemoteVersion&) const = default;
 
+    /// Whether the server says more than how large it is.
+    bool isNamed() const { return !etag.empty() || !modified.empty(); }
     /// One line for comparing and for keys.
     std::string text() const;
 };

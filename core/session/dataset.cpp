@@ -56,6 +56,12 @@ double Dataset::height(GeographicPoint geographic) const
     return heightfield_.height(*grid);
 }
 
+Error noHeights(const std::string& path, const SampleStatistics& statistics)
+{
+    return {ErrorCode::Invalid, fmt::format("{}: holds no height, all of its {} samples are void",
+                                            path, statistics.sample_count)};
+}
+
 Result<std::shared_ptr<const Dataset>>
 loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_bytes_max)
 {
@@ -78,9 +84,7 @@ loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_byt
         return std::move(samples).error();
     }
     if (!samples->statistics.hasSamples()) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: holds no height, all of its {} samples are void", spec.path,
-                                 samples->statistics.sample_count)};
+        return noHeights(spec.path, samples->statistics);
     }
     noteSuspiciousSamples(*info, samples->statistics);
     Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(samples->grid)),

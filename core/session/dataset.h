@@ -95,6 +95,9 @@ private:
     DatasetKind kind_;
 };
 
+/// The refusal of a map whose samples are all void.
+Error noHeights(const std::string& path, const SampleStatistics& statistics);
+
 /// Reads the map whole. Refuses what cannot be shown: fewer than 2 × 2 samples, only voids, more
 /// than `memory_bytes_max` of samples. Blocks on the disk: not for the GUI thread.
 Result<std::shared_ptr<const Dataset>>

@@ -111,13 +111,14 @@ Result<LoadedMap> openHeld(const DatasetSpec& spec, JobMonitor& monitor)
     return prepareMap(std::move(dataset).value(), monitor);
 }
 
-// What comes from a server is kept on disk. `what` tells tiles of the raster from those of the map.
+// What comes from a server that names versions is kept on disk. `what` tells tiles of the raster
+// from those of the map.
 std::shared_ptr<const TileSource> keptOnDisk(std::shared_ptr<const TileSource> source,
                                              const MapResources& resources,
                                              const RasterInfo& info,
                                              const char* what)
 {
-    if (!resources.fetched_tiles || info.remote_version.empty()) {
+    if (!resources.fetched_tiles || !info.has_named_version) {
         return source;
     }
     const ElevationScale scale = info.elevationScale();
@@ -341,6 +342,9 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
                                 monitor);
     if (!opened) {
         return std::move(opened).error();
+    }
+    if (const SampleStatistics& found = opened->levels->statistics; !found.hasSamples()) {
+        return noHeights(spec.path, found);
     }
     if (!plan.level_path) {
         map->info.notices.push_back("its detail is estimated: there is no level file beside it");

@@ -477,6 +477,18 @@ filledMaxima(const TileLayout& layout, const MinMaxPyramid& bounds, const BlockM
     return maxima;
 }
 
+// Of guessed bounds some sample is higher, and what is touched must not fall through it: casts skip
+// nothing.
+std::vector<std::vector<float>> unknownMaxima(const MinMaxPyramid& bounds)
+{
+    std::vector<std::vector<float>> maxima(bounds.levelCount());
+    for (std::size_t level = 0; level < maxima.size(); ++level) {
+        maxima[level].assign(bounds.columns(level) * bounds.rows(level),
+                             std::numeric_limits<float>::max());
+    }
+    return maxima;
+}
+
 MapLevels levelsOf(const TileLayout& layout,
                    const SampleStatistics& statistics,
                    std::shared_ptr<const SurfaceAnalysis> analysis)
@@ -573,11 +585,16 @@ Result<MapLevels> estimateLevels(const TileSource& source,
         }
         fine = std::move(found).value();
     }
-    return levelsOf(layout, statistics,
-                    std::make_shared<const SurfaceAnalysis>(SurfaceAnalysis{
-                        .bounds = MinMaxPyramid::from(ranges, scale),
+    auto analysis = std::make_shared<const SurfaceAnalysis>(
+        SurfaceAnalysis{.bounds = MinMaxPyramid::from(ranges, scale),
                         .means = estimatedMeans(layout, *overview, scale),
-                        .errors = estimatedErrors(layout, level, *measured, fine)}));
+                        .errors = estimatedErrors(layout, level, *measured, fine)});
+    std::vector<std::vector<float>> maxima = unknownMaxima(analysis->bounds);
+    return MapLevels{.layout = layout,
+                     .statistics = statistics,
+                     .analysis = std::move(analysis),
+                     .filled_maxima_m = std::move(maxima),
+                     .checksums = nullptr};
 }
 
 } // namespace marsview

@@ -16,14 +16,14 @@ namespace marsview {
 inline constexpr std::size_t kEstimateMeansMax = std::size_t{1} << 20;
 
 /// Reads one level of Means of `source` and five tiles at full resolution, and estimates what a
-/// level file would tell. Exact, from the
-/// samples, where the source has no Means and is that small itself; TooLarge where it has no level
-/// of Means of at most `means_max`.
+/// level file would tell. Exact, from the samples, where the source has no Means and is that small
+/// itself; TooLarge where it has no level of Means of at most `means_max`.
 ///
 ///  - means: those of the overview;
 ///  - bounds: the lowest and highest mean around each node, widened by how much means differ there;
 ///    two to four times as wide as need be. On maps of the Moon, Mars and the Earth and on fractals
-///    at most one sample in 3000 lies outside; a ray may miss such a peak;
+///    at most one sample in 3000 lies outside; a ray may miss such a peak, but what is touched may
+///    not: casts of the hand skip nothing;
 ///  - errors: measured between the coarse levels and in the tiles, by a power law between these. On
 ///    the same maps the middle node of every level has 0.5 to 1.3 times its true error, nine of ten
 ///    between a quarter and twice (the ocean floor excepted);

@@ -37,8 +37,8 @@ struct MapLevels {
     TileLayout layout;
     SampleStatistics statistics;
     std::shared_ptr<const SurfaceAnalysis> analysis; // heights in metres by the scale asked for
-    /// No filled sample of a node is higher; a level each as in the analysis' bounds, in metres.
-    /// Empty where no sample is void.
+    /// No sample of a node is higher, once filled; a level each as in the analysis' bounds, in
+    /// metres. Empty where these bounds tell: where they are measured and no sample is void.
     std::vector<std::vector<float>> filled_maxima_m;
     std::shared_ptr<const TileChecksums> checksums; // of the raster; null where nobody took them
 };

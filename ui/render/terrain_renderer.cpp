@@ -13,6 +13,7 @@
 #include "ui/render/node_instance.h"
 #include "ui/render/relief_cache.h"
 #include "ui/render/terrain_shaders.h"
+#include "ui/render/warm_up.h"
 
 #include <algorithm>
 #include <array>
@@ -533,9 +534,13 @@ Result<std::unique_ptr<TerrainRenderer>> TerrainRenderer::create(std::function<v
         return driver.find(word) != std::string::npos;
     };
     const bool is_software = says("llvmpipe") || says("softpipe") || says("SwiftShader");
-    return std::unique_ptr<TerrainRenderer>(new TerrainRenderer(
+    auto renderer = std::unique_ptr<TerrainRenderer>(new TerrainRenderer(
         std::make_unique<Impl>(std::move(shaders).value(), driver, is_software,
                                is_software ? kStoresInSoftware : kStoresOnGpu, std::move(notify))));
+    if (is_software) {
+        warmUp(*renderer);
+    }
+    return renderer;
 }
 
 const std::string& TerrainRenderer::driver() const

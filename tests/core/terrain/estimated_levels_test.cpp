@@ -225,10 +225,25 @@ TEST_F(EstimatedLevelsTest, StatisticsHoldTheRangeAndTheVoids)
     EXPECT_LE(kScale.height(whole.raw_minimum), range.minimum_m + 100.0);
     EXPECT_GE(kScale.height(whole.raw_maximum), range.maximum_m - 100.0);
     EXPECT_FALSE(whole_->estimate.layout.has_voids);
-    EXPECT_TRUE(whole_->estimate.filled_maxima_m.empty());
     const double holes = static_cast<double>(holed_->estimate.statistics.void_count);
     EXPECT_NEAR(holes, 640.0 * 640.0, 0.05 * 640.0 * 640.0);
     EXPECT_TRUE(holed_->estimate.layout.has_voids);
+}
+
+// Some lie outside of the bounds, and the hand must not fall through them.
+TEST_F(EstimatedLevelsTest, NoSampleIsHigherThanWhatIsTouchedMayBe)
+{
+    const std::vector<std::vector<float>>& maxima = whole_->estimate.filled_maxima_m;
+    const MinMaxPyramid& truth = whole_->truth->bounds;
+    ASSERT_EQ(maxima.size(), truth.levelCount());
+    for (std::size_t level = 0; level < truth.levelCount(); ++level) {
+        for (std::size_t row = 0; row < truth.rows(level); ++row) {
+            for (std::size_t column = 0; column < truth.columns(level); ++column) {
+                ASSERT_GE(maxima[level][row * truth.columns(level) + column],
+                          truth.bounds(level, column, row).maximum_m);
+            }
+        }
+    }
 }
 
 TEST_F(EstimatedLevelsTest, NoFillIsHigherThanTheMaximumOfItsNodes)
