@@ -2,94 +2,49 @@
 
 #include "haptics/device/device_registry.h"
 
-#include <chrono>
-#include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 namespace marsview {
-namespace {
 
-// For jobs that are about to end anyway.
-constexpr std::chrono::milliseconds kEndPatience{300};
-
-} // namespace
-
-struct DeviceFinder::Shared {
-    std::mutex registry_mutex; // held by the job that runs
+// Only jobs touch it, one after the other.
+struct DeviceFinder::Drivers {
     DriverMaker make_drivers;
-    std::optional<DeviceRegistry> registry;
+    std::optional<DeviceRegistry> made;
 
-    std::mutex mutex; // of the following
-    std::condition_variable ended;
-    DeviceFinder* owner = nullptr; // null once it is gone
-    int jobs = 0;
-
-    DeviceRegistry& drivers()
+    DeviceRegistry& registry()
     {
-        if (!registry) {
-            registry.emplace(make_drivers());
+        if (!made) {
+            made.emplace(make_drivers());
         }
-        return *registry;
-    }
-    template <typename F>
-    void post(F result)
-    {
-        const std::lock_guard lock(mutex);
-        if (owner != nullptr) {
-            QMetaObject::invokeMethod(owner, std::move(result), Qt::QueuedConnection);
-        }
+        return *made;
     }
 };
 
 DeviceFinder::DeviceFinder(DriverMaker make_drivers, QObject* parent)
     : QObject(parent)
-    , shared_(std::make_shared<Shared>())
+    , drivers_(std::make_shared<Drivers>())
+    , jobs_(*this)
 {
-    shared_->make_drivers = std::move(make_drivers);
-    shared_->owner = this;
+    drivers_->make_drivers = std::move(make_drivers);
 }
 
-DeviceFinder::~DeviceFinder()
-{
-    std::unique_lock lock(shared_->mutex);
-    shared_->owner = nullptr;
-    shared_->ended.wait_for(lock, kEndPatience, [this] { return shared_->jobs == 0; });
-}
-
-void DeviceFinder::run(const std::function<void(Shared&)>& job)
-{
-    {
-        const std::lock_guard lock(shared_->mutex);
-        ++shared_->jobs;
-    }
-    std::thread([shared = shared_, job] {
-        {
-            const std::lock_guard one_at_a_time(shared->registry_mutex);
-            job(*shared);
-        }
-        const std::lock_guard lock(shared->mutex);
-        --shared->jobs;
-        shared->ended.notify_all();
-    }).detach();
-}
+DeviceFinder::~DeviceFinder() = default;
 
 void DeviceFinder::find()
 {
     if (std::exchange(is_finding_, true)) {
         return;
     }
-    run([this](Shared& shared) {
+    jobs_.run([this, drivers = drivers_](const auto& outlet) {
         std::vector<FoundDevice> devices;
         try {
-            devices = shared.drivers().find();
+            devices = drivers->registry().find();
         } catch (const std::exception& e) {
             devices.push_back({.uri = "", .name = "", .reason = e.what()});
         }
-        shared.post([this, devices = std::move(devices)] {
+        outlet->post([this, devices = std::move(devices)] {
             is_finding_ = false;
             Q_EMIT found(devices);
         });
@@ -98,12 +53,13 @@ void DeviceFinder::find()
 
 void DeviceFinder::open(const QString& uri)
 {
-    run([this, uri = uri.toStdString(), number = ++opening_](Shared& shared) {
+    jobs_.run([this, drivers = drivers_, uri = uri.toStdString(),
+               number = ++opening_](const auto& outlet) {
         // Shared, as what is posted is copied; a device that nobody takes is closed with it.
         auto device = std::make_shared<std::unique_ptr<HapticDevice>>();
         QString problem;
         try {
-            Result<std::unique_ptr<HapticDevice>> result = shared.drivers().open(uri);
+            Result<std::unique_ptr<HapticDevice>> result = drivers->registry().open(uri);
             if (result) {
                 *device = std::move(result).value();
             } else {
@@ -112,7 +68,7 @@ void DeviceFinder::open(const QString& uri)
         } catch (const std::exception& e) {
             problem = QString::fromStdString(uri + ": " + e.what());
         }
-        shared.post([this, device, problem, number] {
+        outlet->post([this, device, problem, number] {
             if (number != opening_) {
                 return;
             }

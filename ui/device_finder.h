@@ -2,6 +2,7 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
+#include "ui/detached_jobs.h"
 
 #include <QObject>
 #include <QString>
@@ -43,14 +44,13 @@ Q_SIGNALS:
     void refused(const QString& problem);
 
 private:
-    struct Shared;
+    struct Drivers;
 
-    void run(const std::function<void(Shared&)>& job);
-
-    std::shared_ptr<Shared> shared_;
+    std::shared_ptr<Drivers> drivers_;
     std::unique_ptr<HapticDevice> opened_;
     bool is_finding_ = false;
     int opening_ = 0; // which of the openings counts
+    DetachedJobs jobs_;
 };
 
 } // namespace marsview

@@ -29,13 +29,12 @@ HandMap::HandMap(const SceneMap& map)
     if (map_.map.filled || !heightfield.isTiled()) {
         return;
     }
-    auto feeder = WindowFeeder::create(
-        heightfield.tiles()->raster(),
-        std::make_shared<const TileHeights>(map_.map.levels, heightfield.scale()));
-    if (!feeder) {
-        return;
-    }
-    feeder_ = std::move(*feeder);
+    // The map has its coarsest tile always at hand: there is something to touch at once, and finer
+    // ground comes as it is loaded.
+    const TiledSamples& tiles = *heightfield.tiles();
+    feeder_ = std::make_unique<WindowFeeder>(
+        tiles.raster(), std::make_shared<const TileHeights>(map_.map.levels, heightfield.scale()),
+        tiles.top());
     terrain_ = std::make_shared<ServoTerrain>(feeder_->exchange(), feeder_->heights());
     feeder_->start();
 }

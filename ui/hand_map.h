@@ -11,8 +11,8 @@
 namespace marsview {
 
 /// Makes what the servo thread touches of one map, again and again with other models and
-/// exaggerations. Lives in the GUI thread; for a map in tiles a thread brings them while this is
-/// there.
+/// exaggerations. Lives in the GUI thread, which waits for no tile; for a map in tiles a thread
+/// brings them while this is there.
 class HandMap {
 public:
     explicit HandMap(const SceneMap& map);
@@ -23,7 +23,7 @@ public:
     }
     const SceneMap& map() const noexcept { return map_; }
 
-    /// Null where the map cannot be touched: what comes in tiles and failed to begin.
+    /// Null for a map that is held in memory without what fills its voids.
     std::shared_ptr<ServoMap> make(ContactModelKind kind, double exaggeration) const;
     /// What make() makes from now on is not touched before: no model goes on from there.
     void beginAnew();

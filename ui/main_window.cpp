@@ -153,6 +153,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
         haptics_->setSettings(hapticsSettingsFrom(QSettings()));
     }
     connectHaptics();
+    connectSpaceMouse();
     connectSounds();
     setPreferences(isRemembered() ? preferencesFrom(QSettings()) : Preferences{});
     showSession();
@@ -163,6 +164,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
 MainWindow::~MainWindow()
 {
     delete sounds_;        // it listens to the view
+    delete spacemouse_;    // it moves its camera
     delete haptics_panel_; // it looks at the controller
     delete haptics_;       // and that at the view
 }
@@ -371,6 +373,19 @@ void MainWindow::connectHaptics()
             &HapticsPanel::chooseReplay);
     connect(actions_->emergency_stop, &QAction::triggered, this,
             [this] { haptics_->setStopped(true); });
+}
+
+void MainWindow::connectSpaceMouse()
+{
+    spacemouse_ = new SpaceMouseController(*view_, options_.spacemouse, this);
+    connect(spacemouse_, &SpaceMouseController::connected, this, [this](const QString& name) {
+        //: In the status bar, for a few seconds; %1 is a device
+        statusBar()->showMessage(tr("%1 moves the camera").arg(name), kMessageDuration);
+    });
+    connect(spacemouse_, &SpaceMouseController::disconnected, this, [this](const QString& name) {
+        //: In the status bar, for a few seconds; %1 is a device
+        statusBar()->showMessage(tr("%1 was unplugged").arg(name), kMessageDuration);
+    });
 }
 
 void MainWindow::connectSounds()

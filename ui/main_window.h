@@ -5,6 +5,7 @@
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/preferences.h"
 #include "ui/session_controller.h"
+#include "ui/spacemouse_controller.h"
 
 #include <QImage>
 #include <QMainWindow>
@@ -40,6 +41,7 @@ struct WindowOptions {
     MapOpener opener{};
     /// Of haptic devices; empty for those that come with the program.
     DriverMaker make_drivers{};
+    SpaceMouseOptions spacemouse{};
 };
 
 class MainWindow final : public QMainWindow {
@@ -68,6 +70,7 @@ public:
     GeoreferencingPanel* georeferencingPanel() const noexcept { return georeferencing_; }
     HapticsPanel* hapticsPanel() const noexcept { return haptics_panel_; }
     HapticsController& haptics() noexcept { return *haptics_; }
+    const SpaceMouseController& spacemouse() const noexcept { return *spacemouse_; }
     WindowDocks* docks() const noexcept { return docks_; }
     MapOverlays* overlays() const noexcept { return overlays_; }
     RecentFiles* recentFiles() const noexcept { return recent_; }
@@ -110,6 +113,7 @@ private:
     void connectController();
     void connectView();
     void connectHaptics();
+    void connectSpaceMouse();
     void connectSounds();
     void tellNoSound(const QString& why);
     void showHaptics();
@@ -135,6 +139,7 @@ private:
     GeoreferencingPanel* georeferencing_ = nullptr;
     HapticsController* haptics_ = nullptr;
     HapticsPanel* haptics_panel_ = nullptr;
+    SpaceMouseController* spacemouse_ = nullptr;
     ContactSounds* sounds_ = nullptr;
     WindowDocks* docks_ = nullptr;
     MainToolBar* tool_bar_ = nullptr;

@@ -1,9 +1,11 @@
 #include "ui/map_overlays.h"
 
+#include "core/view/edge_mark.h"
 #include "core/view/map_preview.h"
 #include "core/view/scale_bar.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/force_meter.h"
+#include "ui/overlay/hand_pointer.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
@@ -57,6 +59,7 @@ MapOverlays::MapOverlays(TerrainView& view)
     , scale_bar_(new ScaleBarView(&view))
     , legend_(new Legend(&view))
     , force_meter_(new ForceMeter(&view))
+    , hand_pointer_(new HandPointer(&view))
     , layout_(new OverlayLayout(&view,
                                 {.minimap = minimap_,
                                  .legend = legend_,
@@ -104,7 +107,9 @@ void MapOverlays::paintOver(QImage& picture) const
 
 void MapOverlays::setCovered(int height)
 {
+    covered_height_ = height;
     layout_->setCovered(height);
+    showHand();
 }
 
 void MapOverlays::showMap()
@@ -124,6 +129,7 @@ void MapOverlays::showMap()
 
 void MapOverlays::showSight()
 {
+    showHand();
     if (!view_.map()) {
         return;
     }
@@ -147,6 +153,7 @@ void MapOverlays::showLegend()
 
 void MapOverlays::showTouch()
 {
+    showHand();
     const auto& stylus = view_.shownStylus();
     if (!stylus || !stylus->is_in_contact) {
         force_meter_->release();
@@ -159,6 +166,23 @@ void MapOverlays::showTouch()
     const Vec3& force_n = stylus->force_n;
     force_meter_->setForce({dot(force_n, right), dot(force_n, away), force_n.z},
                            stylus->force_n_max);
+}
+
+// An arrow to the cursor, where that cannot be seen.
+void MapOverlays::showHand()
+{
+    const auto& stylus = view_.shownStylus();
+    const double scale = view_.devicePixelRatioF();
+    const auto mark = stylus ? edgeMark(view_.camera(), stylus->proxy,
+                                        {.viewport = view_.viewport(),
+                                         .inset_px = HandPointer::kInset * scale,
+                                         .covered_px = covered_height_ * scale})
+                             : std::nullopt;
+    if (mark) {
+        hand_pointer_->pointTo(QPointF(mark->at.x, mark->at.y) / scale, {mark->right, mark->down});
+    } else {
+        hand_pointer_->release();
+    }
 }
 
 } // namespace marsview

@@ -11,6 +11,7 @@ namespace marsview {
 
 class Compass;
 class ForceMeter;
+class HandPointer;
 class Legend;
 class Minimap;
 class OverlayLayout;
@@ -30,6 +31,7 @@ public:
     ScaleBarView* scaleBar() const noexcept { return scale_bar_; }
     Legend* legend() const noexcept { return legend_; }
     ForceMeter* forceMeter() const noexcept { return force_meter_; }
+    HandPointer* handPointer() const noexcept { return hand_pointer_; }
 
     /// Puts what explains the map into a picture of the view: legend, compass and scale bar, as far
     /// as they are to be seen.
@@ -48,6 +50,7 @@ private:
     void showSight();
     void showLegend();
     void showTouch();
+    void showHand();
 
     TerrainView& view_;
     Minimap* minimap_ = nullptr;
@@ -55,7 +58,9 @@ private:
     ScaleBarView* scale_bar_ = nullptr;
     Legend* legend_ = nullptr;
     ForceMeter* force_meter_ = nullptr;
+    HandPointer* hand_pointer_ = nullptr; // over all of them
     OverlayLayout* layout_ = nullptr;
+    int covered_height_ = 0;
     QList<QAction*> actions_;
 };
 

@@ -47,6 +47,15 @@ bool isSameGround(const Dataset& a, const Dataset& b)
            length(corner(a, 1.0) - corner(b, 1.0)) <= tolerance_m;
 }
 
+// Nothing moves on screen from one to the other.
+bool isSamePicture(const OrbitCamera& a, const OrbitCamera& b)
+{
+    constexpr double kShare = 1e-9; // of the distance, and in radians
+    return length(eyeOf(a) - eyeOf(b)) <= kShare * std::min(a.distance_m, b.distance_m) &&
+           std::abs((a.azimuth - b.azimuth).radians()) <= kShare &&
+           std::abs((a.tilt - b.tilt).radians()) <= kShare;
+}
+
 // Whether some map took the place of its preview.
 bool isCompletionOf(const SceneSurface& before, const SceneSurface& now)
 {
@@ -311,6 +320,28 @@ void TerrainView::step(NavigationStep step)
         break;
     }
     navigator_.moveTo(camera, kKeyDuration);
+}
+
+// What is steered by is looked for where a motion or a turn begins, and while it goes nearer. In a
+// view along the ground the middle of the picture leaps from ridge to ridge: a speed and a pivot
+// that went with it in each frame would leap, too.
+void TerrainView::steer(const CapRates& rates, double seconds)
+{
+    if (ground_.isEmpty() || !doesSteer(rates)) {
+        cap_ = {};
+        return;
+    }
+    const double rise = capSpeed(rates.push.z);
+    const bool begins = !doesSteer(cap_) || (doesTurn(rates) && !doesTurn(cap_));
+    OrbitCamera camera = navigator_.camera();
+    if (rise < 0.0 || (begins && rise == 0.0)) { // further: see beforeZoom()
+        camera = onGround(camera);
+    }
+    camera = bounded(steered(camera, rates, seconds, limits()));
+    if (isMoving() || !isSamePicture(camera, navigator_.camera())) {
+        cap_ = rates;
+        setCamera(camera);
+    }
 }
 
 void TerrainView::goHome()

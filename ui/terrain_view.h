@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/scene_surface.h"
+#include "core/view/cap_steering.h"
 #include "core/view/navigation.h"
 #include "haptics/interaction/stylus.h"
 #include "ui/navigator.h"
@@ -88,6 +89,9 @@ public:
     ContactModelKind contactModel() const noexcept { return stylus_.model(); }
 
     void step(NavigationStep step);
+    /// Moves as a cap is pushed, for the time since it was asked last: once a frame while the cap
+    /// is pushed, and once at rest to end with. Draws nothing where the camera stays where it is.
+    void steer(const CapRates& rates, double seconds);
     void goHome();
     void turnNorthUp();
     /// Flies to a place of the topmost layer; `distance_m` of 0 keeps the distance.
@@ -223,6 +227,8 @@ private:
     QTimer touch_timer_;   // runs while finer ground may come below the stylus
     QTimer still_timer_;   // runs out when nothing has moved for a while
     std::chrono::steady_clock::time_point last_paint_{};
+
+    CapRates cap_; // that moved the camera last, since it was at rest
 
     DragAction drag_action_ = DragAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;

@@ -9,7 +9,8 @@ struct hid_device_info;
 
 namespace marsview {
 
-/// As in hidapi.h. Reading and writing one device is for one thread; the rest for one at a time.
+/// As in hidapi.h. Reading and writing one device is for one thread; enumerating and opening for
+/// one at a time, which hid_list.h sees to.
 struct HidApi {
     hid_device_info* (*enumerate)(unsigned short vendor, unsigned short product);
     void (*free_enumeration)(hid_device_info* devices);

@@ -6,9 +6,17 @@
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
+#include <mutex>
 
 namespace marsview {
 namespace {
+
+// What enumerating and opening have to tell of errors hidapi keeps in one place for all threads.
+std::mutex& hidMutex()
+{
+    static std::mutex mutex;
+    return mutex;
+}
 
 // Product names are ASCII on all devices that are known here.
 std::string asAscii(const wchar_t* text)
@@ -26,6 +34,7 @@ std::vector<HidEntry> hidDevices(const HidApi& api,
                                  const std::function<bool(const HidEntry&)>& is_wanted)
 {
     std::vector<HidEntry> wanted;
+    const std::lock_guard one_at_a_time(hidMutex());
     hid_device_info* all = api.enumerate(0, 0);
     for (const hid_device_info* info = all; info != nullptr; info = info->next) {
         const HidEntry entry{.path = info->path != nullptr ? info->path : "",
@@ -68,6 +77,7 @@ Result<HidHandle> openHid(const HidApi& api, const std::string& path, std::strin
     if (std::string why = refusalToOpen(api, path); !why.empty()) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: {}", uri, why)};
     }
+    const std::lock_guard one_at_a_time(hidMutex());
     hid_device_* device = api.open_path(path.c_str());
     if (device == nullptr) {
         return Error{ErrorCode::Unreadable,

@@ -23,7 +23,7 @@ struct HidEntry {
     int interface_number = -1; // -1: unknown
 };
 
-/// All HID devices that `is_wanted`, each path once.
+/// All HID devices that `is_wanted`, each path once. Any thread; may take as long as the bus does.
 std::vector<HidEntry> hidDevices(const HidApi& api,
                                  const std::function<bool(const HidEntry&)>& is_wanted);
 
@@ -34,7 +34,7 @@ std::string refusalToOpen(const HidApi& api, const std::string& path);
 /// An open device; closed with its last owner.
 using HidHandle = std::shared_ptr<hid_device_>;
 
-/// The error begins with `uri`.
+/// The error begins with `uri`. Any thread.
 Result<HidHandle> openHid(const HidApi& api, const std::string& path, std::string_view uri);
 
 } // namespace marsview

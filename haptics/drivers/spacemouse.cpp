@@ -84,7 +84,8 @@ std::vector<FoundDevice> SpaceMouse::find(const HidApi& api)
     return found;
 }
 
-Result<std::unique_ptr<SpaceMouse>> SpaceMouse::open(std::string_view address, const HidApi& api)
+Result<std::unique_ptr<SpaceMouse>>
+SpaceMouse::open(std::string_view address, const HidApi& api, std::function<void()> notify)
 {
     const std::string uri = uriOf(address);
     const std::vector<HidEntry> entries = hidDevices(api, [&](const HidEntry& entry) {
@@ -101,13 +102,17 @@ Result<std::unique_ptr<SpaceMouse>> SpaceMouse::open(std::string_view address, c
         return std::move(handle).error();
     }
     return std::unique_ptr<SpaceMouse>(
-        new SpaceMouse(api, std::move(*handle), modelOf(entries.front())->name));
+        new SpaceMouse(api, std::move(*handle), modelOf(entries.front())->name, std::move(notify)));
 }
 
-SpaceMouse::SpaceMouse(const HidApi& api, HidHandle handle, std::string name)
+SpaceMouse::SpaceMouse(const HidApi& api,
+                       HidHandle handle,
+                       std::string name,
+                       std::function<void()> notify)
     : api_(api)
     , handle_(std::move(handle))
     , name_(std::move(name))
+    , notify_(notify ? std::move(notify) : [] {})
 {
     thread_ = std::thread([this] { run(); });
 }
@@ -135,6 +140,7 @@ void SpaceMouse::run() noexcept
             break;
         }
         const auto size = std::min(static_cast<std::size_t>(read), bytes.size());
+        const SpaceMouseRates before = rates;
         if (takeSpaceMouseReport({bytes.data(), size}, rates)) {
             heard = Clock::now();
         } else if (!rates.isAtRest() && Clock::now() - heard > kSilence) {
@@ -143,12 +149,18 @@ void SpaceMouse::run() noexcept
             continue;
         }
         rates_.write(rates);
+        const std::uint32_t pressed = rates.buttons & ~before.buttons;
+        pressed_.fetch_or(pressed);
+        if (pressed != 0 || (before.isAtRest() && !rates.isAtRest())) {
+            notify_();
+        }
     }
+    handle_.reset();
     if (!is_stopping_.load(std::memory_order_relaxed)) {
         rates_.write({});
         is_lost_.store(true, std::memory_order_release);
+        notify_();
     }
-    handle_.reset();
 }
 
 std::vector<FoundDevice> SpaceMouseDriver::find()
@@ -156,7 +168,7 @@ std::vector<FoundDevice> SpaceMouseDriver::find()
     std::vector<FoundDevice> found = SpaceMouse::find(api_);
     for (FoundDevice& device : found) {
         if (device.isUsable()) {
-            device.reason = "is no stylus: it cannot touch";
+            device.reason = "moves the camera in the window by itself; it cannot touch";
         }
     }
     return found;
@@ -165,7 +177,8 @@ std::vector<FoundDevice> SpaceMouseDriver::find()
 Result<std::unique_ptr<HapticDevice>> SpaceMouseDriver::open(std::string_view address)
 {
     return Error{ErrorCode::Unsupported,
-                 fmt::format("{}: a SpaceMouse is no stylus and cannot touch; name another device",
+                 fmt::format("{}: a SpaceMouse moves the camera in the window and cannot touch; "
+                             "name another device",
                              uriOf(address))};
 }
 

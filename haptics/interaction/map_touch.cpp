@@ -16,13 +16,11 @@ MapTouch::MapTouch(const SceneMap& map)
     if (!heightfield.isTiled()) {
         return;
     }
-    auto feeder = WindowFeeder::create(
-        heightfield.tiles()->raster(),
-        std::make_shared<const TileHeights>(map_.map.levels, heightfield.scale()));
-    if (!feeder) {
-        return;
-    }
-    feeder_ = std::move(*feeder);
+    // The map has its coarsest tile always at hand.
+    const TiledSamples& tiles = *heightfield.tiles();
+    feeder_ = std::make_unique<WindowFeeder>(
+        tiles.raster(), std::make_shared<const TileHeights>(map_.map.levels, heightfield.scale()),
+        tiles.top());
     feeder_->exchange()->windows.take();
     // Nobody feels a jump through a mouse.
     terrain_ = std::make_shared<ResidentTerrain>(

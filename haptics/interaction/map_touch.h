@@ -12,8 +12,8 @@
 
 namespace marsview {
 
-/// Contact models over one map. For the GUI thread; tiles are loaded by threads of their own, and
-/// only while a model of it is there.
+/// Contact models over one map. For the GUI thread, which waits for no tile; they are loaded by
+/// threads of their own, and only while a model of it is there.
 class MapTouch {
 public:
     explicit MapTouch(const SceneMap& map);
@@ -21,7 +21,7 @@ public:
     /// Whether the map's surface may change by itself while it is touched.
     bool isTiled() const noexcept { return feeder_ != nullptr; }
 
-    /// Null where the map cannot be touched: what comes in tiles and failed to begin.
+    /// Null for a map that is held in memory without what fills its voids.
     std::unique_ptr<MapContactModel>
     makeModel(ContactModelKind kind, double exaggeration, const ContactModelOptions& options);
 

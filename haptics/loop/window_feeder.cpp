@@ -55,15 +55,13 @@ WindowFeeder::create(const TiledRaster& raster,
                      std::shared_ptr<const TileHeights> heights,
                      const WindowFeederOptions& options)
 {
-    const TileLayout& layout = raster.layout();
-    MARSVIEW_CHECK(heights && heights->layout().columns == layout.columns &&
-                   heights->layout().rows == layout.rows);
-    auto top = raster.get({TileKind::Samples, static_cast<std::uint8_t>(layout.topLevel()), 0, 0});
+    const std::size_t top_level = raster.layout().topLevel();
+    auto top = raster.get({TileKind::Samples, static_cast<std::uint8_t>(top_level), 0, 0});
     if (!top) {
         return std::move(top).error();
     }
-    return std::unique_ptr<WindowFeeder>(
-        new WindowFeeder(raster, std::move(heights), std::move(top).value(), options));
+    return std::make_unique<WindowFeeder>(raster, std::move(heights), std::move(top).value(),
+                                          options);
 }
 
 WindowFeeder::WindowFeeder(const TiledRaster& raster,
@@ -82,6 +80,9 @@ WindowFeeder::WindowFeeder(const TiledRaster& raster,
         changed_.notify_one();
     })
 {
+    MARSVIEW_CHECK(heights_ && heights_->layout().columns == raster_.layout().columns &&
+                   heights_->layout().rows == raster_.layout().rows);
+    MARSVIEW_CHECK(top);
     top_ = locked(std::move(top));
     const std::vector<GridPoint> centres(heights_->layout().topLevel() + 1);
     window_ = std::make_shared<const ResidentWindow>(heights_, top_, centres, options_.plan.sides);

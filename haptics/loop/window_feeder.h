@@ -42,10 +42,16 @@ struct WindowFeederStatistics {
 /// them; windows that the servo thread has left are freed here, never there.
 class WindowFeeder {
 public:
-    /// Waits for the tile of the coarsest level. `heights` have the raster's layout.
+    /// Reads the tile of the coarsest level first: not for a thread that must not wait.
     static Result<std::unique_ptr<WindowFeeder>> create(const TiledRaster& raster,
                                                         std::shared_ptr<const TileHeights> heights,
                                                         const WindowFeederOptions& options = {});
+    /// `heights` have the raster's layout, and `top` is the tile of its coarsest level. Waits for
+    /// nothing.
+    WindowFeeder(const TiledRaster& raster,
+                 std::shared_ptr<const TileHeights> heights,
+                 std::shared_ptr<const Tile> top,
+                 const WindowFeederOptions& options = {});
     /// Stops.
     ~WindowFeeder();
     WindowFeeder(const WindowFeeder&) = delete;
@@ -68,11 +74,6 @@ public:
     bool feed(Clock::time_point now);
 
 private:
-    WindowFeeder(const TiledRaster& raster,
-                 std::shared_ptr<const TileHeights> heights,
-                 std::shared_ptr<const Tile> top,
-                 const WindowFeederOptions& options);
-
     void run(const std::stop_token& stop);
     void want(std::vector<TileId> tiles);
     void learnThroughput(Clock::time_point now, std::size_t arrived);

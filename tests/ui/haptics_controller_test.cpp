@@ -455,49 +455,95 @@ TEST_F(HapticsControllerTest, SettingsThatMakeNoSenseAreDefaults)
     settings.remove(QStringLiteral("haptics"));
 }
 
-TEST(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
-{
-    const TestMaps maps;
-    LargeMaps large;
-    TestMaps::Shape shape;
-    shape.columns = 900;
-    shape.rows = 600; // 4 × 3 tiles
-    const QString file = maps.write(QStringLiteral("map.asc"), shape, [](int c, int r) {
-        return 900.0 * std::sin(c / 61.0) * std::cos(r / 47.0) + 25.0 * std::sin(c / 3.0 + r / 4.0);
-    });
-    const DatasetSpec spec{.path = file.toStdString()};
-    const SceneSurface whole({test::loadedMap(spec.path)});
-    const MapOpener opener = large.opener();
-    JobMonitor monitor;
-    const auto tiled = opener.open(spec, {}, opener.resources, monitor);
-    ASSERT_TRUE(tiled) << tiled.error().message;
-    ASSERT_TRUE(tiled->dataset->heightfield().isTiled());
-
-    const auto hand = std::make_shared<TestHand>();
-    TerrainView view;
-    view.resize(500, 400);
-    HapticsController haptics(view, testDrivers(hand));
-    view.show();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return view.isReady(); }, kTimeout));
-    view.setLayers({{.map = *tiled, .ramp = colorRampNamed("grey")}});
-    haptics.connectTo(QStringLiteral("hand:"));
-    for (const WorkspacePoint& at :
-         {WorkspacePoint{0.0, 0.0, -0.055}, WorkspacePoint{-0.04, 0.02, -0.055}}) {
-        hand->moveTo(at);
-        EXPECT_TRUE(QTest::qWaitFor(
-            [&] {
-                if (haptics.loop() == nullptr) {
-                    return false;
-                }
-                const LoopState now = haptics.loop()->state();
-                const ScenePoint proxy = now.contact.proxy;
-                return now.contact.is_in_contact && length(now.hand - at) < 1e-9 &&
-                       hand->force_n > 0.1 &&
-                       std::abs(proxy.z - whole.height(proxy.x, proxy.y) * view.exaggeration()) <
-                           1e-3;
-            },
-            kTimeout));
+// A map in tiles in a view, and the same held in memory.
+class HapticsControllerOfTiles : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        TestMaps::Shape shape;
+        shape.columns = 900;
+        shape.rows = 600; // 4 × 3 tiles
+        const QString file = maps_.write(QStringLiteral("map.asc"), shape, [](int c, int r) {
+            return 900.0 * std::sin(c / 61.0) * std::cos(r / 47.0) +
+                   25.0 * std::sin(c / 3.0 + r / 4.0);
+        });
+        const DatasetSpec spec{.path = file.toStdString()};
+        whole_ = SceneSurface({test::loadedMap(spec.path)});
+        const MapOpener opener = large_.opener();
+        JobMonitor monitor;
+        const auto tiled = opener.open(spec, {}, opener.resources, monitor);
+        ASSERT_TRUE(tiled) << tiled.error().message;
+        ASSERT_TRUE(tiled->dataset->heightfield().isTiled());
+        view_ = std::make_unique<TerrainView>();
+        view_->resize(500, 400);
+        haptics_ = std::make_unique<HapticsController>(*view_, testDrivers(hand_));
+        view_->show();
+        ASSERT_TRUE(QTest::qWaitFor([&] { return view_->isReady(); }, kTimeout));
+        view_->setLayers({{.map = *tiled, .ramp = colorRampNamed("grey")}});
     }
+    void TearDown() override
+    {
+        large_.holdAllTiles(false);
+        haptics_.reset();
+        view_.reset();
+    }
+
+    // Pressed into the ground there, with no more than so much between the proxy and the ground at
+    // full resolution.
+    bool touches(const WorkspacePoint& at, double tolerance_m)
+    {
+        if (haptics_->loop() == nullptr) {
+            return false;
+        }
+        const LoopState now = haptics_->loop()->state();
+        const ScenePoint proxy = now.contact.proxy;
+        return now.contact.is_in_contact && length(now.hand - at) < 1e-9 && hand_->force_n > 0.1 &&
+               std::abs(proxy.z - whole_.height(proxy.x, proxy.y) * view_->exaggeration()) <
+                   tolerance_m;
+    }
+    bool comesToTouch(const WorkspacePoint& at, double tolerance_m)
+    {
+        hand_->moveTo(at);
+        return QTest::qWaitFor([&] { return touches(at, tolerance_m); }, kTimeout);
+    }
+
+    static constexpr double kExactM = 1e-3;
+
+    TestMaps maps_;
+    LargeMaps large_;
+    SceneSurface whole_;
+    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
+    std::unique_ptr<TerrainView> view_;
+    std::unique_ptr<HapticsController> haptics_;
+};
+
+TEST_F(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
+{
+    haptics_->connectTo(QStringLiteral("hand:"));
+    EXPECT_TRUE(comesToTouch({0.0, 0.0, -0.055}, kExactM));
+    EXPECT_TRUE(comesToTouch({-0.04, 0.02, -0.055}, kExactM));
+}
+
+// A disk that gives nothing when the hand comes, the coarsest tile no more than others.
+TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
+{
+    ASSERT_TRUE(QTest::qWaitFor([&] { return view_->isPictureComplete(); }, kTimeout));
+    large_.holdAllTiles(true);
+    large_.forgetTiles();
+    const int reads = large_.guiReadCount();
+    haptics_->connectTo(QStringLiteral("hand:"));
+    const WorkspacePoint below{0.01, 0.0, -0.055};
+    EXPECT_TRUE(comesToTouch(below, HUGE_VAL));
+    EXPECT_FALSE(touches(below, kExactM)) << "what is held back makes a difference";
+    // The mouse likewise.
+    QTest::mousePress(view_.get(), Qt::LeftButton, {}, view_->rect().center());
+    ASSERT_TRUE(view_->stylus());
+    EXPECT_TRUE(view_->stylus()->is_in_contact);
+    QTest::mouseRelease(view_.get(), Qt::LeftButton, {}, view_->rect().center());
+    EXPECT_EQ(large_.guiReadCount(), reads) << "the window's thread read a tile";
+    // And what comes is felt where it belongs.
+    large_.holdAllTiles(false);
+    EXPECT_TRUE(comesToTouch(below, kExactM));
 }
 
 } // namespace

@@ -1,5 +1,8 @@
 #include "tests/ui/large_maps.h"
 
+#include <QCoreApplication>
+#include <QThread>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -88,6 +91,19 @@ void LargeMaps::holdTiles(bool is_held)
     changed_.notify_all();
 }
 
+void LargeMaps::holdAllTiles(bool is_held)
+{
+    const std::lock_guard lock(mutex_);
+    are_all_tiles_held_ = is_held;
+    changed_.notify_all();
+}
+
+int LargeMaps::guiReadCount() const
+{
+    const std::lock_guard lock(mutex_);
+    return gui_read_count_;
+}
+
 void LargeMaps::failTiles(bool is_failing)
 {
     const std::lock_guard lock(mutex_);
@@ -133,6 +149,21 @@ Status LargeMaps::prepare(const DatasetSpec& spec, JobMonitor& monitor)
     return Done{};
 }
 
+std::optional<Error> LargeMaps::beforeRead(const TileId& id)
+{
+    std::unique_lock lock(mutex_);
+    if (QThread::currentThread() == QCoreApplication::instance()->thread()) {
+        ++gui_read_count_;
+        if (are_all_tiles_held_) {
+            return Error{ErrorCode::Unreadable, "large.asc: read by the thread of the window"};
+        }
+    }
+    changed_.wait(lock, [&] { return !are_all_tiles_held_ && (!are_tiles_held_ || id.level > 0); });
+    return are_tiles_failing_ && id.level == 0
+               ? std::optional(Error{ErrorCode::Unreadable, "large.asc: the disk is gone"})
+               : std::nullopt;
+}
+
 Result<LoadedMap>
 LargeMaps::openTiled(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor)
 {
@@ -146,16 +177,10 @@ LargeMaps::openTiled(const DatasetSpec& spec, const MapResources& resources, Job
     }
     const Heightfield& heightfield = whole->dataset->heightfield();
     const auto source = std::make_shared<const test::GridTileSource>(
-        heightfield, test::GridTileSource::Options{
-                         .mean_levels = 2, // as in any file that is read in tiles
-                         .before_read = [this](const TileId& id) -> std::optional<Error> {
-                             std::unique_lock lock(mutex_);
-                             changed_.wait(lock, [&] { return !are_tiles_held_ || id.level > 0; });
-                             return are_tiles_failing_ && id.level == 0
-                                        ? std::optional(Error{ErrorCode::Unreadable,
-                                                              "large.asc: the disk is gone"})
-                                        : std::nullopt;
-                         }});
+        heightfield,
+        test::GridTileSource::Options{
+            .mean_levels = 2, // as in any file that is read in tiles
+            .before_read = [this](const TileId& id) { return beforeRead(id); }});
     auto tiles = TiledSamples::open(TiledRaster(*resources.tiles, source));
     if (!tiles) {
         return std::move(tiles).error();

@@ -31,6 +31,11 @@ public:
     void makeRoughPreviews() { are_previews_rough_ = true; }
     /// Tiles of the finest level are not read until this is taken back.
     void holdTiles(bool is_held);
+    /// Tiles of all levels are not read until this is taken back. The GUI's thread would wait for
+    /// ever: there reading fails meanwhile.
+    void holdAllTiles(bool is_held);
+    /// How many tiles were read by the GUI's thread.
+    int guiReadCount() const;
     /// Reading tiles of the finest level fails until this is taken back.
     void failTiles(bool is_failing);
     /// Tiles that nobody holds on to have to be read again.
@@ -43,6 +48,7 @@ public:
 
 private:
     Status prepare(const DatasetSpec& spec, JobMonitor& monitor);
+    std::optional<Error> beforeRead(const TileId& id);
     Result<LoadedMap>
     openTiled(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor);
 
@@ -53,6 +59,8 @@ private:
     bool is_losing_ = false;
     bool are_previews_rough_ = false;
     bool are_tiles_held_ = false;
+    bool are_all_tiles_held_ = false;
+    int gui_read_count_ = 0;
     bool are_tiles_failing_ = false;
     std::optional<Error> failure_;
     int begun_count_ = 0;

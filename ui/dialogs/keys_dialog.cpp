@@ -19,7 +19,7 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent)
     grid->setHorizontalSpacing(20);
     grid->setVerticalSpacing(3);
     grid->setColumnMinimumWidth(2, 24);
-    const std::array<std::array<QString, 2>, 9> mouse{{
+    const std::array<std::array<QString, 2>, 11> mouse{{
         {tr("Left drag"), tr("Touch the ground")},
         {tr("Wheel while touching"), tr("Press deeper or less deep")},
         {tr("Space held"), tr("Grab: pan on the ground, zoom in the air")},
@@ -29,6 +29,8 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent)
         {tr("Ctrl+wheel"), tr("Zoom finely")},
         {tr("Double click"), tr("Fly there")},
         {tr("Drop files"), tr("Open them")},
+        {tr("Cap of a SpaceMouse"), tr("Pan, zoom, turn and tilt")},
+        {tr("Its first button"), tr("Show the whole map")},
     }};
     QList<std::array<QString, 2>> lines(mouse.begin(), mouse.end());
     for (const QAction* action : actions) {

@@ -28,7 +28,7 @@ struct Color4 {
     float blue;
     float alpha;
 };
-constexpr Color4 kCursorColor{0.86F, 0.10F, 0.08F, 1.0F}; // red, as in the paper's figures
+constexpr Color4 kCursorColor{kCursorRed, kCursorGreen, kCursorBlue, 1.0F};
 constexpr Color4 kGoalColor{1.0F, 0.86F, 0.42F, 0.85F};
 constexpr Color4 kSpringColor{1.0F, 0.86F, 0.42F, 0.9F};
 constexpr Color4 kShadowColor{0.0F, 0.0F, 0.0F, 0.38F};

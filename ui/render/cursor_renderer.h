@@ -11,6 +11,11 @@
 
 namespace marsview {
 
+/// Red, as in the paper's figures.
+constexpr float kCursorRed = 0.86F;
+constexpr float kCursorGreen = 0.10F;
+constexpr float kCursorBlue = 0.08F;
+
 /// As in section 4.2 of the paper "Large Haptic Topographic Maps".
 enum class CursorShape {
     Sphere,     // in free space

@@ -76,10 +76,29 @@ void FakeHid::unplug()
     is_unplugged_ = true;
 }
 
+void FakeHid::plugInAgain()
+{
+    const std::lock_guard lock(mutex_);
+    is_unplugged_ = false;
+}
+
 void FakeHid::refuseToOpen()
 {
     const std::lock_guard lock(mutex_);
     does_not_open_ = true;
+}
+
+void FakeHid::stallEnumerating()
+{
+    const std::lock_guard lock(mutex_);
+    is_enumerating_stalled_ = true;
+}
+
+void FakeHid::goOnEnumerating()
+{
+    const std::lock_guard lock(mutex_);
+    is_enumerating_stalled_ = false;
+    changed_.notify_all();
 }
 
 void FakeHid::stallWriting()
@@ -99,6 +118,18 @@ std::size_t FakeHid::writes() const
 {
     const std::lock_guard lock(mutex_);
     return written_.size();
+}
+
+std::size_t FakeHid::readings() const
+{
+    const std::lock_guard lock(mutex_);
+    return readings_;
+}
+
+std::size_t FakeHid::enumerations() const
+{
+    const std::lock_guard lock(mutex_);
+    return enumerations_;
 }
 
 std::size_t FakeHid::openDevices() const
@@ -139,8 +170,13 @@ bool FakeHid::waitUntil(const std::function<bool()>& is_so)
 
 hid_device_info* FakeHid::enumerate()
 {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
+    enumerations_ += 1;
+    changed_.wait(lock, [&] { return !is_enumerating_stalled_; });
     hid_device_info* first = nullptr;
+    if (is_unplugged_) {
+        return first;
+    }
     for (auto device = devices_.rbegin(); device != devices_.rend(); ++device) {
         auto* info = new hid_device_info{};
         info->path = strdup(device->path.c_str());
@@ -160,7 +196,7 @@ hid_device_info* FakeHid::enumerate()
 hid_device_* FakeHid::open(const char* /*path*/)
 {
     const std::lock_guard lock(mutex_);
-    if (does_not_open_) {
+    if (does_not_open_ || is_unplugged_) {
         return nullptr;
     }
     open_ += 1;
@@ -177,6 +213,7 @@ int FakeHid::read(unsigned char* data, std::size_t bytes, int ms)
 {
     std::unique_lock lock(mutex_);
     turns_ += 1;
+    readings_ += 1;
     changed_.notify_all();
     if (is_unplugged_) {
         return -1;

@@ -40,13 +40,20 @@ public:
     void say(const Report& report);
     /// What it says once, before that.
     void sayOnce(const Report& report);
+    /// Is not listed any more, and reading fails.
     void unplug();
+    void plugInAgain();
     void refuseToOpen();
+    /// Enumerating does not return until it is let go on.
+    void stallEnumerating();
+    void goOnEnumerating();
     /// Writing does not return until it is let go on.
     void stallWriting();
     void goOnWriting();
 
     std::size_t writes() const;
+    std::size_t readings() const;
+    std::size_t enumerations() const;
     std::size_t openDevices() const;
     Report lastWritten() const;
     std::vector<Report> written() const;
@@ -72,9 +79,12 @@ private:
     std::vector<Report> written_;
     std::uint64_t turns_ = 0;
     std::size_t open_ = 0;
+    std::size_t enumerations_ = 0; // begun
+    std::size_t readings_ = 0;
     bool is_unplugged_ = false;
     bool does_not_open_ = false;
     bool is_stalled_ = false;
+    bool is_enumerating_stalled_ = false;
 };
 
 /// Little-endian int16, as all of these devices speak; `first` stands in front, if anything.

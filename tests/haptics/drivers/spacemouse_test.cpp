@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cerrno>
 
 namespace marsview::test {
@@ -109,6 +110,39 @@ TEST(SpaceMouse, ComesToRestWhenItFallsSilentWhilePushed)
     EXPECT_TRUE(hid.waitUntil([&] { return (*mouse)->rates().push.x == -1.0; }));
 }
 
+// Who sleeps while it rests hears of everything that matters, and of nothing else.
+TEST(SpaceMouse, NotifiesWhenItLeavesItsRestWhenAButtonGoesDownAndWhenItIsLost)
+{
+    FakeHid hid;
+    hid.plugIn(kNavigator);
+    hid.say(reportOf({0, 0, 0}, 7, {1}));
+    std::atomic<int> notified{0};
+    auto mouse = SpaceMouse::open("", hid.api(), [&] { ++notified; });
+    ASSERT_TRUE(mouse) << mouse.error().message;
+    const auto take_turns = [&](int count) {
+        EXPECT_TRUE(hid.waitUntil([&] { return count-- < 0; }));
+    };
+    take_turns(20);
+    EXPECT_EQ(notified, 0);
+    hid.say(reportOf({35, 0, 0}, 7, {1}));
+    EXPECT_TRUE(hid.waitUntil([&] { return notified == 1; }));
+    hid.say(reportOf({70, 0, 0}, 7, {1}));
+    take_turns(20);
+    EXPECT_EQ(notified, 1) << "it was pushed already";
+    hid.say(reportOf({0, 0, 0}, 7, {1}));
+    EXPECT_TRUE(hid.waitUntil([&] { return (*mouse)->rates().isAtRest(); }));
+    hid.sayOnce({3, 1});
+    hid.sayOnce({3, 0}); // released before anybody looks
+    EXPECT_TRUE(hid.waitUntil([&] { return notified == 2; }));
+    take_turns(20);
+    EXPECT_EQ((*mouse)->takePressed(), 1U);
+    EXPECT_EQ((*mouse)->takePressed(), 0U) << "told once";
+    EXPECT_EQ(notified, 2);
+    hid.unplug();
+    EXPECT_TRUE(hid.waitUntil([&] { return notified == 3; }));
+    EXPECT_TRUE((*mouse)->isLost());
+}
+
 TEST(SpaceMouse, SaysWhatItCannotOpen)
 {
     FakeHid hid;
@@ -128,9 +162,10 @@ TEST(SpaceMouseDriver, ListsItAndSaysThatItCannotTouch)
     SpaceMouseDriver driver(hid.api());
     const std::vector<FoundDevice> found = driver.find();
     ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].reason, HasSubstr("moves the camera"));
     EXPECT_THAT(found[0].reason, HasSubstr("cannot touch"));
     EXPECT_THAT(driver.open("/dev/hidraw2").error().message,
-                testing::StartsWith("spacemouse:/dev/hidraw2: a SpaceMouse is no stylus"));
+                testing::StartsWith("spacemouse:/dev/hidraw2: a SpaceMouse moves the camera"));
 }
 
 } // namespace marsview::test
