@@ -112,7 +112,9 @@ void HapticsController::findDevices()
 void HapticsController::setLooking(bool is_looking)
 {
     is_looking_ = is_looking;
-    const bool is_to_run = is_looking && connection_ == HapticsConnection::None;
+    // Also unseen, for one that was lost or is remembered.
+    const bool is_to_run =
+        (is_looking || !wanted_uri_.isEmpty()) && connection_ == HapticsConnection::None;
     if (is_to_run == look_timer_.isActive()) {
         return;
     }
@@ -274,7 +276,8 @@ void HapticsController::setContactModel(ContactModelKind kind)
 {
     if (kind != model_) {
         model_ = kind;
-        remakeMap();
+        makeMapAgain();
+        push();
     }
 }
 
@@ -364,12 +367,11 @@ void HapticsController::setMap(std::size_t index)
 }
 
 // The same map otherwise: the hand goes on where it is.
-void HapticsController::remakeMap()
+void HapticsController::makeMapAgain()
 {
     if (hand_map_) {
         stopRecording();
         loop_settings_.map = hand_map_->make(model_, exaggeration_);
-        push();
     }
 }
 
@@ -377,8 +379,9 @@ void HapticsController::takeExaggeration()
 {
     if (view_.exaggeration() != exaggeration_) {
         exaggeration_ = view_.exaggeration();
-        remakeMap();
+        makeMapAgain(); // pushed together with the frame: no update sees one without the other
         takeSight();
+        push();
     }
 }
 

@@ -119,7 +119,7 @@ private:
     void takeExaggeration();
     void chooseMap(const LoopState& state);
     void setMap(std::size_t index);
-    void remakeMap();
+    void makeMapAgain();
     void takeSight();
     void followHand(const LoopState& state);
     void showHand(const LoopState& state);
