@@ -2,14 +2,20 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace marsview::test {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string mars()
 {
@@ -108,6 +114,50 @@ TEST(LoopCommand, PrintsAHistogramForPeople)
     for (const char* word : {"update time", "up to", "lateness", "missed deadlines", "tile misses",
                              "page faults", "real-time scheduling"}) {
         EXPECT_NE(output.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
+{
+    const TempFolder folder;
+    const auto run = [&](const std::string& behaviour) {
+        const std::string uri = "plugin:" MARSVIEW_TEST_PLUGINS "/" + behaviour + ".so";
+        ProgramOutput output = runProgram({"env", "XDG_STATE_HOME=" + folder.file("state"),
+                                           "XDG_RUNTIME_DIR=" + folder.file("run"), MARSVIEW_CLI,
+                                           "loop", mars(), "--device", uri, "--seconds", "0.5"});
+        EXPECT_EQ(output.exit_status, 1) << behaviour;
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+        EXPECT_THAT(output.err, StartsWith("marsview-cli: " + uri + ": "));
+        return output;
+    };
+    const ProgramOutput nan = run("says_nan");
+    EXPECT_THAT(nan.err, AllOf(HasSubstr("was lost after 0.0 s: "), HasSubstr("not finite; ")));
+    EXPECT_THAT(nan.out, HasSubstr("; last for: device lost\n")) << "the report is printed, too";
+    const ProgramOutput millimetres = run("says_millimetres");
+    EXPECT_THAT(millimetres.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
+    const ProgramOutput lost = run("answers_nonsense");
+    EXPECT_THAT(lost.err, HasSubstr("its plugin says that it is gone; "));
+    const ProgramOutput unready = run("says_unready");
+    EXPECT_THAT(unready.err, HasSubstr("did not become ready within 0.6 s: its plugin says that "
+                                       "it is not ready, but not why; "));
+    EXPECT_THAT(unready.out, HasSubstr("forces let go: device unready 0.600 s; last for: device "
+                                       "unready\n"));
+    const ProgramOutput stopped = run("fails_starting");
+    EXPECT_THAT(stopped.err, HasSubstr("the loop did not start: "));
+}
+
+TEST(LoopCommand, RunsToTheEndOfTheDeviceHoweverManySecondsItMay)
+{
+    const TempFolder folder;
+    std::string goals = "x,y,z\n";
+    for (int i = 0; i < 700; ++i) {
+        goals += "0,0,1000\n";
+    }
+    const std::string path = folder.write("goals.csv", goals);
+    for (const char* seconds : {"1e30", "1e308", "1e9"}) {
+        const nlohmann::json loop = looped({"--device", "replay:" + path, "--seconds", seconds});
+        ASSERT_FALSE(loop.is_null());
+        EXPECT_GE(loop["ticks"], 600) << seconds;
     }
 }
 
