@@ -20,8 +20,9 @@ struct PolhemOptions {
     static PolhemOptions standard();
 };
 
-/// "polhem:/dev/hidraw2", or "polhem:" for the first one; then, if need be, ",home" where the arm
-/// is in its rest position, and ",parameters=FILE" for one that differs.
+/// "polhem:/dev/hidraw2", or "polhem:" for the first one; then ",home" where the
+/// arm is in its rest position and shall be calibrated there without its board's button
+/// (PolhemDevice), and ",parameters=FILE" for one that differs.
 class PolhemDriver final : public DeviceDriver {
 public:
     explicit PolhemDriver(PolhemOptions options = PolhemOptions::standard());
