@@ -6,6 +6,7 @@
 #include "app/cli/loop_outcome.h"
 #include "app/cli/loop_report.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/replay_check.h"
 #include "app/cli/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
@@ -95,6 +96,12 @@ Status runLoop(const Options& options)
         return std::move(device).error();
     }
 
+    const Result<std::string> replay_notice =
+        replayNotice(options.device, map->opened.dataset->georeference());
+    if (!replay_notice) {
+        return replay_notice.error();
+    }
+
     const double rate_hz = (*device)->capabilities().rate_hz;
     ServoLoopOptions loop_options;
     loop_options.ticks_max =
@@ -166,6 +173,9 @@ Status runLoop(const Options& options)
         std::fwrite(text.data(), 1, text.size(), stdout);
     }
     printNotices(map->opened.dataset->info());
+    if (!replay_notice->empty()) {
+        std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(*replay_notice).c_str());
+    }
     return verdict;
 }
 

@@ -146,6 +146,38 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     EXPECT_THAT(stopped.err, HasSubstr("the loop did not start: "));
 }
 
+TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
+{
+    const TempFolder folder;
+    const auto run = [&](const std::string& goals) {
+        const std::string path = folder.write("goals.csv", "x,y,z\n" + goals);
+        return runCli({"loop", mars(), "--device", "replay:" + path, "--seconds", "1"});
+    };
+    const ProgramOutput none = run("1e9,0,0\n0,1e9,0\n");
+    EXPECT_EQ(none.exit_status, 1);
+    EXPECT_THAT(none.err, HasSubstr(": 2 of 2 goals lie beside the map; give the map"));
+    const ProgramOutput some = run("0,0,0\n0,1e9,0\n");
+    EXPECT_EQ(some.exit_status, 0) << some.err;
+    EXPECT_THAT(some.err, HasSubstr(": 1 of 2 goals lie beside the map and are put to its edge"));
+    EXPECT_EQ(run("0,0,0\n").err, "");
+}
+
+TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)
+{
+    const ProgramOutput full =
+        runCli({"loop", mars(), "--device", "record:/dev/full,sim:", "--seconds", "0.2"});
+    EXPECT_EQ(full.exit_status, 1);
+    EXPECT_THAT(full.err, StartsWith("marsview-cli: record:/dev/full: cannot be written (No space "
+                                     "left on device); make room"));
+    for (const char* option : {"--record", "--flight"}) {
+        const ProgramOutput other = runCli(
+            {"loop", mars(), "--device", "sim:", "--seconds", "0.2", option, "/nowhere/a.csv"});
+        EXPECT_EQ(other.exit_status, 1);
+        EXPECT_THAT(other.err, StartsWith("marsview-cli: /nowhere/a.csv: cannot be written (No "
+                                          "such file or directory); choose another file"));
+    }
+}
+
 TEST(LoopCommand, RunsToTheEndOfTheDeviceHoweverManySecondsItMay)
 {
     const TempFolder folder;
