@@ -117,7 +117,7 @@ Status runLoop(const Options& options)
         recorder = std::move(begun).value();
     }
     const std::uint64_t allocations_before = RtScope::allocationCount();
-    LoopWatch watch(LoopWatch::Clock::now());
+    LoopWatch watch(loop_options.ticks_max, LoopWatch::Clock::now());
     {
         LongJob job("running");
         loop.set({.map = map->map,

@@ -6,7 +6,8 @@
 namespace marsview {
 namespace {
 
-constexpr std::string_view kWhatToDo = "look at its cable and power, and at marsview-cli devices";
+constexpr std::string_view kWhatToDo =
+    "connect it again; where that does not help, its driver has to be mended";
 
 std::uint64_t& of(std::array<std::uint64_t, kLetGoReasonCount>& ticks, LetGoReason reason)
 {
@@ -34,7 +35,8 @@ void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
     if (state.tick != state_.tick) {
         ticked_ = now;
     }
-    is_silent_ = !loop.hasEnded() && now - ticked_ >= kSilenceMax;
+    has_ended_ = loop.hasEnded();
+    is_silent_ = !has_ended_ && now - ticked_ >= kSilenceMax;
     state_ = state;
     trouble_ = loop.trouble();
     rate_hz_ = loop.device().rate_hz;
@@ -66,12 +68,14 @@ Status LoopWatch::verdict(const std::string& uri) const
                      fmt::format("{}: the loop did not start: {}", uri,
                                  said("the device did not call it even once"))};
     }
-    if (is_silent_) {
+    const bool is_finished = last_reason_ == LetGoReason::DeviceFinished;
+    const bool is_cut_short = has_ended_ && !is_finished && state_.tick < ticks_max_;
+    if (is_silent_ || (is_cut_short && !state_.is_finished)) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: fell silent after {:.1f} s: {}", uri, ran_s,
                                  said("the device stopped answering"))};
     }
-    if (state_.is_finished && last_reason_ != LetGoReason::DeviceFinished) {
+    if (state_.is_finished && !is_finished) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: was lost after {:.1f} s: {}", uri, ran_s,
                                  said("the device does not say why"))};

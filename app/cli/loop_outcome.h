@@ -19,8 +19,10 @@ public:
     /// A device that has not called or answered the tick for so long does not work.
     static constexpr std::chrono::seconds kSilenceMax{5};
 
-    explicit LoopWatch(Clock::time_point now)
-        : ticked_(now)
+    /// `ticks_max` is the loop's: one that ends by itself before that has failed.
+    LoopWatch(std::uint64_t ticks_max, Clock::time_point now)
+        : ticks_max_(ticks_max)
+        , ticked_(now)
     {}
 
     /// Takes all events that there are. Call it several times a second, then once before the loop
@@ -34,10 +36,11 @@ public:
     /// The last that was not NoTouch; None where forces were never let go.
     LetGoReason lastReason() const noexcept { return last_reason_; }
     /// Done, or what the device did instead of running to the end: it never ticked, never became
-    /// ready, or was lost. Begins with `uri`.
+    /// ready, was lost or fell silent; or, where it ran, what else went wrong. Begins with `uri`.
     Status verdict(const std::string& uri) const;
 
 private:
+    std::uint64_t ticks_max_;
     std::array<std::uint64_t, kLetGoReasonCount> ticks_by_reason_{};
     LetGoReason reason_ = LetGoReason::NoTouch; // since since_tick_
     LetGoReason last_reason_ = LetGoReason::None;
@@ -47,6 +50,7 @@ private:
     double rate_hz_ = 1000.0;
     Clock::time_point ticked_;
     bool is_silent_ = false;
+    bool has_ended_ = false; // by itself
 };
 
 } // namespace marsview
