@@ -382,6 +382,17 @@ TEST_F(PolhemDriverTest, SpeaksTheOlderLayoutsToo)
     EXPECT_EQ(hid_.lastWritten().size(), 9U);
 }
 
+TEST(PolhemUri, IsRememberedWithoutBeingAtHome)
+{
+    EXPECT_EQ(lastingPolhemUri("polhem:/dev/hidraw7,home"), "polhem:/dev/hidraw7");
+    EXPECT_EQ(lastingPolhemUri("polhem:,home,parameters=/a.json,home"),
+              "polhem:,parameters=/a.json");
+    EXPECT_EQ(lastingPolhemUri("polhem:,parameters=/a,homely.json"),
+              "polhem:,parameters=/a,homely.json");
+    EXPECT_EQ(lastingPolhemUri("polhem:/dev/hidraw7"), "polhem:/dev/hidraw7");
+    EXPECT_EQ(lastingPolhemUri("plugin:x,home"), "plugin:x,home");
+}
+
 TEST_F(PolhemDriverTest, SaysWhatItCannotOpen)
 {
     EXPECT_THAT(refusal(), HasSubstr("polhem:: no WoodenHaptics or Polhem arm is connected"));
