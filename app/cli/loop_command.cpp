@@ -3,8 +3,10 @@
 #include "app/cli/commands.h"
 #include "app/cli/long_job.h"
 #include "app/cli/loop_map.h"
+#include "app/cli/loop_outcome.h"
 #include "app/cli/loop_report.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/replay_check.h"
 #include "app/cli/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
@@ -70,6 +72,13 @@ openDevice(DeviceRegistry& registry, const Options& options, const LoopMap& map)
     return registry.open(fmt::format("{},cell_m={}", uri, map.cell_m / frame.scene_per_metre));
 }
 
+// Of a time that nobody lives to see the end of, as many as can be counted.
+std::uint64_t ticksWithin(double seconds, double rate_hz)
+{
+    constexpr double kTicksMax = 9e15; // whole numbers, in doubles too
+    return static_cast<std::uint64_t>(std::min(std::ceil(seconds * rate_hz), kTicksMax));
+}
+
 Status runLoop(const Options& options)
 {
     std::optional<LoopMap> map;
@@ -87,10 +96,16 @@ Status runLoop(const Options& options)
         return std::move(device).error();
     }
 
+    const Result<std::string> replay_notice =
+        replayNotice(options.device, map->opened.dataset->georeference());
+    if (!replay_notice) {
+        return replay_notice.error();
+    }
+
     const double rate_hz = (*device)->capabilities().rate_hz;
     ServoLoopOptions loop_options;
-    loop_options.ticks_max = loop_options.thread.uncounted_turns +
-                             static_cast<std::uint64_t>(std::ceil(options.seconds * rate_hz));
+    loop_options.ticks_max =
+        loop_options.thread.uncounted_turns + ticksWithin(options.seconds, rate_hz);
     ServoLoop loop(std::move(device).value(), loop_options);
     std::unique_ptr<SessionRecorder> recorder;
     if (!options.record.empty()) {
@@ -102,6 +117,7 @@ Status runLoop(const Options& options)
         recorder = std::move(begun).value();
     }
     const std::uint64_t allocations_before = RtScope::allocationCount();
+    LoopWatch watch(loop_options.ticks_max, LoopWatch::Clock::now());
     {
         LongJob job("running");
         loop.set({.map = map->map,
@@ -109,13 +125,16 @@ Status runLoop(const Options& options)
                   .frame_number = 1,
                   .stiffness_n_per_m = options.stiffness_n_per_m});
         constexpr std::chrono::milliseconds kLook{20};
-        while (!loop.hasEnded() && !job.monitor().isCancelled()) {
+        while (!loop.hasEnded() && !job.monitor().isCancelled() && !watch.isSilent()) {
             std::this_thread::sleep_for(kLook);
+            watch.look(loop, LoopWatch::Clock::now());
             job.monitor().report(std::min(1.0, static_cast<double>(loop.state().tick) /
                                                    static_cast<double>(loop_options.ticks_max)));
         }
+        watch.look(loop, LoopWatch::Clock::now());
         loop.stop();
     }
+    const Status verdict = watch.verdict(options.device);
     LoopReport report{.file = options.map.path,
                       .device_uri = options.device,
                       .device_name = loop.device().name,
@@ -124,7 +143,9 @@ Status runLoop(const Options& options)
                       .rate_hz = rate_hz,
                       .statistics = loop.statistics(),
                       .grants = loop.grants(),
-                      .state = loop.state()};
+                      .state = loop.state(),
+                      .let_go_ticks = watch.letGoTicks(),
+                      .last_reason = watch.lastReason()};
 #ifdef MARSVIEW_COUNTS_ALLOCATIONS
     report.allocations = RtScope::allocationCount() - allocations_before;
 #else
@@ -152,7 +173,10 @@ Status runLoop(const Options& options)
         std::fwrite(text.data(), 1, text.size(), stdout);
     }
     printNotices(map->opened.dataset->info());
-    return Done{};
+    if (!replay_notice->empty()) {
+        std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(*replay_notice).c_str());
+    }
+    return verdict;
 }
 
 } // namespace

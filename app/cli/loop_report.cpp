@@ -71,6 +71,24 @@ std::string histogramOf(const TimeHistogram& times)
     return text;
 }
 
+// Why forces were let go and for how long, the last reason at the end.
+std::string letGoLine(const LoopReport& report)
+{
+    std::string text;
+    for (std::size_t i = 0; i < report.let_go_ticks.size(); ++i) {
+        if (report.let_go_ticks[i] > 0) {
+            text += fmt::format("{}{} {:.3f} s", text.empty() ? "" : ", ",
+                                letGoReasonName(static_cast<LetGoReason>(i)),
+                                static_cast<double>(report.let_go_ticks[i]) / report.rate_hz);
+        }
+    }
+    if (report.last_reason == LetGoReason::None) {
+        return fmt::format("forces let go: {}\n", text.empty() ? "never" : text);
+    }
+    return fmt::format("forces let go: {}; last for: {}\n", text,
+                       letGoReasonName(report.last_reason));
+}
+
 Json reasonOrTrue(const std::string& refusal)
 {
     return refusal.empty() ? Json(true) : Json(refusal);
@@ -108,7 +126,15 @@ Json asJson(const LoopReport& report)
                  {"not_recorded", c.not_recorded},
                  {"real_time_scheduling", reasonOrTrue(report.grants.scheduling_refusal)},
                  {"locked_memory", reasonOrTrue(report.grants.locking_refusal)},
-                 {"last_reason", letGoReasonName(report.state.reason)}};
+                 {"last_reason", letGoReasonName(report.last_reason)}};
+    Json let_go_s = Json::object();
+    for (std::size_t i = 0; i < report.let_go_ticks.size(); ++i) {
+        if (report.let_go_ticks[i] > 0) {
+            let_go_s[std::string(letGoReasonName(static_cast<LetGoReason>(i)))] =
+                static_cast<double>(report.let_go_ticks[i]) / report.rate_hz;
+        }
+    }
+    json["let_go_s"] = let_go_s;
     Json histogram = Json::array();
     s.tick.visit([&histogram](TimeHistogram::Span end, std::uint64_t count) {
         histogram.push_back({end.count(), count});
@@ -133,6 +159,7 @@ std::string asText(const LoopReport& report)
                         s.missed_by_tick, s.missed_by_waking, s.skipped);
     text += fmt::format("in contact {}, cut short {}, without force {}, damped {}\n", c.in_contact,
                         c.cut_short, c.let_go, c.damped);
+    text += letGoLine(report);
     text +=
         fmt::format("tile misses in {} ticks, {} samples\n", c.ticks_with_misses, c.samples_missed);
     text += fmt::format("page faults {} minor, {} major; allocations {}\n", s.minor_faults,

@@ -4,6 +4,8 @@
 #include "haptics/loop/servo_loop.h"
 #include "haptics/loop/window_feeder.h"
 
+#include <array>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -19,7 +21,9 @@ struct LoopReport {
     double rate_hz = 1000.0;
     LoopStatistics statistics;
     RealTimeGrants grants;
-    LoopState state; // the last
+    LoopState state;                                             // the last
+    std::array<std::uint64_t, kLetGoReasonCount> let_go_ticks{}; // LoopWatch's
+    LetGoReason last_reason = LetGoReason::None;
     std::optional<WindowFeederStatistics> feeder{};
     std::optional<std::uint64_t> allocations{}; // nothing where nobody counted
     std::uint64_t recorded = 0;                 // updates

@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -26,6 +27,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -45,11 +47,15 @@ struct Options {
 
 Status write(const std::string& path, const std::string& text)
 {
+    errno = 0;
     std::ofstream file(path, std::ios::binary);
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     file.close();
     if (!file) {
-        return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be written", path)};
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: cannot be written ({}); choose another file, in a folder "
+                                 "that is there and may be written to",
+                                 path, std::generic_category().message(errno))};
     }
     return Done{};
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <fmt/format.h>
 #include <fstream>
 #include <string>
@@ -16,13 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 
 // "openhaptics:Left Device" and "polhem:/dev/hidraw3" as names of files, still to be recognised.
+// Plugins have long paths, whose ends tell more.
 std::string fileNameFor(std::string_view uri)
 {
-    std::string name(uri);
+    constexpr std::size_t kShownMax = 100;
+    std::string name(uri.size() > kShownMax ? uri.substr(uri.size() - kShownMax) : uri);
     std::replace_if(
         name.begin(), name.end(),
         [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-    return fmt::format("{}-{:08x}.lock", name, std::hash<std::string_view>()(uri) & 0xFFFFFFFF);
+    return fmt::format("{}-{:016x}.lock", name, std::hash<std::string_view>()(uri));
 }
 
 std::string nameOf(long process)

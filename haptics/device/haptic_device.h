@@ -74,8 +74,9 @@ public:
     virtual bool startClock(ClockTick /*tick*/, void* /*self*/) noexcept { return false; }
     virtual void stopClock() noexcept {}
 
-    /// Why the last answer was Unready or Lost, in one sentence for people; empty where it was Fine
-    /// or nothing is known. Any thread but that of the tick: it allocates.
+    /// Why the last answer was Unready or Lost, in one sentence for people that goes on after the
+    /// device's name and a colon; or what else has gone wrong, such as a recording on a full disk.
+    /// Empty where all is fine or nothing is known. Any thread but that of the tick: it allocates.
     virtual std::string trouble() const { return {}; }
 
 protected:

@@ -2,9 +2,16 @@
 
 #include "core/base/environment.h"
 
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <fmt/format.h>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <thread>
+#include <unistd.h>
 #include <utility>
 
 namespace marsview {
@@ -14,13 +21,73 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".loading";
 
-std::string nameFor(const fs::path& plugin)
+struct Call {
+    std::string_view name;  // in the file's name
+    std::string_view doing; // "while it was ..."
+};
+
+// In the enumeration's order.
+constexpr std::array kCalls{Call{"load", "being loaded"}, Call{"enumerate", "listing its devices"},
+                            Call{"open", "opening a device"}, Call{"run", "running a device"},
+                            Call{"close", "closing a device"}};
+
+std::string stemFor(const fs::path& plugin)
 {
     std::error_code none;
     const fs::path canonical = fs::weakly_canonical(plugin, none);
-    return fmt::format("{}-{:016x}-{}-{}{}", plugin.stem().string(),
+    return fmt::format("{}-{:016x}-{}-{}.", plugin.stem().string(),
                        std::hash<std::string>()(canonical.string()), fs::file_size(plugin, none),
-                       fs::last_write_time(plugin, none).time_since_epoch().count(), kEnding);
+                       fs::last_write_time(plugin, none).time_since_epoch().count());
+}
+
+// A holder's number is written once the lock is held, so a file without one tells nothing.
+bool isLeftBehind(const fs::path& file)
+{
+    std::error_code none;
+    return FileLock::holder(file.string()) != 0 && !FileLock::isHeld(file.string()) &&
+           fs::exists(file, none);
+}
+
+// The name of what an earlier call left behind; empty where there is nothing.
+std::string leftBehind(const fs::path& folder, const std::string& stem)
+{
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none)) {
+        std::string name = entry.path().filename().string();
+        if (name.starts_with(stem) && entry.path().extension() == kEnding &&
+            isLeftBehind(entry.path())) {
+            return name;
+        }
+    }
+    return {};
+}
+
+std::string_view doingIn(std::string_view name_after_stem)
+{
+    for (const Call& call : kCalls) {
+        if (name_after_stem.starts_with(call.name)) {
+            return call.doing;
+        }
+    }
+    return kCalls.front().doing;
+}
+
+// Whoever looks whether a marker is held holds it for a moment, so a file of one's own may be
+// taken.
+std::optional<FileLock> lockOwn(const std::string& file)
+{
+    constexpr int kTriesMax = 100;
+    for (int i = 0; i < kTriesMax; ++i) {
+        Result<std::optional<FileLock>> lock = FileLock::tryLock(file, FileLock::Kind::Exclusive);
+        if (!lock) {
+            return std::nullopt;
+        }
+        if (*lock) {
+            return std::move(*lock);
+        }
+        std::this_thread::yield();
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -30,21 +97,24 @@ fs::path LoadMarker::defaultFolder()
     return userFolder("XDG_STATE_HOME", ".local/state") / "marsview" / "loading";
 }
 
-Result<LoadMarker> LoadMarker::make(const fs::path& folder, const fs::path& plugin)
+Result<LoadMarker> LoadMarker::make(const fs::path& folder, const fs::path& plugin, PluginCall call)
 {
     std::error_code none;
     fs::create_directories(folder, none);
-    const std::string marker = (folder / nameFor(plugin)).string();
-    // A holder's number is written once the lock is held, so a file without one tells nothing.
-    if (FileLock::holder(marker) != 0 && !FileLock::isHeld(marker) && fs::exists(marker, none)) {
+    const std::string stem = stemFor(plugin);
+    if (const std::string left = leftBehind(folder, stem); !left.empty()) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: the program ended while this plugin was being loaded the "
-                                 "last time, so it is left out; replace the plugin, or remove {} "
-                                 "to try it again",
-                                 plugin.string(), marker)};
+                     fmt::format("{}: the program ended while this plugin was {} the last time, so "
+                                 "it is left out; replace the plugin, or remove {} to try it again",
+                                 plugin.string(),
+                                 doingIn(std::string_view(left).substr(stem.size())),
+                                 (folder / left).string())};
     }
-    Result<std::optional<FileLock>> lock = FileLock::tryLock(marker, FileLock::Kind::Exclusive);
-    return LoadMarker(lock ? std::move(*lock) : std::nullopt);
+    static std::atomic<unsigned> count{0};
+    const std::string name =
+        fmt::format("{}{}-{}-{}{}", stem, kCalls.at(static_cast<std::size_t>(call)).name, getpid(),
+                    count.fetch_add(1), kEnding);
+    return LoadMarker(lockOwn((folder / name).string()));
 }
 
 void LoadMarker::forgetFailures(const fs::path& folder)

@@ -1,28 +1,33 @@
-// Remembering what took the program down while it was being loaded.
+// Remembering which plugin took the program down, and with what.
 #pragma once
 
 #include "core/base/file_lock.h"
 #include "core/base/result.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
 namespace marsview {
 
-/// A small locked file that is there while a plugin is being loaded or opened. Where the program
-/// ends meanwhile, however it ends, the file stays behind and says so at the next start. Its name
-/// stands for the plugin's path, size and time: another build of the plugin has another one.
+/// Which of a plugin's functions the program is in.
+enum class PluginCall : std::uint8_t { Load, Enumerate, Open, Run, Close };
+
+/// A small locked file that is there while the program is inside a plugin. Where the program ends
+/// meanwhile, however it ends, the file stays behind and says so at the next start. Its name stands
+/// for the plugin's path, size and time, so that another build of the plugin has another one, then
+/// for the call, and for the process: programs that run at once neither clear nor blame each
+/// other's.
 class LoadMarker {
 public:
     /// $XDG_STATE_HOME/marsview/loading, else ~/.local/state/marsview/loading.
     static std::filesystem::path defaultFolder();
 
-    /// Marks that `plugin`, an existing file, is being loaded, until the marker is destroyed.
-    /// Invalid, with what to do about it, where an earlier attempt took its program down. Where the
-    /// folder cannot be written to, and where another program is loading the same plugin right now,
-    /// the marker exists but marks nothing.
-    static Result<LoadMarker> make(const std::filesystem::path& folder,
-                                   const std::filesystem::path& plugin);
+    /// Marks that the program is inside `plugin`, an existing file, until the marker is destroyed.
+    /// Invalid, with what to do about it, where an earlier call took its program down. Where the
+    /// folder cannot be written to the marker exists but marks nothing. Any thread.
+    static Result<LoadMarker>
+    make(const std::filesystem::path& folder, const std::filesystem::path& plugin, PluginCall call);
 
     /// Forgets all earlier failures, so that these plugins are tried again.
     static void forgetFailures(const std::filesystem::path& folder);

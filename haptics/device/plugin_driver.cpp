@@ -1,6 +1,8 @@
 #include "haptics/device/plugin_driver.h"
 
 #include "core/base/environment.h"
+#include "haptics/device/device_lock.h"
+#include "haptics/device/guarded_device.h"
 #include "haptics/device/load_marker.h"
 #include "haptics/device/watched_call.h"
 
@@ -74,6 +76,29 @@ Address split(std::string_view address)
 
 } // namespace
 
+std::vector<fs::path> installedPluginFolders(const fs::path& program_folder)
+{
+    std::error_code none;
+    const fs::path prefix = fs::weakly_canonical(program_folder / "..", none);
+    const fs::path below = fs::path("marsview") / "plugins";
+    std::vector<fs::path> folders;
+    const auto take = [&](const fs::path& library_folder) {
+        if (fs::is_directory(library_folder / below, none)) {
+            folders.push_back(library_folder / below);
+        }
+    };
+    for (const auto& entry : fs::directory_iterator(prefix, none)) {
+        if (entry.path().filename().string().starts_with("lib")) {
+            take(entry.path());
+        }
+    }
+    for (const auto& entry : fs::directory_iterator(prefix / "lib", none)) {
+        take(entry.path());
+    }
+    std::sort(folders.begin(), folders.end());
+    return folders;
+}
+
 PluginOptions PluginOptions::standard()
 {
     PluginOptions options;
@@ -86,8 +111,18 @@ PluginOptions PluginOptions::standard()
         begin = end + 1;
     }
     options.folders.push_back(userFolder("XDG_DATA_HOME", ".local/share") / "marsview" / "plugins");
-    options.folders.emplace_back(MARSVIEW_PLUGIN_FOLDER);
+    std::error_code none;
+    std::vector<fs::path> installed =
+        installedPluginFolders(fs::read_symlink("/proc/self/exe", none).parent_path());
+    installed.emplace_back(MARSVIEW_PLUGIN_FOLDER);
+    for (fs::path& folder : installed) {
+        if (std::find(options.folders.begin(), options.folders.end(), folder) ==
+            options.folders.end()) {
+            options.folders.push_back(std::move(folder));
+        }
+    }
     options.marker_folder = LoadMarker::defaultFolder();
+    options.lock_folder = deviceLockFolder();
     return options;
 }
 
@@ -114,7 +149,7 @@ Result<Library> PluginDriver::load(const fs::path& file)
         }
         known_.erase(known);
     }
-    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file);
+    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file, PluginCall::Load);
     if (!marker) {
         return std::move(marker).error();
     }
@@ -137,6 +172,46 @@ Result<Library> PluginDriver::load(const fs::path& file)
     return *library;
 }
 
+Result<std::vector<PluginEntry>> PluginDriver::list(const fs::path& file, const Library& library)
+{
+    Result<LoadMarker> marker =
+        LoadMarker::make(options_.marker_folder, file, PluginCall::Enumerate);
+    if (!marker) {
+        return std::move(marker).error();
+    }
+    auto entries = callWatched(options_.patience,
+                               [library, held = std::optional(std::move(*marker))]() mutable {
+                                   std::vector<PluginEntry> listed = library->enumerate();
+                                   held.reset();
+                                   return listed;
+                               });
+    if (!entries) {
+        return hung(file, file.string(), "listing its devices");
+    }
+    return std::move(*entries);
+}
+
+// However the plugin and the device were named.
+Result<std::optional<FileLock>>
+PluginDriver::lock(const fs::path& file, const Library& library, std::string id)
+{
+    if (options_.lock_folder.empty()) {
+        return std::optional<FileLock>();
+    }
+    if (id.empty()) {
+        Result<std::vector<PluginEntry>> entries = list(file, library);
+        if (!entries) {
+            return std::move(entries).error();
+        }
+        id = entries->empty() ? std::string() : entries->front().id;
+    }
+    std::error_code none;
+    const std::string canonical = fs::weakly_canonical(file, none).string();
+    return lockDevice(id.empty() ? fmt::format("{}:{}", scheme(), canonical)
+                                 : fmt::format("{}:{}#{}", scheme(), canonical, id),
+                      options_.lock_folder);
+}
+
 std::vector<FoundDevice> PluginDriver::devicesOf(const fs::path& file)
 {
     const std::string uri = fmt::format("{}:{}", scheme(), file.string());
@@ -147,10 +222,9 @@ std::vector<FoundDevice> PluginDriver::devicesOf(const fs::path& file)
     if (!library) {
         return refused(library.error());
     }
-    const auto entries =
-        callWatched(options_.patience, [library = *library] { return library->enumerate(); });
+    const Result<std::vector<PluginEntry>> entries = list(file, *library);
     if (!entries) {
-        return refused(hung(file, file.string(), "listing its devices"));
+        return refused(entries.error());
     }
     std::vector<FoundDevice> found;
     for (const PluginEntry& entry : *entries) {
@@ -207,18 +281,38 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
     if (!library) {
         return library.error();
     }
-    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file);
+    Result<std::optional<FileLock>> lock = this->lock(file, *library, id);
+    if (!lock) {
+        return std::move(lock).error();
+    }
+    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file, PluginCall::Open);
     if (!marker) {
         return std::move(marker).error();
     }
     using Opened = Result<std::unique_ptr<HapticDevice>>;
-    auto device = callWatched(options_.patience,
-                              [library = *library, id = id, uri,
-                               held = std::optional(std::move(*marker))]() mutable -> Opened {
-                                  Opened opened = library->open(id, uri);
-                                  held.reset();
-                                  return opened;
-                              });
+    auto device =
+        callWatched(options_.patience,
+                    [library = *library, id = id, uri,
+                     guard = GuardedDevice::Options{.plugin = file,
+                                                    .marker_folder = options_.marker_folder,
+                                                    .lock = std::move(*lock)},
+                     held = std::optional(std::move(*marker))]() mutable -> Opened {
+                        Opened opened = library->open(id, uri);
+                        if (opened) {
+                            // Marked before the other marker goes, so that nothing is unmarked
+                            // between them.
+                            Result<LoadMarker> running = LoadMarker::make(
+                                guard.marker_folder, guard.plugin, PluginCall::Run);
+                            if (running) {
+                                guard.marker.emplace(std::move(*running));
+                            }
+                            guard.device = std::move(*opened);
+                            opened = std::unique_ptr<HapticDevice>(
+                                std::make_unique<GuardedDevice>(std::move(guard)));
+                        }
+                        held.reset();
+                        return opened;
+                    });
     if (!device) {
         return hung(file, uri, "being opened");
     }

@@ -1,6 +1,7 @@
 // Devices of plugins, from folders and by path.
 #pragma once
 
+#include "core/base/file_lock.h"
 #include "haptics/device/device_driver.h"
 #include "haptics/device/plugin_library.h"
 
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,18 +20,28 @@ namespace marsview {
 struct PluginOptions {
     std::vector<std::filesystem::path> folders; // where plugins are looked for, in this order
     std::filesystem::path marker_folder;        // see LoadMarker
+    std::filesystem::path lock_folder;          // see lockDevice(); empty: devices are not locked
     /// For loading a plugin, for asking what is there, and for opening a device.
     std::chrono::milliseconds patience{3000};
 
     /// The folders of $MARSVIEW_PLUGIN_PATH (apart by colons), the user's
-    /// ($XDG_DATA_HOME/marsview/plugins, else ~/.local/share/marsview/plugins), the system's.
+    /// ($XDG_DATA_HOME/marsview/plugins, else ~/.local/share/marsview/plugins), those of the
+    /// installation that the program lies in, the system's.
     static PluginOptions standard();
 };
 
+/// The folders for plugins of an installation whose programs are in `program_folder`: those that
+/// exist of ../lib*/marsview/plugins and ../lib/*/marsview/plugins (/usr/lib/x86_64-linux-gnu), in
+/// the order of their names. Wherever it was installed to or moved, what is installed into the same
+/// prefix is found.
+std::vector<std::filesystem::path>
+installedPluginFolders(const std::filesystem::path& program_folder);
+
 /// "plugin:/path/of/it.so", "plugin:it.so" in one of the folders, with "#id" behind for one of
-/// several devices. A plugin cannot take the program with it more than once: its code is called on
-/// watched threads, and one that brought the program down while it was loaded or opened is left out
-/// from then on. The folders are looked at anew by every find().
+/// several devices. A plugin cannot take the program with it again and again: it is loaded, asked
+/// and opened on watched threads, and one that brought the program down meanwhile, or in the first
+/// seconds of running, or while it was closed, is left out from then on (LoadMarker,
+/// GuardedDevice). One device is one program's. The folders are looked at anew by every find().
 class PluginDriver final : public DeviceDriver {
 public:
     explicit PluginDriver(PluginOptions options = PluginOptions::standard());
@@ -48,6 +60,11 @@ private:
     };
 
     Result<std::shared_ptr<const PluginLibrary>> load(const std::filesystem::path& file);
+    Result<std::vector<PluginEntry>> list(const std::filesystem::path& file,
+                                          const std::shared_ptr<const PluginLibrary>& library);
+    Result<std::optional<FileLock>> lock(const std::filesystem::path& file,
+                                         const std::shared_ptr<const PluginLibrary>& library,
+                                         std::string id);
     std::vector<FoundDevice> devicesOf(const std::filesystem::path& file);
     std::string folderNames() const;
     Error hung(const std::filesystem::path& file, std::string_view what, std::string_view doing);

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 // What all devices of the family stand, where one does not say: those of the weakest, the Omni.
 constexpr double kForceNPeak = 3.3;
 constexpr double kForceNContinuous = 0.88;
-constexpr double kStiffnessNPerMMax = 1000.0;
+constexpr double kStiffnessNPerMetreMax = 1000.0;
 
 constexpr unsigned kFramesBetweenCalibrationChecks = 200;
 // After an error of forces the device is given half a second of rest before it may push again.
@@ -141,7 +141,7 @@ void OpenHapticsDevice::describe()
 // numbers is the library's.
 void OpenHapticsDevice::describeForces()
 {
-    capabilities_.stiffness_n_per_m_max = kStiffnessNPerMMax;
+    capabilities_.stiffness_n_per_m_max = kStiffnessNPerMetreMax;
     capabilities_.force_n_peak = kForceNPeak;
     capabilities_.force_n_continuous = kForceNContinuous;
     for (const unsigned int shift : {0U, 1U}) {

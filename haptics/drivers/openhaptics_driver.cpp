@@ -18,6 +18,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFamily = "PHANTOM or Touch (OpenHaptics)";
 
+// What the vendors call the device that is opened without a name, in their newer and older drivers.
+constexpr const char* kDefaultName = "Default Device";
+constexpr const char* kOlderDefaultName = "Default PHANToM";
+
 // "Left Device.config" stands for a device that is opened as "Left Device". What the older drivers
 // write is one numbered file a device, with the name inside in a form that is not published: only
 // their default is known by its name.
@@ -30,11 +34,19 @@ std::set<std::string> configuredNames(const std::vector<fs::path>& folders)
             if (entry.path().extension() == ".config") {
                 names.insert(entry.path().stem().string());
             } else if (entry.path().extension() == ".ini") {
-                names.insert("Default PHANToM");
+                names.insert(kOlderDefaultName);
             }
         }
     }
     return names;
+}
+
+// The device that "openhaptics:" stands for, by the name that it has in the vendor's configuration.
+std::string nameOfDefault(const std::vector<fs::path>& folders)
+{
+    const std::set<std::string> names = configuredNames(folders);
+    const bool is_older = names.contains(kOlderDefaultName) && !names.contains(kDefaultName);
+    return is_older ? kOlderDefaultName : kDefaultName;
 }
 
 } // namespace
@@ -96,7 +108,10 @@ Result<std::unique_ptr<HapticDevice>> OpenHapticsDriver::open(std::string_view a
     if (!api) {
         return Error{api.error().code, fmt::format("{}: {}", uri, api.error().message)};
     }
-    Result<std::optional<FileLock>> lock = lockDevice(uri, options_.lock_folder);
+    const std::string name =
+        address.empty() ? nameOfDefault(options_.config_folders) : std::string(address);
+    Result<std::optional<FileLock>> lock =
+        lockDevice(fmt::format("{}:{}", scheme(), name), options_.lock_folder);
     if (!lock) {
         return std::move(lock).error();
     }

@@ -15,10 +15,20 @@ constexpr std::chrono::milliseconds kWatchdog{20};
 constexpr int kReportsAtOnceMax = 16;
 constexpr int kTriesOfReading = 4;
 constexpr std::size_t kReportBytesMax = 64;
-// After power-on the encoders read zero, give or take what the arm has sagged since.
+// Just after power-on the encoders read zero, give or take what the arm has sagged since.
 constexpr int kUnsetCountsMax = 3;
 // Below the loop's, above everything else; where that is not allowed, as any other thread.
 constexpr int kPriority = 70;
+
+// Of the three encoders that tell where the tip is.
+int farthest(const PolhemEncoders& a, const PolhemEncoders& b)
+{
+    int most = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        most = std::max(most, std::abs(a[i] - b[i]));
+    }
+    return most;
+}
 
 } // namespace
 
@@ -28,7 +38,7 @@ PolhemDevice::PolhemDevice(Options options)
     , parameters_(std::move(options.parameters))
     , lock_(std::move(options.lock))
     , layout_(options.layout)
-    , is_to_home_(options.homes_at_once)
+    , homes_at_once_(options.homes_at_once)
 {
     capabilities_.name = parameters_.name;
     capabilities_.workspace = polhemWorkspace(parameters_);
@@ -90,8 +100,18 @@ std::string PolhemDevice::trouble() const
     case State::Silent:
         return "sends no complete reports; check its power, and whether another program uses it";
     case State::Uncalibrated:
-        return "is not calibrated; put the arm into its rest position and press the button on its "
-               "board, or open it there with \",home\" behind its address";
+        return "is not calibrated, since its encoders count from wherever it got power; put the "
+               "arm "
+               "into its rest position and press the button on its board, or open it there with "
+               "\",home\" behind its address";
+    case State::NotAtRest:
+        return "is not calibrated, since its encoders do not count as they do in its rest "
+               "position; "
+               "put the arm there and press the button on its board, or switch its power off and "
+               "on there and connect again";
+    case State::NotSet:
+        return "is not calibrated, since its board has not set its encoders to those of its rest "
+               "position; look at \"home_encoders\" in its parameters, and at its firmware";
     case State::Lost:
         return "was unplugged, or its cable is loose; plug it in and connect again";
     }
@@ -120,22 +140,22 @@ bool PolhemDevice::exchange() noexcept
     }
     const bool is_heard = has_heard_ && begin - heard_ < kWatchdog;
     if (!is_heard) {
+        if (!was_silent_) {
+            was_silent_ = true;
+            before_silence_ = newest_;
+        }
         state_.store(State::Silent, std::memory_order_release);
         return writeNow(polhemCurrentCommand(layout_, {}));
     }
+    believe();
     if (is_to_home_) {
-        is_to_home_ = false;
-        is_homed_ = true;
-        if (layout_ == PolhemLayout::Oldest) {
-            for (std::size_t i = 0; i < offset_.size(); ++i) {
-                offset_[i] = static_cast<std::int16_t>(parameters_.home_encoders[i] - newest_[i]);
-            }
-        }
-        has_heard_ = false; // what was said before it does not count
-        return writeNow(polhemHomeCommand(layout_, parameters_.home_encoders));
+        return home();
     }
-    if (!is_homed_) {
-        state_.store(State::Uncalibrated, std::memory_order_release);
+    if (homing_ != Homing::Done) {
+        state_.store(homing_ == Homing::Asked     ? State::NotSet
+                     : homing_ == Homing::Refused ? State::NotAtRest
+                                                  : State::Uncalibrated,
+                     std::memory_order_release);
         return writeNow(polhemCurrentCommand(layout_, {}));
     }
     said_.write({corrected(newest_), heard_});
@@ -144,6 +164,45 @@ bool PolhemDevice::exchange() noexcept
     const Vec3 force = Clock::now() - wanted.time < kWatchdog ? wanted.force_n : Vec3{};
     const PolhemPose pose = polhemPose(parameters_, corrected(newest_));
     return writeNow(polhemCurrentCommand(layout_, polhemCurrents(parameters_, pose, force)));
+}
+
+// Whether what the board has said last makes the encoders worth believing, or no longer so.
+void PolhemDevice::believe() noexcept
+{
+    if (homes_at_once_) {
+        homes_at_once_ = false;
+        const bool is_at_rest = farthest(newest_, {}) <= kRestCountsMax || isCloseToHome();
+        is_to_home_ = is_to_home_ || is_at_rest;
+        homing_ = is_at_rest ? homing_ : Homing::Refused;
+    }
+    if (homing_ == Homing::Asked && isCloseToHome()) {
+        homing_ = Homing::Done;
+    }
+    if (std::exchange(was_silent_, false) && homing_ == Homing::Done &&
+        farthest(newest_, {}) <= kUnsetCountsMax &&
+        farthest(before_silence_, {}) > kRestCountsMax) {
+        homing_ = Homing::NotAsked;
+    }
+}
+
+// The oldest boards cannot set their encoders: what they count at rest is taken off here.
+bool PolhemDevice::home() noexcept
+{
+    is_to_home_ = false;
+    homing_ = Homing::Asked;
+    if (layout_ == PolhemLayout::Oldest) {
+        for (std::size_t i = 0; i < offset_.size(); ++i) {
+            offset_[i] = static_cast<std::int16_t>(parameters_.home_encoders[i] - newest_[i]);
+        }
+        homing_ = Homing::Done;
+    }
+    has_heard_ = false; // what was said before it does not count
+    return writeNow(polhemHomeCommand(layout_, parameters_.home_encoders));
+}
+
+bool PolhemDevice::isCloseToHome() const noexcept
+{
+    return farthest(newest_, parameters_.home_encoders) <= kRestCountsMax;
 }
 
 // Waits for a report, then takes the newest of those that have piled up.
@@ -171,14 +230,8 @@ bool PolhemDevice::readNewest() noexcept
 void PolhemDevice::take(const PolhemReport& report, std::size_t bytes) noexcept
 {
     constexpr std::size_t kOldestBytes = 8;
-    if (!has_heard_ && !is_homed_) {
-        if (bytes == kOldestBytes) {
-            layout_ = PolhemLayout::Oldest;
-        }
-        // Set before, by this program or another one, and on power ever since?
-        is_homed_ = std::any_of(report.encoders.begin(), report.encoders.begin() + 3,
-                                [](int e) { return std::abs(e) > kUnsetCountsMax; }) &&
-                    layout_ != PolhemLayout::Oldest;
+    if (!has_heard_ && bytes == kOldestBytes) {
+        layout_ = PolhemLayout::Oldest;
     }
     is_to_home_ = is_to_home_ || report.wants_calibration;
     newest_ = report.encoders;

@@ -19,8 +19,14 @@ namespace marsview {
 /// and write() exchange the newest values with it. Where the loop has not written for 20 ms, or the
 /// board has not said anything for 20 ms, the currents are zero.
 ///
-/// Its encoders only count from where they were when they got power, so the arm is Unready until it
-/// has been calibrated: in its rest position, by the board's button or by `homes_at_once`.
+/// Its encoders only count from where they were when they got power, and no report tells whether
+/// they have been set since. So they are believed only once this object has had them set and has
+/// read them back as `home_encoders`; until then the arm is Unready. They are set when somebody
+/// presses the board's button, which says that the arm is in its rest position; or, with
+/// `homes_at_once`, where the first report agrees that it is: within kRestCountsMax of zero, as an
+/// arm is that got power in its rest position, or of `home_encoders`, as one that has been
+/// calibrated before. A board that falls silent and then counts from zero has lost its power, and
+/// its calibration with it.
 class PolhemDevice final : public HapticDevice {
 public:
     struct Options {
@@ -31,6 +37,9 @@ public:
         bool homes_at_once = false;
         std::optional<FileLock> lock; // keeps other programs away from it
     };
+
+    /// Some two degrees of a body: a hand's care in putting an arm into its rest position.
+    static constexpr int kRestCountsMax = 100;
 
     explicit PolhemDevice(Options options);
     /// Leaves the motors without current.
@@ -52,10 +61,14 @@ private:
         Vec3 force_n;
         Clock::time_point time;
     };
-    enum class State : std::uint8_t { Silent, Uncalibrated, Fine, Lost };
+    enum class State : std::uint8_t { Silent, Uncalibrated, NotAtRest, NotSet, Fine, Lost };
+    enum class Homing : std::uint8_t { NotAsked, Refused, Asked, Done };
 
     void run() noexcept;
     bool exchange() noexcept;
+    bool home() noexcept;
+    void believe() noexcept;
+    bool isCloseToHome() const noexcept;
     bool readNewest() noexcept;
     bool writeNow(const PolhemCommand& command) noexcept;
     void take(const PolhemReport& report, std::size_t bytes) noexcept;
@@ -69,10 +82,13 @@ private:
 
     // Of the thread that exchanges reports.
     PolhemLayout layout_;
-    bool is_to_home_;
-    bool is_homed_ = false;
+    bool homes_at_once_; // as soon as it has said where it is
+    bool is_to_home_ = false;
+    Homing homing_ = Homing::NotAsked;
     bool has_heard_ = false;
+    bool was_silent_ = false;
     PolhemEncoders newest_{};
+    PolhemEncoders before_silence_{};
     Clock::time_point heard_;
     PolhemEncoders offset_{}; // of boards whose encoders cannot be set
 

@@ -5,6 +5,7 @@
 #include "haptics/drivers/hid_api.h"
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,8 +21,13 @@ struct PolhemOptions {
     static PolhemOptions standard();
 };
 
-/// "polhem:/dev/hidraw2", or "polhem:" for the first one; then, if need be, ",home" where the arm
-/// is in its rest position, and ",parameters=FILE" for one that differs.
+/// What may be remembered of a URI: without ",home", which somebody says who stands beside the arm,
+/// and which is not true of another day. Of other drivers' devices all of it.
+std::string lastingPolhemUri(std::string_view uri);
+
+/// "polhem:/dev/hidraw2", or "polhem:" for the first one; then ",home" where the
+/// arm is in its rest position and shall be calibrated there without its board's button
+/// (PolhemDevice), and ",parameters=FILE" for one that differs.
 class PolhemDriver final : public DeviceDriver {
 public:
     explicit PolhemDriver(PolhemOptions options = PolhemOptions::standard());

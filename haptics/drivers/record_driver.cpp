@@ -4,9 +4,10 @@
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "haptics/sync/spsc_queue.h"
+#include "haptics/trace/trace_file.h"
 
-#include <cstdio>
 #include <fmt/format.h>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace marsview {
 namespace {
 
 constexpr std::string_view kColumns =
-    "time_s,status,x,y,z,twist_rad,buttons,is_held,force_x_n,force_y_n,force_z_n\n";
+    "time_s,status,x,y,z,twist_rad,buttons,is_held,force_x_n,force_y_n,force_z_n";
 
 struct Reading {
     DeviceSample sample;
@@ -39,11 +40,10 @@ std::string_view nameOf(DeviceStatus status)
 
 class RecordDevice final : public HapticDevice {
 public:
-    RecordDevice(std::unique_ptr<HapticDevice> device, std::FILE* file)
+    RecordDevice(std::unique_ptr<HapticDevice> device, TraceFile file)
         : device_(std::move(device))
-        , file_(file)
+        , file_(std::move(file))
     {
-        std::fwrite(kColumns.data(), 1, kColumns.size(), file_);
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
     }
     ~RecordDevice() override
@@ -51,7 +51,6 @@ public:
         device_->stopClock();
         thread_.request_stop();
         thread_.join();
-        std::fclose(file_); // NOLINT(cppcoreguidelines-owning-memory)
     }
     RecordDevice(const RecordDevice&) = delete;
     RecordDevice& operator=(const RecordDevice&) = delete;
@@ -81,18 +80,36 @@ public:
         return device_->startClock(tick, self);
     }
     void stopClock() noexcept override { device_->stopClock(); }
+    // The device's, else why nothing is recorded any more: that does not keep the hand from
+    // feeling.
+    std::string trouble() const override
+    {
+        std::string of_device = device_->trouble();
+        if (!of_device.empty()) {
+            return of_device;
+        }
+        const std::lock_guard lock(mutex_);
+        drain();
+        const Status status = file_.status();
+        return status ? std::string() : "its recording has ended: " + status.error().message;
+    }
 
 private:
     void run(const std::stop_token& stop)
     {
         constexpr std::chrono::milliseconds kLook{20};
         while (!stop.stop_requested()) {
-            drain();
+            {
+                const std::lock_guard lock(mutex_);
+                drain();
+            }
             std::this_thread::sleep_for(kLook);
         }
+        const std::lock_guard lock(mutex_);
         drain();
     }
-    void drain()
+    // With mutex_ held, which makes of whoever calls it the queue's one reader.
+    void drain() const
     {
         Reading r;
         while (queue_.take(r)) {
@@ -106,15 +123,17 @@ private:
                             asText(r.sample.position.z), asText(r.sample.twist_rad),
                             r.sample.buttons, r.sample.is_held ? 1 : 0, asText(r.force_n.x),
                             asText(r.force_n.y), asText(r.force_n.z));
-            std::fwrite(line.data(), 1, line.size(), file_);
+            file_.write(line);
         }
+        file_.flush();
     }
 
     std::unique_ptr<HapticDevice> device_;
-    std::FILE* file_;
     Reading reading_;
-    SpscQueue<Reading, 1U << 13> queue_;
-    std::chrono::steady_clock::time_point begin_{};
+    mutable std::mutex mutex_; // of the file; the servo thread does not touch it
+    mutable TraceFile file_;
+    mutable SpscQueue<Reading, 1U << 13> queue_;
+    mutable std::chrono::steady_clock::time_point begin_{};
     std::jthread thread_;
 };
 
@@ -137,12 +156,12 @@ public:
         if (!device) {
             return std::move(device).error();
         }
-        std::FILE* file =
-            std::fopen(path.c_str(), "wbe"); // NOLINT(cppcoreguidelines-owning-memory)
-        if (file == nullptr) {
-            return Error{ErrorCode::Unreadable, fmt::format("record:{}: cannot be written", path)};
+        Result<TraceFile> file = TraceFile::begin(path, kColumns);
+        if (!file) {
+            return Error{file.error().code, "record:" + file.error().message};
         }
-        return std::unique_ptr<HapticDevice>(new RecordDevice(std::move(device).value(), file));
+        return std::unique_ptr<HapticDevice>(
+            new RecordDevice(std::move(device).value(), std::move(*file)));
     }
 };
 

@@ -2,6 +2,8 @@
 
 #include "haptics/trace/goal_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
@@ -9,6 +11,11 @@ namespace marsview {
 namespace {
 
 constexpr std::string_view kLoop = "#loop";
+
+bool isSomewhere(const TracePoint& goal)
+{
+    return std::isfinite(goal.x) && std::isfinite(goal.y) && std::isfinite(goal.z);
+}
 
 class ReplayDriver final : public DeviceDriver {
 public:
@@ -33,6 +40,14 @@ public:
         Result<std::vector<TracePoint>> goals = readGoals(*text, "replay:" + path);
         if (!goals) {
             return std::move(goals).error();
+        }
+        const auto nowhere = std::find_if_not(goals->begin(), goals->end(), isSomewhere);
+        if (nowhere != goals->end()) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("replay:{}: goal {} of {} is at {}, {}, {}, which is no place "
+                                     "for a hand; take it out",
+                                     path, nowhere - goals->begin() + 1, goals->size(), nowhere->x,
+                                     nowhere->y, nowhere->z)};
         }
         if (goals->empty()) {
             return Error{ErrorCode::Invalid,

@@ -24,19 +24,6 @@ double angleBetween(const Vec3& a, const Vec3& b) noexcept
 
 } // namespace
 
-ContactMoment momentOf(const LoopState& state) noexcept
-{
-    const bool is_felt = state.reason == LetGoReason::None &&
-                         (state.mode == StylusMode::Hover || state.mode == StylusMode::Press);
-    return {.time_ns = state.time_ns,
-            .proxy = state.contact.proxy,
-            .goal = state.goal,
-            .is_in_contact =
-                is_felt && state.contact.is_in_contact && state.contact.counters.refused == 0,
-            .frame = state.frame,
-            .stiffness_n_per_m = state.stiffness_n_per_m};
-}
-
 ContactFeel ContactListener::hear(const ContactMoment& moment) noexcept
 {
     if (!moment.is_in_contact) {

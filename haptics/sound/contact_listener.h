@@ -1,7 +1,9 @@
-// Hears the contact out of what a servo loop tells of itself, sixty times a second or so.
+// Hears the contact out of where proxy and goal are, sixty times a second or so.
 #pragma once
 
-#include "haptics/loop/loop_state.h"
+#include "core/geo/frames.h"
+#include "haptics/device/workspace.h"
+#include "haptics/interaction/workspace_frame.h"
 #include "haptics/sound/contact_sound.h"
 
 #include <cstdint>
@@ -13,13 +15,10 @@ struct ContactMoment {
     std::int64_t time_ns = 0; // of any clock
     ScenePoint proxy{};
     ScenePoint goal{};
-    bool is_in_contact = false; // and the ground is felt, not moved
+    bool is_in_contact = false; // and the ground is felt: neither let go nor moved
     WorkspaceFrame frame;
     double stiffness_n_per_m = 0.0;
 };
-
-/// A loop that lets go, for whatever reason, or whose hand moves the map, touches nothing.
-ContactMoment momentOf(const LoopState& state) noexcept;
 
 /// What is heard relative to. Constant while a map is shown with one exaggeration.
 struct ListenerOptions {

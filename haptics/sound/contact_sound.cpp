@@ -14,6 +14,9 @@ constexpr double kRoughnessRad = 0.15;
 // Smooth ground hisses as well, or sliding over it would not be heard.
 constexpr double kSmoothShare = 0.25;
 
+constexpr double kForceOctaves = 2.0;
+constexpr double kHeightOctaves = 1.0;
+
 // 0 at 0 and below, towards 1 far above `scale`.
 double saturated(double value, double scale) noexcept
 {
@@ -39,12 +42,12 @@ SoundState contactSound(const ContactFeel& feel) noexcept
     const double rough = saturated(feel.roughness_rad, kRoughnessRad);
     const double height = std::clamp(feel.height_share, 0.0, 1.0);
     const double texture = kSmoothShare + (1.0 - kSmoothShare) * rough;
-    // Ears hear ratios: equal steps of height are equal intervals.
+    // Ears hear ratios: octaves add up.
+    const double octaves = kForceOctaves * press + kHeightOctaves * height;
     return {.noise_gain = kNoiseGainMax * press * slide * texture,
-            .noise_pitch = std::clamp(0.5 * std::exp2(2.0 * slide), 0.5, 2.0),
+            .noise_pitch = std::clamp(0.5 * std::exp2(slide + rough), 0.5, 2.0),
             .tone_gain = kToneGainMax * press,
-            .tone_hz = std::clamp(kToneHzMin * std::pow(kToneHzMax / kToneHzMin, height),
-                                  kToneHzMin, kToneHzMax),
+            .tone_hz = std::clamp(kToneHzMin * std::exp2(octaves), kToneHzMin, kToneHzMax),
             .pan = std::clamp(feel.across, -1.0, 1.0)};
 }
 

@@ -14,7 +14,7 @@ struct ContactFeel {
     double across = 0.0;        // -1 the left end of what the hand reaches, 1 the right end
 };
 
-/// What is to be heard: a hiss for sliding, and a tone for the height of the ground.
+/// What is to be heard: a tone for the force, and a hiss for the texture that is slid over.
 struct SoundState {
     double noise_gain = 0.0;  // 0 to kNoiseGainMax
     double noise_pitch = 1.0; // how fast the noise is played: 0.5 to 2
@@ -28,15 +28,17 @@ struct SoundState {
 /// Both together are not clipped.
 inline constexpr double kNoiseGainMax = 0.6;
 inline constexpr double kToneGainMax = 0.4;
-/// Three octaves, which small loudspeakers play and old ears hear.
+/// Three octaves, which small loudspeakers play and old ears hear: two of force, one of height.
 inline constexpr double kToneHzMin = 110.0;
 inline constexpr double kToneHzMax = 880.0;
 
 /// Silent without contact, and nearly so where it begins: all gains rise from 0 with the force.
-/// The harder the press, the louder; the faster the slide and the rougher the ground, the louder
-/// the noise, and the faster, the brighter; the higher the ground, the higher the tone. Continuous
-/// in all but is_in_contact, within the bounds of SoundState for any input; silent where one is no
-/// number.
+/// The harder the press, the higher and the louder the tone: its pitch rises by two octaves. The
+/// rougher the ground and the faster the slide, the louder and the brighter the noise. The ground's
+/// height moves the tone by one octave besides, since who cannot see the map has no other way to
+/// tell a peak from a pit where both are pressed alike; which of them has changed is told by the
+/// loudness, which follows the force alone. Continuous in all but is_in_contact, within the bounds
+/// of SoundState for any input; silent where one is no number.
 SoundState contactSound(const ContactFeel& feel) noexcept;
 
 } // namespace marsview

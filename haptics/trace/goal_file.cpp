@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
@@ -228,10 +229,18 @@ Result<std::string> readGoalText(const std::string& path)
     if (path == "-") {
         return std::string(std::istreambuf_iterator<char>(std::cin), {});
     }
-    std::error_code ignored;
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path, ignored)) {
-        return Error{ErrorCode::NotFound, fmt::format("{}: cannot be read", path)};
+    int system_error = file ? 0 : errno;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        system_error = EISDIR;
+    }
+    if (!file || system_error != 0) {
+        return Error{ErrorCode::NotFound,
+                     fmt::format("{}: cannot be read ({}); give the path of a file of goals or of "
+                                 "a recording",
+                                 path, std::generic_category().message(system_error))};
     }
     return std::string(std::istreambuf_iterator<char>(file), {});
 }

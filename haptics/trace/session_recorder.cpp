@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <fmt/format.h>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -13,16 +14,6 @@ std::string_view nameOf(StylusMode mode)
 {
     constexpr std::array<std::string_view, 4> kNames{"hover", "press", "pan", "zoom"};
     return kNames[static_cast<std::size_t>(mode)];
-}
-
-Error cannotWrite(const std::string& path)
-{
-    return {ErrorCode::Unreadable, fmt::format("{}: cannot be written", path)};
-}
-
-bool write(std::FILE* file, std::string_view text)
-{
-    return std::fwrite(text.data(), 1, text.size(), file) == text.size();
 }
 
 } // namespace
@@ -43,19 +34,17 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
 Result<std::unique_ptr<SessionRecorder>> SessionRecorder::begin(ServoLoop& loop,
                                                                 const std::string& path)
 {
-    std::FILE* file = std::fopen(path.c_str(), "wbe"); // NOLINT(cppcoreguidelines-owning-memory)
-    if (file == nullptr) {
-        return cannotWrite(path);
+    Result<TraceFile> file = TraceFile::begin(path, kSessionColumns);
+    if (!file) {
+        return std::move(file).error();
     }
-    return std::unique_ptr<SessionRecorder>(new SessionRecorder(loop, path, file));
+    return std::unique_ptr<SessionRecorder>(new SessionRecorder(loop, std::move(*file)));
 }
 
-SessionRecorder::SessionRecorder(ServoLoop& loop, const std::string& path, std::FILE* file)
+SessionRecorder::SessionRecorder(ServoLoop& loop, TraceFile file)
     : loop_(loop)
-    , path_(path)
-    , file_(file)
+    , file_(std::move(file))
 {
-    has_failed_ = !write(file_, fmt::format("{}\n", kSessionColumns));
     // A tick that ran while an earlier recording ended may have left one.
     TickRecord left;
     while (loop_.takeRecord(left)) {
@@ -71,15 +60,14 @@ SessionRecorder::~SessionRecorder()
 
 Status SessionRecorder::finish()
 {
-    if (file_ == nullptr) {
+    if (is_finished_) {
         return Done{};
     }
+    is_finished_ = true;
     loop_.keepRecords(false);
     thread_.request_stop();
     thread_.join();
-    has_failed_ = std::fclose(file_) != 0 || has_failed_;
-    file_ = nullptr;
-    return has_failed_ ? Status(cannotWrite(path_)) : Status(Done{});
+    return file_.close();
 }
 
 void SessionRecorder::run(const std::stop_token& stop)
@@ -100,27 +88,29 @@ void SessionRecorder::drain()
             begin_ns_ = record.time_ns;
         }
         ++updates_;
-        has_failed_ = has_failed_ || !write(file_, sessionLine(record, begin_ns_));
+        file_.write(sessionLine(record, begin_ns_));
     }
 }
 
 Status saveFlight(const FlightRecorder& flight, const std::string& path)
 {
-    std::FILE* file = std::fopen(path.c_str(), "wbe"); // NOLINT(cppcoreguidelines-owning-memory)
-    if (file == nullptr) {
-        return cannotWrite(path);
+    return saveFlight(flight.records(), path);
+}
+
+Status saveFlight(const std::vector<TickRecord>& records, const std::string& path)
+{
+    Result<TraceFile> file =
+        TraceFile::begin(path, fmt::format("{},hand_x,hand_y,hand_z,tick_us", kSessionColumns));
+    if (!file) {
+        return std::move(file).error();
     }
-    bool is_fine = write(file, fmt::format("{},hand_x,hand_y,hand_z,tick_us\n", kSessionColumns));
-    const std::vector<TickRecord> records = flight.records();
     for (const TickRecord& record : records) {
         std::string line = sessionLine(record, records.front().time_ns);
         line.pop_back();
-        is_fine = is_fine && write(file, fmt::format("{},{},{},{},{:.3f}\n", line,
-                                                     asText(record.hand.x), asText(record.hand.y),
-                                                     asText(record.hand.z), record.tick_us));
+        file->write(fmt::format("{},{},{},{},{:.3f}\n", line, asText(record.hand.x),
+                                asText(record.hand.y), asText(record.hand.z), record.tick_us));
     }
-    is_fine = std::fclose(file) == 0 && is_fine;
-    return is_fine ? Status(Done{}) : Status(cannotWrite(path));
+    return file->close();
 }
 
 } // namespace marsview

@@ -3,9 +3,9 @@
 
 #include "core/base/result.h"
 #include "haptics/loop/servo_loop.h"
+#include "haptics/trace/trace_file.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -40,20 +40,23 @@ public:
     std::uint64_t updates() const noexcept { return updates_; } // after finish()
 
 private:
-    SessionRecorder(ServoLoop& loop, const std::string& path, std::FILE* file);
+    SessionRecorder(ServoLoop& loop, TraceFile file);
     void run(const std::stop_token& stop);
     void drain();
 
     ServoLoop& loop_;
-    std::string path_;
-    std::FILE* file_;
+    TraceFile file_;
+    bool is_finished_ = false;
     std::uint64_t updates_ = 0;
     std::int64_t begin_ns_ = 0;
-    bool has_failed_ = false;
     std::jthread thread_;
 };
 
-/// The flight recorder's ticks, in the same columns but with the time that each tick took.
+/// Ticks of a flight recorder, in the same columns but with the time that each tick took.
+Status saveFlight(const std::vector<TickRecord>& records, const std::string& path);
+/// Any thread but the servo's; the loop may run on, and is not disturbed. A window keeps
+/// `flight.records()`, which takes a millisecond or two, and writes on another thread: then the
+/// loop may be gone as well.
 Status saveFlight(const FlightRecorder& flight, const std::string& path);
 
 } // namespace marsview

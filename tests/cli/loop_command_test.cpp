@@ -2,14 +2,20 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace marsview::test {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string mars()
 {
@@ -108,6 +114,82 @@ TEST(LoopCommand, PrintsAHistogramForPeople)
     for (const char* word : {"update time", "up to", "lateness", "missed deadlines", "tile misses",
                              "page faults", "real-time scheduling"}) {
         EXPECT_NE(output.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
+{
+    const TempFolder folder;
+    const auto run = [&](const std::string& behaviour) {
+        const std::string uri = "plugin:" MARSVIEW_TEST_PLUGINS "/" + behaviour + ".so";
+        ProgramOutput output = runProgram({"env", "XDG_STATE_HOME=" + folder.file("state"),
+                                           "XDG_RUNTIME_DIR=" + folder.file("run"), MARSVIEW_CLI,
+                                           "loop", mars(), "--device", uri, "--seconds", "0.5"});
+        EXPECT_EQ(output.exit_status, 1) << behaviour;
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+        EXPECT_THAT(output.err, StartsWith("marsview-cli: " + uri + ": "));
+        return output;
+    };
+    const ProgramOutput nan = run("says_nan");
+    EXPECT_THAT(nan.err, AllOf(HasSubstr("was lost after 0.0 s: "), HasSubstr("not finite; ")));
+    EXPECT_THAT(nan.out, HasSubstr("; last for: device lost\n")) << "the report is printed, too";
+    const ProgramOutput millimetres = run("says_millimetres");
+    EXPECT_THAT(millimetres.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
+    const ProgramOutput lost = run("answers_nonsense");
+    EXPECT_THAT(lost.err, HasSubstr("its plugin says that it is gone; "));
+    const ProgramOutput unready = run("says_unready");
+    EXPECT_THAT(unready.err, HasSubstr("did not become ready within 0.6 s: its plugin says that "
+                                       "it is not ready, but not why; "));
+    EXPECT_THAT(unready.out, HasSubstr("forces let go: device unready 0.600 s; last for: device "
+                                       "unready\n"));
+    const ProgramOutput stopped = run("fails_starting");
+    EXPECT_THAT(stopped.err, HasSubstr("the loop did not start: "));
+}
+
+TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
+{
+    const TempFolder folder;
+    const auto run = [&](const std::string& goals) {
+        const std::string path = folder.write("goals.csv", "x,y,z\n" + goals);
+        return runCli({"loop", mars(), "--device", "replay:" + path, "--seconds", "1"});
+    };
+    const ProgramOutput none = run("1e9,0,0\n0,1e9,0\n");
+    EXPECT_EQ(none.exit_status, 1);
+    EXPECT_THAT(none.err, HasSubstr(": 2 of 2 goals lie beside the map; give the map"));
+    const ProgramOutput some = run("0,0,0\n0,1e9,0\n");
+    EXPECT_EQ(some.exit_status, 0) << some.err;
+    EXPECT_THAT(some.err, HasSubstr(": 1 of 2 goals lie beside the map and are put to its edge"));
+    EXPECT_EQ(run("0,0,0\n").err, "");
+}
+
+TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)
+{
+    const ProgramOutput full =
+        runCli({"loop", mars(), "--device", "record:/dev/full,sim:", "--seconds", "0.2"});
+    EXPECT_EQ(full.exit_status, 1);
+    EXPECT_THAT(full.err, StartsWith("marsview-cli: record:/dev/full: cannot be written (No space "
+                                     "left on device); make room"));
+    for (const char* option : {"--record", "--flight"}) {
+        const ProgramOutput other = runCli(
+            {"loop", mars(), "--device", "sim:", "--seconds", "0.2", option, "/nowhere/a.csv"});
+        EXPECT_EQ(other.exit_status, 1);
+        EXPECT_THAT(other.err, StartsWith("marsview-cli: /nowhere/a.csv: cannot be written (No "
+                                          "such file or directory); choose another file"));
+    }
+}
+
+TEST(LoopCommand, RunsToTheEndOfTheDeviceHoweverManySecondsItMay)
+{
+    const TempFolder folder;
+    std::string goals = "x,y,z\n";
+    for (int i = 0; i < 700; ++i) {
+        goals += "0,0,1000\n";
+    }
+    const std::string path = folder.write("goals.csv", goals);
+    for (const char* seconds : {"1e30", "1e308", "1e9"}) {
+        const nlohmann::json loop = looped({"--device", "replay:" + path, "--seconds", seconds});
+        ASSERT_FALSE(loop.is_null());
+        EXPECT_GE(loop["ticks"], 600) << seconds;
     }
 }
 

@@ -1,3 +1,4 @@
+#include "haptics/device/guarded_device.h"
 #include "haptics/device/plugin_driver.h"
 #include "tests/support/temp_folder.h"
 
@@ -12,6 +13,9 @@
 #include <filesystem>
 #include <fstream>
 #include <semaphore>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
 
 namespace marsview::test {
 namespace {
@@ -44,6 +48,7 @@ public:
     {
         return {.folders = {folder_.path() / "nothing here", plugins()},
                 .marker_folder = folder_.path() / "markers",
+                .lock_folder = folder_.path() / "locks",
                 .patience = patience_};
     }
     std::size_t markers() const
@@ -351,15 +356,31 @@ using PluginDriverDeathTest = testing::Test;
 
 TEST(PluginDriverDeathTest, LeavesOutWhatBroughtTheProgramDownUntilToldToTryAgain)
 {
-    for (const char* behaviour : {"crashes_loading", "crashes_opening"}) {
-        SCOPED_TRACE(behaviour);
+    struct Crash {
+        const char* behaviour;
+        const char* doing;
+    };
+    for (const Crash& crash :
+         {Crash{"crashes_loading", "being loaded"}, Crash{"crashes_listing", "listing its devices"},
+          Crash{"crashes_opening", "opening a device"},
+          Crash{"crashes_starting", "running a device"},
+          Crash{"crashes_reading", "running a device"},
+          Crash{"crashes_writing", "running a device"},
+          Crash{"crashes_closing", "closing a device"}}) {
+        SCOPED_TRACE(crash.behaviour);
         const PluginFolder folder;
-        const fs::path file = folder.add(behaviour);
+        const fs::path file = folder.add(crash.behaviour);
         EXPECT_DEATH(
             {
                 PluginDriver driver(folder.options());
                 (void)driver.find();
-                (void)driver.open(file.string());
+                auto device = driver.open(file.string());
+                (void)(*device)->startClock(
+                    [](void*, std::chrono::steady_clock::time_point) noexcept {}, nullptr);
+                DeviceSample sample;
+                (void)(*device)->read(sample);
+                (void)(*device)->write({});
+                device->reset();
             },
             "");
         EXPECT_EQ(folder.markers(), 1U);
@@ -367,10 +388,11 @@ TEST(PluginDriverDeathTest, LeavesOutWhatBroughtTheProgramDownUntilToldToTryAgai
         const auto refused = driver.open(file.string());
         ASSERT_FALSE(refused);
         EXPECT_THAT(refused.error().message,
-                    AllOf(StartsWith(file.string() + ": the program ended while this plugin was "
-                                                     "being loaded the last time"),
+                    AllOf(StartsWith(file.string() + ": the program ended while this plugin was " +
+                                     crash.doing + " the last time"),
                           HasSubstr("to try it again")));
         EXPECT_EQ(only(driver).reason, refused.error().message);
+        EXPECT_EQ(folder.markers(), 1U) << "it is not tried again meanwhile";
 
         // Another build of it is another plugin.
         folder.add("is_good");
@@ -379,6 +401,132 @@ TEST(PluginDriverDeathTest, LeavesOutWhatBroughtTheProgramDownUntilToldToTryAgai
         driver.forgetFailures();
         EXPECT_EQ(folder.markers(), 0U);
     }
+}
+
+TEST(PluginDriver, MarksADeviceUntilItHasRunWell)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("is_good").string());
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ(folder.markers(), 1U);
+    DeviceSample sample;
+    for (std::uint64_t i = 0; i + 1 < GuardedDevice::kReadsOfTrial; ++i) {
+        ASSERT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    }
+    EXPECT_EQ(folder.markers(), 1U);
+    (void)(*device)->read(sample);
+    while (folder.markers() != 0) {
+        std::this_thread::yield();
+    }
+    device->reset();
+    EXPECT_EQ(folder.markers(), 0U);
+}
+
+TEST(GuardedDevice, IsMarkedOnlyWhileItRuns)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("is_good");
+    PluginDriver driver(folder.options());
+    auto device = driver.open(file.string());
+    ASSERT_TRUE(device) << device.error().message;
+    for (std::uint64_t i = 0; i < GuardedDevice::kReadsOfTrial; ++i) {
+        DeviceSample sample;
+        ASSERT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    }
+    while (folder.markers() != 0) {
+        std::this_thread::yield();
+    }
+    // Another guard around it, which is impatient.
+    const fs::path markers = folder.options().marker_folder;
+    auto marker = LoadMarker::make(markers, file, PluginCall::Run);
+    ASSERT_TRUE(marker);
+    GuardedDevice guarded({.device = std::move(*device),
+                           .plugin = file,
+                           .marker_folder = markers,
+                           .marker = std::move(*marker),
+                           .lock = {},
+                           .idle = milliseconds(1)});
+    while (folder.markers() != 0) { // nobody reads it
+        std::this_thread::yield();
+    }
+    for (bool is_marked = false; !is_marked; is_marked = folder.markers() == 1) {
+        DeviceSample sample;
+        (void)guarded.read(sample);
+        std::this_thread::sleep_for(milliseconds(1)); // a thousand a second, as a loop
+    }
+}
+
+TEST(LoadMarker, OfOneProgramIsNeitherClearedNorBlamedByAnother)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("is_good");
+    const fs::path markers = folder.options().marker_folder;
+    int ready[2];
+    int done[2];
+    ASSERT_EQ(pipe(ready), 0);
+    ASSERT_EQ(pipe(done), 0);
+    const pid_t other = fork();
+    if (other == 0) {
+        const auto marker = LoadMarker::make(markers, file, PluginCall::Open);
+        char byte = marker ? 'y' : 'n';
+        (void)!write(ready[1], &byte, 1);
+        (void)!read(done[0], &byte, 1);
+        _exit(0); // as if it had crashed
+    }
+    char byte = 0;
+    ASSERT_EQ(read(ready[0], &byte, 1), 1);
+    ASSERT_EQ(byte, 'y');
+    {
+        const auto own = LoadMarker::make(markers, file, PluginCall::Load);
+        ASSERT_TRUE(own) << own.error().message;
+        EXPECT_EQ(folder.markers(), 2U);
+        LoadMarker::forgetFailures(markers);
+        EXPECT_EQ(folder.markers(), 2U) << "both are in use";
+    }
+    EXPECT_EQ(folder.markers(), 1U);
+    ASSERT_EQ(write(done[1], &byte, 1), 1);
+    ASSERT_EQ(waitpid(other, nullptr, 0), other);
+    const auto after = LoadMarker::make(markers, file, PluginCall::Load);
+    ASSERT_FALSE(after);
+    EXPECT_THAT(after.error().message, HasSubstr("while this plugin was opening a device"));
+    for (const int end : {ready[0], ready[1], done[0], done[1]}) {
+        close(end);
+    }
+}
+
+TEST(PluginDriver, GivesOneDeviceToOneHolderHoweverItIsNamed)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("has_two");
+    const fs::path link = folder.plugins() / "link.so";
+    fs::create_symlink(file, link);
+    PluginDriver driver(folder.options());
+    auto device = driver.open("x.so");
+    ASSERT_TRUE(device) << device.error().message;
+    for (const fs::path& name : {file, link}) {
+        const auto second = driver.open(name.string());
+        ASSERT_FALSE(second);
+        EXPECT_EQ(second.error().message,
+                  "plugin:" + fs::canonical(file).string() +
+                      ": is in use by this program already; close it there first");
+    }
+    EXPECT_THAT(driver.open(file.string() + "#b").error().message, HasSubstr("there is no b"))
+        << "another device is";
+    device->reset();
+    EXPECT_TRUE(driver.open(file.string()));
+}
+
+TEST(PluginDriver, HasAReasonWhereThePluginGivesNone)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("says_unready").string());
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ((*device)->trouble(), "");
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
+    EXPECT_THAT((*device)->trouble(), StartsWith("its plugin says that it is not ready"));
 }
 
 TEST(PluginDriverDeathTest, ComesToAnEndAlthoughALibraryHangsWhileItIsLoaded)
@@ -411,6 +559,22 @@ TEST(PluginOptions, LookIntoChosenUsersAndSystemsFoldersInThisOrder)
     EXPECT_EQ(folders[2], "/data/marsview/plugins");
     EXPECT_TRUE(folders[3].is_absolute());
     EXPECT_THAT(folders[3].string(), EndsWith("/marsview/plugins"));
+}
+
+TEST(PluginOptions, FindTheFoldersOfTheInstallationThatTheProgramLiesIn)
+{
+    const TempFolder prefix;
+    for (const char* name :
+         {"bin", "lib/marsview/plugins", "lib64/marsview/plugins",
+          "lib/x86_64-linux-gnu/marsview/plugins", "libexec/marsview", "share/marsview/plugins"}) {
+        fs::create_directories(prefix.path() / name);
+    }
+    const fs::path root = fs::canonical(prefix.path());
+    EXPECT_THAT(installedPluginFolders(prefix.path() / "bin"),
+                testing::UnorderedElementsAre(root / "lib/marsview/plugins",
+                                              root / "lib64/marsview/plugins",
+                                              root / "lib/x86_64-linux-gnu/marsview/plugins"));
+    EXPECT_TRUE(installedPluginFolders(prefix.path() / "nowhere" / "bin").empty());
 }
 
 } // namespace marsview::test

@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <string>
+#include <sys/resource.h>
 #include <utility>
 #include <vector>
 
@@ -144,11 +147,80 @@ TEST(ReplayDevice, BeginsAnewWhereAskedTo)
 TEST(ReplayDevice, SaysWhatIsWrongWithItsFile)
 {
     const TempFolder folder;
-    EXPECT_EQ(refusalOf("replay:/nowhere/goals.csv"), "replay:/nowhere/goals.csv: cannot be read");
+    EXPECT_EQ(
+        refusalOf("replay:/nowhere/goals.csv"),
+        "replay:/nowhere/goals.csv: cannot be read (No such file or directory); give the path "
+        "of a file of goals or of a recording");
+    EXPECT_NE(refusalOf("replay:" + folder.path().string()).find("cannot be read (Is a directory)"),
+              std::string::npos);
+    const std::string nan = folder.write("nan.csv", "x,y,z\n1,2,3\n4,nan,6\n");
+    EXPECT_EQ(refusalOf("replay:" + nan), "replay:" + nan +
+                                              ": goal 2 of 2 is at 4, nan, 6, which is no place "
+                                              "for a hand; take it out");
     EXPECT_NE(refusalOf("replay:"), "");
     EXPECT_NE(refusalOf("replay:" + folder.write("goals.csv", "x,y,z\n")), "");
     const std::string bad = refusalOf("replay:" + folder.write("goals.csv", "x,y,z\n1,2\n"));
     EXPECT_NE(bad.find("line 2"), std::string::npos) << bad;
+}
+
+TEST(RecordDevice, SaysWhereItCannotWrite)
+{
+    const TempFolder folder;
+    EXPECT_EQ(refusalOf("record:/dev/full,sim:"),
+              "record:/dev/full: cannot be written (No space left on device); make room on the "
+              "disk, or choose another file");
+    EXPECT_NE(refusalOf("record:" + folder.path().string() + ",sim:").find("Is a directory"),
+              std::string::npos);
+    const std::string path = folder.file("a.csv");
+    EXPECT_EQ(refusalOf("record:" + path + ",record:" + path + ",sim:"),
+              "record:" + path + ": is being recorded into already; choose another file");
+    {
+        const auto first = opened("record:" + path + ",null:");
+        EXPECT_NE(refusalOf("record:" + path + ",sim:"), "");
+    }
+    EXPECT_TRUE(opened("record:" + path + ",sim:"));
+}
+
+TEST(RecordDevice, TellsThatItsRecordingHasEndedAndFeelsOn)
+{
+    // Room for the heading and little more.
+    struct rlimit before {};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const TempFolder folder;
+    const std::string path = folder.file("a.csv");
+    const auto device = opened("record:" + path + ",sim:");
+    DeviceSample sample;
+    EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ(device->trouble(), "");
+    // Writing more than the limit fails, once the signal that comes with it is ignored.
+    const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+    struct rlimit small = before;
+    small.rlim_cur = 300;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
+    }
+    const std::string trouble = device->trouble();
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, old_handler);
+    EXPECT_EQ(trouble, "its recording has ended: " + path +
+                           ": cannot be written (File too large); choose another file, in a folder "
+                           "that is there and may be written to");
+    EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
+}
+
+TEST(RecordDevice, PassesOnWhatTroublesTheDevice)
+{
+    const TempFolder folder;
+    setenv("XDG_STATE_HOME", folder.path().c_str(), 1); // where plugins leave their markers
+    setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+    const std::string plugin = std::string("plugin:") + MARSVIEW_TEST_PLUGINS + "/says_unready.so";
+    const auto device = opened("record:" + folder.file("a.csv") + "," + plugin);
+    unsetenv("XDG_STATE_HOME");
+    unsetenv("XDG_RUNTIME_DIR");
+    DeviceSample sample;
+    EXPECT_EQ(device->read(sample), DeviceStatus::Unready);
+    EXPECT_EQ(device->trouble().rfind("its plugin says that it is not ready", 0), 0U);
 }
 
 TEST(BuiltInDevices, AreFoundWithoutHardware)

@@ -399,6 +399,28 @@ TEST_F(OpenHapticsDriverTest, GivesOneDeviceToOneHolderOnly)
     (void)open("Left Device");
 }
 
+TEST_F(OpenHapticsDriverTest, GivesTheDefaultDeviceToOneHolderByEitherName)
+{
+    const auto refusalOf = [this](const char* name) {
+        OpenHapticsDriver driver(options());
+        const auto device = driver.open(name);
+        EXPECT_FALSE(device) << name;
+        return device ? "" : device.error().message;
+    };
+    const std::string in_use = ": is in use by this program already; close it there first";
+    (void)open("");
+    EXPECT_EQ(refusalOf("Default Device"), "openhaptics:Default Device" + in_use);
+    opened_.reset();
+    (void)open("Default Device");
+    EXPECT_EQ(refusalOf(""), "openhaptics:Default Device" + in_use);
+    opened_.reset();
+    // The drivers of FireWire days have another name for it.
+    fs::create_directories(folder_.path() / "config");
+    (void)folder_.write("config/0.ini", "");
+    (void)open("");
+    EXPECT_EQ(refusalOf("Default PHANToM"), "openhaptics:Default PHANToM" + in_use);
+}
+
 TEST_F(OpenHapticsDriverTest, GivesUpOnALibraryThatHangs)
 {
     OpenHapticsOptions hasty = options();

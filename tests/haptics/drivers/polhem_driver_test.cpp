@@ -44,7 +44,8 @@ protected:
                                     sourceRoot() / "resources/devices/polhem-v1.json"},
                 .lock_folder = folder_.path() / "locks"};
     }
-    HapticDevice& open(std::string_view address = "")
+    // Told that the arm is at rest, unless the test is about that.
+    HapticDevice& open(std::string_view address = ",home")
     {
         PolhemDriver driver(options());
         auto device = driver.open(address);
@@ -149,7 +150,7 @@ TEST_F(PolhemDriverTest, TellsWhereTheHandIsAndPushesIt)
 {
     hid_.plugIn(kTeensy);
     hid_.say(atHome());
-    HapticDevice& device = open("/dev/hidraw7");
+    HapticDevice& device = open("/dev/hidraw7,home");
     EXPECT_EQ(device.capabilities().name, "Polhem v1");
     EXPECT_EQ(device.capabilities().axes_in, 6);
     ASSERT_TRUE(comesTo(DeviceStatus::Fine));
@@ -270,7 +271,7 @@ TEST_F(PolhemDriverTest, IsUnreadyUntilItsEncodersHaveBeenSet)
 {
     hid_.plugIn(kTeensy);
     hid_.say(reportOf({1, 0, -2, 0, 0, 0, 0}, kRawHidBytes)); // as after power-on
-    HapticDevice& device = open();
+    HapticDevice& device = open("");
     ASSERT_TRUE(hid_.waitUntil([&] { return hid_.writes() > 20; }));
     EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
     EXPECT_THAT(device.trouble(), HasSubstr("is not calibrated"));
@@ -282,6 +283,70 @@ TEST_F(PolhemDriverTest, IsUnreadyUntilItsEncodersHaveBeenSet)
     hid_.say(atHome());
     EXPECT_TRUE(comesTo(DeviceStatus::Fine));
     EXPECT_NEAR(sample_.position.z, 0.132, 1e-12);
+}
+
+TEST_F(PolhemDriverTest, DoesNotTakeANudgedArmForACalibratedOne)
+{
+    hid_.plugIn(kTeensy);
+    // After power-on, then moved; and as if somebody had calibrated it before. Both may be wrong.
+    for (const FakeHid::Report& report :
+         {reportOf({40, 5, -12, 0, 0, 0, 0}, kRawHidBytes), atHome()}) {
+        hid_.say(report);
+        HapticDevice& device = open("/dev/hidraw7");
+        const std::size_t before = hid_.writes();
+        ASSERT_TRUE(hid_.waitUntil([&] { return hid_.writes() > before + 20; }));
+        EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
+        EXPECT_THAT(device.trouble(), HasSubstr("is not calibrated"));
+        EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0));
+        opened_.reset();
+    }
+}
+
+TEST_F(PolhemDriverTest, DoesNotBelieveThatItIsAtRestWhereItsEncodersSayOtherwise)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(reportOf({0, 101, -2500, 0, 0, 0, 0}, kRawHidBytes));
+    HapticDevice& device = open(",home");
+    const std::size_t before = hid_.writes();
+    ASSERT_TRUE(hid_.waitUntil([&] { return hid_.writes() > before + 20; }));
+    EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
+    EXPECT_THAT(device.trouble(), HasSubstr("do not count as they do in its rest position"));
+    for (const FakeHid::Report& report : hid_.written()) {
+        EXPECT_EQ(int16In(report, 3), 0) << "a command";
+    }
+    // The button is believed.
+    hid_.sayOnce(reportOf({0, 101, -2500, 0, 0, 0, 1}, kRawHidBytes));
+    hid_.say(atHome());
+    EXPECT_TRUE(comesTo(DeviceStatus::Fine));
+}
+
+TEST_F(PolhemDriverTest, DoesNotBelieveABoardThatDoesNotSetItsEncoders)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(reportOf({0, 0, 0, 0, 0, 0, 0}, kRawHidBytes));
+    HapticDevice& device = open(",home");
+    EXPECT_TRUE(hid_.waitUntil(
+        [&] { return device.trouble().find("has not set its encoders") != std::string::npos; }));
+    EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0));
+}
+
+TEST_F(PolhemDriverTest, ForgetsItsCalibrationWithItsPower)
+{
+    hid_.plugIn(kTeensy);
+    hid_.say(atHome());
+    HapticDevice& device = open();
+    ASSERT_TRUE(comesTo(DeviceStatus::Fine));
+    hid_.say(reportOf({20, -150, -4900, 0, 0, 256, 0}, kRawHidBytes)); // a centimetre away
+    ASSERT_TRUE(hid_.waitUntil(
+        [&] { return device.read(sample_) == DeviceStatus::Fine && sample_.position.x != 0.0; }));
+    hid_.say({});
+    ASSERT_TRUE(comesTo(DeviceStatus::Unready));
+    hid_.say(reportOf({0, 1, 0, 0, 0, 0, 0}, kRawHidBytes));
+    EXPECT_TRUE(hid_.waitUntil(
+        [&] { return device.trouble().find("is not calibrated") != std::string::npos; }));
+    EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0));
 }
 
 TEST_F(PolhemDriverTest, SetsTheEncodersAtOnceWhenToldTo)
@@ -315,6 +380,17 @@ TEST_F(PolhemDriverTest, SpeaksTheOlderLayoutsToo)
     EXPECT_NEAR(sample_.position.z, 0.132, 1e-12);
     EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
     EXPECT_EQ(hid_.lastWritten().size(), 9U);
+}
+
+TEST(PolhemUri, IsRememberedWithoutBeingAtHome)
+{
+    EXPECT_EQ(lastingPolhemUri("polhem:/dev/hidraw7,home"), "polhem:/dev/hidraw7");
+    EXPECT_EQ(lastingPolhemUri("polhem:,home,parameters=/a.json,home"),
+              "polhem:,parameters=/a.json");
+    EXPECT_EQ(lastingPolhemUri("polhem:,parameters=/a,homely.json"),
+              "polhem:,parameters=/a,homely.json");
+    EXPECT_EQ(lastingPolhemUri("polhem:/dev/hidraw7"), "polhem:/dev/hidraw7");
+    EXPECT_EQ(lastingPolhemUri("plugin:x,home"), "plugin:x,home");
 }
 
 TEST_F(PolhemDriverTest, SaysWhatItCannotOpen)

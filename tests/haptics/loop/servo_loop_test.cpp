@@ -378,7 +378,9 @@ TEST(SessionRecorder, SaysWhereItCannotWrite)
     ServoLoop loop(simulated(), quick(10));
     const auto recorder = SessionRecorder::begin(loop, "/nowhere/session.csv");
     ASSERT_FALSE(recorder);
-    EXPECT_EQ(recorder.error().message, "/nowhere/session.csv: cannot be written");
+    EXPECT_EQ(recorder.error().message,
+              "/nowhere/session.csv: cannot be written (No such file or directory); choose another "
+              "file, in a folder that is there and may be written to");
 }
 
 } // namespace

@@ -51,9 +51,9 @@ TEST(ContactSound, AtRestThereIsAToneAndNoHiss)
     ContactFeel rest = kStroke;
     rest.speed_m_per_s = 0.0;
     EXPECT_EQ(contactSound(rest).noise_gain, 0.0);
-    // Hand-computed: 0.4 (1 - 1/e), and a half of three octaves above 110 Hz.
+    // Hand-computed: 0.4 (1 - 1/e), and 2 (1 - 1/e) + 1/2 octaves above 110 Hz.
     EXPECT_NEAR(contactSound(rest).tone_gain, 0.252848, 1e-6);
-    EXPECT_NEAR(contactSound(rest).tone_hz, 311.127, 1e-3);
+    EXPECT_NEAR(contactSound(rest).tone_hz, 373.665, 1e-3);
 }
 
 TEST(ContactSound, GrowsWithWhatItStandsFor)
@@ -66,6 +66,8 @@ TEST(ContactSound, GrowsWithWhatItStandsFor)
         more.force_n += 0.1;
         EXPECT_GE(contactSound(more).noise_gain, was.noise_gain);
         EXPECT_GT(contactSound(more).tone_gain, was.tone_gain);
+        EXPECT_GT(contactSound(more).tone_hz, was.tone_hz);
+        EXPECT_EQ(contactSound(more).noise_pitch, was.noise_pitch);
         more = feel;
         more.speed_m_per_s += 0.01;
         EXPECT_GT(contactSound(more).noise_gain, was.noise_gain);
@@ -74,9 +76,14 @@ TEST(ContactSound, GrowsWithWhatItStandsFor)
         more = feel;
         more.roughness_rad += 0.05;
         EXPECT_GT(contactSound(more).noise_gain, was.noise_gain);
+        EXPECT_GT(contactSound(more).noise_pitch, was.noise_pitch);
+        EXPECT_EQ(contactSound(more).tone_hz, was.tone_hz);
+        EXPECT_EQ(contactSound(more).tone_gain, was.tone_gain);
         more = feel;
         more.height_share += 0.01;
         EXPECT_GE(contactSound(more).tone_hz, was.tone_hz);
+        EXPECT_EQ(contactSound(more).tone_gain, was.tone_gain) << "loudness tells the force alone";
+        EXPECT_EQ(contactSound(more).noise_gain, was.noise_gain);
         if (feel.height_share > 0.0 && feel.height_share < 0.98) {
             EXPECT_GT(contactSound(more).tone_hz, was.tone_hz);
         }
@@ -86,15 +93,38 @@ TEST(ContactSound, GrowsWithWhatItStandsFor)
     }
 }
 
-TEST(ContactSound, SpansThreeOctavesFromTheLowestToTheHighestGround)
+TEST(ContactSound, RisesTwoOctavesWithTheForceAndOneWithTheHeight)
 {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     ContactFeel feel = kStroke;
     feel.height_share = 0.0;
+    feel.force_n = 0.0;
     EXPECT_DOUBLE_EQ(contactSound(feel).tone_hz, 110.0);
-    feel.height_share = 1.0 / 3.0;
+    feel.force_n = std::log(2.0); // half of the effect: one octave
     EXPECT_NEAR(contactSound(feel).tone_hz, 220.0, 1e-9);
+    feel.height_share = 0.5; // and half of another one
+    EXPECT_NEAR(contactSound(feel).tone_hz, 220.0 * std::sqrt(2.0), 1e-9);
+    feel.height_share = 0.0;
+    feel.force_n = kInfinity;
+    EXPECT_NEAR(contactSound(feel).tone_hz, 440.0, 1e-9);
     feel.height_share = 1.0;
     EXPECT_NEAR(contactSound(feel).tone_hz, 880.0, 1e-9);
+}
+
+// Texture is what the noise is about, at whatever force and speed: rough ground hisses four times
+// as loud as smooth ground, and an octave brighter.
+TEST(ContactSound, HearsRoughGroundFromSmoothGround)
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Random random;
+    for (int i = 0; i < 1000; ++i) {
+        ContactFeel smooth = anyStroke(random);
+        smooth.roughness_rad = 0.0;
+        ContactFeel rough = smooth;
+        rough.roughness_rad = kInfinity;
+        EXPECT_NEAR(contactSound(rough).noise_gain, 4.0 * contactSound(smooth).noise_gain, 1e-12);
+        EXPECT_NEAR(contactSound(rough).noise_pitch, 2.0 * contactSound(smooth).noise_pitch, 1e-12);
+    }
 }
 
 TEST(ContactSound, NothingJumps)

@@ -36,6 +36,8 @@ static void enumerateDevices(MarsviewFound found, void* self)
 {
 #if defined(TINY_HANGS_LISTING)
     hang();
+#elif defined(TINY_CRASHES_LISTING)
+    abort();
 #elif defined(TINY_HAS_NONE)
     (void)found;
     (void)self;
@@ -70,6 +72,8 @@ static void closeDevice(MarsviewDevice* device)
 {
 #if defined(TINY_HANGS_CLOSING)
     hang();
+#elif defined(TINY_CRASHES_CLOSING)
+    abort();
 #endif
     atomic_fetch_add(&tiny_closed, 1);
     free(device);
@@ -97,7 +101,8 @@ static uint32_t describeDevice(MarsviewDevice* device, MarsviewCapabilities* cap
     c.workspace_high_m[1] = c.workspace_low_m[1];
 #elif defined(TINY_IS_NEGATIVE)
     c.force_n_peak = -3.0;
-#elif defined(TINY_OWNS_CLOCK)
+#elif defined(TINY_OWNS_CLOCK) || defined(TINY_CRASHES_STARTING) || \
+    defined(TINY_FAILS_STARTING)
     c.flags |= MARSVIEW_OWNS_CLOCK;
 #endif
     *capabilities = c;
@@ -120,6 +125,10 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
     }
 #elif defined(TINY_SAYS_MILLIMETRES)
     sample->position_m[0] = 70.0;
+#elif defined(TINY_CRASHES_READING)
+    abort();
+#elif defined(TINY_SAYS_UNREADY)
+    return MARSVIEW_UNREADY;
 #elif defined(TINY_ANSWERS_NONSENSE)
     return 4711;
 #endif
@@ -128,6 +137,9 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
 
 static uint32_t writeDevice(MarsviewDevice* device, const double force_n[3])
 {
+#if defined(TINY_CRASHES_WRITING)
+    abort();
+#endif
     memcpy(device->force_n, force_n, sizeof device->force_n);
     return MARSVIEW_FINE;
 }
@@ -158,6 +170,16 @@ static void stopClock(MarsviewDevice* device)
     atomic_store(&device->is_ticking, 0);
     pthread_join(device->thread, NULL);
 }
+#elif defined(TINY_CRASHES_STARTING) || defined(TINY_FAILS_STARTING)
+static uint32_t startClock(MarsviewDevice* device, MarsviewTick tick, void* self)
+{
+#if defined(TINY_CRASHES_STARTING)
+    abort();
+#endif
+    return MARSVIEW_LOST;
+}
+
+static void stopClock(MarsviewDevice* device) {}
 #else
 #define startClock NULL
 #define stopClock NULL

@@ -1,0 +1,95 @@
+#include "app/cli/loop_outcome.h"
+
+#include <cstddef>
+#include <fmt/format.h>
+
+namespace marsview {
+namespace {
+
+constexpr std::string_view kWhatToDo =
+    "connect it again; where that does not help, its driver has to be mended";
+
+std::uint64_t& of(std::array<std::uint64_t, kLetGoReasonCount>& ticks, LetGoReason reason)
+{
+    return ticks.at(static_cast<std::size_t>(reason));
+}
+
+} // namespace
+
+void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
+{
+    LoopEvent event;
+    while (loop.nextEvent(event)) {
+        if (event.kind != LoopEventKind::LetGo && event.kind != LoopEventKind::Holding) {
+            continue;
+        }
+        // The tick of the event is the first with the new reason.
+        of(ticks_by_reason_, reason_) += event.tick - 1 - since_tick_;
+        since_tick_ = event.tick - 1;
+        reason_ = event.reason;
+        if (reason_ != LetGoReason::None && reason_ != LetGoReason::NoTouch) {
+            last_reason_ = reason_;
+        }
+    }
+    const LoopState state = loop.state();
+    if (state.tick != state_.tick) {
+        ticked_ = now;
+    }
+    has_ended_ = loop.hasEnded();
+    is_silent_ = !has_ended_ && now - ticked_ >= kSilenceMax;
+    state_ = state;
+    trouble_ = loop.trouble();
+    rate_hz_ = loop.device().rate_hz;
+}
+
+std::array<std::uint64_t, kLetGoReasonCount> LoopWatch::letGoTicks() const noexcept
+{
+    auto ticks = ticks_by_reason_;
+    if (state_.tick > since_tick_) {
+        ticks[static_cast<std::size_t>(reason_)] += state_.tick - since_tick_;
+    }
+    ticks[static_cast<std::size_t>(LetGoReason::None)] = 0;
+    return ticks;
+}
+
+Status LoopWatch::verdict(const std::string& uri) const
+{
+    const double ran_s = static_cast<double>(state_.tick) / rate_hz_;
+    // What a driver says mostly ends with what to do.
+    const auto said = [&](std::string_view otherwise) {
+        if (trouble_.empty()) {
+            return fmt::format("{}; {}", otherwise, kWhatToDo);
+        }
+        return trouble_.find(';') == std::string::npos ? fmt::format("{}; {}", trouble_, kWhatToDo)
+                                                       : trouble_;
+    };
+    if (state_.tick == 0) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: the loop did not start: {}", uri,
+                                 said("the device did not call it even once"))};
+    }
+    const bool is_finished = last_reason_ == LetGoReason::DeviceFinished;
+    const bool is_cut_short = has_ended_ && !is_finished && state_.tick < ticks_max_;
+    if (is_silent_ || (is_cut_short && !state_.is_finished)) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: fell silent after {:.1f} s: {}", uri, ran_s,
+                                 said("the device stopped answering"))};
+    }
+    if (state_.is_finished && !is_finished) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: was lost after {:.1f} s: {}", uri, ran_s,
+                                 said("the device does not say why"))};
+    }
+    if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceUnready)] >= state_.tick) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: did not become ready within {:.1f} s: {}", uri, ran_s,
+                                 said("the device does not say why"))};
+    }
+    // What stopped working without taking the device along, such as a recording.
+    if (!trouble_.empty() && last_reason_ != LetGoReason::DeviceUnready) {
+        return Error{ErrorCode::Unreadable, fmt::format("{}: {}", uri, trouble_)};
+    }
+    return Done{};
+}
+
+} // namespace marsview

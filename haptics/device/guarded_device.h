@@ -1,0 +1,71 @@
+// A plugin's device while it may still take the program down.
+#pragma once
+
+#include "core/base/file_lock.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/load_marker.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace marsview {
+
+/// Keeps a LoadMarker on disk until the device has been read kReadsOfTrial times, and again while
+/// it is closed; so whatever ends the program in its first start_clock, reads and writes, or in
+/// close, is known at the next start. A device that nobody reads for `idle` is marked no longer,
+/// until it is read again: then programs that end for other reasons are not blamed on it. Also
+/// keeps other programs away from the device, and has a reason where the plugin gives none.
+class GuardedDevice final : public HapticDevice {
+public:
+    /// Two seconds of most devices.
+    static constexpr std::uint64_t kReadsOfTrial = 2000;
+
+    struct Options {
+        std::unique_ptr<HapticDevice> device{}; // there
+        std::filesystem::path plugin{};
+        std::filesystem::path marker_folder{};
+        std::optional<LoadMarker> marker{}; // of PluginCall::Run
+        std::optional<FileLock> lock{};
+        std::chrono::milliseconds idle{10'000};
+    };
+
+    explicit GuardedDevice(Options options);
+    ~GuardedDevice() override;
+
+    const DeviceCapabilities& capabilities() const noexcept override;
+    DeviceStatus read(DeviceSample& sample) noexcept override;
+    DeviceStatus write(const Vec3& force_n) noexcept override;
+    bool recordedGoal(TracePoint& goal) const noexcept override;
+    bool startClock(ClockTick tick, void* self) noexcept override;
+    void stopClock() noexcept override;
+    std::string trouble() const override;
+
+private:
+    void watch(const std::stop_token& stop);
+    void mark();
+
+    std::unique_ptr<HapticDevice> device_;
+    std::filesystem::path plugin_;
+    std::filesystem::path marker_folder_;
+    std::chrono::milliseconds idle_;
+    std::optional<FileLock> lock_;
+
+    std::atomic<std::uint64_t> reads_{0};
+    std::atomic<DeviceStatus> status_{DeviceStatus::Fine}; // of the last read or write
+
+    std::mutex mutex_; // of what follows; the servo thread does not touch it
+    std::condition_variable_any wake_;
+    std::optional<LoadMarker> marker_;
+    bool is_on_trial_ = true;
+    std::jthread watcher_; // last: it uses all the others
+};
+
+} // namespace marsview
