@@ -98,11 +98,9 @@ public:
     DeviceStatus write(const Vec3& force_n) noexcept override
     {
         const bool is_from_tick = std::this_thread::get_id() == ticking_;
-        {
-            const std::lock_guard lock(bench_->mutex);
-            bench_->writes.push_back({Clock::now(), force_n, is_from_tick});
-        }
-        bench_->in_write(++writes_);
+        bench_->in_write(++writes_); // the motors hear of it after that
+        const std::lock_guard lock(bench_->mutex);
+        bench_->writes.push_back({Clock::now(), force_n, is_from_tick});
         return DeviceStatus::Fine;
     }
     bool startClock(ClockTick tick, void* self) noexcept override
