@@ -194,8 +194,8 @@ std::string ServoLoop::trouble() const
     if (!trouble_.empty()) {
         return trouble_;
     }
-    if (isStalled()) {
-        return owns_clock_ ? kSilent : kHangs;
+    if (isStalled()) { // its driver may hang in this call as well
+        return hasEnded() ? owns_clock_ ? kSilent : kHangs : std::string();
     }
     return core_->device().trouble();
 }
