@@ -138,7 +138,9 @@ void ServoLoop::stop()
     is_running_ = false;
     const bool was_stalled = isStalled();
     core_->askToEnd();
-    bool is_over = owns_clock_ ? endClock() : thread_->joinWithin(kPatience);
+    // Before the first tick no driver hangs, but RealtimeKit may take its time.
+    const auto patience = core_->beats() == 0 ? 3 * kPatience : kPatience;
+    bool is_over = owns_clock_ ? endClock() : thread_->joinWithin(patience);
     if (is_over) {
         // The watchdog has had its eye on the end; a device that hangs there hangs it too.
         is_over = watchdog_->endWithin(kPatience) && callWatched(kPatience, [core = core_] {
