@@ -35,6 +35,8 @@ QString letGoText(LetGoReason reason)
         return tr("No force: nobody holds the stylus");
     case LetGoReason::MissedDeadline:
         return tr("No force: this computer is too busy to keep time");
+    case LetGoReason::LoopStalled:
+        return tr("The device does not answer any more; switch it off, and connect it again");
     case LetGoReason::TerrainStale:
         return tr("No force: the ground under the hand does not come");
     case LetGoReason::Fault:

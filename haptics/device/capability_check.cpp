@@ -12,8 +12,8 @@ constexpr double kSideMMin = 0.001;
 constexpr double kReachMMax = 10.0;
 constexpr double kForceNMax = 1000.0;
 constexpr double kStiffnessMax = 1e6;
-constexpr double kRateHzMin = 1.0;
-constexpr double kRateHzMax = 1e5;
+constexpr double kRateHzMin = 200.0; // forces would stay on for too long between two samples
+constexpr double kRateHzMax = 10'000.0;
 constexpr unsigned kAxesMax = 6;
 constexpr unsigned kButtonsMax = 32;
 

@@ -1,6 +1,7 @@
 #include "haptics/device/checked_device.h"
 
 #include "core/base/check.h"
+#include "haptics/device/time_between.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +53,8 @@ CheckedDevice::Fault CheckedDevice::faultOf(const DeviceSample& sample) const no
         return Fault::OutOfReach;
     }
     if (has_last_) {
-        const double dt_s =
-            std::max(0.0, std::chrono::duration<double>(sample.time - last_.time).count());
+        const std::chrono::duration<double> between = timeBetween(last_.time, sample.time);
+        const double dt_s = std::max(0.0, between.count());
         if (dt_s < kPauseSMax && length(p - last_.position) > kStepMMax + kSpeedMPerSMax * dt_s) {
             return Fault::Jump;
         }
@@ -68,6 +69,7 @@ DeviceStatus CheckedDevice::read(DeviceSample& sample) noexcept
     }
     DeviceSample read = last_;
     const DeviceStatus status = device_->read(read);
+    is_withholding_ = false;
     if (status != DeviceStatus::Fine) {
         fault_.store(Fault::None, std::memory_order_relaxed); // the reason is the device's
         is_dropped_ = status == DeviceStatus::Lost;
@@ -85,6 +87,7 @@ DeviceStatus CheckedDevice::read(DeviceSample& sample) noexcept
     fault_.store(fault, std::memory_order_relaxed);
     doubt_ += kDoubtPerFault;
     is_dropped_ = doubt_ > kDoubtMax;
+    is_withholding_ = true;
     device_->write(Vec3{});
     return is_dropped_ ? DeviceStatus::Lost : DeviceStatus::Unready;
 }
@@ -94,6 +97,10 @@ DeviceStatus CheckedDevice::write(const Vec3& force_n) noexcept
     if (is_dropped_) {
         device_->write(Vec3{});
         return DeviceStatus::Lost;
+    }
+    if (is_withholding_) {
+        device_->write(Vec3{});
+        return DeviceStatus::Unready;
     }
     const double force = length(force_n);
     if (!std::isfinite(force)) {

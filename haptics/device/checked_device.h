@@ -13,9 +13,9 @@ namespace marsview {
 
 /// Goes between a device of unknown making and the loop. A sample that cannot be true (not finite,
 /// farther outside the workspace than the workspace is wide, faster than any hand) is withheld: the
-/// answer is Unready and the force zero. Three in a row, or more than one in five for a while, and
-/// the device is Lost for good. Forces are clamped to the peak force; one that is not finite
-/// becomes zero.
+/// answer is Unready, and the force zero until a sample is as it should be. Three in a row, or more
+/// than one in five for a while, and the device is Lost for good. Forces are clamped to the peak
+/// force; one that is not finite becomes zero.
 class CheckedDevice final : public HapticDevice {
 public:
     enum class Fault : std::uint8_t { None, NotFinite, OutOfReach, Jump };
@@ -39,6 +39,7 @@ private:
     bool has_last_ = false;
     bool is_dropped_ = false;
     int doubt_ = 0;
+    bool is_withholding_ = false; // the last sample
     std::atomic<Fault> fault_{Fault::None};
 };
 

@@ -16,7 +16,7 @@ struct DeviceCapabilities {
     WorkspaceBox workspace;             // what the hand reaches
     double force_n_peak = 0.0;          // for moments; 0: it feels, but cannot push
     double force_n_continuous = 0.0;    // without getting hot; 0: not stated, as the peak
-    double stiffness_n_per_m_max = 0.0; // of a stable wall, as its maker states it
+    double stiffness_n_per_m_max = 0.0; // of a stable wall, as its maker states it; 0: not stated
     double rate_hz = 1000.0;            // of its samples
     std::uint8_t axes_in = 3;           // 3: position; 6: orientation as well
     std::uint8_t axes_out = 3;          // of force
@@ -60,7 +60,9 @@ public:
     /// The newest sample. `sample` keeps its value unless the answer is Fine.
     virtual DeviceStatus read(DeviceSample& sample) noexcept = 0;
     /// The force on the hand from now on, in newtons, in the workspace frame. The caller has
-    /// limited it; a driver clamps it to what its motors stand all the same.
+    /// limited it; a driver clamps it to what its motors stand all the same. Where the answer is
+    /// not Fine the motors are without force, and the caller begins anew from there. Zero may also
+    /// be written by another thread while no tick runs, to bring the motors to rest.
     virtual DeviceStatus write(const Vec3& force_n) noexcept = 0;
 
     /// A device that plays back a recording has no hand, but goals in map coordinates. Where this

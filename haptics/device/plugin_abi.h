@@ -15,7 +15,14 @@
  * Threads. All calls for one device come one at a time. `open`, `capabilities` and `close` may take
  * a second or two and come from any thread. `read` and `write` come from the thread of the servo
  * loop, every millisecond: they take microseconds, and neither wait, allocate nor lock. A device
- * whose transport blocks needs a thread of its own, and answers with the newest value.
+ * whose transport blocks needs a thread of its own, and answers with the newest value. While no
+ * tick runs, `write` may come from another thread as well, with zero, to bring the motors to rest.
+ *
+ * Safety. A force stays on until the next `write`, so a plugin or its device has to take it away by
+ * itself when no `write` has come for 20 ms: the program cannot while `read` or `write` hangs, nor
+ * once it has crashed. A tick that takes longer than its period, or comes 10 ms late, makes the
+ * program let go. A plugin that hangs in `read`, `write`, `stop_clock` or `close` is left alone after
+ * a second or two, with its device, until the program ends.
  *
  * The program drops a plugin, with the reason shown to the user, that is of another version, that
  * lacks a function, that states an impossible device, that takes too long to open, or whose samples
@@ -58,8 +65,8 @@ typedef struct MarsviewCapabilities {
     double workspace_high_m[3];
     double force_n_peak;          /* for moments; 0: it feels, but cannot push */
     double force_n_continuous;    /* without getting hot; 0: not stated, taken as the peak */
-    double stiffness_n_per_m_max; /* of a stable wall, at rate_hz */
-    double rate_hz;               /* of its samples */
+    double stiffness_n_per_m_max; /* of a stable wall, at rate_hz; 0: not stated, taken as 300 */
+    double rate_hz;               /* of its samples: 200 to 10000 */
     uint32_t axes_in;             /* 3: position; 6: orientation as well */
     uint32_t axes_out;            /* of force: 0 to 6 */
     uint32_t buttons;             /* 0 to 32 */
@@ -70,7 +77,9 @@ typedef struct MarsviewCapabilities {
 typedef struct MarsviewSample {
     double position_m[3];
     double twist_rad; /* of the stylus about its axis; 0 where axes_in is 3 */
-    int64_t time_ns;  /* CLOCK_MONOTONIC when it was measured; 0 means just now */
+    /* CLOCK_MONOTONIC when it was measured; 0 means just now. The force goes to zero where that is
+     * more than 15 ms ago or ahead, as it is with another clock. */
+    int64_t time_ns;
     uint32_t buttons; /* bit 0: the stylus button */
     uint32_t is_held; /* 0 in the inkwell; looked at with MARSVIEW_HAS_PRESENCE only */
 } MarsviewSample;
@@ -113,7 +122,8 @@ typedef struct MarsviewPlugin {
     /* The newest sample. */
     uint32_t (*read)(MarsviewDevice* device, MarsviewSample* sample);
 
-    /* The force on the hand from now on. */
+    /* The force on the hand from now on. Where the answer is not MARSVIEW_FINE the motors have to be
+     * without force. */
     uint32_t (*write)(MarsviewDevice* device, const double force_n[3]);
 
     /* Both null unless the device owns the clock. start_clock answers MARSVIEW_FINE, and from then

@@ -35,14 +35,18 @@ std::uint8_t smallNumber(std::uint32_t value) noexcept
     return static_cast<std::uint8_t>(std::min(value, kSmallNumberMax));
 }
 
-// std::chrono::steady_clock is CLOCK_MONOTONIC. A sample from the future would never grow old.
+// std::chrono::steady_clock is CLOCK_MONOTONIC. What is a little ahead of it was rounded; what is
+// more stays as it is, for the loop to refuse: dated now whenever it is read, it would never grow
+// old.
 Clock::time_point timeOf(std::int64_t time_ns) noexcept
 {
     const Clock::time_point now = Clock::now();
     if (time_ns == 0) {
         return now;
     }
-    return std::min(now, Clock::time_point(std::chrono::nanoseconds(time_ns)));
+    constexpr std::chrono::milliseconds kRounding{2};
+    const Clock::time_point time{std::chrono::nanoseconds(time_ns)};
+    return time > now && time - now <= kRounding ? now : time;
 }
 
 } // namespace

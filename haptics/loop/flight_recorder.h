@@ -2,6 +2,7 @@
 #pragma once
 
 #include "haptics/loop/loop_state.h"
+#include "haptics/loop/page_lock.h"
 #include "haptics/sync/seq_lock.h"
 
 #include <atomic>
@@ -20,6 +21,9 @@ public:
         : ring_(std::make_unique<SeqLock<TickRecord>[]>(ticks)) // NOLINT(modernize-avoid-c-arrays)
         , size_(ticks)
     {}
+
+    /// Where it is kept.
+    MemoryRange memory() const noexcept { return {ring_.get(), size_ * sizeof(ring_[0])}; }
 
     /// The servo thread.
     void add(const TickRecord& record) noexcept

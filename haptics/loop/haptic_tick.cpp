@@ -1,5 +1,7 @@
 #include "haptics/loop/haptic_tick.h"
 
+#include "haptics/device/time_between.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,7 +60,7 @@ public:
         , input_(input)
         , settings_(*input.settings)
         , state_(state)
-        , given_dt_s_(dt_s)
+        , since_write_s_(input.since_write_s.value_or(dt_s))
         , dt_s_(std::isfinite(dt_s) ? std::clamp(dt_s, 0.0, kStepMaxS) : 0.0)
         , map_(settings_.map.get())
     {}
@@ -109,6 +111,12 @@ private:
         if (state_.has_frame && !(length(moved_m) < kJumpM)) {
             has_jumped_ = true;
         }
+        // At another scale what is touched lies elsewhere though the hand does not.
+        if (state_.has_frame && state_.contact.is_in_contact) {
+            const ScenePoint& at = state_.contact.proxy;
+            is_stretched_ =
+                !(length(settings_.frame.toWorkspace(at) - state_.frame.toWorkspace(at)) < kJumpM);
+        }
         state_.frame = settings_.frame;
         state_.frame_number = settings_.frame_number;
         state_.has_frame = true;
@@ -126,6 +134,10 @@ private:
             has_jumped_ = state_.map_serial != 0 || map_ == nullptr;
             is_fresh_ = true;
         }
+        // The same ground stretched: how deep the hand is in it has jumped.
+        const double exaggeration = map_ != nullptr ? map_->frame.exaggeration() : 0.0;
+        is_stretched_ = is_stretched_ || (is_other_model_ && exaggeration != state_.exaggeration);
+        state_.exaggeration = exaggeration;
         state_.map_serial = serial;
         state_.map_id = map_ != nullptr ? map_->map_id : 0;
         state_.has_touched = false;
@@ -171,7 +183,7 @@ private:
 
     LetGoReason ageReason() const noexcept
     {
-        const nanoseconds age = input_.now - input_.sample.time;
+        const nanoseconds age = timeBetween(input_.sample.time, input_.now);
         const bool is_stale = age > options_.sample_age_max || age < -options_.sample_age_max;
         return is_stale ? LetGoReason::DeviceStale : LetGoReason::None;
     }
@@ -345,21 +357,39 @@ private:
         if (map_ == nullptr) {
             note(LetGoReason::NoTouch);
         }
-        state_.misses = input_.has_missed_deadline ? state_.misses + 1 : 0;
-        if (state_.misses > options_.misses_max) {
-            state_.misses = options_.misses_max + 1;
+        if (isTooLate()) {
             note(LetGoReason::MissedDeadline);
         }
-        result_.has_changed_map = has_jumped_ || is_fresh_;
+        result_.has_changed_map = has_jumped_ || is_fresh_ || is_stretched_;
         const SafetyOutput safe =
             limitForce(options_.limits,
                        {.force_n = force_n,
                         .reason = result_.reason,
                         .has_changed = result_.has_changed_mode || result_.has_changed_map},
-                       state_.safety, given_dt_s_);
+                       state_.safety, since_write_s_);
         result_.reason = safe.reason;
         result_.force_n = safe.force_n;
         noteWritten(state_.passivity, safe.force_n);
+    }
+
+    // Whether deadlines are missed too often, or nothing was written for so long that the hand may
+    // be anywhere.
+    bool isTooLate() noexcept
+    {
+        constexpr unsigned kQuarters = 4;
+        const unsigned most = kQuarters * (options_.misses_max + 1);
+        if (input_.has_missed_deadline) {
+            state_.misses += kQuarters;
+        } else if (state_.misses > 0) {
+            --state_.misses;
+        }
+        const bool is_pause = since_write_s_ > kSafetyStepMaxS;
+        if (is_pause || state_.misses >= most) {
+            state_.misses = most;
+            state_.is_late = true;
+        }
+        state_.is_late = state_.is_late && state_.misses > 0;
+        return state_.is_late;
     }
 
     void publish() noexcept
@@ -375,7 +405,7 @@ private:
     const TickInput& input_;
     const LoopSettings& settings_;
     TickState& state_;
-    double given_dt_s_;
+    double since_write_s_;
     double dt_s_;
     ServoMap* map_;
     StepResult result_;
@@ -384,6 +414,7 @@ private:
     bool has_jumped_ = false;
     bool is_fresh_ = false;
     bool is_other_model_ = false;
+    bool is_stretched_ = false;
 };
 
 } // namespace
@@ -404,8 +435,9 @@ double usedStiffness(double wanted_n_per_m,
                      double period_s) noexcept
 {
     // A device that cannot push has no limit; what would be felt is shown all the same.
+    const double unstated = device.force_n_peak > 0.0 ? kStiffnessUnstatedNPerM : wanted_n_per_m;
     const double stable =
-        device.stiffness_n_per_m_max > 0.0 ? device.stiffness_n_per_m_max : wanted_n_per_m;
+        device.stiffness_n_per_m_max > 0.0 ? device.stiffness_n_per_m_max : unstated;
     const double rate = period_s > nominal_period_s ? nominal_period_s / period_s : 1.0;
     const double used = std::min(wanted_n_per_m, stable * rate);
     return used > 0.0 ? used : 0.0; // also where NaN

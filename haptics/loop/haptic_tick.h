@@ -13,12 +13,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace marsview {
 
-/// What the program tells the loop. Copies share the map.
+/// What the program tells the loop: a tick sees all of it or nothing. Copies share the map.
 struct LoopSettings {
-    std::shared_ptr<ServoMap> map;    // null: there is nothing to be felt
+    /// Null: there is nothing to be felt. Where the ground changes and with it where the hand's
+    /// workspace lies (another exaggeration), the new map and the new frame belong into one set():
+    /// a tick that saw one without the other would put the hand elsewhere.
+    std::shared_ptr<ServoMap> map;
     WorkspaceFrame frame;             // taken over when `frame_number` changes
     std::uint64_t frame_number = 0;   // otherwise the loop goes on with what its hand made of it
     double stiffness_n_per_m = 300.0; // of ground and walls; bounded by what the device stands
@@ -32,6 +36,9 @@ struct LoopSettings {
 /// How ground and walls are put together. All but Fade is there for measuring why it is there.
 enum class ForceMixing : std::uint8_t { Fade, NaiveSum };
 
+/// A third of what the simulated hand is stable with at 3 ms of delay (tests/bench/STABILITY.md).
+inline constexpr double kStiffnessUnstatedNPerM = 300.0;
+
 /// Constant while a device is open.
 struct TickOptions {
     SafetyLimits limits;
@@ -41,7 +48,10 @@ struct TickOptions {
     double period_s = 1e-3; // as it should be
     std::chrono::nanoseconds sample_age_max{15'000'000};
     std::chrono::nanoseconds terrain_age_max{500'000'000};
-    unsigned misses_max = 5; // deadlines missed one after the other before it lets go
+    /// Deadlines missed one after the other before it lets go. Each tick in time makes up for a
+    /// quarter of one: more than one in five, for long enough, lets go as well. It goes on letting
+    /// go until all are made up for.
+    unsigned misses_max = 5;
 };
 
 /// Those for a device, with its peak force as the limit for moments and its continuous force, where
@@ -57,6 +67,9 @@ struct TickInput {
     const TracePoint* recorded_goal = nullptr;
     std::chrono::steady_clock::time_point now{};
     bool has_missed_deadline = false; // the last tick ended, or this one began, too late
+    /// Seconds since the last force was written, which is what the limiter counts; nothing: dt_s.
+    /// More than kSafetyStepMaxS is a pause, and lets go.
+    std::optional<double> since_write_s{};
 };
 
 /// Goals of one tick: one, or those by which the proxy is put elsewhere.
@@ -77,16 +90,18 @@ struct TickState {
     std::uint64_t frame_number = 0;
     std::uint64_t map_serial = 0; // 0: none
     std::uint64_t map_id = 0;
-    bool has_touched = false; // this map, since it came
-    ContactState contact;     // the last
-    TracePoint proxy{};       // the same on the map
+    double exaggeration = 0.0; // of the map
+    bool has_touched = false;  // this map, since it came
+    ContactState contact;      // the last
+    TracePoint proxy{};        // the same on the map
     ScenePoint goal{};
     GridPoint at{}; // of the proxy, in the last tick
     ModeState modes;
     PassivityState passivity;
     SafetyState safety;
     double period_s = 0.0; // smoothed
-    unsigned misses = 0;
+    unsigned misses = 0;   // in quarters
+    bool is_late = false;  // lets go until none is left
 };
 
 struct StepResult {
@@ -106,15 +121,17 @@ struct StepResult {
     std::uint32_t missed_samples = 0; // of terrain that was not there at full resolution
 };
 
-/// The tick. Everything that it knows is in its arguments, and in the contact model that the
-/// settings hold; the same again gives the same again. Neither allocates nor waits.
+/// The tick. `dt_s` is the time from the last sample to this one. Everything that it knows is in
+/// its arguments, and in the contact model that the settings hold; the same again gives the same
+/// again. Neither allocates nor waits.
 StepResult
 step(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept;
 
 /// The stiffness that is used where `wanted` is asked for: no more than the device is stable with,
 /// and less where the loop runs slower than it should, as a sampled spring is stable only up to a
 /// stiffness that falls with its period (J. E. Colgate and G. Schenkel, Passivity of a class of
-/// sampled-data systems, 1997).
+/// sampled-data systems, 1997). A device that can push and states no stiffness is taken for one of
+/// kStiffnessUnstatedNPerM.
 double usedStiffness(double wanted_n_per_m,
                      const DeviceCapabilities& device,
                      double nominal_period_s,

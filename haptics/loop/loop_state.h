@@ -43,6 +43,9 @@ struct LoopState {
     std::uint64_t frame_number = 0;
     LoopCounts counts;
     bool is_finished = false; // the device has ended, or was lost
+    /// No tick comes any more, and all of the above is of the last one (ServoLoop::isStalled).
+    /// Where force_n is not zero all the same, the motors may still have it.
+    bool is_stalled = false;
 };
 
 /// Something that happened, in order.

@@ -1,11 +1,18 @@
 #include "haptics/loop/page_lock.h"
 
+#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <fmt/format.h>
 #include <link.h>
+#include <linux/capability.h>
+#include <mutex>
 #include <string_view>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 #include <utility>
 
@@ -28,6 +35,58 @@ std::uintptr_t pageBytes() noexcept
     }
 }
 
+// Whether the system sets no bound to what this process locks.
+bool mayLockAnything()
+{
+    rlimit limit{};
+    if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) {
+        return true;
+    }
+    __user_cap_header_struct header{};
+    header.version = _LINUX_CAPABILITY_VERSION_3;
+    std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
+    return syscall(SYS_capget, &header, sets.data()) == 0 &&
+           (sets[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
+}
+
+// Locks of the process do not nest: the last one that dies ends them.
+struct WholeLock {
+    std::mutex mutex;
+    int users = 0;
+};
+
+WholeLock& wholeLock()
+{
+    static WholeLock lock;
+    return lock;
+}
+
+std::string lockWhole()
+{
+    WholeLock& whole = wholeLock();
+    const std::lock_guard guard(whole.mutex);
+    // Pages are locked as they are touched: locking all that is only reserved, the stacks of all
+    // threads for instance, would touch it.
+#if defined(MCL_ONFAULT)
+    if (whole.users > 0 || mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) {
+        ++whole.users;
+        return {};
+    }
+    return std::strerror(errno); // NOLINT(concurrency-mt-unsafe): glibc's is
+#else
+    return "this system cannot lock pages as they are touched";
+#endif
+}
+
+void unlockWhole() noexcept
+{
+    WholeLock& whole = wholeLock();
+    const std::lock_guard guard(whole.mutex);
+    if (--whole.users == 0) {
+        munlockall();
+    }
+}
+
 } // namespace
 
 PageLock::PageLock(const void* data, std::size_t bytes) noexcept
@@ -37,11 +96,9 @@ PageLock::PageLock(const void* data, std::size_t bytes) noexcept
     if (bytes == 0) {
         return;
     }
-    const auto* first = static_cast<const volatile std::byte*>(data);
-    for (std::size_t at = 0; at < bytes; at += pageBytes()) {
-        static_cast<void>(first[at]);
-    }
-    static_cast<void>(first[bytes - 1]);
+    const auto begin = reinterpret_cast<std::uintptr_t>(data);
+    touchPages(begin, bytes);
+    touchPages(begin + bytes - 1, 1);
     error_ = mlock(data, bytes) == 0 ? 0 : errno;
 }
 
@@ -72,6 +129,34 @@ PageLock& PageLock::operator=(PageLock&& other) noexcept
     std::swap(bytes_, other.bytes_);
     std::swap(error_, other.error_);
     return *this;
+}
+
+ProcessLock::ProcessLock(std::span<const MemoryRange> memory)
+{
+    constexpr const char* kRemedy = "ask for all of it with ulimit -l unlimited or CAP_IPC_LOCK";
+    if (mayLockAnything()) {
+        const std::string refusal = lockWhole();
+        is_whole_ = refusal.empty();
+        if (!is_whole_) {
+            refusal_ = fmt::format("{}; {}", refusal, kRemedy);
+        }
+        return;
+    }
+    std::size_t bytes = 0;
+    for (const MemoryRange& range : memory) {
+        locks_.emplace_back(range.data, range.bytes);
+        bytes += locks_.back().bytes();
+    }
+    constexpr std::size_t kKilobyte = 1024;
+    refusal_ = fmt::format("only {} kB that the loop itself uses are locked; {}", bytes / kKilobyte,
+                           kRemedy);
+}
+
+ProcessLock::~ProcessLock()
+{
+    if (is_whole_) {
+        unlockWhole();
+    }
 }
 
 void touchProgram() noexcept

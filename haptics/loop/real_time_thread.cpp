@@ -3,14 +3,13 @@
 #include "core/base/check.h"
 #include "haptics/loop/page_lock.h"
 #include "haptics/loop/realtime_kit.h"
+#include "haptics/loop/thread_faults.h"
 
-#include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <ctime>
 #include <pthread.h>
 #include <sched.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
 
 namespace marsview {
 namespace {
@@ -29,20 +28,6 @@ std::string refusalOfScheduling(int priority)
                       : reason(error) + "; ask for it with ulimit -r or CAP_SYS_NICE";
 }
 
-// Pages are locked as they are touched: locking all that is only reserved, the stacks of all
-// threads for instance, would touch it.
-std::string refusalOfLocking()
-{
-#if defined(MCL_ONFAULT)
-    if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) {
-        return {};
-    }
-    return reason(errno) + "; ask for it with ulimit -l or CAP_IPC_LOCK";
-#else
-    return "this system cannot lock pages as they are touched";
-#endif
-}
-
 // Deeper calls than this one find their pages there.
 [[gnu::noinline]] void touchStack(std::size_t bytes)
 {
@@ -55,17 +40,11 @@ std::string refusalOfLocking()
     page[kPage - 1] = page[0]; // not a tail call
 }
 
-struct Faults {
-    std::uint64_t minor = 0;
-    std::uint64_t major = 0;
-};
-
-Faults faultsOfThisThread() noexcept
+// The part of this thread's stack that deeper calls use.
+MemoryRange stackBelow(std::size_t bytes) noexcept
 {
-    rusage usage{};
-    getrusage(RUSAGE_THREAD, &usage);
-    return {static_cast<std::uint64_t>(usage.ru_minflt),
-            static_cast<std::uint64_t>(usage.ru_majflt)};
+    const auto* here = static_cast<const std::byte*>(__builtin_frame_address(0));
+    return {here - bytes, bytes};
 }
 
 LoopTime now() noexcept
@@ -85,48 +64,55 @@ void sleepUntil(LoopTime time) noexcept
 
 } // namespace
 
-void RealTimeThread::start(const RealTimeOptions& options, std::shared_ptr<void> self, Tick tick)
+void RealTimeThread::start(const RealTimeOptions& options,
+                           const std::shared_ptr<void>& self,
+                           Tick tick)
 {
     MARSVIEW_CHECK(options.period.count() > 0);
-    self_ = std::move(self);
-    published_ = std::make_unique<SeqLock<LoopStatistics>>();
-    thread_ = std::thread([this, options, tick] { run(options, self_.get(), tick); });
+    thread_.emplace(
+        [options, self, tick, shared = shared_] { run(options, self.get(), tick, *shared); });
 }
 
 RealTimeThread::~RealTimeThread()
 {
     stop();
-    join();
 }
 
-void RealTimeThread::join()
+void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick, Shared& shared)
 {
-    if (thread_.joinable()) {
-        thread_.join();
-    }
-}
-
-void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick)
-{
-    grants_.scheduling_refusal = refusalOfScheduling(options.priority);
-    if (!grants_.hasScheduling() && options.asks_realtime_kit) {
+    RealTimeGrants& grants = shared.grants;
+    LoopStatistics& statistics = shared.statistics;
+    grants.scheduling_refusal = refusalOfScheduling(options.priority);
+    if (!grants.hasScheduling() && options.asks_realtime_kit) {
         const std::string refusal = askRealtimeKit(options.priority);
-        grants_.scheduling_refusal =
-            refusal.empty() ? std::string() : grants_.scheduling_refusal + "; " + refusal;
+        grants.scheduling_refusal =
+            refusal.empty() ? std::string() : grants.scheduling_refusal + "; " + refusal;
     }
-    grants_.locking_refusal = options.locks_memory ? refusalOfLocking() : "not asked for";
-    touchProgram();
-    has_grants_.store(true, std::memory_order_release);
     touchStack(options.stack_bytes_touched);
+    std::optional<ProcessLock> lock;
+    if (options.locks_memory) {
+        std::vector<MemoryRange> memory = options.memory;
+        memory.push_back(stackBelow(options.stack_bytes_touched));
+        grants.locking_refusal = lock.emplace(memory).refusal();
+    } else {
+        grants.locking_refusal = "not asked for";
+    }
+    touchProgram();
+    shared.has_grants.store(true, std::memory_order_release);
 
-    Faults before = faultsOfThisThread();
+    ThreadFaults before = faultsOfThisThread();
+    const auto countFaults = [&]() noexcept {
+        const ThreadFaults after = faultsOfThisThread();
+        statistics.minor_faults = after.minor - before.minor;
+        statistics.major_faults = after.major - before.major;
+    };
     LoopTurn turn;
     turn.deadline = now() + options.period;
     LoopTime last_begin{};
-    for (std::uint64_t number = 0; !is_stopping_.load(std::memory_order_relaxed); ++number) {
+    for (std::uint64_t number = 0; !shared.is_stopping.load(std::memory_order_relaxed); ++number) {
         sleepUntil(turn.deadline);
         if (number == options.uncounted_turns) {
-            statistics_ = {};
+            statistics = {};
             before = faultsOfThisThread();
         }
         turn.begin = now();
@@ -136,23 +122,19 @@ void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick)
         const LoopOutcome outcome =
             tick(self, {.number = number, .deadline = turn.deadline, .dt_s = dt_s});
         turn.end = now();
-        turn.deadline = statistics_.add(turn, options.period);
+        turn.deadline = statistics.add(turn, options.period);
         // Between turns, where there is time: a microsecond.
         constexpr std::uint64_t kPublishEvery = 128;
         if (outcome == LoopOutcome::Stop || number % kPublishEvery == kPublishEvery - 1) {
-            const Faults after = faultsOfThisThread();
-            statistics_.minor_faults = after.minor - before.minor;
-            statistics_.major_faults = after.major - before.major;
-            published_->write(statistics_);
-            has_published_.store(true, std::memory_order_release);
+            countFaults();
+            shared.published.write(statistics);
+            shared.has_published.store(true, std::memory_order_release);
         }
         if (outcome == LoopOutcome::Stop) {
             return;
         }
     }
-    const Faults after = faultsOfThisThread();
-    statistics_.minor_faults = after.minor - before.minor;
-    statistics_.major_faults = after.major - before.major;
+    countFaults();
 }
 
 } // namespace marsview

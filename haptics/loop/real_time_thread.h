@@ -1,7 +1,9 @@
 // A thread that calls a function at a fixed rate, as punctually as the system lets it.
 #pragma once
 
+#include "haptics/loop/leavable_thread.h"
 #include "haptics/loop/loop_statistics.h"
+#include "haptics/loop/page_lock.h"
 #include "haptics/sync/seq_lock.h"
 
 #include <atomic>
@@ -11,9 +13,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 
@@ -26,8 +28,12 @@ struct RealTimeOptions {
     /// later ones do.
     std::uint64_t uncounted_turns = 100;
     std::size_t stack_bytes_touched = std::size_t{256} << 10; // before the first turn
-    /// Keeps the memory of the whole process, as far as it has been touched, from being paged out.
+    /// Keeps the memory of the whole process, as far as it has been touched, from being paged out
+    /// while the thread runs. Where the system bounds how much may be locked, only the thread's
+    /// stack and `memory` are: whatever else the process asks for later must not fail because of
+    /// that.
     bool locks_memory = true;
+    std::vector<MemoryRange> memory{}; // what ticks use; it outlives the thread's turns
 };
 
 /// What the system granted. An empty reason means that it did.
@@ -62,47 +68,62 @@ public:
             return (*static_cast<F*>(self))(turn);
         });
     }
-    /// Stops within a period.
+    /// Stops within a period, or whenever the turn that hangs is over, unless it was left alone.
     ~RealTimeThread();
     RealTimeThread(const RealTimeThread&) = delete;
     RealTimeThread& operator=(const RealTimeThread&) = delete;
 
     /// No turn begins after the present one.
-    void stop() noexcept { is_stopping_.store(true, std::memory_order_relaxed); }
+    void stop() noexcept { shared_->is_stopping.store(true, std::memory_order_relaxed); }
     /// Until a turn has said Stop, or stop() was called and obeyed.
-    void join();
+    void join() { thread_->join(); }
+    /// The same for no longer than `patience`; false: a turn hangs.
+    bool joinWithin(std::chrono::milliseconds patience) { return thread_->joinWithin(patience); }
+    /// Leaves a turn that hangs alone, with all that the tick owns; none begins after it. What the
+    /// tick only refers to has to stay.
+    void leave()
+    {
+        stop();
+        thread_->leave();
+    }
 
     /// After join().
-    const RealTimeGrants& grants() const noexcept { return grants_; }
-    const LoopStatistics& statistics() const noexcept { return statistics_; }
+    const RealTimeGrants& grants() const noexcept { return shared_->grants; }
+    const LoopStatistics& statistics() const noexcept { return shared_->statistics; }
 
     /// While it runs: those of some turns ago, nothing before the first. Any thread.
     std::optional<LoopStatistics> latestStatistics() const noexcept
     {
-        return has_published_.load(std::memory_order_acquire) ? std::optional(published_->read())
-                                                              : std::nullopt;
+        return shared_->has_published.load(std::memory_order_acquire)
+                   ? std::optional(shared_->published.read())
+                   : std::nullopt;
     }
     /// The same of what the system granted, which is known before the first turn.
     std::optional<RealTimeGrants> latestGrants() const
     {
-        return has_grants_.load(std::memory_order_acquire) ? std::optional(grants_) : std::nullopt;
+        return shared_->has_grants.load(std::memory_order_acquire) ? std::optional(shared_->grants)
+                                                                   : std::nullopt;
     }
 
 private:
     using Tick = LoopOutcome (*)(void* self, const LoopTick& turn) noexcept;
 
-    void start(const RealTimeOptions& options, std::shared_ptr<void> self, Tick tick);
-    void run(const RealTimeOptions& options, void* self, Tick tick);
+    // On the heap, and the thread's as well: it may be left alone. The histograms' pages are
+    // touched by the first write.
+    struct Shared {
+        std::atomic<bool> is_stopping{false};
+        RealTimeGrants grants;
+        LoopStatistics statistics;
+        SeqLock<LoopStatistics> published;
+        std::atomic<bool> has_grants{false};
+        std::atomic<bool> has_published{false};
+    };
 
-    std::shared_ptr<void> self_;
-    std::atomic<bool> is_stopping_{false};
-    RealTimeGrants grants_;
-    LoopStatistics statistics_;
-    // On the heap: it is large, and the histogram's pages are touched by the first write.
-    std::unique_ptr<SeqLock<LoopStatistics>> published_;
-    std::atomic<bool> has_grants_{false};
-    std::atomic<bool> has_published_{false};
-    std::thread thread_;
+    void start(const RealTimeOptions& options, const std::shared_ptr<void>& self, Tick tick);
+    static void run(const RealTimeOptions& options, void* self, Tick tick, Shared& shared);
+
+    std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
+    std::optional<LeavableThread> thread_;
 };
 
 } // namespace marsview

@@ -8,9 +8,9 @@ namespace marsview {
 namespace {
 
 constexpr std::array<std::string_view, kLetGoReasonCount> kNames{
-    "none",         "emergency stop",   "device lost", "device finished", "device unready",
-    "device stale", "device nonsense",  "not held",    "missed deadline", "terrain stale",
-    "fault",        "nothing to touch",
+    "none",          "emergency stop",  "device lost",      "device finished", "device unready",
+    "device stale",  "device nonsense", "not held",         "missed deadline", "loop stalled",
+    "terrain stale", "fault",           "nothing to touch",
 };
 
 // Lengths of vectors whose squares overflow are finite too.
@@ -85,10 +85,16 @@ SafetyOutput limitForce(const SafetyLimits& limits,
     if (output.reason == LetGoReason::None && (!is_time || !isFinite(input.force_n))) {
         output.reason = LetGoReason::Fault;
     }
-    const double step_s = is_time ? std::min(dt_s, kSafetyStepMaxS) : kSafetyStepFallbackS;
+    const bool is_step = is_time && dt_s <= kSafetyStepMaxS;
+    if (output.reason == LetGoReason::None && !is_step) {
+        output.reason = LetGoReason::MissedDeadline; // a pause
+    }
+    const double step_s = is_step ? dt_s : kSafetyStepFallbackS;
     const double force_n_max = bound(limits.force_n_max);
-    if (!isFinite(state.force_n) || !std::isfinite(state.gain)) {
-        state = {.heat_n2 = state.heat_n2};
+    const bool has_force = isFinite(state.force_n);
+    if (!has_force || !std::isfinite(state.gain) || !std::isfinite(state.ramp_s)) {
+        state = {.force_n = has_force ? state.force_n : Vec3{}, .heat_n2 = state.heat_n2};
+        output.reason = output.reason == LetGoReason::None ? LetGoReason::Fault : output.reason;
     }
     const double last_n = safeLength(state.force_n);
     state.heat_n2 =

@@ -20,13 +20,14 @@ enum class LetGoReason : std::uint8_t {
     DeviceStale,    // what it measured is too old
     DeviceNonsense, // it measured what is no number, or a place that no hand gets to in the time
     NotHeld,        // in the inkwell, or the dead-man switch is released
-    MissedDeadline, // the loop itself came too late, too often
+    MissedDeadline, // the loop itself came too late, too often, or after a pause
+    LoopStalled,    // no tick comes any more: said by who watches the loop, never by a tick
     TerrainStale,   // whoever brings the terrain has gone silent
     Fault,          // the program computed what is no force, or was given what is no time
     NoTouch,        // there is nothing to be felt
 };
 
-inline constexpr std::uint8_t kLetGoReasonCount = 12;
+inline constexpr std::uint8_t kLetGoReasonCount = 13;
 
 /// In lower case, for people and for files: "emergency stop".
 std::string_view letGoReasonName(LetGoReason reason) noexcept;
@@ -50,7 +51,7 @@ struct SafetyInput {
 };
 
 struct SafetyState {
-    Vec3 force_n{};       // the last
+    Vec3 force_n{};       // the last, which is on the motors until the next is written
     double gain = 0.0;    // of what is let through: 0 to 1
     double ramp_s = 0.;   // how long the gain takes from 0 to 1 this time; 0: has not begun
     double heat_n2 = 0.0; // low-pass of the squared force, as currents heat windings
@@ -62,9 +63,10 @@ struct SafetyOutput {
     bool is_bounded = false; // by magnitude, heat or rate
 };
 
-/// A time step that is longer counts as this: after a pause nothing may jump.
+/// What is longer is a pause, during which the hand may have gone anywhere: after it the limiter
+/// lets go, whatever is asked for, and ramps in anew.
 inline constexpr double kSafetyStepMaxS = 0.01;
-/// And where it is no time at all, letting go counts it as this.
+/// Letting go counts as this what is a pause, or no time at all: after neither anything jumps.
 inline constexpr double kSafetyStepFallbackS = 0.001;
 
 /// SafetyState::heat_n2 after `seconds` without force.
@@ -76,12 +78,15 @@ double cooledHeat(const SafetyLimits& limits, double heat_n2, double seconds) no
 /// last, and what does not exceed 0.8 of that never changes.
 double warmForceMax(const SafetyLimits& limits, double heat_n2) noexcept;
 
-/// The bounds hold for any input and state, NaN and infinities included:
-/// |force| <= force_n_max, and |force - last force| <= rate × min(dt_s, kSafetyStepMaxS), where the
-/// rate is release_n_per_s_max while letting go. Only where the limits themselves have become
-/// smaller than the last force, the magnitude comes before the rate. The force goes down to
-/// force_n_continuous, no faster than the rate, as its heat comes near that one's. A limit that is
-/// no number, or negative, is 0. Servo thread.
+/// `dt_s` is the time since the last force was written: so what is written never changes faster
+/// than the rate in real time, however late or early a tick comes. The bounds hold for any input
+/// and state, NaN and infinities included: |force| <= force_n_max, and |force - last force| <= rate
+/// × dt_s, where the rate is release_n_per_s_max while letting go; after a pause and where dt_s is
+/// no time, rate × kSafetyStepFallbackS. Only where the limits themselves have become smaller than
+/// the last force, the magnitude comes before the rate. A state that holds what is no number is a
+/// fault; a last force that is none counts as zero. The force goes down to force_n_continuous, no
+/// faster than the rate, as its heat comes near that one's. A limit that is no number, or negative,
+/// is 0. Servo thread.
 SafetyOutput limitForce(const SafetyLimits& limits,
                         const SafetyInput& input,
                         SafetyState& state,

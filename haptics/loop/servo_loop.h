@@ -1,16 +1,16 @@
 // A device and the loop around it: settings in, states, events and statistics out.
 #pragma once
 
+#include "core/base/result.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/loop/flight_recorder.h"
 #include "haptics/loop/haptic_tick.h"
 #include "haptics/loop/loop_state.h"
+#include "haptics/loop/loop_watchdog.h"
 #include "haptics/loop/real_time_thread.h"
-#include "haptics/sync/seq_lock.h"
-#include "haptics/sync/spsc_queue.h"
-#include "haptics/sync/triple_buffer.h"
+#include "haptics/loop/servo_core.h"
 
-#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -26,93 +26,81 @@ struct ServoLoopOptions {
     std::size_t flight_ticks = 10'000; // that the flight recorder keeps
 };
 
-/// Runs only while something can be felt: from a set() with a map on, until one without, or one
-/// that is stopped for good. The thread is the program's own, or the device's where it owns the
-/// clock. All but what says otherwise is for one thread, the one that made it.
+/// Runs only while something can be felt: from a set() with a map on, until one without. The thread
+/// is the program's own, or the device's where it owns the clock. All but what says otherwise is
+/// for one thread, the one that made it.
+///
+/// A LoopWatchdog looks after it: where ticks stop it says so and, as long as nobody is inside the
+/// device, writes zero. Nothing here waits for a driver that hangs: after kPatience its thread is
+/// left alone with the device, which is never touched again, and closed if the driver ever comes
+/// back. What cannot be done: a driver that hangs in read() or write() keeps the motors as they
+/// are, as no other call may be made meanwhile; they have the last force until the driver or the
+/// device notices by itself that writes have stopped (plugin_abi.h asks for that within 20 ms).
 class ServoLoop {
 public:
-    static constexpr std::size_t kRecordsMax = 1U << 14;
+    /// For what may hang: starting and stopping, each. Closing a device has twice as much.
+    static constexpr std::chrono::milliseconds kPatience{1000};
+    static constexpr std::size_t kRecordsMax = ServoCore::kRecordsMax;
 
     explicit ServoLoop(std::unique_ptr<HapticDevice> device, const ServoLoopOptions& options = {});
-    /// Stops; the device is closed.
+    /// Stops; the device is closed, unless it has been left alone.
     ~ServoLoop();
     ServoLoop(const ServoLoop&) = delete;
     ServoLoop& operator=(const ServoLoop&) = delete;
 
-    /// From the next tick on. Starts and stops the loop as it becomes needed.
+    /// From the next tick on, all of it at once. Starts and stops the loop as it becomes needed; an
+    /// emergency stop does not end it, but tells ticks to let go. Where starting fails the loop has
+    /// ended, and status() says why.
     void set(const LoopSettings& settings);
     /// Lets the force fade out, within some milliseconds, and ends the thread. set() starts it
     /// anew.
     void stop();
 
     bool isRunning() const noexcept { return is_running_; }
-    /// Whether the loop has come to its end by itself: the device has finished or is lost, or
-    /// ticks_max are done. Any thread.
-    bool hasEnded() const noexcept { return has_ended_.load(std::memory_order_acquire); }
-    const DeviceCapabilities& device() const noexcept { return device_->capabilities(); }
-    /// Why the device is not as it should be, in one sentence; empty where nothing is known.
-    std::string trouble() const { return device_->trouble(); }
+    /// Whether the loop has come to its end by itself: the device has finished or is lost, its
+    /// clock could not be started, ticks have stopped for good, or ticks_max are done. Any thread.
+    bool hasEnded() const noexcept { return core_->hasEnded(); }
+    /// Whether ticks have stopped, for now or for good: state() is of the last one. Any thread.
+    bool isStalled() const noexcept { return core_->isStalled(); }
+    /// Done, or what has gone wrong with the loop itself: its clock was not started, or the driver
+    /// hangs. One sentence that begins with the device's name.
+    Status status() const;
+    const DeviceCapabilities& device() const noexcept { return core_->device().capabilities(); }
+    /// Why the device is not as it should be, or what status() says, in one sentence; empty where
+    /// nothing is known, and while ticks have stopped but may come back.
+    std::string trouble() const;
 
-    /// Of the last tick. Any thread.
-    LoopState state() const noexcept { return state_.read(); }
+    /// Of the last tick, and whether there still are any. Any thread.
+    LoopState state() const noexcept { return core_->state(); }
     /// In order; false where there is none. One thread.
-    bool nextEvent(LoopEvent& event) noexcept { return events_.take(event); }
+    bool nextEvent(LoopEvent& event) noexcept { return core_->events().take(event); }
     /// Of what ran last, and of what is running, some ticks old.
     LoopStatistics statistics() const;
     RealTimeGrants grants() const;
-    const FlightRecorder& flight() const noexcept { return flight_; }
+    const FlightRecorder& flight() const noexcept { return core_->flight(); }
 
     /// From now on ticks are kept for takeRecord(), until it is switched off. What is not taken in
     /// time, more than kRecordsMax updates, is lost, and counted. Any thread.
-    void keepRecords(bool is_kept) noexcept
-    {
-        keeps_records_.store(is_kept, std::memory_order_relaxed);
-    }
+    void keepRecords(bool is_kept) noexcept { core_->keepRecords(is_kept); }
     /// One thread, which may be another: the one that writes recordings.
-    bool takeRecord(TickRecord& record) noexcept { return records_->take(record); }
+    bool takeRecord(TickRecord& record) noexcept { return core_->records().take(record); }
 
 private:
     void start();
-    LoopOutcome
-    turn(std::chrono::steady_clock::time_point now, double dt_s, bool has_missed_deadline) noexcept;
-    void publish(const StepResult& result, double tick_s) noexcept;
-    void record(const StepResult& result, double tick_s) noexcept;
-    static void deviceTick(void* self, std::chrono::steady_clock::time_point now) noexcept;
+    Status startClock();
+    bool endClock();
+    void giveUp(std::string trouble);
 
-    std::unique_ptr<HapticDevice> device_;
     ServoLoopOptions options_;
-    TickOptions tick_options_;
-    bool is_running_ = false;
-    LoopTime stopped_{}; // the last time; motors cool down meanwhile
+    std::shared_ptr<ServoCore> core_;
     bool owns_clock_ = false;
-
-    // Between the threads.
-    TripleBuffer<LoopSettings> settings_;
-    SeqLock<LoopState> state_;
-    SpscQueue<LoopEvent, 256> events_;
-    std::unique_ptr<SpscQueue<TickRecord, kRecordsMax>> records_;
-    FlightRecorder flight_;
-    std::atomic<bool> keeps_records_{false};
-    std::atomic<bool> is_ending_{false};
-    std::atomic<bool> has_ended_{false};
-
-    // The servo thread's.
-    TickState tick_;
-    DeviceSample sample_;
-    LoopCounts counts_;
-    std::uint64_t ticks_ = 0;
-    LetGoReason last_reason_ = LetGoReason::NoTouch;
-    bool is_finished_ = false;
-
-    // Of a device that owns the clock.
-    LoopStatistics device_statistics_;
-    SeqLock<LoopStatistics> device_published_;
-    LoopTime device_last_{};
-    LoopTime device_deadline_{};
-
+    bool is_running_ = false;
+    bool is_abandoned_ = false;      // a driver hangs, and has all of the core
+    std::string trouble_;            // of the loop itself; empty: none
     LoopStatistics last_statistics_; // of what ran last
     RealTimeGrants last_grants_;
-    std::unique_ptr<RealTimeThread> thread_; // last: it uses all the others
+    std::optional<RealTimeThread> thread_;
+    std::optional<LoopWatchdog> watchdog_;
 };
 
 } // namespace marsview

@@ -23,6 +23,10 @@ public:
     SpscQueue(const SpscQueue&) = delete;
     SpscQueue& operator=(const SpscQueue&) = delete;
 
+    /// Where the values are kept, for whoever locks memory: bytes at data().
+    const void* data() const noexcept { return values_.get(); }
+    static constexpr std::size_t bytes() noexcept { return sizeof(std::array<T, Capacity>); }
+
     /// The putting thread's. False where the queue is full.
     bool put(const T& value) noexcept
     {

@@ -103,6 +103,29 @@ TEST_F(CheckedDeviceTest, WithholdsOneBadSampleAndGoesOn)
     EXPECT_EQ(device_.trouble(), "");
 }
 
+TEST_F(CheckedDeviceTest, TheForceStaysZeroUntilASampleIsAsItShouldBe)
+{
+    ASSERT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
+    EXPECT_EQ(device_.write({0.0, 0.0, 2.0}), DeviceStatus::Fine);
+    EXPECT_EQ(readAt({0.0, kNan, 0.1}, kPeriod), DeviceStatus::Unready);
+    // A loop lets its force fade, and would bring it back.
+    EXPECT_EQ(device_.write({0.0, 0.0, 1.0}), DeviceStatus::Unready);
+    EXPECT_EQ(script_.forces.back(), Vec3{});
+    EXPECT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
+    EXPECT_EQ(device_.write({0.0, 0.0, 1.0}), DeviceStatus::Fine);
+    EXPECT_EQ(script_.forces.back().z, 1.0);
+}
+
+TEST_F(CheckedDeviceTest, TimesMayBeAnything)
+{
+    for (const auto time : {Clock::time_point::min(), Clock::time_point::max(), now_,
+                            Clock::time_point::min(), now_}) {
+        script_.next.time = time;
+        EXPECT_EQ(device_.read(sample_), DeviceStatus::Fine);
+        EXPECT_EQ(sample_.time, time) << "how old it is, is for the loop to judge";
+    }
+}
+
 TEST_F(CheckedDeviceTest, DropsADeviceThatJumps)
 {
     ASSERT_EQ(readAt({-0.1, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
@@ -187,6 +210,10 @@ TEST(CapabilityCheck, TellsThePossibleFromTheImpossible)
     feels_only.force_n_peak = feels_only.force_n_continuous = 0.0;
     feels_only.axes_out = 0;
     EXPECT_EQ(impossibilityOf(feels_only), std::nullopt);
+    DeviceCapabilities slow = possible();
+    slow.rate_hz = 200.0;
+    slow.stiffness_n_per_m_max = 0.0; // not stated
+    EXPECT_EQ(impossibilityOf(slow), std::nullopt);
 
     struct Case {
         const char* part_of_complaint;
@@ -203,6 +230,9 @@ TEST(CapabilityCheck, TellsThePossibleFromTheImpossible)
              Case{"above its peak", [](DeviceCapabilities& d) { d.force_n_continuous = 6.0; }},
              Case{"stiffness", [](DeviceCapabilities& d) { d.stiffness_n_per_m_max = 1e9; }},
              Case{"rate of 0 Hz", [](DeviceCapabilities& d) { d.rate_hz = 0.0; }},
+             Case{"rate of 1 Hz", [](DeviceCapabilities& d) { d.rate_hz = 1.0; }},
+             Case{"rate of 199 Hz", [](DeviceCapabilities& d) { d.rate_hz = 199.0; }},
+             Case{"rate of 100000 Hz", [](DeviceCapabilities& d) { d.rate_hz = 1e5; }},
              Case{"axes", [](DeviceCapabilities& d) { d.axes_in = 0; }},
              Case{"axes", [](DeviceCapabilities& d) { d.axes_out = 7; }},
              Case{"33 buttons", [](DeviceCapabilities& d) { d.buttons = 33; }},

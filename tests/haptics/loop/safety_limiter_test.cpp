@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -113,10 +114,49 @@ TEST(SafetyLimiter, WhatIsNoForceOrNoTimeIsAFault)
 
 TEST(SafetyLimiter, NothingJumpsAfterAPause)
 {
+    for (const double pause_s : {0.010001, 0.03, 1.0, 60.0}) {
+        SafetyState state;
+        steps(state, {3.0, 0.0, 0.0}, 500);
+        // Down to nothing, though all of another force is asked for, and in by the ramp.
+        const SafetyInput wanted{.force_n = {-3.0, 0.0, 0.0}};
+        SafetyOutput output = limitForce(kLimits, wanted, state, pause_s);
+        EXPECT_EQ(output.reason, LetGoReason::MissedDeadline);
+        EXPECT_NEAR(output.force_n.x, 1.0, 1e-12); // 2000 N/s for a millisecond
+        // The next write comes at once, or in time.
+        double last_n = output.force_n.x;
+        for (int i = 1; i <= 99; ++i) {
+            const double dt_s = i == 1 ? 20e-6 : kDt;
+            output = limitForce(kLimits, wanted, state, dt_s);
+            EXPECT_EQ(output.reason, LetGoReason::None);
+            EXPECT_LE(std::abs(output.force_n.x - last_n), 500.0 * dt_s + 1e-12) << i;
+            EXPECT_GE(output.force_n.x, -0.03 * i - 1e-12) << i;
+            last_n = output.force_n.x;
+        }
+        EXPECT_NEAR(steps(state, {-3.0, 0.0, 0.0}, 2).force_n.x, -3.0, 1e-12);
+    }
+    // What is just no pause yet is a step.
     SafetyState state;
     steps(state, {3.0, 0.0, 0.0}, 500);
-    const SafetyOutput output = limitForce(kLimits, {.force_n = {-3.0, 0.0, 0.0}}, state, 60.0);
+    const SafetyOutput output =
+        limitForce(kLimits, {.force_n = {-3.0, 0.0, 0.0}}, state, kSafetyStepMaxS);
+    EXPECT_EQ(output.reason, LetGoReason::None);
     EXPECT_NEAR(output.force_n.x, -2.0, 1e-12); // 500 N/s for 10 ms
+}
+
+TEST(SafetyLimiter, AStateThatIsNoNumberLetsGo)
+{
+    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+        for (int field = 0; field < 3; ++field) {
+            SafetyState state;
+            steps(state, {3.0, 0.0, 0.0}, 500);
+            (field == 0 ? state.gain : field == 1 ? state.ramp_s : state.force_n.y) = bad;
+            const SafetyOutput output =
+                limitForce(kLimits, {.force_n = {3.0, 0.0, 0.0}}, state, kDt);
+            EXPECT_EQ(output.reason, LetGoReason::Fault);
+            EXPECT_NEAR(output.force_n.x, field < 2 ? 1.0 : 0.0, 1e-12);
+            EXPECT_EQ(limitForce(kLimits, {}, state, kDt).reason, LetGoReason::None);
+        }
+    }
 }
 
 TEST(SafetyLimiter, NoTimeNoChange)
@@ -288,6 +328,7 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
     SafetyState state;
     SafetyLimits limits;
     Vec3 last{};
+    int spoilt = 0;
     double longest = 0.0;
     double fastest = 0.0; // as a share of what is allowed
     for (int i = 0; i < 1'000'000; ++i) {
@@ -313,25 +354,39 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
                           ? LetGoReason{static_cast<std::uint8_t>(random.below(kLetGoReasonCount))}
                           : LetGoReason::None,
             .has_changed = random.chance(0.003)};
-        const double dt_s = random.chance(0.05) ? anyNumber(random) : random.uniform(0.0, 0.003);
+        const double dt_s = random.chance(0.05)   ? anyNumber(random)
+                            : random.chance(0.01) ? random.uniform(0.005, 2.0)
+                                                  : random.uniform(0.0, 0.003);
+        if (random.chance(0.01)) { // somebody else's bug has written here
+            const std::array fields{&state.force_n.x, &state.force_n.y, &state.force_n.z,
+                                    &state.gain,      &state.ramp_s,    &state.heat_n2};
+            *fields[random.below(fields.size())] = anyNumber(random);
+            last = isFinite(state.force_n) ? state.force_n : Vec3{};
+            ++spoilt;
+        }
         const SafetyOutput output = limitForce(limits, input, state, dt_s);
         const double magnitude_n = length(output.force_n);
         ASSERT_LE(magnitude_n, limits.force_n_max) << "tick " << i; // false where NaN
         const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
-        const double step_s = is_time ? std::min(dt_s, 0.01) : 0.001;
+        // In real time, which does not stand still before the motors.
+        const double step_s = is_time && dt_s <= 0.01 ? dt_s : 0.001;
         const double rate = output.reason == LetGoReason::None ? limits.rate_n_per_s_max
                                                                : limits.release_n_per_s_max;
         const double change_n = length(output.force_n - last);
-        ASSERT_LE(change_n, rate * step_s + 1e-14 * limits.force_n_max) << "tick " << i;
+        if (length(last) <= limits.force_n_max) { // otherwise the magnitude comes first
+            ASSERT_LE(change_n, rate * step_s + 1e-14 * limits.force_n_max) << "tick " << i;
+            fastest = std::max(fastest, step_s > 1e-6 ? change_n / (rate * step_s) : 0.0);
+        }
         if (output.reason != LetGoReason::None) {
             ASSERT_LE(magnitude_n, length(last)) << "tick " << i;
         }
         longest = std::max(longest, magnitude_n / limits.force_n_max);
-        fastest = std::max(fastest, step_s > 1e-6 ? change_n / (rate * step_s) : 0.0);
         last = output.force_n;
     }
-    std::printf("largest force %.6f and fastest change %.6f of what is allowed\n", longest,
-                fastest);
+    std::printf(
+        "largest force %.6f and fastest change %.6f of what is allowed, state spoilt %d "
+        "times\n",
+        longest, fastest, spoilt);
     EXPECT_GT(longest, 0.99); // or the bounds were never tried
     EXPECT_GT(fastest, 0.99);
 }

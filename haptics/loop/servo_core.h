@@ -1,0 +1,138 @@
+// What the servo thread, who watches it and who owns it have in common.
+#pragma once
+
+#include "haptics/device/haptic_device.h"
+#include "haptics/loop/flight_recorder.h"
+#include "haptics/loop/haptic_tick.h"
+#include "haptics/loop/loop_state.h"
+#include "haptics/loop/loop_statistics.h"
+#include "haptics/loop/real_time_thread.h"
+#include "haptics/sync/seq_lock.h"
+#include "haptics/sync/spsc_queue.h"
+#include "haptics/sync/triple_buffer.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace marsview {
+
+struct ServoCoreOptions {
+    TickOptions tick;
+    std::chrono::nanoseconds period{1'000'000};
+    std::uint64_t uncounted_turns = 100;
+    std::uint64_t ticks_max = 0;       // 0: no bound
+    std::size_t flight_ticks = 10'000; // that the flight recorder keeps
+};
+
+/// The device, the tick's state and what goes between the threads. Shared: where a driver hangs,
+/// its thread keeps all of this for as long as it takes, and everybody else goes on without.
+class ServoCore {
+public:
+    static constexpr std::size_t kRecordsMax = 1U << 14;
+
+    ServoCore(std::unique_ptr<HapticDevice> device, const ServoCoreOptions& options);
+
+    HapticDevice& device() noexcept { return *device_; }
+    const HapticDevice& device() const noexcept { return *device_; }
+    const ServoCoreOptions& options() const noexcept { return options_; }
+    /// What ticks use besides the map, for locking.
+    std::vector<MemoryRange> memory() const;
+
+    // The owner's, while no tick runs.
+
+    /// Before the first tick.
+    void begin();
+    /// After the last one.
+    void end();
+
+    // The ticking thread's.
+
+    LoopOutcome turn(LoopTime begin, bool has_missed_deadline) noexcept;
+    /// As HapticDevice::ClockTick; `self` is a ServoCore.
+    static void deviceTick(void* self, LoopTime now) noexcept;
+
+    // Of who watches. Any thread but the ticking one.
+
+    /// Grows with every turn, at its beginning and at its end.
+    std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_acquire); }
+    void setStalled(bool is_stalled) noexcept
+    {
+        is_stalled_.store(is_stalled, std::memory_order_release);
+    }
+    bool isStalled() const noexcept { return is_stalled_.load(std::memory_order_acquire); }
+    /// Writes zero to the device unless somebody is inside it. Where that succeeds the tick knows
+    /// when it comes back. May hang where the device does.
+    void bringToRest() noexcept;
+    /// The loop has come to its end for want of ticks.
+    void giveUp() noexcept;
+
+    // Of everybody.
+
+    LoopState state() const noexcept;
+    bool hasEnded() const noexcept { return has_ended_.load(std::memory_order_acquire); }
+    /// From the next tick on the force fades, and then the loop is over.
+    void askToEnd() noexcept { is_ending_.store(true, std::memory_order_release); }
+    /// No tick reaches device, map or limiter any more, when the one that hangs comes back.
+    void abandon() noexcept { is_abandoned_.store(true, std::memory_order_release); }
+    const FlightRecorder& flight() const noexcept { return flight_; }
+    TripleBuffer<LoopSettings>& settings() noexcept { return settings_; }
+    SpscQueue<LoopEvent, 256>& events() noexcept { return events_; }
+    SpscQueue<TickRecord, kRecordsMax>& records() noexcept { return records_; }
+    void keepRecords(bool is_kept) noexcept
+    {
+        keeps_records_.store(is_kept, std::memory_order_relaxed);
+    }
+    /// Of a device that owns the clock.
+    const LoopStatistics& clockStatistics() const noexcept { return clock_statistics_; }
+    LoopStatistics latestClockStatistics() const noexcept { return clock_published_.read(); }
+
+private:
+    LoopOutcome turnInside(LoopTime begin, bool has_missed_deadline) noexcept;
+    bool takeDevice() noexcept { return !is_device_taken_.exchange(true); }
+    void leaveDevice() noexcept { is_device_taken_.store(false); }
+    void forgetForce() noexcept;
+    DeviceStatus writeForce(const Vec3& force_n) noexcept;
+    void publish(const StepResult& result, double tick_s) noexcept;
+    void record(const StepResult& result, double tick_s) noexcept;
+
+    std::unique_ptr<HapticDevice> device_;
+    ServoCoreOptions options_;
+
+    // Between the threads.
+    TripleBuffer<LoopSettings> settings_;
+    SeqLock<LoopState> state_;
+    SpscQueue<LoopEvent, 256> events_;
+    SpscQueue<TickRecord, kRecordsMax> records_;
+    FlightRecorder flight_;
+    std::atomic<std::uint64_t> beats_{0};
+    std::atomic<bool> keeps_records_{false};
+    std::atomic<bool> is_ending_{false};
+    std::atomic<bool> has_ended_{false};
+    std::atomic<bool> is_abandoned_{false};
+    std::atomic<bool> is_stalled_{false};
+    std::atomic<bool> is_device_taken_{false}; // somebody is inside read or write
+    std::atomic<bool> is_brought_to_rest_{false};
+
+    // The ticking thread's.
+    TickState tick_;
+    DeviceSample sample_;
+    LoopCounts counts_;
+    std::uint64_t ticks_ = 0;
+    LoopTime read_at_{};  // when the last sample had been read; 0: none
+    LoopTime wrote_at_{}; // when the last force had been written
+    bool was_too_long_ = false;
+    LetGoReason last_reason_ = LetGoReason::NoTouch;
+    bool is_finished_ = false;
+    LoopTime rested_at_{}; // when it ended; motors cool down meanwhile
+
+    // The same of a device that owns the clock.
+    LoopStatistics clock_statistics_;
+    SeqLock<LoopStatistics> clock_published_;
+    LoopTime clock_last_{};
+};
+
+} // namespace marsview

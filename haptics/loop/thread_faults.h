@@ -1,0 +1,23 @@
+// Page faults of the calling thread.
+#pragma once
+
+#include <cstdint>
+#include <sys/resource.h>
+
+namespace marsview {
+
+/// Since the thread began.
+struct ThreadFaults {
+    std::uint64_t minor = 0; // taken from memory
+    std::uint64_t major = 0; // read from a disk
+};
+
+inline ThreadFaults faultsOfThisThread() noexcept
+{
+    rusage usage{};
+    getrusage(RUSAGE_THREAD, &usage);
+    return {static_cast<std::uint64_t>(usage.ru_minflt),
+            static_cast<std::uint64_t>(usage.ru_majflt)};
+}
+
+} // namespace marsview

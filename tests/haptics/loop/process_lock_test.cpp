@@ -1,0 +1,113 @@
+#include "haptics/loop/page_lock.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <linux/capability.h>
+#include <string>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+// In kB, of a line of /proc/self/status: VmLck, VmSize.
+long statusOf(const std::string& name)
+{
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with(name + ":")) {
+            return std::stol(line.substr(name.size() + 1));
+        }
+    }
+    return -1;
+}
+
+void mayLockOnly(rlim_t bytes)
+{
+    __user_cap_header_struct header{};
+    header.version = _LINUX_CAPABILITY_VERSION_3;
+    std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
+    syscall(SYS_capget, &header, sets.data());
+    sets[CAP_TO_INDEX(CAP_IPC_LOCK)].effective &= ~CAP_TO_MASK(CAP_IPC_LOCK);
+    syscall(SYS_capset, &header, sets.data());
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_MEMLOCK, &limit);
+}
+
+// Whether the process gets `bytes` more, to be used.
+bool getsMemory(std::size_t bytes)
+{
+    void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) { // NOLINT
+        return false;
+    }
+    munmap(memory, bytes);
+    return true;
+}
+
+// 0, or which expectation failed: in a process of its own, as limits only go down.
+int boundedLocking()
+{
+    const auto room = static_cast<rlim_t>(statusOf("VmSize")) * 1024 + (16U << 20);
+    mayLockOnly(room);
+    const std::vector<char> used(1U << 20);
+    const std::array ranges{MemoryRange{used.data(), used.size()}};
+    {
+        const ProcessLock lock(ranges);
+        if (lock.refusal().find("only 1024 kB") == std::string::npos) {
+            return 1;
+        }
+        if (statusOf("VmLck") < 1024 || statusOf("VmLck") > 1100) {
+            return 2;
+        }
+        if (!getsMemory(std::size_t{256} << 20)) {
+            return 3;
+        }
+    }
+    return statusOf("VmLck") <= 8 ? 0 : 4; // pages at both ends are shared with others
+}
+
+TEST(ProcessLock, WhereLockingIsBoundedLaterMemoryIsNotRefused)
+{
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(std::exit(boundedLocking()), testing::ExitedWithCode(0), ""); // NOLINT
+}
+
+// The same where all may be locked.
+int wholeLocking()
+{
+    {
+        const ProcessLock lock({});
+        if (!lock.refusal().empty()) {
+            return 5; // the system does not let us
+        }
+        const ProcessLock again({});
+        if (statusOf("VmLck") <= 0) {
+            return 1;
+        }
+        if (!getsMemory(std::size_t{256} << 20)) {
+            return 2;
+        }
+    }
+    return statusOf("VmLck") == 0 ? 0 : 3;
+}
+
+TEST(ProcessLock, EndsWithTheLastThatWantsIt)
+{
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(
+        std::exit(wholeLocking()), // NOLINT
+        [](int status) {
+            return WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 5);
+        },
+        "");
+}
+
+} // namespace
+} // namespace marsview::test
