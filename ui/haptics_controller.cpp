@@ -1,5 +1,6 @@
 #include "ui/haptics_controller.h"
 
+#include "haptics/drivers/polhem_driver.h"
 #include "ui/hand_sight.h"
 #include "ui/terrain_view.h"
 
@@ -191,7 +192,7 @@ void HapticsController::start(std::unique_ptr<HapticDevice> device)
     is_quiet_ = false;
     if (isToBeRemembered(uri_)) {
         HapticsSettings settings = settings_;
-        settings.device = uri_;
+        settings.device = QString::fromStdString(lastingPolhemUri(uri_.toStdString()));
         setSettings(settings);
     }
     loop_settings_ = {};

@@ -297,7 +297,7 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
     contact_sound = menu->addAction(tr("So&und of Touch"));
     contact_sound->setCheckable(true);
     contact_sound->setStatusTip(
-        tr("Hear the ground that is touched: its roughness as a hiss, its height as a tone"));
+        tr("Hear the ground that is touched: the force as a tone, its roughness as a hiss"));
     haptic_devices = menu->addAction(tr("&Devices…"));
     haptic_devices->setStatusTip(tr("Connect a haptic device and set what is felt"));
     menu->addSeparator();

@@ -431,13 +431,19 @@ void HapticsPanel::showState(const LoopState& state)
         return;
     }
     const double most_n = controller_.loop()->device().force_n_peak;
-    const double force_n = length(state.force_n);
+    // Of a loop that has stalled nobody knows.
+    const double force_n = state.reason == LetGoReason::LoopStalled ? 0.0 : length(state.force_n);
     force_->setValue(
         most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
                      : 0);
     //: A force in newtons
     force_->setFormat(tr("%1 N").arg(numberText(force_n, 2)));
-    const QString reason = letGoText(state.reason);
+    const std::string trouble =
+        state.reason == LetGoReason::DeviceUnready ? controller_.loop()->trouble() : std::string();
+    const QString reason = trouble.empty()
+                               ? letGoText(state.reason)
+                               //: %1 says what is wrong with the device
+                               : tr("No force: %1").arg(QString::fromStdString(trouble));
     const QString text =
         reason.isEmpty() ? modeText(state.mode, state.contact.is_in_contact) : reason;
     if (text != reason_->text()) {
