@@ -76,6 +76,7 @@ void ServoCore::bringToRest() noexcept
 void ServoCore::giveUp() noexcept
 {
     askToEnd();
+    is_given_up_.store(true, std::memory_order_release);
     has_ended_.store(true, std::memory_order_release);
 }
 
@@ -118,6 +119,7 @@ LoopOutcome ServoCore::turn(LoopTime begin, bool has_missed_deadline) noexcept
 {
     const RtScope scope;
     beats_.fetch_add(1, std::memory_order_release);
+    setStalled(false);
     const LoopOutcome outcome = turnInside(begin, has_missed_deadline);
     was_too_long_ = steady_clock::now() - begin > options_.period;
     beats_.fetch_add(1, std::memory_order_release);

@@ -63,11 +63,15 @@ public:
     {
         is_stalled_.store(is_stalled, std::memory_order_release);
     }
-    bool isStalled() const noexcept { return is_stalled_.load(std::memory_order_acquire); }
+    bool isStalled() const noexcept
+    {
+        return is_stalled_.load(std::memory_order_acquire) ||
+               is_given_up_.load(std::memory_order_acquire);
+    }
     /// Writes zero to the device unless somebody is inside it. Where that succeeds the tick knows
     /// when it comes back. May hang where the device does.
     void bringToRest() noexcept;
-    /// The loop has come to its end for want of ticks.
+    /// The loop has come to its end for want of ticks, also where they come back after all.
     void giveUp() noexcept;
 
     // Of everybody.
@@ -114,6 +118,7 @@ private:
     std::atomic<bool> has_ended_{false};
     std::atomic<bool> is_abandoned_{false};
     std::atomic<bool> is_stalled_{false};
+    std::atomic<bool> is_given_up_{false};
     std::atomic<bool> is_device_taken_{false}; // somebody is inside read or write
     std::atomic<bool> is_brought_to_rest_{false};
 

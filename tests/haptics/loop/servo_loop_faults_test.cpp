@@ -315,8 +315,7 @@ TEST(ServoLoopFaults, AClockThatStallsIsBroughtToRestFromOutside)
     c.settings.is_stopped = false;
     loop->set(c.settings);
     is_stalled = false;
-    waitUntil([&] { return isHolding(*loop); });
-    EXPECT_FALSE(loop->isStalled());
+    waitUntil([&] { return isHolding(*loop) && !loop->isStalled(); });
     loop->stop();
     EXPECT_TRUE(loop->status());
     const std::lock_guard lock(c.bench->mutex);
@@ -345,6 +344,11 @@ TEST(ServoLoopFaults, AClockThatStallsForGoodEndsTheLoop)
     waitUntil([&] { return isHolding(*loop); });
     is_stalled = true;
     waitUntil([&] { return loop->hasEnded(); });
+    EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
+    // Too late.
+    const int reads = c.bench->reads;
+    is_stalled = false;
+    waitUntil([&] { return c.bench->reads > reads + 5; });
     EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
     loop->stop();
     EXPECT_EQ(c.bench->onMotors(), Vec3{});
