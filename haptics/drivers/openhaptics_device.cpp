@@ -160,7 +160,8 @@ void OpenHapticsDevice::describeForces()
 
 DeviceStatus OpenHapticsDevice::read(DeviceSample& sample) noexcept
 {
-    if (!is_in_frame_) {
+    // The vendor's library takes forces within a frame, on its own thread: nowhere else.
+    if (frame_thread_ != std::this_thread::get_id()) {
         return status_ == DeviceStatus::Lost ? DeviceStatus::Lost : DeviceStatus::Unready;
     }
     if (status_ == DeviceStatus::Fine) {
@@ -171,7 +172,7 @@ DeviceStatus OpenHapticsDevice::read(DeviceSample& sample) noexcept
 
 DeviceStatus OpenHapticsDevice::write(const Vec3& force_n) noexcept
 {
-    if (!is_in_frame_ || status_ != DeviceStatus::Fine) {
+    if (frame_thread_ != std::this_thread::get_id() || status_ != DeviceStatus::Fine) {
         return status_ == DeviceStatus::Lost ? DeviceStatus::Lost : DeviceStatus::Unready;
     }
     const std::array<double, 3> force = forceToOpenHaptics(force_n);
@@ -228,9 +229,9 @@ unsigned int OpenHapticsDevice::frame() noexcept
     const Clock::time_point now = Clock::now(); // before what may wait for the bus
     api_->begin_frame(handle_);
     beginFrame(now);
-    is_in_frame_ = true;
+    frame_thread_ = std::this_thread::get_id();
     tick_(tick_self_, now);
-    is_in_frame_ = false;
+    frame_thread_ = std::thread::id();
     api_->end_frame(handle_);
     take(api_->takeErrors());
     ++frames_;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace marsview {
 
@@ -57,13 +58,13 @@ private:
 
     // Of the scheduler's thread.
     DeviceSample sample_;
-    DeviceStatus status_ = DeviceStatus::Unready;
-    bool is_in_frame_ = false;
     bool is_calibrated_ = false;
     unsigned frames_ = 0;
     unsigned frames_of_rest_ = 0;
 
-    // Between it and the thread that starts and stops.
+    // Between it and the threads that start, stop and watch.
+    std::atomic<DeviceStatus> status_{DeviceStatus::Unready};
+    std::atomic<std::thread::id> frame_thread_{}; // none outside of a frame
     ClockTick tick_ = nullptr;
     void* tick_self_ = nullptr;
     hd::SchedulerHandle scheduled_ = 0;
