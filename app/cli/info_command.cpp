@@ -178,6 +178,9 @@ Result<SampleStatistics> statisticsOf(OpenedMap& map, const MapOptions& options)
     const MapResources resources = defaultMapResources();
     const DatasetSpec spec = options.spec();
     const Result<OpenPlan> plan = planOpening(spec, resources);
+    if (plan) {
+        map.info.notices.insert(map.info.notices.end(), plan->notices.begin(), plan->notices.end());
+    }
     if (plan && plan->store == MapStore::Tiled) {
         const Result<LoadedMap> loaded = openPlanned(spec, *plan, resources, job.monitor());
         if (loaded && !plan->level_path) {

@@ -1,6 +1,7 @@
 #include "app/cli/map_options.h"
 
 #include "app/cli/text_output.h"
+#include "core/raster/remote_raster.h"
 #include "core/session/dataset.h"
 
 #include <CLI/CLI.hpp>
@@ -128,7 +129,8 @@ Result<OpenedMap> openMap(const MapOptions& options)
 void printNotices(const RasterInfo& info)
 {
     for (const std::string& notice : info.notices) {
-        std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(info.path + ": " + notice).c_str());
+        std::fprintf(stderr, "marsview-cli: %s\n",
+                     asOneLine(addressOf(info.path) + ": " + notice).c_str());
     }
 }
 

@@ -36,11 +36,16 @@ struct Options {
     double checkpoint_s = 3.0;
 };
 
-// Where to put the tiled form: where the user says, nowhere if the raster itself will do, else
-// among the prepared maps.
-Result<PrepareJob> jobFor(const Options& options)
-{
+struct Work {
     PrepareJob job;
+    bool is_in_place = false; // the raster itself will do
+};
+
+Result<Work> workFor(const Options& options)
+{
+    Work work;
+    PrepareJob& job = work.job;
+    job.when_there = PrepareJob::WhenThere::Check;
     job.spec = options.map.spec();
     job.when_busy =
         options.is_waiting ? TiledGeoTiffJob::WhenBusy::Wait : TiledGeoTiffJob::WhenBusy::Fail;
@@ -56,7 +61,8 @@ Result<PrepareJob> jobFor(const Options& options)
             return in_place.error();
         }
         if (*in_place) {
-            return job;
+            work.is_in_place = true;
+            return work;
         }
     }
     job.raster_path = options.output;
@@ -64,14 +70,21 @@ Result<PrepareJob> jobFor(const Options& options)
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: is a folder; name the file to write in it", options.output)};
     }
-    if (job.raster_path.empty()) {
-        Result<std::string> kept = preparedPathFor(job.spec, MapFolder::defaultPath());
-        if (!kept) {
-            return std::move(kept).error();
-        }
-        job.raster_path = std::move(*kept);
+    return work;
+}
+
+// Where nothing is said and the raster itself will not do, among the prepared maps.
+Result<PrepareReport> prepare(const PrepareJob& job, bool is_in_place, JobMonitor& monitor)
+{
+    if (is_in_place || !job.raster_path.empty()) {
+        return prepareMapFiles(job, monitor);
     }
-    return job;
+    return prepareInFolder({.spec = job.spec,
+                            .folder = MapFolder::defaultPath(),
+                            .when_busy = job.when_busy,
+                            .when_there = job.when_there,
+                            .checkpoint_interval = job.checkpoint_interval},
+                           monitor);
 }
 
 void print(const Json& json)
@@ -103,19 +116,19 @@ std::uint64_t bytesOf(const std::string& path)
 
 Status runPrepare(const Options& options)
 {
-    Result<PrepareJob> job = jobFor(options);
-    if (!job) {
-        return std::move(job).error();
+    const Result<Work> work = workFor(options);
+    if (!work) {
+        return work.error();
     }
-    LongJob work("preparing");
-    Result<PrepareReport> report = prepareMapFiles(*job, work.monitor());
+    LongJob job("preparing");
+    Result<PrepareReport> report = prepare(work->job, work->is_in_place, job.monitor());
     if (!report) {
         return std::move(report).error();
     }
     for (const std::string& note : report->notes) {
         std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(note).c_str());
     }
-    const double seconds = report->copy_seconds + report->level_seconds;
+    const double seconds = report->copy_seconds + report->level_seconds + report->check_seconds;
     Json json;
     json["source"] = options.map.path;
     json["file"] = report->raster_path;
@@ -128,6 +141,7 @@ Status runPrepare(const Options& options)
     json["notes"] = report->notes;
     json["copy_seconds"] = report->copy_seconds;
     json["level_seconds"] = report->level_seconds;
+    json["check_seconds"] = report->check_seconds;
     json["seconds"] = seconds;
     json["samples_per_second"] = asJson(static_cast<double>(report->samples) / seconds);
     json["peak_memory_bytes"] = peakMemoryBytes();

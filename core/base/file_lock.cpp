@@ -74,9 +74,13 @@ void FileLock::release() noexcept
 Result<std::optional<FileLock>> FileLock::tryLock(const std::string& path, Kind kind)
 {
     while (true) {
-        const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor < 0) {
-            return refusal(path, errno);
+            const int system_error = errno;
+            descriptor = kind == Kind::Shared ? open(path.c_str(), O_RDONLY | O_CLOEXEC) : -1;
+            if (descriptor < 0) {
+                return refusal(path, system_error);
+            }
         }
         const int operation = (kind == Kind::Exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB;
         int outcome = flock(descriptor, operation);

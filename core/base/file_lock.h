@@ -18,6 +18,7 @@ public:
         Shared,    // any number of holders
     };
 
+    /// A shared lock whose file is there is had even where nothing may be written.
     /// Nothing where somebody else holds it in a way that excludes this. An error where the lock's
     /// file can be neither made nor opened.
     static Result<std::optional<FileLock>> tryLock(const std::string& path, Kind kind);

@@ -34,7 +34,10 @@ public:
         MARSVIEW_CHECK(raster_.layout.contains(id));
         Result<SampleGrid> samples = id.kind == TileKind::Means ? readMeans(id) : readSamples(id);
         if (!samples) {
-            return std::move(samples).error();
+            // Of what was whole when it was prepared, on a disk.
+            const bool is_damage = raster_.checksums && raster_.remote_version.empty() &&
+                                   samples.error().code == ErrorCode::Unreadable;
+            return is_damage ? damaged(id, "cannot be decoded any more") : samples.error();
         }
         if (raster_.checksums && TileChecksums::covers(id) &&
             sampleChecksum(*samples) != raster_.checksums->of(id)) {
@@ -44,14 +47,15 @@ public:
     }
 
 private:
-    Error damaged(const TileId& id) const
+    Error damaged(const TileId& id,
+                  const char* how = "are not those that it was prepared with") const
     {
-        return {
-            ErrorCode::Unreadable,
-            fmt::format("{}: is damaged in the tile at column {}, row {} of {} {}, whose heights "
-                        "are not those that it was prepared with; prepare the map again",
-                        addressOf(file_.info().path), id.column, id.row,
-                        id.kind == TileKind::Means ? "overview" : "level", id.level)};
+        return {ErrorCode::Unreadable,
+                fmt::format("{}: is damaged in the tile at column {}, row {} of {} {}, whose "
+                            "heights {}; {}",
+                            addressOf(file_.info().path), id.column, id.row,
+                            id.kind == TileKind::Means ? "overview" : "level", id.level, how,
+                            raster_.remedy)};
     }
 
     static Result<SampleGrid> gridOf(Result<LoadedSamples> loaded)
@@ -220,10 +224,12 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
 }
 
 std::shared_ptr<const GeotiffTileSource>
-GeotiffTileSource::checkedBy(std::shared_ptr<const TileChecksums> checksums) const
+GeotiffTileSource::checkedBy(std::shared_ptr<const TileChecksums> checksums,
+                             const std::string& remedy) const
 {
     Raster raster = raster_;
     raster.checksums = std::move(checksums);
+    raster.remedy = remedy;
     return std::shared_ptr<const GeotiffTileSource>(new GeotiffTileSource(std::move(raster)));
 }
 

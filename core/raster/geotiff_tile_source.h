@@ -26,9 +26,10 @@ public:
                                                                const VoidRule& voids);
 
     /// The same raster, whose tiles are errors where they are not those that `checksums` were taken
-    /// of.
+    /// of. `remedy` ends the sentences that say so.
     std::shared_ptr<const GeotiffTileSource>
-    checkedBy(std::shared_ptr<const TileChecksums> checksums) const;
+    checkedBy(std::shared_ptr<const TileChecksums> checksums,
+              const std::string& remedy = "prepare the map again") const;
 
     /// Samples at levels 0 … kLastLevel, Means at 1 … mean_levels. Voids without a fill.
     const TileLayout& layout() const noexcept override { return raster_.layout; }
@@ -46,6 +47,7 @@ private:
         VoidRule voids;
         std::vector<std::size_t> overviews; // of the file, by level; [0] means nothing
         std::shared_ptr<const TileChecksums> checksums = nullptr; // null: nobody knows
+        std::string remedy{};                                     // with checksums
     };
     class Reader;
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <fmt/format.h>
+#include <fstream>
 #include <map>
 #include <system_error>
 #include <thread>
@@ -26,6 +27,7 @@ constexpr std::uint64_t kDiskShare = 5;
 constexpr const char* kMapEnding = ".map.tif"; // no other file in the folder has it in its name
 constexpr const char* kUseEnding = ".use";     // its time is that of the last use
 constexpr const char* kWorkEnding = ".lock";   // see writeTiledGeoTiff
+constexpr const char* kDamageEnding = ".damaged";
 
 Error folderError(const fs::path& folder, const std::string& why)
 {
@@ -91,6 +93,15 @@ bool isMerelyLock(const fs::path& file)
     return name.ends_with(kUseEnding) || name.ends_with(kWorkEnding);
 }
 
+// Of a raster that is used in place there are only levels.
+bool hasFiles(const std::string& path)
+{
+    std::error_code failure;
+    const auto maps = filesByMap(fs::path(path).parent_path(), failure);
+    const auto map = maps.find(fs::path(path).filename().string());
+    return map != maps.end() && !std::all_of(map->second.begin(), map->second.end(), isMerelyLock);
+}
+
 } // namespace
 
 fs::path MapFolder::defaultPath()
@@ -114,6 +125,11 @@ Result<MapFolder> MapFolder::open(const fs::path& folder)
     if (access(folder.c_str(), R_OK | W_OK | X_OK) != 0) {
         return folderError(folder, std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
     }
+    return at(folder);
+}
+
+MapFolder MapFolder::at(const fs::path& folder)
+{
     return MapFolder(fs::absolute(folder).lexically_normal());
 }
 
@@ -142,16 +158,41 @@ Result<FileLock> MapFolder::use(const std::string& path) const
     if (!lock) {
         return std::move(lock).error();
     }
-    std::error_code failure;
-    if (!*lock || !fs::exists(path, failure)) {
+    if (!*lock || !hasFiles(path)) {
         if (*lock) {
             *lock = std::nullopt;
             lockForRemoval(path); // which takes the lock's own file away
         }
         return Error{ErrorCode::NotFound, fmt::format("{}: there is no such prepared map", path)};
     }
+    std::error_code failure;
     fs::last_write_time(path + kUseEnding, fs::file_time_type::clock::now(), failure);
     return std::move(**lock);
+}
+
+bool MapFolder::noteDamage(const std::string& path, const std::string& what) const
+{
+    std::ofstream note(path + kDamageEnding, std::ios::trunc);
+    note << what << '\n';
+    note.close();
+    return note.good();
+}
+
+std::optional<std::string> MapFolder::damage(const std::string& path) const
+{
+    std::ifstream note(path + kDamageEnding);
+    if (!note) {
+        return std::nullopt;
+    }
+    std::string what;
+    std::getline(note, what);
+    return what;
+}
+
+void MapFolder::forgetDamage(const std::string& path) const
+{
+    std::error_code ignored;
+    fs::remove(path + kDamageEnding, ignored);
 }
 
 Result<std::vector<PreparedMap>> MapFolder::list() const
@@ -232,6 +273,40 @@ Result<std::vector<PreparedMap>> MapFolder::trim(std::uint64_t bytes_max) const
     for (auto map = maps->rbegin(); map != maps->rend() && bytes > bytes_max; ++map) {
         if (remove(map->name)) {
             bytes -= map->bytes;
+            removed.push_back(std::move(*map));
+        }
+    }
+    return removed;
+}
+
+Result<std::vector<PreparedMap>> MapFolder::makeRoom(std::uint64_t bytes,
+                                                     const std::string& but_for) const
+{
+    std::error_code failure;
+    std::vector<PreparedMap> removed;
+    const auto available = [&] {
+        const fs::space_info space = fs::space(folder_, failure);
+        return failure ? bytes : space.available; // writing will tell
+    };
+    if (available() >= bytes) {
+        return removed;
+    }
+    Result<std::vector<PreparedMap>> maps = list();
+    if (!maps) {
+        return maps;
+    }
+    std::erase_if(*maps, [&](const PreparedMap& map) {
+        return map.is_in_use || fs::path(map.path).filename() == fs::path(but_for).filename();
+    });
+    std::uint64_t removable = 0;
+    for (const PreparedMap& map : *maps) {
+        removable += map.bytes;
+    }
+    if (available() + removable < bytes) {
+        return removed;
+    }
+    for (auto map = maps->rbegin(); map != maps->rend() && available() < bytes; ++map) {
+        if (remove(map->name)) {
             removed.push_back(std::move(*map));
         }
     }

@@ -34,6 +34,10 @@ public:
     /// written to, and what to set instead.
     static Result<MapFolder> open(const std::filesystem::path& folder = defaultPath());
 
+    /// To look for what was prepared: makes nothing, and asks for no permission to write. It may
+    /// not even be there.
+    static MapFolder at(const std::filesystem::path& folder);
+
     const std::filesystem::path& path() const noexcept { return folder_; }
 
     /// Where the prepared form of a raster's band lies or is to be put. The same content gives the
@@ -45,6 +49,14 @@ public:
     /// NotFound where there is no such map.
     Result<FileLock> use(const std::string& path) const;
 
+    /// Notes on the disk that a map was found damaged, for whoever opens it next. False where that
+    /// cannot be written. Any thread.
+    bool noteDamage(const std::string& path, const std::string& what) const;
+    /// What was found damaged; nothing where nobody noted anything.
+    std::optional<std::string> damage(const std::string& path) const;
+    /// When it has been made anew.
+    void forgetDamage(const std::string& path) const;
+
     /// The most recently used first.
     Result<std::vector<PreparedMap>> list() const;
 
@@ -54,6 +66,12 @@ public:
     /// Removes the least recently used maps until all take at most `bytes_max`; those in use stay
     /// whatever they take. Returns what was removed.
     Result<std::vector<PreparedMap>> trim(std::uint64_t bytes_max) const;
+
+    /// Removes the least recently used maps until the disk has `bytes` to spare, but none where all
+    /// of them would not make room enough. Those in use stay, and so does the one at `but_for`.
+    /// Returns what was removed.
+    Result<std::vector<PreparedMap>> makeRoom(std::uint64_t bytes,
+                                              const std::string& but_for) const;
 
     /// 100 GB, or a fifth of the disk where that is less.
     std::uint64_t defaultBytesMax() const;

@@ -527,6 +527,17 @@ std::size_t RasterFile::Impl::rowsPerBand() const
     return std::min(rows, info.rows);
 }
 
+// Which rows of a part are meant is no news behind those of the whole.
+static std::string withoutRows(const std::string& failure)
+{
+    constexpr std::string_view kEnd = " failed: ";
+    const std::size_t begin = failure.find(": reading rows ");
+    const std::size_t end = begin == std::string::npos ? begin : failure.find(kEnd, begin);
+    return end == std::string::npos
+               ? failure
+               : failure.substr(0, begin) + ": " + failure.substr(end + kEnd.size());
+}
+
 Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWindow& window) const
 {
     is_spoilt = true;
@@ -536,7 +547,7 @@ Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWind
                                          "try again",
                                          window.row, window.row + window.rows - 1));
     }
-    const std::string of_part = mosaic ? mosaic->failureIn(window) : std::string();
+    const std::string of_part = mosaic ? withoutRows(mosaic->failureIn(window)) : std::string();
     return readFailure(
         of_part.empty() ? messages.firstFailure("the file is cut short or damaged; fetch it again")
                         : of_part,

@@ -78,11 +78,11 @@ std::string nameForVsi(const std::string& path)
     return path.starts_with("http://") || path.starts_with("https://") ? "/vsicurl/" + path : path;
 }
 
-bool isSidecar(std::string_view name)
+// Statistics and overviews that other programs leave beside a raster change none of its samples.
+bool isSidecar(std::string_view name, OverviewFiles overviews)
 {
-    // Statistics and overviews that other programs leave beside a raster change none of its
-    // samples.
-    return name.ends_with(".aux.xml") || name.ends_with(".ovr");
+    return name.ends_with(".aux.xml") ||
+           (overviews == OverviewFiles::Ignored && name.ends_with(".ovr"));
 }
 
 // The file itself, or one beside it of the same name in other letters: GDAL lists a header as .hdr
@@ -125,11 +125,11 @@ std::vector<std::string> listedFilesOf(const std::string& path)
     return {};
 }
 
-std::vector<std::string> filesOf(const std::string& path)
+std::vector<std::string> filesOf(const std::string& path, OverviewFiles overviews)
 {
     std::vector<std::string> files;
     for (const std::string& listed : listedFilesOf(path)) {
-        std::string file = isSidecar(listed) ? std::string() : asOnDisk(listed);
+        std::string file = isSidecar(listed, overviews) ? std::string() : asOnDisk(listed);
         if (!file.empty()) {
             files.push_back(std::move(file));
         }
@@ -186,7 +186,7 @@ bool fileExists(const std::string& path)
     return VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
 }
 
-Result<SourceIdentity> identify(const std::string& path)
+Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews)
 {
     ensureGdal();
     if (path.empty()) {
@@ -201,7 +201,7 @@ Result<SourceIdentity> identify(const std::string& path)
     std::vector<std::string> files;
     if (!is_file || !isRemote(path) ||
         static_cast<std::uint64_t>(status.st_size) <= kLabelBytesMax) {
-        files = filesOf(path);
+        files = filesOf(path, overviews);
     }
     if (files.empty() && is_file) {
         files.push_back(name);

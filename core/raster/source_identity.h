@@ -20,10 +20,15 @@ struct SourceIdentity {
 /// Whether there is a file of that name, which may be one of GDAL's ("/vsicurl/…"): one request.
 bool fileExists(const std::string& path);
 
-/// Reads a few dozen kilobytes of each file that belongs to the raster. Statistics and overviews
-/// that other programs leave beside it (.aux.xml, .ovr) do not count. NotFound or Unreadable where
-/// there is nothing to read. Names with a scheme are asked of GDAL's file systems. Any thread.
-Result<SourceIdentity> identify(const std::string& path);
+/// Whether overviews beside the raster (.ovr) are a part of what it is: of no copy of its samples,
+/// but of what is read in place.
+enum class OverviewFiles : std::uint8_t { Ignored, Counted };
+
+/// Reads a few dozen kilobytes of each file that belongs to the raster. Statistics that other
+/// programs leave beside it (.aux.xml) do not count. NotFound or Unreadable where there is nothing
+/// to read. Names with a scheme are asked of GDAL's file systems. Any thread.
+Result<SourceIdentity> identify(const std::string& path,
+                                OverviewFiles overviews = OverviewFiles::Ignored);
 
 /// Whether `now` is what `then` was. The path does not count: a file may move together with what
 /// was made from it; nor does the time where `now` is an address.

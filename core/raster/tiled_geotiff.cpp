@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/base/file_lock.h"
 #include "core/base/parallel.h"
+#include "core/raster/disk_room.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/geotiff_skeleton.h"
 #include "core/raster/overview_builder.h"
@@ -57,13 +58,6 @@ constexpr const char* kFormVersion = "tiled GeoTIFF 1";
 std::size_t tilesAlong(std::size_t samples)
 {
     return (samples + kTileSide - 1) / kTileSide;
-}
-
-std::string sizeText(std::uint64_t bytes)
-{
-    const auto megabytes = static_cast<double>(bytes) / 1e6;
-    return megabytes < 1000.0 ? fmt::format("{:.0f} MB", std::ceil(megabytes))
-                              : fmt::format("{:.1f} GB", megabytes / 1000.0);
 }
 
 // What makes two preparations the same work. The place of the source does not.
@@ -533,26 +527,13 @@ Status Preparation::copy(JobMonitor& monitor)
 
 Status checkSpace(const TiledGeoTiffJob& job, const RasterInfo& info)
 {
-    const double sample_bytes =
-        static_cast<double>(sampleBytes(info.type)) + (info.has_mask_band ? 0.125 : 0.0);
-    const auto needed = static_cast<std::uint64_t>(kBytesPerRawByte * sample_bytes *
-                                                   static_cast<double>(info.columns) *
-                                                   static_cast<double>(info.rows));
-    std::error_code failure;
-    const fs::path folder = fs::absolute(job.path).parent_path();
-    const fs::space_info space = fs::space(folder, failure);
-    if (failure) {
-        return Done{}; // writing will tell
-    }
-    const std::uintmax_t begun = fs::file_size(job.path + ".part", failure);
-    const std::uint64_t available = space.available + (failure ? 0 : begun);
-    if (available < needed) {
-        return Error{ErrorCode::TooLarge,
-                     fmt::format("{}: needs up to {}, but {} has only {} free; free "
-                                 "some or choose another folder",
-                                 job.path, sizeText(needed), folder.string(), sizeText(available))};
-    }
-    return Done{};
+    const std::uint64_t bytes = tiledGeoTiffBytesMax(info);
+    const std::uint64_t written = bytesOnDisk(job.path + ".part");
+    Status alone = checkRoom({.path = job.path, .bytes = bytes, .written = written});
+    return !alone ? std::move(alone)
+                  : checkRoom({.path = job.path + " and what is made of it",
+                               .bytes = bytes + job.bytes_after,
+                               .written = written});
 }
 
 Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
@@ -702,6 +683,15 @@ Result<TiledLayoutInfo> tiledLayoutOf(const std::string& path, int band)
     return layout;
 }
 
+std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info)
+{
+    const double sample_bytes =
+        static_cast<double>(sampleBytes(info.type)) + (info.has_mask_band ? 0.125 : 0.0);
+    return static_cast<std::uint64_t>(kBytesPerRawByte * sample_bytes *
+                                      static_cast<double>(info.columns) *
+                                      static_cast<double>(info.rows));
+}
+
 Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor)
 {
     Result<SourceIdentity> before = identify(job.source);
@@ -729,11 +719,12 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     const std::string key = keyOf(*info, *before);
     std::error_code failure;
     Preparation preparation(job, *source, *info, key, before->path, report);
-    if (fs::exists(job.path, failure) && readGeoTiffOrigin(job.path).key == key) {
+    if (job.when_there == TiledGeoTiffJob::WhenThere::Keep && fs::exists(job.path, failure) &&
+        readGeoTiffOrigin(job.path).key == key) {
         preparation.discard(); // as after a kill in the moment of publishing
+        report.is_there = true;
         report.notes.push_back(fmt::format("{}: is made from this source already{}", job.path,
-                                           has_waited ? ", by another program meanwhile"
-                                                      : "; remove it to make it anew"));
+                                           has_waited ? ", by another program meanwhile" : ""));
         report.bytes = fs::file_size(job.path, failure);
         monitor.report(1.0);
         return report;

@@ -39,6 +39,9 @@ struct TiledGeoTiffJob {
     std::string path;            // of the result
     enum class WhenBusy : std::uint8_t { Fail, Wait };
     WhenBusy when_busy = WhenBusy::Fail; // another program makes the same file
+    enum class WhenThere : std::uint8_t { Keep, Replace };
+    WhenThere when_there = WhenThere::Keep; // the file is made from the same source already
+    std::uint64_t bytes_after = 0;          // the disk is to have room for, beside the file
     /// How far a stopped job may fall back; more where noting takes long. 0 notes as often as there
     /// is something to note, however long it takes.
     std::chrono::milliseconds checkpoint_interval{3000};
@@ -49,7 +52,11 @@ struct TiledGeoTiffReport {
     std::uint64_t samples = 0;      // of the raster
     std::uint64_t samples_read = 0; // by this call; fewer where it went on from a stopped one
     std::uint64_t bytes = 0;        // of the file
+    bool is_there = false;          // it was, and nothing was done
 };
+
+/// No tiled GeoTIFF of this raster is larger.
+std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info);
 
 /// Copies a raster of any layout into a tiled BigTIFF (256 × 256, deflate with predictor) with
 /// AVERAGE overviews by 2, 4, 8, … until one tile is enough. Samples keep type and bits; CRS,
@@ -63,7 +70,7 @@ struct TiledGeoTiffReport {
 /// death of the program, the next call for the same source and settings goes on from the last
 /// checkpoint. PATH.lock keeps other programs from the same work. Errors begin with the path that
 /// they are about; nothing is published where the source changed meanwhile. Where PATH is made from
-/// the same source and settings already, nothing is done.
+/// the same source and settings already, nothing is done, unless it is to be replaced.
 Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor);
 
 } // namespace marsview

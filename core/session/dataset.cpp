@@ -62,8 +62,10 @@ Error noHeights(const std::string& path, const SampleStatistics& statistics)
                                             path, statistics.sample_count)};
 }
 
-Result<std::shared_ptr<const Dataset>>
-loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_bytes_max)
+Result<std::shared_ptr<const Dataset>> loadDataset(const DatasetSpec& spec,
+                                                   JobMonitor& monitor,
+                                                   std::size_t memory_bytes_max,
+                                                   const std::vector<std::string>& notices)
 {
     Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
     if (!file) {
@@ -74,10 +76,8 @@ loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_byt
     if (!info) {
         return Error{info.error().code, fmt::format("{}: {}", spec.path, info.error().message)};
     }
-    if (info->columns < 2 || info->rows < 2) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: {} × {} samples make no surface; at least 2 × 2 are needed",
-                                 spec.path, info->columns, info->rows)};
+    if (Status surface = checkIsSurface(spec.path, *info); !surface) {
+        return std::move(surface).error();
     }
     Result<LoadedSamples> samples = file->readAll(monitor, {info->nodata}, memory_bytes_max);
     if (!samples) {
@@ -86,6 +86,7 @@ loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_byt
     if (!samples->statistics.hasSamples()) {
         return noHeights(spec.path, samples->statistics);
     }
+    info->notices.insert(info->notices.end(), notices.begin(), notices.end());
     noteSuspiciousSamples(*info, samples->statistics);
     Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(samples->grid)),
                             samples->statistics, info->elevationScale());
@@ -122,6 +123,16 @@ Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
     return std::shared_ptr<const Dataset>(new Dataset(std::move(spec), dataset.fileInfo(),
                                                       std::move(info).value(), dataset.statistics_,
                                                       std::move(heightfield), dataset.kind_));
+}
+
+Status checkIsSurface(const std::string& path, const RasterInfo& info)
+{
+    if (info.columns >= 2 && info.rows >= 2) {
+        return Done{};
+    }
+    return Error{ErrorCode::Invalid,
+                 fmt::format("{}: {} × {} samples make no surface; at least 2 × 2 are needed", path,
+                             info.columns, info.rows)};
 }
 
 std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts)

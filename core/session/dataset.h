@@ -73,7 +73,7 @@ public:
 
 private:
     friend Result<std::shared_ptr<const Dataset>>
-    loadDataset(const DatasetSpec&, JobMonitor&, std::size_t);
+    loadDataset(const DatasetSpec&, JobMonitor&, std::size_t, const std::vector<std::string>&);
     friend Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset&,
                                                                 const RasterOverrides&);
     friend std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts&);
@@ -99,9 +99,15 @@ private:
 Error noHeights(const std::string& path, const SampleStatistics& statistics);
 
 /// Reads the map whole. Refuses what cannot be shown: fewer than 2 × 2 samples, only voids, more
-/// than `memory_bytes_max` of samples. Blocks on the disk: not for the GUI thread.
-Result<std::shared_ptr<const Dataset>>
-loadDataset(const DatasetSpec& spec, JobMonitor& monitor, std::size_t memory_bytes_max);
+/// than `memory_bytes_max` of samples. `notices` are added to those of the map. Blocks on the disk:
+/// not for the GUI thread.
+Result<std::shared_ptr<const Dataset>> loadDataset(const DatasetSpec& spec,
+                                                   JobMonitor& monitor,
+                                                   std::size_t memory_bytes_max,
+                                                   const std::vector<std::string>& notices = {});
+
+/// Refuses, with `path` in the sentence, what has fewer than 2 × 2 samples.
+Status checkIsSurface(const std::string& path, const RasterInfo& info);
 
 /// A map whose samples come in tiles.
 std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts);

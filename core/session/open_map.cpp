@@ -2,7 +2,6 @@
 
 #include "core/base/check.h"
 #include "core/base/environment.h"
-#include "core/base/file_lock.h"
 #include "core/base/plain_number.h"
 #include "core/raster/geotiff_tile_source.h"
 #include "core/raster/map_folder.h"
@@ -12,6 +11,7 @@
 #include "core/raster/source_identity.h"
 #include "core/raster/tile_disk_cache.h"
 #include "core/raster/tiled_geotiff.h"
+#include "core/session/kept_source.h"
 #include "core/session/prepare_map.h"
 #include "core/terrain/estimated_levels.h"
 #include "core/terrain/level_file.h"
@@ -24,6 +24,7 @@
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -52,6 +53,9 @@ Result<Described> describe(const DatasetSpec& spec)
     if (!info) {
         return Error{info.error().code, fmt::format("{}: {}", spec.path, info.error().message)};
     }
+    if (Status surface = checkIsSurface(spec.path, *info); !surface) {
+        return std::move(surface).error();
+    }
     return Described{std::move(*file), std::move(file_info), std::move(*info)};
 }
 
@@ -63,25 +67,48 @@ std::string settingsOf(const RasterInfo& info)
 
 Result<LevelFileKey> keyOf(const std::string& raster_path, int band, const RasterInfo& info)
 {
-    Result<SourceIdentity> identity = identify(raster_path);
+    Result<SourceIdentity> identity = identify(raster_path, OverviewFiles::Counted);
     if (!identity) {
         return std::move(identity).error();
     }
     return LevelFileKey{.raster = std::move(*identity), .band = band, .nodata = info.nodata};
 }
 
-// Whether the file is there and belongs to the raster. Only then is the raster looked at, which at
-// a server takes a dozen requests.
+// Whether the file is there and belongs to the raster: an error where it is not used, NotFound
+// where there is none. Only where there is one is the raster looked at, which at a server takes a
+// dozen requests.
+Status checkLevels(const std::string& level_path,
+                   const std::string& raster_path,
+                   int band,
+                   const RasterInfo& info)
+{
+    if (!fileExists(level_path)) {
+        return Error{ErrorCode::NotFound, ""};
+    }
+    const Result<LevelFileKey> key = keyOf(raster_path, band, info);
+    if (!key) {
+        return key.error();
+    }
+    const Result<LevelFile> file = LevelFile::open(level_path, *key);
+    return file ? Status(Done{}) : Status(file.error());
+}
+
 bool hasLevels(const std::string& level_path,
                const std::string& raster_path,
                int band,
                const RasterInfo& info)
 {
-    if (!fileExists(level_path)) {
-        return false;
-    }
-    const Result<LevelFileKey> key = keyOf(raster_path, band, info);
-    return key && LevelFile::open(level_path, *key);
+    return checkLevels(level_path, raster_path, band, info).has_value();
+}
+
+// What the user is told of a level file that is not used.
+std::string notUsed(const std::string& level_path, const Error& why)
+{
+    const std::string beginning = level_path + ": ";
+    const bool is_about_it = why.message.starts_with(beginning);
+    return fmt::format("the level file beside it is not used: it {}",
+                       is_about_it ? why.message.substr(beginning.size())
+                                   : "cannot be told to be its own (" + why.message + ")");
 }
 
 // A prepared copy has one band.
@@ -99,11 +126,12 @@ std::size_t megabytesFrom(const char* variable, std::size_t otherwise)
                : otherwise;
 }
 
-Result<LoadedMap> openHeld(const DatasetSpec& spec, JobMonitor& monitor)
+Result<LoadedMap>
+openHeld(const DatasetSpec& spec, const std::vector<std::string>& notices, JobMonitor& monitor)
 {
     // Shares as measured on a map of 34 million samples.
     monitor.beginStage(0.0, 0.6);
-    auto dataset = loadDataset(spec, monitor, defaultMemoryBudget());
+    auto dataset = loadDataset(spec, monitor, defaultMemoryBudget(), notices);
     if (!dataset) {
         return std::move(dataset).error();
     }
@@ -128,6 +156,19 @@ std::shared_ptr<const TileSource> keptOnDisk(std::shared_ptr<const TileSource> s
     return cachedOnDisk(std::move(source), resources.fetched_tiles, key);
 }
 
+// The prepared map that a level file belongs to.
+std::string keptPathOf(const std::string& level_path)
+{
+    return level_path.substr(0, level_path.size() - LevelFile::pathFor("").size());
+}
+
+// Whether tiles are read from a copy that goes with the level file, in the folder of prepared maps.
+bool isCopy(const OpenPlan& plan)
+{
+    return plan.level_path && plan.raster_path == keptPathOf(*plan.level_path) &&
+           std::filesystem::path(plan.raster_path).filename().string().ends_with(".map.tif");
+}
+
 // All tiles of a map, and what is known of it as a whole.
 struct OpenedTiles {
     std::shared_ptr<const TileSource> source;
@@ -135,10 +176,11 @@ struct OpenedTiles {
 };
 
 Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource>& raster,
-                                   const std::string& level_path,
+                                   const OpenPlan& plan,
                                    int band,
                                    const RasterInfo& info)
 {
+    const std::string& level_path = *plan.level_path;
     Result<LevelFileKey> key = keyOf(raster->name(), band, info);
     if (!key) {
         return std::move(key).error();
@@ -152,11 +194,14 @@ Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource
     if (!levels) {
         return std::move(levels).error();
     }
+    const bool is_made_anew = plan.raster_path != info.path; // a copy that the program keeps
+    const std::string remedy = is_made_anew ? "open the map again to have it made anew"
+                                            : remedyFor(plan.raster_path, level_path);
     TileLayout layout = raster->layout();
     layout.has_voids = levels->statistics.void_count > 0;
     OpenedTiles opened;
     // Of a damaged tile GDAL may decode other samples without a word.
-    opened.source = mapTileSource({.raster = raster->checkedBy(levels->checksums),
+    opened.source = mapTileSource({.raster = raster->checkedBy(levels->checksums, remedy),
                                    .level_path = level_path,
                                    .level_key = std::move(*key),
                                    .analysis = levels->analysis,
@@ -187,35 +232,30 @@ Result<OpenedTiles> openWithoutLevels(const std::shared_ptr<const TileSource>& r
     return opened;
 }
 
-// A source together with what keeps its files from being removed.
-struct SourceInUse {
-    std::shared_ptr<const TileSource> source;
-    FileLock lock;
-};
-
-// The prepared map that a level file belongs to.
-std::string keptPathOf(const std::string& level_path)
+// What of the plan lies in the folder of prepared maps; nothing where it lies elsewhere. As long as
+// it lives, nobody removes that, unless the folder may not be written to.
+std::optional<KeptMap> keptMapOf(const OpenPlan& plan, const MapResources& resources)
 {
-    return level_path.substr(0, level_path.size() - LevelFile::pathFor("").size());
-}
-
-// What lies in the folder of prepared maps stays there as long as it is open.
-void keepInUse(const OpenPlan& plan, const MapResources& resources, OpenedTiles& opened)
-{
-    Result<MapFolder> folder = MapFolder::open(resources.folder);
     std::error_code failure;
-    if (!folder || !plan.level_path ||
+    if (!plan.level_path ||
         !std::filesystem::equivalent(std::filesystem::path(*plan.level_path).parent_path(),
                                      resources.folder, failure)) {
-        return; // it lies elsewhere: nobody removes it
+        return std::nullopt;
     }
-    Result<FileLock> lock = folder->use(keptPathOf(*plan.level_path));
-    if (!lock) {
-        return;
+    KeptMap kept{.folder = MapFolder::at(resources.folder),
+                 .path = keptPathOf(*plan.level_path),
+                 .lock = std::nullopt,
+                 .is_copy = isCopy(plan)};
+    if (Result<FileLock> lock = kept.folder.use(kept.path)) {
+        kept.lock = std::move(lock).value();
     }
-    const auto in_use =
-        std::make_shared<const SourceInUse>(SourceInUse{opened.source, std::move(*lock)});
-    opened.source = std::shared_ptr<const TileSource>(in_use, in_use->source.get());
+    return kept;
+}
+
+// By what somebody found who had it open.
+bool isDamaged(const std::string& kept_path, const MapResources& resources)
+{
+    return MapFolder::at(resources.folder).damage(kept_path).has_value();
 }
 
 } // namespace
@@ -243,73 +283,58 @@ Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resour
     const bool is_remote = remoteNameFor(spec.path).has_value();
     const bool fits = map->bytes() <= resources.held_bytes_max;
     const std::string& raster_path = map->file_info.path;
+    std::vector<std::string> notices;
     const auto in_place = GeotiffTileSource::of(map->file, map->voids());
     if (in_place) {
-        if (const std::string beside = LevelFile::pathFor(raster_path);
-            hasLevels(beside, raster_path, spec.band, map->info)) {
+        const std::string beside = LevelFile::pathFor(raster_path);
+        const Status levels = checkLevels(beside, raster_path, spec.band, map->info);
+        if (levels) {
             return OpenPlan{MapStore::Tiled, raster_path, beside};
         }
+        if (levels.error().code != ErrorCode::NotFound) {
+            notices.push_back(notUsed(beside, levels.error()));
+        }
         if (is_remote) {
-            return OpenPlan{MapStore::Tiled, raster_path, std::nullopt};
+            return OpenPlan{MapStore::Tiled, raster_path, std::nullopt, std::move(notices)};
         }
         const Result<std::string> kept = preparedPathFor(spec, resources.folder);
-        if (kept && hasLevels(LevelFile::pathFor(*kept), raster_path, spec.band, map->info)) {
-            return OpenPlan{MapStore::Tiled, raster_path, LevelFile::pathFor(*kept)};
+        if (kept && !isDamaged(*kept, resources) &&
+            hasLevels(LevelFile::pathFor(*kept), raster_path, spec.band, map->info)) {
+            return OpenPlan{MapStore::Tiled, raster_path, LevelFile::pathFor(*kept),
+                            std::move(notices)};
         }
     }
+    const auto held = [&notices] {
+        return OpenPlan{.store = MapStore::Held,
+                        .raster_path = {},
+                        .level_path = {},
+                        .notices = std::move(notices)};
+    };
     if (is_remote) {
-        return fits ? Result<OpenPlan>(OpenPlan{}) : in_place.error(); // says what to do
+        return fits ? Result<OpenPlan>(held()) : in_place.error(); // says what to do
     }
-    // What was prepared opens at once, however much memory there is. No folder is made just to
-    // look.
-    if (std::error_code error; std::filesystem::is_directory(resources.folder, error)) {
-        const Result<std::string> copy = preparedPathFor(spec, resources.folder);
-        if (copy && hasLevels(LevelFile::pathFor(*copy), *copy, 1, map->info)) {
-            return OpenPlan{MapStore::Tiled, *copy, LevelFile::pathFor(*copy)};
-        }
+    // What was prepared opens at once, however much memory there is.
+    const Result<std::string> copy = preparedPathFor(spec, resources.folder);
+    if (copy && !isDamaged(*copy, resources) &&
+        hasLevels(LevelFile::pathFor(*copy), *copy, 1, map->info)) {
+        return OpenPlan{MapStore::Tiled, *copy, LevelFile::pathFor(*copy), std::move(notices)};
     }
     if (fits) {
-        return OpenPlan{};
+        return held();
     }
-    return OpenPlan{.store = MapStore::Unprepared, .raster_path = {}, .level_path = {}};
+    return OpenPlan{.store = MapStore::Unprepared,
+                    .raster_path = {},
+                    .level_path = {},
+                    .notices = std::move(notices)};
 }
 
 Status
 prepareForOpening(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor)
 {
-    Result<Described> map = describe(spec);
-    if (!map) {
-        return std::move(map).error();
-    }
-    Result<MapFolder> folder = MapFolder::open(resources.folder);
-    if (!folder) {
-        return std::move(folder).error();
-    }
-    const Result<std::string> kept = preparedPathFor(spec, resources.folder);
-    if (!kept) {
-        return kept.error();
-    }
-    const bool is_in_place = GeotiffTileSource::of(map->file, map->voids()).has_value();
-    const PrepareJob job{.spec = spec,
-                         .raster_path = is_in_place ? std::string() : *kept,
-                         .level_path = LevelFile::pathFor(*kept),
-                         .when_busy = TiledGeoTiffJob::WhenBusy::Wait};
-    const bool is_copy_there = !is_in_place && fileExists(*kept);
-    Result<PrepareReport> prepared = prepareMapFiles(job, monitor);
-    // A copy that was there is not made again, and then it is what cannot be read.
-    if (!prepared && is_copy_there && prepared.error().code != ErrorCode::Cancelled &&
-        folder->remove(std::filesystem::path(*kept).filename().string())) {
-        prepared = prepareMapFiles(job, monitor);
-    }
-    if (!prepared) {
-        return prepared.error();
-    }
-    // Only now, so that nothing is given up for a map that could not be made.
-    const std::uint64_t bytes_max =
-        resources.folder_bytes_max != 0 ? resources.folder_bytes_max : folder->defaultBytesMax();
-    const Result<FileLock> in_use = folder->use(*kept);
-    static_cast<void>(folder->trim(bytes_max)); // what cannot be removed stays
-    return Done{};
+    const Result<PrepareReport> prepared = prepareInFolder(
+        {.spec = spec, .folder = resources.folder, .folder_bytes_max = resources.folder_bytes_max},
+        monitor);
+    return prepared ? Status(Done{}) : Status(prepared.error());
 }
 
 Result<LoadedMap> openPlanned(const DatasetSpec& spec,
@@ -319,12 +344,13 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
 {
     MARSVIEW_CHECK(plan.store != MapStore::Unprepared);
     if (plan.store == MapStore::Held) {
-        return openHeld(spec, monitor);
+        return openHeld(spec, plan.notices, monitor);
     }
     Result<Described> map = describe(spec);
     if (!map) {
         return std::move(map).error();
     }
+    std::optional<KeptMap> kept = keptMapOf(plan, resources); // before it is looked at
     const int band = bandOf(spec, plan.raster_path, map->file_info);
     Result<RasterFile> raster = RasterFile::open(plan.raster_path, band);
     if (!raster) {
@@ -337,7 +363,7 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
     }
     Result<OpenedTiles> opened =
         plan.level_path
-            ? openWithLevels(*source, *plan.level_path, band, map->info)
+            ? openWithLevels(*source, plan, band, map->info)
             : openWithoutLevels(keptOnDisk(*source, resources, map->file_info, "raster"), map->info,
                                 monitor);
     if (!opened) {
@@ -346,13 +372,18 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
     if (const SampleStatistics& found = opened->levels->statistics; !found.hasSamples()) {
         return noHeights(spec.path, found);
     }
+    map->info.notices.insert(map->info.notices.end(), plan.notices.begin(), plan.notices.end());
     if (!plan.level_path) {
-        map->info.notices.push_back("its detail is estimated: there is no level file beside it");
+        map->info.notices.push_back(
+            plan.notices.empty() ? "its detail is estimated: there is no level file beside it"
+                                 : "its detail is estimated");
     }
     if (plan.level_path) {
         opened->source = keptOnDisk(opened->source, resources, map->info, "map");
     }
-    keepInUse(plan, resources, *opened);
+    if (kept) {
+        opened->source = keptSource(opened->source, std::move(*kept));
+    }
     Result<std::shared_ptr<const TiledSamples>> tiles =
         TiledSamples::open(TiledRaster(*resources.tiles, opened->source));
     if (!tiles) {
@@ -369,8 +400,7 @@ Result<LoadedMap> openPlanned(const DatasetSpec& spec,
 
 bool isDamageToPrepared(const OpenPlan& plan, const Error& error)
 {
-    return plan.store == MapStore::Tiled && plan.level_path &&
-           (error.code == ErrorCode::Invalid || error.code == ErrorCode::Unreadable);
+    return plan.store == MapStore::Tiled && plan.level_path && isDamageToKept(error, isCopy(plan));
 }
 
 Status discardPrepared(const OpenPlan& plan, const MapResources& resources)

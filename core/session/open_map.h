@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace marsview {
 
@@ -47,6 +48,8 @@ struct OpenPlan {
     std::string raster_path;
     /// Its level file. Nothing where there is none: detail is then estimated (remote maps).
     std::optional<std::string> level_path;
+    /// For the user, such as why a level file is not used.
+    std::vector<std::string> notices{};
 };
 
 /// Looks at the file and at what was prepared from it. Reads a few dozen kilobytes.

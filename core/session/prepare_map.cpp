@@ -1,14 +1,22 @@
 #include "core/session/prepare_map.h"
 
 #include "core/base/file_lock.h"
+#include "core/raster/disk_room.h"
+#include "core/raster/geotiff_skeleton.h"
 #include "core/raster/geotiff_tile_source.h"
 #include "core/raster/map_folder.h"
+#include "core/raster/overview_builder.h"
 #include "core/raster/raster_file.h"
+#include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
 #include "core/terrain/level_file.h"
+#include "core/terrain/map_damage.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -25,6 +33,45 @@ constexpr std::chrono::milliseconds kLockPoll{100};
 double secondsSince(Clock::time_point start)
 {
     return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// As far as it can be told before the raster is tiled.
+std::uint64_t levelBytesFor(const RasterInfo& info)
+{
+    return levelFileBytesMax({.columns = info.columns,
+                              .rows = info.rows,
+                              .type = info.type,
+                              .has_voids = info.has_mask_band || info.nodata.has_value() ||
+                                           info.type == SampleType::Float32 ||
+                                           info.type == SampleType::Float64,
+                              .mean_levels = overviewCount(info.columns, info.rows)});
+}
+
+// Of maps that nobody has used for long.
+Status makeRoomFor(const PrepareJob& job, const MapFolder& folder, const std::string& kept)
+{
+    Result<RasterFile> file = RasterFile::open(job.spec.path, job.spec.band);
+    if (!file) {
+        return std::move(file).error();
+    }
+    const RasterInfo& info = file->info();
+    const bool is_copy_there =
+        job.when_there != PrepareJob::WhenThere::Replace && fileExists(job.raster_path);
+    std::uint64_t bytes = fileExists(job.level_path) ? 0 : levelBytesFor(info);
+    if (!job.raster_path.empty() && !is_copy_there) {
+        const std::uint64_t copy = tiledGeoTiffBytesMax(info);
+        bytes += copy - std::min(copy, bytesOnDisk(job.raster_path + ".part"));
+    }
+    static_cast<void>(folder.makeRoom(bytes, kept)); // writing will tell what is missing
+    return Done{};
+}
+
+Error liesAtServer(const std::string& path)
+{
+    return {ErrorCode::Unsupported,
+            fmt::format("{}: lies at a server, where nothing can be written beside it, and is read "
+                        "from there as it is; name a file to copy it to",
+                        path)};
 }
 
 // So that two programs do not write the same level file.
@@ -53,53 +100,141 @@ lockFor(const std::string& level_path, TiledGeoTiffJob::WhenBusy when_busy, JobM
     }
 }
 
+// What makeLevels works on.
+struct LevelWork {
+    std::string raster_path;
+    std::string level_path;
+    int band = 1;
+    RasterInfo info;
+    std::shared_ptr<const GeotiffTileSource> source;
+    LevelFileKey key;
+};
+
+Result<LevelWork>
+levelWork(const PrepareJob& job, const PrepareReport& report, const RasterInfo& info)
+{
+    LevelWork work{.raster_path = report.raster_path,
+                   .level_path = report.level_path,
+                   .band = report.is_source_used ? job.spec.band : 1,
+                   .info = info,
+                   .source = nullptr,
+                   .key = {}};
+    Result<SourceIdentity> identity = identify(work.raster_path, OverviewFiles::Counted);
+    if (!identity) {
+        return std::move(identity).error();
+    }
+    work.key = {.raster = std::move(*identity), .band = work.band, .nodata = info.nodata};
+    Result<RasterFile> raster = RasterFile::open(work.raster_path, work.band);
+    if (!raster) {
+        return std::move(raster).error();
+    }
+    auto source = GeotiffTileSource::of(*raster, {info.nodata});
+    if (!source) {
+        return std::move(source).error();
+    }
+    work.source = std::move(*source);
+    return work;
+}
+
+std::string withoutRemedy(const std::string& sentence)
+{
+    return sentence.substr(0, sentence.rfind(';'));
+}
+
 Status makeLevels(const PrepareJob& job,
                   PrepareReport& report,
                   const RasterInfo& info,
                   JobMonitor& monitor)
 {
-    const int band = report.is_source_used ? job.spec.band : 1;
     Result<FileLock> lock = lockFor(report.level_path, job.when_busy, monitor);
     if (!lock) {
         return std::move(lock).error();
     }
-    Result<SourceIdentity> identity = identify(report.raster_path);
-    if (!identity) {
-        return std::move(identity).error();
+    const Result<LevelWork> work = levelWork(job, report, info);
+    if (!work) {
+        return work.error();
     }
-    const LevelFileKey key{.raster = *identity, .band = band, .nodata = info.nodata};
-    const Result<LevelFile> there = LevelFile::open(report.level_path, key);
-    if (there) {
-        return Done{};
+    if (job.when_there != PrepareJob::WhenThere::Replace) {
+        const Result<LevelFile> there = LevelFile::open(report.level_path, work->key);
+        if (there) {
+            report.are_levels_there = true;
+            return Done{};
+        }
+        if (there.error().code != ErrorCode::NotFound) {
+            report.notes.push_back(withoutRemedy(there.error().message) + "; it is made anew");
+        }
     }
-    if (there.error().code != ErrorCode::NotFound) {
-        const std::string& why = there.error().message;
-        report.notes.push_back(why.substr(0, why.rfind(';')) + "; it is made anew");
+    const LevelBuild build{
+        .source = work->source.get(),
+        .scale = info.elevationScale(),
+        .key = work->key,
+        .path = report.level_path,
+        .confirm = [&work]() -> Status {
+            const Result<SourceIdentity> now = identify(work->raster_path, OverviewFiles::Counted);
+            if (now && isSameContent(work->key.raster, *now)) {
+                return Done{};
+            }
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: changed while it was being prepared; prepare it again "
+                                     "when it is finished",
+                                     work->raster_path)};
+        },
+        .checkpoint_interval = job.checkpoint_interval};
+    return buildLevelFile(build, monitor);
+}
+
+// Whether a copy that is there can be told from a damaged one, by its level file; it is fine where
+// there is none yet.
+Status checkKnown(const PrepareJob& job, const PrepareReport& report, const RasterInfo& info)
+{
+    const Result<LevelWork> work = levelWork(job, report, info);
+    if (!work) {
+        return work.error();
     }
-    Result<RasterFile> raster = RasterFile::open(report.raster_path, band);
-    if (!raster) {
-        return std::move(raster).error();
+    const Result<LevelFile> levels = LevelFile::open(report.level_path, work->key);
+    return levels || levels.error().code == ErrorCode::NotFound ? Status(Done{})
+                                                                : Status(levels.error());
+}
+
+Status
+makeFiles(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, JobMonitor& monitor)
+{
+    const Clock::time_point start = Clock::now();
+    if (!report.is_source_used) {
+        const JobPart copying(monitor, 0.0, kCopyingShare);
+        TiledGeoTiffJob copy;
+        copy.source = job.spec.path;
+        copy.band = job.spec.band;
+        copy.overrides = job.spec.overrides;
+        copy.path = job.raster_path;
+        copy.when_busy = job.when_busy;
+        copy.when_there = job.when_there == PrepareJob::WhenThere::Replace
+                              ? TiledGeoTiffJob::WhenThere::Replace
+                              : TiledGeoTiffJob::WhenThere::Keep;
+        copy.bytes_after = levelBytesFor(info);
+        copy.checkpoint_interval = job.checkpoint_interval;
+        Result<TiledGeoTiffReport> copied = writeTiledGeoTiff(copy, monitor);
+        if (copied && copied->is_there) {
+            if (const Status known = checkKnown(job, report, info); !known) {
+                copy.when_there = TiledGeoTiffJob::WhenThere::Replace;
+                copied = writeTiledGeoTiff(copy, monitor);
+                report.notes.push_back(fmt::format(
+                    "{}: cannot be told to be what it was when it was prepared; it is made anew",
+                    report.raster_path));
+            }
+        }
+        if (!copied) {
+            return std::move(copied).error();
+        }
+        report.copy = std::move(*copied);
+        report.notes.insert(report.notes.end(), report.copy.notes.begin(), report.copy.notes.end());
+        report.copy_seconds += secondsSince(start);
     }
-    const auto source = GeotiffTileSource::of(*raster, {info.nodata});
-    if (!source) {
-        return source.error();
-    }
-    const LevelBuild build{.source = source->get(),
-                           .scale = info.elevationScale(),
-                           .key = key,
-                           .path = report.level_path,
-                           .checkpoint_interval = job.checkpoint_interval};
-    if (Status built = buildLevelFile(build, monitor); !built) {
-        return built;
-    }
-    const Result<SourceIdentity> now = identify(report.raster_path);
-    if (!now || !isSameContent(*identity, *now)) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: changed while it was being prepared; prepare it again when "
-                                 "it is finished",
-                                 report.raster_path)};
-    }
-    return Done{};
+    const Clock::time_point between = Clock::now();
+    const JobPart measuring(monitor, report.is_source_used ? 0.0 : kCopyingShare, 1.0);
+    Status made = makeLevels(job, report, info, monitor);
+    report.level_seconds += secondsSince(between);
+    return made;
 }
 
 } // namespace
@@ -121,10 +256,6 @@ Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesyst
     if (!file) {
         return std::move(file).error();
     }
-    Result<MapFolder> maps = MapFolder::open(folder);
-    if (!maps) {
-        return std::move(maps).error();
-    }
     const Result<SourceIdentity> identity = identify(file->info().path);
     if (!identity) {
         return identity.error();
@@ -132,8 +263,8 @@ Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesyst
     // What decides about the content beside the source itself.
     const std::optional<double> nodata =
         spec.overrides.nodata ? spec.overrides.nodata : file->info().nodata;
-    return maps->pathFor(*identity, spec.band,
-                         nodata ? fmt::format("nodata {}", *nodata) : std::string());
+    return MapFolder::at(folder).pathFor(
+        *identity, spec.band, nodata ? fmt::format("nodata {}", *nodata) : std::string());
 }
 
 Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor)
@@ -146,37 +277,124 @@ Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor
     if (!info) {
         return Error{info.error().code, fmt::format("{}: {}", job.spec.path, info.error().message)};
     }
+    if (Status surface = checkIsSurface(job.spec.path, *info); !surface) {
+        return std::move(surface).error();
+    }
     PrepareReport report;
     report.is_source_used = job.raster_path.empty();
     report.raster_path = report.is_source_used ? info->path : job.raster_path;
     report.level_path =
         job.level_path.empty() ? LevelFile::pathFor(report.raster_path) : job.level_path;
     report.samples = std::uint64_t{info->columns} * info->rows;
-    const Clock::time_point start = Clock::now();
-    if (!report.is_source_used) {
-        const JobPart copying(monitor, 0.0, kCopyingShare);
-        TiledGeoTiffJob copy;
-        copy.source = job.spec.path;
-        copy.band = job.spec.band;
-        copy.overrides = job.spec.overrides;
-        copy.path = job.raster_path;
-        copy.when_busy = job.when_busy;
-        copy.checkpoint_interval = job.checkpoint_interval;
-        Result<TiledGeoTiffReport> copied = writeTiledGeoTiff(copy, monitor);
-        if (!copied) {
-            return std::move(copied).error();
-        }
-        report.copy = std::move(*copied);
-        report.copy_seconds = secondsSince(start);
+    if (remoteNameFor(report.level_path)) {
+        return liesAtServer(job.spec.path);
     }
-    const Clock::time_point between = Clock::now();
-    const JobPart measuring(monitor, report.is_source_used ? 0.0 : kCopyingShare, 1.0);
-    if (Status made = makeLevels(job, report, *info, monitor); !made) {
+    if (Status made = makeFiles(job, report, *info, monitor); !made) {
         return std::move(made).error();
     }
-    report.level_seconds = secondsSince(between);
-    report.notes.insert(report.notes.begin(), report.copy.notes.begin(), report.copy.notes.end());
-    return report;
+    const bool was_there =
+        report.are_levels_there && (report.is_source_used || report.copy.is_there);
+    if (job.when_there != PrepareJob::WhenThere::Check || !was_there) {
+        return report;
+    }
+    const Clock::time_point start = Clock::now();
+    const Result<LevelWork> work = levelWork(job, report, *info);
+    if (!work) {
+        return work.error();
+    }
+    const Result<std::optional<MapDamage>> damage =
+        findDamage({.raster = work->source.get(),
+                    .level_path = report.level_path,
+                    .level_key = work->key,
+                    .remedy = remedyFor(report.raster_path, report.level_path)},
+                   monitor);
+    report.check_seconds = secondsSince(start);
+    if (!damage) {
+        return damage.error();
+    }
+    if (!*damage) {
+        if (report.notes.empty()) {
+            report.notes.push_back(fmt::format("{}: is prepared already", report.raster_path));
+        }
+        report.notes.back() += "; every tile is as it was then";
+        return report;
+    }
+    const Error& what = (*damage)->error;
+    const bool is_raster = (*damage)->of == MapDamage::Of::Raster;
+    if (is_raster && report.is_source_used) {
+        return what;
+    }
+    report.notes = {withoutRemedy(what.message) + "; it is made anew"};
+    PrepareJob again = job;
+    again.when_there = PrepareJob::WhenThere::Replace;
+    // A copy stays where only its levels are damaged.
+    Status made = is_raster ? makeFiles(again, report, *info, monitor)
+                            : makeLevels(again, report, *info, monitor);
+    return made ? Result<PrepareReport>(std::move(report))
+                : Result<PrepareReport>(std::move(made).error());
+}
+
+Result<PrepareReport> prepareInFolder(const FolderJob& job, JobMonitor& monitor)
+{
+    if (remoteNameFor(job.spec.path)) {
+        return liesAtServer(job.spec.path);
+    }
+    const Result<MapFolder> folder = MapFolder::open(job.folder);
+    if (!folder) {
+        return folder.error();
+    }
+    const Result<std::string> kept = preparedPathFor(job.spec, job.folder);
+    const Result<bool> in_place = canBeUsedInPlace(job.spec);
+    if (!kept || !in_place) {
+        return kept ? in_place.error() : kept.error();
+    }
+    const std::string name = std::filesystem::path(*kept).filename().string();
+    PrepareJob prepare{.spec = job.spec,
+                       .raster_path = *in_place ? std::string() : *kept,
+                       .level_path = LevelFile::pathFor(*kept),
+                       .when_busy = job.when_busy,
+                       .when_there = job.when_there,
+                       .checkpoint_interval = job.checkpoint_interval};
+    const std::optional<std::string> damage = folder->damage(*kept);
+    if (damage) {
+        // Where some program has it open, it is replaced.
+        static_cast<void>(folder->remove(name));
+        prepare.when_there = PrepareJob::WhenThere::Replace;
+    }
+    const bool is_copy_there = !*in_place && fileExists(*kept);
+    if (Status room = makeRoomFor(prepare, *folder, *kept); !room) {
+        return std::move(room).error();
+    }
+    Result<PrepareReport> prepared = prepareMapFiles(prepare, monitor);
+    // A copy that was there is not made again, and then it is what cannot be read.
+    if (!prepared && is_copy_there && prepared.error().code != ErrorCode::Cancelled &&
+        prepared.error().code != ErrorCode::TooLarge && folder->remove(name)) {
+        prepared = prepareMapFiles(prepare, monitor);
+    }
+    if (!prepared) {
+        return prepared;
+    }
+    if (damage) {
+        folder->forgetDamage(*kept);
+        prepared->notes.insert(prepared->notes.begin(), withoutRemedy(*damage) + "; made anew");
+    }
+    // Only now, so that nothing is given up for a map that could not be made.
+    const std::uint64_t bytes_max =
+        job.folder_bytes_max != 0 ? job.folder_bytes_max : folder->defaultBytesMax();
+    const Result<FileLock> in_use = folder->use(*kept);
+    static_cast<void>(folder->trim(bytes_max)); // what cannot be removed stays
+    return prepared;
+}
+
+std::string remedyFor(const std::string& raster_path, const std::string& level_path)
+{
+    if (const std::string source = readGeoTiffOrigin(raster_path).source; !source.empty()) {
+        return fmt::format("prepare it again from {}", source);
+    }
+    return fmt::format(
+        "get it again from where it came or, where it is right as it is now, remove "
+        "{} and prepare the map again",
+        level_path);
 }
 
 } // namespace marsview

@@ -21,6 +21,10 @@ struct PrepareJob {
     /// Of the level file; empty: beside the tiled raster.
     std::string level_path{};
     TiledGeoTiffJob::WhenBusy when_busy = TiledGeoTiffJob::WhenBusy::Fail;
+    /// Of what is there and belongs to the raster: taken as it is, read whole against its checksums
+    /// and made anew where it is damaged, or made anew in any case.
+    enum class WhenThere : std::uint8_t { Trust, Check, Replace };
+    WhenThere when_there = WhenThere::Trust;
     std::chrono::milliseconds checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
 };
 
@@ -32,6 +36,8 @@ struct PrepareReport {
     std::uint64_t samples = 0;
     double copy_seconds = 0.0;
     double level_seconds = 0.0;
+    double check_seconds = 0.0;
+    bool are_levels_there = false;  // they were, and nothing was done
     std::vector<std::string> notes; // sentences for the user, those of the copy included
 };
 
@@ -39,13 +45,32 @@ struct PrepareReport {
 Result<bool> canBeUsedInPlace(const DatasetSpec& spec);
 
 /// Where the prepared form of a raster lies, or is to be put, in a folder of prepared maps, which
-/// is made where it is missing.
+/// need not be there.
 Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesystem::path& folder);
 
 /// Copies the raster into a tiled GeoTIFF unless it is used in place, then measures it into its
 /// level file. Each appears whole or not at all; what is there already and belongs to the raster is
-/// not made again. Stopped, the copy is gone on with the next time. On all cores; not for the GUI
-/// thread. Errors name the file and say what to do.
+/// not made again, unless it is damaged or to be replaced. A raster that is used in place and is
+/// damaged is an error: nothing can make it again. Stopped, the work is gone on with the next time.
+/// On all cores; not for the GUI thread. Errors name the file and say what to do.
 Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor);
+
+struct FolderJob {
+    DatasetSpec spec;
+    std::filesystem::path folder;
+    std::uint64_t folder_bytes_max = 0; // 0: MapFolder::defaultBytesMax()
+    TiledGeoTiffJob::WhenBusy when_busy = TiledGeoTiffJob::WhenBusy::Wait;
+    PrepareJob::WhenThere when_there = PrepareJob::WhenThere::Trust;
+    std::chrono::milliseconds checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
+};
+
+/// As prepareMapFiles(), in the folder of prepared maps: what was noted there as damaged is made
+/// anew, the maps that were not used for longest make room on the disk where that is enough, and
+/// afterwards the folder is trimmed.
+Result<PrepareReport> prepareInFolder(const FolderJob& job, JobMonitor& monitor);
+
+/// What is to be done about a raster with a level file that turns out to be damaged: the end of a
+/// sentence.
+std::string remedyFor(const std::string& raster_path, const std::string& level_path);
 
 } // namespace marsview

@@ -19,10 +19,8 @@ readPreview(const DatasetSpec& spec, const DecimationLimits& limits, JobMonitor&
     if (!info) {
         return Error{info.error().code, fmt::format("{}: {}", spec.path, info.error().message)};
     }
-    if (info->columns < 2 || info->rows < 2) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: {} × {} samples make no surface; at least 2 × 2 are needed",
-                                 spec.path, info->columns, info->rows)};
+    if (Status surface = checkIsSurface(spec.path, *info); !surface) {
+        return std::move(surface).error();
     }
     monitor.beginStage(0.0, 0.8);
     Result<DecimatedSamples> samples = readDecimated(*file, {info->nodata}, limits, monitor);

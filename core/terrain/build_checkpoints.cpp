@@ -33,7 +33,7 @@ std::optional<BuildCheckpoints::Found> BuildCheckpoints::find() const
     BuildPlace place;
     if (!reader->getAny(subject) || subject != subject_ || !reader->get(stage) ||
         stage > static_cast<std::uint8_t>(BuildStage::Errors) || !reader->get(place.row) ||
-        !reader->get(place.part_bytes)) {
+        !reader->get(place.written.bytes) || !reader->get(place.written.checksum)) {
         return std::nullopt;
     }
     place.stage = static_cast<BuildStage>(stage);
@@ -66,15 +66,16 @@ Status BuildCheckpoints::run(const Stage& stage,
 // One that cannot be written is no reason to stop: the file itself will say why.
 void BuildCheckpoints::save(const Stage& stage, std::size_t row, LevelFileWriter& writer)
 {
-    const std::optional<std::uint64_t> part_bytes = writer.flush();
-    if (!part_bytes) {
+    const std::optional<LevelFileWriter::Written> written = writer.flush();
+    if (!written) {
         return;
     }
     CheckpointWriter to(path_);
     to.putArray(subject_);
     to.put(static_cast<std::uint8_t>(stage.stage));
     to.put(std::uint64_t{row});
-    to.put(*part_bytes);
+    to.put(written->bytes);
+    to.put(written->checksum);
     if (stage.save(to) && to.finish()) {
         is_there_ = true;
     }

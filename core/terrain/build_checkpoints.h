@@ -21,8 +21,8 @@ enum class BuildStage : std::uint8_t { Survey, Means, Errors };
 /// Where a build was when its last checkpoint was written.
 struct BuildPlace {
     BuildStage stage = BuildStage::Survey;
-    std::uint64_t row = 0;        // the first that is not done
-    std::uint64_t part_bytes = 0; // of the file that is written
+    std::uint64_t row = 0;            // the first that is not done
+    LevelFileWriter::Written written; // of the file
 };
 
 /// Checkpoints of one build: the file `path`. For one thread.

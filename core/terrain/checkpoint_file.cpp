@@ -1,5 +1,6 @@
 #include "core/terrain/checkpoint_file.h"
 
+#include "core/base/durable_file.h"
 #include "core/raster/file_bytes.h"
 #include "core/terrain/level_file_format.h"
 
@@ -54,12 +55,13 @@ bool CheckpointWriter::finish()
 {
     const std::uint32_t checksum = checksum_;
     put(checksum);
-    if (has_failed_ || std::fflush(file_.get()) != 0) {
+    if (has_failed_ || !flushToDisk(file_.get())) {
         return false;
     }
     file_.reset();
     std::error_code problem;
     std::filesystem::rename(unfinished(path_), path_, problem);
+    flushFolderToDisk(std::filesystem::path(path_).parent_path());
     return !problem;
 }
 

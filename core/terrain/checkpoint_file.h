@@ -15,8 +15,9 @@
 
 namespace marsview {
 
-/// Writes PATH.new, and moves it to PATH when it is whole: whoever is killed meanwhile leaves the
-/// checkpoint before. Failing is remembered, and told once, by finish(). For one thread.
+/// Writes PATH.new, and moves it to PATH when it is whole and on the disk: whoever is killed
+/// meanwhile leaves the checkpoint before. Failing is remembered, and told once, by finish(). For
+/// one thread.
 class CheckpointWriter {
 public:
     explicit CheckpointWriter(const std::string& path);

@@ -4,6 +4,7 @@
 // with every level, tile by tile, the tile to the right being read ahead for its first column.
 
 #include "core/base/check.h"
+#include "core/raster/disk_room.h"
 #include "core/terrain/build_checkpoints.h"
 #include "core/terrain/level_errors.h"
 #include "core/terrain/level_file.h"
@@ -61,8 +62,8 @@ std::string subjectOf(const LevelBuild& build)
                                  .statistics = {},
                                  .scale = build.scale,
                                  .planes = {}};
-    return fmt::format("version {}, at most {} means\n{}", kLevelFileVersion, build.mean_blocks_max,
-                       writtenHeader(header));
+    return fmt::format("checkpoint 2, version {}, at most {} means\n{}", kLevelFileVersion,
+                       build.mean_blocks_max, writtenHeader(header));
 }
 
 // A build from its first file to the last.
@@ -114,7 +115,7 @@ private:
             if (!surveyed) {
                 return surveyed;
             }
-            place_ = {.stage = BuildStage::Means, .row = 0, .part_bytes = 0};
+            place_ = {.stage = BuildStage::Means, .row = 0, .written = {}};
         }
         if (place_.stage == BuildStage::Means) {
             Status surveyed = run(
@@ -127,7 +128,7 @@ private:
             if (!surveyed) {
                 return surveyed;
             }
-            place_ = {.stage = BuildStage::Errors, .row = 0, .part_bytes = 0};
+            place_ = {.stage = BuildStage::Errors, .row = 0, .written = {}};
         }
         const LevelSurvey& survey = survey_->finish();
         monitor_.beginStage(kSurveyShare, kSurveyShare + kErrorsShare);
@@ -162,7 +163,7 @@ private:
     Status begin()
     {
         if (auto found = checkpoints_.find()) {
-            auto writer = LevelFileWriter::resume(build_.path, found->place.part_bytes);
+            auto writer = LevelFileWriter::resume(build_.path, found->place.written);
             if (writer) {
                 writer_ = std::move(writer).value();
                 makeSurvey();
@@ -181,6 +182,11 @@ private:
         }
         writer_ = std::move(created).value();
         checkpoints_.remove();
+        if (Status room = checkRoom(
+                {.path = build_.path, .bytes = levelFileBytesMax(layout_, build_.mean_blocks_max)});
+            !room) {
+            return room;
+        }
         makeSurvey();
         return survey_->begin();
     }
@@ -227,7 +233,8 @@ private:
         add("samples index", samples_index);
         add("fills index", fills_index);
         add("coarse index", coarse_index);
-        if (auto finished = writer_->finish(std::move(header), arrays, monitor_); !finished) {
+        if (auto finished = writer_->finish(std::move(header), arrays, {monitor_, build_.confirm});
+            !finished) {
             return finished;
         }
         monitor_.report(1.0);
@@ -258,6 +265,45 @@ private:
 };
 
 } // namespace
+
+std::uint64_t levelFileBytesMax(const TileLayout& layout, std::size_t mean_blocks_max)
+{
+    const std::uint64_t tiles =
+        layout.tileColumns(TileKind::Samples, 0) * layout.tileRows(TileKind::Samples, 0);
+    const std::size_t kept_tiles = keptTileCount(layout);
+    LevelFileHeader header{.key = {},
+                           .layout = layout,
+                           .statistics = {},
+                           .scale = {},
+                           .block_samples = finestBlocks(layout, mean_blocks_max).block_samples,
+                           .fill_tiles = layout.has_voids ? tiles : 0,
+                           .coarse_tiles = layout.has_voids ? kept_tiles : 0,
+                           .planes = {}};
+    header.statistics.void_count = layout.has_voids ? 1 : 0;
+    std::uint64_t planes = 0;
+    for (const LevelPlane& plane : planesOf(header)) {
+        planes += plane.shape.bytes();
+    }
+    std::uint64_t kept_samples = 0;
+    for (std::size_t level = LevelFile::kFirstLevel; level <= layout.topLevel(); ++level) {
+        kept_samples +=
+            layout.columnsAt(TileKind::Samples, level) * layout.rowsAt(TileKind::Samples, level);
+    }
+    // Packing does not make noise larger. Checkpoints keep what is measured, twice while the next
+    // one is written, and the first row of each row of tiles.
+    const std::uint64_t sample_bytes = sampleBytes(layout.type);
+    std::uint64_t bytes = kept_samples * sample_bytes + 3 * planes +
+                          2 * layout.columns * layout.tileRows(TileKind::Samples, 0) * sample_bytes;
+    if (layout.has_voids) {
+        constexpr std::uint64_t kFillSide = kTileSide / BlockMeans::kBlock + 2;
+        bytes += kept_samples / 8 + (kept_samples + tiles * kFillSide * kFillSide) * sizeof(float);
+        for (BlockExtent fine{layout.columns, layout.rows, BlockMeans::kBlock};
+             fine.block_samples < header.block_samples; fine = fine.coarser()) {
+            bytes += fine.blockColumns() * fine.blockRows() * sizeof(float);
+        }
+    }
+    return bytes;
+}
 
 Status buildLevelFile(const LevelBuild& build, JobMonitor& monitor)
 {

@@ -409,6 +409,30 @@ Result<SampleGrid> LevelFile::readSamples(const TileId& id) const
     return std::move(*samples);
 }
 
+Status LevelFile::check(const JobMonitor& monitor) const
+{
+    // Arrays are checked on the way.
+    if (const Result<MapLevels> levels = readLevels(impl_->header.scale); !levels) {
+        return levels.error();
+    }
+    for (const std::vector<FilePart>* parts :
+         {&impl_->samples, &impl_->fills.parts, &impl_->coarse_fills.parts}) {
+        for (const FilePart& part : *parts) {
+            if (monitor.isCancelled()) {
+                return Error{ErrorCode::Cancelled, "cancelled"};
+            }
+            const auto bytes = impl_->file.read(part.offset, part.bytes);
+            if (!bytes) {
+                return bytes.error();
+            }
+            if (checksum(*bytes) != part.checksum) {
+                return damaged(impl_->path(), "is damaged in a tile");
+            }
+        }
+    }
+    return Done{};
+}
+
 Result<std::vector<float>> LevelFile::Impl::readTileFill(const TileId& id,
                                                          const FilePart& part) const
 {

@@ -17,6 +17,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,6 +77,10 @@ public:
     /// made with, the same bits as FilledHeightfield on the map held in memory.
     Result<std::vector<float>> readFilled(const TileId& id, const ElevationScale& scale) const;
 
+    /// Reads everything that is in the file and holds it against its checksums: Invalid or
+    /// Unreadable where it is damaged, Cancelled. Levels of samples are a fiftieth of the raster.
+    Status check(const JobMonitor& monitor) const;
+
 private:
     struct Impl;
     explicit LevelFile(std::unique_ptr<Impl> impl);
@@ -90,10 +96,17 @@ struct LevelBuild {
     /// The means of no more blocks than this are kept: those of blocks of 8 samples a side, or
     /// twice as many until they are few enough.
     std::size_t mean_blocks_max = 4'000'000;
+    /// Asked when all is written, before anybody can see it: an error is that of the build.
+    std::function<Status()> confirm{};
     /// How far a build that is stopped may fall back; more where saving takes long.
     std::chrono::milliseconds checkpoint_interval{3'000};
 };
 
+/// No level file of such a raster takes more bytes on the disk while it is made.
+std::uint64_t levelFileBytesMax(const TileLayout& layout,
+                                std::size_t mean_blocks_max = LevelBuild{}.mean_blocks_max);
+
+/// Looks for room on the disk beforehand.
 /// Reads the raster twice, on all cores, and writes its level file. What was at `path` before stays
 /// when it fails: when cancelled, when a tile cannot be read, when the disk is full. Stopped by one
 /// of these, or by the death of the program, the next call for the same build goes on from the last

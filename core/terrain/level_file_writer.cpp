@@ -1,12 +1,15 @@
 #include "core/terrain/level_file_writer.h"
 
+#include "core/base/durable_file.h"
 #include "core/base/parallel.h"
+#include "core/raster/file_bytes.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fmt/format.h>
+#include <libdeflate.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -20,29 +23,6 @@
 
 namespace marsview {
 namespace {
-
-// What a crash of the machine must not take back. True where the system has no such thing.
-bool isOnDisk([[maybe_unused]] std::FILE* file)
-{
-#ifdef __unix__
-    return fsync(fileno(file)) == 0;
-#else
-    return true;
-#endif
-}
-
-// The name is on the disk when its folder is. Some file systems cannot tell; the content is safe
-// in any case.
-void syncFolder([[maybe_unused]] const std::filesystem::path& folder)
-{
-#ifdef __unix__
-    const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor >= 0) {
-        fsync(descriptor);
-        close(descriptor);
-    }
-#endif
-}
 
 // A file that nobody else writes to, cut to no more than `bytes_max` that a killed program left,
 // and to be written to behind these; null, with errno, where that cannot be.
@@ -125,25 +105,43 @@ Result<std::unique_ptr<LevelFileWriter>> LevelFileWriter::create(const std::stri
 }
 
 Result<std::unique_ptr<LevelFileWriter>> LevelFileWriter::resume(const std::string& path,
-                                                                 std::uint64_t bytes)
+                                                                 const Written& written)
 {
     std::unique_ptr<LevelFileWriter> writer(new LevelFileWriter(path));
-    writer->file_.reset(openForWriting(writer->part_path_, bytes));
+    writer->file_.reset(openForWriting(writer->part_path_, written.bytes));
     if (!writer->file_) {
         return writer->failed("cannot be written");
     }
-    writer->bytes_ = static_cast<std::uint64_t>(std::ftell(writer->file_.get()));
-    if (writer->bytes_ != bytes || bytes < kPreambleBytes) {
-        return Error{ErrorCode::Invalid, fmt::format("{}: has {} bytes instead of {}",
-                                                     writer->part_path_, writer->bytes_, bytes)};
+    writer->written_ = written;
+    if (written.bytes < kPreambleBytes || !writer->hasWhatWasWritten()) {
+        return Error{ErrorCode::Invalid, fmt::format("{}: has not the {} bytes that were written",
+                                                     writer->part_path_, written.bytes)};
     }
     return writer;
 }
 
-std::optional<std::uint64_t> LevelFileWriter::flush()
+bool LevelFileWriter::hasWhatWasWritten() const
+{
+    const auto file = FileBytes::open(part_path_);
+    if (!file || file->size() != written_.bytes) {
+        return false;
+    }
+    constexpr std::uint64_t kPiece = std::uint64_t{1} << 22U;
+    std::uint32_t checksum = 0;
+    for (std::uint64_t at = kPreambleBytes; at < written_.bytes; at += kPiece) {
+        const auto bytes = file->read(at, std::min(kPiece, written_.bytes - at));
+        if (!bytes) {
+            return false;
+        }
+        checksum = libdeflate_crc32(checksum, bytes->data(), bytes->size());
+    }
+    return checksum == written_.checksum;
+}
+
+std::optional<LevelFileWriter::Written> LevelFileWriter::flush()
 {
     const std::lock_guard lock(mutex_);
-    return std::fflush(file_.get()) == 0 ? std::optional(bytes_) : std::nullopt;
+    return flushToDisk(file_.get()) ? std::optional(written_) : std::nullopt;
 }
 
 Result<FilePart> LevelFileWriter::append(std::span<const std::byte> bytes)
@@ -154,21 +152,26 @@ Result<FilePart> LevelFileWriter::append(std::span<const std::byte> bytes)
         return failed("cannot be written");
     }
     FilePart placed = part;
-    placed.offset = bytes_;
-    bytes_ += bytes.size();
+    placed.offset = written_.bytes;
+    // The preamble comes first, and is written once more at the end. Nothing has no address, by
+    // which libdeflate knows to begin anew.
+    if (written_.bytes > 0 && !bytes.empty()) {
+        written_.checksum = libdeflate_crc32(written_.checksum, bytes.data(), bytes.size());
+    }
+    written_.bytes += bytes.size();
     return placed;
 }
 
-Status LevelFileWriter::finish(LevelFileHeader header,
-                               std::span<const Array> arrays,
-                               const JobMonitor& monitor)
+Status
+LevelFileWriter::finish(LevelFileHeader header, std::span<const Array> arrays, const Finish& how)
 {
+    const JobMonitor& monitor = how.monitor;
     header.planes = planesOf(header);
     MARSVIEW_CHECK(arrays.size() == header.planes.size());
-    LevelFilePreamble preamble{.planes_offset = bytes_};
+    LevelFilePreamble preamble{.planes_offset = written_.bytes};
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         if (i + kTailPlanes == arrays.size()) {
-            preamble.tail_offset = bytes_;
+            preamble.tail_offset = written_.bytes;
         }
         LevelPlane& plane = header.planes[i];
         MARSVIEW_CHECK(arrays[i].name == plane.name &&
@@ -193,19 +196,22 @@ Status LevelFileWriter::finish(LevelFileHeader header,
             plane.chunks.push_back(*appended);
         }
     }
-    preamble.header_offset = bytes_;
+    preamble.header_offset = written_.bytes;
     const std::string json = writtenHeader(header);
     auto appended = append(std::as_bytes(std::span<const char>(json)));
     if (!appended) {
         return std::move(appended).error();
     }
     preamble.header_checksum = appended->checksum;
-    preamble.file_bytes = bytes_;
+    preamble.file_bytes = written_.bytes;
     if (auto written = writeFront(writtenPreamble(preamble)); !written) {
         return written;
     }
     if (monitor.isCancelled()) {
         return Error{ErrorCode::Cancelled, "cancelled"};
+    }
+    if (Status confirmed = how.confirm ? how.confirm() : Status(Done{}); !confirmed) {
+        return confirmed;
     }
     return publish();
 }
@@ -214,8 +220,7 @@ Status LevelFileWriter::writeFront(std::span<const std::byte> bytes)
 {
     std::FILE* file = file_.get();
     if (std::fseek(file, 0, SEEK_SET) != 0 ||
-        std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() ||
-        std::fflush(file) != 0 || !isOnDisk(file)) {
+        std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() || !flushToDisk(file)) {
         return failed("cannot be written");
     }
     return Done{};
@@ -237,7 +242,7 @@ Status LevelFileWriter::publish()
                                  problem.message())};
     }
     is_published_ = true;
-    syncFolder(std::filesystem::path(path_).parent_path());
+    flushFolderToDisk(std::filesystem::path(path_).parent_path());
     return Done{};
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,19 +22,24 @@ namespace marsview {
 class LevelFileWriter {
 public:
     static Result<std::unique_ptr<LevelFileWriter>> create(const std::string& path);
-    /// Goes on behind the first `bytes` that another one has written. Invalid where there are
-    /// fewer.
+    /// How far one has written, and what by: the CRC-32 of all but the preamble.
+    struct Written {
+        std::uint64_t bytes = 0;
+        std::uint32_t checksum = 0;
+    };
+    /// Goes on behind what another one has written, which is read once. Invalid where it is not
+    /// there any more.
     static Result<std::unique_ptr<LevelFileWriter>> resume(const std::string& path,
-                                                           std::uint64_t bytes);
+                                                           const Written& written);
     ~LevelFileWriter();
     LevelFileWriter(const LevelFileWriter&) = delete;
     LevelFileWriter& operator=(const LevelFileWriter&) = delete;
 
     /// Any thread.
     Result<FilePart> append(std::span<const std::byte> bytes);
-    /// What was appended is in the file from now on, whatever becomes of the program: how many
-    /// bytes that are. Nothing where it cannot be written. While nobody appends.
-    std::optional<std::uint64_t> flush();
+    /// What was appended is on the disk from now on, whatever becomes of the machine. Nothing where
+    /// it cannot be written. While nobody appends.
+    std::optional<Written> flush();
     /// What was written stays, to be resumed.
     void keep() noexcept { is_kept_ = true; }
 
@@ -43,8 +49,12 @@ public:
         std::span<const std::byte> values;
     };
     /// Writes the arrays, which are those of planesOf(header) in their order, and the header; sees
-    /// to it that all is on the disk, and gives the file its name.
-    Status finish(LevelFileHeader header, std::span<const Array> arrays, const JobMonitor& monitor);
+    /// to it that all is on the disk, and, where `confirm` agrees, gives the file its name.
+    struct Finish {
+        const JobMonitor& monitor;
+        const std::function<Status()>& confirm; // may be empty
+    };
+    Status finish(LevelFileHeader header, std::span<const Array> arrays, const Finish& how);
 
 private:
     struct Close {
@@ -53,6 +63,7 @@ private:
 
     explicit LevelFileWriter(std::string path);
 
+    bool hasWhatWasWritten() const;
     Status writeFront(std::span<const std::byte> bytes);
     Status publish();
     Error failed(const std::string& what) const;
@@ -61,7 +72,7 @@ private:
     std::string part_path_;
     std::mutex mutex_; // of what follows
     std::unique_ptr<std::FILE, Close> file_;
-    std::uint64_t bytes_ = 0;
+    Written written_;
     bool is_published_ = false;
     bool is_kept_ = false;
 };

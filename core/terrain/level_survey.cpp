@@ -80,7 +80,7 @@ public:
         to.putGrid(*found_.sparse);
         to.putGrid(*found_.first_rows);
         nested_.save(to);
-        return found_.fine_means.flush();
+        return found_.fine_means.save(to);
     }
 
     bool restore(CheckpointReader& from)
@@ -101,7 +101,7 @@ public:
         found_.sparse = from.getGrid(layout_.type, sparse_columns, sparse_rows);
         found_.first_rows = from.getGrid(layout_.type, layout_.columns, firstRowCount());
         return is_good && found_.sparse && found_.first_rows && nested_.restore(from) &&
-               openFineMeans(FineMeans::Content::AsItWas);
+               openFineMeans(FineMeans::Content::AsItWas) && found_.fine_means.restore(from);
     }
 
     const LevelSurvey& finish()

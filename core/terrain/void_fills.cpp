@@ -1,8 +1,12 @@
 #include "core/terrain/void_fills.h"
 
+#include "core/base/durable_file.h"
+#include "core/terrain/packing.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <fmt/format.h>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -19,6 +23,11 @@ Error failed(const std::string& name, const char* what)
                         std::generic_category().message(reason))};
 }
 
+std::uint64_t rowChecksum(std::span<const float> heights_m)
+{
+    return std::uint64_t{checksum(std::as_bytes(heights_m))} + 1;
+}
+
 } // namespace
 
 Result<FineMeans> FineMeans::open(const BlockExtent& kept, const std::string& path, Content content)
@@ -27,6 +36,7 @@ Result<FineMeans> FineMeans::open(const BlockExtent& kept, const std::string& pa
     for (BlockExtent level{kept.columns, kept.rows, BlockMeans::kBlock};
          level.block_samples < kept.block_samples; level = level.coarser()) {
         means.levels_.push_back(level);
+        means.row_checksums_.emplace_back(level.blockRows());
     }
     if (means.levels_.empty()) {
         return means;
@@ -39,10 +49,36 @@ Result<FineMeans> FineMeans::open(const BlockExtent& kept, const std::string& pa
     return means;
 }
 
-bool FineMeans::flush() const
+bool FineMeans::save(CheckpointWriter& to) const
 {
     const std::lock_guard lock(*mutex_);
-    return !file_ || std::fflush(file_.get()) == 0;
+    for (const std::vector<std::uint64_t>& rows : row_checksums_) {
+        to.putArray(rows);
+    }
+    return !file_ || flushToDisk(file_.get());
+}
+
+bool FineMeans::restore(CheckpointReader& from)
+{
+    for (std::vector<std::uint64_t>& rows : row_checksums_) {
+        if (!from.getArray(rows)) {
+            return false;
+        }
+    }
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        BlockRows row{.columns = levels_[level].blockColumns(),
+                      .level_rows = levels_[level].blockRows(),
+                      .first_row = 0,
+                      .heights_m = {}};
+        row.heights_m.resize(row.columns);
+        for (; row.first_row < row.level_rows; ++row.first_row) {
+            const std::uint64_t expected = row_checksums_[level][row.first_row];
+            if (expected != 0 && (!read(level, row) || rowChecksum(row.heights_m) != expected)) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
 long FineMeans::offsetOf(std::size_t level, std::size_t row) const
@@ -61,6 +97,11 @@ Status FineMeans::write(std::size_t level, const BlockRows& rows)
     if (std::fseek(file_.get(), offsetOf(level, rows.first_row), SEEK_SET) != 0 ||
         std::fwrite(rows.heights_m.data(), sizeof(float), count, file_.get()) != count) {
         return failed(name_, "cannot be written");
+    }
+    const std::span<const float> heights(rows.heights_m);
+    for (std::size_t row = 0; row * rows.columns < count; ++row) {
+        row_checksums_[level][rows.first_row + row] =
+            rowChecksum(heights.subspan(row * rows.columns, rows.columns));
     }
     return Done{};
 }

@@ -3,6 +3,7 @@
 
 #include "core/base/result.h"
 #include "core/terrain/block_means.h"
+#include "core/terrain/checkpoint_file.h"
 #include "core/terrain/tile_fill.h"
 
 #include <cstddef>
@@ -35,8 +36,11 @@ public:
     Status write(std::size_t level, const BlockRows& rows);
     /// Fills rows.heights_m, which has the size of what is wanted, from rows.first_row on.
     Status read(std::size_t level, BlockRows& rows) const;
-    /// All that was written is the file's from here on, whatever becomes of the program.
-    bool flush() const;
+    /// All that was written is on the disk from here on, whatever becomes of the machine, and `to`
+    /// tells it from anything else. False where that cannot be.
+    bool save(CheckpointWriter& to) const;
+    /// Whether the file holds what it held at save(). Reads it.
+    bool restore(CheckpointReader& from);
 
 private:
     struct Close {
@@ -47,6 +51,8 @@ private:
 
     std::string name_; // for messages
     std::vector<BlockExtent> levels_;
+    // Of each row of each level: 0 where it was not written, else one more than its CRC-32.
+    std::vector<std::vector<std::uint64_t>> row_checksums_;
     std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
     std::unique_ptr<std::FILE, Close> file_; // none where there are no levels
 };

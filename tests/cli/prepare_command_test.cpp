@@ -291,6 +291,43 @@ TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
     EXPECT_EQ(firstBand(checksumsOf(file))["checksum"], firstBand(checksumsOf(source))["checksum"]);
 }
 
+TEST(PrepareCommand, MakesRoomOnAFullDiskByTheMapThatWasNotUsedForLongest)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder); // 42 MB raw
+    fs::create_directory(folder.path() / "small");
+    const std::string script = fmt::format(
+        "mount -t tmpfs -o size=72m tmpfs '{0}' || exit 99; export MARSVIEW_CACHE_DIR='{0}/maps'; "
+        "'{1}' prepare '{2}' || exit 1; ls '{0}/maps'; touch -d 2020-01-01 '{2}'; "
+        "'{1}' prepare '{2}' || exit 2; ls '{0}/maps'",
+        folder.file("small"), MARSVIEW_CLI, source);
+    const ProgramOutput output = runProgram({"unshare", "-Urm", "sh", "-c", script});
+    if (output.exit_status == 99 || output.exit_status == 127 ||
+        output.err.find("unshare") != std::string::npos) {
+        GTEST_SKIP() << "this machine lets nobody make a small disk: " << output.err;
+    }
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+}
+
+TEST(PrepareCommand, WhatItMadeOpensWhereNothingMayBeWritten)
+{
+    const TempFolder folder;
+    const TempFolder maps;
+    const std::string source = tallMap(folder);
+    folder.write("goals.csv", "x,y,z\n1100,1900,-100\n");
+    const std::string script = fmt::format(
+        "export MARSVIEW_CACHE_DIR='{0}' MARSVIEW_HELD_MB=0; '{1}' prepare '{2}' || exit 3; "
+        "mount --bind '{0}' '{0}' && mount -o remount,bind,ro '{0}' || exit 99; "
+        "exec '{1}' trace '{2}' --goals '{3}'",
+        maps.path().string(), MARSVIEW_CLI, source, folder.file("goals.csv"));
+    const ProgramOutput output = runProgram({"unshare", "-Urm", "sh", "-c", script});
+    if (output.exit_status == 99 || output.exit_status == 127 ||
+        output.err.find("unshare") != std::string::npos) {
+        GTEST_SKIP() << "this machine lets nobody make a folder read-only: " << output.err;
+    }
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+}
+
 TEST(PrepareCommand, FailsInOneLine)
 {
     const TempFolder folder;

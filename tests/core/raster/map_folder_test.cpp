@@ -224,6 +224,53 @@ TEST(MapFolder, KeepsWhatIsInUseOrBeingPrepared)
     EXPECT_EQ(namesIn(folder).size(), 2U);
 }
 
+TEST(MapFolder, KeepsTheLevelsOfARasterThatIsUsedInPlace)
+{
+    const test::TempFolder temp;
+    const MapFolder folder = folderAt(temp.path());
+    temp.write("old.map.tif.marsview", std::string(100, 'x'));
+    fs::last_write_time(temp.file("old.map.tif.marsview"),
+                        fs::file_time_type::clock::now() - std::chrono::hours(5));
+    addMap(temp, "new", 100, std::chrono::hours(1));
+    {
+        const Result<FileLock> use = folder.use(temp.file("old.map.tif"));
+        ASSERT_TRUE(use) << use.error().message;
+        EXPECT_THAT(namesIn(folder), ElementsAre("old.map.tif", "new.map.tif"));
+        EXPECT_EQ(folder.trim(0)->size(), 1U);
+        EXPECT_TRUE(fs::exists(temp.file("old.map.tif.marsview")));
+    }
+    EXPECT_EQ(folder.trim(0)->size(), 1U);
+    EXPECT_TRUE(fs::is_empty(temp.path()));
+}
+
+TEST(MapFolder, RemembersWhatWasFoundDamagedUntilItIsMadeAnew)
+{
+    const test::TempFolder temp;
+    const MapFolder folder = folderAt(temp.path());
+    addMap(temp, "a", 100, std::chrono::hours(1));
+    const std::string path = temp.file("a.map.tif");
+    EXPECT_FALSE(folder.damage(path));
+    EXPECT_TRUE(folder.noteDamage(path, "a tile is torn"));
+    EXPECT_EQ(folder.damage(path), "a tile is torn");
+    EXPECT_EQ(namesIn(folder).size(), 1U);
+    folder.forgetDamage(path);
+    EXPECT_FALSE(folder.damage(path));
+    EXPECT_TRUE(folder.noteDamage(path, "a tile is torn"));
+    EXPECT_TRUE(folder.remove("a.map.tif"));
+    EXPECT_TRUE(fs::is_empty(temp.path()));
+    EXPECT_FALSE(MapFolder::at(temp.path() / "none").noteDamage("/no/such/folder/a.map.tif", ""));
+}
+
+TEST(MapFolder, MakesNoRoomWhereThatWouldNotBeEnough)
+{
+    const test::TempFolder temp;
+    const MapFolder folder = folderAt(temp.path());
+    addMap(temp, "a", 1000, std::chrono::hours(2));
+    EXPECT_TRUE(folder.makeRoom(1, "")->empty());
+    EXPECT_TRUE(folder.makeRoom(std::uint64_t{1} << 60, "")->empty());
+    EXPECT_EQ(namesIn(folder).size(), 1U);
+}
+
 TEST(MapFolder, RemovesOneWithAllThatBelongsToIt)
 {
     const test::TempFolder temp;

@@ -1,6 +1,7 @@
 #include "core/raster/source_identity.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
+#include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -154,6 +155,30 @@ TEST(SourceIdentity, IsNotDisturbedByStatisticsBesideTheRaster)
                  "<PAMDataset><PAMRasterBand band=\"1\"><Description>x</Description>"
                  "</PAMRasterBand></PAMDataset>");
     EXPECT_TRUE(isSameContent(before, identityOf(path)));
+}
+
+TEST(SourceIdentity, CountsOverviewsBesideTheRasterWhereTheyAreRead)
+{
+    const test::TempFolder folder;
+    std::vector<std::int16_t> samples(64 * 64);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<std::int16_t>(i * i % 1000);
+    }
+    const std::string path =
+        test::writeRaster(folder, "map.tif", "GTiff", test::recipeFor<std::int16_t>(64, samples));
+    const auto of = [&path](OverviewFiles overviews) { return identify(path, overviews).value(); };
+    const SourceIdentity without = of(OverviewFiles::Counted);
+    EXPECT_EQ(without, of(OverviewFiles::Ignored));
+    test::runTool({"gdaladdo", "-q", "-ro", "-r", "average", path, "2"});
+    const SourceIdentity averages = of(OverviewFiles::Counted);
+    EXPECT_FALSE(isSameContent(without, averages));
+    EXPECT_TRUE(isSameContent(without, of(OverviewFiles::Ignored)));
+    const fs::file_time_type time = fs::last_write_time(path + ".ovr");
+    fs::remove(path + ".ovr");
+    test::runTool({"gdaladdo", "-q", "-ro", "-r", "nearest", path, "2"});
+    fs::last_write_time(path + ".ovr", time);
+    EXPECT_FALSE(isSameContent(averages, of(OverviewFiles::Counted)));
+    EXPECT_TRUE(isSameContent(without, of(OverviewFiles::Ignored)));
 }
 
 TEST(SourceIdentity, ReadsGdalsFileSystems)

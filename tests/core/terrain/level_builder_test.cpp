@@ -10,11 +10,14 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #ifdef __unix__
 #include <sys/resource.h>
@@ -201,6 +204,95 @@ TEST_F(LevelBuilder, LeavesAFileThatAnotherProgramIsWritingAlone)
         }});
     ASSERT_TRUE(build(source));
     EXPECT_TRUE(LevelFile::open(path(), {}));
+}
+
+TEST_F(LevelBuilder, PublishesNothingThatIsNotConfirmed)
+{
+    folder_.write("map.marsview", "of yesterday");
+    test::GridTileSource source(someTerrain());
+    const LevelBuild build{
+        .source = &source, .scale = {}, .key = {}, .path = path(), .confirm = [this]() -> Status {
+            EXPECT_EQ(test::readFile(path()), "of yesterday");
+            return Error{ErrorCode::Invalid, "/maps/m.tif: changed"};
+        }};
+    JobMonitor monitor;
+    const Status status = buildLevelFile(build, monitor);
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "/maps/m.tif: changed");
+    EXPECT_EQ(test::readFile(path()), "of yesterday");
+    EXPECT_EQ(fileCount(), 1U);
+}
+
+// As after a power cut: the checkpoint is there, and what it stands on is not.
+TEST_F(LevelBuilder, BeginsAgainWhereWhatACheckpointStandsOnIsDamaged)
+{
+    const auto job = [this](const TileSource& source) {
+        return LevelBuild{.source = &source,
+                          .scale = {},
+                          .key = {},
+                          .path = path(),
+                          .mean_blocks_max = 2000,
+                          .checkpoint_interval = std::chrono::milliseconds(0)};
+    };
+    test::GridTileSource source(someTerrain());
+    JobMonitor monitor;
+    ASSERT_TRUE(buildLevelFile(job(source), monitor));
+    // Which tile comes first in the file is up to the threads.
+    const auto content = [this] {
+        std::vector<float> numbers;
+        const LevelFile file = LevelFile::open(path(), {}).value();
+        const MapLevels levels = file.readLevels({}).value();
+        for (const std::vector<float>& maxima : levels.filled_maxima_m) {
+            numbers.insert(numbers.end(), maxima.begin(), maxima.end());
+        }
+        for (std::uint32_t row = 0; row < 5; ++row) {
+            for (std::uint32_t column = 0; column < 10; ++column) {
+                const TileId id{TileKind::Samples, 0, column, row};
+                const std::vector<float> filled = file.readFilled(id, {}).value();
+                numbers.insert(numbers.end(), filled.begin(), filled.end());
+            }
+        }
+        return numbers;
+    };
+    const std::vector<float> expected = content();
+    std::filesystem::remove(path());
+    const auto cut = [](const std::string& file) {
+        std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    };
+    const auto overwrite = [](const std::string& file) {
+        std::string bytes = test::readFile(file);
+        bytes[bytes.size() / 3] = static_cast<char>(bytes[bytes.size() / 3] ^ 0x10);
+        std::ofstream(file, std::ios::binary) << bytes;
+    };
+    const auto leave = [](const std::string&) {};
+    using Damage = std::function<void(const std::string&)>;
+    for (const char* ending : {".part", ".part.means", ".part.checkpoint"}) {
+        for (const Damage& damage : {Damage(cut), Damage(overwrite), Damage(leave)}) {
+            for (const int last_row : {2, 4}) { // of the second reading
+                std::atomic<int> reads{0};
+                test::GridTileSource torn(
+                    someTerrain(), {.before_read = [&](const TileId& id) -> std::optional<Error> {
+                        if (id.row == static_cast<std::uint32_t>(last_row) && ++reads > 10) {
+                            return Error{ErrorCode::Unreadable, "the tape is torn"};
+                        }
+                        return std::nullopt;
+                    }});
+                ASSERT_FALSE(buildLevelFile(job(torn), monitor));
+                ASSERT_EQ(fileCount(), 3U);
+                damage(path() + ending);
+                const std::uint64_t reads_before = source.readCount();
+                const Status again = buildLevelFile(job(source), monitor);
+                ASSERT_TRUE(again) << ending << ": " << again.error().message;
+                EXPECT_TRUE(content() == expected) << ending;
+                EXPECT_TRUE(LevelFile::open(path(), {})->check(monitor));
+                EXPECT_EQ(source.readCount() - reads_before < 100,
+                          damage.target_type() == Damage(leave).target_type())
+                    << ending;
+                EXPECT_EQ(fileCount(), 1U);
+                std::filesystem::remove(path());
+            }
+        }
+    }
 }
 
 TEST_F(LevelBuilder, SaysWhereItCannotWrite)

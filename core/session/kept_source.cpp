@@ -1,0 +1,76 @@
+#include "core/session/kept_source.h"
+
+#include <utility>
+
+namespace marsview {
+namespace {
+
+class KeptSource final : public TileSource, public std::enable_shared_from_this<KeptSource> {
+public:
+    KeptSource(std::shared_ptr<const TileSource> source, KeptMap map)
+        : source_(std::move(source))
+        , map_(std::move(map))
+    {}
+
+    const TileLayout& layout() const noexcept override { return source_->layout(); }
+    const std::string& name() const noexcept override { return source_->name(); }
+
+    Result<std::unique_ptr<TileReader>> open() const override
+    {
+        Result<std::unique_ptr<TileReader>> reader = source_->open();
+        if (!reader) {
+            return reader;
+        }
+        return std::unique_ptr<TileReader>(
+            std::make_unique<Reader>(std::move(reader).value(), shared_from_this()));
+    }
+
+private:
+    class Reader final : public TileReader {
+    public:
+        Reader(std::unique_ptr<TileReader> reader, std::shared_ptr<const KeptSource> source)
+            : reader_(std::move(reader))
+            , source_(std::move(source))
+        {}
+
+        Result<Tile> read(const TileId& id) override
+        {
+            Result<Tile> tile = reader_->read(id);
+            if (!tile && isDamageToKept(tile.error(), source_->map_.is_copy) && isStillSo(id)) {
+                // Where it cannot be noted, the sentence alone has to do.
+                static_cast<void>(
+                    source_->map_.folder.noteDamage(source_->map_.path, tile.error().message));
+            }
+            return tile;
+        }
+
+    private:
+        // A moment's lack of memory or files is no damage.
+        bool isStillSo(const TileId& id) const
+        {
+            const Result<std::unique_ptr<TileReader>> again = source_->source_->open();
+            return again && !(*again)->read(id);
+        }
+
+        std::unique_ptr<TileReader> reader_;
+        std::shared_ptr<const KeptSource> source_;
+    };
+
+    std::shared_ptr<const TileSource> source_;
+    KeptMap map_;
+};
+
+} // namespace
+
+std::shared_ptr<const TileSource> keptSource(std::shared_ptr<const TileSource> source, KeptMap map)
+{
+    return std::make_shared<const KeptSource>(std::move(source), std::move(map));
+}
+
+bool isDamageToKept(const Error& error, bool is_copy)
+{
+    // Levels are Invalid where they are damaged; a raster is Unreadable.
+    return error.code == ErrorCode::Invalid || (is_copy && error.code == ErrorCode::Unreadable);
+}
+
+} // namespace marsview

@@ -1,0 +1,279 @@
+#include "core/raster/map_folder.h"
+#include "core/session/open_map.h"
+#include "core/session/prepare_map.h"
+#include "core/terrain/level_file.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr std::size_t kColumns = 700;
+constexpr std::size_t kRows = 1300;
+
+double heightAt(std::size_t column, std::size_t row)
+{
+    return std::floor(300.0 * std::sin(0.01 * static_cast<double>(column)) +
+                      static_cast<double>(row * 7919 % 13));
+}
+
+// Maps that are never held, prepared in a folder of their own.
+class OpenMap : public testing::Test {
+protected:
+    OpenMap()
+    {
+        resources_.tiles = std::make_shared<TileCache>(
+            TileCacheOptions{.bytes_max = std::size_t{64} << 20, .loader_threads = 2});
+        resources_.held_bytes_max = 0;
+        resources_.folder = maps_.path();
+        std::vector<std::int16_t> samples;
+        for (std::size_t row = 0; row < kRows; ++row) {
+            for (std::size_t column = 0; column < kColumns; ++column) {
+                samples.push_back(static_cast<std::int16_t>(heightAt(column, row)));
+            }
+        }
+        source_ = test::writeVrt(folder_, "map", test::recipeFor(kColumns, samples));
+    }
+
+    // One that can be used in place, with its overviews beside it; not compressed, so that damage
+    // gives other heights without a word.
+    std::string tiled() const
+    {
+        const std::string path = folder_.file("tiled.tif");
+        test::runTool({"gdal_translate", "-q", "-co", "TILED=YES", source_, path});
+        addOverviews(path, "average");
+        return path;
+    }
+    static void addOverviews(const std::string& path, const std::string& how)
+    {
+        fs::remove(path + ".ovr");
+        test::runTool({"gdaladdo", "-q", "-ro", "-r", how, path, "2", "4"});
+    }
+
+    Result<LoadedMap> open(const std::string& path)
+    {
+        JobMonitor monitor;
+        return openMap({.path = path}, resources_, monitor);
+    }
+    Result<OpenPlan> plan(const std::string& path) const
+    {
+        return planOpening({.path = path}, resources_);
+    }
+    void prepare(const std::string& path) const
+    {
+        JobMonitor monitor;
+        const auto prepared = prepareMapFiles({.spec = {.path = path}}, monitor);
+        ASSERT_TRUE(prepared) << prepared.error().message;
+    }
+
+    // Tiles of the finest level that cannot be read; the others are what they should be.
+    static std::size_t unreadable(const LoadedMap& map)
+    {
+        std::size_t count = 0;
+        for (std::uint32_t row = 0; row * kTileSide < kRows; ++row) {
+            for (std::uint32_t column = 0; column * kTileSide < kColumns; ++column) {
+                const std::size_t c = column * kTileSide;
+                const std::size_t r = row * kTileSide;
+                const Heightfield& heightfield = map.dataset->heightfield();
+                if (!heightfield.isTiled()) {
+                    EXPECT_EQ(heightfield.sample(c, r), heightAt(c, r));
+                } else if (const auto tile = heightfield.tiles()->raster().get(
+                               {TileKind::Samples, 0, column, row})) {
+                    EXPECT_EQ((*tile)->samples.raw(0, 0), heightAt(c, r));
+                } else {
+                    ++count;
+                }
+            }
+        }
+        return count;
+    }
+
+    // Without another size or time.
+    static void damage(const std::string& path, double share, std::size_t bytes = 50)
+    {
+        const fs::file_time_type time = fs::last_write_time(path);
+        std::string content = test::readFile(path);
+        const auto at = static_cast<std::size_t>(share * static_cast<double>(content.size()));
+        for (std::size_t i = at; i < std::min(at + bytes, content.size()); ++i) {
+            content[i] = static_cast<char>(content[i] ^ 0x5A);
+        }
+        std::ofstream(path, std::ios::binary) << content;
+        fs::last_write_time(path, time);
+    }
+
+    std::string keptPath(const std::string& path) const
+    {
+        return preparedPathFor({.path = path}, maps_.path()).value();
+    }
+
+    test::TempFolder folder_;
+    test::TempFolder maps_;
+    MapResources resources_;
+    std::string source_;
+};
+
+} // namespace
+
+TEST_F(OpenMap, MakesACopyAnewOfWhichATileWasFoundDamaged)
+{
+    const std::string kept = keptPath(source_);
+    std::size_t noticed_late = 0;
+    for (const double share : {0.15, 0.25, 0.3, 0.37, 0.45, 0.53, 0.6, 0.68, 0.75}) {
+        {
+            const Result<LoadedMap> map = open(source_);
+            ASSERT_TRUE(map) << map.error().message;
+            ASSERT_EQ(unreadable(*map), 0U);
+        }
+        damage(kept, share);
+        {
+            const Result<LoadedMap> map = open(source_);
+            ASSERT_TRUE(map) << map.error().message;
+            if (unreadable(*map) == 0) {
+                continue; // it was noticed while opening
+            }
+            ++noticed_late;
+            EXPECT_TRUE(MapFolder::at(maps_.path()).damage(kept));
+            EXPECT_EQ(plan(source_)->store, MapStore::Unprepared);
+        }
+        const Result<LoadedMap> map = open(source_);
+        ASSERT_TRUE(map) << map.error().message;
+        EXPECT_EQ(unreadable(*map), 0U);
+        EXPECT_FALSE(MapFolder::at(maps_.path()).damage(kept));
+    }
+    EXPECT_GT(noticed_late, 0U);
+}
+
+TEST_F(OpenMap, MakesADamagedCopyAnewThatIsStillOpen)
+{
+    Result<LoadedMap> first = open(source_);
+    ASSERT_TRUE(first);
+    MapFolder::at(maps_.path()).noteDamage(keptPath(source_), "a tile is torn; open it again");
+    const Result<LoadedMap> second = open(source_);
+    ASSERT_TRUE(second) << second.error().message;
+    EXPECT_EQ(unreadable(*second), 0U);
+    EXPECT_FALSE(MapFolder::at(maps_.path()).damage(keptPath(source_)));
+}
+
+TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
+{
+    const std::string path = tiled();
+    {
+        const Result<LoadedMap> map = open(path); // its levels lie in the folder
+        ASSERT_TRUE(map) << map.error().message;
+        ASSERT_EQ(unreadable(*map), 0U);
+    }
+    const std::string levels = LevelFile::pathFor(keptPath(path));
+    ASSERT_TRUE(fs::exists(levels));
+    const std::string before = test::readFile(levels);
+    damage(path, 0.5, 4000);
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        const Result<LoadedMap> map = open(path);
+        if (map) {
+            EXPECT_GT(unreadable(*map), 0U);
+        } else {
+            EXPECT_THAT(map.error().message, HasSubstr("get it again from where it came"));
+        }
+        EXPECT_TRUE(test::readFile(levels) == before);
+    }
+}
+
+TEST_F(OpenMap, MakesLevelsAnewWhereOverviewsBesideTheRasterAreOthers)
+{
+    const std::string path = tiled();
+    prepare(path);
+    EXPECT_EQ(plan(path)->level_path, LevelFile::pathFor(path));
+    addOverviews(path, "nearest");
+    const Result<OpenPlan> outdated = plan(path);
+    ASSERT_TRUE(outdated);
+    EXPECT_EQ(outdated->store, MapStore::Unprepared);
+    EXPECT_THAT(outdated->notices,
+                Contains(HasSubstr("level file beside it is not used: it was made from another")));
+    {
+        const Result<LoadedMap> map = open(path); // with levels in the folder
+        ASSERT_TRUE(map) << map.error().message;
+        EXPECT_EQ(unreadable(*map), 0U);
+        EXPECT_THAT(map->dataset->info().notices, Contains(HasSubstr("is not used")));
+    }
+    prepare(path);
+    EXPECT_EQ(plan(path)->level_path, LevelFile::pathFor(path));
+    EXPECT_TRUE(plan(path)->notices.empty());
+    const Result<LoadedMap> map = open(path);
+    ASSERT_TRUE(map) << map.error().message;
+    EXPECT_EQ(unreadable(*map), 0U);
+}
+
+TEST_F(OpenMap, SaysWhyALevelFileBesideTheRasterIsNotUsed)
+{
+    const std::string path = tiled();
+    prepare(path);
+    const std::string levels = LevelFile::pathFor(path);
+    const std::string good = test::readFile(levels);
+    std::string of_another_version = good;
+    of_another_version[8] = 9;
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {good.substr(0, 1000), "cut short"},
+        {of_another_version, "is of version 9"},
+        {"hello, this is not a level file, whatever it may be called by its name", "is no level"},
+        {"", "has only 0 bytes"}};
+    for (const auto& [content, why] : cases) {
+        std::ofstream(levels, std::ios::binary) << content;
+        for (const std::size_t held_bytes_max : {std::size_t{0}, std::size_t{1} << 30}) {
+            resources_.held_bytes_max = held_bytes_max;
+            const Result<LoadedMap> map = open(path);
+            ASSERT_TRUE(map) << map.error().message;
+            EXPECT_THAT(map->dataset->info().notices, Contains(HasSubstr(why)));
+            EXPECT_EQ(unreadable(*map), 0U);
+        }
+    }
+}
+
+TEST_F(OpenMap, KeepsLevelsOfAMapInPlaceAsLongAsItIsOpen)
+{
+    const std::string path = tiled();
+    const MapFolder folder = MapFolder::at(maps_.path());
+    {
+        const Result<LoadedMap> map = open(path);
+        ASSERT_TRUE(map) << map.error().message;
+        ASSERT_EQ(folder.list()->size(), 1U);
+        EXPECT_TRUE(folder.list()->front().is_in_use);
+        EXPECT_TRUE(folder.trim(0)->empty());
+        EXPECT_EQ(unreadable(*map), 0U);
+    }
+    EXPECT_EQ(folder.trim(0)->size(), 1U);
+}
+
+TEST_F(OpenMap, RefusesWhatIsNoSurfaceBeforePreparingIt)
+{
+    for (const std::size_t columns : {1U, 600U}) {
+        const std::string path = test::writeVrt(
+            folder_, "line", test::recipeFor(columns, std::vector<std::int16_t>(600, 5)));
+        const Result<OpenPlan> refused = plan(path);
+        ASSERT_FALSE(refused);
+        EXPECT_THAT(refused.error().message,
+                    HasSubstr("samples make no surface; at least 2 × 2 are needed"));
+        JobMonitor monitor;
+        const auto prepared = prepareMapFiles(
+            {.spec = {.path = path}, .raster_path = folder_.file("out.tif")}, monitor);
+        ASSERT_FALSE(prepared);
+        EXPECT_EQ(prepared.error().message, refused.error().message);
+        EXPECT_FALSE(fs::exists(folder_.file("out.tif")));
+    }
+    EXPECT_TRUE(fs::is_empty(maps_.path()));
+}
+
+} // namespace marsview

@@ -1,0 +1,165 @@
+#include "core/raster/map_folder.h"
+#include "core/session/prepare_map.h"
+#include "core/terrain/level_file.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::EndsWith;
+using testing::HasSubstr;
+using WhenThere = PrepareJob::WhenThere;
+
+class PrepareMap : public testing::Test {
+protected:
+    std::string source(const std::string& name, int seed = 0) const
+    {
+        std::vector<std::int16_t> samples;
+        for (std::size_t i = 0; i < std::size_t{700} * 1300; ++i) {
+            const auto column = static_cast<double>(i % 700);
+            samples.push_back(static_cast<std::int16_t>(300.0 * std::sin(0.01 * column + seed) +
+                                                        static_cast<double>(i / 700 * 7919 % 13)));
+        }
+        return test::writeVrt(folder_, name, test::recipeFor(700, samples));
+    }
+    PrepareJob job(WhenThere when_there) const
+    {
+        return {.spec = {.path = folder_.file("map.vrt")},
+                .raster_path = folder_.file("out.tif"),
+                .when_there = when_there};
+    }
+    static Result<PrepareReport> run(const PrepareJob& job)
+    {
+        JobMonitor monitor;
+        return prepareMapFiles(job, monitor);
+    }
+    static void overwrite(const std::string& path, double share)
+    {
+        const fs::file_time_type time = fs::last_write_time(path);
+        std::string content = test::readFile(path);
+        const auto at = static_cast<std::size_t>(share * static_cast<double>(content.size()));
+        for (std::size_t i = at; i < std::min(at + 50, content.size()); ++i) {
+            content[i] = static_cast<char>(content[i] ^ 0x5A);
+        }
+        std::ofstream(path, std::ios::binary) << content;
+        fs::last_write_time(path, time);
+    }
+
+    test::TempFolder folder_;
+};
+
+} // namespace
+
+TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
+{
+    source("map");
+    ASSERT_TRUE(run(job(WhenThere::Check)));
+    const std::string out = folder_.file("out.tif");
+    const std::string whole = test::readFile(out);
+    std::size_t noticed_late = 0;
+    for (const double share : {0.1, 0.2, 0.3, 0.35, 0.4, 0.47, 0.55, 0.6, 0.67, 0.9}) {
+        overwrite(out, share);
+        // It may be told by what the file is known again by.
+        ASSERT_TRUE(run(job(WhenThere::Trust)));
+        const bool is_left = test::readFile(out) != whole;
+        noticed_late += is_left ? 1U : 0U;
+        const Result<PrepareReport> report = run(job(WhenThere::Check));
+        ASSERT_TRUE(report) << report.error().message;
+        EXPECT_THAT(report->notes, Contains(EndsWith(is_left ? "it is made anew"
+                                                             : "every tile is as it was then")))
+            << share;
+        EXPECT_TRUE(test::readFile(out) == whole) << share;
+        const Result<PrepareReport> again = run(job(WhenThere::Check));
+        ASSERT_TRUE(again);
+        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+    }
+    EXPECT_GT(noticed_late, 0U);
+}
+
+TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
+{
+    source("map");
+    ASSERT_TRUE(run(job(WhenThere::Check)));
+    const std::string levels = LevelFile::pathFor(folder_.file("out.tif"));
+    fs::file_time_type copied = fs::last_write_time(folder_.file("out.tif"));
+    for (const double share : {0.0, 0.02, 0.1, 0.3, 0.7, 0.99}) {
+        overwrite(levels, share);
+        const Result<PrepareReport> report = run(job(WhenThere::Check));
+        ASSERT_TRUE(report) << report.error().message;
+        EXPECT_THAT(report->notes, Contains(EndsWith("it is made anew"))) << share;
+        // Where there are no checksums any more, nobody knows whether the copy is what it was.
+        const fs::file_time_type now = fs::last_write_time(folder_.file("out.tif"));
+        EXPECT_TRUE(now == copied || share < 0.01 || share > 0.5) << share;
+        copied = now;
+        const Result<PrepareReport> again = run(job(WhenThere::Check));
+        ASSERT_TRUE(again);
+        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+    }
+}
+
+TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
+{
+    source("map");
+    ASSERT_TRUE(run(job(WhenThere::Check)));
+    const std::string out = folder_.file("out.tif");
+    const std::string own = folder_.file("own.tif"); // nobody knows what it was made from
+    test::runTool({"gdal_translate", "-q", "-of", "COG", folder_.file("map.vrt"), own});
+    ASSERT_TRUE(run({.spec = {.path = own}}));
+    for (const auto& [path, remedy] :
+         {std::pair{out, "prepare it again from " + folder_.file("map.vrt")},
+          std::pair{own, std::string("get it again from where it came")}}) {
+        const std::string levels = test::readFile(LevelFile::pathFor(path));
+        overwrite(path, 0.5);
+        const Result<PrepareReport> report =
+            run({.spec = {.path = path}, .when_there = WhenThere::Check});
+        ASSERT_FALSE(report) << path;
+        EXPECT_THAT(report.error().message, HasSubstr("is damaged in the tile"));
+        EXPECT_THAT(report.error().message, HasSubstr(remedy));
+        EXPECT_TRUE(test::readFile(LevelFile::pathFor(path)) == levels);
+    }
+}
+
+TEST_F(PrepareMap, LeavesNoMoreInTheFolderThanItMayHold)
+{
+    const test::TempFolder maps;
+    const MapFolder folder = MapFolder::at(maps.path());
+    JobMonitor monitor;
+    for (int seed = 0; seed < 3; ++seed) {
+        const Result<PrepareReport> report =
+            prepareInFolder({.spec = {.path = source("map" + std::to_string(seed), seed)},
+                             .folder = maps.path(),
+                             .folder_bytes_max = 1},
+                            monitor);
+        ASSERT_TRUE(report) << report.error().message;
+        ASSERT_EQ(folder.list()->size(), 1U);
+        EXPECT_EQ(folder.list()->front().path, report->raster_path);
+    }
+}
+
+TEST_F(PrepareMap, RefusesToWriteBesideWhatLiesAtAServer)
+{
+    const test::TempFolder maps;
+    JobMonitor monitor;
+    const std::string address = "http://localhost:1/mars.tif";
+    const Result<PrepareReport> report =
+        prepareInFolder({.spec = {.path = address}, .folder = maps.path()}, monitor);
+    ASSERT_FALSE(report);
+    EXPECT_THAT(report.error().message, testing::StartsWith(address + ": lies at a server"));
+    EXPECT_TRUE(fs::is_empty(maps.path()));
+}
+
+} // namespace marsview
