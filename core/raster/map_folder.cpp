@@ -130,7 +130,8 @@ Result<MapFolder> MapFolder::open(const fs::path& folder)
 
 MapFolder MapFolder::at(const fs::path& folder)
 {
-    return MapFolder(fs::absolute(folder).lexically_normal());
+    std::error_code none; // of an empty name, which stays empty
+    return MapFolder(fs::absolute(folder, none).lexically_normal());
 }
 
 std::string

@@ -252,6 +252,10 @@ Result<bool> canBeUsedInPlace(const DatasetSpec& spec)
 
 Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesystem::path& folder)
 {
+    if (folder.empty()) {
+        return Error{ErrorCode::NotFound,
+                     spec.path + ": is prepared nowhere, as there is no folder for prepared maps"};
+    }
     Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
     if (!file) {
         return std::move(file).error();

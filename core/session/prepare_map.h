@@ -45,7 +45,7 @@ struct PrepareReport {
 Result<bool> canBeUsedInPlace(const DatasetSpec& spec);
 
 /// Where the prepared form of a raster lies, or is to be put, in a folder of prepared maps, which
-/// need not be there.
+/// need not be there. NotFound where `folder` is empty: nobody keeps any.
 Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesystem::path& folder);
 
 /// Copies the raster into a tiled GeoTIFF unless it is used in place, then measures it into its

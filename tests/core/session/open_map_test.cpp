@@ -257,6 +257,14 @@ TEST_F(OpenMap, KeepsLevelsOfAMapInPlaceAsLongAsItIsOpen)
     EXPECT_EQ(folder.trim(0)->size(), 1U);
 }
 
+TEST_F(OpenMap, HoldsAMapWhereThereIsNoFolderForPreparedOnes)
+{
+    MapResources resources;
+    const Result<OpenPlan> plan = planOpening({.path = source_}, resources);
+    ASSERT_TRUE(plan) << plan.error().message;
+    EXPECT_EQ(plan->store, MapStore::Held);
+}
+
 TEST_F(OpenMap, RefusesWhatIsNoSurfaceBeforePreparingIt)
 {
     for (const std::size_t columns : {1U, 600U}) {
