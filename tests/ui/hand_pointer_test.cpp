@@ -1,4 +1,5 @@
 // A hand outside the picture, in a real window: the arrow at the edge that points to it.
+#include "tests/ui/color_contrast.h"
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
 #include "ui/haptics_controller.h"
@@ -42,22 +43,6 @@ QPointF middleOfRed(const QImage& picture)
         }
     }
     return count > 20 ? sum / count : QPointF(-1e3, -1e3);
-}
-
-// As WCAG has it.
-double luminance(const QColor& color)
-{
-    const auto linear = [](double c) {
-        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    };
-    return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
-           0.0722 * linear(color.blueF());
-}
-
-double contrast(const QColor& a, const QColor& b)
-{
-    const auto [low, high] = std::minmax({luminance(a), luminance(b)});
-    return (high + 0.05) / (low + 0.05);
 }
 
 class HandPointerTest : public testing::Test {

@@ -47,6 +47,16 @@ QString TestMaps::hill(const QString& name) const
     });
 }
 
+QString TestMaps::waves() const
+{
+    Shape shape;
+    shape.columns = 900;
+    shape.rows = 600;
+    return write(QStringLiteral("waves.asc"), shape, [](int c, int r) {
+        return 900.0 * std::sin(c / 61.0) * std::cos(r / 47.0) + 25.0 * std::sin(c / 3.0 + r / 4.0);
+    });
+}
+
 QString TestMaps::ring() const
 {
     return write(QStringLiteral("ring.asc"), {}, [](int column, int row) {

@@ -31,6 +31,8 @@ public:
     QString hill(const QString& name = QStringLiteral("hill.asc")) const;
     /// A map with a hole around its middle.
     QString ring() const;
+    /// Wide waves with narrow ones on them, 900 × 600 samples: 4 × 3 tiles.
+    QString waves() const;
     /// A slope of 40 × 30 samples in any CRS.
     QString placed(const std::string& name,
                    const std::string& srs,

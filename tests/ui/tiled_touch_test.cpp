@@ -26,14 +26,7 @@ class TiledTouchTest : public testing::Test {
 protected:
     void SetUp() override
     {
-        TestMaps::Shape shape;
-        shape.columns = 900;
-        shape.rows = 600; // 4 × 3 tiles
-        const QString file = maps_.write(QStringLiteral("map.asc"), shape, [](int c, int r) {
-            return 900.0 * std::sin(c / 61.0) * std::cos(r / 47.0) +
-                   25.0 * std::sin(c / 3.0 + r / 4.0);
-        });
-        const DatasetSpec spec{.path = file.toStdString()};
+        const DatasetSpec spec{.path = maps_.waves().toStdString()};
         const LoadedMap held = test::loadedMap(spec.path);
         const MapOpener opener = large_.opener();
         JobMonitor monitor;
