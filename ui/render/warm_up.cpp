@@ -56,13 +56,15 @@ void warmUp(TerrainRenderer& renderer)
                          .relief = std::make_shared<const ReliefTile>(makeReliefTile(
                              *heightfield, frame, wholeRelief(kSide, kSide), kSlopeMax))}});
 
-    constexpr Viewport kSize{64, 64};
+    constexpr Viewport kSize{90, 60}; // no powers of two, for which there would be other code
     const FrameBuffer buffer(kSize);
     if (buffer.isComplete()) {
         const SceneBox box = sceneBox(frame, kSide, kSide, {0.0, kHeightM}, 1.0);
         DrawRequest request{.camera = homeCamera(box, kSize), .viewport = kSize};
         renderer.draw(request, {}, buffer.id());
         request.is_hasty = true;
+        request.is_kept = true;
+        renderer.draw(request, {}, buffer.id());
         request.scale = 0.5;
         renderer.draw(request, {}, buffer.id());
     }
