@@ -368,7 +368,7 @@ private:
 } // namespace
 
 std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
-                                       const HandOptions& options)
+                                       const StrokeOptions& options)
 {
     std::mt19937_64 random(options.seed);
     const auto uniform = [&random](double from, double to) {

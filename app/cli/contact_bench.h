@@ -81,7 +81,7 @@ struct ContactBenchResult {
 };
 
 /// How a hand moves. Lengths in cells.
-struct HandOptions {
+struct StrokeOptions {
     double speed = 1.0; // an update
     double low = -5.0;  // above the surface; negative: below it
     double high = -2.0;
@@ -94,7 +94,7 @@ struct HandOptions {
 /// it: one goal to place the proxy, then one an update. The hand wanders at a constant speed, comes
 /// to its depth as fast, and turns back before the border.
 std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
-                                       const HandOptions& options);
+                                       const StrokeOptions& options);
 
 /// First the ideal of every way, on all cores; then all models in turn, on this thread. Only
 /// Cancelled can go wrong.

@@ -16,11 +16,6 @@
 namespace marsview::test {
 namespace {
 
-std::string mars()
-{
-    return (bundledSamples() / "mars_mola_4ppd.tif").string();
-}
-
 std::string
 made(const TempFolder& folder, const std::string& name, const std::vector<std::string>& options)
 {
@@ -51,7 +46,7 @@ TEST(BenchTerrainCommand, MakesAMapOverTheSameGround)
     const TempFolder folder;
     const std::string map = made(folder, "made.tif", {"--size", "700x300"});
     const nlohmann::json info = cliInfo(map);
-    const nlohmann::json source = cliInfo(mars());
+    const nlohmann::json source = cliInfo(bundledMars());
     EXPECT_EQ(info["columns"], 700);
     EXPECT_EQ(info["rows"], 300);
     EXPECT_EQ(info["sample_type"], "Int16");

@@ -11,11 +11,6 @@
 namespace marsview::test {
 namespace {
 
-std::string mars()
-{
-    return (bundledSamples() / "mars_mola_4ppd.tif").string();
-}
-
 nlohmann::json measured(const std::vector<std::string>& options)
 {
     std::vector<std::string> arguments{"bench",    "view", "--json",  "--size", "320x200",
@@ -69,7 +64,7 @@ TEST(BenchViewCommand, MeasuresEveryFlightOverTheBundledMap)
 
 TEST(BenchViewCommand, FindsPicturesAtRestWithinTheirPixel)
 {
-    for (const nlohmann::json& flight : measured({mars()})["maps"][0]["flights"]) {
+    for (const nlohmann::json& flight : measured({bundledMars()})["maps"][0]["flights"]) {
         ASSERT_EQ(flight["resting_poses"].size(), 2U);
         for (const nlohmann::json& pose : flight["resting_poses"]) {
             EXPECT_GT(pose["pixel_count"], 320 * 200 / 10);
@@ -86,8 +81,8 @@ TEST(BenchViewCommand, FindsPicturesAtRestWithinTheirPixel)
 
 TEST(BenchViewCommand, FindsTheErrorOfACoarsePicture)
 {
-    const nlohmann::json fine = measured({mars()});
-    const nlohmann::json coarse = measured({mars(), "--error-px", "16"});
+    const nlohmann::json fine = measured({bundledMars()});
+    const nlohmann::json coarse = measured({bundledMars(), "--error-px", "16"});
     const auto low_over_the_map = [](const nlohmann::json& bench) {
         return bench["maps"][0]["flights"][2]["resting_poses"][1];
     };
@@ -101,8 +96,8 @@ TEST(BenchViewCommand, FindsTheErrorOfACoarsePicture)
 
 TEST(BenchViewCommand, FliesTheSamePathsEveryTime)
 {
-    const nlohmann::json once = measured({mars()});
-    const nlohmann::json again = measured({mars(), "--target-ms", "5"});
+    const nlohmann::json once = measured({bundledMars()});
+    const nlohmann::json again = measured({bundledMars(), "--target-ms", "5"});
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t pose = 0; pose < 2; ++pose) {
             const auto camera = [&](const nlohmann::json& bench) {
@@ -116,8 +111,8 @@ TEST(BenchViewCommand, FliesTheSamePathsEveryTime)
 TEST(BenchViewCommand, ComparesSeveralMapsInATableForPeople)
 {
     const std::string helens = (bundledSamples() / "mount_st_helens_30m.tif").string();
-    const ProgramOutput output = runCli(
-        {"bench", "view", mars(), helens, "--size", "160x100", "--frames", "3", "--poses", "0"});
+    const ProgramOutput output = runCli({"bench", "view", bundledMars(), helens, "--size",
+                                         "160x100", "--frames", "3", "--poses", "0"});
     EXPECT_EQ(output.exit_status, 0) << output.err;
     for (const char* word : {"orbit", "dive", "sweep", "median", "p95", "growth"}) {
         EXPECT_NE(output.out.find(word), std::string::npos) << word;
@@ -134,16 +129,17 @@ TEST(BenchViewCommand, RefusesWhatItCannotMeasure)
                                                     {"--exaggeration", "0"},
                                                     {"--poses", "-1"},
                                                     {"--colour"}}) {
-        std::vector<std::string> arguments{"bench", "view", mars()};
+        std::vector<std::string> arguments{"bench", "view", bundledMars()};
         arguments.insert(arguments.end(), options.begin(), options.end());
         EXPECT_EQ(runCli(arguments).exit_status, 2) << options.front();
     }
     EXPECT_EQ(runCli({"bench"}).exit_status, 2);
     EXPECT_EQ(runCli({"bench", "smell"}).exit_status, 2);
     const TempFolder folder;
-    for (const std::vector<std::string>& words : {std::vector<std::string>{mars(), "--size", "0x5"},
-                                                  {mars(), "--size", "wide"},
-                                                  {folder.file("nowhere.tif")}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{bundledMars(), "--size", "0x5"},
+          {bundledMars(), "--size", "wide"},
+          {folder.file("nowhere.tif")}}) {
         std::vector<std::string> arguments{"bench", "view"};
         arguments.insert(arguments.end(), words.begin(), words.end());
         const ProgramOutput output = runCli(arguments);

@@ -15,16 +15,11 @@ namespace {
 using testing::DoubleNear;
 using testing::ElementsAre;
 
-std::string mars()
-{
-    return (bundledSamples() / "mars_mola_4ppd.tif").string();
-}
-
 } // namespace
 
 TEST(InfoCommand, DescribesTheBundledMars)
 {
-    const nlohmann::json info = cliInfo(mars());
+    const nlohmann::json info = cliInfo(bundledMars());
     EXPECT_EQ(info["driver"], "GTiff");
     EXPECT_EQ(info["columns"], 1440);
     EXPECT_EQ(info["rows"], 720);

@@ -17,14 +17,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string mars()
-{
-    return (bundledSamples() / "mars_mola_4ppd.tif").string();
-}
-
 nlohmann::json looped(std::vector<std::string> more)
 {
-    std::vector<std::string> arguments{"loop", mars(), "--json"};
+    std::vector<std::string> arguments{"loop", bundledMars(), "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramOutput output = runCli(arguments);
     EXPECT_EQ(output.exit_status, 0) << output.err;
@@ -92,7 +87,7 @@ TEST(LoopCommand, WhatItRecordsIsTheSameAgainInTraceAndInReplay)
     const std::vector<std::size_t> recorded{5, 6, 7, 8};
     const auto a = columnsOf(readFile(first), recorded);
     EXPECT_EQ(a, columnsOf(readFile(again), recorded));
-    const ProgramOutput trace = runCli({"trace", mars(), "--goals", first, "-o", traced});
+    const ProgramOutput trace = runCli({"trace", bundledMars(), "--goals", first, "-o", traced});
     ASSERT_EQ(trace.exit_status, 0) << trace.err;
     EXPECT_EQ(a, columnsOf(readFile(traced), {3, 0, 1, 2}));
 }
@@ -109,7 +104,8 @@ TEST(LoopCommand, RecordsADeviceAsItMeasures)
 
 TEST(LoopCommand, PrintsAHistogramForPeople)
 {
-    const ProgramOutput output = runCli({"loop", mars(), "--device", "null:", "--seconds", "0.1"});
+    const ProgramOutput output =
+        runCli({"loop", bundledMars(), "--device", "null:", "--seconds", "0.1"});
     EXPECT_EQ(output.exit_status, 0) << output.err;
     for (const char* word : {"update time", "up to", "lateness", "missed deadlines", "tile misses",
                              "page faults", "real-time scheduling"}) {
@@ -122,9 +118,10 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     const TempFolder folder;
     const auto run = [&](const std::string& behaviour) {
         const std::string uri = "plugin:" MARSVIEW_TEST_PLUGINS "/" + behaviour + ".so";
-        ProgramOutput output = runProgram({"env", "XDG_STATE_HOME=" + folder.file("state"),
-                                           "XDG_RUNTIME_DIR=" + folder.file("run"), MARSVIEW_CLI,
-                                           "loop", mars(), "--device", uri, "--seconds", "0.5"});
+        ProgramOutput output =
+            runProgram({"env", "XDG_STATE_HOME=" + folder.file("state"),
+                        "XDG_RUNTIME_DIR=" + folder.file("run"), MARSVIEW_CLI, "loop",
+                        bundledMars(), "--device", uri, "--seconds", "0.5"});
         EXPECT_EQ(output.exit_status, 1) << behaviour;
         EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
         EXPECT_THAT(output.err, StartsWith("marsview-cli: " + uri + ": "));
@@ -151,7 +148,7 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
     const TempFolder folder;
     const auto run = [&](const std::string& goals) {
         const std::string path = folder.write("goals.csv", "x,y,z\n" + goals);
-        return runCli({"loop", mars(), "--device", "replay:" + path, "--seconds", "1"});
+        return runCli({"loop", bundledMars(), "--device", "replay:" + path, "--seconds", "1"});
     };
     const ProgramOutput none = run("1e9,0,0\n0,1e9,0\n");
     EXPECT_EQ(none.exit_status, 1);
@@ -165,13 +162,13 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
 TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)
 {
     const ProgramOutput full =
-        runCli({"loop", mars(), "--device", "record:/dev/full,sim:", "--seconds", "0.2"});
+        runCli({"loop", bundledMars(), "--device", "record:/dev/full,sim:", "--seconds", "0.2"});
     EXPECT_EQ(full.exit_status, 1);
     EXPECT_THAT(full.err, StartsWith("marsview-cli: record:/dev/full: cannot be written (No space "
                                      "left on device); make room"));
     for (const char* option : {"--record", "--flight"}) {
-        const ProgramOutput other = runCli(
-            {"loop", mars(), "--device", "sim:", "--seconds", "0.2", option, "/nowhere/a.csv"});
+        const ProgramOutput other = runCli({"loop", bundledMars(), "--device", "sim:", "--seconds",
+                                            "0.2", option, "/nowhere/a.csv"});
         EXPECT_EQ(other.exit_status, 1);
         EXPECT_THAT(other.err, StartsWith("marsview-cli: /nowhere/a.csv: cannot be written (No "
                                           "such file or directory); choose another file"));
@@ -196,7 +193,8 @@ TEST(LoopCommand, RunsToTheEndOfTheDeviceHoweverManySecondsItMay)
 TEST(LoopCommand, SaysWhichDeviceItCannotOpenAndWhy)
 {
     const auto refusal = [](const std::string& uri) {
-        const ProgramOutput output = runCli({"loop", mars(), "--device", uri, "--seconds", "0.1"});
+        const ProgramOutput output =
+            runCli({"loop", bundledMars(), "--device", uri, "--seconds", "0.1"});
         EXPECT_EQ(output.exit_status, 1) << uri;
         EXPECT_EQ(output.out, "");
         return output.err;
@@ -205,8 +203,9 @@ TEST(LoopCommand, SaysWhichDeviceItCannotOpenAndWhy)
     EXPECT_NE(refusal("harp:").find("harp"), std::string::npos);
     EXPECT_NE(refusal("replay:/nowhere.csv").find("cannot be read"), std::string::npos);
     EXPECT_NE(refusal("record:x.csv").find("needs a file"), std::string::npos);
-    EXPECT_EQ(runCli({"loop", mars()}).exit_status, 2);
-    EXPECT_EQ(runCli({"loop", mars(), "--device", "null:", "--seconds", "-1"}).exit_status, 2);
+    EXPECT_EQ(runCli({"loop", bundledMars()}).exit_status, 2);
+    EXPECT_EQ(runCli({"loop", bundledMars(), "--device", "null:", "--seconds", "-1"}).exit_status,
+              2);
 }
 
 } // namespace

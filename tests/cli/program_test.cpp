@@ -10,11 +10,6 @@
 namespace marsview::test {
 namespace {
 
-std::string mars()
-{
-    return (bundledSamples() / "mars_mola_4ppd.tif").string();
-}
-
 void expectUsageError(const std::vector<std::string>& arguments)
 {
     const ProgramOutput output = runCli(arguments);
@@ -31,12 +26,12 @@ TEST(Program, RefusesWrongUsageWithStatusTwo)
     expectUsageError({"fly"});
     expectUsageError({"info"});
     expectUsageError({"devices", "everything"});
-    expectUsageError({"info", mars(), "--colour"});
-    expectUsageError({"sample", mars()});
-    expectUsageError({"sample", mars(), "--pixel", "1"});
-    expectUsageError({"sample", mars(), "--pixel", "1", "2", "--map", "1", "2"});
-    expectUsageError({"sample", mars(), "--pixel", "one", "2"});
-    expectUsageError({"sample", mars(), "--lonlat", "1", "2", "--latitude", "magnetic"});
+    expectUsageError({"info", bundledMars(), "--colour"});
+    expectUsageError({"sample", bundledMars()});
+    expectUsageError({"sample", bundledMars(), "--pixel", "1"});
+    expectUsageError({"sample", bundledMars(), "--pixel", "1", "2", "--map", "1", "2"});
+    expectUsageError({"sample", bundledMars(), "--pixel", "one", "2"});
+    expectUsageError({"sample", bundledMars(), "--lonlat", "1", "2", "--latitude", "magnetic"});
 }
 
 TEST(Program, AnswersHelpAndVersionEverywhere)
@@ -81,7 +76,7 @@ TEST(Program, NamesTheOverrideThatItCannotUse)
     for (const auto& [option, value] :
          {std::pair{"--crs", "EPSG:999999"}, std::pair{"--body", "Arrakis"},
           std::pair{"--unit", "cubits"}}) {
-        const ProgramOutput output = runCli({"info", mars(), option, value});
+        const ProgramOutput output = runCli({"info", bundledMars(), option, value});
         EXPECT_EQ(output.exit_status, 1);
         EXPECT_NE(output.err.find(value), std::string::npos) << output.err;
     }

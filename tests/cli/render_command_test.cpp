@@ -17,16 +17,6 @@
 namespace marsview::test {
 namespace {
 
-std::string mars()
-{
-    return (bundledSamples() / "mars_mola_4ppd.tif").string();
-}
-
-std::string helens()
-{
-    return (bundledSamples() / "mount_st_helens_30m.tif").string();
-}
-
 class RenderCommand : public testing::Test {
 protected:
     void SetUp() override
@@ -103,7 +93,7 @@ TEST_F(RenderCommand, WritesAPngOfTheSizeAskedFor)
     for (const auto& [width, height] : {std::pair{640, 400}, {1, 1}, {33, 500}}) {
         const std::string png = folder_.file(fmt::format("{}.png", width));
         const ProgramOutput output =
-            render({mars(), "-o", png, "--size", fmt::format("{}x{}", width, height)});
+            render({bundledMars(), "-o", png, "--size", fmt::format("{}x{}", width, height)});
         ASSERT_EQ(output.exit_status, 0) << output.err;
         EXPECT_EQ(output.out, "");
         const nlohmann::json info = gdalInfo(png);
@@ -117,7 +107,7 @@ TEST_F(RenderCommand, WritesAPngOfTheSizeAskedFor)
 TEST_F(RenderCommand, ShowsTheWholeMapUnlessToldWhereToLook)
 {
     const std::string whole = folder_.file("whole.png");
-    ASSERT_EQ(render({helens(), "-o", whole, "--size", "400x300"}).exit_status, 0);
+    ASSERT_EQ(render({bundledMountain(), "-o", whole, "--size", "400x300"}).exit_status, 0);
     const std::string bytes = pixels(whole);
     ASSERT_EQ(bytes.size(), 400U * 300U * 3U);
     // Sky on the border on all sides, ground in the middle: the map lies within the picture.
@@ -138,10 +128,10 @@ TEST_F(RenderCommand, ShowsTheWholeMapUnlessToldWhereToLook)
     EXPECT_FALSE(isSkyLike(200, 150));
 
     const std::string near = folder_.file("near.png");
-    ASSERT_EQ(
-        render({helens(), "-o", near, "--size", "400x300", "--tilt", "0", "--distance", "3000"})
-            .exit_status,
-        0);
+    ASSERT_EQ(render({bundledMountain(), "-o", near, "--size", "400x300", "--tilt", "0",
+                      "--distance", "3000"})
+                  .exit_status,
+              0);
     EXPECT_GT(difference(bytes, pixels(near)).mean, 1.0);
 }
 
@@ -190,11 +180,11 @@ TEST_F(RenderCommand, LooksAtThePlaceOnTheMap)
 TEST_F(RenderCommand, RefusesPlacesBesideTheMap)
 {
     const std::string png = folder_.file("no.png");
-    expectRefusal({mars(), "-o", png, "--look-at", "1e9,0"}, "--look-at");
-    expectRefusal({mars(), "-o", png, "--look-at", "0,-1e9"}, "--look-at");
-    expectRefusal({mars(), "-o", png, "--look-at", "nan,nan"}, "--look-at");
-    expectRefusal({mars(), "-o", png, "--look-at", "0"}, "--look-at");
-    expectRefusal({mars(), "-o", png, "--look-at", "here,there"}, "--look-at");
+    expectRefusal({bundledMars(), "-o", png, "--look-at", "1e9,0"}, "--look-at");
+    expectRefusal({bundledMars(), "-o", png, "--look-at", "0,-1e9"}, "--look-at");
+    expectRefusal({bundledMars(), "-o", png, "--look-at", "nan,nan"}, "--look-at");
+    expectRefusal({bundledMars(), "-o", png, "--look-at", "0"}, "--look-at");
+    expectRefusal({bundledMars(), "-o", png, "--look-at", "here,there"}, "--look-at");
 }
 
 TEST_F(RenderCommand, RefusesWhatIsNoSize)
@@ -223,7 +213,7 @@ TEST_F(RenderCommand, RefusesWhatIsNoSize)
                              "0x10x10",
                              "nanx1"}) {
         SCOPED_TRACE(size);
-        expectRefusal({mars(), "-o", png, fmt::format("--size={}", size)}, "--size");
+        expectRefusal({bundledMars(), "-o", png, fmt::format("--size={}", size)}, "--size");
     }
 }
 
@@ -243,11 +233,11 @@ TEST_F(RenderCommand, RefusesNumbersOutOfRange)
              {"--ramp", {"none-such"}}}) {
         for (const std::string& value : values) {
             SCOPED_TRACE(option + " " + value);
-            expectRefusal({mars(), "-o", png, fmt::format("{}={}", option, value)}, option);
+            expectRefusal({bundledMars(), "-o", png, fmt::format("{}={}", option, value)}, option);
         }
     }
-    expectRefusal({mars(), "-o", png, "--full", "--error-px", "2"}, "--full");
-    expectRefusal({mars()}, "--output");
+    expectRefusal({bundledMars(), "-o", png, "--full", "--error-px", "2"}, "--full");
+    expectRefusal({bundledMars()}, "--output");
 }
 
 TEST_F(RenderCommand, TakesTheSmallestAndTheLargestNumbersThatItAllows)
@@ -265,7 +255,7 @@ TEST_F(RenderCommand, TakesTheSmallestAndTheLargestNumbersThatItAllows)
                                                {"--light", "-90,-45"}}) {
         SCOPED_TRACE(options[0] + " " + options[1]);
         const std::string png = folder_.file("yes.png");
-        std::vector<std::string> arguments{helens(), "-o", png, "--size", "60x40"};
+        std::vector<std::string> arguments{bundledMountain(), "-o", png, "--size", "60x40"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         const ProgramOutput output = render(arguments);
         EXPECT_EQ(output.exit_status, 0) << output.err;
@@ -277,11 +267,11 @@ TEST_F(RenderCommand, TakesTheSmallestAndTheLargestNumbersThatItAllows)
 TEST_F(RenderCommand, NamesTheFileThatCannotBeWritten)
 {
     const std::string nowhere = folder_.file("missing/picture.png");
-    expectRefusal({helens(), "--size", "40x30", "-o", nowhere}, nowhere);
+    expectRefusal({bundledMountain(), "--size", "40x30", "-o", nowhere}, nowhere);
     // A folder of that name is in the way, and stays.
     const std::string taken = folder_.file("taken");
     std::filesystem::create_directory(taken);
-    expectRefusal({helens(), "--size", "40x30", "-o", taken}, taken);
+    expectRefusal({bundledMountain(), "--size", "40x30", "-o", taken}, taken);
     EXPECT_TRUE(std::filesystem::is_directory(taken));
     EXPECT_FALSE(std::filesystem::exists(taken + ".part"));
 }
@@ -298,7 +288,7 @@ TEST_F(RenderCommand, DrawsTheSameWithEverySampleAndWithinAPixel)
 {
     const auto draw = [&](const std::string& name, const std::vector<std::string>& options) {
         const std::string png = folder_.file(name);
-        std::vector<std::string> arguments{helens(), "-o", png, "--size", "500x350"};
+        std::vector<std::string> arguments{bundledMountain(), "-o", png, "--size", "500x350"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         EXPECT_EQ(render(arguments).exit_status, 0);
         return pixels(png);
@@ -325,7 +315,7 @@ TEST_F(RenderCommand, DrawsWithEveryShadingAndRamp)
                                                {"--exaggeration", "4"},
                                                {"--azimuth", "90"}}) {
         const std::string png = folder_.file("one.png");
-        std::vector<std::string> arguments{helens(), "-o", png, "--size", "160x120"};
+        std::vector<std::string> arguments{bundledMountain(), "-o", png, "--size", "160x120"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         ASSERT_EQ(render(arguments).exit_status, 0);
         seen.push_back(pixels(png));

@@ -12,16 +12,6 @@
 namespace marsview::test {
 namespace {
 
-std::string mars()
-{
-    return (bundledSamples() / "mars_mola_4ppd.tif").string();
-}
-
-std::string helens()
-{
-    return (bundledSamples() / "mount_st_helens_30m.tif").string();
-}
-
 double sampleAt(const std::string& path, const char* frame, double a, double b)
 {
     const ProgramOutput output =
@@ -45,35 +35,35 @@ TEST(SampleCommand, ReturnsTheSampleAtIntegerPixels)
         pixels.push_back({column(random), row(random)});
         lines += fmt::format("{} {}\n", pixels.back().column, pixels.back().row);
     }
-    const ProgramOutput output = runCli({"sample", mars(), "--pixel", "--stdin"}, lines);
+    const ProgramOutput output = runCli({"sample", bundledMars(), "--pixel", "--stdin"}, lines);
     ASSERT_EQ(output.exit_status, 0) << output.err;
-    EXPECT_EQ(numbersIn(output.out), rawSamples(mars(), pixels));
+    EXPECT_EQ(numbersIn(output.out), rawSamples(bundledMars(), pixels));
 }
 
 TEST(SampleCommand, FindsOlympusMonsByLongitudeAndLatitudeInAnyTurn)
 {
-    const double height = sampleAt(mars(), "--lonlat", 226.2, 18.65);
+    const double height = sampleAt(bundledMars(), "--lonlat", 226.2, 18.65);
     EXPECT_GT(height, 18000.0);          // within the caldera, some 3 km below its rim
     constexpr double kToleranceM = 1e-6; // 360° more or less round in the 14th digit
-    EXPECT_NEAR(sampleAt(mars(), "--lonlat", -133.8, 18.65), height, kToleranceM);
-    EXPECT_NEAR(sampleAt(mars(), "--lonlat", 586.2, 18.65), height, kToleranceM);
+    EXPECT_NEAR(sampleAt(bundledMars(), "--lonlat", -133.8, 18.65), height, kToleranceM);
+    EXPECT_NEAR(sampleAt(bundledMars(), "--lonlat", 586.2, 18.65), height, kToleranceM);
 }
 
 TEST(SampleCommand, TakesLatitudesOnTheEarthAsMapsPrintThem)
 {
     // The crater rim's highest point as the Geographic Names Information System lists it is on the
     // map only if 46.19° is a planetographic latitude: planetocentric ones end at 46.06° there.
-    const double height = sampleAt(helens(), "--lonlat", -122.1886, 46.1914);
+    const double height = sampleAt(bundledMountain(), "--lonlat", -122.1886, 46.1914);
     EXPECT_GT(height, 2300.0);
-    const ProgramOutput centric = runCli(
-        {"sample", helens(), "--lonlat", "-122.1886", "46.1914", "--latitude", "planetocentric"});
+    const ProgramOutput centric = runCli({"sample", bundledMountain(), "--lonlat", "-122.1886",
+                                          "46.1914", "--latitude", "planetocentric"});
     EXPECT_EQ(centric.out, "nan\n");
 }
 
 TEST(SampleCommand, AgreesBetweenItsThreeFrames)
 {
     const ProgramOutput output =
-        runCli({"sample", helens(), "--pixel", "100.25", "200.5", "--json"});
+        runCli({"sample", bundledMountain(), "--pixel", "100.25", "200.5", "--json"});
     ASSERT_EQ(output.exit_status, 0) << output.err;
     const nlohmann::json report = nlohmann::json::parse(output.out);
     const double height = report["height"].get<double>();
@@ -82,7 +72,7 @@ TEST(SampleCommand, AgreesBetweenItsThreeFrames)
     const std::string lonlat = fmt::format("{} {}\n", report["lonlat"][0].get<double>(),
                                            report["lonlat"][1].get<double>());
     const auto by = [](const char* frame, const std::string& line) {
-        return std::stod(runCli({"sample", helens(), frame, "--stdin"}, line).out);
+        return std::stod(runCli({"sample", bundledMountain(), frame, "--stdin"}, line).out);
     };
     constexpr double kToleranceM = 1e-6; // a micrometre on a slope of 1 is a micrometre of height
     EXPECT_NEAR(by("--map", map), height, kToleranceM);
@@ -91,32 +81,34 @@ TEST(SampleCommand, AgreesBetweenItsThreeFrames)
 
 TEST(SampleCommand, PrintsNanOutsideAndNowhereElse)
 {
-    EXPECT_TRUE(std::isnan(sampleAt(mars(), "--pixel", -1.0, 0.0)));
-    EXPECT_TRUE(std::isnan(sampleAt(mars(), "--pixel", 0.0, 719.001)));
-    EXPECT_TRUE(std::isnan(sampleAt(mars(), "--map", 1e9, 1e9)));
-    EXPECT_TRUE(std::isnan(sampleAt(helens(), "--lonlat", 0.0, 0.0)));
-    EXPECT_FALSE(std::isnan(sampleAt(mars(), "--pixel", 1439.0, 719.0)));
+    EXPECT_TRUE(std::isnan(sampleAt(bundledMars(), "--pixel", -1.0, 0.0)));
+    EXPECT_TRUE(std::isnan(sampleAt(bundledMars(), "--pixel", 0.0, 719.001)));
+    EXPECT_TRUE(std::isnan(sampleAt(bundledMars(), "--map", 1e9, 1e9)));
+    EXPECT_TRUE(std::isnan(sampleAt(bundledMountain(), "--lonlat", 0.0, 0.0)));
+    EXPECT_FALSE(std::isnan(sampleAt(bundledMars(), "--pixel", 1439.0, 719.0)));
 }
 
 TEST(SampleCommand, ClosesTheSeamOfAGlobalMap)
 {
-    const double west = sampleAt(mars(), "--pixel", 1439.0, 359.0);
-    const double east = sampleAt(mars(), "--pixel", 0.0, 359.0);
+    const double west = sampleAt(bundledMars(), "--pixel", 1439.0, 359.0);
+    const double east = sampleAt(bundledMars(), "--pixel", 0.0, 359.0);
     const double latitude = 90.0 - 0.25 * 359.5;
-    EXPECT_DOUBLE_EQ(sampleAt(mars(), "--lonlat", 0.0, latitude), (west + east) / 2.0);
+    EXPECT_DOUBLE_EQ(sampleAt(bundledMars(), "--lonlat", 0.0, latitude), (west + east) / 2.0);
 }
 
 TEST(SampleCommand, PrintsDigitsThatReadBackExactly)
 {
-    const ProgramOutput text = runCli({"sample", mars(), "--pixel", "10.1", "20.7"});
-    const ProgramOutput json = runCli({"sample", mars(), "--pixel", "10.1", "20.7", "--json"});
+    const ProgramOutput text = runCli({"sample", bundledMars(), "--pixel", "10.1", "20.7"});
+    const ProgramOutput json =
+        runCli({"sample", bundledMars(), "--pixel", "10.1", "20.7", "--json"});
     EXPECT_EQ(std::stod(text.out), nlohmann::json::parse(json.out)["height"].get<double>());
     EXPECT_NE(text.out.find('.'), std::string::npos);
 }
 
 TEST(SampleCommand, NamesTheLineOfStandardInputThatItCannotRead)
 {
-    const ProgramOutput output = runCli({"sample", mars(), "--pixel", "--stdin"}, "1 2\n3 x\n");
+    const ProgramOutput output =
+        runCli({"sample", bundledMars(), "--pixel", "--stdin"}, "1 2\n3 x\n");
     EXPECT_EQ(output.exit_status, 1);
     EXPECT_NE(output.err.find("line 2"), std::string::npos) << output.err;
 }
@@ -140,9 +132,10 @@ TEST(SampleCommand, FindsEverySampleAtItsPlaceOnTheMapAlsoBesideVoids)
 
 TEST(SampleCommand, TakesThePositionBeforeTheMapToo)
 {
-    EXPECT_EQ(runCli({"sample", "--pixel", "3", "4", mars()}).out,
-              runCli({"sample", mars(), "--pixel", "3", "4"}).out);
-    EXPECT_EQ(runCli({"sample", mars(), "--pixel", "--stdin"}, "nan 1\n3 4\n").exit_status, 0);
+    EXPECT_EQ(runCli({"sample", "--pixel", "3", "4", bundledMars()}).out,
+              runCli({"sample", bundledMars(), "--pixel", "3", "4"}).out);
+    EXPECT_EQ(runCli({"sample", bundledMars(), "--pixel", "--stdin"}, "nan 1\n3 4\n").exit_status,
+              0);
 }
 
 TEST(SampleCommand, ReadsTheColoradoMapInFeetWhenTold)

@@ -20,11 +20,6 @@ namespace {
 constexpr const char* kHeader =
     "x,y,z,contact,feature,vertices,faces,casts,cells,far_edges,far_loops";
 
-std::string helens()
-{
-    return (bundledSamples() / "mount_st_helens_30m.tif").string();
-}
-
 std::vector<std::string> linesOf(const std::string& text)
 {
     std::vector<std::string> lines;
@@ -257,7 +252,7 @@ TEST(TraceCommand, MeasuresDegreesAtTheLatitudeOfTheCentre)
 
 TEST(TraceCommand, PlacesTheProxyWithTheFirstLine)
 {
-    const std::vector<Row> rows = traced(helens(), "x,y,z\n560000,5116000,4000\n");
+    const std::vector<Row> rows = traced(bundledMountain(), "x,y,z\n560000,5116000,4000\n");
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0].words[4], "free");
     EXPECT_FALSE(rows[0].is_in_contact);
@@ -303,18 +298,18 @@ TEST(TraceCommand, ClampsGoalsBesideTheMapAndRefusesThoseThatAreNone)
 TEST(TraceCommand, ReadsGoalsAsEditorsAndSpreadsheetsWriteThem)
 {
     const std::vector<Row> plain =
-        traced(helens(), "x,y,z\n560000,5116000,1000\n560100,5116050,900\n");
+        traced(bundledMountain(), "x,y,z\n560000,5116000,1000\n560100,5116050,900\n");
     for (const char* text : {"x,y,z\r\n560000,5116000,1000\r\n560100,5116050,900\r\n",
                              "\xef\xbb\xbfx,y,z\n560000,5116000,1000\n560100,5116050,900",
                              "x, y, z\n 560000 ,\t5116000, 1e3\n\n+560100,5116050.0,900\n\n"}) {
-        const std::vector<Row> rows = traced(helens(), text);
+        const std::vector<Row> rows = traced(bundledMountain(), text);
         ASSERT_EQ(rows.size(), plain.size());
         for (std::size_t i = 0; i < rows.size(); ++i) {
             EXPECT_EQ(rows[i].words, plain[i].words);
         }
     }
     const ProgramOutput piped =
-        runCli({"trace", helens(), "--goals", "-"}, "x,y,z\n560000,5116000,1000\n");
+        runCli({"trace", bundledMountain(), "--goals", "-"}, "x,y,z\n560000,5116000,1000\n");
     EXPECT_EQ(rowsOf(piped.out).at(0).words, plain[0].words);
 }
 
@@ -333,7 +328,7 @@ TEST(TraceCommand, NamesTheLineThatItCannotRead)
           Case{"x,y,z\n1,2,3 4\n", "line 2", "1,2,3 4"}, Case{"1,2,3\n", "line 1", "x,y,z"},
           Case{"x,y,z\n1,,3\n", "line 2", "1,,3"}}) {
         const std::string goals = folder.write("goals.csv", bad.text);
-        const ProgramOutput output = runCli({"trace", helens(), "--goals", goals});
+        const ProgramOutput output = runCli({"trace", bundledMountain(), "--goals", goals});
         EXPECT_EQ(output.exit_status, 1);
         EXPECT_EQ(output.out, "");
         EXPECT_TRUE(output.err.starts_with("marsview-cli: " + goals + ": ")) << output.err;
@@ -350,8 +345,9 @@ TEST(TraceCommand, WritesFilesWithTimesAndASummary)
         "goals.csv", "x,y,z\n560000,5116000,1000\n560100,5116050,900\n560100,5116050,9000\n");
     const std::string csv = folder.file("trace.csv");
     const std::string summary = folder.file("summary.json");
-    const ProgramOutput output = runCli({"trace", helens(), "--goals", goals, "--timing", "-o", csv,
-                                         "--summary", summary, "--model", "surface-walk"});
+    const ProgramOutput output =
+        runCli({"trace", bundledMountain(), "--goals", goals, "--timing", "-o", csv, "--summary",
+                summary, "--model", "surface-walk"});
     EXPECT_EQ(output.exit_status, 0) << output.err;
     EXPECT_EQ(output.out, "");
     const std::vector<std::string> lines = linesOf(readFile(csv));
@@ -464,20 +460,20 @@ TEST(TraceCommand, RefusesWhatItCannotRun)
                                                     {"--exaggeration", "-1"},
                                                     {"--exaggeration", "nan"},
                                                     {"--colour"}}) {
-        std::vector<std::string> arguments{"trace", helens(), "--goals", goals};
+        std::vector<std::string> arguments{"trace", bundledMountain(), "--goals", goals};
         arguments.insert(arguments.end(), options.begin(), options.end());
         EXPECT_EQ(runCli(arguments).exit_status, 2) << options.front() << " " << options.back();
     }
-    EXPECT_EQ(runCli({"trace", helens()}).exit_status, 2);
+    EXPECT_EQ(runCli({"trace", bundledMountain()}).exit_status, 2);
     EXPECT_EQ(runCli({"trace"}).exit_status, 2);
     EXPECT_EQ(runCli({"trace", "--help"}).exit_status, 0);
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{folder.file("nowhere.tif"), "--goals", goals},
-          {helens(), "--goals", folder.file("nowhere.csv")},
-          {helens(), "--goals", folder.path().string()},
-          {helens(), "--goals", folder.write("empty.csv", "")},
-          {helens(), "--goals", goals, "-o", folder.file("no/such/folder.csv")},
-          {helens(), "--goals", goals, "--summary", folder.file("no/such/folder.json")}}) {
+          {bundledMountain(), "--goals", folder.file("nowhere.csv")},
+          {bundledMountain(), "--goals", folder.path().string()},
+          {bundledMountain(), "--goals", folder.write("empty.csv", "")},
+          {bundledMountain(), "--goals", goals, "-o", folder.file("no/such/folder.csv")},
+          {bundledMountain(), "--goals", goals, "--summary", folder.file("no/such/folder.json")}}) {
         std::vector<std::string> arguments{"trace"};
         arguments.insert(arguments.end(), words.begin(), words.end());
         const ProgramOutput output = runCli(arguments);
@@ -533,7 +529,7 @@ TEST(TraceCommand, PrintsNothingForNoGoals)
 {
     const TempFolder folder;
     const std::string summary = folder.file("summary.json");
-    EXPECT_TRUE(traced(helens(), "x,y,z\n", {"--summary", summary}).empty());
+    EXPECT_TRUE(traced(bundledMountain(), "x,y,z\n", {"--summary", summary}).empty());
     const nlohmann::json json = nlohmann::json::parse(readFile(summary));
     EXPECT_EQ(json["updates"], 0);
     EXPECT_EQ(json["ns"]["mean"], 0.0);
@@ -568,27 +564,29 @@ TEST(TraceCommand, FollowsWhatARecordingWasTouchedWith)
         }
         return all;
     };
-    const auto a = words(traced(helens(), first, {"--model", "virtual-proxy", "--radius", "40"}));
+    const auto a =
+        words(traced(bundledMountain(), first, {"--model", "virtual-proxy", "--radius", "40"}));
     const auto b =
-        words(traced(helens(), second, {"--model", "god-object", "--exaggeration", "3"}));
+        words(traced(bundledMountain(), second, {"--model", "god-object", "--exaggeration", "3"}));
     auto expected = std::vector(a.begin(), a.begin() + 20);
     expected.insert(expected.end(), b.begin(), b.end());
     expected.insert(expected.end(), a.begin() + 20, a.end());
-    const auto rows = traced(helens(), recording);
+    const auto rows = traced(bundledMountain(), recording);
     EXPECT_EQ(words(rows), expected);
     EXPECT_TRUE(rows.at(19).is_in_contact && rows.at(39).is_in_contact &&
                 rows.at(59).is_in_contact);
-    EXPECT_NE(a, words(traced(helens(), first))) << "or models do not matter here";
+    EXPECT_NE(a, words(traced(bundledMountain(), first))) << "or models do not matter here";
 
     // What the command line says holds.
     const std::vector<std::string> other{"--model", "surface-walk", "--exaggeration", "2"};
-    EXPECT_EQ(words(traced(helens(), all_one, other)), words(traced(helens(), plain, other)));
+    EXPECT_EQ(words(traced(bundledMountain(), all_one, other)),
+              words(traced(bundledMountain(), plain, other)));
 
     // Two maps are more than one.
     const TempFolder folder;
     const std::string two =
         folder.write("two.csv", recording + goal(60) + ",0,2,7,god-object,1,1\n");
-    const ProgramOutput refused = runCli({"trace", helens(), "--goals", two});
+    const ProgramOutput refused = runCli({"trace", bundledMountain(), "--goals", two});
     EXPECT_EQ(refused.exit_status, 1);
     EXPECT_NE(refused.err.find("from line 62 on it is a recording of another map"),
               std::string::npos)

@@ -2,21 +2,19 @@
 
 #include "core/view/navigation.h"
 #include "tests/render/render_fixture.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
 
 namespace marsview::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Straight down on a position of the grid, so near that a sample is `pixels` wide.
 OrbitCamera above(const DrawnMap& map,

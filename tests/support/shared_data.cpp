@@ -20,6 +20,16 @@ std::filesystem::path bundledSamples()
     return MARSVIEW_SAMPLES;
 }
 
+std::string bundledMars()
+{
+    return (bundledSamples() / "mars_mola_4ppd.tif").string();
+}
+
+std::string bundledMountain()
+{
+    return (bundledSamples() / "mount_st_helens_30m.tif").string();
+}
+
 std::filesystem::path sourceRoot()
 {
     return MARSVIEW_SOURCES;

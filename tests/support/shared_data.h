@@ -15,6 +15,9 @@ bool hasSharedData();
 
 /// resources/samples, which is part of the source tree.
 std::filesystem::path bundledSamples();
+/// Of those: Mars as a whole, geographic; a mountain on the Earth, projected.
+std::string bundledMars();
+std::string bundledMountain();
 
 /// The root of the source tree.
 std::filesystem::path sourceRoot();

@@ -1,6 +1,7 @@
 // The sound of touch over a real view, played into memory.
 #include "core/view/color_ramp.h"
 #include "tests/support/map_maker.h"
+#include "tests/ui/timeout.h"
 #include "ui/contact_sounds.h"
 #include "ui/terrain_view.h"
 
@@ -17,8 +18,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 class ContactSoundsTest : public testing::Test {
 protected:

@@ -2,6 +2,7 @@
 #include "tests/ui/color_contrast.h"
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/haptics_controller.h"
 #include "ui/map_overlays.h"
 #include "ui/overlay/hand_pointer.h"
@@ -21,8 +22,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 bool isRed(QRgb color)
 {

@@ -6,6 +6,7 @@
 #include "tests/ui/large_maps.h"
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/haptics_controller.h"
 #include "ui/map_overlays.h"
 #include "ui/overlay/force_meter.h"
@@ -28,8 +29,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 class HapticsControllerTest : public testing::Test {
 protected:

@@ -1,5 +1,6 @@
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/haptics_controller.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/time_plot.h"
@@ -23,8 +24,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 class HapticsPanelTest : public testing::Test {
 protected:

@@ -1,4 +1,5 @@
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/load_controller.h"
 
 #include <QSignalSpy>
@@ -8,8 +9,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 LoadRequest requestFor(const QString& file)
 {

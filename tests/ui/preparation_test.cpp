@@ -4,6 +4,7 @@
 #include "core/terrain/level_file.h"
 #include "tests/support/make_raster.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/load_status.h"
 #include "ui/notice_bar.h"
 #include "ui/terrain_view.h"
@@ -26,8 +27,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 constexpr int kColumns = 1400; // so many are not looked at without a copy
 constexpr int kRows = 1100;

@@ -2,6 +2,7 @@
 
 #include "tests/ui/large_maps.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/load_status.h"
 #include "ui/notice_bar.h"
 #include "ui/panels/dataset_panel.h"
@@ -25,8 +26,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 class PreviewsTest : public testing::Test {
 protected:

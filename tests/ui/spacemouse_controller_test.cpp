@@ -2,6 +2,7 @@
 #include "core/view/cap_steering.h"
 #include "tests/haptics/drivers/fake_hid.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/spacemouse_controller.h"
 #include "ui/terrain_view.h"
 
@@ -25,8 +26,7 @@ using namespace std::chrono_literals;
 using test::FakeHid;
 using test::reportOf;
 
-constexpr int kTimeout = 30000; // ms
-constexpr auto kStep = 20ms;    // of the clock below
+constexpr auto kStep = 20ms; // of the clock below
 constexpr double kStepS = 0.02;
 
 // What the newer devices say: x right, y towards the user, z down, and turns about them, of 350.

@@ -1,6 +1,7 @@
 #include "tests/ui/test_map.h"
 
 #include "tests/support/make_raster.h"
+#include "tests/ui/timeout.h"
 #include "ui/terrain_view.h"
 
 #include <QFile>
@@ -11,11 +12,7 @@
 #include <vector>
 
 namespace marsview {
-namespace {
-
-constexpr int kTimeout = 30000; // ms
-
-} // namespace
+namespace {} // namespace
 
 QString TestMaps::write(const QString& name, const Shape& shape, const Height& height) const
 {

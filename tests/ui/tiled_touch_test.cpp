@@ -4,6 +4,7 @@
 #include "tests/support/map_maker.h"
 #include "tests/ui/large_maps.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/terrain_view.h"
 
 #include <QApplication>
@@ -19,8 +20,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 class TiledTouchTest : public testing::Test {
 protected:

@@ -2,6 +2,7 @@
 #include "core/view/color_ramp.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/shared_data.h"
+#include "tests/ui/timeout.h"
 #include "ui/graphics_check.h"
 #include "ui/terrain_view.h"
 
@@ -29,8 +30,6 @@ namespace marsview {
 namespace {
 
 using test::MapMaker;
-
-constexpr int kTimeout = 30000; // ms
 
 // Counts what a widget is asked to paint.
 class PaintCounter final : public QObject {

@@ -53,6 +53,12 @@ SceneFrame unitFrame(const FilledHeightfield& terrain)
                        static_cast<double>(terrain.rows() - 1) / 2.0}};
 }
 
+HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
+                               double exaggeration)
+{
+    return {terrain, unitFrame(*terrain), exaggeration};
+}
+
 std::vector<NamedTerrain> syntheticTerrains()
 {
     const auto make = [](int columns, int rows, Shape shape) {

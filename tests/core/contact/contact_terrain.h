@@ -20,6 +20,16 @@ std::shared_ptr<const FilledHeightfield> filledTerrain(const Heightfield& height
 /// Cells of 1 m, row 0 in the north, the origin in the middle.
 SceneFrame unitFrame(const FilledHeightfield& terrain);
 
+/// On that frame.
+HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
+                               double exaggeration = 1.0);
+
+/// In metres.
+inline double distance(const ScenePoint& a, const ScenePoint& b)
+{
+    return length(a - b);
+}
+
 struct NamedTerrain {
     std::string name;
     std::shared_ptr<const FilledHeightfield> terrain;

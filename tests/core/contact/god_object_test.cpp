@@ -4,6 +4,7 @@
 #include "core/session/dataset.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/shared_data.h"
 
 #include <gtest/gtest.h>
@@ -15,28 +16,19 @@
 namespace marsview {
 namespace {
 
+using test::distance;
+using test::surfaceOver;
+
 using Model = GodObject<HeightfieldSurface>;
 
 constexpr auto kKept = GodObjectConstraints::Kept;
 constexpr auto kReleased = GodObjectConstraints::Released;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Every instantiation, whatever the samples.
 static_assert(noexcept(
     std::declval<GodObject<PlainHeightfieldSurface<std::int16_t>>&>().update(ScenePoint{})));
 static_assert(
     noexcept(std::declval<GodObject<PlainHeightfieldSurface<float>>&>().update(ScenePoint{})));
-
-HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
-                               double exaggeration = 1.0)
-{
-    return {terrain, test::unitFrame(*terrain), exaggeration};
-}
-
-double distance(const ScenePoint& a, const ScenePoint& b)
-{
-    return length(a - b);
-}
 
 // A terrain that is the same along y: a section of the paper's figures.
 std::vector<float> heightsOver(std::size_t side, double (*height)(double x))

@@ -2,16 +2,14 @@
 #include "core/terrain/ray_cast.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace marsview {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(HeightfieldSurface, CastsFindWhatRaysFind)
 {
@@ -114,7 +112,7 @@ TEST(HeightfieldSurface, HeightIsThatOfTheTriangles)
 TEST(HeightfieldSurface, TellsWhereVoidsWereFilled)
 {
     std::vector<float> heights(std::size_t{20} * 20, 1.0F);
-    heights[5 * 20 + 5] = kNan;
+    heights[5 * 20 + 5] = kNanFloat;
     const auto terrain = test::filledTerrain(20, heights);
     const SceneFrame frame = test::unitFrame(*terrain);
     const HeightfieldSurface surface(terrain, frame, 1.0);

@@ -18,14 +18,11 @@
 namespace marsview {
 namespace {
 
+using test::distance;
+
 using Graph = ProxyGraph<HeightfieldSurface>;
 using Walk = SurfaceWalk<HeightfieldSurface>;
 using Continuous = ContinuousWalk<HeightfieldSurface>;
-
-double distance(const ScenePoint& a, const ScenePoint& b)
-{
-    return length(a - b);
-}
 
 HeightfieldSurface surfaceOf(std::size_t columns, const std::vector<float>& heights)
 {

@@ -4,6 +4,7 @@
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/shared_data.h"
 
 #include <gtest/gtest.h>
@@ -14,21 +15,12 @@
 namespace marsview {
 namespace {
 
+using test::distance;
+using test::surfaceOver;
+
 using Model = ProxyGraph<HeightfieldSurface>;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
-                               double exaggeration = 1.0)
-{
-    return {terrain, test::unitFrame(*terrain), exaggeration};
-}
-
-double distance(const ScenePoint& a, const ScenePoint& b)
-{
-    return length(a - b);
-}
 
 test::Findings
 wander(const HeightfieldSurface& surface, test::Random& random, int updates, double step_cells)

@@ -1,6 +1,7 @@
 #include "core/contact/reference_proxy.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
@@ -11,14 +12,10 @@
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
+using test::distance;
+using test::surfaceOver;
 
-HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
-                               double exaggeration = 1.0)
-{
-    return {terrain, test::unitFrame(*terrain), exaggeration};
-}
+constexpr double kInf = std::numeric_limits<double>::infinity();
 
 template <typename Height>
 HeightfieldSurface sampledSurface(int samples, const Height& height)
@@ -30,11 +27,6 @@ HeightfieldSurface sampledSurface(int samples, const Height& height)
         }
     }
     return surfaceOver(test::filledTerrain(static_cast<std::size_t>(samples), heights));
-}
-
-double distance(const ScenePoint& a, const ScenePoint& b)
-{
-    return length(a - b);
 }
 
 // A hand that turns slowly at a constant speed within `reach` metres of the middle.

@@ -14,6 +14,7 @@
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/map_maker.h"
+#include "tests/support/nan.h"
 #include "tests/support/shared_data.h"
 
 #include <gmock/gmock.h>
@@ -38,7 +39,6 @@ using test::Judge;
 using test::ModelTraits;
 using test::Random;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 struct Scenery {

@@ -3,6 +3,7 @@
 #include "core/session/dataset.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/shared_data.h"
 
 #include <gtest/gtest.h>
@@ -16,26 +17,16 @@
 namespace marsview {
 namespace {
 
-using Model = VirtualProxy<HeightfieldSurface>;
+using test::distance;
+using test::surfaceOver;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using Model = VirtualProxy<HeightfieldSurface>;
 
 // Every instantiation, whatever the samples.
 static_assert(noexcept(
     std::declval<VirtualProxy<PlainHeightfieldSurface<std::int16_t>>&>().update(ScenePoint{})));
 static_assert(
     noexcept(std::declval<VirtualProxy<PlainHeightfieldSurface<float>>&>().update(ScenePoint{})));
-
-HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
-                               double exaggeration = 1.0)
-{
-    return {terrain, test::unitFrame(*terrain), exaggeration};
-}
-
-double distance(const ScenePoint& a, const ScenePoint& b)
-{
-    return length(a - b);
-}
 
 // --- the truth, in long double and by other means than the model's
 

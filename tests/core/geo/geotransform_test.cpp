@@ -1,4 +1,5 @@
 #include "core/geo/geotransform.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -82,7 +83,6 @@ TEST(GeoTransform, PixelSizesAreLengthsOfTheSteps)
 
 TEST(GeoTransform, WhatCannotBeInvertedIsRefused)
 {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInf = std::numeric_limits<double>::infinity();
     const Terms bad[] = {
         {0, 0, 0, 0, 0, 0},          {0, 1, 0, 0, 0, 0},     {0, 0, 0, 0, 0, 1},

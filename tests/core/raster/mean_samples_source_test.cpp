@@ -1,6 +1,7 @@
 #include "core/raster/mean_samples_source.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,7 +20,6 @@ using test::GridTileSource;
 
 constexpr std::size_t kColumns = 1111;
 constexpr std::size_t kRows = 777;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::shared_ptr<GridTileSource> sourceOf(const test::HeightFunction& height,
                                          std::size_t mean_levels)

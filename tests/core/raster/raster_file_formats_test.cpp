@@ -2,6 +2,7 @@
 #include "core/raster/raster_file.h"
 #include "core/session/dataset.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/run_program.h"
 
@@ -292,10 +293,9 @@ TEST(RasterFile, NodataOf64BitIntegersIsKept)
 TEST(RasterFile, NaNAndInfinityAreVoidWhateverTheFileSays)
 {
     const TempFolder folder;
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInf = std::numeric_limits<float>::infinity();
-    const LoadedSamples loaded = load(
-        writeRaster(folder, "map.tif", "GTiff", recipeFor<float>(3, {kNan, kInf, -kInf, 1, 2, 3})));
+    const LoadedSamples loaded = load(writeRaster(
+        folder, "map.tif", "GTiff", recipeFor<float>(3, {kNanFloat, kInf, -kInf, 1, 2, 3})));
     EXPECT_EQ(loaded.statistics.void_count, 3U);
     EXPECT_EQ(loaded.statistics.raw_minimum, 1.0);
     EXPECT_EQ(loaded.statistics.raw_maximum, 3.0);

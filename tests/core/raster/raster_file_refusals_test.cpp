@@ -3,6 +3,7 @@
 #include "core/raster/raster_file.h"
 #include "core/session/dataset.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/nan.h"
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 
@@ -181,10 +182,9 @@ TEST(Refusal, OnlyVoids)
     RasterRecipe recipe = recipeFor<std::int16_t>(3, {-9999, -9999, -9999, -9999, -9999, -9999});
     recipe.band_xml = "<NoDataValue>-9999</NoDataValue>";
     expectRefused(writeRaster(folder, "voids.tif", "GTiff", recipe), ErrorCode::Invalid);
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    expectRefused(
-        writeRaster(folder, "nan.tif", "GTiff", recipeFor<float>(2, {kNan, kNan, kNan, kNan})),
-        ErrorCode::Invalid);
+    expectRefused(writeRaster(folder, "nan.tif", "GTiff",
+                              recipeFor<float>(2, {kNanFloat, kNanFloat, kNanFloat, kNanFloat})),
+                  ErrorCode::Invalid);
 }
 
 TEST(Refusal, FewerThanTwoByTwoSamples)

@@ -1,8 +1,8 @@
 #include "core/raster/raster_info.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <string>
 
 namespace marsview {
@@ -166,7 +166,6 @@ TEST(Overrides, ABodyMakesDegreesOfABareGlobalGrid)
 
 TEST(Overrides, WhatCannotBeUsedIsRefusedInOneSentence)
 {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::vector<RasterOverrides> bad(8);
     bad[0].crs = "EPSG:99999999";
     bad[1].crs = "EPSG:4978"; // geocentric

@@ -1,4 +1,5 @@
 #include "core/raster/sample_grid.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_types.h"
 
@@ -27,8 +28,6 @@ extern "C" const char* __tsan_default_options() // NOLINT
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 template <typename T>
 constexpr SampleType sampleTypeOf()

@@ -1,6 +1,7 @@
 // Against brute force: every triangle of every map, placed by hand from the geotransforms.
 #include "core/session/scene_surface.h"
 #include "tests/support/map_maker.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
 
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -18,8 +18,6 @@ namespace marsview {
 namespace {
 
 using test::MapMaker;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // From one raster's grid to another's, through map coordinates, in long double.
 struct Affine {

@@ -1,5 +1,6 @@
 #include "core/terrain/block_means.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Size {
     std::size_t columns;

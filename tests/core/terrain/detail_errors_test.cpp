@@ -1,18 +1,17 @@
 #include "core/base/float_rounding.h"
 #include "core/terrain/detail_errors.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kNode = DetailErrors::kNodeCells;
 
 struct Analysis {

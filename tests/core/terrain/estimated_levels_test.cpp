@@ -2,6 +2,7 @@
 #include "core/terrain/surface_analysis.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 
 #include <gmock/gmock.h>
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -25,7 +25,6 @@ using test::GridTileSource;
 constexpr std::size_t kColumns = 2500;
 constexpr std::size_t kRows = 1700;
 constexpr ElevationScale kScale{.gain = 0.5, .offset_m = 100.0};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMeansMax = 40'000; // of this map: level 4
 
 MapLevels estimated(const TileSource& source, std::size_t means_max = kMeansMax)

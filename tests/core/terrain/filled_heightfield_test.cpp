@@ -1,4 +1,5 @@
 #include "core/terrain/filled_heightfield.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -6,13 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 namespace marsview {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 FilledHeightfield filled(std::size_t columns, const std::vector<float>& heights)
 {
@@ -41,8 +39,9 @@ std::vector<float> holed(test::Random& random, std::size_t columns, std::size_t 
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t column = 0; column < columns; ++column) {
             const bool is_void = isInDisc(column, row) || random.chance(0.05);
-            heights.push_back(
-                is_void ? kNan : static_cast<float>(column) + static_cast<float>(random.unit()));
+            heights.push_back(is_void
+                                  ? kNanFloat
+                                  : static_cast<float>(column) + static_cast<float>(random.unit()));
         }
     }
     return heights;
@@ -103,7 +102,7 @@ TEST(FilledHeightfield, MaximaBoundEverySampleOfEveryNode)
 
 TEST(FilledHeightfield, FillsAMapWithOneSample)
 {
-    std::vector<float> heights(std::size_t{50} * 40, kNan);
+    std::vector<float> heights(std::size_t{50} * 40, kNanFloat);
     heights[123] = -7.5F;
     const FilledHeightfield terrain = filled(50, heights);
     EXPECT_EQ(terrain.sample(0, 0), -7.5);

@@ -1,15 +1,13 @@
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Heightfield holedRamp(std::size_t columns, std::size_t rows)
 {

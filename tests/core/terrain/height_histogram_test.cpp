@@ -1,18 +1,16 @@
 #include "core/terrain/height_histogram.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Heightfield
 surfaceOf(std::size_t columns, const std::vector<float>& samples, const ElevationScale& scale = {})

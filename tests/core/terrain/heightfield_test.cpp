@@ -1,4 +1,5 @@
 #include "core/terrain/heightfield.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
 
@@ -14,7 +15,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 Heightfield surfaceOf(std::size_t columns,

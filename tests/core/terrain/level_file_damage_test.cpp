@@ -2,6 +2,7 @@
 #include "core/terrain/level_file.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -19,8 +19,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 LevelFileKey someKey()
 {

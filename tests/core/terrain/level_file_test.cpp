@@ -3,6 +3,7 @@
 #include "core/terrain/level_file.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -26,8 +27,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 LevelFileKey someKey()
 {

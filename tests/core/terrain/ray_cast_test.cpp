@@ -1,4 +1,5 @@
 #include "core/terrain/ray_cast.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 struct Terrain {
     Heightfield heightfield;
@@ -42,7 +41,7 @@ randomTerrain(std::mt19937_64& random, std::size_t columns, std::size_t rows, do
     std::uniform_real_distribution<double> share(0.0, 1.0);
     std::vector<float> heights(columns * rows);
     for (float& height : heights) {
-        height = share(random) < void_share ? kNan : static_cast<float>(share(random) * 10.0);
+        height = share(random) < void_share ? kNanFloat : static_cast<float>(share(random) * 10.0);
     }
     return terrainOf(heights, columns);
 }
@@ -215,7 +214,7 @@ TEST(CastRay, MissesWhatLiesBehindAndBeside)
     EXPECT_FALSE(terrain.cast({.origin = {50, 10}, .origin_height_m = 6, .height_per_t_m = -1}));
     EXPECT_FALSE(terrain.cast({.origin = {10, 10}, .origin_height_m = 6, .columns_per_t = 1}));
     EXPECT_FALSE(terrain.cast({.origin = {10, 10}, .origin_height_m = 6})) << "no direction";
-    EXPECT_FALSE(terrain.cast({.origin = {kNan, 10}, .height_per_t_m = 1}));
+    EXPECT_FALSE(terrain.cast({.origin = {kNanFloat, 10}, .height_per_t_m = 1}));
 }
 
 TEST(CastRay, HitsAFlatMapFromAllSides)

@@ -1,19 +1,18 @@
 #include "core/terrain/relief_tile.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kTexels = ReliefTile::kTexels;
 constexpr std::size_t kBorder = ReliefTile::kBorder;
 

@@ -2,6 +2,7 @@
 #include "core/terrain/resident_window.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
 #include "tests/support/tiled_map.h"
@@ -23,8 +24,6 @@ namespace {
 using test::Random;
 using test::samplesTile;
 using test::TiledMap;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Rough heights with holes, some of them large.
 test::HeightFunction holedHeights(std::size_t columns, std::size_t rows, double scale)

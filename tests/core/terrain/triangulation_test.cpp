@@ -1,4 +1,5 @@
 #include "core/terrain/triangulation.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
 
@@ -6,12 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace marsview {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double ulp(double value)
 {

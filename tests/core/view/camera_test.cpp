@@ -1,4 +1,5 @@
 #include "core/view/camera.h"
+#include "tests/core/view/some_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +9,9 @@
 namespace marsview {
 namespace {
 
-constexpr Viewport kViewport{1280, 800};
+using test::someCamera;
 
-OrbitCamera someCamera()
-{
-    return {.target = {1e6, -2e6, 3e3},
-            .distance_m = 5e5,
-            .azimuth = Angle::degrees(30.0),
-            .tilt = Angle::degrees(50.0)};
-}
+constexpr Viewport kViewport{1280, 800};
 
 TEST(OrbitCamera, AxesAreOrthonormalAndRightHanded)
 {

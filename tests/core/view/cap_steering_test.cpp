@@ -1,4 +1,5 @@
 #include "core/view/cap_steering.h"
+#include "tests/core/view/some_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -8,16 +9,10 @@
 namespace marsview {
 namespace {
 
+using test::someCamera;
+
 const SceneBox kBox{{-1e5, -5e4, -2e3}, {1e5, 5e4, 6e3}};
 const NavigationLimits kLimits = navigationLimits(kBox, 30.0);
-
-OrbitCamera someCamera()
-{
-    return {.target = {2e4, 1e4, 500.0},
-            .distance_m = 8e4,
-            .azimuth = Angle::degrees(-40.0),
-            .tilt = Angle::degrees(50.0)};
-}
 
 OrbitCamera pushed(const Vec3& push, double seconds)
 {

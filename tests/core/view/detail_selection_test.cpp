@@ -1,5 +1,6 @@
 #include "core/view/detail_selection.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/nan.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kNode = DetailErrors::kNodeCells;
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 

@@ -1,4 +1,5 @@
 #include "core/view/edge_mark.h"
+#include "tests/core/view/some_camera.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -10,15 +11,9 @@
 namespace marsview {
 namespace {
 
-constexpr EdgeLine kLine{.viewport = {1000, 600}, .inset_px = 20.0, .covered_px = 40.0};
+using test::someCamera;
 
-OrbitCamera someCamera()
-{
-    return {.target = {2e4, 1e4, 500.0},
-            .distance_m = 8e4,
-            .azimuth = Angle::degrees(-40.0),
-            .tilt = Angle::degrees(50.0)};
-}
+constexpr EdgeLine kLine{.viewport = {1000, 600}, .inset_px = 20.0, .covered_px = 40.0};
 
 // So far right of, below and in front of the eye.
 ScenePoint placeAt(const OrbitCamera& camera, const Vec3& right_down_forward)

@@ -1,4 +1,5 @@
 #include "core/view/navigation.h"
+#include "tests/core/view/some_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +8,10 @@
 namespace marsview {
 namespace {
 
+using test::someCamera;
+
 constexpr Viewport kViewport{1000, 600};
 const SceneBox kBox{{-1e5, -5e4, -2e3}, {1e5, 5e4, 6e3}};
-
-OrbitCamera someCamera()
-{
-    return {.target = {2e4, 1e4, 500.0},
-            .distance_m = 8e4,
-            .azimuth = Angle::degrees(-40.0),
-            .tilt = Angle::degrees(50.0)};
-}
 
 double flatGround(double /*east_m*/, double /*north_m*/)
 {

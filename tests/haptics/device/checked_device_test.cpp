@@ -1,5 +1,6 @@
 #include "haptics/device/capability_check.h"
 #include "haptics/device/checked_device.h"
+#include "tests/support/nan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 DeviceCapabilities possible()

@@ -1,6 +1,7 @@
 #include "haptics/loop/haptic_tick.h"
 #include "haptics/loop/rt_scope.h"
 #include "tests/haptics/loop/tick_fixture.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/tiled_map.h"
 
@@ -139,7 +140,6 @@ TEST(HapticTick, LetsGoForEveryReason)
         EXPECT_EQ(result.force_n, Vec3{});
         return result.reason;
     };
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(reasonAfter([](Rig& r) { r.settings.is_stopped = true; }),
               LetGoReason::EmergencyStop);
     EXPECT_EQ(reasonAfter([](Rig& r) { r.input.status = DeviceStatus::Lost; }),

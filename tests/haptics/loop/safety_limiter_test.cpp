@@ -1,4 +1,5 @@
 #include "haptics/loop/safety_limiter.h"
+#include "tests/support/nan.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@ namespace marsview::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDt = 1e-3;
 
 constexpr SafetyLimits kLimits{.force_n_max = 3.0,

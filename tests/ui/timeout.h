@@ -1,0 +1,8 @@
+// How long tests wait for what a window does by itself.
+#pragma once
+
+namespace marsview {
+
+inline constexpr int kTimeout = 30000; // ms; far more than is ever needed on an idle machine
+
+} // namespace marsview
