@@ -300,18 +300,16 @@ Status HapticsController::startRecording(const QString& file)
                          .arg(file)
                          .toStdString()};
     }
-    // From a model that nothing has touched yet, so that a replay has all that it needs.
-    LoopSettings nothing = loop_settings_;
-    nothing.map = nullptr;
-    loop_->set(nothing);
+    // From a model that nothing has touched yet, so that a replay has all that it needs. It begins
+    // at the old one's proxy: the hand feels nothing of that.
+    const std::shared_ptr<ServoMap> fresh = hand_map_->make(model_, exaggeration_);
     Result<std::unique_ptr<SessionRecorder>> recorder =
-        SessionRecorder::begin(*loop_, file.toStdString());
-    hand_map_->beginAnew();
-    loop_settings_.map = hand_map_->make(model_, exaggeration_);
-    push();
+        SessionRecorder::begin(*loop_, file.toStdString(), fresh->serial);
     if (!recorder) {
         return std::move(recorder).error();
     }
+    loop_settings_.map = fresh;
+    push();
     recorder_ = std::move(recorder).value();
     recording_file_ = file;
     Q_EMIT recordingChanged();
@@ -393,7 +391,9 @@ void HapticsController::chooseMap(const LoopState& state)
     if (ground.maps().size() < 2 || !hand_map_ || recorder_) {
         return;
     }
-    const auto index = ground.mapAt(state.goal.x, state.goal.y);
+    // Where the hand is: the goal never leaves the map that it touches.
+    const ScenePoint hand = state.frame.toScene(state.hand);
+    const auto index = ground.mapAt(hand.x, hand.y);
     if (index && !hand_map_->isOf(ground.maps()[*index])) {
         setMap(*index);
     }

@@ -81,8 +81,10 @@ public:
 
     // Recording.
 
-    /// Of what is touched from now on, until the map, its exaggeration or the contact model is
-    /// another, or the device is disconnected. Needs a loop that runs.
+    /// Of what is touched from now on, also in the middle of a touch, until the map, its
+    /// exaggeration or the contact model is another, or the device is disconnected. Needs a loop
+    /// that runs. The file begins with the first update of a contact model of its own, so that
+    /// `trace --goals` gives the same proxies to the bit; the hand feels nothing of the change.
     Status startRecording(const QString& file);
     void stopRecording();
     bool isRecording() const noexcept { return recorder_ != nullptr; }
