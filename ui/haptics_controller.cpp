@@ -63,6 +63,7 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     , view_(view)
     , finder_(new DeviceFinder(std::move(make_drivers), this))
     , exaggeration_(view.exaggeration())
+    , jobs_(*this)
 {
     connect(finder_, &DeviceFinder::found, this, &HapticsController::takeDevices);
     connect(finder_, &DeviceFinder::opened, this, [this] { start(finder_->takeOpened()); });
@@ -156,7 +157,11 @@ void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
 
 void HapticsController::connectTo(const QString& uri)
 {
+    const bool is_back = is_lost_ && uri == wanted_uri_; // what happened to it is still of use
     close();
+    if (!is_back) {
+        is_lost_ = false;
+    }
     wanted_uri_.clear();
     is_quiet_ = false;
     uri_ = uri;
@@ -178,6 +183,7 @@ void HapticsController::disconnectDevice()
 {
     wanted_uri_.clear();
     close();
+    is_lost_ = false;
     HapticsSettings settings = settings_;
     settings.device.clear();
     setSettings(settings);
@@ -207,6 +213,7 @@ void HapticsController::close()
     finder_->cancelOpening();
     stopRecording();
     poll_timer_.stop();
+    keepTicks();
     loop_.reset();
     hand_map_.reset();
     loop_settings_ = {};
@@ -250,11 +257,62 @@ void HapticsController::finishLost(const LoopState& state)
     } else {
         wanted_uri_ = uri; // once it is there again
         was_wanted_gone_ = false;
+        is_lost_ = true;
         setProblem(trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
                                    //: %1 is a device, %2 a sentence about it
                                    : tr("%1 was lost: %2").arg(name, sentence(trouble)));
     }
     setLooking(is_looking_);
+}
+
+// With the ticks in which the force faded out.
+void HapticsController::keepTicks()
+{
+    if (loop_) {
+        loop_->stop();
+        if (!loop_->flight().isEmpty()) {
+            kept_ticks_ = loop_->flight().records();
+        }
+    }
+}
+
+bool HapticsController::hasTicks() const
+{
+    return !kept_ticks_.empty() || canRecord() || (loop_ && !loop_->flight().isEmpty());
+}
+
+std::vector<TickRecord> HapticsController::lastTicks() const
+{
+    if (!loop_ || loop_->flight().isEmpty()) {
+        return kept_ticks_;
+    }
+    std::vector<TickRecord> ticks = loop_->flight().records();
+    if (is_lost_) {
+        ticks.insert(ticks.begin(), kept_ticks_.begin(), kept_ticks_.end());
+    }
+    return ticks;
+}
+
+void HapticsController::saveTicks(std::vector<TickRecord> ticks, const QString& file)
+{
+    SavedTicks saved{.file = file, .count = ticks.size()};
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+        const bool is_same_run = ticks[i].tick > ticks[i - 1].tick;
+        const std::int64_t ns = ticks[i].time_ns - ticks[i - 1].time_ns;
+        saved.seconds += is_same_run ? 1e-9 * static_cast<double>(ns) : 0.0;
+    }
+    jobs_.run([this, ticks = std::move(ticks), saved](const auto& outlet) {
+        const Status written = saveFlight(ticks, saved.file.toStdString());
+        const QString problem =
+            written ? QString() : QString::fromStdString(written.error().message);
+        outlet->post([this, saved, problem] {
+            if (problem.isEmpty()) {
+                Q_EMIT ticksSaved(saved);
+            } else {
+                Q_EMIT savingFailed(problem);
+            }
+        });
+    });
 }
 
 void HapticsController::setSettings(const HapticsSettings& settings)

@@ -126,7 +126,7 @@ TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
           actions.layer.move_up, actions.layer.move_down, actions.shading->menuAction(),
           actions.ramps->menuAction(), actions.cancel_loading, actions.stop_preparing,
           actions.layer.prepare, actions.emergency_stop, actions.record_touch,
-          actions.replay_touch}) {
+          actions.replay_touch, actions.save_flight}) {
         EXPECT_TRUE(in_menus.count(action) != 0) << action->text().toStdString();
     }
 }
