@@ -32,6 +32,11 @@ bool isToBeRemembered(const QString& uri)
     return !uri.startsWith(QStringLiteral("replay:"));
 }
 
+QString lastingUri(const QString& uri)
+{
+    return QString::fromStdString(lastingPolhemUri(uri.toStdString()));
+}
+
 bool isEmergencyKey(const QKeyEvent& event)
 {
     return event.key() == Qt::Key_Pause ||
@@ -147,7 +152,7 @@ void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
     }
     const bool is_there =
         std::any_of(devices_.begin(), devices_.end(), [this](const FoundDevice& device) {
-            return device.isUsable() && QString::fromStdString(device.uri) == wanted_uri_;
+            return device.isUsable() && device.isMeantBy(wanted_uri_.toStdString());
         });
     if (is_there && was_wanted_gone_) {
         connectTo(QString(wanted_uri_)); // which is cleared by it
@@ -198,7 +203,7 @@ void HapticsController::start(std::unique_ptr<HapticDevice> device)
     is_quiet_ = false;
     if (isToBeRemembered(uri_)) {
         HapticsSettings settings = settings_;
-        settings.device = QString::fromStdString(lastingPolhemUri(uri_.toStdString()));
+        settings.device = lastingUri(uri_);
         setSettings(settings);
     }
     loop_settings_ = {};
@@ -250,7 +255,7 @@ void HapticsController::finishLost(const LoopState& state)
 {
     const QString name = QString::fromStdString(loop_->device().name);
     const std::string trouble = loop_->trouble();
-    const QString uri = uri_;
+    const QString uri = lastingUri(uri_);
     close();
     if (state.reason == LetGoReason::DeviceFinished) {
         setProblem(tr("The recording has ended"));
