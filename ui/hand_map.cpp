@@ -51,9 +51,4 @@ std::shared_ptr<ServoMap> HandMap::make(ContactModelKind kind, double exaggerati
     return terrain_ ? makeServoMap(frame, terrain_, options) : nullptr;
 }
 
-void HandMap::beginAnew()
-{
-    map_id_ = nextMapId();
-}
-
 } // namespace marsview

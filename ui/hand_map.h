@@ -25,8 +25,6 @@ public:
 
     /// Null for a map that is held in memory without what fills its voids.
     std::shared_ptr<ServoMap> make(ContactModelKind kind, double exaggeration) const;
-    /// What make() makes from now on is not touched before: no model goes on from there.
-    void beginAnew();
 
 private:
     SceneMap map_;

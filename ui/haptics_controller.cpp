@@ -32,6 +32,11 @@ bool isToBeRemembered(const QString& uri)
     return !uri.startsWith(QStringLiteral("replay:"));
 }
 
+QString lastingUri(const QString& uri)
+{
+    return QString::fromStdString(lastingPolhemUri(uri.toStdString()));
+}
+
 bool isEmergencyKey(const QKeyEvent& event)
 {
     return event.key() == Qt::Key_Pause ||
@@ -63,6 +68,7 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
     , view_(view)
     , finder_(new DeviceFinder(std::move(make_drivers), this))
     , exaggeration_(view.exaggeration())
+    , jobs_(*this)
 {
     connect(finder_, &DeviceFinder::found, this, &HapticsController::takeDevices);
     connect(finder_, &DeviceFinder::opened, this, [this] { start(finder_->takeOpened()); });
@@ -146,7 +152,7 @@ void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
     }
     const bool is_there =
         std::any_of(devices_.begin(), devices_.end(), [this](const FoundDevice& device) {
-            return device.isUsable() && QString::fromStdString(device.uri) == wanted_uri_;
+            return device.isUsable() && device.isMeantBy(wanted_uri_.toStdString());
         });
     if (is_there && was_wanted_gone_) {
         connectTo(QString(wanted_uri_)); // which is cleared by it
@@ -156,7 +162,11 @@ void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
 
 void HapticsController::connectTo(const QString& uri)
 {
+    const bool is_back = is_lost_ && uri == wanted_uri_; // what happened to it is still of use
     close();
+    if (!is_back) {
+        is_lost_ = false;
+    }
     wanted_uri_.clear();
     is_quiet_ = false;
     uri_ = uri;
@@ -178,6 +188,7 @@ void HapticsController::disconnectDevice()
 {
     wanted_uri_.clear();
     close();
+    is_lost_ = false;
     HapticsSettings settings = settings_;
     settings.device.clear();
     setSettings(settings);
@@ -192,7 +203,7 @@ void HapticsController::start(std::unique_ptr<HapticDevice> device)
     is_quiet_ = false;
     if (isToBeRemembered(uri_)) {
         HapticsSettings settings = settings_;
-        settings.device = QString::fromStdString(lastingPolhemUri(uri_.toStdString()));
+        settings.device = lastingUri(uri_);
         setSettings(settings);
     }
     loop_settings_ = {};
@@ -207,6 +218,7 @@ void HapticsController::close()
     finder_->cancelOpening();
     stopRecording();
     poll_timer_.stop();
+    keepTicks();
     loop_.reset();
     hand_map_.reset();
     loop_settings_ = {};
@@ -243,18 +255,69 @@ void HapticsController::finishLost(const LoopState& state)
 {
     const QString name = QString::fromStdString(loop_->device().name);
     const std::string trouble = loop_->trouble();
-    const QString uri = uri_;
+    const QString uri = lastingUri(uri_);
     close();
     if (state.reason == LetGoReason::DeviceFinished) {
         setProblem(tr("The recording has ended"));
     } else {
         wanted_uri_ = uri; // once it is there again
         was_wanted_gone_ = false;
+        is_lost_ = true;
         setProblem(trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
                                    //: %1 is a device, %2 a sentence about it
                                    : tr("%1 was lost: %2").arg(name, sentence(trouble)));
     }
     setLooking(is_looking_);
+}
+
+// With the ticks in which the force faded out.
+void HapticsController::keepTicks()
+{
+    if (loop_) {
+        loop_->stop();
+        if (!loop_->flight().isEmpty()) {
+            kept_ticks_ = loop_->flight().records();
+        }
+    }
+}
+
+bool HapticsController::hasTicks() const
+{
+    return !kept_ticks_.empty() || canRecord() || (loop_ && !loop_->flight().isEmpty());
+}
+
+std::vector<TickRecord> HapticsController::lastTicks() const
+{
+    if (!loop_ || loop_->flight().isEmpty()) {
+        return kept_ticks_;
+    }
+    std::vector<TickRecord> ticks = loop_->flight().records();
+    if (is_lost_) {
+        ticks.insert(ticks.begin(), kept_ticks_.begin(), kept_ticks_.end());
+    }
+    return ticks;
+}
+
+void HapticsController::saveTicks(std::vector<TickRecord> ticks, const QString& file)
+{
+    SavedTicks saved{.file = file, .count = ticks.size()};
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+        const bool is_same_run = ticks[i].tick > ticks[i - 1].tick;
+        const std::int64_t ns = ticks[i].time_ns - ticks[i - 1].time_ns;
+        saved.seconds += is_same_run ? 1e-9 * static_cast<double>(ns) : 0.0;
+    }
+    jobs_.run([this, ticks = std::move(ticks), saved](const auto& outlet) {
+        const Status written = saveFlight(ticks, saved.file.toStdString());
+        const QString problem =
+            written ? QString() : QString::fromStdString(written.error().message);
+        outlet->post([this, saved, problem] {
+            if (problem.isEmpty()) {
+                Q_EMIT ticksSaved(saved);
+            } else {
+                Q_EMIT savingFailed(problem);
+            }
+        });
+    });
 }
 
 void HapticsController::setSettings(const HapticsSettings& settings)
@@ -300,18 +363,16 @@ Status HapticsController::startRecording(const QString& file)
                          .arg(file)
                          .toStdString()};
     }
-    // From a model that nothing has touched yet, so that a replay has all that it needs.
-    LoopSettings nothing = loop_settings_;
-    nothing.map = nullptr;
-    loop_->set(nothing);
+    // From a model that nothing has touched yet, so that a replay has all that it needs. It begins
+    // at the old one's proxy: the hand feels nothing of that.
+    const std::shared_ptr<ServoMap> fresh = hand_map_->make(model_, exaggeration_);
     Result<std::unique_ptr<SessionRecorder>> recorder =
-        SessionRecorder::begin(*loop_, file.toStdString());
-    hand_map_->beginAnew();
-    loop_settings_.map = hand_map_->make(model_, exaggeration_);
-    push();
+        SessionRecorder::begin(*loop_, file.toStdString(), fresh->serial);
     if (!recorder) {
         return std::move(recorder).error();
     }
+    loop_settings_.map = fresh;
+    push();
     recorder_ = std::move(recorder).value();
     recording_file_ = file;
     Q_EMIT recordingChanged();
@@ -393,7 +454,9 @@ void HapticsController::chooseMap(const LoopState& state)
     if (ground.maps().size() < 2 || !hand_map_ || recorder_) {
         return;
     }
-    const auto index = ground.mapAt(state.goal.x, state.goal.y);
+    // Where the hand is: the goal never leaves the map that it touches.
+    const ScenePoint hand = state.frame.toScene(state.hand);
+    const auto index = ground.mapAt(hand.x, hand.y);
     if (index && !hand_map_->isOf(ground.maps()[*index])) {
         setMap(*index);
     }

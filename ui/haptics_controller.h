@@ -4,6 +4,7 @@
 #include "haptics/interaction/hand_view.h"
 #include "haptics/loop/servo_loop.h"
 #include "haptics/trace/session_recorder.h"
+#include "ui/detached_jobs.h"
 #include "ui/device_finder.h"
 #include "ui/hand_map.h"
 #include "ui/haptics_settings.h"
@@ -12,6 +13,7 @@
 #include <QString>
 #include <QTimer>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +23,13 @@ namespace marsview {
 class TerrainView;
 
 enum class HapticsConnection { None, Opening, Connected };
+
+/// A flight record that has been written.
+struct SavedTicks {
+    QString file;
+    std::size_t count = 0;
+    double seconds = 0.0; // that they cover, without pauses between them
+};
 
 /// Connects one device at a time and lets it touch what the view shows: the device reaches what is
 /// in sight, and a hand that pulls, zooms or turns the map moves the view's camera. The servo loop
@@ -81,13 +90,27 @@ public:
 
     // Recording.
 
-    /// Of what is touched from now on, until the map, its exaggeration or the contact model is
-    /// another, or the device is disconnected. Needs a loop that runs.
+    /// Of what is touched from now on, also in the middle of a touch, until the map, its
+    /// exaggeration or the contact model is another, or the device is disconnected. Needs a loop
+    /// that runs. The file begins with the first update of a contact model of its own, so that
+    /// `trace --goals` gives the same proxies to the bit; the hand feels nothing of the change.
     Status startRecording(const QString& file);
     void stopRecording();
     bool isRecording() const noexcept { return recorder_ != nullptr; }
     const QString& recordingFile() const noexcept { return recording_file_; }
     bool canRecord() const noexcept { return loop_ != nullptr && loop_->isRunning(); }
+
+    // The last seconds, whatever happened in them.
+
+    /// Whether lastTicks() has any, or will in a moment.
+    bool hasTicks() const;
+    /// The last ten seconds or so of the device that is connected, or else was; where it was lost
+    /// and came back, after those of before. Takes a millisecond or two.
+    std::vector<TickRecord> lastTicks() const;
+    /// On another thread; ticksSaved() or savingFailed() follows.
+    void saveTicks(std::vector<TickRecord> ticks, const QString& file);
+    /// Whether the last device went without being asked to.
+    bool isLost() const noexcept { return is_lost_; }
 
 Q_SIGNALS:
     void devicesChanged();
@@ -101,6 +124,9 @@ Q_SIGNALS:
     void recordingFailed(const QString& problem);
     /// A recording of so many updates is complete.
     void recorded(const QString& file, qulonglong updates);
+    void ticksSaved(const SavedTicks& saved);
+    /// "FILE: WHY".
+    void savingFailed(const QString& problem);
     /// Some sixty times a second while the loop runs.
     void polled(const LoopState& state);
 
@@ -113,6 +139,7 @@ private:
     void takeDevices(const std::vector<FoundDevice>& devices);
     void poll();
     void finishLost(const LoopState& state);
+    void keepTicks();
     void setProblem(const QString& problem);
 
     void takeGround();
@@ -149,10 +176,14 @@ private:
     HandView hand_view_; // that loop_settings_.frame_number is of
     bool is_following_ = false;
 
+    std::vector<TickRecord> kept_ticks_; // of the last loop
+    bool is_lost_ = false;
+
     QTimer poll_timer_; // runs only while the loop does
     std::unique_ptr<ServoLoop> loop_;
     std::unique_ptr<SessionRecorder> recorder_; // before the loop ends
     QString recording_file_;
+    DetachedJobs jobs_;
 };
 
 } // namespace marsview

@@ -1,8 +1,10 @@
 #include "ui/haptics_text.h"
 
+#include "ui/haptics_controller.h"
 #include "ui/number_text.h"
 
 #include <QCoreApplication>
+#include <QFileInfo>
 
 namespace marsview {
 namespace {
@@ -78,6 +80,14 @@ QString realTimeText(const RealTimeGrants& grants)
     return tr("The system did not grant real time (%1). It still works, less steadily when the "
               "computer is busy.")
         .arg(scheduling);
+}
+
+QString savedTicksText(const SavedTicks& saved)
+{
+    //: %1 is a file, %2 a number, %3 a number of seconds
+    return tr("%1: %2 ticks of %3 s")
+        .arg(QFileInfo(saved.file).fileName(), countText(saved.count),
+             numberText(saved.seconds, 1));
 }
 
 QString spanText(std::chrono::nanoseconds span)

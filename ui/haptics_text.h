@@ -11,12 +11,16 @@
 
 namespace marsview {
 
+struct SavedTicks;
+
 /// A sentence: why there is no force; empty where there may be.
 QString letGoText(LetGoReason reason);
 /// What the hand is doing.
 QString modeText(StylusMode mode, bool is_in_contact);
 /// A sentence, and that all works without.
 QString realTimeText(const RealTimeGrants& grants);
+/// "flight.csv: 10,000 ticks of 10.0 s".
+QString savedTicksText(const SavedTicks& saved);
 /// "12 µs", "3.4 ms"; two significant digits at least.
 QString spanText(std::chrono::nanoseconds span);
 

@@ -8,6 +8,7 @@
 #include "ui/dialogs/keys_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/haptics_controller.h"
+#include "ui/haptics_text.h"
 #include "ui/light_popup.h"
 #include "ui/load_status.h"
 #include "ui/main_tool_bar.h"
@@ -272,8 +273,13 @@ void MainWindow::connectPanels()
     connect(notices_, &NoticeBar::detailsRequested, this,
             [this] { docks_->reveal(*docks_->georeferencing()); });
     connect(notices_, &NoticeBar::actionRequested, this, [this] {
-        haptics_->isStopped() ? haptics_->setStopped(false)
-                              : controller_->prepare(session().active);
+        if (haptics_->isStopped()) {
+            haptics_->setStopped(false);
+        } else if (!noticed_device_.isEmpty()) {
+            haptics_panel_->chooseFlightRecord();
+        } else {
+            controller_->prepare(session().active);
+        }
     });
     connect(tool_bar_, &MainToolBar::exaggerationRequested, view_, &TerrainView::setExaggeration);
     connect(light_popup_, &LightPopup::lightChanged, controller_, &SessionController::setLight);
@@ -371,6 +377,14 @@ void MainWindow::connectHaptics()
     });
     connect(actions_->replay_touch, &QAction::triggered, haptics_panel_,
             &HapticsPanel::chooseReplay);
+    connect(actions_->save_flight, &QAction::triggered, haptics_panel_,
+            &HapticsPanel::chooseFlightRecord);
+    connect(haptics_, &HapticsController::ticksSaved, this, [this](const SavedTicks& saved) {
+        statusBar()->showMessage(savedTicksText(saved), kMessageDuration);
+    });
+    connect(haptics_, &HapticsController::savingFailed, this, [this](const QString& problem) {
+        reportFailure(tr("Cannot Save Flight Record"), problem);
+    });
     connect(actions_->emergency_stop, &QAction::triggered, this,
             [this] { haptics_->setStopped(true); });
 }
@@ -420,6 +434,7 @@ void MainWindow::showHaptics()
     actions_->record_touch->setEnabled(haptics_->isRecording() || haptics_->canRecord());
     actions_->record_touch->setText(haptics_->isRecording() ? tr("Stop &Recording Touch")
                                                             : tr("&Record Touch…"));
+    actions_->save_flight->setEnabled(haptics_->hasTicks());
     showPreparation();
 }
 
@@ -577,8 +592,13 @@ void MainWindow::showPreparation()
     }
     if (!device.isEmpty()) {
         notices.prepend(device);
-        //: On a button: after an emergency stop of the haptic device
-        action = haptics_->isStopped() ? tr("Let Forces Return") : QString();
+        action = haptics_->isStopped()
+                     //: On a button: after an emergency stop of the haptic device
+                     ? tr("Let Forces Return")
+                     : haptics_->isLost() && haptics_->hasTicks()
+                           //: On a button: after a haptic device was lost
+                           ? tr("Save Flight Record…")
+                           : QString();
     }
     notices_->setNotices(notices, action);
 }

@@ -306,6 +306,10 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
     record_touch->setEnabled(false);
     replay_touch = menu->addAction(tr("Re&play Touch…"));
     replay_touch->setStatusTip(tr("Let a recording touch the map in place of a device"));
+    save_flight = menu->addAction(tr("Save &Flight Record…"));
+    save_flight->setStatusTip(
+        tr("Write the device's last ten seconds into a file, to find out what happened"));
+    save_flight->setEnabled(false);
     menu->addSeparator();
     emergency_stop = menu->addAction(tr("Emergency &Stop"));
     emergency_stop->setShortcuts(

@@ -53,11 +53,12 @@ struct WindowActions {
 
     QMenu* contact_models = nullptr;
     QActionGroup* contact_model_group = nullptr; // data(): the ContactModelKind
-    QAction* contact_sound = nullptr; // checkable
+    QAction* contact_sound = nullptr;            // checkable
     QAction* haptic_devices = nullptr;
     QAction* emergency_stop = nullptr;
     QAction* record_touch = nullptr;
     QAction* replay_touch = nullptr;
+    QAction* save_flight = nullptr;
 
     QAction* keys = nullptr;
     QAction* about = nullptr;

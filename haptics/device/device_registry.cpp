@@ -9,6 +9,17 @@
 
 namespace marsview {
 
+bool FoundDevice::isMeantBy(std::string_view wanted) const noexcept
+{
+    const std::string_view scheme = std::string_view(uri).substr(0, uri.find(':') + 1);
+    const auto is_before_options = [wanted](std::string_view whole) {
+        return !whole.empty() && wanted.starts_with(whole) &&
+               (wanted.size() == whole.size() || wanted[whole.size()] == ',');
+    };
+    const bool is_only_one = uri == scheme && wanted.starts_with(scheme);
+    return is_only_one || is_before_options(uri) || is_before_options(scheme);
+}
+
 DeviceRegistry::DeviceRegistry(std::vector<std::unique_ptr<DeviceDriver>> drivers)
     : drivers_(std::move(drivers))
 {

@@ -28,6 +28,17 @@ std::string asAscii(const wchar_t* text)
     return ascii;
 }
 
+// For URIs, where commas and colons mean something.
+std::string asSerial(const wchar_t* text)
+{
+    std::string serial = asAscii(text);
+    const bool is_plain = std::all_of(serial.begin(), serial.end(), [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '-' || c == '_' || c == '.';
+    });
+    return is_plain ? serial : std::string();
+}
+
 } // namespace
 
 std::vector<HidEntry> hidDevices(const HidApi& api,
@@ -39,6 +50,7 @@ std::vector<HidEntry> hidDevices(const HidApi& api,
     for (const hid_device_info* info = all; info != nullptr; info = info->next) {
         const HidEntry entry{.path = info->path != nullptr ? info->path : "",
                              .product = asAscii(info->product_string),
+                             .serial = asSerial(info->serial_number),
                              .vendor_id = info->vendor_id,
                              .product_id = info->product_id,
                              .usage_page = info->usage_page,

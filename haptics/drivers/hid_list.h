@@ -14,8 +14,9 @@
 namespace marsview {
 
 struct HidEntry {
-    std::string path; // "/dev/hidraw3"
+    std::string path; // "/dev/hidraw3": another one after it was plugged in anew
     std::string product;
+    std::string serial; // letters, digits, "-", "_" and "."; empty where it has no such number
     std::uint16_t vendor_id = 0;
     std::uint16_t product_id = 0;
     std::uint16_t usage_page = 0; // 0: unknown

@@ -41,8 +41,21 @@ bool isArm(const HidEntry& entry)
            (entry.vendor_id == kOlderVendor && entry.product_id == kOlderProduct);
 }
 
+// Which arm, whatever its path is today: by the number that its board has, or else by its kind.
+std::string lastingName(const HidEntry& entry)
+{
+    return entry.serial.empty()
+               ? fmt::format("usb={:04x}:{:04x}", entry.vendor_id, entry.product_id)
+               : fmt::format("serial={}", entry.serial);
+}
+
+bool isNamed(const HidEntry& entry, std::string_view name)
+{
+    return name.empty() || (name.front() == '/' ? entry.path : lastingName(entry)) == name;
+}
+
 struct Address {
-    std::string path;
+    std::string name; // a path, what lastingName() says, or empty for any
     fs::path parameters;
     bool homes_at_once = false;
 };
@@ -55,16 +68,17 @@ Result<Address> parseAddress(std::string_view uri, std::string_view address)
     while (is_first || !address.empty()) {
         const std::string_view part = address.substr(0, address.find(','));
         address.remove_prefix(std::min(part.size() + 1, address.size()));
-        if (is_first && (part.empty() || part.front() == '/')) {
-            parsed.path = part;
+        if (is_first && (part.empty() || part.front() == '/' || part.starts_with("serial=") ||
+                         part.starts_with("usb="))) {
+            parsed.name = part;
         } else if (part == "home") {
             parsed.homes_at_once = true;
         } else if (part.starts_with(kParameters)) {
             parsed.parameters = part.substr(kParameters.size());
         } else {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: \"{}\" is not understood; a path, \"home\" and "
-                                     "\"parameters=FILE\" are",
+                         fmt::format("{}: \"{}\" is not understood; a path, \"serial=NUMBER\", "
+                                     "\"home\" and \"parameters=FILE\" are",
                                      uri, part)};
         }
         is_first = false;
@@ -110,8 +124,14 @@ PolhemDriver::PolhemDriver(PolhemOptions options)
 std::vector<FoundDevice> PolhemDriver::find()
 {
     std::vector<FoundDevice> found;
-    for (const HidEntry& entry : hidDevices(*options_.api, isArm)) {
-        found.push_back({fmt::format("{}:{}", scheme(), entry.path),
+    const std::vector<HidEntry> arms = hidDevices(*options_.api, isArm);
+    for (const HidEntry& entry : arms) {
+        // Those that cannot be told apart otherwise are by their paths, as long as these last.
+        const std::string name = lastingName(entry);
+        const bool is_alone = std::count_if(arms.begin(), arms.end(), [&](const HidEntry& other) {
+                                  return lastingName(other) == name;
+                              }) == 1;
+        found.push_back({fmt::format("{}:{}", scheme(), is_alone ? name : entry.path),
                          fmt::format("WoodenHaptics or Polhem ({})",
                                      entry.product.empty() ? "no name" : entry.product),
                          refusalToOpen(*options_.api, entry.path)});
@@ -127,7 +147,7 @@ Result<std::unique_ptr<HapticDevice>> PolhemDriver::open(std::string_view addres
         return std::move(parsed).error();
     }
     const std::vector<HidEntry> arms = hidDevices(*options_.api, [&](const HidEntry& entry) {
-        return isArm(entry) && (parsed->path.empty() || entry.path == parsed->path);
+        return isArm(entry) && isNamed(entry, parsed->name);
     });
     if (arms.empty()) {
         return Error{ErrorCode::NotFound,

@@ -18,22 +18,26 @@ namespace marsview {
 class FlightRecorder {
 public:
     explicit FlightRecorder(std::size_t ticks = 10'000)
-        : ring_(std::make_unique<SeqLock<TickRecord>[]>(ticks)) // NOLINT(modernize-avoid-c-arrays)
+        // One more than is kept, for the servo thread to write into.
+        : ring_(std::make_unique<SeqLock<TickRecord>[]>(ticks + 1)) // NOLINT(*-avoid-c-arrays)
         , size_(ticks)
     {}
 
     /// Where it is kept.
-    MemoryRange memory() const noexcept { return {ring_.get(), size_ * sizeof(ring_[0])}; }
+    MemoryRange memory() const noexcept { return {ring_.get(), (size_ + 1) * sizeof(ring_[0])}; }
 
     /// The servo thread.
     void add(const TickRecord& record) noexcept
     {
         const std::uint64_t number = count_.load(std::memory_order_relaxed);
-        ring_[number % size_].write(record);
+        ring_[number % (size_ + 1)].write(record);
         count_.store(number + 1, std::memory_order_release);
     }
 
-    /// Any other thread: the oldest first.
+    bool isEmpty() const noexcept { return count_.load(std::memory_order_acquire) == 0; }
+
+    /// Any other thread: the oldest first, across pauses of the loop, after which its ticks are
+    /// numbered from 1 again.
     std::vector<TickRecord> records() const
     {
         const std::uint64_t end = count_.load(std::memory_order_acquire);
@@ -41,8 +45,9 @@ public:
         std::vector<TickRecord> result;
         result.reserve(static_cast<std::size_t>(end - begin));
         for (std::uint64_t i = begin; i < end; ++i) {
-            const auto record = ring_[i % size_].tryRead();
-            if (record && (result.empty() || record->tick >= result.back().tick)) {
+            const auto record = ring_[i % (size_ + 1)].tryRead();
+            // Once so many have been added, a much later one is being written there.
+            if (record && count_.load(std::memory_order_acquire) < i + size_ + 1) {
                 result.push_back(*record);
             }
         }

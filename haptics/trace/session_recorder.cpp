@@ -31,19 +31,21 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
                        asText(record.ground.exaggeration));
 }
 
-Result<std::unique_ptr<SessionRecorder>> SessionRecorder::begin(ServoLoop& loop,
-                                                                const std::string& path)
+Result<std::unique_ptr<SessionRecorder>>
+SessionRecorder::begin(ServoLoop& loop, const std::string& path, std::uint64_t first_serial)
 {
     Result<TraceFile> file = TraceFile::begin(path, kSessionColumns);
     if (!file) {
         return std::move(file).error();
     }
-    return std::unique_ptr<SessionRecorder>(new SessionRecorder(loop, std::move(*file)));
+    return std::unique_ptr<SessionRecorder>(
+        new SessionRecorder(loop, std::move(*file), first_serial));
 }
 
-SessionRecorder::SessionRecorder(ServoLoop& loop, TraceFile file)
+SessionRecorder::SessionRecorder(ServoLoop& loop, TraceFile file, std::uint64_t first_serial)
     : loop_(loop)
     , file_(std::move(file))
+    , first_serial_(first_serial)
 {
     // A tick that ran while an earlier recording ended may have left one.
     TickRecord left;
@@ -84,6 +86,10 @@ void SessionRecorder::drain()
 {
     TickRecord record;
     while (loop_.takeRecord(record)) {
+        if (first_serial_ != 0 && record.ground.serial != first_serial_) {
+            continue; // an update of a model with a past that the file does not know
+        }
+        first_serial_ = 0;
         if (updates_ == 0) {
             begin_ns_ = record.time_ns;
         }

@@ -30,7 +30,13 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns);
 class SessionRecorder {
 public:
     /// Begins. The loop outlives the recorder. Unreadable where the file cannot be made.
-    static Result<std::unique_ptr<SessionRecorder>> begin(ServoLoop& loop, const std::string& path);
+    ///
+    /// A contact model's answer depends on all that it was asked before. So the first line has to
+    /// be the first update of a model: of a loop that runs, make the map anew, name its serial as
+    /// `first_serial`, and set() it once this has returned; what comes before its first update is
+    /// left out. 0 is for a loop that has not touched anything: all of it is recorded.
+    static Result<std::unique_ptr<SessionRecorder>>
+    begin(ServoLoop& loop, const std::string& path, std::uint64_t first_serial = 0);
     ~SessionRecorder();
     SessionRecorder(const SessionRecorder&) = delete;
     SessionRecorder& operator=(const SessionRecorder&) = delete;
@@ -40,12 +46,13 @@ public:
     std::uint64_t updates() const noexcept { return updates_; } // after finish()
 
 private:
-    SessionRecorder(ServoLoop& loop, TraceFile file);
+    SessionRecorder(ServoLoop& loop, TraceFile file, std::uint64_t first_serial);
     void run(const std::stop_token& stop);
     void drain();
 
     ServoLoop& loop_;
     TraceFile file_;
+    std::uint64_t first_serial_; // 0 from when it has come
     bool is_finished_ = false;
     std::uint64_t updates_ = 0;
     std::int64_t begin_ns_ = 0;

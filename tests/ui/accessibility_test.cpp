@@ -120,13 +120,26 @@ TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
         }
     }
     const WindowActions& actions = window_->actionSet();
-    for (const QAction* action :
-         {actions.open, actions.open_address, actions.save_picture, actions.home, actions.north,
-          actions.light, actions.exaggerate_more, actions.exaggerate_less, actions.layer.remove,
-          actions.layer.move_up, actions.layer.move_down, actions.shading->menuAction(),
-          actions.ramps->menuAction(), actions.cancel_loading, actions.stop_preparing,
-          actions.layer.prepare, actions.emergency_stop, actions.record_touch,
-          actions.replay_touch}) {
+    for (const QAction* action : {actions.open,
+                                  actions.open_address,
+                                  actions.save_picture,
+                                  actions.home,
+                                  actions.north,
+                                  actions.light,
+                                  actions.exaggerate_more,
+                                  actions.exaggerate_less,
+                                  actions.layer.remove,
+                                  actions.layer.move_up,
+                                  actions.layer.move_down,
+                                  actions.shading->menuAction(),
+                                  actions.ramps->menuAction(),
+                                  actions.cancel_loading,
+                                  actions.stop_preparing,
+                                  actions.layer.prepare,
+                                  actions.emergency_stop,
+                                  actions.record_touch,
+                                  actions.replay_touch,
+                                  actions.save_flight}) {
         EXPECT_TRUE(in_menus.count(action) != 0) << action->text().toStdString();
     }
 }

@@ -3,6 +3,7 @@
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/drivers/sim_driver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -46,6 +47,7 @@ public:
     DeviceStatus write(const Vec3& force_n) noexcept override
     {
         hand_->force_n = length(force_n);
+        hand_->force_n_min = std::min(hand_->force_n_min.load(), length(force_n));
         return DeviceStatus::Fine;
     }
     std::string trouble() const override { return hand_->is_lost ? "the plug was pulled" : ""; }

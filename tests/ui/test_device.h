@@ -17,10 +17,11 @@ struct TestHand {
     WorkspacePoint position{};
     std::atomic<std::uint32_t> buttons{0};
     std::atomic<bool> is_lost{false};
-    std::atomic<double> force_n{0.0};    // written last
-    std::atomic<int> open_count{0};      // devices that are open now
-    std::atomic<bool> is_there{true};    // to be found
-    std::atomic<bool> is_held_up{false}; // opening waits as long
+    std::atomic<double> force_n{0.0};     // written last
+    std::atomic<double> force_n_min{0.0}; // since the test has set it
+    std::atomic<int> open_count{0};       // devices that are open now
+    std::atomic<bool> is_there{true};     // to be found
+    std::atomic<bool> is_held_up{false};  // opening waits as long
 
     void moveTo(const WorkspacePoint& at)
     {

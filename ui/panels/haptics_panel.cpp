@@ -10,6 +10,7 @@
 #include <QBoxLayout>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDateTime>
 #include <QEvent>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -23,6 +24,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -80,6 +83,9 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     connect(&controller_, &HapticsController::recordingChanged, this, &HapticsPanel::showRecording);
     connect(&controller_, &HapticsController::polled, this, &HapticsPanel::showState);
     connect(&controller_, &HapticsController::recordingFailed, recording_, &QLabel::setText);
+    connect(&controller_, &HapticsController::savingFailed, recording_, &QLabel::setText);
+    connect(&controller_, &HapticsController::ticksSaved, recording_,
+            [this](const SavedTicks& saved) { recording_->setText(savedTicksText(saved)); });
     connect(&controller_, &HapticsController::recorded, this,
             [this](const QString& file, qulonglong updates) {
                 //: %1 is a file, %2 a number
@@ -228,6 +234,12 @@ void HapticsPanel::makeRecording(QBoxLayout& layout)
         line->addWidget(button);
     }
     layout.addLayout(line);
+    flight_ = new QPushButton(tr("Save F&light Record…"), this);
+    flight_->setObjectName(QStringLiteral("saveFlight"));
+    flight_->setToolTip(
+        tr("Write the device's last ten seconds into a file, to find out what happened"));
+    connect(flight_, &QPushButton::clicked, this, &HapticsPanel::chooseFlightRecord);
+    layout.addWidget(flight_);
     recording_ = makeText(this, tr("Recording"));
     recording_->setObjectName(QStringLiteral("recording"));
     layout.addWidget(recording_);
@@ -458,6 +470,7 @@ void HapticsPanel::showRecording()
 {
     record_->setText(controller_.isRecording() ? tr("S&top Recording") : tr("&Record…"));
     record_->setEnabled(controller_.isRecording() || controller_.canRecord());
+    flight_->setEnabled(controller_.hasTicks());
     if (controller_.isRecording()) {
         //: %1 is a file
         recording_->setText(
@@ -480,6 +493,29 @@ void HapticsPanel::chooseRecording()
             recording_->setText(QString::fromStdString(begun.error().message));
         }
     });
+    dialog->open();
+}
+
+void HapticsPanel::chooseFlightRecord()
+{
+    // What is there now: it would be gone when a name has been found.
+    std::vector<TickRecord> ticks = controller_.lastTicks();
+    if (ticks.empty()) {
+        recording_->setText(tr("Nothing has happened yet that could be saved"));
+        return;
+    }
+    auto* dialog = new QFileDialog(this, tr("Save Flight Record"), folder_);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setNameFilters({tr("Flight record (*.csv)")});
+    dialog->setDefaultSuffix(QStringLiteral("csv"));
+    const QString time = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-HHmmss"));
+    dialog->selectFile(tr("flight") + QLatin1Char('-') + time + QStringLiteral(".csv"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QFileDialog::fileSelected, this,
+            [this, ticks = std::move(ticks)](const QString& file) {
+                folder_ = QFileInfo(file).absolutePath();
+                controller_.saveTicks(ticks, file);
+            });
     dialog->open();
 }
 

@@ -37,6 +37,8 @@ public Q_SLOTS:
     /// Asks for a file.
     void chooseRecording();
     void chooseReplay();
+    /// Of what happened until now.
+    void chooseFlightRecord();
 
 protected:
     void showEvent(QShowEvent* event) override;
@@ -76,6 +78,7 @@ private:
     LoopTimes* times_ = nullptr;
     QPushButton* record_ = nullptr;
     QPushButton* replay_ = nullptr;
+    QPushButton* flight_ = nullptr;
     QLabel* recording_ = nullptr;
 
     QString folder_;

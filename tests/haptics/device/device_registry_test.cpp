@@ -38,6 +38,24 @@ DeviceRegistry twoDrivers()
     return DeviceRegistry(std::move(drivers));
 }
 
+TEST(FoundDevice, IsMeantByItsUriByOneWithOptionsAndByItsScheme)
+{
+    const FoundDevice arm{.uri = "polhem:serial=4711", .name = "", .reason = ""};
+    for (const char* wanted : {"polhem:serial=4711", "polhem:serial=4711,parameters=/a.json",
+                               "polhem:", "polhem:,parameters=/a.json"}) {
+        EXPECT_TRUE(arm.isMeantBy(wanted)) << wanted;
+    }
+    for (const char* wanted :
+         {"", "polhem", "polhem:serial=47", "polhem:serial=47110", "polhem:/dev/hidraw2",
+          "polhem:serial=4712", "other:serial=4711", "polhem:parameters=/a.json"}) {
+        EXPECT_FALSE(arm.isMeantBy(wanted)) << wanted;
+    }
+    const FoundDevice hand{.uri = "sim:", .name = "", .reason = ""};
+    EXPECT_TRUE(hand.isMeantBy("sim:"));
+    EXPECT_TRUE(hand.isMeantBy("sim:speed=0.2"));
+    EXPECT_FALSE(hand.isMeantBy("simulated:"));
+}
+
 TEST(DeviceRegistry, FindsWhatAllDriversFindWithTheirReasons)
 {
     DeviceRegistry registry = twoDrivers();

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <cwchar>
 #include <memory>
 #include <stdexcept>
 
@@ -38,6 +39,7 @@ const HidApi& FakeHid::api() const
                 while (first != nullptr) {
                     const std::unique_ptr<hid_device_info> info(first);
                     free(info->path);
+                    free(info->serial_number);
                     first = info->next;
                 }
             },
@@ -80,6 +82,14 @@ void FakeHid::plugInAgain()
 {
     const std::lock_guard lock(mutex_);
     is_unplugged_ = false;
+}
+
+void FakeHid::move(const std::string& from, const std::string& to)
+{
+    const std::lock_guard lock(mutex_);
+    for (FakeHidDevice& device : devices_) {
+        device.path = device.path == from ? to : device.path;
+    }
 }
 
 void FakeHid::refuseToOpen()
@@ -138,6 +148,12 @@ std::size_t FakeHid::openDevices() const
     return open_;
 }
 
+std::string FakeHid::openedPath() const
+{
+    const std::lock_guard lock(mutex_);
+    return opened_path_;
+}
+
 FakeHid::Report FakeHid::lastWritten() const
 {
     const std::lock_guard lock(mutex_);
@@ -187,18 +203,20 @@ hid_device_info* FakeHid::enumerate()
         info->interface_number = device->interface_number;
         static wchar_t product[] = L"Fake";
         info->product_string = product;
+        info->serial_number = device->serial.empty() ? nullptr : wcsdup(device->serial.c_str());
         info->next = first;
         first = info;
     }
     return first;
 }
 
-hid_device_* FakeHid::open(const char* /*path*/)
+hid_device_* FakeHid::open(const std::string& path)
 {
     const std::lock_guard lock(mutex_);
     if (does_not_open_ || is_unplugged_) {
         return nullptr;
     }
+    opened_path_ = path;
     open_ += 1;
     return reinterpret_cast<hid_device_*>(this);
 }

@@ -21,6 +21,7 @@ struct FakeHidDevice {
     std::uint16_t usage = 0;
     int interface_number = 0;
     int access_error = 0;
+    std::wstring serial{};
 };
 
 /// One at a time: hidapi's functions know no object. All members may be called from any thread.
@@ -43,6 +44,8 @@ public:
     /// Is not listed any more, and reading fails.
     void unplug();
     void plugInAgain();
+    /// The device there gets another path.
+    void move(const std::string& from, const std::string& to);
     void refuseToOpen();
     /// Enumerating does not return until it is let go on.
     void stallEnumerating();
@@ -55,6 +58,8 @@ public:
     std::size_t readings() const;
     std::size_t enumerations() const;
     std::size_t openDevices() const;
+    /// Of the last device that was opened.
+    std::string openedPath() const;
     Report lastWritten() const;
     std::vector<Report> written() const;
 
@@ -64,7 +69,7 @@ public:
 
     // The functions of the table.
     hid_device_info* enumerate();
-    hid_device_* open(const char* path);
+    hid_device_* open(const std::string& path);
     void close();
     int read(unsigned char* data, std::size_t bytes, int ms);
     int write(const unsigned char* data, std::size_t bytes);
@@ -77,6 +82,7 @@ private:
     std::deque<Report> once_;
     Report always_;
     std::vector<Report> written_;
+    std::string opened_path_;
     std::uint64_t turns_ = 0;
     std::size_t open_ = 0;
     std::size_t enumerations_ = 0; // begun

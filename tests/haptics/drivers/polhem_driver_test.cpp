@@ -136,7 +136,7 @@ TEST_F(PolhemDriverTest, ListsArmsAndWhyOneMayNotBeOpened)
     PolhemDriver driver(options());
     const std::vector<FoundDevice> found = driver.find();
     ASSERT_EQ(found.size(), 2U);
-    EXPECT_EQ(found[0].uri, "polhem:/dev/hidraw7");
+    EXPECT_EQ(found[0].uri, "polhem:usb=16c0:0486");
     EXPECT_EQ(found[0].name, "WoodenHaptics or Polhem (Fake)");
     EXPECT_TRUE(found[0].isUsable());
     EXPECT_EQ(found[1].reason,
@@ -144,6 +144,67 @@ TEST_F(PolhemDriverTest, ListsArmsAndWhyOneMayNotBeOpened)
               "70-marsview-haptics.rules into /etc/udev/rules.d and plug the "
               "device in again");
     EXPECT_EQ(refusal("/dev/hidraw8"), "polhem:/dev/hidraw8: " + found[1].reason);
+}
+
+TEST_F(PolhemDriverTest, FindsAnArmAgainUnderAnotherPath)
+{
+    FakeHidDevice one = kTeensy;
+    one.serial = L"4711";
+    FakeHidDevice other = kTeensy;
+    other.path = "/dev/hidraw9";
+    other.serial = L"4712";
+    hid_.plugIn(one);
+    hid_.plugIn(other);
+    hid_.plugIn(kOlderBoard);
+    const auto uris = [this] {
+        PolhemDriver driver(options());
+        std::vector<std::string> all;
+        for (const FoundDevice& device : driver.find()) {
+            all.push_back(device.uri);
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    const std::vector<std::string> before = uris();
+    EXPECT_EQ(before, (std::vector<std::string>{"polhem:serial=4711", "polhem:serial=4712",
+                                                "polhem:usb=1234:0006"}));
+    // The two change places, and the third moves.
+    hid_.move("/dev/hidraw7", "/dev/hidraw20");
+    hid_.move("/dev/hidraw9", "/dev/hidraw7");
+    hid_.move("/dev/hidraw20", "/dev/hidraw9");
+    hid_.move("/dev/hidraw8", "/dev/hidraw2");
+    EXPECT_EQ(uris(), before);
+    for (const auto& [address, path] :
+         {std::pair{"serial=4711", "/dev/hidraw9"}, std::pair{"serial=4712,home", "/dev/hidraw7"},
+          std::pair{"usb=1234:0006", "/dev/hidraw2"}, std::pair{"/dev/hidraw7", "/dev/hidraw7"}}) {
+        (void)open(address);
+        EXPECT_EQ(hid_.openedPath(), path) << address;
+        opened_.reset();
+    }
+    EXPECT_THAT(refusal("serial=4713"),
+                HasSubstr("polhem:serial=4713: no WoodenHaptics or Polhem arm is connected there"));
+    EXPECT_THAT(refusal("usb=16c0:0486"), HasSubstr("no WoodenHaptics")) << "these have numbers";
+}
+
+TEST_F(PolhemDriverTest, TellsArmsApartByTheirPathsWhereNothingElseDoes)
+{
+    hid_.plugIn(kTeensy);
+    FakeHidDevice other = kTeensy;
+    other.path = "/dev/hidraw9";
+    other.serial = L"not, a: number"; // of no use in a URI
+    hid_.plugIn(other);
+    FakeHidDevice copy = kOlderBoard;
+    copy.serial = L"1";
+    hid_.plugIn(copy);
+    copy.path = "/dev/hidraw10";
+    hid_.plugIn(copy);
+    PolhemDriver driver(options());
+    std::vector<std::string> uris;
+    for (const FoundDevice& device : driver.find()) {
+        uris.push_back(device.uri);
+    }
+    EXPECT_THAT(uris, testing::UnorderedElementsAre("polhem:/dev/hidraw7", "polhem:/dev/hidraw9",
+                                                    "polhem:/dev/hidraw8", "polhem:/dev/hidraw10"));
 }
 
 TEST_F(PolhemDriverTest, TellsWhereTheHandIsAndPushesIt)
@@ -399,8 +460,8 @@ TEST_F(PolhemDriverTest, SaysWhatItCannotOpen)
     hid_.plugIn(kTeensy);
     EXPECT_THAT(refusal("/dev/hidraw9"), HasSubstr("no WoodenHaptics"));
     EXPECT_EQ(refusal("/dev/hidraw7,speed=3"),
-              "polhem:/dev/hidraw7,speed=3: \"speed=3\" is not understood; a path, \"home\" and "
-              "\"parameters=FILE\" are");
+              "polhem:/dev/hidraw7,speed=3: \"speed=3\" is not understood; a path, "
+              "\"serial=NUMBER\", \"home\" and \"parameters=FILE\" are");
     EXPECT_THAT(refusal("/dev/hidraw7,parameters=/nowhere.json"),
                 HasSubstr("/nowhere.json: the arm's parameters cannot be read"));
     hid_.refuseToOpen();

@@ -98,6 +98,25 @@ private:
     DeviceCapabilities capabilities_;
 };
 
+// A hand that goes round and round, always below the ground of bumps().
+class BuriedDevice final : public HapticDevice {
+public:
+    BuriedDevice() { capabilities_.rate_hz = 5000.0; }
+    const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
+    DeviceStatus read(DeviceSample& sample) noexcept override
+    {
+        turn_rad_ += 2e-3;
+        sample.position = {0.04 * std::sin(turn_rad_), 0.03 * std::cos(1.7 * turn_rad_), -0.02};
+        sample.time = std::chrono::steady_clock::now();
+        return DeviceStatus::Fine;
+    }
+    DeviceStatus write(const Vec3& /*force_n*/) noexcept override { return DeviceStatus::Fine; }
+
+private:
+    double turn_rad_ = 0.0;
+    DeviceCapabilities capabilities_ = desktopDevice();
+};
+
 TEST(ServoLoop, RunsOnlyWhileThereIsSomethingToFeel)
 {
     Writes writes;
@@ -362,6 +381,58 @@ TEST(SessionRecorder, ARecordingTellsWhatItWasTouchedWithWhereThatChanges)
         }
     }
     EXPECT_GT(in_contact, 500U);
+}
+
+TEST(SessionRecorder, ARecordingThatBeginsInTheMiddleOfATouchKnowsAllOfItsModel)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    const auto filled = filledTerrain(201, 201, bumps);
+    const GoalFrame frame = metreFrame(201, 201);
+    ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
+    loop.set(settingsFor(makeServoMap(frame, filled, {})));
+    for (const ContactModelKind kind : kContactModelKinds) {
+        SCOPED_TRACE(contactModelName(kind));
+        const auto runOn = [&](std::uint64_t ticks) {
+            const std::uint64_t until = loop.state().tick + ticks;
+            while (loop.state().tick < until) {
+                std::this_thread::yield();
+            }
+        };
+        const ServoMapOptions options{.kind = kind, .contact = {.radius_m = 0.75}};
+        loop.set(settingsFor(makeServoMap(frame, filled, options)));
+        runOn(2000);
+        ASSERT_TRUE(loop.state().contact.is_in_contact);
+        const auto fresh = makeServoMap(frame, filled, options);
+        auto recorder = SessionRecorder::begin(loop, path, fresh->serial);
+        ASSERT_TRUE(recorder);
+        runOn(100); // of which the file has nothing
+        loop.set(settingsFor(fresh));
+        runOn(2000);
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+
+        const std::string text = readFile(path);
+        const auto recording = readGoalRecording(text, path);
+        ASSERT_TRUE(recording) << recording.error().message;
+        ASSERT_EQ(recording->parts.size(), 1U);
+        EXPECT_EQ(recording->parts[0].part, fresh->serial);
+        EXPECT_GE(recording->goals.size(), 2000U);
+        const auto again = makeServoMap(frame, filled, options);
+        std::size_t begin = text.find('\n') + 1;
+        for (const TracePoint& goal : recording->goals) {
+            const ContactState state = again->model->update(frame.toScene(goal));
+            const TracePoint proxy =
+                state.is_in_contact || frame.isClamped(goal) ? frame.fromScene(state.proxy) : goal;
+            const std::size_t end = text.find('\n', begin);
+            const std::string line = text.substr(begin, end - begin);
+            ASSERT_NE(line.find(fmt::format(",{},{},{},{},", state.is_in_contact ? 1 : 0,
+                                            asText(proxy.x), asText(proxy.y), asText(proxy.z))),
+                      std::string::npos)
+                << line;
+            begin = end + 1;
+        }
+    }
 }
 
 TEST(GoalFile, SaysWhichLineOfARecordingItCannotRead)

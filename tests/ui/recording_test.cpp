@@ -1,0 +1,158 @@
+// Recordings that begin in the middle of a touch, and what `marsview-cli trace` makes of them.
+#include "core/contact/contact_model.h"
+#include "haptics/trace/goal_file.h"
+#include "tests/ui/test_device.h"
+#include "tests/ui/test_map.h"
+#include "ui/haptics_controller.h"
+#include "ui/terrain_view.h"
+
+#include <QApplication>
+#include <QFile>
+#include <QProcess>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+constexpr int kTimeout = 30000; // ms
+
+// The cells of a table without its header.
+using Rows = std::vector<QList<QByteArray>>;
+
+Rows rowsIn(const QByteArray& text)
+{
+    Rows rows;
+    const QList<QByteArray> lines = text.trimmed().split('\n');
+    for (const QByteArray& line : lines.sliced(1)) {
+        rows.push_back(line.trimmed().split(','));
+    }
+    return rows;
+}
+
+Rows rowsOf(const QString& file)
+{
+    QFile text(file);
+    EXPECT_TRUE(text.open(QIODevice::ReadOnly));
+    return rowsIn(text.readAll());
+}
+
+// What the program gives, as a user would ask for it.
+Rows traced(const QString& map, const QString& goals)
+{
+    QProcess process;
+    process.start(QStringLiteral(MARSVIEW_CLI),
+                  {QStringLiteral("trace"), map, QStringLiteral("--goals"), goals});
+    EXPECT_TRUE(process.waitForFinished(kTimeout));
+    EXPECT_EQ(process.exitCode(), 0) << process.readAllStandardError().toStdString();
+    return rowsIn(process.readAllStandardOutput());
+}
+
+class RecordingTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        WindowOptions options = testWindowOptions();
+        options.make_drivers = testDrivers(hand_);
+        window_ = std::make_unique<MainWindow>(options);
+        window_->resize(1000, 700);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there is no window manager
+    }
+
+    HapticsController& haptics() { return window_->haptics(); }
+    LoopState state() { return haptics().loop()->state(); }
+    template <typename F>
+    static bool waitFor(F condition)
+    {
+        return QTest::qWaitFor(condition, kTimeout);
+    }
+    bool moveTo(const WorkspacePoint& at)
+    {
+        hand_->moveTo(at);
+        return waitFor([&] { return length(state().hand - at) < 1e-9; });
+    }
+    // Connected, and deep in the ground after a stroke that the file will not know of.
+    bool beginTouching()
+    {
+        haptics().connectTo(QStringLiteral("hand:"));
+        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }) &&
+               moveTo({-0.05, 0.03, -0.055}) && moveTo({0.01, -0.02, -0.055}) &&
+               waitFor([&] { return hand_->force_n > 0.5 && state().contact.is_in_contact; });
+    }
+    // A stroke that never leaves the ground.
+    bool stroke()
+    {
+        return moveTo({0.04, 0.03, -0.05}) && moveTo({-0.03, 0.01, -0.055}) &&
+               moveTo({0.02, -0.03, -0.045}) && moveTo({0.01, -0.02, -0.055});
+    }
+    void expectSameAgain(const QString& map, const QString& file)
+    {
+        const Rows recorded = rowsOf(file);
+        const Rows again = traced(map, file);
+        ASSERT_GT(recorded.size(), 50U);
+        ASSERT_EQ(recorded.size(), again.size());
+        for (std::size_t i = 0; i < recorded.size(); ++i) {
+            ASSERT_EQ(recorded[i].sliced(6, 3), again[i].first(3)) << "update " << i;
+            ASSERT_EQ(recorded[i][5], again[i][3]) << "update " << i;
+        }
+    }
+
+    TestMaps maps_;
+    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(RecordingTest, BegunWhileTouchingIsTheSameAgainWithEveryModel)
+{
+    const QString map = maps_.hill();
+    ASSERT_TRUE(openAndWait(*window_, map));
+    ASSERT_TRUE(beginTouching());
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    for (const ContactModelKind kind : kContactModelKinds) {
+        SCOPED_TRACE(contactModelName(kind));
+        haptics().setContactModel(kind);
+        ASSERT_TRUE(stroke());
+        ASSERT_TRUE(state().contact.is_in_contact);
+        ASSERT_TRUE(haptics().startRecording(file));
+        ASSERT_TRUE(stroke());
+        haptics().stopRecording();
+        const Rows recorded = rowsOf(file);
+        EXPECT_TRUE(std::all_of(recorded.begin(), recorded.end(), [](const auto& row) {
+            return row[5] == "1";
+        })) << "it was to stay on the ground";
+        EXPECT_EQ(recorded[0][16].toStdString(), contactModelName(kind));
+        expectSameAgain(map, file);
+    }
+}
+
+TEST_F(RecordingTest, IsBegunWithoutTheHandFeelingIt)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    ASSERT_TRUE(beginTouching());
+    const auto ticks = [&] { return state().tick; };
+    const std::uint64_t before = ticks();
+    const double force_n = hand_->force_n;
+    hand_->force_n_min = HUGE_VAL;
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    ASSERT_TRUE(haptics().startRecording(file));
+    ASSERT_TRUE(waitFor([&] { return ticks() > before + 200; })) << "the loop runs on";
+    haptics().stopRecording();
+    EXPECT_NEAR(hand_->force_n_min, force_n, 0.05 * force_n);
+    // Where it was: the first line puts the new model's proxy there.
+    const Rows recorded = rowsOf(file);
+    ASSERT_GT(recorded.size(), 100U);
+    for (qsizetype i = 6; i < 8; ++i) {
+        EXPECT_NEAR(recorded.front()[i].toDouble(), recorded.back()[i].toDouble(), 0.5);
+    }
+}
+
+} // namespace
+} // namespace marsview
