@@ -5,12 +5,14 @@
 
 #include <cstddef>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace marsview {
 
 /// Standard allocator that asks for large pages. Where a page of 4 KiB is dear to get, as on
-/// virtual machines, that is most of what making a large array costs.
+/// virtual machines, that is most of what making a large array costs. Elements that are given no
+/// first value have none, as those of RawArray: they are then touched first by who fills them.
 template <typename T>
 struct LargePageAllocator {
     // NOLINTNEXTLINE(readability-identifier-naming): the standard's name
@@ -31,6 +33,15 @@ struct LargePageAllocator {
     void deallocate(T* data, std::size_t /*count*/) noexcept
     {
         ::operator delete (data, std::align_val_t{alignof(T)});
+    }
+    template <typename U, typename... First>
+    void construct(U* at, First&&... first)
+    {
+        if constexpr (sizeof...(First) == 0) {
+            ::new (static_cast<void*>(at)) U;
+        } else {
+            ::new (static_cast<void*>(at)) U(std::forward<First>(first)...);
+        }
     }
     bool operator==(const LargePageAllocator&) const = default;
 };

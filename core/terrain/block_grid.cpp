@@ -74,6 +74,14 @@ private:
 
 BlockGrid emptyBlocks(const BlockExtent& extent, BlockShares shares)
 {
+    BlockGrid grid = blocksToBeFilled(extent, shares);
+    std::fill(grid.means_m.begin(), grid.means_m.end(), 0.0F);
+    std::fill(grid.shares.begin(), grid.shares.end(), 0.0F);
+    return grid;
+}
+
+BlockGrid blocksToBeFilled(const BlockExtent& extent, BlockShares shares)
+{
     BlockGrid grid{
         .columns = extent.blockColumns(), .rows = extent.blockRows(), .means_m = {}, .shares = {}};
     grid.means_m.resize(grid.columns * grid.rows);

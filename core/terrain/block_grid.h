@@ -40,8 +40,10 @@ struct BlockExtent {
 
 enum class BlockShares { None, Kept };
 
-/// A grid for these blocks, not yet measured.
+/// A grid for these blocks, not yet measured: 0 everywhere.
 BlockGrid emptyBlocks(const BlockExtent& extent, BlockShares shares);
+/// The same without values.
+BlockGrid blocksToBeFilled(const BlockExtent& extent, BlockShares shares);
 
 /// Measures rows [begin, end) of blocks of `block_samples` a side, all of whose samples are in
 /// `samples`. `grid` has all rows of blocks; parts may be measured at the same time.

@@ -79,6 +79,15 @@ Result<DetailErrors> DetailErrors::build(const DrawnSurface& surface, JobMonitor
 
 DetailErrors::NodeErrors DetailErrors::noErrors(std::size_t columns, std::size_t rows)
 {
+    NodeErrors levels = errorsToBeFilled(columns, rows);
+    for (NodeLevel& level : levels) {
+        std::fill(level.errors_m.begin(), level.errors_m.end(), 0.0F);
+    }
+    return levels;
+}
+
+DetailErrors::NodeErrors DetailErrors::errorsToBeFilled(std::size_t columns, std::size_t rows)
+{
     NodeErrors levels;
     do {
         const std::size_t level = levels.size();

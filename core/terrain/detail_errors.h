@@ -55,6 +55,8 @@ public:
     using NodeErrors = std::vector<NodeLevel>; // by level
     /// Of a map of columns × rows samples: 0 for every node.
     static NodeErrors noErrors(std::size_t columns, std::size_t rows);
+    /// The same without values.
+    static NodeErrors errorsToBeFilled(std::size_t columns, std::size_t rows);
     /// From what was measured, with the levels of noErrors(); the same bits as build().
     static DetailErrors from(NodeErrors errors);
     const NodeErrors& nodeErrors() const noexcept { return nodes_; }

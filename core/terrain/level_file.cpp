@@ -339,10 +339,10 @@ Result<MapLevels> LevelFile::readLevels(const ElevationScale& scale) const
 
     const TileLayout& layout = header.layout;
     RawRanges ranges = RawRanges::toBeFilled(layout.type, layout.columns, layout.rows);
-    DetailErrors::NodeErrors errors = DetailErrors::noErrors(layout.columns, layout.rows);
+    DetailErrors::NodeErrors errors = DetailErrors::errorsToBeFilled(layout.columns, layout.rows);
     const BlockExtent extent = header.blocks();
     BlockGrid blocks =
-        emptyBlocks(extent, header.hasVoids() ? BlockShares::Kept : BlockShares::None);
+        blocksToBeFilled(extent, header.hasVoids() ? BlockShares::Kept : BlockShares::None);
     std::vector<float> fills(header.hasVoids() ? 2 * ranges.columns() * ranges.rows() : 0);
     std::vector<Impl::Wanted> wanted{{&impl_->plane("ranges"), ranges.bytes()},
                                      {&impl_->plane("means"), bytesOf(blocks.means_m)}};

@@ -2,6 +2,7 @@
 #include "haptics/trace/session_recorder.h"
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/haptics_controller.h"
 #include "ui/notice_bar.h"
 #include "ui/panels/haptics_panel.h"
@@ -26,8 +27,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 // Of the columns of session_recorder.h.
 constexpr qsizetype kTime = 3;

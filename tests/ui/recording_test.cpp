@@ -3,6 +3,7 @@
 #include "haptics/trace/goal_file.h"
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/haptics_controller.h"
 #include "ui/terrain_view.h"
 
@@ -21,8 +22,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kTimeout = 30000; // ms
 
 // The cells of a table without its header.
 using Rows = std::vector<QList<QByteArray>>;

@@ -4,6 +4,7 @@
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/haptics_controller.h"
 
 #include <QApplication>
@@ -21,8 +22,6 @@ namespace {
 using test::FakeHid;
 using test::FakeHidDevice;
 using test::reportOf;
-
-constexpr int kTimeout = 30000; // ms
 
 const FakeHidDevice kArm{"/dev/hidraw7", 0x16C0, 0x0486, 0xFFAB, 0x0200, 0, 0, L"4711"};
 const FakeHidDevice kOtherArm{"/dev/hidraw8", 0x16C0, 0x0486, 0xFFAB, 0x0200, 0, 0, L"4712"};
