@@ -270,8 +270,13 @@ MapResources defaultMapResources()
                          .loader_threads = std::max(2U, std::thread::hardware_concurrency())});
     resources.folder = MapFolder::defaultPath();
     resources.fetched_tiles = std::make_shared<TileDiskCache>(
-        TileDiskCacheOptions{.folder = (resources.folder / "fetched").string()});
+        TileDiskCacheOptions{.folder = fetchedTilesFolder(resources.folder)});
     return resources;
+}
+
+std::string fetchedTilesFolder(const std::filesystem::path& folder)
+{
+    return folder.empty() ? std::string() : (folder / "fetched").string();
 }
 
 Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resources)

@@ -26,7 +26,7 @@ struct MapResources {
     /// Where prepared maps are kept, and how many bytes of them.
     std::filesystem::path folder;
     std::uint64_t folder_bytes_max = 0; // 0: MapFolder::defaultBytesMax()
-    /// Tiles that came from servers; may be null.
+    /// Tiles that came from servers, in fetchedTilesFolder(folder); may be null.
     std::shared_ptr<TileDiskCache> fetched_tiles;
 };
 
@@ -34,6 +34,9 @@ struct MapResources {
 /// environment may say otherwise: MARSVIEW_CACHE_DIR (a folder), MARSVIEW_CACHE_MB (decoded tiles
 /// in memory) and MARSVIEW_HELD_MB (what is read whole).
 MapResources defaultMapResources();
+
+/// Where tiles from servers are kept beside prepared maps; empty where `folder` is.
+std::string fetchedTilesFolder(const std::filesystem::path& folder);
 
 /// How a map is going to be opened.
 enum class MapStore {
