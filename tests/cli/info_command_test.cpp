@@ -1,5 +1,6 @@
 #include "tests/cli/run_cli.h"
 #include "tests/support/gdal_tools.h"
+#include "tests/support/http_server.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
@@ -100,6 +101,27 @@ TEST(InfoCommand, RefusesNetcdfThatIsCutShort)
     EXPECT_EQ(output.exit_status, 1);
     EXPECT_NE(output.err.find("cut short"), std::string::npos) << output.err;
     EXPECT_EQ(runCli({"info", folder.write("whole.nc", whole)}).exit_status, 0);
+}
+
+TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
+{
+    const TempFolder folder;
+    HttpServer server(folder.path());
+    const std::string address = server.url("missing.tif");
+    const auto failure = [&address] {
+        const ProgramOutput output = runCli({"info", address});
+        EXPECT_EQ(output.exit_status, 1);
+        return output.err;
+    };
+    EXPECT_EQ(failure(), "marsview-cli: " + address +
+                             ": there is nothing at this address (404); check how it is spelt\n");
+    server.failNext(100, 403);
+    EXPECT_EQ(failure(), "marsview-cli: " + address +
+                             ": the server does not let it be read (403); it may want a login, or "
+                             "the address may have expired\n");
+    server.failNext(100, 500);
+    EXPECT_EQ(failure(),
+              "marsview-cli: " + address + ": the server is in trouble (500); try again later\n");
 }
 
 TEST(InfoCommand, TellsFeetFromMetres)
