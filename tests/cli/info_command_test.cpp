@@ -103,6 +103,23 @@ TEST(InfoCommand, RefusesNetcdfThatIsCutShort)
     EXPECT_EQ(runCli({"info", folder.write("whole.nc", whole)}).exit_status, 0);
 }
 
+TEST(InfoCommand, DescribesWhatIsNoSurfaceAndSaysSo)
+{
+    const TempFolder folder;
+    const std::string row = writeRaster(folder, "row.tif", "GTiff",
+                                        recipeFor(5, std::vector<std::int16_t>{1, 2, 3, 4, 5}));
+    const nlohmann::json info = cliInfo(row);
+    EXPECT_EQ(info["columns"], 5);
+    EXPECT_EQ(info["rows"], 1);
+    EXPECT_EQ(info["maximum"], 5.0);
+    EXPECT_EQ(info["triangle_count"], 0);
+    EXPECT_THAT(info["notices"].get<std::vector<std::string>>(),
+                testing::Contains("5 × 1 samples make no surface; at least 2 × 2 are needed"));
+    const ProgramOutput refused = runCli({"prepare", row, "-o", folder.file("prepared.tif")});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_THAT(refused.err, testing::HasSubstr("5 × 1 samples make no surface"));
+}
+
 TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
 {
     const TempFolder folder;
