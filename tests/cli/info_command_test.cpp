@@ -141,6 +141,15 @@ TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
               "marsview-cli: " + address + ": the server is in trouble (500); try again later\n");
 }
 
+TEST(InfoCommand, TellsOfNumbersInTheEnvironmentThatAreNone)
+{
+    const ProgramOutput output =
+        runProgram({"env", "MARSVIEW_HELD_MB=abc", MARSVIEW_CLI, "info", mars()});
+    EXPECT_EQ(output.exit_status, 0);
+    EXPECT_THAT(output.err, testing::HasSubstr("MARSVIEW_HELD_MB=\"abc\" in the environment is no "
+                                               "number of megabytes"));
+}
+
 TEST(InfoCommand, TellsFeetFromMetres)
 {
     const TempFolder folder;

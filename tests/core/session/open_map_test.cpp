@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -167,6 +168,29 @@ TEST_F(OpenMap, MakesADamagedCopyAnewThatIsStillOpen)
     ASSERT_TRUE(second) << second.error().message;
     EXPECT_EQ(unreadable(*second), 0U);
     EXPECT_FALSE(MapFolder::at(maps_.path()).damage(keptPath(source_)));
+}
+
+TEST_F(OpenMap, TellsOnceOfNumbersInTheEnvironmentThatAreNone)
+{
+    const std::string tiff =
+        test::writeRaster(folder_, "small.tif", "GTiff",
+                          test::recipeFor(4, std::vector<std::int16_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+    for (const char* text : {"abc", "-1", "1e12", "12 MB"}) {
+        ASSERT_EQ(setenv("MARSVIEW_HELD_MB", text, 1), 0); // NOLINT(concurrency-mt-unsafe)
+        MapResources resources = defaultMapResources();
+        ASSERT_EQ(unsetenv("MARSVIEW_HELD_MB"), 0); // NOLINT(concurrency-mt-unsafe)
+        resources.folder = maps_.path();
+        EXPECT_EQ(resources.held_bytes_max, defaultMapResources().held_bytes_max);
+        JobMonitor monitor;
+        const auto first = openMap({.path = tiff}, resources, monitor);
+        const auto second = openMap({.path = tiff}, resources, monitor);
+        ASSERT_TRUE(first && second);
+        const auto sentence =
+            HasSubstr(std::string("MARSVIEW_HELD_MB=\"") + text + "\" in the environment is no");
+        EXPECT_THAT(first->dataset->info().notices, testing::Contains(sentence));
+        EXPECT_THAT(second->dataset->info().notices, testing::Not(testing::Contains(sentence)));
+    }
+    EXPECT_TRUE(defaultMapResources().notices->take().empty());
 }
 
 TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
