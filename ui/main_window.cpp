@@ -349,6 +349,7 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::exaggerationChanged, tool_bar_, &MainToolBar::showExaggeration);
     connect(view_, &TerrainView::mapShown, this, &MainWindow::showActive);
     connect(view_, &TerrainView::pictureCompleted, this, &MainWindow::settleIfIdle);
+    connect(view_, &TerrainView::pictureCompleted, this, &MainWindow::showPreparation);
     connect(view_, &TerrainView::detailChanged, readout_, &StatusReadout::setDetail);
     connect(view_, &TerrainView::loadingChanged, readout_, &StatusReadout::setLoading);
     connect(view_, &TerrainView::problemChanged, readout_, &StatusReadout::setProblem);
@@ -551,10 +552,15 @@ void MainWindow::showPreparation()
     const QString device = haptics_->isStopped()
                                ? tr("Emergency stop: the haptic device does not push")
                                : haptics_->notice();
-    if (dataset == noticed_ && state == noticed_state_ && problem == noticed_problem_ &&
-        device == noticed_device_) {
+    const QString trouble = troubleWithFetched(dataset);
+    if (dataset == noticed_ && state == noticed_state_ && trouble == noticed_trouble_ &&
+        problem == noticed_problem_ && device == noticed_device_) {
         return; // it may have been closed
     }
+    if (!trouble.isEmpty()) {
+        told_trouble_ = trouble;
+    }
+    noticed_trouble_ = trouble;
     noticed_ = dataset;
     noticed_state_ = state;
     noticed_problem_ = problem;
@@ -585,6 +591,9 @@ void MainWindow::showPreparation()
             break;
         }
     }
+    if (!trouble.isEmpty()) {
+        notices.insert(action.isEmpty() ? 0 : 1, trouble); // the action is about the first
+    }
     if (!problem.isEmpty()) {
         //: %1 says which file, and why
         notices.prepend(tr("Part of the picture is coarse for now. %1").arg(problem));
@@ -601,6 +610,17 @@ void MainWindow::showPreparation()
                            : QString();
     }
     notices_->setNotices(notices, action);
+}
+
+// Why tiles from servers are not kept on disk. Said once: not again for another layer, nor after it
+// has come and gone.
+QString MainWindow::troubleWithFetched(const std::shared_ptr<const Dataset>& dataset) const
+{
+    const auto& fetched = options_.opener.resources.fetched_tiles;
+    const std::optional<std::string> trouble = fetched ? fetched->trouble() : std::nullopt;
+    const QString sentence = trouble ? QString::fromStdString(*trouble) : QString();
+    const bool is_shown = sentence == noticed_trouble_ && dataset == noticed_;
+    return is_shown || sentence != told_trouble_ ? sentence : QString();
 }
 
 void MainWindow::reportFailure(const QString& title, const QString& problem)
@@ -715,6 +735,11 @@ void MainWindow::setPreferences(const Preferences& preferences)
         preferences.tile_memory_mb > 0 && !qEnvironmentVariableIsSet("MARSVIEW_CACHE_MB")
             ? static_cast<std::size_t>(preferences.tile_memory_mb) << 20
             : standard_tile_bytes_);
+    const auto& fetched = opener.resources.fetched_tiles;
+    if (fetched && !opener.resources.folder.empty()) {
+        fetched->setFolder(fetchedTilesFolder(opener.resources.folder));
+        fetched->setBytesMax(fetchedBytesMax(preferences));
+    }
     controller_->setOpener(opener);
     actions_->showContactModel(preferences.contact_model);
     if (isRemembered()) {

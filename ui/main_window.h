@@ -121,6 +121,7 @@ private:
     void showSession();
     void showActive();
     void showPreparation();
+    QString troubleWithFetched(const std::shared_ptr<const Dataset>& dataset) const;
     void reportFailure(const QString& title, const QString& problem);
     void savePicture();
     void writePicture(const QImage& picture, const QString& file);
@@ -149,6 +150,8 @@ private:
     LightPopup* light_popup_ = nullptr;
     std::shared_ptr<const Dataset> noticed_; // whose notices were shown last
     PreparationState noticed_state_ = PreparationState::None;
+    QString noticed_trouble_; // that tiles from servers are not kept
+    QString told_trouble_;    // before, or now
     QString noticed_problem_; // of the picture
     QString noticed_device_;  // what became of the haptic device
     GoToEntry last_place_;

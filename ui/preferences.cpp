@@ -66,6 +66,16 @@ QString mapFolderBoundKey()
     return QStringLiteral("preferences/mapFolderGB");
 }
 
+QString fetchedBoundKey()
+{
+    return QStringLiteral("preferences/fetchedGB");
+}
+
+std::uint64_t bytesOf(int gigabytes)
+{
+    return static_cast<std::uint64_t>(gigabytes) * 1'000'000'000;
+}
+
 } // namespace
 
 Preferences preferencesFrom(const QSettings& settings)
@@ -88,6 +98,7 @@ Preferences preferencesFrom(const QSettings& settings)
         tile_memory_mb > 0 ? std::max(tile_memory_mb, kTileMemoryMbMin) : 0;
     preferences.map_folder = settings.value(mapFolderKey()).toString();
     preferences.map_folder_gb = std::max(0, settings.value(mapFolderBoundKey()).toInt());
+    preferences.fetched_gb = std::max(0, settings.value(fetchedBoundKey()).toInt());
     return preferences;
 }
 
@@ -98,10 +109,14 @@ MapResources resourcesFor(const MapResources& standard, const Preferences& prefe
         resources.folder = preferences.map_folder.toStdString();
     }
     if (preferences.map_folder_gb > 0) {
-        resources.folder_bytes_max =
-            static_cast<std::uint64_t>(preferences.map_folder_gb) * 1'000'000'000;
+        resources.folder_bytes_max = bytesOf(preferences.map_folder_gb);
     }
     return resources;
+}
+
+std::uint64_t fetchedBytesMax(const Preferences& preferences)
+{
+    return preferences.fetched_gb > 0 ? bytesOf(preferences.fetched_gb) : kFetchedBytesMax;
 }
 
 void save(const Preferences& preferences, QSettings& settings)
@@ -118,6 +133,7 @@ void save(const Preferences& preferences, QSettings& settings)
     settings.setValue(tileMemoryKey(), preferences.tile_memory_mb);
     settings.setValue(mapFolderKey(), preferences.map_folder);
     settings.setValue(mapFolderBoundKey(), preferences.map_folder_gb);
+    settings.setValue(fetchedBoundKey(), preferences.fetched_gb);
 }
 
 } // namespace marsview

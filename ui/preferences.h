@@ -7,6 +7,8 @@
 
 #include <QString>
 
+#include <cstdint>
+
 class QSettings;
 
 namespace marsview {
@@ -25,6 +27,7 @@ struct Preferences {
     int tile_memory_mb = 0; // for tiles of large maps; 0: a quarter of memory
     QString map_folder{};   // of prepared maps; empty: the user's cache folder
     int map_folder_gb = 0;  // that they may take; 0: what suits the disk
+    int fetched_gb = 0;     // that tiles from servers may take on disk; 0: kFetchedBytesMax
 
     bool operator==(const Preferences&) const = default;
 };
@@ -34,6 +37,8 @@ Preferences preferencesFrom(const QSettings& settings);
 /// What maps share: `standard`, and what is preferred in its place. What the environment says goes
 /// before preferences.
 MapResources resourcesFor(const MapResources& standard, const Preferences& preferences);
+/// How many bytes tiles from servers may take on disk.
+std::uint64_t fetchedBytesMax(const Preferences& preferences);
 void save(const Preferences& preferences, QSettings& settings);
 
 } // namespace marsview

@@ -208,6 +208,11 @@ Status runInfo(const Options& options)
         return std::move(statistics).error();
     }
     noteSuspiciousSamples(map->info, *statistics);
+    // Described it can be, but what needs a surface refuses it.
+    if (const Status surface = checkIsSurface("", map->info); !surface) {
+        constexpr std::string_view kNoPath = ": ";
+        map->info.notices.push_back(surface.error().message.substr(kNoPath.size()));
+    }
     const Json json = describe(*map, *statistics, options.map);
     if (options.is_json) {
         printLine(json.dump(2, ' ', false, Json::error_handler_t::replace));

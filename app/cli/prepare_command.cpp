@@ -120,6 +120,10 @@ Status runPrepare(const Options& options)
     if (!work) {
         return work.error();
     }
+    // Beforehand: what it takes may be among them.
+    if (const Result<RasterFile> file = RasterFile::open(options.map.path, options.map.band)) {
+        printNotices(file->info());
+    }
     LongJob job("preparing");
     Result<PrepareReport> report = prepare(work->job, work->is_in_place, job.monitor());
     if (!report) {

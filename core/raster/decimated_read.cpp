@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -119,33 +120,39 @@ public:
         std::atomic<std::size_t> done{0};
         std::optional<Error> failure;
         std::mutex mutex;
-        std::vector<RasterFile> files; // that no thread is reading
-        const auto take_file = [&]() -> Result<RasterFile> {
+        std::list<RasterFile> opened;
+        std::vector<RasterFile*> files{&file_}; // that no thread is reading
+        const auto take_file = [&]() -> Result<RasterFile*> {
             {
                 const std::lock_guard lock(mutex);
                 if (!files.empty()) {
-                    RasterFile file = std::move(files.back());
+                    RasterFile* const file = files.back();
                     files.pop_back();
                     return file;
                 }
             }
-            return RasterFile::open(file_.info().path, file_.info().band);
+            Result<RasterFile> file = RasterFile::open(file_.info().path, file_.info().band);
+            if (!file) {
+                return std::move(file).error();
+            }
+            const std::lock_guard lock(mutex);
+            return &opened.emplace_back(std::move(file).value());
         };
         parallelRanges(rows.size(), 1, [&](std::size_t begin, std::size_t) {
             if (is_stopped || monitor_.isCancelled() || is_late()) {
                 is_stopped = true;
                 return;
             }
-            Result<RasterFile> file = take_file();
-            Status read = file ? pickRow(*file, *grid, is_void, look, rows[begin], columns)
-                               : Status(std::move(file).error());
+            const Result<RasterFile*> file = take_file();
+            Status read = file ? pickRow(**file, *grid, is_void, look, rows[begin], columns)
+                               : Status(file.error());
             const std::lock_guard lock(mutex);
             if (!read) {
                 failure = std::move(read).error();
                 is_stopped = true;
                 return;
             }
-            files.push_back(std::move(*file));
+            files.push_back(*file);
             monitor_.report(static_cast<double>(++done) / static_cast<double>(rows.size()));
         });
         if (failure) {

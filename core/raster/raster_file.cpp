@@ -3,6 +3,7 @@
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/geotiff_skeleton.h"
+#include "core/raster/large_blocks.h"
 #include "core/raster/mosaic.h"
 #include "core/raster/netcdf_extent.h"
 #include "core/raster/pds3_placement.h"
@@ -84,6 +85,13 @@ Result<Dataset> openLocal(const std::string& name)
     Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
     if (!dataset) {
         return Error{ErrorCode::Unsupported, messages.firstFailure("")};
+    }
+    if (hasLargePlainStrips(*dataset)) {
+        const DirectReads scope;
+        Dataset direct(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
+        if (direct) {
+            return direct;
+        }
     }
     return dataset;
 }
@@ -343,6 +351,9 @@ struct RasterFile::Impl {
     std::optional<RemoteVersion> remote;  // of a raster at a server
     std::shared_ptr<const Mosaic> mosaic; // of a folder of rasters
     RasterInfo info;
+    // Its whole rows are read through these, where it has any.
+    mutable std::optional<TiffStrips> strips;
+    bool has_plain_strips = false; // of which nobody holds more than is asked for
     // After a read that failed, GDAL 3.6 returns other samples without a word.
     mutable bool is_spoilt = false;
 
@@ -444,6 +455,13 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     if (info.band_count > 1) {
         info.notices.push_back(fmt::format("band {} of {} is read", band, info.band_count));
     }
+    impl->has_plain_strips = !impl->remote && hasLargePlainStrips(dataset);
+    if (!impl->remote && !impl->has_plain_strips) {
+        impl->strips = largeStripsOf(*impl->band, info);
+        if (auto notice = noticeOfLargeBlock(*impl->band)) {
+            info.notices.push_back(*std::move(notice));
+        }
+    }
     const GdalMessages messages;
     const nlohmann::json pds3 = jsonDomain(dataset, "json:PDS");
     impl->netcdf = netcdfExtentOf(dataset, info.driver);
@@ -451,6 +469,9 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     readPlacement(dataset, pds3, info);
     readVertical(dataset, *impl->band, pds3, info);
     info.typical_raw = impl->findTypicalSample();
+    if (impl->strips) {
+        impl->strips->rest();
+    }
     deduceHeightReference(info);
     return RasterFile(std::move(impl));
 }
@@ -519,7 +540,9 @@ std::size_t RasterFile::Impl::rowsPerBand() const
     const std::size_t row_bytes = info.columns * sampleBytes(info.type);
     const std::size_t wanted = std::max<std::size_t>(1, kBandBytes / row_bytes);
     // Whole rows of blocks, so that no block is decoded twice.
-    const std::size_t block = std::max<std::size_t>(1, static_cast<std::size_t>(block_rows));
+    const std::size_t block = strips || has_plain_strips
+                                  ? 1
+                                  : std::max<std::size_t>(1, static_cast<std::size_t>(block_rows));
     std::size_t rows = std::max<std::size_t>(1, wanted / block) * block;
     if (rows * row_bytes > kBandBytesMax) {
         rows = std::max<std::size_t>(1, kBandBytesMax / row_bytes);
@@ -651,6 +674,10 @@ Status RasterFile::Impl::readRows(GDALRasterBand& from,
             return complete;
         }
     }
+    if (strips && &from == band && window.columns == info.columns) {
+        const Status read = strips->read(window.row, window.rows, grid.rowData(grid_row));
+        return read ? read : readFailure(read.error().message, window);
+    }
     const GdalMessages messages;
     const CPLErr outcome =
         from.RasterIO(GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
@@ -749,7 +776,13 @@ GridSize RasterFile::blockSize() const
     int columns = 0;
     int rows = 0;
     impl_->band->GetBlockSize(&columns, &rows);
-    return {static_cast<std::size_t>(columns), static_cast<std::size_t>(rows)};
+    return {static_cast<std::size_t>(columns),
+            impl_->has_plain_strips ? 1 : static_cast<std::size_t>(rows)};
+}
+
+bool RasterFile::hasCheapRows() const noexcept
+{
+    return impl_->strips || impl_->has_plain_strips;
 }
 
 Result<LoadedSamples>

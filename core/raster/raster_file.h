@@ -64,6 +64,8 @@ public:
     readOverview(std::size_t overview, const GridWindow& window, const VoidRule& voids);
     /// How the file stores its samples: columns and rows that are decoded together.
     GridSize blockSize() const;
+    /// Whole rows, read one after the other, take no more than they are, however large the blocks.
+    bool hasCheapRows() const noexcept;
 
     /// Range and void count without keeping the samples: bounded memory on a raster of any size.
     Result<SampleStatistics> scan(JobMonitor& monitor, const VoidRule& voids);

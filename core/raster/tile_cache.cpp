@@ -141,13 +141,16 @@ struct TileCache::Impl {
         }
     }
 
-    // The most urgent tile that can be loaded now. Otherwise `wake_at` is when the next failed one
-    // may be tried again.
-    std::optional<Key> next(std::optional<Clock::time_point>& wake_at)
+    // The most urgent tile that can be loaded now, at least as urgent as `least`. Otherwise
+    // `wake_at` is when the next failed one may be tried again.
+    std::optional<Key> next(TileUrgency least, std::optional<Clock::time_point>& wake_at)
     {
         const Clock::time_point now = Clock::now();
         for (const TileUrgency urgency :
              {TileUrgency::Hand, TileUrgency::View, TileUrgency::Ahead}) {
+            if (urgency > least) {
+                break;
+            }
             for (TileWishes::Impl* wish : wishes) {
                 if (wish->urgency != urgency) {
                     continue;
@@ -269,12 +272,12 @@ struct TileCache::Impl {
         }
     }
 
-    void run(const std::stop_token& stop)
+    void run(const std::stop_token& stop, TileUrgency least)
     {
         std::unique_lock lock(mutex);
         while (!stop.stop_requested()) {
             std::optional<Clock::time_point> wake_at;
-            const std::optional<Key> key = next(wake_at);
+            const std::optional<Key> key = next(least, wake_at);
             if (key) {
                 // Nobody waits for the outcome: it is in the cache, or among the failures.
                 static_cast<void>(load(*key, lock));
@@ -283,8 +286,9 @@ struct TileCache::Impl {
                 has_work.wait_until(lock, stop, *wake_at, [] { return false; });
             } else {
                 std::optional<Clock::time_point> ignored;
-                has_work.wait(lock, stop,
-                              [&] { return next(ignored).has_value() || ignored.has_value(); });
+                has_work.wait(lock, stop, [&] {
+                    return next(least, ignored).has_value() || ignored.has_value();
+                });
             }
         }
     }
@@ -327,7 +331,11 @@ struct TileCache::Loaders {
     Loaders(const std::shared_ptr<Impl>& impl, std::size_t count)
     {
         for (std::size_t i = 0; i < count; ++i) {
-            threads_.emplace_back([impl](const std::stop_token& stop) { impl->run(stop); });
+            start(impl, TileUrgency::Ahead);
+        }
+        // One more for the hand alone: all others may wait for a slow server when it asks.
+        if (count > 1) {
+            start(impl, TileUrgency::Hand);
         }
     }
     // All at once: each thread's own end would wait before it asks the next one to stop.
@@ -341,6 +349,12 @@ struct TileCache::Loaders {
     Loaders& operator=(const Loaders&) = delete;
 
 private:
+    void start(const std::shared_ptr<Impl>& impl, TileUrgency least)
+    {
+        threads_.emplace_back(
+            [impl, least](const std::stop_token& stop) { impl->run(stop, least); });
+    }
+
     std::vector<std::jthread> threads_;
 };
 

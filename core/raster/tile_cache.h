@@ -26,6 +26,8 @@ enum class TileUrgency : std::uint8_t {
 
 struct TileCacheOptions {
     std::size_t bytes_max = std::size_t{1} << 30; // of decoded tiles that nobody holds on to
+    /// Two or more have one beside them that serves the hand alone, so that it never waits for what
+    /// others are reading.
     std::size_t loader_threads = 2;
 };
 

@@ -100,14 +100,48 @@ struct KeptFile {
     std::uint64_t bytes = 0;
 };
 
+// Tiles, finished or not, of all programs. What goes meanwhile does not count.
+std::vector<KeptFile> filesIn(const std::string& folder)
+{
+    std::vector<KeptFile> files;
+    std::error_code ignored;
+    for (fs::recursive_directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+         entry.increment(ignored)) {
+        std::error_code gone;
+        const fs::path& path = entry->path();
+        if ((path.extension() != kExtension && path.extension() != kUnfinished) ||
+            !entry->is_regular_file(gone) || gone) {
+            continue;
+        }
+        KeptFile file{path, entry->last_write_time(gone), 0};
+        if (!gone) {
+            file.bytes = entry->file_size(gone);
+        }
+        if (!gone) {
+            files.push_back(std::move(file));
+        }
+    }
+    return files;
+}
+
+// And its folder, where it was the last one there.
+bool removeFile(const fs::path& path, std::error_code& failure)
+{
+    const bool is_removed = fs::remove(path, failure);
+    std::error_code ignored;
+    if (fs::is_empty(path.parent_path(), ignored) && !ignored) {
+        fs::remove(path.parent_path(), ignored);
+    }
+    return is_removed;
+}
+
 } // namespace
 
 struct TileDiskCache::Impl {
-    explicit Impl(const TileDiskCacheOptions& chosen)
-        : options(chosen)
+    explicit Impl(TileDiskCacheOptions chosen)
+        : options_now(std::move(chosen))
     {}
 
-    const TileDiskCacheOptions options;
     std::atomic<std::uint64_t> found{0};
     std::atomic<std::uint64_t> missed{0};
     std::atomic<std::uint64_t> damaged{0};
@@ -116,11 +150,20 @@ struct TileDiskCache::Impl {
     std::atomic<int> pause{0};               // tiles that are not written yet
     std::atomic<std::uint64_t> temporary{0}; // for names
 
-    mutable std::mutex mutex; // for what follows; held while old files are removed
+    mutable std::mutex settings_mutex; // for the next two; never held for long
+    TileDiskCacheOptions options_now;
     std::optional<std::string> trouble;
-    bool is_counted = false;
+
+    std::mutex count_mutex;          // for what follows; held while old files are removed
+    std::string counted_folder;      // empty: none yet
     std::uint64_t bytes_counted = 0; // in the folder, when it was looked at last
     std::uint64_t bytes_since = 0;   // written since
+
+    TileDiskCacheOptions options() const
+    {
+        const std::lock_guard lock(settings_mutex);
+        return options_now;
+    }
 
     std::optional<Tile> load(const std::string& path,
                              const TileId& id,
@@ -130,9 +173,9 @@ struct TileDiskCache::Impl {
                const std::string& name,
                const Tile& tile,
                const std::string& key);
-    void refuse(const std::string& what, int error);
+    void refuse(int error);
     void countIn(std::uint64_t bytes);
-    void trim();
+    void trim(const TileDiskCacheOptions& options);
 };
 
 std::optional<Tile> TileDiskCache::Impl::load(const std::string& path,
@@ -169,15 +212,15 @@ std::optional<Tile> TileDiskCache::Impl::load(const std::string& path,
     return std::move(decoded.tile);
 }
 
-void TileDiskCache::Impl::refuse(const std::string& what, int error)
+void TileDiskCache::Impl::refuse(int error)
 {
     pause = kPause;
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(settings_mutex);
     if (!trouble) {
         trouble = fmt::format(
             "{}: what is fetched cannot be kept here ({}), and will be fetched "
             "again; make room, or choose another folder",
-            what, std::generic_category().message(error));
+            options_now.folder, std::generic_category().message(error));
     }
 }
 
@@ -191,13 +234,13 @@ void TileDiskCache::Impl::store(const std::string& folder,
         return;
     }
     const std::vector<std::byte> bytes = encodeTileFile(tile, key);
-    if (bytes.empty() || bytes.size() > options.bytes_max) {
+    if (bytes.empty() || bytes.size() > options().bytes_max) {
         return;
     }
     std::error_code failure;
     fs::create_directories(folder, failure);
     if (failure) {
-        return refuse(folder, failure.value());
+        return refuse(failure.value());
     }
     const std::string unfinished =
         fmt::format("{}/{}-{}-{}{}", folder, name, getpid(), ++temporary, kUnfinished);
@@ -205,19 +248,19 @@ void TileDiskCache::Impl::store(const std::string& folder,
         const File file(unfinished, O_WRONLY | O_CREAT | O_EXCL);
         if (!file.isOpen()) {
             // Somebody may have removed the folder just now: that is no trouble.
-            return errno == ENOENT ? void() : refuse(folder, errno);
+            return errno == ENOENT ? void() : refuse(errno);
         }
         if (!file.write(bytes)) {
             const int error = errno;
             unlink(unfinished.c_str());
-            return refuse(folder, error);
+            return refuse(error);
         }
     }
     const std::string path = fmt::format("{}/{}{}", folder, name, kExtension);
     if (rename(unfinished.c_str(), path.c_str()) != 0) {
         const int error = errno;
         unlink(unfinished.c_str());
-        return error == ENOENT ? void() : refuse(folder, error);
+        return error == ENOENT ? void() : refuse(error);
     }
     ++written;
     countIn(bytes.size());
@@ -225,44 +268,38 @@ void TileDiskCache::Impl::store(const std::string& folder,
 
 void TileDiskCache::Impl::countIn(std::uint64_t bytes)
 {
-    const std::lock_guard lock(mutex);
-    trouble.reset();
+    TileDiskCacheOptions now;
+    {
+        const std::lock_guard lock(settings_mutex);
+        trouble.reset();
+        now = options_now;
+    }
+    const std::lock_guard lock(count_mutex);
     bytes_since += bytes;
-    if (!is_counted || bytes_counted + bytes_since > options.bytes_max ||
-        bytes_since > options.bytes_max / 16) {
-        trim();
+    if (counted_folder != now.folder || bytes_counted + bytes_since > now.bytes_max ||
+        bytes_since > now.bytes_max / 16) {
+        trim(now);
     }
 }
 
 // Looks at all files, other programs' too, and removes those used longest ago. The caller holds the
 // lock.
-void TileDiskCache::Impl::trim()
+void TileDiskCache::Impl::trim(const TileDiskCacheOptions& options)
 {
-    std::vector<KeptFile> files;
-    std::uint64_t bytes = 0;
+    std::vector<KeptFile> files = filesIn(options.folder);
     const fs::file_time_type now = fs::file_time_type::clock::now();
-    std::error_code ignored;
-    for (fs::recursive_directory_iterator entry(options.folder, ignored), end;
-         !ignored && entry != end; entry.increment(ignored)) {
-        std::error_code gone; // by another program: then it does not count
-        const fs::path& path = entry->path();
-        if (!entry->is_regular_file(gone) || gone) {
-            continue;
-        }
-        KeptFile file{path, entry->last_write_time(gone), 0};
-        if (!gone) {
-            file.bytes = entry->file_size(gone);
-        }
-        if (gone) {
-            continue;
-        }
-        if (path.extension() == kUnfinished && now - file.used > kUnfinishedFor) {
-            fs::remove(path, gone);
-        } else if (path.extension() == kExtension) {
+    std::uint64_t bytes = 0;
+    std::error_code gone; // by another program
+    std::erase_if(files, [&](const KeptFile& file) {
+        if (file.path.extension() == kExtension) {
             bytes += file.bytes;
-            files.push_back(std::move(file));
+            return false;
         }
-    }
+        if (now - file.used > kUnfinishedFor) {
+            fs::remove(file.path, gone);
+        }
+        return true;
+    });
     if (bytes > options.bytes_max) {
         std::sort(files.begin(), files.end(),
                   [](const KeptFile& a, const KeptFile& b) { return a.used < b.used; });
@@ -272,17 +309,36 @@ void TileDiskCache::Impl::trim()
             if (bytes <= wanted) {
                 break;
             }
-            std::error_code gone;
-            removed += fs::remove(file.path, gone) ? 1 : 0;
+            removed += removeFile(file.path, gone) ? 1U : 0U;
             bytes -= file.bytes;
-            if (fs::is_empty(file.path.parent_path(), gone) && !gone) {
-                fs::remove(file.path.parent_path(), gone);
-            }
         }
     }
-    is_counted = true;
+    counted_folder = options.folder;
     bytes_counted = bytes;
     bytes_since = 0;
+}
+
+KeptTiles keptTilesIn(const std::string& folder)
+{
+    KeptTiles kept;
+    for (const KeptFile& file : filesIn(folder)) {
+        kept.count += file.path.extension() == kExtension ? 1U : 0U;
+        kept.bytes += file.bytes;
+    }
+    return kept;
+}
+
+Status removeKeptTiles(const std::string& folder)
+{
+    for (const KeptFile& file : filesIn(folder)) {
+        std::error_code failure;
+        removeFile(file.path, failure);
+        if (failure) {
+            return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be removed ({})",
+                                                            file.path.string(), failure.message())};
+        }
+    }
+    return Done{};
 }
 
 TileDiskCache::TileDiskCache(const TileDiskCacheOptions& options)
@@ -302,8 +358,34 @@ TileDiskCacheStatistics TileDiskCache::statistics() const
 
 std::optional<std::string> TileDiskCache::trouble() const
 {
-    const std::lock_guard lock(impl_->mutex);
+    const std::lock_guard lock(impl_->settings_mutex);
     return impl_->trouble;
+}
+
+std::string TileDiskCache::folder() const
+{
+    return impl_->options().folder;
+}
+
+void TileDiskCache::setFolder(const std::string& folder)
+{
+    const std::lock_guard lock(impl_->settings_mutex);
+    if (folder != impl_->options_now.folder) {
+        impl_->options_now.folder = folder;
+        impl_->trouble.reset();
+        impl_->pause = 0;
+    }
+}
+
+std::uint64_t TileDiskCache::bytesMax() const
+{
+    return impl_->options().bytes_max;
+}
+
+void TileDiskCache::setBytesMax(std::uint64_t bytes_max)
+{
+    const std::lock_guard lock(impl_->settings_mutex);
+    impl_->options_now.bytes_max = bytes_max;
 }
 
 class DiskCachedReader final : public TileReader {
@@ -314,7 +396,7 @@ public:
         : source_(std::move(source))
         , cache_(std::move(cache))
         , key_(std::move(key))
-        , folder_(fmt::format("{}/{:016x}", cache_->impl_->options.folder, hashOf(key_)))
+        , folder_name_(fmt::format("{:016x}", hashOf(key_)))
     {}
 
     Result<Tile> read(const TileId& id) override
@@ -322,7 +404,8 @@ public:
         const std::string name = fmt::format("{}{}-{}-{}", id.kind == TileKind::Means ? 'm' : 's',
                                              id.level, id.column, id.row);
         TileDiskCache::Impl& cache = *cache_->impl_;
-        if (std::optional<Tile> tile = cache.load(fmt::format("{}/{}{}", folder_, name, kExtension),
+        const std::string folder = cache.options().folder + '/' + folder_name_;
+        if (std::optional<Tile> tile = cache.load(fmt::format("{}/{}{}", folder, name, kExtension),
                                                   id, source_->layout(), key_)) {
             return std::move(*tile);
         }
@@ -335,7 +418,7 @@ public:
         }
         Result<Tile> tile = reader_->read(id);
         if (tile) {
-            cache.store(folder_, name, *tile, key_);
+            cache.store(folder, name, *tile, key_);
         }
         return tile;
     }
@@ -344,7 +427,7 @@ private:
     std::shared_ptr<const TileSource> source_;
     std::shared_ptr<TileDiskCache> cache_;
     std::string key_;
-    std::string folder_;
+    std::string folder_name_;
     std::unique_ptr<TileReader> reader_; // null as long as the disk had everything
 };
 

@@ -12,9 +12,12 @@
 
 namespace marsview {
 
+/// Where nobody says otherwise.
+inline constexpr std::uint64_t kFetchedBytesMax = 4'000'000'000;
+
 struct TileDiskCacheOptions {
     std::string folder; // made when the first tile is written
-    std::uint64_t bytes_max = std::uint64_t{4} << 30;
+    std::uint64_t bytes_max = kFetchedBytesMax;
 };
 
 /// Counts since the object was made.
@@ -37,6 +40,13 @@ public:
     TileDiskCache(const TileDiskCache&) = delete;
     TileDiskCache& operator=(const TileDiskCache&) = delete;
 
+    std::string folder() const;
+    /// Where tiles are looked for and kept from now on; those that lie elsewhere stay there.
+    void setFolder(const std::string& folder);
+    std::uint64_t bytesMax() const;
+    /// Holds from the next tile on that is written.
+    void setBytesMax(std::uint64_t bytes_max);
+
     TileDiskCacheStatistics statistics() const;
     /// Why tiles are not kept, as a sentence for the user; nothing while they are.
     std::optional<std::string> trouble() const;
@@ -46,6 +56,18 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// What a folder of tiles holds, whoever wrote it.
+struct KeptTiles {
+    std::uint64_t count = 0;
+    std::uint64_t bytes = 0;
+};
+
+/// Nothing where there is no such folder. Looks at every file: not for the GUI's thread.
+KeptTiles keptTilesIn(const std::string& folder);
+/// Removes all tiles from a folder, and nothing else; programs that use it fetch them again. Not
+/// for the GUI's thread.
+Status removeKeptTiles(const std::string& folder);
 
 /// `source` with a memory on disk. Its readers open those of `source` only when a tile is not
 /// there.

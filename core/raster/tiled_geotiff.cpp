@@ -86,7 +86,10 @@ Windows windowsFor(const RasterFile& source, const RasterInfo& info)
     const std::size_t row_bytes =
         info.columns * (sampleBytes(info.type) + (info.has_mask_band ? 1 : 0));
     const std::size_t block_rows =
-        (std::max<std::size_t>(source.blockSize().rows, 1) + kTileSide - 1) / kTileSide * kTileSide;
+        source.hasCheapRows()
+            ? kTileSide
+            : (std::max<std::size_t>(source.blockSize().rows, 1) + kTileSide - 1) / kTileSide *
+                  kTileSide;
     Windows windows;
     windows.rows = std::max(kTileSide, kWindowBytesWanted / row_bytes / kTileSide * kTileSide);
     if (block_rows > windows.rows) {

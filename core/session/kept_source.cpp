@@ -1,5 +1,9 @@
 #include "core/session/kept_source.h"
 
+#include "core/terrain/level_file.h"
+
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace marsview {
@@ -10,6 +14,7 @@ public:
     KeptSource(std::shared_ptr<const TileSource> source, KeptMap map)
         : source_(std::move(source))
         , map_(std::move(map))
+        , made_(whenMade())
     {}
 
     const TileLayout& layout() const noexcept override { return source_->layout(); }
@@ -19,7 +24,8 @@ public:
     {
         Result<std::unique_ptr<TileReader>> reader = source_->open();
         if (!reader) {
-            return reader;
+            return whenMade() == made_ ? std::move(reader)
+                                       : Result<std::unique_ptr<TileReader>>(anew());
         }
         return std::unique_ptr<TileReader>(
             std::make_unique<Reader>(std::move(reader).value(), shared_from_this()));
@@ -56,8 +62,25 @@ private:
         std::shared_ptr<const KeptSource> source_;
     };
 
+    // Readers that are open go on with the files that were there; what they check tiles by is still
+    // right. New ones do not fit the new files, and open neither.
+    Error anew() const
+    {
+        return {ErrorCode::Invalid,
+                name() +
+                    ": was found damaged and has been prepared anew since it was opened; open "
+                    "it again"};
+    }
+
+    std::filesystem::file_time_type whenMade() const
+    {
+        std::error_code gone;
+        return std::filesystem::last_write_time(LevelFile::pathFor(map_.path), gone);
+    }
+
     std::shared_ptr<const TileSource> source_;
     KeptMap map_;
+    std::filesystem::file_time_type made_; // the level file, when this was opened
 };
 
 } // namespace

@@ -117,13 +117,32 @@ int bandOf(const DatasetSpec& spec, const std::string& raster_path, const Raster
     return raster_path == info.path ? spec.band : 1;
 }
 
-std::size_t megabytesFrom(const char* variable, std::size_t otherwise)
+std::size_t megabytesFrom(const char* variable, std::size_t otherwise, NoticesOnce& notices)
 {
     constexpr double kMost = 1e9;
-    const std::optional<double> megabytes = parseNumber(environmentVariable(variable));
-    return megabytes && *megabytes >= 0.0 && *megabytes <= kMost
-               ? static_cast<std::size_t>(*megabytes * 0x1p20)
-               : otherwise;
+    const std::string text = environmentVariable(variable);
+    const std::optional<double> megabytes = parseNumber(text);
+    if (megabytes && *megabytes >= 0.0 && *megabytes <= kMost) {
+        return static_cast<std::size_t>(*megabytes * 0x1p20);
+    }
+    if (!text.empty()) {
+        notices.add(
+            fmt::format("{}=\"{}\" in the environment is no number of megabytes from 0 to "
+                        "{:.0f}; {} are used",
+                        variable, text, kMost, otherwise >> 20));
+    }
+    return otherwise;
+}
+
+// What there is to say about more than this map goes with the first one that can be opened.
+OpenPlan withNoticesOf(const MapResources& resources, OpenPlan plan)
+{
+    if (resources.notices && plan.store != MapStore::Unprepared) {
+        for (std::string& notice : resources.notices->take()) {
+            plan.notices.push_back(std::move(notice));
+        }
+    }
+    return plan;
 }
 
 Result<LoadedMap>
@@ -258,23 +277,7 @@ bool isDamaged(const std::string& kept_path, const MapResources& resources)
     return MapFolder::at(resources.folder).damage(kept_path).has_value();
 }
 
-} // namespace
-
-MapResources defaultMapResources()
-{
-    const std::size_t quarter = defaultMemoryBudget() / 2;
-    MapResources resources;
-    resources.held_bytes_max = megabytesFrom("MARSVIEW_HELD_MB", quarter);
-    resources.tiles = std::make_shared<TileCache>(
-        TileCacheOptions{.bytes_max = megabytesFrom("MARSVIEW_CACHE_MB", quarter),
-                         .loader_threads = std::max(2U, std::thread::hardware_concurrency())});
-    resources.folder = MapFolder::defaultPath();
-    resources.fetched_tiles = std::make_shared<TileDiskCache>(
-        TileDiskCacheOptions{.folder = (resources.folder / "fetched").string()});
-    return resources;
-}
-
-Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resources)
+Result<OpenPlan> planFor(const DatasetSpec& spec, const MapResources& resources)
 {
     Result<Described> map = describe(spec);
     if (!map) {
@@ -326,6 +329,34 @@ Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resour
                     .raster_path = {},
                     .level_path = {},
                     .notices = std::move(notices)};
+}
+
+} // namespace
+
+MapResources defaultMapResources()
+{
+    const std::size_t quarter = defaultMemoryBudget() / 2;
+    MapResources resources;
+    resources.notices = std::make_shared<NoticesOnce>();
+    resources.held_bytes_max = megabytesFrom("MARSVIEW_HELD_MB", quarter, *resources.notices);
+    resources.tiles = std::make_shared<TileCache>(TileCacheOptions{
+        .bytes_max = megabytesFrom("MARSVIEW_CACHE_MB", quarter, *resources.notices),
+        .loader_threads = std::max(2U, std::thread::hardware_concurrency())});
+    resources.folder = MapFolder::defaultPath();
+    resources.fetched_tiles = std::make_shared<TileDiskCache>(
+        TileDiskCacheOptions{.folder = fetchedTilesFolder(resources.folder)});
+    return resources;
+}
+
+std::string fetchedTilesFolder(const std::filesystem::path& folder)
+{
+    return folder.empty() ? std::string() : (folder / "fetched").string();
+}
+
+Result<OpenPlan> planOpening(const DatasetSpec& spec, const MapResources& resources)
+{
+    Result<OpenPlan> plan = planFor(spec, resources);
+    return plan ? Result<OpenPlan>(withNoticesOf(resources, std::move(plan).value())) : plan;
 }
 
 Status

@@ -7,6 +7,7 @@
 #include "core/raster/tile_disk_cache.h"
 #include "core/session/dataset.h"
 #include "core/session/loaded_map.h"
+#include "core/session/notices_once.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -26,14 +27,19 @@ struct MapResources {
     /// Where prepared maps are kept, and how many bytes of them.
     std::filesystem::path folder;
     std::uint64_t folder_bytes_max = 0; // 0: MapFolder::defaultBytesMax()
-    /// Tiles that came from servers; may be null.
+    /// Tiles that came from servers, in fetchedTilesFolder(folder); may be null.
     std::shared_ptr<TileDiskCache> fetched_tiles;
+    /// What is odd about them, told with the first map that is opened; may be null.
+    std::shared_ptr<NoticesOnce> notices{};
 };
 
 /// A quarter of memory for tiles, as much for maps that are held; the user's cache folder. The
 /// environment may say otherwise: MARSVIEW_CACHE_DIR (a folder), MARSVIEW_CACHE_MB (decoded tiles
-/// in memory) and MARSVIEW_HELD_MB (what is read whole).
+/// in memory) and MARSVIEW_HELD_MB (what is read whole). What is no such number is a notice.
 MapResources defaultMapResources();
+
+/// Where tiles from servers are kept beside prepared maps; empty where `folder` is.
+std::string fetchedTilesFolder(const std::filesystem::path& folder);
 
 /// How a map is going to be opened.
 enum class MapStore {

@@ -1,5 +1,6 @@
 #include "tests/cli/run_cli.h"
 #include "tests/support/gdal_tools.h"
+#include "tests/support/http_server.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
@@ -95,6 +96,53 @@ TEST(InfoCommand, RefusesNetcdfThatIsCutShort)
     EXPECT_EQ(output.exit_status, 1);
     EXPECT_NE(output.err.find("cut short"), std::string::npos) << output.err;
     EXPECT_EQ(runCli({"info", folder.write("whole.nc", whole)}).exit_status, 0);
+}
+
+TEST(InfoCommand, DescribesWhatIsNoSurfaceAndSaysSo)
+{
+    const TempFolder folder;
+    const std::string row = writeRaster(folder, "row.tif", "GTiff",
+                                        recipeFor(5, std::vector<std::int16_t>{1, 2, 3, 4, 5}));
+    const nlohmann::json info = cliInfo(row);
+    EXPECT_EQ(info["columns"], 5);
+    EXPECT_EQ(info["rows"], 1);
+    EXPECT_EQ(info["maximum"], 5.0);
+    EXPECT_EQ(info["triangle_count"], 0);
+    EXPECT_THAT(info["notices"].get<std::vector<std::string>>(),
+                testing::Contains("5 × 1 samples make no surface; at least 2 × 2 are needed"));
+    const ProgramOutput refused = runCli({"prepare", row, "-o", folder.file("prepared.tif")});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_THAT(refused.err, testing::HasSubstr("5 × 1 samples make no surface"));
+}
+
+TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
+{
+    const TempFolder folder;
+    HttpServer server(folder.path());
+    const std::string address = server.url("missing.tif");
+    const auto failure = [&address] {
+        const ProgramOutput output = runCli({"info", address});
+        EXPECT_EQ(output.exit_status, 1);
+        return output.err;
+    };
+    EXPECT_EQ(failure(), "marsview-cli: " + address +
+                             ": there is nothing at this address (404); check how it is spelt\n");
+    server.failNext(100, 403);
+    EXPECT_EQ(failure(), "marsview-cli: " + address +
+                             ": the server does not let it be read (403); it may want a login, or "
+                             "the address may have expired\n");
+    server.failNext(100, 500);
+    EXPECT_EQ(failure(),
+              "marsview-cli: " + address + ": the server is in trouble (500); try again later\n");
+}
+
+TEST(InfoCommand, TellsOfNumbersInTheEnvironmentThatAreNone)
+{
+    const ProgramOutput output =
+        runProgram({"env", "MARSVIEW_HELD_MB=abc", MARSVIEW_CLI, "info", mars()});
+    EXPECT_EQ(output.exit_status, 0);
+    EXPECT_THAT(output.err, testing::HasSubstr("MARSVIEW_HELD_MB=\"abc\" in the environment is no "
+                                               "number of megabytes"));
 }
 
 TEST(InfoCommand, TellsFeetFromMetres)

@@ -53,6 +53,10 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     , bound_(new QSpinBox(this))
     , maps_(new QTreeWidget(this))
     , total_(new QLabel(this))
+    , fetched_folder_(new QLineEdit(this))
+    , fetched_bound_(new QSpinBox(this))
+    , fetched_total_(new QLabel(this))
+    , empty_button_(new QPushButton(tr("&Empty…"), this))
 {
     const auto whole_mb = static_cast<int>(2 * defaultMemoryBudget() / kMega);
     memory_->setRange(0, whole_mb);
@@ -119,6 +123,7 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     layout->addLayout(form);
     layout->addWidget(maps_, 1);
     layout->addLayout(foot);
+    layout->addWidget(makeFetchedBox());
 
     connect(memory_, &QSpinBox::valueChanged, this, &LargeMapsPage::changed);
     connect(bound_, &QSpinBox::valueChanged, this, &LargeMapsPage::changed);
@@ -135,6 +140,7 @@ void LargeMapsPage::fill(const Preferences& preferences)
 {
     memory_->setValue(preferences.tile_memory_mb);
     bound_->setValue(preferences.map_folder_gb);
+    fetched_bound_->setValue(preferences.fetched_gb);
     chosen_folder_ = preferences.map_folder;
     showFolder();
 }
@@ -144,7 +150,40 @@ void LargeMapsPage::apply(Preferences& preferences) const
     preferences.tile_memory_mb =
         memory_->value() == 0 ? 0 : std::max(memory_->value(), kTileMemoryMbMin);
     preferences.map_folder_gb = bound_->value();
+    preferences.fetched_gb = fetched_bound_->value();
     preferences.map_folder = chosen_folder_;
+}
+
+// What came from servers lies beside what was prepared.
+QWidget* LargeMapsPage::makeFetchedBox()
+{
+    fetched_folder_->setReadOnly(true);
+    fetched_folder_->setAccessibleName(tr("Folder of tiles from servers"));
+    fetched_bound_->setRange(0, kBoundMax);
+    //: Gigabytes, after a number
+    fetched_bound_->setSuffix(tr(" GB"));
+    fetched_bound_->setSpecialValueText(tr("Automatic (%1)").arg(bytesText(kFetchedBytesMax)));
+    fetched_bound_->setGroupSeparatorShown(true);
+    fetched_bound_->setKeyboardTracking(false);
+    fetched_bound_->setAccessibleName(tr("Most that tiles from servers may take"));
+    fetched_bound_->setToolTip(
+        tr("When more tiles come and there is not enough room, those that were not used for "
+           "longest are removed"));
+    fetched_total_->setObjectName(QStringLiteral("fetchedTotal"));
+    empty_button_->setObjectName(QStringLiteral("emptyFetched"));
+    empty_button_->setAutoDefault(false);
+    auto* foot = new QHBoxLayout;
+    foot->addWidget(fetched_total_, 1);
+    foot->addWidget(empty_button_);
+    auto* box = new QWidget(this);
+    auto* form = new QFormLayout(box);
+    form->setContentsMargins(0, 12, 0, 0); // apart from what is above
+    form->addRow(tr("Tiles from servers in"), fetched_folder_);
+    form->addRow(tr("A&t most"), fetched_bound_);
+    form->addRow(foot);
+    connect(fetched_bound_, &QSpinBox::valueChanged, this, &LargeMapsPage::changed);
+    connect(empty_button_, &QPushButton::clicked, this, &LargeMapsPage::emptyFetched);
+    return box;
 }
 
 std::filesystem::path LargeMapsPage::folder() const
@@ -177,6 +216,7 @@ void LargeMapsPage::showFolder()
     folder_->setText(path);
     folder_->setToolTip(path);
     listMaps();
+    countFetched();
 }
 
 void LargeMapsPage::listMaps()
@@ -265,6 +305,64 @@ void LargeMapsPage::removeAll()
             }
         }
         removeMaps(names);
+    });
+    box->show();
+}
+
+void LargeMapsPage::countFetched()
+{
+    const std::string fetched = fetchedTilesFolder(folder());
+    const QString path = QDir::toNativeSeparators(QString::fromStdString(fetched));
+    fetched_folder_->setText(path);
+    fetched_folder_->setToolTip(path);
+    fetched_total_->setText(tr("Looking at what is there…"));
+    empty_button_->setEnabled(false);
+    jobs_.run([this, fetched, path](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
+        const KeptTiles kept = keptTilesIn(fetched);
+        outlet->post([this, path, kept] { showFetched(path, kept, {}); });
+    });
+}
+
+void LargeMapsPage::showFetched(const QString& folder, KeptTiles kept, const QString& problem)
+{
+    if (folder != fetched_folder_->text()) {
+        return; // another was chosen meanwhile
+    }
+    const auto count = static_cast<int>(std::min<std::uint64_t>(kept.count, 1'000'000'000));
+    fetched_total_->setText(!problem.isEmpty() ? problem
+                            : kept.bytes == 0  ? tr("Nothing is kept here.")
+                            //: %1 is a size
+                            : count == 1
+                                ? tr("One tile, %1").arg(bytesText(kept.bytes))
+                                //: %n tiles that take %1 together
+                                : tr("%n tiles, %1", nullptr, count).arg(bytesText(kept.bytes)));
+    fetched_total_->setWordWrap(!problem.isEmpty());
+    empty_button_->setEnabled(kept.bytes > 0);
+}
+
+void LargeMapsPage::emptyFetched()
+{
+    auto* box = new QMessageBox(
+        QMessageBox::Question, tr("Remove Tiles from Servers"),
+        tr("Remove all tiles that came from servers? They are fetched again when they are looked "
+           "at or touched."),
+        QMessageBox::Cancel, this);
+    QPushButton* remove = box->addButton(tr("&Remove"), QMessageBox::DestructiveRole);
+    box->setDefaultButton(QMessageBox::Cancel);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setWindowModality(Qt::WindowModal);
+    connect(remove, &QPushButton::clicked, this, [this] {
+        const std::string fetched = fetchedTilesFolder(folder());
+        const QString path = fetched_folder_->text();
+        fetched_total_->setText(tr("Being removed…"));
+        empty_button_->setEnabled(false);
+        jobs_.run([this, fetched, path](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
+            const Status removed = removeKeptTiles(fetched);
+            const QString problem =
+                removed ? QString() : QString::fromStdString(removed.error().message);
+            const KeptTiles kept = keptTilesIn(fetched);
+            outlet->post([this, path, kept, problem] { showFetched(path, kept, problem); });
+        });
     });
     box->show();
 }

@@ -1,6 +1,8 @@
 // The page of the preferences that is about maps too large to be held.
 #pragma once
 
+#include "core/raster/tile_disk_cache.h"
+#include "ui/detached_jobs.h"
 #include "ui/preferences.h"
 
 #include <QWidget>
@@ -22,7 +24,8 @@ struct LargeMapDefaults {
     std::size_t tile_bytes = 0;   // of memory for tiles
 };
 
-/// How much memory their tiles take, where prepared maps lie and what is there.
+/// How much memory their tiles take, where prepared maps lie and what is there, and the same of
+/// tiles that came from servers.
 class LargeMapsPage final : public QWidget {
     Q_OBJECT
 
@@ -45,6 +48,10 @@ private:
     void removeSelected();
     void removeAll();
     void removeMaps(const QStringList& names);
+    QWidget* makeFetchedBox();
+    void countFetched();
+    void showFetched(const QString& folder, KeptTiles kept, const QString& problem);
+    void emptyFetched();
 
     LargeMapDefaults standard_;
     QString chosen_folder_; // empty: the standard one
@@ -56,6 +63,11 @@ private:
     QLabel* total_ = nullptr;
     QPushButton* remove_button_ = nullptr;
     QPushButton* remove_all_button_ = nullptr;
+    QLineEdit* fetched_folder_ = nullptr;
+    QSpinBox* fetched_bound_ = nullptr;
+    QLabel* fetched_total_ = nullptr;
+    QPushButton* empty_button_ = nullptr;
+    DetachedJobs jobs_{*this}; // a disk may take its time
 };
 
 } // namespace marsview

@@ -292,9 +292,17 @@ TEST_F(RemoteRasterTest, WhatIsWrongIsSaid)
     EXPECT_EQ(message(server_.url("text.tif")),
               server_.url("text.tif") +
                   ": is in no raster format that GDAL recognises, or the connection broke off");
-    server_.failNext(100, 403);
-    EXPECT_THAT(message(server_.url("map.tif")), HasSubstr("does not let it be read (403)"));
-    server_.failNext(0, 0);
+    for (const auto& [status, says] : {std::pair{404, "there is nothing at this address (404)"},
+                                       std::pair{410, "there is nothing at this address (410)"},
+                                       std::pair{401, "the server does not let it be read (401)"},
+                                       std::pair{403, "the server does not let it be read (403)"},
+                                       std::pair{500, "the server is in trouble (500)"},
+                                       std::pair{503, "the server is in trouble (503)"}}) {
+        server_.failNext(100, status);
+        EXPECT_THAT(message(server_.url("map.tif")),
+                    StartsWith(server_.url("map.tif") + ": " + says));
+        server_.failNext(0, 0);
+    }
     server_.refuse();
     EXPECT_THAT(message(server_.url("map.tif")),
                 StartsWith(server_.url("map.tif") + ": the server does not answer; check the "

@@ -151,6 +151,37 @@ TEST(TileCache, ServesTheHandBeforeTheView)
     EXPECT_EQ(order, expected);
 }
 
+TEST(TileCache, ServesTheHandWhileTheViewWaitsForASlowSource)
+{
+    for (const std::size_t threads : {2U, 4U}) {
+        Gate gate; // the view's tiles stay behind it
+        const TileId touched = tileId(3, 1);
+        GridTileSource::Options options;
+        options.before_read = [&](const TileId& id) -> std::optional<Error> {
+            if (id != touched) {
+                gate.pass();
+            }
+            return std::nullopt;
+        };
+        const auto source = std::make_shared<GridTileSource>(terrain(), options);
+        TileCache cache({.loader_threads = threads});
+        const TiledRaster raster(cache, source);
+        TileWishes view(raster, TileUrgency::View);
+        TileWishes hand(raster, TileUrgency::Hand);
+        const std::vector viewed{tileId(0, 0), tileId(1, 0), tileId(2, 0),
+                                 tileId(3, 0), tileId(4, 0), tileId(0, 1)};
+        view.want(viewed);
+        gate.awaitReaders(static_cast<int>(threads)); // as many as there are for the view
+        hand.want(std::vector{touched});
+        hand.waitForAll();
+        EXPECT_NE(raster.find(touched), nullptr);
+        EXPECT_EQ(view.missingCount(), viewed.size());
+        gate.open();
+        view.waitForAll();
+        EXPECT_EQ(view.missingCount(), 0U);
+    }
+}
+
 TEST(TileCache, LeavesOutWhatIsNoLongerWanted)
 {
     Gate gate;

@@ -346,6 +346,60 @@ TEST_F(TileDiskCacheTest, AFullDiskLeavesNoHalfFilesAndIsTriedAgainLater)
     EXPECT_EQ(kept->trouble(), std::nullopt);
 }
 
+TEST_F(TileDiskCacheTest, ChangesOfFolderAndBoundHoldFromTheNextTileOn)
+{
+    const auto kept = std::make_shared<TileDiskCache>(
+        TileDiskCacheOptions{.folder = folder_.write("not a folder", "x") + "/tiles"});
+    EXPECT_EQ(kept->bytesMax(), kFetchedBytesMax);
+    const auto source = cachedOnDisk(plain_, kept, "key");
+    const auto reader = source->open(); // stays open through all of it
+    const std::vector<TileId> tiles = allTiles(plain_->layout(), 0);
+    const auto read = [&](const TileId& id) {
+        const auto tile = (*reader)->read(id);
+        EXPECT_TRUE(tile && isSame(*tile, plain_->tile(id)));
+    };
+    read(tiles[0]);
+    ASSERT_TRUE(kept->trouble());
+    kept->setFolder(folder_.file("tiles"));
+    EXPECT_EQ(kept->folder(), folder_.file("tiles"));
+    EXPECT_EQ(kept->trouble(), std::nullopt) << "it was about the other folder";
+    for (const TileId& id : tiles) {
+        read(id);
+    }
+    EXPECT_EQ(kept->statistics().written, tiles.size());
+    const std::uint64_t bytes = bytesIn(folder_.file("tiles"));
+    kept->setBytesMax(bytes / 2);
+    EXPECT_EQ(bytesIn(folder_.file("tiles")), bytes);
+    read({TileKind::Samples, 1, 0, 0});
+    EXPECT_LE(bytesIn(folder_.file("tiles")), bytes / 2);
+    kept->setFolder(folder_.file("elsewhere"));
+    read(tiles[0]);
+    EXPECT_EQ(keptTilesIn(folder_.file("elsewhere")).count, 1U);
+    EXPECT_LE(bytesIn(folder_.file("tiles")), bytes / 2) << "they stay";
+    EXPECT_GT(bytesIn(folder_.file("tiles")), 0U);
+}
+
+TEST_F(TileDiskCacheTest, AFolderIsCountedAndEmptiedOfTilesAlone)
+{
+    EXPECT_EQ(keptTilesIn(folder_.file("tiles")).count, 0U);
+    EXPECT_TRUE(removeKeptTiles(folder_.file("tiles"))) << "there is none";
+    const auto kept = cache();
+    const auto source = cachedOnDisk(plain_, kept, "key");
+    const std::vector<TileId> tiles = allTiles(plain_->layout(), 0);
+    for (const TileId& id : tiles) {
+        readTile(*source, id);
+    }
+    const KeptTiles all = keptTilesIn(folder_.file("tiles"));
+    EXPECT_EQ(all.count, tiles.size());
+    EXPECT_EQ(all.bytes, bytesIn(folder_.file("tiles")));
+    const std::string foreign = folder_.write("tiles/mine.txt", "not a tile");
+    ASSERT_TRUE(removeKeptTiles(folder_.file("tiles")));
+    EXPECT_EQ(keptTilesIn(folder_.file("tiles")).bytes, 0U);
+    EXPECT_EQ(filesIn(folder_.file("tiles")), std::vector<fs::path>{foreign});
+    EXPECT_TRUE(isSame(readTile(*source, tiles[0]), plain_->tile(tiles[0]))) << "fetched again";
+    EXPECT_EQ(keptTilesIn(folder_.file("tiles")).count, 1U);
+}
+
 TEST_F(TileDiskCacheTest, LeftOversOfKilledProgramsGo)
 {
     const auto kept = cache();

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -167,6 +168,65 @@ TEST_F(OpenMap, MakesADamagedCopyAnewThatIsStillOpen)
     ASSERT_TRUE(second) << second.error().message;
     EXPECT_EQ(unreadable(*second), 0U);
     EXPECT_FALSE(MapFolder::at(maps_.path()).damage(keptPath(source_)));
+}
+
+TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
+{
+    const std::string kept = keptPath(source_);
+    Result<LoadedMap> first = open(source_);
+    std::size_t damaged = 0;
+    for (const double share : {0.15, 0.25, 0.3, 0.37, 0.45, 0.53, 0.6, 0.68, 0.75}) {
+        ASSERT_TRUE(first) << first.error().message;
+        first = Error{ErrorCode::Cancelled, "closed"};
+        damage(kept, share);
+        first = open(source_);
+        ASSERT_TRUE(first) << first.error().message;
+        damaged = unreadable(*first);
+        if (damaged > 0) {
+            break; // otherwise it was noticed while opening, and made anew
+        }
+    }
+    ASSERT_GT(damaged, 0U);
+    ASSERT_TRUE(MapFolder::at(maps_.path()).damage(kept));
+    MapResources of_another_program = resources_;
+    of_another_program.tiles = std::make_shared<TileCache>(TileCacheOptions{});
+    JobMonitor monitor;
+    const Result<LoadedMap> second = openMap({.path = source_}, of_another_program, monitor);
+    ASSERT_TRUE(second) << second.error().message;
+    EXPECT_EQ(unreadable(*second), 0U);
+    // Whatever the first one still reads is right, as unreadable() checks, by readers that are open
+    // and by new ones.
+    for (int i = 0; i < 3; ++i) {
+        resources_.tiles->clear();
+        unreadable(*first);
+    }
+    EXPECT_FALSE(MapFolder::at(maps_.path()).damage(kept)) << "the new one is none";
+    const Result<LoadedMap> again = open(source_);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(unreadable(*again), 0U);
+}
+
+TEST_F(OpenMap, TellsOnceOfNumbersInTheEnvironmentThatAreNone)
+{
+    const std::string tiff =
+        test::writeRaster(folder_, "small.tif", "GTiff",
+                          test::recipeFor(4, std::vector<std::int16_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+    for (const char* text : {"abc", "-1", "1e12", "12 MB"}) {
+        ASSERT_EQ(setenv("MARSVIEW_HELD_MB", text, 1), 0); // NOLINT(concurrency-mt-unsafe)
+        MapResources resources = defaultMapResources();
+        ASSERT_EQ(unsetenv("MARSVIEW_HELD_MB"), 0); // NOLINT(concurrency-mt-unsafe)
+        resources.folder = maps_.path();
+        EXPECT_EQ(resources.held_bytes_max, defaultMapResources().held_bytes_max);
+        JobMonitor monitor;
+        const auto first = openMap({.path = tiff}, resources, monitor);
+        const auto second = openMap({.path = tiff}, resources, monitor);
+        ASSERT_TRUE(first && second);
+        const auto sentence =
+            HasSubstr(std::string("MARSVIEW_HELD_MB=\"") + text + "\" in the environment is no");
+        EXPECT_THAT(first->dataset->info().notices, testing::Contains(sentence));
+        EXPECT_THAT(second->dataset->info().notices, testing::Not(testing::Contains(sentence)));
+    }
+    EXPECT_TRUE(defaultMapResources().notices->take().empty());
 }
 
 TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
