@@ -154,10 +154,8 @@ Status runLoop(const Options& options)
     if (map->feeder) {
         report.feeder = map->feeder->statistics();
     }
+    const Status recorded = recorder ? recorder->finish() : Done{};
     if (recorder) {
-        if (Status written = recorder->finish(); !written) {
-            return written;
-        }
         report.recorded = recorder->updates();
     }
     if (!options.flight.empty()) {
@@ -176,7 +174,7 @@ Status runLoop(const Options& options)
     if (!replay_notice->empty()) {
         std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(*replay_notice).c_str());
     }
-    return verdict;
+    return verdict ? recorded : verdict;
 }
 
 } // namespace

@@ -70,6 +70,18 @@ std::uint16_t formatOf(SampleType type)
     });
 }
 
+// GDAL leaves out strips of voids alone; libtiff takes those for damage.
+bool hasAllStrips(TIFF* file)
+{
+    const std::uint32_t count = TIFFNumberOfStrips(file);
+    for (std::uint32_t strip = 0; strip < count; ++strip) {
+        if (TIFFGetStrileByteCount(file, strip) == 0) {
+            return false;
+        }
+    }
+    return count > 0;
+}
+
 bool isKnown(std::uint16_t compression)
 {
     constexpr std::array<std::uint16_t, 5> known{COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE,
@@ -118,7 +130,7 @@ bool TiffStrips::Impl::open()
         tagOf<std::uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE) == 8 * sampleBytes(layout.type) &&
         tagOf<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT) == formatOf(layout.type) &&
         layout.band >= 1 && layout.band <= bands && (bands == 1 || is_separate) && strip_rows > 0 &&
-        TIFFScanlineSize64(tiff) == row_bytes;
+        TIFFScanlineSize64(tiff) == row_bytes && hasAllStrips(tiff);
     if (!is_right) {
         file.reset();
     }

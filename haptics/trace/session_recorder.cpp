@@ -39,11 +39,15 @@ SessionRecorder::begin(ServoLoop& loop, const std::string& path, std::uint64_t f
         return std::move(file).error();
     }
     return std::unique_ptr<SessionRecorder>(
-        new SessionRecorder(loop, std::move(*file), first_serial));
+        new SessionRecorder(loop, path, std::move(*file), first_serial));
 }
 
-SessionRecorder::SessionRecorder(ServoLoop& loop, TraceFile file, std::uint64_t first_serial)
+SessionRecorder::SessionRecorder(ServoLoop& loop,
+                                 std::string path,
+                                 TraceFile file,
+                                 std::uint64_t first_serial)
     : loop_(loop)
+    , path_(std::move(path))
     , file_(std::move(file))
     , first_serial_(first_serial)
 {
@@ -51,6 +55,7 @@ SessionRecorder::SessionRecorder(ServoLoop& loop, TraceFile file, std::uint64_t 
     TickRecord left;
     while (loop_.takeRecord(left)) {
     }
+    missing_before_ = loop_.state().counts.not_recorded;
     loop_.keepRecords(true);
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
@@ -69,7 +74,15 @@ Status SessionRecorder::finish()
     loop_.keepRecords(false);
     thread_.request_stop();
     thread_.join();
-    return file_.close();
+    Status closed = file_.close();
+    const std::uint64_t missing = loop_.state().counts.not_recorded - missing_before_;
+    if (closed && missing > 0) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: {} of {} updates are missing, as they could not be written "
+                                 "fast enough; record again, onto another disk",
+                                 path_, missing, missing + updates_)};
+    }
+    return closed;
 }
 
 void SessionRecorder::run(const std::stop_token& stop)

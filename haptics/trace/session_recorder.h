@@ -41,20 +41,23 @@ public:
     SessionRecorder(const SessionRecorder&) = delete;
     SessionRecorder& operator=(const SessionRecorder&) = delete;
 
-    /// Writes what there is and closes the file. Says where that failed, as on a full disk.
+    /// Writes what there is and closes the file. Says where that failed, as on a full disk, and
+    /// where updates are missing because the disk was too slow for them.
     Status finish();
     std::uint64_t updates() const noexcept { return updates_; } // after finish()
 
 private:
-    SessionRecorder(ServoLoop& loop, TraceFile file, std::uint64_t first_serial);
+    SessionRecorder(ServoLoop& loop, std::string path, TraceFile file, std::uint64_t first_serial);
     void run(const std::stop_token& stop);
     void drain();
 
     ServoLoop& loop_;
+    std::string path_;
     TraceFile file_;
     std::uint64_t first_serial_; // 0 from when it has come
     bool is_finished_ = false;
     std::uint64_t updates_ = 0;
+    std::uint64_t missing_before_ = 0; // in recordings before this
     std::int64_t begin_ns_ = 0;
     std::jthread thread_;
 };

@@ -111,6 +111,14 @@ TEST_F(LargeBlocksTest, CompressedStripsHaveTheSamplesThatWereWritten)
     expectAllReads(write(floats, {"COMPRESS=DEFLATE", "BLOCKYSIZE=3001", "PREDICTOR=3"}), floats);
 }
 
+TEST_F(LargeBlocksTest, StripsThatAreLeftOutHaveTheirZeros)
+{
+    auto samples = noise<std::int16_t>();
+    std::fill(samples.begin() + static_cast<std::ptrdiff_t>(kColumns * 2900), samples.end(), 0);
+    expectAllReads(write(samples, {"COMPRESS=DEFLATE", "BLOCKYSIZE=2900", "SPARSE_OK=TRUE"}),
+                   samples);
+}
+
 TEST_F(LargeBlocksTest, PlainStripsHaveTheSamplesThatWereWritten)
 {
     const auto samples = noise<std::int16_t>();

@@ -7,13 +7,18 @@
 #include "tests/haptics/loop/tick_fixture.h"
 #include "tests/support/temp_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <map>
+#include <sys/stat.h>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -381,6 +386,39 @@ TEST(SessionRecorder, ARecordingTellsWhatItWasTouchedWithWhereThatChanges)
         }
     }
     EXPECT_GT(in_contact, 500U);
+}
+
+TEST(SessionRecorder, SaysThatUpdatesAreMissing)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    ServoLoop loop(simulated(), quick(0));
+    loop.set(settingsFor(makeServoMap(metreFrame(201, 201), filledTerrain(201, 201, bumps), {})));
+    auto recorder = SessionRecorder::begin(loop, path);
+    ASSERT_TRUE(recorder) << recorder.error().message;
+    // Nobody reads: a disk that takes nothing any more.
+    while (loop.state().counts.not_recorded == 0) {
+        std::this_thread::yield();
+    }
+    std::jthread drain([reader](const std::stop_token& stop) {
+        std::array<char, 4096> some{};
+        while (!stop.stop_requested()) {
+            if (read(reader, some.data(), some.size()) <= 0) {
+                std::this_thread::yield();
+            }
+        }
+    });
+    const Status finished = (*recorder)->finish();
+    ASSERT_FALSE(finished);
+    EXPECT_THAT(finished.error().message,
+                testing::ContainsRegex(
+                    path + ": [0-9]+ of [0-9]+ updates are missing, as they could not be written"));
+    drain.request_stop();
+    drain.join();
+    close(reader);
 }
 
 TEST(SessionRecorder, ARecordingThatBeginsInTheMiddleOfATouchKnowsAllOfItsModel)
