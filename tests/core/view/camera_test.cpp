@@ -1,5 +1,4 @@
 #include "core/view/camera.h"
-#include "tests/core/view/some_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +8,27 @@
 namespace marsview {
 namespace {
 
-using test::someCamera;
-
 constexpr Viewport kViewport{1280, 800};
+
+OrbitCamera wideCamera()
+{
+    return {.target = {1e6, -2e6, 3e3},
+            .distance_m = 5e5,
+            .azimuth = Angle::degrees(30.0),
+            .tilt = Angle::degrees(50.0)};
+}
+
+OrbitCamera wideCamera()
+{
+    return {.target = {1e6, -2e6, 3e3},
+            .distance_m = 5e5,
+            .azimuth = Angle::degrees(30.0),
+            .tilt = Angle::degrees(50.0)};
+}
 
 TEST(OrbitCamera, AxesAreOrthonormalAndRightHanded)
 {
-    const CameraAxes axes = axesOf(someCamera());
+    const CameraAxes axes = axesOf(wideCamera());
     EXPECT_NEAR(length(axes.right), 1.0, 1e-15);
     EXPECT_NEAR(length(axes.up), 1.0, 1e-15);
     const Vec3 backward = cross(axes.right, axes.up);
@@ -41,7 +54,7 @@ TEST(OrbitCamera, StandsInTheSouthWhenItHeadsNorth)
 
 TEST(PickRay, LeadsBackToThePixelItWentThrough)
 {
-    const OrbitCamera camera = someCamera();
+    const OrbitCamera camera = wideCamera();
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     for (int i = 0; i < 1000; ++i) {
@@ -56,14 +69,14 @@ TEST(PickRay, LeadsBackToThePixelItWentThrough)
 
 TEST(PickRay, PassesThroughTheTargetInTheMiddle)
 {
-    const OrbitCamera camera = someCamera();
+    const OrbitCamera camera = wideCamera();
     const Ray ray = pickRay(camera, kViewport, {640.0, 400.0});
     EXPECT_LT(length(ray.at(camera.distance_m) - camera.target), 1e-6);
 }
 
 TEST(Project, AgreesWithTheMatricesThatDraw)
 {
-    const OrbitCamera camera = someCamera();
+    const OrbitCamera camera = wideCamera();
     const SceneBox box{{-3e6, -3e6, -8e3}, {3e6, 3e6, 2e4}};
     const Matrix4 m = projection(camera, kViewport, clipRange(camera, box)) * viewRotation(camera);
     const ScenePoint point{1.1e6, -1.9e6, 1e4};
@@ -80,7 +93,7 @@ TEST(Project, AgreesWithTheMatricesThatDraw)
 
 TEST(Project, HasNothingBehindTheEye)
 {
-    const OrbitCamera camera = someCamera();
+    const OrbitCamera camera = wideCamera();
     EXPECT_FALSE(project(camera, kViewport, eyeOf(camera) - axesOf(camera).forward));
 }
 
