@@ -18,14 +18,6 @@ OrbitCamera wideCamera()
             .tilt = Angle::degrees(50.0)};
 }
 
-OrbitCamera wideCamera()
-{
-    return {.target = {1e6, -2e6, 3e3},
-            .distance_m = 5e5,
-            .azimuth = Angle::degrees(30.0),
-            .tilt = Angle::degrees(50.0)};
-}
-
 TEST(OrbitCamera, AxesAreOrthonormalAndRightHanded)
 {
     const CameraAxes axes = axesOf(wideCamera());
