@@ -58,17 +58,19 @@ void DeviceFinder::open(const QString& uri)
         // Shared, as what is posted is copied; a device that nobody takes is closed with it.
         auto device = std::make_shared<std::unique_ptr<HapticDevice>>();
         QString problem;
+        bool is_absent = false;
         try {
             Result<std::unique_ptr<HapticDevice>> result = drivers->registry().open(uri);
             if (result) {
                 *device = std::move(result).value();
             } else {
                 problem = QString::fromStdString(result.error().message);
+                is_absent = result.error().code == ErrorCode::NotFound;
             }
         } catch (const std::exception& e) {
             problem = QString::fromStdString(uri + ": " + e.what());
         }
-        outlet->post([this, device, problem, number] {
+        outlet->post([this, device, problem, is_absent, number] {
             if (number != opening_) {
                 return;
             }
@@ -77,7 +79,7 @@ void DeviceFinder::open(const QString& uri)
                 Q_EMIT opened();
                 opened_.reset();
             } else {
-                Q_EMIT refused(problem);
+                Q_EMIT refused(problem, is_absent);
             }
         });
     });

@@ -40,8 +40,8 @@ public:
 Q_SIGNALS:
     void found(const std::vector<FoundDevice>& devices);
     void opened();
-    /// "URI: WHY".
-    void refused(const QString& problem);
+    /// "URI: WHY", and whether that is because there is no such device at present.
+    void refused(const QString& problem, bool is_absent);
 
 private:
     struct Drivers;

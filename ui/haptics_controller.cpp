@@ -72,8 +72,10 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
 {
     connect(finder_, &DeviceFinder::found, this, &HapticsController::takeDevices);
     connect(finder_, &DeviceFinder::opened, this, [this] { start(finder_->takeOpened()); });
-    connect(finder_, &DeviceFinder::refused, this, [this](const QString& problem) {
+    connect(finder_, &DeviceFinder::refused, this, [this](const QString& problem, bool is_absent) {
         connection_ = HapticsConnection::None;
+        // Of a device that is not plugged in OpenHaptics says no more than of one that is broken.
+        is_quiet_ = is_quiet_ && (is_absent || uri_.startsWith(QStringLiteral("openhaptics:")));
         if (is_quiet_) {
             wanted_uri_ = uri_;
             was_wanted_gone_ = true;
@@ -104,7 +106,8 @@ HapticsController::~HapticsController()
 
 bool HapticsController::eventFilter(QObject* watched, QEvent* event)
 {
-    if (loop_ && (event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) &&
+    if (canBeStopped() &&
+        (event->type() == QEvent::KeyPress || event->type() == QEvent::ShortcutOverride) &&
         isEmergencyKey(static_cast<const QKeyEvent&>(*event))) {
         setStopped(true);
     }
@@ -184,6 +187,30 @@ void HapticsController::connectToRemembered()
     }
 }
 
+void HapticsController::holdBackRemembered()
+{
+    if (!settings_.device.isEmpty()) {
+        uri_ = settings_.device;
+        setProblem(
+            tr("The program ended unexpectedly while %1 was connected; it is connected again "
+               "when you ask for it")
+                .arg(settings_.device));
+    }
+}
+
+bool HapticsController::canBeSetAtRest() const
+{
+    return connection_ == HapticsConnection::Connected &&
+           uri_.startsWith(QStringLiteral("polhem:"));
+}
+
+void HapticsController::setAtRest()
+{
+    if (canBeSetAtRest()) {
+        connectTo(lastingUri(uri_) + QStringLiteral(",home"));
+    }
+}
+
 void HapticsController::disconnectDevice()
 {
     wanted_uri_.clear();
@@ -257,10 +284,11 @@ void HapticsController::finishLost(const LoopState& state)
     const std::string trouble = loop_->trouble();
     const QString uri = lastingUri(uri_);
     close();
-    if (state.reason == LetGoReason::DeviceFinished) {
+    const bool is_replay = !isToBeRemembered(uri); // which may end while everything is let go of
+    if (state.reason == LetGoReason::DeviceFinished || (is_replay && trouble.empty())) {
         setProblem(tr("The recording has ended"));
     } else {
-        wanted_uri_ = uri; // once it is there again
+        wanted_uri_ = is_replay ? QString() : uri; // once it is there again
         was_wanted_gone_ = false;
         is_lost_ = true;
         setProblem(trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
@@ -357,11 +385,15 @@ void HapticsController::setStopped(bool is_stopped)
 Status HapticsController::startRecording(const QString& file)
 {
     stopRecording();
+    const auto refused = [this](Error error) {
+        Q_EMIT recordingFailed(QString::fromStdString(error.message));
+        return error;
+    };
     if (!canRecord()) {
-        return Error{ErrorCode::Invalid,
-                     tr("%1: there is nothing to be recorded; connect a device and open a map")
-                         .arg(file)
-                         .toStdString()};
+        return refused({ErrorCode::Invalid,
+                        tr("%1: there is nothing to be recorded; connect a device and open a map")
+                            .arg(file)
+                            .toStdString()});
     }
     // From a model that nothing has touched yet, so that a replay has all that it needs. It begins
     // at the old one's proxy: the hand feels nothing of that.
@@ -369,7 +401,7 @@ Status HapticsController::startRecording(const QString& file)
     Result<std::unique_ptr<SessionRecorder>> recorder =
         SessionRecorder::begin(*loop_, file.toStdString(), fresh->serial);
     if (!recorder) {
-        return std::move(recorder).error();
+        return refused(std::move(recorder).error());
     }
     loop_settings_.map = fresh;
     push();

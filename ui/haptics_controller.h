@@ -59,11 +59,17 @@ public:
     /// The device of the settings. Where it is not there nobody is bothered; it is connected when
     /// it is found.
     void connectToRemembered();
+    /// Instead: tells that the program ended unexpectedly while it was connected.
+    void holdBackRemembered();
     /// And forgets it.
     void disconnectDevice();
     /// The same, but it is connected again at the next start.
     void close();
     HapticsConnection connection() const noexcept { return connection_; }
+    /// Whether it is an arm that can be told where it is.
+    bool canBeSetAtRest() const;
+    /// Connects it anew: it is in its rest position now. Somebody stands beside it and sees that.
+    void setAtRest();
     /// Of what is connected or being opened.
     const QString& uri() const noexcept { return uri_; }
     /// Nothing unless connected.
@@ -86,14 +92,21 @@ public:
     /// Lets go of everything with the next tick, until it is taken back; also for devices that are
     /// connected later.
     void setStopped(bool is_stopped);
+    /// Whether there is something to be stopped: a device that is connected, is being opened, or
+    /// will be as soon as it is there.
+    bool canBeStopped() const noexcept
+    {
+        return connection_ != HapticsConnection::None || !wanted_uri_.isEmpty();
+    }
     bool isStopped() const noexcept { return is_stopped_; }
 
     // Recording.
 
     /// Of what is touched from now on, also in the middle of a touch, until the map, its
     /// exaggeration or the contact model is another, or the device is disconnected. Needs a loop
-    /// that runs. The file begins with the first update of a contact model of its own, so that
-    /// `trace --goals` gives the same proxies to the bit; the hand feels nothing of the change.
+    /// that runs; recordingFailed() follows where it cannot begin. The file begins with the first
+    /// update of a contact model of its own, so that `trace --goals` gives the same proxies to the
+    /// bit; the hand feels nothing of the change.
     Status startRecording(const QString& file);
     void stopRecording();
     bool isRecording() const noexcept { return recorder_ != nullptr; }

@@ -82,6 +82,13 @@ QString realTimeText(const RealTimeGrants& grants)
         .arg(scheduling);
 }
 
+QString recordedText(const QString& file, qulonglong updates)
+{
+    //: %1 is a file, %2 a number
+    return tr("%1: %2 updates recorded")
+        .arg(QFileInfo(file).fileName(), countText(static_cast<std::size_t>(updates)));
+}
+
 QString savedTicksText(const SavedTicks& saved)
 {
     //: %1 is a file, %2 a number, %3 a number of seconds

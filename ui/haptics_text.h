@@ -19,6 +19,8 @@ QString letGoText(LetGoReason reason);
 QString modeText(StylusMode mode, bool is_in_contact);
 /// A sentence, and that all works without.
 QString realTimeText(const RealTimeGrants& grants);
+/// "touch.csv: 12,345 updates recorded".
+QString recordedText(const QString& file, qulonglong updates);
 /// "flight.csv: 10,000 ticks of 10.0 s".
 QString savedTicksText(const SavedTicks& saved);
 /// "12 µs", "3.4 ms"; two significant digits at least.

@@ -158,7 +158,11 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectSounds();
     setPreferences(isRemembered() ? preferencesFrom(QSettings()) : Preferences{});
     showSession();
-    haptics_->connectToRemembered();
+    if (isRemembered() && ConnectionMark::takeLeft()) {
+        haptics_->holdBackRemembered();
+    } else {
+        haptics_->connectToRemembered();
+    }
     view_->setFocus();
 }
 
@@ -168,6 +172,7 @@ MainWindow::~MainWindow()
     delete spacemouse_;    // it moves its camera
     delete haptics_panel_; // it looks at the controller
     delete haptics_;       // and that at the view
+    connection_mark_.set(false);
 }
 
 void MainWindow::makeCentre()
@@ -359,6 +364,11 @@ void MainWindow::connectView()
 void MainWindow::connectHaptics()
 {
     connect(haptics_, &HapticsController::connectionChanged, this, &MainWindow::showHaptics);
+    connect(haptics_, &HapticsController::connectionChanged, this, [this] {
+        if (isRemembered()) {
+            connection_mark_.set(haptics_->connection() == HapticsConnection::Connected);
+        }
+    });
     connect(haptics_, &HapticsController::recordingChanged, this, &MainWindow::showHaptics);
     connect(haptics_, &HapticsController::settingsChanged, this, [this] {
         if (isRemembered()) {
@@ -369,6 +379,10 @@ void MainWindow::connectHaptics()
     connect(haptics_, &HapticsController::stoppedChanged, this, &MainWindow::showHaptics);
     connect(haptics_, &HapticsController::recordingFailed, this,
             [this](const QString& problem) { reportFailure(tr("Cannot Record"), problem); });
+    connect(haptics_, &HapticsController::recorded, this,
+            [this](const QString& file, qulonglong updates) {
+                statusBar()->showMessage(recordedText(file, updates), kMessageDuration);
+            });
     connect(actions_->haptic_devices, &QAction::triggered, this, [this] {
         docks_->reveal(*docks_->haptics());
         haptics_panel_->list()->setFocus();
@@ -430,8 +444,7 @@ void MainWindow::tellNoSound(const QString& why)
 
 void MainWindow::showHaptics()
 {
-    const bool is_connected = haptics_->connection() == HapticsConnection::Connected;
-    actions_->emergency_stop->setEnabled(is_connected);
+    actions_->emergency_stop->setEnabled(haptics_->canBeStopped());
     actions_->record_touch->setEnabled(haptics_->isRecording() || haptics_->canRecord());
     actions_->record_touch->setText(haptics_->isRecording() ? tr("Stop &Recording Touch")
                                                             : tr("&Record Touch…"));

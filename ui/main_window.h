@@ -1,6 +1,7 @@
 // The window: puts the map, the panels, the toolbar and the dialogs together.
 #pragma once
 
+#include "ui/connection_mark.h"
 #include "ui/device_finder.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/preferences.h"
@@ -139,6 +140,7 @@ private:
     DatasetPanel* datasets_ = nullptr;
     GeoreferencingPanel* georeferencing_ = nullptr;
     HapticsController* haptics_ = nullptr;
+    ConnectionMark connection_mark_;
     HapticsPanel* haptics_panel_ = nullptr;
     SpaceMouseController* spacemouse_ = nullptr;
     ContactSounds* sounds_ = nullptr;

@@ -4,6 +4,7 @@
 #include "app/cli/map_options.h"
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
+#include "core/session/level_file_use.h"
 #include "core/terrain/surface_reader.h"
 
 #include <CLI/CLI.hpp>
@@ -40,9 +41,10 @@ struct Position {
 
 class Sampler {
 public:
-    Sampler(OpenedMap& map, const Options& options)
+    // `tiles`: of the map, where somebody vouches for them.
+    Sampler(OpenedMap& map, const Options& options, std::shared_ptr<const TileSource> tiles)
         : map_(map)
-        , reader_(map.file, map.info, map.georeference)
+        , reader_(map.file, map.info, map.georeference, std::move(tiles))
         , frame_(options.frame)
         , latitude_kind_(options.map.latitudeKind(map.info.body))
         , is_json_(options.is_json)
@@ -188,7 +190,14 @@ Status runSample(const Options& options)
                         "which with --crs or --body",
                         options.map.path)};
     }
-    Sampler sampler(*map, options);
+    Result<VouchedTiles> vouched = vouchedTiles(map->file, map->info);
+    if (!vouched) {
+        return std::move(vouched).error();
+    }
+    if (!vouched->notice.empty()) {
+        map->info.notices.push_back(std::move(vouched->notice));
+    }
+    Sampler sampler(*map, options, std::move(vouched->tiles));
     Status status = options.is_stdin
                         ? sampleStdin(sampler)
                         : sampler.print({options.position.first, options.position.second});

@@ -12,6 +12,7 @@
 #include "core/raster/tile_disk_cache.h"
 #include "core/raster/tiled_geotiff.h"
 #include "core/session/kept_source.h"
+#include "core/session/level_file_use.h"
 #include "core/session/prepare_map.h"
 #include "core/terrain/estimated_levels.h"
 #include "core/terrain/level_file.h"
@@ -63,52 +64,6 @@ Result<Described> describe(const DatasetSpec& spec)
 std::string settingsOf(const RasterInfo& info)
 {
     return info.nodata ? fmt::format("nodata {}", *info.nodata) : std::string();
-}
-
-Result<LevelFileKey> keyOf(const std::string& raster_path, int band, const RasterInfo& info)
-{
-    Result<SourceIdentity> identity = identify(raster_path, OverviewFiles::Counted);
-    if (!identity) {
-        return std::move(identity).error();
-    }
-    return LevelFileKey{.raster = std::move(*identity), .band = band, .nodata = info.nodata};
-}
-
-// Whether the file is there and belongs to the raster: an error where it is not used, NotFound
-// where there is none. Only where there is one is the raster looked at, which at a server takes a
-// dozen requests.
-Status checkLevels(const std::string& level_path,
-                   const std::string& raster_path,
-                   int band,
-                   const RasterInfo& info)
-{
-    if (!fileExists(level_path)) {
-        return Error{ErrorCode::NotFound, ""};
-    }
-    const Result<LevelFileKey> key = keyOf(raster_path, band, info);
-    if (!key) {
-        return key.error();
-    }
-    const Result<LevelFile> file = LevelFile::open(level_path, *key);
-    return file ? Status(Done{}) : Status(file.error());
-}
-
-bool hasLevels(const std::string& level_path,
-               const std::string& raster_path,
-               int band,
-               const RasterInfo& info)
-{
-    return checkLevels(level_path, raster_path, band, info).has_value();
-}
-
-// What the user is told of a level file that is not used.
-std::string notUsed(const std::string& level_path, const Error& why)
-{
-    const std::string beginning = level_path + ": ";
-    const bool is_about_it = why.message.starts_with(beginning);
-    return fmt::format("the level file beside it is not used: it {}",
-                       is_about_it ? why.message.substr(beginning.size())
-                                   : "cannot be told to be its own (" + why.message + ")");
 }
 
 // A prepared copy has one band.
@@ -200,7 +155,7 @@ Result<OpenedTiles> openWithLevels(const std::shared_ptr<const GeotiffTileSource
                                    const RasterInfo& info)
 {
     const std::string& level_path = *plan.level_path;
-    Result<LevelFileKey> key = keyOf(raster->name(), band, info);
+    Result<LevelFileKey> key = levelFileKey(raster->name(), band, info);
     if (!key) {
         return std::move(key).error();
     }

@@ -394,6 +394,26 @@ Result<MapLevels> LevelFile::readLevels(const ElevationScale& scale) const
     return levels;
 }
 
+Result<std::shared_ptr<const TileChecksums>> LevelFile::readChecksums() const
+{
+    const LevelPlane& plane = impl_->plane("checksums");
+    auto checksums = std::make_shared<TileChecksums>(impl_->header.layout);
+    MARSVIEW_CHECK(!plane.chunks.empty());
+    const std::uint64_t begin = plane.chunks.front().offset;
+    const std::uint64_t end = plane.chunks.back().offset + plane.chunks.back().bytes;
+    auto bytes = impl_->file.read(begin, end - begin); // refuses what is beyond the file
+    if (!bytes) {
+        return std::move(bytes).error();
+    }
+    const Impl::Region region{begin, std::move(bytes).value()};
+    if (auto unpacked =
+            impl_->unpackPlanes(region, {{&plane, std::as_writable_bytes(checksums->values())}});
+        !unpacked) {
+        return std::move(unpacked).error();
+    }
+    return std::shared_ptr<const TileChecksums>(std::move(checksums));
+}
+
 Result<SampleGrid> LevelFile::readSamples(const TileId& id) const
 {
     const TileLayout& layout = impl_->header.layout;

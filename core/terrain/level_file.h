@@ -69,6 +69,9 @@ public:
     /// converted.
     Result<MapLevels> readLevels(const ElevationScale& scale) const;
 
+    /// The checksums of the raster's tiles alone: 4 bytes a tile are read.
+    Result<std::shared_ptr<const TileChecksums>> readChecksums() const;
+
     /// The samples of a Samples tile at a level >= kFirstLevel. Checked against its checksum.
     Result<SampleGrid> readSamples(const TileId& id) const;
 

@@ -5,39 +5,89 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace marsview {
 namespace {
 
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
-double heightAt(const LoadedSamples& window,
+constexpr std::size_t kTilesMax = 256; // 32 MiB of int16
+
+double heightAt(const SampleGrid& samples,
                 const ElevationScale& scale,
                 std::size_t column,
                 std::size_t row)
 {
-    return window.grid.isVoid(column, row) ? kNoHeight : scale.height(window.grid.raw(column, row));
+    return samples.isVoid(column, row) ? kNoHeight : scale.height(samples.raw(column, row));
 }
 
 } // namespace
 
 SurfaceReader::SurfaceReader(RasterFile& file,
                              const RasterInfo& info,
-                             const Georeference& georeference)
+                             const Georeference& georeference,
+                             std::shared_ptr<const TileSource> tiles)
     : file_(file)
     , info_(info)
     , georeference_(georeference)
     , scale_(info.elevationScale())
+    , tiles_(std::move(tiles))
 {}
 
-Result<double> SurfaceReader::sample(std::size_t column, std::size_t row)
+Result<std::vector<double>> SurfaceReader::heightsIn(const GridWindow& window)
 {
-    Result<LoadedSamples> window = file_.readWindow({column, row, 1, 1}, {info_.nodata});
-    if (!window) {
-        return std::move(window).error();
+    std::vector<double> heights;
+    if (!tiles_) {
+        Result<LoadedSamples> read = file_.readWindow(window, {info_.nodata});
+        if (!read) {
+            return std::move(read).error();
+        }
+        for (std::size_t row = 0; row < window.rows; ++row) {
+            for (std::size_t column = 0; column < window.columns; ++column) {
+                heights.push_back(heightAt(read->grid, scale_, column, row));
+            }
+        }
+        return heights;
     }
-    return heightAt(*window, scale_, 0, 0);
+    for (std::size_t row = window.row; row < window.row + window.rows; ++row) {
+        for (std::size_t column = window.column; column < window.column + window.columns;
+             ++column) {
+            const Result<double> height = heightInTile(column, row);
+            if (!height) {
+                return height.error();
+            }
+            heights.push_back(*height);
+        }
+    }
+    return heights;
+}
+
+Result<double> SurfaceReader::heightInTile(std::size_t column, std::size_t row)
+{
+    const TileId id{.column = static_cast<std::uint32_t>(column / kTileSide),
+                    .row = static_cast<std::uint32_t>(row / kTileSide)};
+    auto at = read_.find(id);
+    if (at == read_.end()) {
+        if (!reader_) {
+            auto reader = tiles_->open();
+            if (!reader) {
+                return std::move(reader).error();
+            }
+            reader_ = std::move(*reader);
+        }
+        Result<Tile> tile = reader_->read(id);
+        if (!tile) {
+            return std::move(tile).error();
+        }
+        if (read_.size() >= kTilesMax) {
+            read_.clear();
+        }
+        at = read_.emplace(id, std::move(*tile)).first;
+    }
+    return heightAt(at->second.samples, scale_, column % kTileSide, row % kTileSide);
 }
 
 Result<double> SurfaceReader::height(GridPoint grid)
@@ -55,16 +105,15 @@ Result<double> SurfaceReader::height(GridPoint grid)
     const GridWindow cell{static_cast<std::size_t>(c), static_cast<std::size_t>(r),
                           std::min<std::size_t>(2, info_.columns),
                           std::min<std::size_t>(2, info_.rows)};
-    Result<LoadedSamples> window = file_.readWindow(cell, {info_.nodata});
-    if (!window) {
-        return std::move(window).error();
+    const Result<std::vector<double>> heights = heightsIn(cell);
+    if (!heights) {
+        return heights.error();
     }
     const std::size_t right = cell.columns - 1;
-    const std::size_t below = cell.rows - 1;
-    return heightInCell({heightAt(*window, scale_, 0, 0), heightAt(*window, scale_, right, 0),
-                         heightAt(*window, scale_, 0, below),
-                         heightAt(*window, scale_, right, below)},
-                        grid.column - c, grid.row - r);
+    const std::size_t below = (cell.rows - 1) * cell.columns;
+    return heightInCell(
+        {(*heights)[0], (*heights)[right], (*heights)[below], (*heights)[below + right]},
+        grid.column - c, grid.row - r);
 }
 
 Result<double> SurfaceReader::height(GeographicPoint geographic)
@@ -82,11 +131,11 @@ Result<double> SurfaceReader::height(GeographicPoint geographic)
     CellHeights corners{};
     const std::size_t last = info_.columns - 1;
     const auto fill = [&](double& corner, std::size_t column, std::size_t row) -> Status {
-        Result<double> value = sample(column, row);
+        const Result<std::vector<double>> value = heightsIn({column, row, 1, 1});
         if (!value) {
-            return std::move(value).error();
+            return value.error();
         }
-        corner = *value;
+        corner = value->front();
         return Done{};
     };
     for (const Status& status :

@@ -5,6 +5,12 @@
 #include "core/geo/georeference.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/raster_info.h"
+#include "core/raster/tile_source.h"
+
+#include <cstddef>
+#include <memory>
+#include <unordered_map>
+#include <vector>
 
 namespace marsview {
 
@@ -13,8 +19,12 @@ namespace marsview {
 /// the same map held in memory. For one thread.
 class SurfaceReader {
 public:
-    /// `info` describes `file`, overrides included. Both outlive the reader.
-    SurfaceReader(RasterFile& file, const RasterInfo& info, const Georeference& georeference);
+    /// `info` describes `file`, overrides included. Both outlive the reader. `tiles`, where there
+    /// are any, are the file's, and are read in its place: an error where they are damaged.
+    SurfaceReader(RasterFile& file,
+                  const RasterInfo& info,
+                  const Georeference& georeference,
+                  std::shared_ptr<const TileSource> tiles = nullptr);
 
     /// Height in metres; NaN outside the outermost samples and in voids. An error where reading
     /// fails.
@@ -25,12 +35,17 @@ public:
     Result<double> height(GeographicPoint geographic);
 
 private:
-    Result<double> sample(std::size_t column, std::size_t row);
+    // Of the samples in a window of some samples, row by row.
+    Result<std::vector<double>> heightsIn(const GridWindow& window);
+    Result<double> heightInTile(std::size_t column, std::size_t row);
 
     RasterFile& file_;
     const RasterInfo& info_;
     const Georeference& georeference_;
     ElevationScale scale_;
+    std::shared_ptr<const TileSource> tiles_;
+    std::unique_ptr<TileReader> reader_; // once one is needed
+    std::unordered_map<TileId, Tile, TileIdHash> read_;
 };
 
 } // namespace marsview

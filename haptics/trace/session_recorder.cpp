@@ -5,10 +5,13 @@
 #include <array>
 #include <chrono>
 #include <fmt/format.h>
+#include <limits>
 #include <utility>
 
 namespace marsview {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string_view nameOf(StylusMode mode)
 {
@@ -124,7 +127,11 @@ Status saveFlight(const std::vector<TickRecord>& records, const std::string& pat
         return std::move(file).error();
     }
     for (const TickRecord& record : records) {
-        std::string line = sessionLine(record, records.front().time_ns);
+        TickRecord told = record;
+        if (!told.has_goal) {
+            told.goal = {kNone, kNone, kNone};
+        }
+        std::string line = sessionLine(told, records.front().time_ns);
         line.pop_back();
         file->write(fmt::format("{},{},{},{},{:.3f}\n", line, asText(record.hand.x),
                                 asText(record.hand.y), asText(record.hand.z), record.tick_us));

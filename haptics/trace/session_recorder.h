@@ -62,7 +62,8 @@ private:
     std::jthread thread_;
 };
 
-/// Ticks of a flight recorder, in the same columns but with the time that each tick took.
+/// Ticks of a flight recorder, in the same columns but with the hand's place and the time that each
+/// tick took. Goals are nan where the contact model was not asked.
 Status saveFlight(const std::vector<TickRecord>& records, const std::string& path);
 /// Any thread but the servo's; the loop may run on, and is not disturbed. A window keeps
 /// `flight.records()`, which takes a millisecond or two, and writes on another thread: then the

@@ -1,6 +1,8 @@
 #include "tests/cli/run_cli.h"
+#include "tests/support/damage.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/random.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -323,6 +325,38 @@ TEST_F(RenderCommand, DrawsWithEveryShadingAndRamp)
             EXPECT_NE(seen[i], seen.back()) << i << " and " << seen.size() - 1;
         }
     }
+}
+
+TEST_F(RenderCommand, DrawsNoPictureOfAPreparedMapThatIsDamaged)
+{
+    namespace fs = std::filesystem;
+    const std::string whole = folder_.file("whole.tif");
+    ASSERT_EQ(runCli({"prepare", bundledMars(), "-o", whole}).exit_status, 0);
+    const auto drawn = [&](const std::string& map, const std::string& picture) {
+        return runProgram({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "MARSVIEW_HELD_MB=0",
+                           MARSVIEW_CLI, "render", map, "-o", picture, "--size", "240x160"});
+    };
+    ASSERT_EQ(drawn(whole, folder_.file("whole.png")).exit_status, 0);
+    const std::string truth = readFile(folder_.file("whole.png"));
+    const std::string path = folder_.file("damaged.tif");
+    Random random;
+    int refusals = 0;
+    for (int i = 0; i < 8; ++i) {
+        fs::copy_file(whole, path, fs::copy_options::overwrite_existing);
+        fs::copy_file(whole + ".marsview", path + ".marsview",
+                      fs::copy_options::overwrite_existing);
+        fs::last_write_time(path, fs::last_write_time(whole));
+        flipBits(path, 40, random);
+        const ProgramOutput output = drawn(path, folder_.file("damaged.png"));
+        if (output.exit_status == 0) {
+            EXPECT_TRUE(readFile(folder_.file("damaged.png")) == truth ||
+                        output.err.find("is not used") != std::string::npos);
+        } else {
+            ++refusals;
+            EXPECT_NE(output.err.find(path), std::string::npos) << output.err;
+        }
+    }
+    EXPECT_GT(refusals, 2);
 }
 
 } // namespace marsview::test

@@ -1,16 +1,23 @@
 #include "tests/cli/run_cli.h"
+#include "tests/support/damage.h"
 #include "tests/support/gdal_tools.h"
+#include "tests/support/random.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <random>
 
 namespace marsview::test {
 namespace {
+
+using testing::HasSubstr;
 
 double sampleAt(const std::string& path, const char* frame, double a, double b)
 {
@@ -145,6 +152,49 @@ TEST(SampleCommand, ReadsTheColoradoMapInFeetWhenTold)
     const double told =
         std::stod(runCli({"sample", path, "--pixel", "1000", "500", "--unit", "ft"}).out);
     EXPECT_DOUBLE_EQ(told, rawSamples(path, {{1000, 500}}).front() * 0.3048);
+}
+
+// Of some damage GDAL decodes other samples without a word.
+TEST(SampleCommand, TellsNoHeightOfAPreparedMapThatIsDamaged)
+{
+    namespace fs = std::filesystem;
+    const TempFolder folder;
+    const std::string whole = folder.file("whole.tif");
+    ASSERT_EQ(runCli({"prepare", bundledMars(), "-o", whole}).exit_status, 0);
+    Random random;
+    std::string positions;
+    for (int i = 0; i < 400; ++i) {
+        positions += fmt::format("{} {}\n", random.below(1440), random.below(720));
+    }
+    const auto sampled = [&](const std::string& path) {
+        return runCli({"sample", path, "--pixel", "--stdin"}, positions);
+    };
+    const ProgramOutput truth = sampled(whole);
+    ASSERT_EQ(truth.exit_status, 0) << truth.err;
+    EXPECT_EQ(truth.err, "");
+    EXPECT_EQ(truth.out, sampled(bundledMars()).out);
+
+    const std::string path = folder.file("damaged.tif");
+    int refusals = 0;
+    for (int i = 0; i < 30; ++i) {
+        fs::copy_file(whole, path, fs::copy_options::overwrite_existing);
+        fs::copy_file(whole + ".marsview", path + ".marsview",
+                      fs::copy_options::overwrite_existing);
+        fs::last_write_time(path, fs::last_write_time(whole));
+        flipBits(path, 3, random);
+        const ProgramOutput output = sampled(path);
+        if (output.exit_status == 0) {
+            // All right, or nobody knows what the file was.
+            EXPECT_TRUE(output.out == truth.out ||
+                        output.err.find("the level file beside it is not used") !=
+                            std::string::npos);
+        } else {
+            ++refusals;
+            EXPECT_THAT(output.err, HasSubstr(path));
+            EXPECT_EQ(truth.out.substr(0, output.out.size()), output.out) << "before the refusal";
+        }
+    }
+    EXPECT_GT(refusals, 5);
 }
 
 } // namespace marsview::test

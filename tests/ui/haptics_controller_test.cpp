@@ -368,6 +368,55 @@ TEST_F(HapticsControllerTest, TheEmergencyStopLetsGoFromAnywhere)
     EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
 }
 
+TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
+{
+    hand_->is_held_up = true;
+    hand_->moveTo({0.0, 0.0, -0.055});
+    haptics().connectTo(QStringLiteral("hand:"));
+    ASSERT_EQ(haptics().connection(), HapticsConnection::Opening);
+    QTest::keyClick(&view(), Qt::Key_Pause);
+    EXPECT_TRUE(haptics().isStopped());
+    hand_->is_held_up = false;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
+    ASSERT_TRUE(waitFor([&] { return state().tick > 300; })); // and forces have come by then
+    EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
+    EXPECT_EQ(hand_->force_n, 0.0);
+    haptics().setStopped(false);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+}
+
+TEST_F(HapticsControllerTest, AReplayThatEndsWhileStoppedIsNotLost)
+{
+    const QString file = maps_.path(QStringLiteral("short.csv"));
+    {
+        QFile text(file);
+        ASSERT_TRUE(text.open(QIODevice::WriteOnly));
+        text.write("x,y,z\n");
+        for (int i = 0; i < 400; ++i) {
+            text.write("500900,4000600,5000\n");
+        }
+    }
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    haptics().setStopped(true);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+    EXPECT_FALSE(haptics().isLost());
+    EXPECT_FALSE(haptics().canBeStopped()); // nothing is waited for
+    haptics().setStopped(false);
+}
+
+TEST_F(HapticsControllerTest, SaysThatARecordingCannotBegin)
+{
+    QSignalSpy failed(&haptics(), &HapticsController::recordingFailed);
+    EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(waitFor([&] { return haptics().canRecord(); }));
+    EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
+    ASSERT_EQ(failed.count(), 2);
+    EXPECT_TRUE(failed[1][0].toString().startsWith(QStringLiteral("/nowhere/touch.csv: ")));
+    EXPECT_FALSE(haptics().isRecording());
+}
+
 TEST_F(HapticsControllerTest, StiffnessAndScaleAreFelt)
 {
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));

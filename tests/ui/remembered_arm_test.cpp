@@ -6,8 +6,11 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/haptics_controller.h"
+#include "ui/panels/haptics_panel.h"
+#include "ui/window_actions.h"
 
 #include <QApplication>
+#include <QPushButton>
 #include <QSettings>
 #include <QTest>
 
@@ -134,6 +137,29 @@ TEST_F(RememberedArmTest, IsNotTakenToBeAtRestWhenItIsBack)
     hid_.plugInAgain();
     ASSERT_TRUE(comesTo(HapticsConnection::Connected));
     EXPECT_EQ(haptics().uri(), QStringLiteral("polhem:serial=4711") + options);
+}
+
+// The oldest boards cannot tell, and have no other way.
+TEST_F(RememberedArmTest, AnArmThatDoesNotKnowWhereItIsIsToldByAButton)
+{
+    hid_.plugIn(kArmWithoutNumber);
+    hid_.say(reportOf({10, 20, 30, 0}, 8));
+    makeWindow();
+    window_->actionSet().haptic_devices->trigger();
+    ASSERT_TRUE(connectTo(QStringLiteral("polhem:usb=1234:0006")));
+    auto* button = window_->hapticsPanel()->findChild<QPushButton*>(QStringLiteral("restPosition"));
+    ASSERT_NE(button, nullptr);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return button->isVisible(); }, kTimeout));
+    button->click();
+    ASSERT_TRUE(comesTo(HapticsConnection::Connected));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !button->isVisible(); }, kTimeout));
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] {
+            return haptics().loop() != nullptr && haptics().loop()->state().tick > 0 &&
+                   haptics().loop()->state().reason != LetGoReason::DeviceUnready;
+        },
+        kTimeout));
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("polhem:usb=1234:0006"));
 }
 
 } // namespace

@@ -88,10 +88,7 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
             [this](const SavedTicks& saved) { recording_->setText(savedTicksText(saved)); });
     connect(&controller_, &HapticsController::recorded, this,
             [this](const QString& file, qulonglong updates) {
-                //: %1 is a file, %2 a number
-                recording_->setText(tr("%1: %2 updates recorded")
-                                        .arg(QFileInfo(file).fileName(),
-                                             countText(static_cast<std::size_t>(updates))));
+                recording_->setText(recordedText(file, updates));
             });
     showDevices();
     showConnection();
@@ -151,7 +148,13 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     // As high with two lines as with one: what is below stays where it is.
     reason_->setMinimumHeight(fontMetrics().height() * 2);
     reason_->setAlignment(Qt::AlignLeading | Qt::AlignTop);
+    rest_ = new QPushButton(tr("It Is in Its Rest Position"), this);
+    rest_->setObjectName(QStringLiteral("restPosition"));
+    rest_->setToolTip(tr("Put the arm into its rest position first; places are counted from there"));
+    rest_->hide();
+    connect(rest_, &QPushButton::clicked, &controller_, &HapticsController::setAtRest);
     layout.addWidget(reason_);
+    layout.addWidget(rest_);
 
     const auto make_slider = [&](QSlider*& slider, QLabel*& value, const QString& text,
                                  const QString& name) {
@@ -249,6 +252,7 @@ void HapticsPanel::showEvent(QShowEvent* event)
 {
     QWidget::showEvent(event);
     controller_.setLooking(true);
+    controller_.findDevices(); // once also while one is connected
     showConnection();
 }
 
@@ -412,7 +416,7 @@ void HapticsPanel::showSettings()
 void HapticsPanel::showStopped()
 {
     const bool is_stopped = controller_.isStopped();
-    const bool is_of_use = is_stopped || controller_.loop() != nullptr;
+    const bool is_of_use = is_stopped || controller_.canBeStopped();
     stop_->setEnabled(is_of_use);
     stop_->setText(is_stopped ? tr("Let Forces Return") : tr("Emergency &Stop"));
     stop_->setToolTip(is_stopped ? tr("The device may push again; forces come back gently")
@@ -433,6 +437,7 @@ void HapticsPanel::showNoState()
         force_->setFormat(tr("%1 N").arg(numberText(0.0, 2)));
         reason_->setText(controller_.loop() != nullptr ? letGoText(LetGoReason::NoTouch)
                                                        : QString());
+        rest_->hide();
         times_->clear();
     }
 }
@@ -461,6 +466,7 @@ void HapticsPanel::showState(const LoopState& state)
     if (text != reason_->text()) {
         reason_->setText(text);
     }
+    rest_->setVisible(state.reason == LetGoReason::DeviceUnready && controller_.canBeSetAtRest());
     if (times_->isDue()) {
         times_->showLoop(controller_.loop()->statistics(), controller_.loop()->grants());
     }
@@ -489,9 +495,7 @@ void HapticsPanel::chooseRecording()
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
         folder_ = QFileInfo(file).absolutePath();
-        if (const Status begun = controller_.startRecording(file); !begun) {
-            recording_->setText(QString::fromStdString(begun.error().message));
-        }
+        (void)controller_.startRecording(file); // recordingFailed() tells why not
     });
     dialog->open();
 }

@@ -79,6 +79,7 @@ private:
     QPushButton* record_ = nullptr;
     QPushButton* replay_ = nullptr;
     QPushButton* flight_ = nullptr;
+    QPushButton* rest_ = nullptr; // shown for an arm that does not know where it is
     QLabel* recording_ = nullptr;
 
     QString folder_;

@@ -40,6 +40,8 @@ public:
     std::optional<Found> find(const ReliefRequest& wanted, std::size_t top);
     /// Has the missing tiles made. Returns true when there is nothing to wait for.
     bool endRound();
+    /// Why some of it cannot be made at present. After endRound().
+    const std::optional<Error>& problem() const noexcept { return loader_.problem(); }
     bool isLoading() const { return loader_.isLoading(); }
     /// Waits until all that is missing is made. After endRound().
     void waitForAll() { loader_.waitForAll(); }

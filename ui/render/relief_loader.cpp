@@ -48,9 +48,16 @@ std::size_t ReliefLoader::want(std::vector<ReliefRequest> requests)
         std::erase_if(failures_, [](const Failure& failure) {
             return failure.retry_at <= std::chrono::steady_clock::now();
         });
+        problem_.reset();
         std::erase_if(requests, [this](const ReliefRequest& request) {
-            return std::any_of(failures_.begin(), failures_.end(),
-                               [&](const Failure& failure) { return failure.key == request.key; });
+            const auto failure =
+                std::find_if(failures_.begin(), failures_.end(),
+                             [&](const Failure& f) { return f.key == request.key; });
+            if (failure == failures_.end()) {
+                return false;
+            }
+            problem_ = failure->error;
+            return true;
         });
         count = requests.size();
         std::erase_if(requests, [this](const ReliefRequest& request) {
@@ -107,7 +114,8 @@ void ReliefLoader::run()
         if (tile) {
             finished_.push_back({request.key, std::move(*tile)});
         } else {
-            failures_.push_back({request.key, std::chrono::steady_clock::now() + kRetryAfter});
+            failures_.push_back({request.key, std::chrono::steady_clock::now() + kRetryAfter,
+                                 std::move(tile).error()});
         }
         has_result_.notify_all();
         if (notify_ && !is_stopping_) {

@@ -1,6 +1,7 @@
 // Making relief tiles on threads of its own.
 #pragma once
 
+#include "core/base/result.h"
 #include "core/terrain/relief_tile.h"
 #include "ui/render/height_atlas.h"
 #include "ui/render/terrain_layer.h"
@@ -11,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -46,6 +48,8 @@ public:
     /// Returns how many of these can be waited for: what could not be read a moment ago is not
     /// tried again at once.
     std::size_t want(std::vector<ReliefRequest> requests);
+    /// Why something that was wanted last cannot be made at present.
+    const std::optional<Error>& problem() const noexcept { return problem_; }
     /// At most `count_max` finished tiles, each handed out once.
     std::vector<ReliefResult> take(std::size_t count_max);
     /// True while something is wanted or being made.
@@ -57,6 +61,7 @@ private:
     struct Failure {
         LayerNode key;
         std::chrono::steady_clock::time_point retry_at;
+        Error error;
     };
 
     void run();
@@ -69,6 +74,7 @@ private:
     std::vector<LayerNode> in_work_;
     std::vector<ReliefResult> finished_;
     std::vector<Failure> failures_;
+    std::optional<Error> problem_; // the owner's
     bool is_stopping_ = false;
     std::vector<std::jthread> threads_;
 };

@@ -631,6 +631,9 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
     for (const auto& layer : impl.layers) {
         layer->askForMissing(report);
     }
+    if (!report.problem) {
+        report.problem = impl.reliefs.problem();
+    }
     return report;
 }
 

@@ -1,0 +1,101 @@
+#include "tests/ui/test_device.h"
+#include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
+#include "ui/connection_mark.h"
+#include "ui/haptics_controller.h"
+
+#include <QApplication>
+#include <QSettings>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace marsview {
+namespace {
+
+QString markKey()
+{
+    return QStringLiteral("haptics/connectedBy");
+}
+
+// The number of a process that is no more.
+qint64 endedProcess()
+{
+    const pid_t child = fork();
+    if (child == 0) {
+        _exit(0);
+    }
+    waitpid(child, nullptr, 0);
+    return child;
+}
+
+class ConnectionMarkTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        QSettings().remove(QStringLiteral("haptics"));
+        QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("hand:"));
+    }
+    void TearDown() override
+    {
+        window_.reset();
+        QSettings().remove(QStringLiteral("haptics"));
+    }
+
+    void makeWindow()
+    {
+        WindowOptions options = testWindowOptions();
+        options.geometry = WindowOptions::Geometry::Remembered;
+        options.make_drivers = testDrivers(hand_);
+        window_ = std::make_unique<MainWindow>(options);
+        window_->show();
+    }
+    HapticsController& haptics() { return window_->haptics(); }
+    bool isConnectedSoon()
+    {
+        return QTest::qWaitFor(
+            [&] { return haptics().connection() == HapticsConnection::Connected; }, kTimeout);
+    }
+
+    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(ConnectionMarkTest, ADeviceIsNotConnectedByItselfAfterTheProgramEndedWithIt)
+{
+    QSettings().setValue(markKey(), endedProcess());
+    makeWindow();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_TRUE(haptics().notice().contains(QStringLiteral("ended unexpectedly while hand:")))
+        << haptics().notice().toStdString();
+    EXPECT_FALSE(QSettings().contains(markKey()));
+    // Whoever asks for it gets it.
+    haptics().connectTo(QStringLiteral("hand:"));
+    EXPECT_TRUE(isConnectedSoon());
+}
+
+TEST_F(ConnectionMarkTest, IsThereAsLongAsADeviceIsConnected)
+{
+    makeWindow();
+    ASSERT_TRUE(isConnectedSoon());
+    EXPECT_EQ(QSettings().value(markKey()).toLongLong(), QCoreApplication::applicationPid());
+    window_.reset();
+    EXPECT_FALSE(QSettings().contains(markKey()));
+    EXPECT_EQ(QSettings().value(QStringLiteral("haptics/device")).toString(),
+              QStringLiteral("hand:"));
+    makeWindow();
+    EXPECT_TRUE(isConnectedSoon());
+}
+
+TEST_F(ConnectionMarkTest, AnotherProgramThatRunsIsNotTakenForOneThatEnded)
+{
+    QSettings().setValue(markKey(), static_cast<qint64>(getppid()));
+    EXPECT_FALSE(ConnectionMark::takeLeft());
+    EXPECT_TRUE(QSettings().contains(markKey()));
+}
+
+} // namespace
+} // namespace marsview
