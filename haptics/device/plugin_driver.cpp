@@ -57,6 +57,7 @@ void exitWithoutUnloading()
 {
     on_exit(
         [](int status, void* /*nothing*/) {
+            LoadMarker::clearAtExit();
             std::fflush(nullptr);
             _exit(status);
         },
@@ -153,7 +154,7 @@ Result<Library> PluginDriver::load(const fs::path& file)
     if (!marker) {
         return std::move(marker).error();
     }
-    // The marker goes with the thread: one that hangs keeps it to the program's end.
+    // The marker goes with the thread: one that hangs keeps it while the program runs.
     auto library =
         callWatched(options_.patience,
                     [file, held = std::optional(std::move(*marker))]() mutable -> Result<Library> {

@@ -529,21 +529,78 @@ TEST(PluginDriver, HasAReasonWhereThePluginGivesNone)
     EXPECT_THAT((*device)->trouble(), StartsWith("its plugin says that it is not ready"));
 }
 
-TEST(PluginDriverDeathTest, ComesToAnEndAlthoughALibraryHangsWhileItIsLoaded)
+TEST(PluginDriverDeathTest, ComesToAnEndAlthoughAPluginHangsAndTriesItAgainAtTheNextStart)
 {
-    const PluginFolder folder(milliseconds(1000));
-    folder.add("hangs_loading");
+    struct Hang {
+        const char* behaviour;
+        const char* doing;
+    };
+    for (const Hang& hang : {Hang{"hangs_loading", "did not come back from being loaded"},
+                             Hang{"hangs_listing", "did not come back from listing its devices"},
+                             Hang{"hangs_opening", "did not come back from being opened"},
+                             Hang{"hangs_reading", "read"}}) {
+        SCOPED_TRACE(hang.behaviour);
+        const PluginFolder folder(milliseconds(1000));
+        const fs::path file = folder.add(hang.behaviour);
+        EXPECT_EXIT(
+            {
+                PluginDriver driver(folder.options());
+                auto device = driver.open(file.string());
+                if (device) {
+                    // As the servo thread, which nobody waits for.
+                    std::binary_semaphore begun{0};
+                    std::thread([&] {
+                        begun.release();
+                        DeviceSample sample;
+                        (void)(*device)->read(sample);
+                    }).detach();
+                    begun.acquire();
+                }
+                const std::string said = device ? "read" : device.error().message;
+                const bool is_right = said.find(hang.doing) != std::string::npos;
+                std::exit(is_right && folder.markers() == 1 ? 7 : 8);
+            },
+            testing::ExitedWithCode(7), "");
+        EXPECT_EQ(folder.markers(), 0U);
+    }
+}
+
+TEST(PluginDriverDeathTest, LeavesOutWhatEndsTheProgramFromWithin)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("exits_opening");
     EXPECT_EXIT(
         {
             PluginDriver driver(folder.options());
-            const FoundDevice found = only(driver);
-            std::exit(found.reason.find("did not come back from being loaded") != std::string::npos
-                          ? 7
-                          : 8);
+            (void)driver.open(file.string());
+        },
+        testing::ExitedWithCode(3), "");
+    EXPECT_EQ(folder.markers(), 1U);
+    PluginDriver driver(folder.options());
+    EXPECT_THAT(only(driver).reason, HasSubstr("ended while this plugin was opening a device"));
+}
+
+TEST(LoadMarker, OfAnEarlierProcessWithTheSameNumberStays)
+{
+    const PluginFolder folder;
+    const fs::path crashed = folder.add("is_good", "crashed");
+    const fs::path hanging = folder.add("is_good", "hanging");
+    const fs::path markers = folder.options().marker_folder;
+    EXPECT_EXIT(
+        {
+            std::string left;
+            {
+                const auto marker = LoadMarker::make(markers, crashed, PluginCall::Load);
+                left = fs::directory_iterator(markers)->path().string();
+            }
+            std::ofstream(left) << getpid() << '\n'; // nobody holds it
+            const auto marker = LoadMarker::make(markers, hanging, PluginCall::Load);
+            std::exit(marker && folder.markers() == 2 ? 7 : 8);
         },
         testing::ExitedWithCode(7), "");
-    PluginDriver driver(folder.options());
-    EXPECT_THAT(only(driver).reason, HasSubstr("the program ended while this plugin was"));
+    EXPECT_EQ(folder.markers(), 1U);
+    EXPECT_FALSE(LoadMarker::make(markers, crashed, PluginCall::Load));
+    EXPECT_TRUE(LoadMarker::make(markers, hanging, PluginCall::Load));
 }
 
 TEST(PluginOptions, LookIntoChosenUsersAndSystemsFoldersInThisOrder)
