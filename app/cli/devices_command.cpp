@@ -88,8 +88,8 @@ void addDevicesCommand(CLI::App& app, CommandAction& run)
         app.add_subcommand("devices", "List haptic devices and plugins, and why one is not usable");
     command->add_flag("--json", options->is_json, "for machines");
     command->add_flag("--retry", options->tries_again,
-                      "try plugins again that were left out because the program ended while they "
-                      "were being loaded");
+                      "try plugins again that were left out because the program ended while it was "
+                      "inside them");
     command->callback([options, &run] { run = [options] { return runDevices(*options); }; });
 }
 

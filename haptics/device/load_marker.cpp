@@ -136,10 +136,10 @@ Result<LoadMarker> LoadMarker::make(const fs::path& folder, const fs::path& plug
     if (const std::string left = leftBehind(folder, stem); !left.empty()) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: the program ended while this plugin was {} the last time, so "
-                                 "it is left out; replace the plugin, or remove {} to try it again",
+                                 "it is left out; replace the plugin, or have it tried again by "
+                                 "marsview-cli devices --retry",
                                  plugin.string(),
-                                 doingIn(std::string_view(left).substr(stem.size())),
-                                 (folder / left).string())};
+                                 doingIn(std::string_view(left).substr(stem.size())))};
     }
     Folders::all().add(folder);
     static std::atomic<unsigned> count{0};
