@@ -101,8 +101,8 @@ public:
 
     std::string printed() const { return folder_.file("printed"); }
     std::string recorded() const { return folder_.file("recorded.csv"); }
-    /// Of files that name calls of plugins which have not come back, those with `call` in them.
-    std::size_t markers(const std::string& call = "") const
+    /// Of the files that mark calls of plugins which have not come back, those of `call`.
+    std::size_t markers(const std::string& call = ".loading") const
     {
         std::error_code none;
         std::size_t count = 0;

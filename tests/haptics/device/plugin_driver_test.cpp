@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -51,14 +52,20 @@ public:
                 .lock_folder = folder_.path() / "locks",
                 .patience = patience_};
     }
-    std::size_t markers() const
+    std::size_t markers() const { return count(".loading"); }
+    std::size_t troubles() const { return count(".trouble"); }
+
+private:
+    std::size_t count(const std::string& ending) const
     {
         std::error_code none;
         const fs::directory_iterator files(folder_.path() / "markers", none);
-        return static_cast<std::size_t>(std::distance(fs::begin(files), fs::end(files)));
+        return static_cast<std::size_t>(
+            std::count_if(fs::begin(files), fs::end(files), [&](const fs::directory_entry& entry) {
+                return entry.path().extension() == ending;
+            }));
     }
 
-private:
     TempFolder folder_;
     milliseconds patience_;
 };
@@ -517,6 +524,72 @@ TEST(PluginDriver, GivesOneDeviceToOneHolderHoweverItIsNamed)
     EXPECT_TRUE(driver.open(file.string()));
 }
 
+TEST(PluginDriver, SaysWhatWentWrongTheLastTimeOfADeviceThatCanBeUsed)
+{
+    struct Trouble {
+        const char* behaviour;
+        const char* said;
+    };
+    for (const Trouble& trouble :
+         {Trouble{"fails_opening", "could not be opened: the cover is open"},
+          Trouble{"hangs_opening", "did not come back from being opened"},
+          Trouble{"is_empty",
+                  "states a workspace from -0.06 to -0.06 m along y; its plugin has to "
+                  "be mended by its makers"},
+          Trouble{"says_nan", "its samples hold numbers that are not finite"},
+          Trouble{"says_unready",
+                  "its plugin says that it is not ready, but not why; look whether it wants to be "
+                  "calibrated, and whether its emergency stop is pressed"}}) {
+        SCOPED_TRACE(trouble.behaviour);
+        const PluginFolder folder(milliseconds(1000));
+        const fs::path file = folder.add(trouble.behaviour);
+        PluginDriver before(folder.options());
+        EXPECT_EQ(only(before).reason, "");
+        if (auto device = before.open(file.string())) {
+            DeviceSample sample;
+            for (int i = 0; i < 5; ++i) {
+                (void)(*device)->read(sample);
+            }
+            EXPECT_EQ(folder.troubles(), 0U) << "written while it runs";
+        }
+        EXPECT_EQ(folder.troubles(), 1U);
+
+        PluginDriver after(folder.options()); // another program
+        const FoundDevice found = only(after);
+        EXPECT_EQ(found.reason, std::string("the last time it was used: ") + trouble.said);
+        EXPECT_TRUE(found.isUsable());
+    }
+}
+
+TEST(PluginDriver, ForgetsTheTroubleOfADeviceThatWorkedSince)
+{
+    const PluginFolder folder;
+    const fs::path file = fs::canonical(folder.add("is_good"));
+    LastTrouble(folder.options().marker_folder, "plugin:" + file.string()).set("it was cold");
+    PluginDriver driver(folder.options());
+    EXPECT_EQ(only(driver).reason, "the last time it was used: it was cold");
+    auto device = driver.open("x.so"); // another name for it
+    ASSERT_TRUE(device) << device.error().message;
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    device->reset();
+    EXPECT_EQ(only(driver).reason, "");
+    EXPECT_EQ(folder.troubles(), 0U);
+}
+
+TEST(PluginDriver, SaysOfOtherDevicesOfAPluginNothing)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("has_two");
+    PluginDriver driver(folder.options());
+    EXPECT_FALSE(driver.open(file.string() + "#b"));
+    const std::vector<FoundDevice> found = driver.find();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].reason, "");
+    EXPECT_EQ(found[1].reason, "its cover is open") << "what is so now is more";
+    EXPECT_FALSE(found[1].isUsable());
+}
+
 TEST(PluginDriver, HasAReasonWhereThePluginGivesNone)
 {
     const PluginFolder folder;
@@ -580,7 +653,9 @@ TEST(PluginDriverDeathTest, LeavesOutWhatEndsTheProgramFromWithin)
     EXPECT_THAT(only(driver).reason, HasSubstr("ended while this plugin was opening a device"));
 }
 
-TEST(LoadMarker, OfAnEarlierProcessWithTheSameNumberStays)
+using LoadMarkerDeathTest = testing::Test;
+
+TEST(LoadMarkerDeathTest, OfAnEarlierProcessWithTheSameNumberStays)
 {
     const PluginFolder folder;
     const fs::path crashed = folder.add("is_good", "crashed");
