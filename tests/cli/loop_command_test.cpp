@@ -239,6 +239,15 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     EXPECT_THAT(stopped.err, HasSubstr("the loop did not start: "));
 }
 
+TEST(LoopCommand, CountsTheEndOfItsTimeForNoTrouble)
+{
+    const nlohmann::json loop = looped({"--device", "sim:swipe=3", "--seconds", "0.5"});
+    ASSERT_FALSE(loop.is_null());
+    EXPECT_GT(loop["in_contact"], 100) << "there is a force to be let go";
+    EXPECT_FALSE(loop["let_go_s"].contains("device unready")) << loop["let_go_s"];
+    EXPECT_NE(loop["last_reason"], "device unready");
+}
+
 TEST(LoopCommand, EndsInOrderHoweverItIsToldTo)
 {
     for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
