@@ -24,6 +24,14 @@ struct Options {
     bool tries_again = false;
 };
 
+std::string stateOf(const FoundDevice& device)
+{
+    if (device.reason.empty()) {
+        return "ready";
+    }
+    return (device.isUsable() ? "ready; " : "") + asOneLine(device.reason);
+}
+
 Status runDevices(const Options& options)
 {
     if (options.tries_again) {
@@ -52,8 +60,7 @@ std::string devicesAsTable(const std::vector<FoundDevice>& devices)
     };
     std::vector<Row> rows{{"URI", "name", "state"}};
     for (const FoundDevice& device : devices) {
-        rows.push_back({asOneLine(device.uri), asOneLine(device.name),
-                        device.isUsable() ? "ready" : asOneLine(device.reason)});
+        rows.push_back({asOneLine(device.uri), asOneLine(device.name), stateOf(device)});
     }
     std::size_t uri_width = 0;
     std::size_t name_width = 0;
@@ -76,7 +83,7 @@ Json devicesAsJson(const std::vector<FoundDevice>& devices, const std::vector<st
         list.push_back({{"uri", device.uri},
                         {"name", device.name},
                         {"usable", device.isUsable()},
-                        {"reason", device.isUsable() ? Json(nullptr) : Json(device.reason)}});
+                        {"reason", device.reason.empty() ? Json(nullptr) : Json(device.reason)}});
     }
     return {{"devices", list}, {"schemes", schemes}};
 }
@@ -88,8 +95,8 @@ void addDevicesCommand(CLI::App& app, CommandAction& run)
         app.add_subcommand("devices", "List haptic devices and plugins, and why one is not usable");
     command->add_flag("--json", options->is_json, "for machines");
     command->add_flag("--retry", options->tries_again,
-                      "try plugins again that were left out because the program ended while they "
-                      "were being loaded");
+                      "try plugins again that were left out because the program ended while it was "
+                      "inside them");
     command->callback([options, &run] { run = [options] { return runDevices(*options); }; });
 }
 

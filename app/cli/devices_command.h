@@ -9,7 +9,8 @@
 
 namespace marsview {
 
-/// A heading and a line each: URI, name, and "ready" or why it cannot be used.
+/// A heading and a line each: URI, name, and "ready", with what went wrong the last time, or
+/// why it cannot be used.
 std::string devicesAsTable(const std::vector<FoundDevice>& devices);
 
 nlohmann::ordered_json devicesAsJson(const std::vector<FoundDevice>& devices,

@@ -16,6 +16,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -40,6 +41,40 @@ struct Options {
     std::string record;
     std::string flight;
     bool is_json = false;
+};
+
+// A program that is killed while it has a plugin's device blames the plugin at the next start. So
+// from before the device is opened until it is closed, what asks the program to end only ends the
+// loop. What is ignored, as by nohup, stays ignored.
+class OrderlyEnd {
+public:
+    OrderlyEnd()
+    {
+        is_asked_ = 0;
+        takeSignals();
+    }
+    ~OrderlyEnd() { setAll(SIG_DFL); }
+    OrderlyEnd(const OrderlyEnd&) = delete;
+    OrderlyEnd& operator=(const OrderlyEnd&) = delete;
+
+    /// Again, where somebody else took some of them meanwhile.
+    void takeSignals()
+    {
+        setAll([](int) { is_asked_ = 1; });
+    }
+    bool isAskedFor() const { return is_asked_ != 0; }
+
+private:
+    static void setAll(void (*handler)(int))
+    {
+        for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+            if (std::signal(number, handler) == SIG_IGN) {
+                std::signal(number, SIG_IGN);
+            }
+        }
+    }
+
+    static inline volatile std::sig_atomic_t is_asked_ = 0;
 };
 
 // What the hand reaches: the whole map, or the middle of it.
@@ -90,6 +125,7 @@ Status runLoop(const Options& options)
         }
         map = std::move(opened).value();
     }
+    OrderlyEnd end;
     DeviceRegistry registry(builtInDrivers());
     Result<std::unique_ptr<HapticDevice>> device = openDevice(registry, options, *map);
     if (!device) {
@@ -120,12 +156,13 @@ Status runLoop(const Options& options)
     LoopWatch watch(loop_options.ticks_max, LoopWatch::Clock::now());
     {
         LongJob job("running");
+        end.takeSignals();
         loop.set({.map = map->map,
                   .frame = frameFor(options, *map, loop.device()),
                   .frame_number = 1,
                   .stiffness_n_per_m = options.stiffness_n_per_m});
         constexpr std::chrono::milliseconds kLook{20};
-        while (!loop.hasEnded() && !job.monitor().isCancelled() && !watch.isSilent()) {
+        while (!loop.hasEnded() && !end.isAskedFor() && !watch.isSilent()) {
             std::this_thread::sleep_for(kLook);
             watch.look(loop, LoopWatch::Clock::now());
             job.monitor().report(std::min(1.0, static_cast<double>(loop.state().tick) /
@@ -133,6 +170,10 @@ Status runLoop(const Options& options)
         }
         watch.look(loop, LoopWatch::Clock::now());
         loop.stop();
+    }
+    end.takeSignals();
+    if (end.isAskedFor() && loop.state().tick == 0) {
+        return Error{ErrorCode::Cancelled, options.device + ": was ended before the loop began"};
     }
     const Status verdict = watch.verdict(options.device);
     LoopReport report{.file = options.map.path,

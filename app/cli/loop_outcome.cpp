@@ -1,5 +1,6 @@
 #include "app/cli/loop_outcome.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <fmt/format.h>
 
@@ -23,6 +24,9 @@ void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
         if (event.kind != LoopEventKind::LetGo && event.kind != LoopEventKind::Holding) {
             continue;
         }
+        if (event.tick > ticks_max_) {
+            continue; // the orderly end: forces ramp down as if the device were unready
+        }
         // The tick of the event is the first with the new reason.
         of(ticks_by_reason_, reason_) += event.tick - 1 - since_tick_;
         since_tick_ = event.tick - 1;
@@ -45,8 +49,9 @@ void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
 std::array<std::uint64_t, kLetGoReasonCount> LoopWatch::letGoTicks() const noexcept
 {
     auto ticks = ticks_by_reason_;
-    if (state_.tick > since_tick_) {
-        ticks[static_cast<std::size_t>(reason_)] += state_.tick - since_tick_;
+    const std::uint64_t end = std::min(state_.tick, ticks_max_);
+    if (end > since_tick_) {
+        ticks[static_cast<std::size_t>(reason_)] += end - since_tick_;
     }
     ticks[static_cast<std::size_t>(LetGoReason::None)] = 0;
     return ticks;
@@ -80,7 +85,8 @@ Status LoopWatch::verdict(const std::string& uri) const
                      fmt::format("{}: was lost after {:.1f} s: {}", uri, ran_s,
                                  said("the device does not say why"))};
     }
-    if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceUnready)] >= state_.tick) {
+    if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceUnready)] >=
+        std::min(state_.tick, ticks_max_)) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: did not become ready within {:.1f} s: {}", uri, ran_s,
                                  said("the device does not say why"))};

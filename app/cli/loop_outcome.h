@@ -26,7 +26,8 @@ public:
     {}
 
     /// Takes all events that there are. Call it several times a second, then once before the loop
-    /// is stopped: how that lets go counts as nothing that happened.
+    /// is stopped: how that lets go counts as nothing that happened, and neither does how a loop
+    /// that has run for all its ticks does.
     void look(ServoLoop& loop, Clock::time_point now);
 
     /// Whether the last look was of a device that has been silent for kSilenceMax.

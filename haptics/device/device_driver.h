@@ -13,10 +13,13 @@ namespace marsview {
 
 /// A device that could be opened, or why it cannot.
 struct FoundDevice {
-    std::string uri;    // "sim:", "polhem:serial=4711"; what opens it, tomorrow too where possible
-    std::string name;   // for people
-    std::string reason; // why it cannot be used, one sentence; empty where it can
-    bool isUsable() const noexcept { return reason.empty(); }
+    std::string uri;  // "sim:", "polhem:serial=4711"; what opens it, tomorrow too where possible
+    std::string name; // for people
+    /// Why it cannot be used, one sentence; empty where it can. Of a usable one, what went wrong
+    /// the last time.
+    std::string reason;
+    bool is_reason_past = false; // it may be otherwise this time
+    bool isUsable() const noexcept { return reason.empty() || is_reason_past; }
     /// Whether `wanted` may open this one: its URI, with options after a comma or without, or no
     /// more than its scheme, for the first.
     bool isMeantBy(std::string_view wanted) const noexcept;

@@ -17,6 +17,7 @@ GuardedDevice::GuardedDevice(Options options)
     , marker_folder_(std::move(options.marker_folder))
     , idle_(options.idle)
     , lock_(std::move(options.lock))
+    , last_trouble_(std::move(options.last_trouble))
     , marker_(std::move(options.marker))
 {
     watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
@@ -26,6 +27,9 @@ GuardedDevice::~GuardedDevice()
 {
     watcher_.request_stop();
     watcher_.join();
+    if (last_trouble_) {
+        last_trouble_->set(trouble());
+    }
     // Where it cannot be marked, as after another program went down with this plugin, it is closed
     // all the same.
     Result<LoadMarker> closing = LoadMarker::make(marker_folder_, plugin_, PluginCall::Close);

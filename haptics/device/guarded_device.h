@@ -3,6 +3,7 @@
 
 #include "core/base/file_lock.h"
 #include "haptics/device/haptic_device.h"
+#include "haptics/device/last_trouble.h"
 #include "haptics/device/load_marker.h"
 
 #include <atomic>
@@ -22,7 +23,8 @@ namespace marsview {
 /// it is closed; so whatever ends the program in its first start_clock, reads and writes, or in
 /// close, is known at the next start. A device that nobody reads for `idle` is marked no longer,
 /// until it is read again: then programs that end for other reasons are not blamed on it. Also
-/// keeps other programs away from the device, and has a reason where the plugin gives none.
+/// keeps other programs away from the device, has a reason where the plugin gives none, and leaves
+/// the trouble that there is when it is closed to who looks for devices later.
 class GuardedDevice final : public HapticDevice {
 public:
     /// Two seconds of most devices.
@@ -34,6 +36,7 @@ public:
         std::filesystem::path marker_folder{};
         std::optional<LoadMarker> marker{}; // of PluginCall::Run
         std::optional<FileLock> lock{};
+        std::optional<LastTrouble> last_trouble{};
         std::chrono::milliseconds idle{10'000};
     };
 
@@ -57,6 +60,7 @@ private:
     std::filesystem::path marker_folder_;
     std::chrono::milliseconds idle_;
     std::optional<FileLock> lock_;
+    std::optional<LastTrouble> last_trouble_;
 
     std::atomic<std::uint64_t> reads_{0};
     std::atomic<DeviceStatus> status_{DeviceStatus::Fine}; // of the last read or write

@@ -5,8 +5,11 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -90,6 +93,34 @@ std::optional<FileLock> lockOwn(const std::string& file)
     return std::nullopt;
 }
 
+// Markers may be made while the program ends, by calls that come back late, so this is never
+// destroyed.
+class Folders {
+public:
+    static Folders& all()
+    {
+        static auto* const folders = new Folders; // NOLINT(cppcoreguidelines-owning-memory)
+        return *folders;
+    }
+    void add(const fs::path& folder)
+    {
+        const std::lock_guard lock(mutex_);
+        if (folders_.empty()) {
+            std::atexit(LoadMarker::clearAtExit);
+        }
+        folders_.insert(folder);
+    }
+    std::set<fs::path> get()
+    {
+        const std::lock_guard lock(mutex_);
+        return folders_;
+    }
+
+private:
+    std::mutex mutex_;
+    std::set<fs::path> folders_;
+};
+
 } // namespace
 
 fs::path LoadMarker::defaultFolder()
@@ -105,16 +136,37 @@ Result<LoadMarker> LoadMarker::make(const fs::path& folder, const fs::path& plug
     if (const std::string left = leftBehind(folder, stem); !left.empty()) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: the program ended while this plugin was {} the last time, so "
-                                 "it is left out; replace the plugin, or remove {} to try it again",
+                                 "it is left out; replace the plugin, or have it tried again by "
+                                 "marsview-cli devices --retry",
                                  plugin.string(),
-                                 doingIn(std::string_view(left).substr(stem.size())),
-                                 (folder / left).string())};
+                                 doingIn(std::string_view(left).substr(stem.size())))};
     }
+    Folders::all().add(folder);
     static std::atomic<unsigned> count{0};
     const std::string name =
         fmt::format("{}{}-{}-{}{}", stem, kCalls.at(static_cast<std::size_t>(call)).name, getpid(),
                     count.fetch_add(1), kEnding);
     return LoadMarker(lockOwn((folder / name).string()));
+}
+
+void LoadMarker::clearAtExit()
+{
+    if (gettid() != getpid()) {
+        return;
+    }
+    const std::string own = fmt::format("-{}-", getpid());
+    std::error_code none;
+    for (const fs::path& folder : Folders::all().get()) {
+        for (const auto& entry : fs::directory_iterator(folder, none)) {
+            // What is behind the plugin's stem: "load-4711-0.loading". One that nobody holds is of
+            // an earlier process with the same number.
+            const std::string name = entry.path().stem().extension().string();
+            if (entry.path().extension() == kEnding && name.find(own) != std::string::npos &&
+                FileLock::isHeld(entry.path().string())) {
+                fs::remove(entry.path(), none);
+            }
+        }
+    }
 }
 
 void LoadMarker::forgetFailures(const fs::path& folder)

@@ -14,10 +14,13 @@ namespace marsview {
 enum class PluginCall : std::uint8_t { Load, Enumerate, Open, Run, Close };
 
 /// A small locked file that is there while the program is inside a plugin. Where the program ends
-/// meanwhile, however it ends, the file stays behind and says so at the next start. Its name stands
-/// for the plugin's path, size and time, so that another build of the plugin has another one, then
-/// for the call, and for the process: programs that run at once neither clear nor blame each
-/// other's.
+/// meanwhile, the file stays behind and says so at the next start. Its name stands for the plugin's
+/// path, size and time, so that another build of the plugin has another one, then for the call, and
+/// for the process: programs that run at once neither clear nor blame each other's.
+///
+/// A plugin that hangs has not taken the program down: where the main thread ends the program in
+/// order, by returning from main() or by exit(), the files of calls that never came back go. A
+/// plugin that calls exit() does so on another thread, and its file stays.
 class LoadMarker {
 public:
     /// $XDG_STATE_HOME/marsview/loading, else ~/.local/state/marsview/loading.
@@ -28,6 +31,9 @@ public:
     /// folder cannot be written to the marker exists but marks nothing. Any thread.
     static Result<LoadMarker>
     make(const std::filesystem::path& folder, const std::filesystem::path& plugin, PluginCall call);
+
+    /// What an end in order does by itself. For a handler of exit() after which no other one runs.
+    static void clearAtExit();
 
     /// Forgets all earlier failures, so that these plugins are tried again.
     static void forgetFailures(const std::filesystem::path& folder);

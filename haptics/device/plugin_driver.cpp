@@ -3,6 +3,7 @@
 #include "core/base/environment.h"
 #include "haptics/device/device_lock.h"
 #include "haptics/device/guarded_device.h"
+#include "haptics/device/last_trouble.h"
 #include "haptics/device/load_marker.h"
 #include "haptics/device/watched_call.h"
 
@@ -57,10 +58,19 @@ void exitWithoutUnloading()
 {
     on_exit(
         [](int status, void* /*nothing*/) {
+            LoadMarker::clearAtExit();
             std::fflush(nullptr);
             _exit(status);
         },
         nullptr);
+}
+
+std::string lastingName(const fs::path& file, const std::string& id)
+{
+    std::error_code none;
+    const std::string canonical = fs::weakly_canonical(file, none).string();
+    return id.empty() ? fmt::format("plugin:{}", canonical)
+                      : fmt::format("plugin:{}#{}", canonical, id);
 }
 
 // A path may have a # of its own, so whatever is a file is taken as one.
@@ -153,7 +163,7 @@ Result<Library> PluginDriver::load(const fs::path& file)
     if (!marker) {
         return std::move(marker).error();
     }
-    // The marker goes with the thread: one that hangs keeps it to the program's end.
+    // The marker goes with the thread: one that hangs keeps it while the program runs.
     auto library =
         callWatched(options_.patience,
                     [file, held = std::optional(std::move(*marker))]() mutable -> Result<Library> {
@@ -192,12 +202,9 @@ Result<std::vector<PluginEntry>> PluginDriver::list(const fs::path& file, const 
 }
 
 // However the plugin and the device were named.
-Result<std::optional<FileLock>>
-PluginDriver::lock(const fs::path& file, const Library& library, std::string id)
+Result<std::string>
+PluginDriver::nameOf(const fs::path& file, const Library& library, std::string id)
 {
-    if (options_.lock_folder.empty()) {
-        return std::optional<FileLock>();
-    }
     if (id.empty()) {
         Result<std::vector<PluginEntry>> entries = list(file, library);
         if (!entries) {
@@ -205,11 +212,7 @@ PluginDriver::lock(const fs::path& file, const Library& library, std::string id)
         }
         id = entries->empty() ? std::string() : entries->front().id;
     }
-    std::error_code none;
-    const std::string canonical = fs::weakly_canonical(file, none).string();
-    return lockDevice(id.empty() ? fmt::format("{}:{}", scheme(), canonical)
-                                 : fmt::format("{}:{}#{}", scheme(), canonical, id),
-                      options_.lock_folder);
+    return lastingName(file, id);
 }
 
 std::vector<FoundDevice> PluginDriver::devicesOf(const fs::path& file)
@@ -228,8 +231,15 @@ std::vector<FoundDevice> PluginDriver::devicesOf(const fs::path& file)
     }
     std::vector<FoundDevice> found;
     for (const PluginEntry& entry : *entries) {
-        found.push_back({entry.id.empty() ? uri : fmt::format("{}#{}", uri, entry.id),
-                         entry.name.empty() ? (*library)->name() : entry.name, entry.reason});
+        FoundDevice& device = found.emplace_back(
+            FoundDevice{entry.id.empty() ? uri : fmt::format("{}#{}", uri, entry.id),
+                        entry.name.empty() ? (*library)->name() : entry.name, entry.reason});
+        const LastTrouble last(options_.marker_folder, lastingName(file, entry.id));
+        const std::string trouble = device.isUsable() ? last.get() : std::string();
+        if (!trouble.empty()) {
+            device.reason = "the last time it was used: " + trouble;
+            device.is_reason_past = true;
+        }
     }
     if (found.empty()) {
         found.push_back({uri, (*library)->name(), "none of its devices is connected"});
@@ -281,10 +291,18 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
     if (!library) {
         return library.error();
     }
-    Result<std::optional<FileLock>> lock = this->lock(file, *library, id);
+    const Result<std::string> name = nameOf(file, *library, id);
+    if (!name) {
+        return name.error();
+    }
+    Result<std::optional<FileLock>> lock = std::optional<FileLock>();
+    if (!options_.lock_folder.empty()) {
+        lock = lockDevice(*name, options_.lock_folder);
+    }
     if (!lock) {
         return std::move(lock).error();
     }
+    const LastTrouble last(options_.marker_folder, *name);
     Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file, PluginCall::Open);
     if (!marker) {
         return std::move(marker).error();
@@ -295,7 +313,8 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
                     [library = *library, id = id, uri,
                      guard = GuardedDevice::Options{.plugin = file,
                                                     .marker_folder = options_.marker_folder,
-                                                    .lock = std::move(*lock)},
+                                                    .lock = std::move(*lock),
+                                                    .last_trouble = last},
                      held = std::optional(std::move(*marker))]() mutable -> Opened {
                         Opened opened = library->open(id, uri);
                         if (opened) {
@@ -314,7 +333,13 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
                         return opened;
                     });
     if (!device) {
+        last.set("did not come back from being opened");
         return hung(file, uri, "being opened");
+    }
+    if (!*device) {
+        // "plugin:x.so: could not be opened: the cover is open"
+        const std::string& said = device->error().message;
+        last.set(said.starts_with(uri + ": ") ? said.substr(uri.size() + 2) : said);
     }
     return std::move(*device);
 }

@@ -19,7 +19,7 @@ namespace marsview {
 
 struct PluginOptions {
     std::vector<std::filesystem::path> folders; // where plugins are looked for, in this order
-    std::filesystem::path marker_folder;        // see LoadMarker
+    std::filesystem::path marker_folder;        // see LoadMarker, LastTrouble
     std::filesystem::path lock_folder;          // see lockDevice(); empty: devices are not locked
     /// For loading a plugin, for asking what is there, and for opening a device.
     std::chrono::milliseconds patience{3000};
@@ -41,7 +41,8 @@ installedPluginFolders(const std::filesystem::path& program_folder);
 /// several devices. A plugin cannot take the program with it again and again: it is loaded, asked
 /// and opened on watched threads, and one that brought the program down meanwhile, or in the first
 /// seconds of running, or while it was closed, is left out from then on (LoadMarker,
-/// GuardedDevice). One device is one program's. The folders are looked at anew by every find().
+/// GuardedDevice). What went wrong with a device the last time is said of it when it is found again
+/// (LastTrouble). One device is one program's. The folders are looked at anew by every find().
 class PluginDriver final : public DeviceDriver {
 public:
     explicit PluginDriver(PluginOptions options = PluginOptions::standard());
@@ -62,9 +63,9 @@ private:
     Result<std::shared_ptr<const PluginLibrary>> load(const std::filesystem::path& file);
     Result<std::vector<PluginEntry>> list(const std::filesystem::path& file,
                                           const std::shared_ptr<const PluginLibrary>& library);
-    Result<std::optional<FileLock>> lock(const std::filesystem::path& file,
-                                         const std::shared_ptr<const PluginLibrary>& library,
-                                         std::string id);
+    Result<std::string> nameOf(const std::filesystem::path& file,
+                               const std::shared_ptr<const PluginLibrary>& library,
+                               std::string id);
     std::vector<FoundDevice> devicesOf(const std::filesystem::path& file);
     std::string folderNames() const;
     Error hung(const std::filesystem::path& file, std::string_view what, std::string_view doing);

@@ -54,6 +54,17 @@ bool isNamed(const HidEntry& entry, std::string_view name)
     return name.empty() || (name.front() == '/' ? entry.path : lastingName(entry)) == name;
 }
 
+// One sentence that names the arms of which none is meant more than another.
+std::string refusalToChoose(std::string_view uri, const std::vector<HidEntry>& arms)
+{
+    std::vector<std::string> uris;
+    for (const HidEntry& arm : arms) {
+        uris.push_back("polhem:" + arm.path);
+    }
+    return fmt::format("{}: {} arms answer to that name; choose one by its path: {}", uri,
+                       arms.size(), fmt::join(uris, " or "));
+}
+
 struct Address {
     std::string name; // a path, what lastingName() says, or empty for any
     fs::path parameters;
@@ -154,6 +165,9 @@ Result<std::unique_ptr<HapticDevice>> PolhemDriver::open(std::string_view addres
                      fmt::format("{}: no WoodenHaptics or Polhem arm is connected there; plug it "
                                  "in, and see marsview-cli devices",
                                  uri)};
+    }
+    if (!parsed->name.empty() && arms.size() > 1) {
+        return Error{ErrorCode::Invalid, refusalToChoose(uri, arms)};
     }
     if (parsed->parameters.empty()) {
         const auto file = std::find_if(options_.parameter_files.begin(),

@@ -26,10 +26,11 @@ struct PolhemOptions {
 std::string lastingPolhemUri(std::string_view uri);
 
 /// "polhem:serial=4711", which finds the arm under whatever path it has that day; the same as
-/// "polhem:usb=1234:0006" for one whose board has no number, the only one of its kind;
-/// "polhem:/dev/hidraw2", or "polhem:" for the first one. Then ",home" where the arm is in its rest
-/// position and shall be calibrated there without its board's button (PolhemDevice), and
-/// ",parameters=FILE" for one that differs.
+/// "polhem:usb=1234:0006" for one whose board has no number, the only one of its kind. Invalid,
+/// with the paths to choose from, where several arms share the name. "polhem:/dev/hidraw2", or
+/// "polhem:" for the first one. Then ",home" where the arm is in its rest position and shall be
+/// calibrated there without its board's button (PolhemDevice), and ",parameters=FILE" for one that
+/// differs.
 class PolhemDriver final : public DeviceDriver {
 public:
     explicit PolhemDriver(PolhemOptions options = PolhemOptions::standard());

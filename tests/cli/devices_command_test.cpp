@@ -101,12 +101,28 @@ TEST_F(DevicesCommand, LeavesOutAPluginThatBroughtItDownUntilToldToTryAgain)
     EXPECT_NE(devices({"--retry"}).exit_status, 0);
 }
 
+TEST_F(DevicesCommand, SaysWhatWentWrongTheLastTimeADeviceWasUsed)
+{
+    add("fails_opening");
+    const std::string uri = "plugin:" + (plugins() / "fails_opening.so").string();
+    const ProgramOutput loop = runProgram({"env", "XDG_STATE_HOME=" + folder_.file("state"),
+                                           MARSVIEW_CLI, "loop", bundledMars(), "--device", uri});
+    EXPECT_EQ(loop.exit_status, 1);
+    const nlohmann::json found = entry("fails_opening");
+    EXPECT_EQ(found["usable"], true);
+    EXPECT_EQ(found["reason"], "the last time it was used: could not be opened: the cover is open");
+    EXPECT_THAT(devices().out, HasSubstr("ready; the last time it was used: could not be opened"));
+}
+
 TEST(DevicesTable, AlignsItsColumnsAndKeepsEveryDeviceOnOneLine)
 {
     EXPECT_EQ(devicesAsTable({{"null:", "Nothing", ""}, {"x:1\n2", "A hand", "no\npower"}}),
               "URI    name     state\n"
               "null:  Nothing  ready\n"
               "x:1 2  A hand   no power");
+    EXPECT_EQ(devicesAsTable({{"x:", "A hand", "the last\ntime: no power", true}}),
+              "URI  name    state\n"
+              "x:   A hand  ready; the last time: no power");
 }
 
 // As its makers would do it: from an installed program, by CMake's and by pkg-config's way.

@@ -6,8 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
+#include <fcntl.h>
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <sys/wait.h>
+#include <system_error>
+#include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace marsview::test {
@@ -49,6 +57,94 @@ std::vector<std::string> columnsOf(const std::string& text, const std::vector<st
     }
     return lines;
 }
+
+// A loop on a plugin's device, which a test ends by signals. Its output is in a file.
+class RunningLoop {
+public:
+    RunningLoop(const TempFolder& folder, const std::string& behaviour)
+        : folder_(folder)
+    {
+        std::vector<std::string> arguments{"env",
+                                           "XDG_STATE_HOME=" + folder.file("state"),
+                                           MARSVIEW_CLI,
+                                           "loop",
+                                           bundledMars(),
+                                           "--device",
+                                           "plugin:" MARSVIEW_TEST_PLUGINS "/" + behaviour + ".so",
+                                           "--seconds",
+                                           "3600",
+                                           "--record",
+                                           recorded()};
+        std::vector<char*> argv;
+        for (std::string& argument : arguments) {
+            argv.push_back(argument.data());
+        }
+        argv.push_back(nullptr);
+        child_ = fork();
+        if (child_ == 0) {
+            const int out = open(printed().c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+            dup2(out, STDOUT_FILENO);
+            dup2(out, STDERR_FILENO);
+            execvp(argv[0], argv.data());
+            _exit(127);
+        }
+    }
+    ~RunningLoop()
+    {
+        if (child_ > 0) {
+            kill(child_, SIGKILL);
+            (void)wait();
+        }
+    }
+    RunningLoop(const RunningLoop&) = delete;
+    RunningLoop& operator=(const RunningLoop&) = delete;
+
+    std::string printed() const { return folder_.file("printed"); }
+    std::string recorded() const { return folder_.file("recorded.csv"); }
+    /// Of the files that mark calls of plugins which have not come back, those of `call`.
+    std::size_t markers(const std::string& call = ".loading") const
+    {
+        std::error_code none;
+        std::size_t count = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(
+                 folder_.path() / "state" / "marsview" / "loading", none)) {
+            count += entry.path().filename().string().find(call) != std::string::npos ? 1U : 0U;
+        }
+        return count;
+    }
+    /// False where the program ended before that.
+    bool waitUntil(const std::function<bool()>& is_so)
+    {
+        while (!is_so()) {
+            if (waitpid(child_, &status_, WNOHANG) != 0) {
+                child_ = -1;
+                return false;
+            }
+            std::this_thread::yield();
+        }
+        return true;
+    }
+    /// The exit status; -1 where the signal ended it.
+    int end(int signal)
+    {
+        kill(child_, signal);
+        return wait();
+    }
+
+private:
+    int wait()
+    {
+        if (child_ > 0) {
+            waitpid(child_, &status_, 0);
+            child_ = -1;
+        }
+        return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+    }
+
+    const TempFolder& folder_;
+    pid_t child_ = -1;
+    int status_ = 0;
+};
 
 TEST(LoopCommand, RunsASimulatedHandAndTellsHowPunctualItWas)
 {
@@ -141,6 +237,43 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
                                        "unready\n"));
     const ProgramOutput stopped = run("fails_starting");
     EXPECT_THAT(stopped.err, HasSubstr("the loop did not start: "));
+}
+
+TEST(LoopCommand, CountsTheEndOfItsTimeForNoTrouble)
+{
+    const nlohmann::json loop = looped({"--device", "sim:swipe=3", "--seconds", "0.5"});
+    ASSERT_FALSE(loop.is_null());
+    EXPECT_GT(loop["in_contact"], 100) << "there is a force to be let go";
+    EXPECT_FALSE(loop["let_go_s"].contains("device unready")) << loop["let_go_s"];
+    EXPECT_NE(loop["last_reason"], "device unready");
+}
+
+TEST(LoopCommand, EndsInOrderHoweverItIsToldTo)
+{
+    for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
+        SCOPED_TRACE(signal);
+        const TempFolder folder;
+        RunningLoop loop(folder, "is_good");
+        ASSERT_TRUE(loop.waitUntil([&] { // some updates behind the columns' names
+            constexpr std::uintmax_t kBytesMin = 1000;
+            std::error_code none;
+            const std::uintmax_t bytes = std::filesystem::file_size(loop.recorded(), none);
+            return !none && bytes > kBytesMin;
+        })) << readFile(loop.printed());
+        EXPECT_EQ(loop.end(signal), 0) << readFile(loop.printed());
+        EXPECT_THAT(readFile(loop.printed()), HasSubstr("forces let go: "));
+        EXPECT_EQ(loop.markers(), 0U);
+    }
+}
+
+TEST(LoopCommand, BlamesNoPluginWhereItIsEndedWhileItOpensADevice)
+{
+    const TempFolder folder;
+    RunningLoop loop(folder, "hangs_opening");
+    ASSERT_TRUE(loop.waitUntil([&] { return loop.markers(".open-") == 1; }));
+    EXPECT_EQ(loop.end(SIGTERM), 1);
+    EXPECT_THAT(readFile(loop.printed()), HasSubstr("did not come back from being opened"));
+    EXPECT_EQ(loop.markers(), 0U);
 }
 
 TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)

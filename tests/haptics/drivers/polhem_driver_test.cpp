@@ -15,6 +15,7 @@
 namespace marsview::test {
 namespace {
 
+using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 
@@ -205,6 +206,29 @@ TEST_F(PolhemDriverTest, TellsArmsApartByTheirPathsWhereNothingElseDoes)
     }
     EXPECT_THAT(uris, testing::UnorderedElementsAre("polhem:/dev/hidraw7", "polhem:/dev/hidraw9",
                                                     "polhem:/dev/hidraw8", "polhem:/dev/hidraw10"));
+}
+
+TEST_F(PolhemDriverTest, OpensNoneOfTheArmsThatShareAName)
+{
+    FakeHidDevice copy = kTeensy;
+    copy.serial = L"4711";
+    hid_.plugIn(copy);
+    copy.path = "/dev/hidraw9";
+    hid_.plugIn(copy);
+    hid_.plugIn(kOlderBoard); // without a number
+    FakeHidDevice another = kOlderBoard;
+    another.path = "/dev/hidraw10";
+    hid_.plugIn(another);
+    EXPECT_THAT(refusal("serial=4711,home"),
+                testing::AnyOf("polhem:serial=4711,home: 2 arms answer to that name; choose one by "
+                               "its path: polhem:/dev/hidraw7 or polhem:/dev/hidraw9",
+                               "polhem:serial=4711,home: 2 arms answer to that name; choose one by "
+                               "its path: polhem:/dev/hidraw9 or polhem:/dev/hidraw7"));
+    EXPECT_THAT(refusal("usb=1234:0006"),
+                AllOf(HasSubstr("polhem:/dev/hidraw8"), HasSubstr("polhem:/dev/hidraw10")));
+    EXPECT_EQ(hid_.openDevices(), 0U);
+    (void)open("/dev/hidraw9");
+    EXPECT_EQ(hid_.openedPath(), "/dev/hidraw9");
 }
 
 TEST_F(PolhemDriverTest, TellsWhereTheHandIsAndPushesIt)

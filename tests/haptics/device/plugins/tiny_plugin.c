@@ -57,6 +57,8 @@ static MarsviewDevice* openDevice(const char* id, char* error, uint32_t error_by
     hang();
 #elif defined(TINY_CRASHES_OPENING)
     abort();
+#elif defined(TINY_EXITS_OPENING)
+    exit(3);
 #elif defined(TINY_FAILS_OPENING)
     snprintf(error, error_bytes, "the cover\nis open");
     return NULL;
@@ -127,6 +129,8 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
     sample->position_m[0] = 70.0;
 #elif defined(TINY_CRASHES_READING)
     abort();
+#elif defined(TINY_HANGS_READING)
+    hang();
 #elif defined(TINY_SAYS_UNREADY)
     return MARSVIEW_UNREADY;
 #elif defined(TINY_ANSWERS_NONSENSE)
