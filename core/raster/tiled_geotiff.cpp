@@ -10,6 +10,7 @@
 #include "core/raster/prepare_journal.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/source_identity.h"
+#include "core/raster/source_stamp.h"
 #include "core/raster/tiff_tiles.h"
 #include "core/raster/tile.h"
 #include "core/raster/tile_encoding.h"
@@ -163,6 +164,7 @@ public:
                 const RasterInfo& info,
                 std::string key,
                 std::string source_path,
+                std::string source_stamp,
                 TiledGeoTiffReport& report);
 
     /// Goes on with what is there, or lays the file out.
@@ -190,6 +192,7 @@ private:
     const RasterInfo& info_;
     std::string key_;
     std::string source_path_;
+    std::string source_stamp_;
     TiledGeoTiffReport& report_;
     std::string part_path_;
     OverviewBuilder overviews_;
@@ -207,12 +210,14 @@ Preparation::Preparation(const TiledGeoTiffJob& job,
                          const RasterInfo& info,
                          std::string key,
                          std::string source_path,
+                         std::string source_stamp,
                          TiledGeoTiffReport& report)
     : job_(job)
     , source_(source)
     , info_(info)
     , key_(std::move(key))
     , source_path_(std::move(source_path))
+    , source_stamp_(std::move(source_stamp))
     , report_(report)
     , part_path_(job.path + ".part")
     , overviews_(info.columns, info.rows, info.type, info.nodata, info.has_mask_band)
@@ -274,7 +279,9 @@ bool Preparation::decodesSomeTiles() const
 bool Preparation::tryResume()
 {
     const std::optional<PrepareJournal> journal = readJournal(journalPath());
-    if (!journal || journal->key != key_ || journal->tile_rows > tileRows() ||
+    const bool is_source_untouched =
+        journal && (journal->source_stamp.empty() || journal->source_stamp == source_stamp_);
+    if (!is_source_untouched || journal->key != key_ || journal->tile_rows > tileRows() ||
         journal->tile_rows % kTileRowsPerCheckpoint != 0 || journal->tile_rows == 0) {
         return false;
     }
@@ -435,6 +442,7 @@ Status Preparation::checkpoint()
     }
     PrepareJournal journal;
     journal.key = key_;
+    journal.source_stamp = source_stamp_;
     journal.tile_rows = tile_rows_done_;
     journal.tile_rows_all = tileRows();
     journal.file_bytes = *bytes;
@@ -697,6 +705,7 @@ std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info)
 
 Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor)
 {
+    const SourceStamp stamp = stampOf(job.source);
     Result<SourceIdentity> before = identify(job.source);
     if (!before) {
         return std::move(before).error();
@@ -721,7 +730,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     report.samples = info->columns * info->rows;
     const std::string key = keyOf(*info, *before);
     std::error_code failure;
-    Preparation preparation(job, *source, *info, key, before->path, report);
+    Preparation preparation(job, *source, *info, key, before->path, stamp.text, report);
     if (job.when_there == TiledGeoTiffJob::WhenThere::Keep && fs::exists(job.path, failure) &&
         readGeoTiffOrigin(job.path).key == key) {
         preparation.discard(); // as after a kill in the moment of publishing
@@ -755,7 +764,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
         return std::move(copied).error();
     }
     Result<SourceIdentity> after = identify(job.source);
-    if (!after || !isSameContent(*before, *after)) {
+    if (!after || !isSameContent(*before, *after) || !isUntouched(stamp)) {
         preparation.discard();
         return Error{
             ErrorCode::Invalid,

@@ -9,6 +9,7 @@
 #include "core/raster/raster_file.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
+#include "core/raster/source_stamp.h"
 #include "core/terrain/level_file.h"
 #include "core/terrain/map_damage.h"
 
@@ -108,6 +109,7 @@ struct LevelWork {
     RasterInfo info;
     std::shared_ptr<const GeotiffTileSource> source;
     LevelFileKey key;
+    SourceStamp stamp; // of the raster, before anything of it was read
 };
 
 Result<LevelWork>
@@ -118,7 +120,8 @@ levelWork(const PrepareJob& job, const PrepareReport& report, const RasterInfo& 
                    .band = report.is_source_used ? job.spec.band : 1,
                    .info = info,
                    .source = nullptr,
-                   .key = {}};
+                   .key = {},
+                   .stamp = stampOf(report.raster_path)};
     Result<SourceIdentity> identity = identify(work.raster_path, OverviewFiles::Counted);
     if (!identity) {
         return std::move(identity).error();
@@ -171,7 +174,7 @@ Status makeLevels(const PrepareJob& job,
         .path = report.level_path,
         .confirm = [&work]() -> Status {
             const Result<SourceIdentity> now = identify(work->raster_path, OverviewFiles::Counted);
-            if (now && isSameContent(work->key.raster, *now)) {
+            if (now && isSameContent(work->key.raster, *now) && isUntouched(work->stamp)) {
                 return Done{};
             }
             return Error{ErrorCode::Invalid,
