@@ -179,7 +179,7 @@ public:
 private:
     bool tryResume();
     bool findPages();
-    bool decodesSomeTiles() const;
+    bool opensAsTheMap() const;
     Status copyTileRow(const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row);
     Status
     writeLevelRows(std::size_t level, const OverviewBuilder::Rows& rows, std::size_t tile_row);
@@ -257,23 +257,12 @@ bool Preparation::findPages()
            std::all_of(mask_pages_.begin(), mask_pages_.end(), is_found);
 }
 
-// Some tiles spread over what is done, and the last ones, read as any program would.
-bool Preparation::decodesSomeTiles() const
+// As any program would open it.
+bool Preparation::opensAsTheMap() const
 {
-    Result<RasterFile> part = RasterFile::open(part_path_);
-    if (!part || part->info().columns != info_.columns || part->info().rows != info_.rows) {
-        return false;
-    }
-    constexpr std::size_t kPlaces = 64;
-    const std::size_t done = std::min(tile_rows_done_ * kTileSide, info_.rows);
-    for (std::size_t i = 0; i < kPlaces; ++i) {
-        const GridWindow sample{(i * 37 % kPlaces) * (info_.columns - 1) / (kPlaces - 1),
-                                i * (done - 1) / (kPlaces - 1), 1, 1};
-        if (!part->readWindow(sample, {})) {
-            return false;
-        }
-    }
-    return part->readWindow({0, done - 1, info_.columns, 1}, {}).has_value();
+    const Result<RasterFile> part = RasterFile::open(part_path_);
+    return part && part->info().columns == info_.columns && part->info().rows == info_.rows &&
+           part->info().type == info_.type;
 }
 
 bool Preparation::tryResume()
@@ -301,14 +290,15 @@ bool Preparation::tryResume()
             const std::size_t page = (*pages)[level];
             const std::size_t complete =
                 level > OverviewBuilder::kStreamedLevels ? 0 : tile_rows >> level;
-            if (!tiles_->holdsTiles(page, complete * tiles_->pages()[page].tile_columns,
-                                    journal->file_bytes)) {
+            const std::size_t noted = complete * tiles_->pages()[page].tile_columns;
+            if (!tiles_->holdsTiles(page, noted, journal->file_bytes) ||
+                !tiles_->areWhole(page, noted)) {
                 return false;
             }
         }
     }
     tile_rows_done_ = tile_rows;
-    if (!decodesSomeTiles() || !tiles_->trim(journal->file_bytes)) {
+    if (!opensAsTheMap() || !tiles_->trim(journal->file_bytes)) {
         return false;
     }
     tile_rows_noted_ = tile_rows;
@@ -776,6 +766,23 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     }
     report.bytes = fs::file_size(job.path, failure);
     return report;
+}
+
+bool isWholeTiledGeoTiff(const std::string& path)
+{
+    const Result<TiffTiles> tiles = TiffTiles::open(path, TiffTiles::Access::Read);
+    const Result<std::uint64_t> bytes = tiles ? tiles->fileBytes() : tiles.error();
+    if (!bytes) {
+        return false;
+    }
+    for (std::size_t page = 0; page < tiles->pages().size(); ++page) {
+        const TiffPage& of = tiles->pages()[page];
+        const std::size_t count = of.tile_columns * of.tile_rows;
+        if (!tiles->holdsTiles(page, count, *bytes) || !tiles->areWhole(page, count)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 } // namespace marsview

@@ -74,4 +74,9 @@ std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info);
 /// replaced.
 Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor);
 
+/// Whether every tile of a file that writeTiledGeoTiff() made still has the bytes it was written
+/// with, by the checksum that deflate gives each; GDAL does not look at all of them. Reads it
+/// whole.
+bool isWholeTiledGeoTiff(const std::string& path);
+
 } // namespace marsview
