@@ -7,10 +7,14 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace marsview {
 namespace {
+
+// Of a tile whose answer was cut short.
+constexpr int kRepeatsMax = 2;
 
 // Overviews are rounded up or, by some programs, down.
 bool isAlmost(const GridSize& size, const GridSize& wanted)
@@ -32,7 +36,10 @@ public:
     Result<Tile> read(const TileId& id) override
     {
         MARSVIEW_CHECK(raster_.layout.contains(id));
-        Result<SampleGrid> samples = id.kind == TileKind::Means ? readMeans(id) : readSamples(id);
+        Result<SampleGrid> samples = readOnce(id);
+        for (int i = 0; i < kRepeatsMax && !samples && isCutShort(samples.error()); ++i) {
+            samples = readOnce(id);
+        }
         if (!samples) {
             // Of what was whole when it was prepared, on a disk.
             const bool is_damage = raster_.checksums && raster_.remote_version.empty() &&
@@ -47,6 +54,19 @@ public:
     }
 
 private:
+    Result<SampleGrid> readOnce(const TileId& id)
+    {
+        return id.kind == TileKind::Means ? readMeans(id) : readSamples(id);
+    }
+
+    // GDAL asks again by itself where a server says that it is in trouble, but not where an answer
+    // ends too early.
+    bool isCutShort(const Error& error) const
+    {
+        return !raster_.remote_version.empty() && error.code == ErrorCode::Unreadable &&
+               error.message.find("the connection broke off") != std::string::npos;
+    }
+
     Error damaged(const TileId& id,
                   const char* how = "are not those that it was prepared with") const
     {

@@ -54,6 +54,7 @@ Status writeJournal(const std::string& path, const PrepareJournal& journal)
 {
     Json json;
     json["key"] = journal.key;
+    json["source_stamp"] = journal.source_stamp;
     json["tile_rows"] = journal.tile_rows;
     json["tile_rows_all"] = journal.tile_rows_all;
     json["file_bytes"] = journal.file_bytes;
@@ -100,6 +101,7 @@ std::optional<PrepareJournal> readJournal(const std::string& path)
     try {
         PrepareJournal journal;
         journal.key = json.at("key").get<std::string>();
+        journal.source_stamp = json.value("source_stamp", std::string());
         journal.tile_rows = json.at("tile_rows").get<std::uint64_t>();
         journal.tile_rows_all = json.at("tile_rows_all").get<std::uint64_t>();
         journal.file_bytes = json.at("file_bytes").get<std::uint64_t>();

@@ -12,7 +12,9 @@ namespace marsview {
 
 /// What the file that is being written holds for certain.
 struct PrepareJournal {
-    std::string key;             // source, settings and form: whether it is the same work
+    std::string key; // source, settings and form: whether it is the same work
+    /// SourceStamp::text of what was read; empty where an earlier version wrote the journal.
+    std::string source_stamp;
     std::uint64_t tile_rows = 0; // of the raster, complete
     std::uint64_t tile_rows_all = 0;
     std::uint64_t file_bytes = 0;

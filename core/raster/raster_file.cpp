@@ -613,6 +613,10 @@ Status RasterFile::Impl::renew()
         same->GetYSize() != band->GetYSize() ||
         same->GetRasterDataType() != band->GetRasterDataType() ||
         same->GetOverviewCount() != band->GetOverviewCount()) {
+        if (remote && remote->isNamed()) { // and is still of that name: the answer was cut short
+            const GdalMessages none;
+            return remoteFailure(info.path, *remote, none, "the connection broke off; try again");
+        }
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: has become another raster since it was opened; open it again",
                                  addressOf(info.path))};

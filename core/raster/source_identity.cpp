@@ -1,13 +1,10 @@
 #include "core/raster/source_identity.h"
 
 #include "core/raster/gdal_runtime.h"
-#include "core/raster/mosaic.h"
-#include "core/raster/raster_path.h"
 #include "core/raster/remote_raster.h"
+#include "core/raster/source_files.h"
 
-#include <cpl_string.h>
 #include <cpl_vsi.h>
-#include <gdal_priv.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +13,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -76,67 +72,6 @@ bool isRemote(const std::string& path)
 std::string nameForVsi(const std::string& path)
 {
     return path.starts_with("http://") || path.starts_with("https://") ? "/vsicurl/" + path : path;
-}
-
-// Statistics and overviews that other programs leave beside a raster change none of its samples.
-bool isSidecar(std::string_view name, OverviewFiles overviews)
-{
-    return name.ends_with(".aux.xml") ||
-           (overviews == OverviewFiles::Ignored && name.ends_with(".ovr"));
-}
-
-// The file itself, or one beside it of the same name in other letters: GDAL lists a header as .hdr
-// that it found as .HDR. Empty where there is neither.
-std::string asOnDisk(const std::string& file)
-{
-    VSIStatBufL status{};
-    if (VSIStatL(file.c_str(), &status) == 0) {
-        return file;
-    }
-    const fs::path path(file);
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path(), ignored)) {
-        if (EQUAL(entry.path().filename().c_str(), path.filename().c_str())) {
-            return entry.path().string();
-        }
-    }
-    return {};
-}
-
-// As GDAL lists them, or the parts of a mosaic; none where GDAL does not open it.
-std::vector<std::string> listedFilesOf(const std::string& path)
-{
-    const Result<std::vector<std::string>> names = rasterNamesFor(path);
-    if (!names) {
-        return {};
-    }
-    const GdalMessages messages;
-    for (const std::string& name : *names) {
-        const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
-        if (dataset) {
-            const CPLStringList listed(dataset->GetFileList());
-            return {listed.List(), listed.List() + listed.Count()};
-        }
-    }
-    if (isFolder(path)) {
-        const Result<std::shared_ptr<const Mosaic>> mosaic = mosaicOf(path, 1);
-        return mosaic ? (*mosaic)->files : std::vector<std::string>();
-    }
-    return {};
-}
-
-std::vector<std::string> filesOf(const std::string& path, OverviewFiles overviews)
-{
-    std::vector<std::string> files;
-    for (const std::string& listed : listedFilesOf(path)) {
-        std::string file = isSidecar(listed, overviews) ? std::string() : asOnDisk(listed);
-        if (!file.empty()) {
-            files.push_back(std::move(file));
-        }
-    }
-    std::sort(files.begin(), files.end());
-    files.erase(std::unique(files.begin(), files.end()), files.end());
-    return files;
 }
 
 // Of a folder without a slash at its end.
@@ -201,7 +136,7 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
     std::vector<std::string> files;
     if (!is_file || !isRemote(path) ||
         static_cast<std::uint64_t>(status.st_size) <= kLabelBytesMax) {
-        files = filesOf(path, overviews);
+        files = sourceFilesOf(path, overviews);
     }
     if (files.empty() && is_file) {
         files.push_back(name);

@@ -1,8 +1,10 @@
 #include "core/raster/tiff_tiles.h"
 
+#include "core/base/parallel.h"
 #include "core/raster/tile.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
@@ -11,9 +13,12 @@
 #include <sys/stat.h>
 #include <tiffio.h>
 #include <unistd.h>
+#include <zlib.h>
 
 namespace marsview {
 namespace {
+
+constexpr std::size_t kTilesPerRange = 16;
 
 struct TiffCloser {
     void operator()(TIFF* file) const { TIFFClose(file); }
@@ -48,7 +53,8 @@ int dropWarning(TIFF*, void*, const char*, const char*, va_list)
     return 1;
 }
 
-TiffHandle openAt(const std::string& path, tdir_t directory, Complaint& complaint)
+TiffHandle
+openAt(const std::string& path, TiffTiles::Access access, tdir_t directory, Complaint& complaint)
 {
     const std::unique_ptr<TIFFOpenOptions, OptionsFreer> options(TIFFOpenOptionsAlloc());
     if (!options) {
@@ -57,7 +63,8 @@ TiffHandle openAt(const std::string& path, tdir_t directory, Complaint& complain
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), noteError, &complaint);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), dropWarning, nullptr);
     errno = 0;
-    TiffHandle file(TIFFOpenExt(path.c_str(), "r+m", options.get()));
+    TiffHandle file(TIFFOpenExt(path.c_str(), access == TiffTiles::Access::Write ? "r+m" : "rm",
+                                options.get()));
     if (file && directory > 0 && TIFFSetDirectory(file.get(), directory) == 0) {
         return nullptr;
     }
@@ -94,12 +101,12 @@ TiffTiles::TiffTiles(TiffTiles&&) noexcept = default;
 TiffTiles& TiffTiles::operator=(TiffTiles&&) noexcept = default;
 TiffTiles::~TiffTiles() = default;
 
-Result<TiffTiles> TiffTiles::open(const std::string& path)
+Result<TiffTiles> TiffTiles::open(const std::string& path, Access access)
 {
     auto impl = std::make_unique<Impl>();
     impl->path = path;
     for (tdir_t directory = 0;; ++directory) {
-        TiffHandle handle = openAt(path, directory, *impl->complaint);
+        TiffHandle handle = openAt(path, access, directory, *impl->complaint);
         if (!handle) {
             return impl->failure();
         }
@@ -186,6 +193,38 @@ bool TiffTiles::holdsTiles(std::size_t page, std::size_t tiles, std::uint64_t fi
         }
     }
     return true;
+}
+
+bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
+{
+    TIFF* file = impl_->handles.at(page).get();
+    const auto decoded_bytes = static_cast<std::size_t>(TIFFTileSize64(file));
+    const int descriptor = TIFFFileno(file);
+    std::atomic<bool> are_whole = true;
+    parallelRanges(tiles, kTilesPerRange, [&](std::size_t begin, std::size_t end) {
+        std::vector<Bytef> encoded;
+        std::vector<Bytef> decoded(decoded_bytes);
+        for (std::size_t tile = begin; tile < end && are_whole; ++tile) {
+            const auto index = static_cast<std::uint32_t>(tile);
+            const std::uint64_t bytes = TIFFGetStrileByteCount(file, index);
+            // Deflate never makes twice as much of anything.
+            if (bytes > 2 * std::uint64_t{decoded_bytes}) {
+                are_whole = false;
+                return;
+            }
+            encoded.resize(bytes);
+            const ssize_t got = pread(descriptor, encoded.data(), encoded.size(),
+                                      static_cast<off_t>(TIFFGetStrileOffset(file, index)));
+            uLongf inflated = decoded.size();
+            // Unlike the library's own reading it looks at the checksum at the end.
+            if (got != static_cast<ssize_t>(encoded.size()) ||
+                uncompress(decoded.data(), &inflated, encoded.data(), encoded.size()) != Z_OK ||
+                inflated != decoded.size()) {
+                are_whole = false;
+            }
+        }
+    });
+    return are_whole;
 }
 
 Status TiffTiles::trim(std::uint64_t file_bytes)

@@ -10,6 +10,7 @@
 #include "core/raster/prepare_journal.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/source_identity.h"
+#include "core/raster/source_stamp.h"
 #include "core/raster/tiff_tiles.h"
 #include "core/raster/tile.h"
 #include "core/raster/tile_encoding.h"
@@ -163,6 +164,7 @@ public:
                 const RasterInfo& info,
                 std::string key,
                 std::string source_path,
+                std::string source_stamp,
                 TiledGeoTiffReport& report);
 
     /// Goes on with what is there, or lays the file out.
@@ -177,7 +179,7 @@ public:
 private:
     bool tryResume();
     bool findPages();
-    bool decodesSomeTiles() const;
+    bool opensAsTheMap() const;
     Status copyTileRow(const SampleGrid& grid, std::size_t grid_row, std::size_t tile_row);
     Status
     writeLevelRows(std::size_t level, const OverviewBuilder::Rows& rows, std::size_t tile_row);
@@ -190,6 +192,7 @@ private:
     const RasterInfo& info_;
     std::string key_;
     std::string source_path_;
+    std::string source_stamp_;
     TiledGeoTiffReport& report_;
     std::string part_path_;
     OverviewBuilder overviews_;
@@ -207,12 +210,14 @@ Preparation::Preparation(const TiledGeoTiffJob& job,
                          const RasterInfo& info,
                          std::string key,
                          std::string source_path,
+                         std::string source_stamp,
                          TiledGeoTiffReport& report)
     : job_(job)
     , source_(source)
     , info_(info)
     , key_(std::move(key))
     , source_path_(std::move(source_path))
+    , source_stamp_(std::move(source_stamp))
     , report_(report)
     , part_path_(job.path + ".part")
     , overviews_(info.columns, info.rows, info.type, info.nodata, info.has_mask_band)
@@ -252,29 +257,20 @@ bool Preparation::findPages()
            std::all_of(mask_pages_.begin(), mask_pages_.end(), is_found);
 }
 
-// Some tiles spread over what is done, and the last ones, read as any program would.
-bool Preparation::decodesSomeTiles() const
+// As any program would open it.
+bool Preparation::opensAsTheMap() const
 {
-    Result<RasterFile> part = RasterFile::open(part_path_);
-    if (!part || part->info().columns != info_.columns || part->info().rows != info_.rows) {
-        return false;
-    }
-    constexpr std::size_t kPlaces = 64;
-    const std::size_t done = std::min(tile_rows_done_ * kTileSide, info_.rows);
-    for (std::size_t i = 0; i < kPlaces; ++i) {
-        const GridWindow sample{(i * 37 % kPlaces) * (info_.columns - 1) / (kPlaces - 1),
-                                i * (done - 1) / (kPlaces - 1), 1, 1};
-        if (!part->readWindow(sample, {})) {
-            return false;
-        }
-    }
-    return part->readWindow({0, done - 1, info_.columns, 1}, {}).has_value();
+    const Result<RasterFile> part = RasterFile::open(part_path_);
+    return part && part->info().columns == info_.columns && part->info().rows == info_.rows &&
+           part->info().type == info_.type;
 }
 
 bool Preparation::tryResume()
 {
     const std::optional<PrepareJournal> journal = readJournal(journalPath());
-    if (!journal || journal->key != key_ || journal->tile_rows > tileRows() ||
+    const bool is_source_untouched =
+        journal && (journal->source_stamp.empty() || journal->source_stamp == source_stamp_);
+    if (!is_source_untouched || journal->key != key_ || journal->tile_rows > tileRows() ||
         journal->tile_rows % kTileRowsPerCheckpoint != 0 || journal->tile_rows == 0) {
         return false;
     }
@@ -294,14 +290,15 @@ bool Preparation::tryResume()
             const std::size_t page = (*pages)[level];
             const std::size_t complete =
                 level > OverviewBuilder::kStreamedLevels ? 0 : tile_rows >> level;
-            if (!tiles_->holdsTiles(page, complete * tiles_->pages()[page].tile_columns,
-                                    journal->file_bytes)) {
+            const std::size_t noted = complete * tiles_->pages()[page].tile_columns;
+            if (!tiles_->holdsTiles(page, noted, journal->file_bytes) ||
+                !tiles_->areWhole(page, noted)) {
                 return false;
             }
         }
     }
     tile_rows_done_ = tile_rows;
-    if (!decodesSomeTiles() || !tiles_->trim(journal->file_bytes)) {
+    if (!opensAsTheMap() || !tiles_->trim(journal->file_bytes)) {
         return false;
     }
     tile_rows_noted_ = tile_rows;
@@ -435,6 +432,7 @@ Status Preparation::checkpoint()
     }
     PrepareJournal journal;
     journal.key = key_;
+    journal.source_stamp = source_stamp_;
     journal.tile_rows = tile_rows_done_;
     journal.tile_rows_all = tileRows();
     journal.file_bytes = *bytes;
@@ -697,6 +695,7 @@ std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info)
 
 Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor)
 {
+    const SourceStamp stamp = stampOf(job.source);
     Result<SourceIdentity> before = identify(job.source);
     if (!before) {
         return std::move(before).error();
@@ -721,7 +720,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     report.samples = info->columns * info->rows;
     const std::string key = keyOf(*info, *before);
     std::error_code failure;
-    Preparation preparation(job, *source, *info, key, before->path, report);
+    Preparation preparation(job, *source, *info, key, before->path, stamp.text, report);
     if (job.when_there == TiledGeoTiffJob::WhenThere::Keep && fs::exists(job.path, failure) &&
         readGeoTiffOrigin(job.path).key == key) {
         preparation.discard(); // as after a kill in the moment of publishing
@@ -755,7 +754,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
         return std::move(copied).error();
     }
     Result<SourceIdentity> after = identify(job.source);
-    if (!after || !isSameContent(*before, *after)) {
+    if (!after || !isSameContent(*before, *after) || !isUntouched(stamp)) {
         preparation.discard();
         return Error{
             ErrorCode::Invalid,
@@ -767,6 +766,23 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     }
     report.bytes = fs::file_size(job.path, failure);
     return report;
+}
+
+bool isWholeTiledGeoTiff(const std::string& path)
+{
+    const Result<TiffTiles> tiles = TiffTiles::open(path, TiffTiles::Access::Read);
+    const Result<std::uint64_t> bytes = tiles ? tiles->fileBytes() : tiles.error();
+    if (!bytes) {
+        return false;
+    }
+    for (std::size_t page = 0; page < tiles->pages().size(); ++page) {
+        const TiffPage& of = tiles->pages()[page];
+        const std::size_t count = of.tile_columns * of.tile_rows;
+        if (!tiles->holdsTiles(page, count, *bytes) || !tiles->areWhole(page, count)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 } // namespace marsview

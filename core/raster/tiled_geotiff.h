@@ -67,10 +67,16 @@ std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info);
 /// times 256 rows of samples, some 330 MB for 106 694 columns of int16.
 ///
 /// Works in PATH.part and moves that to PATH when it is whole. Stopped by cancel, a full disk or
-/// death of the program, the next call for the same source and settings goes on from the last
-/// checkpoint. PATH.lock keeps other programs from the same work. Errors begin with the path that
-/// they are about; nothing is published where the source changed meanwhile. Where PATH is made from
-/// the same source and settings already, nothing is done, unless it is to be replaced.
+/// death of the program, the next call for the same source, untouched since, and settings goes on
+/// from the last checkpoint. PATH.lock keeps other programs from the same work. Errors begin with
+/// the path that they are about; nothing is published where the source changed meanwhile. Where
+/// PATH is made from the same source and settings already, nothing is done, unless it is to be
+/// replaced.
 Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMonitor& monitor);
+
+/// Whether every tile of a file that writeTiledGeoTiff() made still has the bytes it was written
+/// with, by the checksum that deflate gives each; GDAL does not look at all of them. Reads it
+/// whole.
+bool isWholeTiledGeoTiff(const std::string& path);
 
 } // namespace marsview

@@ -9,6 +9,7 @@
 #include "core/raster/raster_file.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
+#include "core/raster/source_stamp.h"
 #include "core/terrain/level_file.h"
 #include "core/terrain/map_damage.h"
 
@@ -17,6 +18,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -108,6 +110,7 @@ struct LevelWork {
     RasterInfo info;
     std::shared_ptr<const GeotiffTileSource> source;
     LevelFileKey key;
+    SourceStamp stamp; // of the raster, before anything of it was read
 };
 
 Result<LevelWork>
@@ -118,7 +121,8 @@ levelWork(const PrepareJob& job, const PrepareReport& report, const RasterInfo& 
                    .band = report.is_source_used ? job.spec.band : 1,
                    .info = info,
                    .source = nullptr,
-                   .key = {}};
+                   .key = {},
+                   .stamp = stampOf(report.raster_path)};
     Result<SourceIdentity> identity = identify(work.raster_path, OverviewFiles::Counted);
     if (!identity) {
         return std::move(identity).error();
@@ -171,7 +175,7 @@ Status makeLevels(const PrepareJob& job,
         .path = report.level_path,
         .confirm = [&work]() -> Status {
             const Result<SourceIdentity> now = identify(work->raster_path, OverviewFiles::Counted);
-            if (now && isSameContent(work->key.raster, *now)) {
+            if (now && isSameContent(work->key.raster, *now) && isUntouched(work->stamp)) {
                 return Done{};
             }
             return Error{ErrorCode::Invalid,
@@ -183,8 +187,8 @@ Status makeLevels(const PrepareJob& job,
     return buildLevelFile(build, monitor);
 }
 
-// Whether a copy that is there can be told from a damaged one, by its level file; it is fine where
-// there is none yet.
+// Whether a copy that is there can be told from a damaged one: by its level file or, where there is
+// none yet, by itself.
 Status checkKnown(const PrepareJob& job, const PrepareReport& report, const RasterInfo& info)
 {
     const Result<LevelWork> work = levelWork(job, report, info);
@@ -192,49 +196,82 @@ Status checkKnown(const PrepareJob& job, const PrepareReport& report, const Rast
         return work.error();
     }
     const Result<LevelFile> levels = LevelFile::open(report.level_path, work->key);
-    return levels || levels.error().code == ErrorCode::NotFound ? Status(Done{})
-                                                                : Status(levels.error());
+    if (!levels && levels.error().code == ErrorCode::NotFound) {
+        return isWholeTiledGeoTiff(report.raster_path)
+                   ? Status(Done{})
+                   : Status(Error{ErrorCode::Unreadable, report.raster_path + ": is damaged"});
+    }
+    return levels ? Status(Done{}) : Status(levels.error());
+}
+
+Status
+makeCopy(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, JobMonitor& monitor)
+{
+    const Clock::time_point start = Clock::now();
+    const JobPart copying(monitor, 0.0, kCopyingShare);
+    TiledGeoTiffJob copy;
+    copy.source = job.spec.path;
+    copy.band = job.spec.band;
+    copy.overrides = job.spec.overrides;
+    copy.path = job.raster_path;
+    copy.when_busy = job.when_busy;
+    copy.when_there = job.when_there == PrepareJob::WhenThere::Replace
+                          ? TiledGeoTiffJob::WhenThere::Replace
+                          : TiledGeoTiffJob::WhenThere::Keep;
+    copy.bytes_after = levelBytesFor(info);
+    copy.checkpoint_interval = job.checkpoint_interval;
+    Result<TiledGeoTiffReport> copied = writeTiledGeoTiff(copy, monitor);
+    if (copied && copied->is_there) {
+        if (const Status known = checkKnown(job, report, info); !known) {
+            copy.when_there = TiledGeoTiffJob::WhenThere::Replace;
+            copied = writeTiledGeoTiff(copy, monitor);
+            report.notes.push_back(fmt::format(
+                "{}: cannot be told to be what it was when it was prepared; it is made anew",
+                report.raster_path));
+        }
+    }
+    if (!copied) {
+        return std::move(copied).error();
+    }
+    report.copy = std::move(*copied);
+    report.notes.insert(report.notes.end(), report.copy.notes.begin(), report.copy.notes.end());
+    report.copy_seconds += secondsSince(start);
+    return Done{};
+}
+
+Status
+measure(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, JobMonitor& monitor)
+{
+    const Clock::time_point start = Clock::now();
+    const JobPart measuring(monitor, report.is_source_used ? 0.0 : kCopyingShare, 1.0);
+    Status made = makeLevels(job, report, info, monitor);
+    report.level_seconds += secondsSince(start);
+    return made;
 }
 
 Status
 makeFiles(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, JobMonitor& monitor)
 {
-    const Clock::time_point start = Clock::now();
-    if (!report.is_source_used) {
-        const JobPart copying(monitor, 0.0, kCopyingShare);
-        TiledGeoTiffJob copy;
-        copy.source = job.spec.path;
-        copy.band = job.spec.band;
-        copy.overrides = job.spec.overrides;
-        copy.path = job.raster_path;
-        copy.when_busy = job.when_busy;
-        copy.when_there = job.when_there == PrepareJob::WhenThere::Replace
-                              ? TiledGeoTiffJob::WhenThere::Replace
-                              : TiledGeoTiffJob::WhenThere::Keep;
-        copy.bytes_after = levelBytesFor(info);
-        copy.checkpoint_interval = job.checkpoint_interval;
-        Result<TiledGeoTiffReport> copied = writeTiledGeoTiff(copy, monitor);
-        if (copied && copied->is_there) {
-            if (const Status known = checkKnown(job, report, info); !known) {
-                copy.when_there = TiledGeoTiffJob::WhenThere::Replace;
-                copied = writeTiledGeoTiff(copy, monitor);
-                report.notes.push_back(fmt::format(
-                    "{}: cannot be told to be what it was when it was prepared; it is made anew",
-                    report.raster_path));
-            }
-        }
-        if (!copied) {
-            return std::move(copied).error();
-        }
-        report.copy = std::move(*copied);
-        report.notes.insert(report.notes.end(), report.copy.notes.begin(), report.copy.notes.end());
-        report.copy_seconds += secondsSince(start);
+    if (report.is_source_used) {
+        return measure(job, report, info, monitor);
     }
-    const Clock::time_point between = Clock::now();
-    const JobPart measuring(monitor, report.is_source_used ? 0.0 : kCopyingShare, 1.0);
-    Status made = makeLevels(job, report, info, monitor);
-    report.level_seconds += secondsSince(between);
-    return made;
+    if (Status copied = makeCopy(job, report, info, monitor); !copied) {
+        return copied;
+    }
+    Status made = measure(job, report, info, monitor);
+    if (made || made.error().code == ErrorCode::Cancelled ||
+        made.error().code == ErrorCode::TooLarge || isWholeTiledGeoTiff(report.raster_path)) {
+        return made;
+    }
+    // makeCopy() leaves nothing there but a copy of its own, which was damaged since.
+    std::error_code ignored;
+    std::filesystem::remove(report.raster_path, ignored);
+    report.notes.push_back(
+        fmt::format("{}: was damaged while it was measured; it is made anew", report.raster_path));
+    PrepareJob again = job;
+    again.when_there = PrepareJob::WhenThere::Replace;
+    Status copied = makeCopy(again, report, info, monitor);
+    return copied ? measure(again, report, info, monitor) : copied;
 }
 
 } // namespace

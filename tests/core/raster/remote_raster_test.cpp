@@ -248,6 +248,40 @@ TEST_F(RemoteRasterTest, CutConnectionsNeverTearATile)
     EXPECT_GT(failed, 10U);
 }
 
+TEST_F(RemoteRasterTest, ATileWhoseAnswerIsCutIsAskedForTwiceMore)
+{
+    const RasterFile file = opened(server_.url("map.tif"));
+    const auto source = GeotiffTileSource::of(file, {});
+    ASSERT_TRUE(source) << source.error().message;
+    const auto reader = (*source)->open();
+    ASSERT_TRUE(reader) << reader.error().message;
+    // What is cut is the request for the tile, then that for opening the file anew.
+    for (std::size_t cuts = 1; cuts <= 2; ++cuts) {
+        for (std::uint32_t column = 1; column < 4; ++column) {
+            const TileId id{.kind = TileKind::Samples,
+                            .level = 0,
+                            .column = column,
+                            .row = static_cast<std::uint32_t>(2 * cuts)};
+            server_.resetCounts();
+            server_.cutNext(cuts, 1000 * column);
+            const Result<Tile> tile = (*reader)->read(id);
+            EXPECT_EQ(server_.counts().failures, cuts);
+            ASSERT_TRUE(tile) << tile.error().message;
+            EXPECT_TRUE(isSame(tile->samples, truth(original("map.tif"), tileAt(column, id.row))));
+        }
+    }
+    server_.cutNext(100, 500);
+    const TileId id{.kind = TileKind::Samples, .level = 0, .column = 5, .row = 6};
+    const Result<Tile> failed = (*reader)->read(id);
+    server_.cutNext(0, 0);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().code, ErrorCode::Unreadable);
+    EXPECT_THAT(failed.error().message, HasSubstr("broke off"));
+    const Result<Tile> tile = (*reader)->read(id);
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_TRUE(isSame(tile->samples, truth(original("map.tif"), tileAt(5, 6))));
+}
+
 TEST_F(RemoteRasterTest, AFileThatChangesIsNoticedAndNeverMixed)
 {
     for (const auto validators :

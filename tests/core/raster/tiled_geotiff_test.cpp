@@ -1,9 +1,11 @@
 // The tiled copy against its source, by GDAL's tools and by brute force.
 #include "core/base/file_lock.h"
+#include "core/raster/geotiff_skeleton.h"
 #include "core/raster/geotiff_tile_source.h"
 #include "core/raster/overview_builder.h"
 #include "core/raster/prepare_journal.h"
 #include "core/raster/raster_file.h"
+#include "core/raster/source_identity.h"
 #include "core/raster/tiled_geotiff.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_raster.h"
@@ -16,16 +18,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <functional>
 #include <future>
+#include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
+#include <sys/stat.h>
 #include <thread>
 #include <type_traits>
 #include <unistd.h>
@@ -485,6 +493,12 @@ std::string tallMap(const test::TempFolder& folder, const std::string& name)
                               260, randomMap<std::int16_t>(260, 20'000, -5000.0, 5000.0).samples));
 }
 
+void setModified(const std::string& path, const timespec& time)
+{
+    const std::array<timespec, 2> times{timespec{0, UTIME_OMIT}, time};
+    ASSERT_EQ(utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
+}
+
 // Everything that gdalinfo can sum up.
 nlohmann::json checksumsOf(const std::string& path)
 {
@@ -588,6 +602,45 @@ TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
     }
 }
 
+TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
+{
+    const test::TempFolder folder;
+    const std::string source = tallMap(folder, "source");
+    TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    const std::string part = job.path + ".part";
+    const std::string journal_path = part + ".journal";
+    const std::string empty = folder.file("empty.tif"); // all that is there before the first tile
+    Result<RasterFile> file = RasterFile::open(source);
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(writeGeoTiffSkeleton(empty, file->info(), {"key", source}));
+    ASSERT_FALSE(prepareUntil(job, 0.5));
+    job.checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
+    const std::string left = test::readFile(part);
+    const std::string journal = test::readFile(journal_path);
+    const std::uint64_t begin = fs::file_size(empty) + 1000; // the real key is longer
+    const std::uint64_t end = readJournal(journal_path)->file_bytes;
+    ASSERT_GT(end, 10 * begin);
+    const std::string truth = samplesOf(source);
+    test::Random random;
+    std::size_t unused = 0; // tiles behind the checkpoint, of levels that are made at the end
+    for (int i = 0; i < 16; ++i) {
+        std::string damaged = left;
+        const std::uint64_t at = begin + random.below(end - begin);
+        damaged[at] = static_cast<char>(damaged[at] ^ (1 << random.below(8)));
+        folder.write("copy.tif.part", damaged);
+        folder.write("copy.tif.part.journal", journal);
+        const TiledGeoTiffReport report = prepare(job);
+        ASSERT_EQ(report.notes.size(), 1U);
+        const bool is_begun_again = report.notes[0].ends_with("begun again");
+        unused += is_begun_again ? 0U : 1U;
+        EXPECT_TRUE(samplesOf(job.path) == truth) << "byte " << at;
+        EXPECT_TRUE(isWholeTiledGeoTiff(job.path));
+        fs::remove(job.path);
+    }
+    std::cout << unused << " of 16 flips were in nothing that was gone on from\n";
+    EXPECT_LE(unused, 2U);
+}
+
 TEST(TiledGeoTiff, PublishesNothingWhereTheSourceChangesMeanwhile)
 {
     const test::TempFolder folder;
@@ -606,6 +659,79 @@ TEST(TiledGeoTiff, PublishesNothingWhereTheSourceChangesMeanwhile)
     EXPECT_THAT(report.error().message, StartsWith(source + ": changed while it was read"));
     EXPECT_FALSE(fs::exists(job.path));
     expectNothingLeftBeside(job.path);
+}
+
+// Writes over three of the tall map's rows, at a place where the source's identity does not look,
+// within the second in which the map was made.
+void overwriteWithinTheSecond(const std::string& vrt, const std::string& raw)
+{
+    const auto before = identify(vrt);
+    std::fstream file(raw, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(fs::file_size(raw) / 17 * 5 + 20'000));
+    file << std::string(std::size_t{3} * 260 * 2, 'x');
+    ASSERT_TRUE(file.flush());
+    setModified(raw, {1'700'000'000, 600'000'000});
+    const auto after = identify(vrt);
+    ASSERT_TRUE(before && after && isSameContent(*before, *after)) << "the identity tells already";
+}
+
+TEST(TiledGeoTiff, PublishesNothingWhereTheSourceIsOverwrittenWithinItsSecond)
+{
+    const test::TempFolder folder;
+    const std::string source = tallMap(folder, "source");
+    const std::string raw = folder.file("source.raw");
+    setModified(raw, {1'700'000'000, 20'000'000});
+    const TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    JobMonitor monitor;
+    std::jthread writer([&](const std::stop_token& stop) {
+        while (!stop.stop_requested() && monitor.fraction() < 0.05) {
+            std::this_thread::yield();
+        }
+        overwriteWithinTheSecond(source, raw);
+    });
+    const Result<TiledGeoTiffReport> report = writeTiledGeoTiff(job, monitor);
+    writer.join();
+    ASSERT_FALSE(report);
+    EXPECT_THAT(report.error().message, StartsWith(source + ": changed while it was read"));
+    EXPECT_FALSE(fs::exists(job.path));
+    expectNothingLeftBeside(job.path);
+    prepare(job);
+    EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
+}
+
+TEST(TiledGeoTiff, BeginsAgainWhereTheSourceWasOverwrittenWithinItsSecondMeanwhile)
+{
+    const test::TempFolder folder;
+    const std::string source = tallMap(folder, "source");
+    const std::string raw = folder.file("source.raw");
+    setModified(raw, {1'700'000'000, 20'000'000});
+    const TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    ASSERT_FALSE(prepareUntil(job, 0.5));
+    ASSERT_TRUE(fs::exists(job.path + ".part.journal"));
+    overwriteWithinTheSecond(source, raw);
+    const TiledGeoTiffReport report = prepare(job);
+    ASSERT_EQ(report.notes.size(), 1U);
+    EXPECT_THAT(report.notes[0], HasSubstr("begun again"));
+    EXPECT_EQ(report.samples_read, report.samples);
+    EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
+}
+
+TEST(TiledGeoTiff, GoesOnFromAJournalThatHasNoStamp)
+{
+    const test::TempFolder folder;
+    const std::string source = tallMap(folder, "source");
+    const TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
+    ASSERT_FALSE(prepareUntil(job, 0.5));
+    const std::string path = job.path + ".part.journal";
+    std::optional<PrepareJournal> journal = readJournal(path);
+    ASSERT_TRUE(journal);
+    EXPECT_FALSE(journal->source_stamp.empty());
+    journal->source_stamp.clear();
+    ASSERT_TRUE(writeJournal(path, *journal));
+    const TiledGeoTiffReport report = prepare(job);
+    ASSERT_EQ(report.notes.size(), 1U);
+    EXPECT_THAT(report.notes[0], HasSubstr("goes on behind row"));
+    EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
 }
 
 TEST(TiledGeoTiff, NamesASourceThatIsCutShort)

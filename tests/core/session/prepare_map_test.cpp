@@ -90,6 +90,45 @@ TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
     EXPECT_GT(noticed_late, 0U);
 }
 
+TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
+{
+    source("map");
+    const std::string out = folder_.file("out.tif");
+    ASSERT_TRUE(run(job(WhenThere::Trust)));
+    const std::string whole = test::readFile(out);
+    for (const double share : {0.1, 0.2, 0.35, 0.47, 0.55, 0.67, 0.9}) {
+        // As a program leaves it that is killed before it measures.
+        fs::remove(LevelFile::pathFor(out));
+        overwrite(out, share);
+        const Result<PrepareReport> report = run(job(WhenThere::Trust));
+        ASSERT_TRUE(report) << report.error().message;
+        EXPECT_THAT(report->notes, Contains(EndsWith("it is made anew"))) << share;
+        EXPECT_FALSE(report->copy.is_there);
+        EXPECT_TRUE(test::readFile(out) == whole) << share;
+        const Result<PrepareReport> again = run(job(WhenThere::Check));
+        ASSERT_TRUE(again);
+        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+    }
+}
+
+TEST_F(PrepareMap, LeavesADamagedRasterOfTheUsersWhereItIs)
+{
+    source("map");
+    const std::string own = folder_.file("own.tif");
+    test::runTool({"gdal_translate", "-q", "-of", "COG", "-co", "COMPRESS=DEFLATE",
+                   folder_.file("map.vrt"), own});
+    overwrite(own, 0.5);
+    const std::string damaged = test::readFile(own);
+    for (const std::string& copy : {std::string(), folder_.file("copy.tif")}) {
+        const Result<PrepareReport> report = run({.spec = {.path = own}, .raster_path = copy});
+        ASSERT_FALSE(report);
+        EXPECT_THAT(report.error().message, testing::StartsWith(own + ": "));
+        EXPECT_TRUE(test::readFile(own) == damaged);
+        EXPECT_FALSE(fs::exists(LevelFile::pathFor(own)));
+        EXPECT_FALSE(fs::exists(folder_.file("copy.tif")));
+    }
+}
+
 TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
 {
     source("map");
