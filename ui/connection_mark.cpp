@@ -17,8 +17,7 @@ QString key()
 // Another window may have a device connected.
 bool isRunning(qint64 process)
 {
-    return process > 0 && process != QCoreApplication::applicationPid() &&
-           (::kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM);
+    return process > 0 && (::kill(static_cast<pid_t>(process), 0) == 0 || errno == EPERM);
 }
 
 } // namespace

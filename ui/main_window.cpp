@@ -804,6 +804,7 @@ void MainWindow::settleIfIdle()
 void MainWindow::closeEvent(QCloseEvent* event)
 {
     haptics_->close();
+    connection_mark_.set(false);
     controller_->stopAll();
     if (isRemembered()) {
         QSettings settings;

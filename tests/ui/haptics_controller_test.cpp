@@ -526,6 +526,15 @@ TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
     QSettings().remove(QStringLiteral("haptics"));
 }
 
+TEST_F(HapticsControllerTest, ARememberedDeviceThatIsThereAndRefusesIsToldOf)
+{
+    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:locked"));
+    makeWindow(WindowOptions::Geometry::Remembered);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(haptics().notice().contains(QStringLiteral("may not be opened")));
+    QSettings().remove(QStringLiteral("haptics"));
+}
+
 TEST_F(HapticsControllerTest, SettingsThatMakeNoSenseAreDefaults)
 {
     QSettings settings;

@@ -89,9 +89,12 @@ public:
     {
         return {{"gone:", "Arm", "may not be opened by this user; install the udev rules"}};
     }
-    Result<std::unique_ptr<HapticDevice>> open(std::string_view /*address*/) override
+    Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
     {
-        return Error{ErrorCode::Unreadable, "gone:: may not be opened by this user"};
+        if (address == "locked") {
+            return Error{ErrorCode::Unreadable, "gone:locked: may not be opened by this user"};
+        }
+        return Error{ErrorCode::NotFound, "gone:: is not there"};
     }
 };
 

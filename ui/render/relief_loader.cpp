@@ -95,11 +95,45 @@ void ReliefLoader::waitForAll()
     has_result_.wait(lock, [this] { return wanted_.empty() && in_work_.empty(); });
 }
 
+std::optional<std::chrono::steady_clock::time_point> ReliefLoader::nextRetry() const
+{
+    std::optional<std::chrono::steady_clock::time_point> next;
+    for (const Failure& failure : failures_) {
+        if (!failure.is_told) {
+            next = next ? std::min(*next, failure.retry_at) : failure.retry_at;
+        }
+    }
+    return next;
+}
+
+bool ReliefLoader::takeDueRetries()
+{
+    bool is_any = false;
+    for (Failure& failure : failures_) {
+        if (!failure.is_told && failure.retry_at <= std::chrono::steady_clock::now()) {
+            failure.is_told = true;
+            is_any = true;
+        }
+    }
+    return is_any;
+}
+
 void ReliefLoader::run()
 {
     std::unique_lock lock(mutex_);
     while (true) {
-        has_work_.wait(lock, [this] { return is_stopping_ || !wanted_.empty(); });
+        while (!is_stopping_ && wanted_.empty()) {
+            if (const auto retry_at = nextRetry()) {
+                has_work_.wait_until(lock, *retry_at);
+            } else {
+                has_work_.wait(lock);
+            }
+            if (!is_stopping_ && takeDueRetries() && notify_) {
+                lock.unlock();
+                notify_();
+                lock.lock();
+            }
+        }
         if (is_stopping_) {
             return;
         }
@@ -116,6 +150,7 @@ void ReliefLoader::run()
         } else {
             failures_.push_back({request.key, std::chrono::steady_clock::now() + kRetryAfter,
                                  std::move(tile).error()});
+            has_work_.notify_all(); // there is a time to wake up at
         }
         has_result_.notify_all();
         if (notify_ && !is_stopping_) {

@@ -37,7 +37,8 @@ ReliefTileId reliefTileOf(const DetailNode& node);
 /// All members are for the thread that owns it; the threads that make tiles are its own.
 class ReliefLoader {
 public:
-    /// `notify` is called on a loader's thread after every tile; it may be empty.
+    /// `notify` is called on a loader's thread after every tile, and when one that could not be
+    /// read may be wanted again; it may be empty.
     explicit ReliefLoader(std::function<void()> notify);
     /// Waits for the tiles that are being made, a few milliseconds.
     ~ReliefLoader();
@@ -62,9 +63,12 @@ private:
         LayerNode key;
         std::chrono::steady_clock::time_point retry_at;
         Error error;
+        bool is_told = false; // that it may be tried again
     };
 
     void run();
+    std::optional<std::chrono::steady_clock::time_point> nextRetry() const;
+    bool takeDueRetries();
 
     std::function<void()> notify_;
     mutable std::mutex mutex_;
