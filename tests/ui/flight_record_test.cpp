@@ -123,7 +123,10 @@ TEST_F(FlightRecordTest, IsOfWhatHappenedBeforeItWasAskedFor)
     ASSERT_GT(rows.size(), 200);
     EXPECT_LE(rows.back()[kTick].toULongLong(), asked);
     EXPECT_GT(rows.back()[kTick].toULongLong() + 100, asked);
-    EXPECT_GT(rows.back()[kForceZ].toDouble(), 0.5);
+    // The last moments, not one tick: opening a dialog may stop the loop long enough to let go.
+    EXPECT_TRUE(std::any_of(rows.end() - 200, rows.end(), [](const QList<QByteArray>& row) {
+        return row[kForceZ].toDouble() > 0.5;
+    }));
     const QString told = QStringLiteral("flight.csv: %1 ticks of %2 s")
                              .arg(rows.size())
                              .arg(rows.back()[kTime].toDouble(), 0, 'f', 1);

@@ -223,7 +223,7 @@ TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
 
 TEST_F(HapticsControllerTest, ADeviceThatCannotBeOpenedSaysWhy)
 {
-    haptics().connectTo(QStringLiteral("gone:"));
+    haptics().connectTo(QStringLiteral("gone:locked"));
     EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
     EXPECT_TRUE(haptics().problem().contains(QStringLiteral("may not be opened")));
