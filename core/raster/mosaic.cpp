@@ -88,6 +88,11 @@ struct Opened {
     std::string failure; // otherwise
 };
 
+struct Parts {
+    std::vector<Part> parts;
+    std::vector<std::string> left_out; // names of other rasters
+};
+
 Opened openPart(const std::string& path, int band)
 {
     const Result<RasterFile> file = RasterFile::open(path, band);
@@ -105,8 +110,14 @@ std::string nameOf(const Part& part)
     return fs::path(part.info.path).filename().string();
 }
 
+// Other files lie beside maps without a word.
+bool isRaster(const std::string& path)
+{
+    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr;
+}
+
 // The rasters among the files, each once: a label and its data are the same one.
-Result<std::vector<Part>> openParts(const std::string& folder, const Listing& listing, int band)
+Result<Parts> openParts(const std::string& folder, const Listing& listing, int band)
 {
     std::vector<Opened> opened(listing.size());
     parallelRanges(listing.size(), 4, [&](std::size_t begin, std::size_t end) {
@@ -115,6 +126,7 @@ Result<std::vector<Part>> openParts(const std::string& folder, const Listing& li
         }
     });
     std::vector<Part> parts;
+    std::vector<std::string> left_out;
     std::set<std::string> names;   // of GDAL
     std::set<std::string> endings; // of rasters
     std::set<std::string> files;   // that belong to one
@@ -135,16 +147,21 @@ Result<std::vector<Part>> openParts(const std::string& folder, const Listing& li
     }
     for (std::size_t i = 0; i < opened.size(); ++i) {
         const std::string& path = listing[i].path;
-        if (!opened[i].failure.empty() && !files.contains(path) &&
-            endings.contains(lowerCase(fs::path(path).extension().string()))) {
+        if (opened[i].failure.empty() || files.contains(path)) {
+            continue;
+        }
+        if (endings.contains(lowerCase(fs::path(path).extension().string()))) {
             return Error{
                 ErrorCode::Unreadable,
                 fmt::format("{}: one of its files cannot be part of a map ({}); mend it or "
                             "move it elsewhere",
                             folder, opened[i].failure)};
         }
+        if (isRaster(path)) {
+            left_out.push_back(fs::path(path).filename().string());
+        }
     }
-    return parts;
+    return Parts{std::move(parts), std::move(left_out)};
 }
 
 bool isSameCrs(const std::optional<Crs>& a, const std::optional<Crs>& b)
@@ -317,8 +334,9 @@ std::string vrtOf(const std::vector<Part>& parts, const MosaicGrid& grid, const 
     return vrt;
 }
 
-void noteParts(const std::vector<Part>& parts, double covered, RasterInfo& whole)
+void noteParts(const Parts& opened, double covered, RasterInfo& whole)
 {
+    const std::vector<Part>& parts = opened.parts;
     std::set<std::string> said;
     std::vector<std::string> notices;
     if (parts.size() > 1) {
@@ -327,6 +345,12 @@ void noteParts(const std::vector<Part>& parts, double covered, RasterInfo& whole
                 ? fmt::format("{} rasters as one map; they cover {:.3g} % of its rectangle",
                               parts.size(), std::min(100.0 * covered, 99.9))
                 : fmt::format("{} rasters as one map", parts.size()));
+    }
+    if (!opened.left_out.empty()) {
+        const std::size_t more = opened.left_out.size() - 1;
+        notices.push_back(fmt::format("left out {}{}: no elevations that could be read",
+                                      opened.left_out.front(),
+                                      more > 0 ? fmt::format(" and {} more", more) : ""));
     }
     for (const Part& part : parts) {
         for (const std::string& notice : part.info.notices) {
@@ -341,18 +365,19 @@ void noteParts(const std::vector<Part>& parts, double covered, RasterInfo& whole
 Result<std::shared_ptr<const Mosaic>>
 makeMosaic(const std::string& folder, const Listing& listing, int band)
 {
-    Result<std::vector<Part>> parts = openParts(folder, listing, band);
-    if (!parts) {
-        return std::move(parts).error();
+    const Result<Parts> opened = openParts(folder, listing, band);
+    if (!opened) {
+        return opened.error();
     }
+    const std::vector<Part>& parts = opened->parts;
     const auto refuse = [&folder](const std::string& why) {
         return Error{ErrorCode::Unsupported,
                      fmt::format("{}: its rasters are not parts of one map: {}", folder, why)};
     };
-    const RasterInfo& first = parts->front().info;
+    const RasterInfo& first = parts.front().info;
     std::vector<MosaicPart> grids;
-    for (const Part& part : *parts) {
-        if (const std::string why = mismatch(part.info, first, nameOf(parts->front()));
+    for (const Part& part : parts) {
+        if (const std::string why = mismatch(part.info, first, nameOf(parts.front()));
             !why.empty()) {
             return refuse(fmt::format("{} {}", nameOf(part), why));
         }
@@ -380,13 +405,13 @@ makeMosaic(const std::string& folder, const Listing& listing, int band)
     info.columns = grid->size.columns;
     info.rows = grid->size.rows;
     info.transform = grid->transform;
-    if (const Status chosen = chooseVoids(*parts, grid->covered < 1.0, info); !chosen) {
+    if (const Status chosen = chooseVoids(parts, grid->covered < 1.0, info); !chosen) {
         return refuse(chosen.error().message);
     }
-    noteParts(*parts, grid->covered, info);
-    mosaic->vrt = vrtOf(*parts, *grid, info);
-    for (std::size_t i = 0; i < parts->size(); ++i) {
-        const Part& part = (*parts)[i];
+    noteParts(*opened, grid->covered, info);
+    mosaic->vrt = vrtOf(parts, *grid, info);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Part& part = parts[i];
         mosaic->parts.push_back({part.info.path, part.info.band, grid->places[i]});
         mosaic->files.insert(mosaic->files.end(), part.files.begin(), part.files.end());
     }

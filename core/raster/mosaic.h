@@ -33,8 +33,9 @@ struct Mosaic {
 
 /// The rasters that lie in the folder itself, not those in folders within it. They have to be of
 /// one kind: sample type, unit, scale, CRS, and one grid. Where parts overlap the last by name is
-/// seen, its voids excepted; what none covers is void. Other files are passed over, unless they are
-/// named like a part and cannot be read, which would leave a hole without a word.
+/// seen, its voids excepted; what none covers is void. Other files are passed over, rasters among
+/// them with a notice; those that are named like a part and cannot be read are an error: they would
+/// leave a hole without a word.
 ///
 /// Opens every raster, on all cores; asked again, only looks whether any file has changed. Any
 /// thread. Errors begin with the folder and name the raster that does not fit.

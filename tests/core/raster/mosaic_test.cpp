@@ -23,8 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
+using testing::Contains;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr std::size_t kColumns = 61;
@@ -293,6 +295,21 @@ TEST_F(MosaicTest, CountsEveryRasterOnceAndPassesOverWhatIsNone)
     ASSERT_TRUE(mosaic) << mosaic.error().message;
     EXPECT_EQ((*mosaic)->parts.size(), 2U);
     EXPECT_EQ((*mosaic)->info.columns, kColumns);
+    EXPECT_THAT((*mosaic)->info.notices, Not(Contains(HasSubstr("left out"))));
+}
+
+TEST_F(MosaicTest, TellsOfRastersThatItLeavesOut)
+{
+    const test::RasterRecipe map = test::recipeFor(kColumns, samples<float>());
+    cut(map, "west.flt", {0, 0, 30, kRows}, {"-of", "EHdr"});
+    cut(map, "east.flt", {30, 0, 31, kRows}, {"-of", "EHdr"});
+    const std::string cut_short = cut(map, "all.tif", {0, 0, kColumns, kRows});
+    fs::resize_file(cut_short, fs::file_size(cut_short) / 2);
+    const auto mosaic = mosaicOf(parts(), 1);
+    ASSERT_TRUE(mosaic) << mosaic.error().message;
+    EXPECT_EQ((*mosaic)->parts.size(), 2U);
+    EXPECT_THAT((*mosaic)->info.notices,
+                Contains("left out all.tif: no elevations that could be read"));
 }
 
 TEST_F(MosaicTest, OfOneRasterIsThatRaster)
