@@ -555,7 +555,7 @@ Result<MapLevels> estimateLevels(const TileSource& source,
         return overview.error();
     }
     monitor.beginStage(0.9, 1.0);
-    const RawRanges ranges = estimatedRanges(layout, *overview);
+    RawRanges ranges = estimatedRanges(layout, *overview);
     SampleStatistics statistics = ranges.extremes();
     statistics.sample_count = std::uint64_t{layout.columns} * layout.rows;
     const SampleGrid& means = overview->samples;
@@ -586,7 +586,7 @@ Result<MapLevels> estimateLevels(const TileSource& source,
         fine = std::move(found).value();
     }
     auto analysis = std::make_shared<const SurfaceAnalysis>(
-        SurfaceAnalysis{.bounds = MinMaxPyramid::from(ranges, scale),
+        SurfaceAnalysis{.bounds = MinMaxPyramid::from(std::move(ranges), scale),
                         .means = estimatedMeans(layout, *overview, scale),
                         .errors = estimatedErrors(layout, level, *measured, fine)});
     std::vector<std::vector<float>> maxima = unknownMaxima(analysis->bounds);

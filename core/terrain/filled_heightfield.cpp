@@ -35,7 +35,7 @@ bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
         }
         monitor.report(static_cast<double>(row) / static_cast<double>(pyramid.rows(0)));
         for (std::size_t column = 0; column < blocks; ++column) {
-            const MinMaxPyramid::Bounds& bounds = pyramid.bounds(0, column, row);
+            const MinMaxPyramid::Bounds bounds = pyramid.bounds(0, column, row);
             float maximum =
                 bounds.isEmpty() ? std::numeric_limits<float>::lowest() : bounds.maximum_m;
             constexpr std::size_t kBlock = MinMaxPyramid::kBlock;

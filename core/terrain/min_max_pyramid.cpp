@@ -1,16 +1,14 @@
 #include "core/terrain/min_max_pyramid.h"
 
-#include "core/base/float_rounding.h"
 #include "core/base/parallel.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace marsview {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr MinMaxPyramid::Bounds kEmpty{kInfinity, -kInfinity};
+constexpr std::size_t kRowsAtOnce = 64;
 
 void include(MinMaxPyramid::Bounds& bounds, const MinMaxPyramid::Bounds& other)
 {
@@ -34,49 +32,60 @@ Result<MinMaxPyramid> MinMaxPyramid::build(const Heightfield& heightfield, JobMo
     return pyramid;
 }
 
-MinMaxPyramid MinMaxPyramid::from(const RawRanges& ranges, const ElevationScale& scale)
+MinMaxPyramid MinMaxPyramid::from(RawRanges ranges, const ElevationScale& scale)
 {
     MinMaxPyramid pyramid;
-    Level blocks{.columns = ranges.columns(),
-                 .rows = ranges.rows(),
-                 .bounds = RawArray<Bounds>(ranges.columns() * ranges.rows())};
-    ranges.visit([&](auto raw) {
-        parallelRanges(blocks.rows, 64, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t row = begin; row < end; ++row) {
-                Bounds* bounds = blocks.bounds.data() + row * blocks.columns;
-                for (const auto& range : raw.row(row)) {
-                    // A negative gain swaps the ends.
-                    const double a = scale.height(static_cast<double>(range.minimum));
-                    const double b = scale.height(static_cast<double>(range.maximum));
-                    *bounds++ = range.isEmpty() ? kEmpty
-                                                : Bounds{roundedDown(std::min(a, b)),
-                                                         roundedUp(std::max(a, b))};
-                }
-            }
-        });
-    });
-    pyramid.levels_.push_back(std::move(blocks));
-    while (pyramid.levels_.back().bounds.size() > 1) {
+    pyramid.blocks_ = std::move(ranges);
+    pyramid.scale_ = scale;
+    pyramid.levels_.push_back(
+        {.columns = pyramid.blocks_.columns(), .rows = pyramid.blocks_.rows(), .bounds = {}});
+    // Every node is merged from the four below it, which at the far edges are fewer.
+    const auto add_level = [&pyramid](auto&& merged) {
         const Level& finer = pyramid.levels_.back();
         const std::size_t columns = (finer.columns + 1) / 2;
         const std::size_t rows = (finer.rows + 1) / 2;
         Level coarser{.columns = columns, .rows = rows, .bounds = RawArray<Bounds>(columns * rows)};
-        parallelRanges(rows, 64, [&](std::size_t begin, std::size_t end) {
+        parallelRanges(rows, kRowsAtOnce, [&](std::size_t begin, std::size_t end) {
             for (std::size_t row = begin; row < end; ++row) {
-                const Bounds* upper = finer.bounds.data() + 2 * row * finer.columns;
-                const Bounds* lower = 2 * row + 1 < finer.rows ? upper + finer.columns : upper;
+                const std::size_t upper = 2 * row;
+                const std::size_t lower = std::min(upper + 1, finer.rows - 1);
+                Bounds* bounds = coarser.bounds.data() + row * columns;
                 for (std::size_t column = 0; column < columns; ++column) {
                     const std::size_t left = 2 * column;
                     const std::size_t right = std::min(left + 1, finer.columns - 1);
-                    Bounds bounds = upper[left];
-                    include(bounds, upper[right]);
-                    include(bounds, lower[left]);
-                    include(bounds, lower[right]);
-                    coarser.bounds[row * columns + column] = bounds;
+                    *bounds++ = merged(upper, lower, left, right);
                 }
             }
         });
         pyramid.levels_.push_back(std::move(coarser));
+    };
+    const auto has_more = [&pyramid] {
+        return pyramid.levels_.back().columns * pyramid.levels_.back().rows > 1;
+    };
+    if (has_more()) {
+        pyramid.blocks_.visit([&](auto blocks) {
+            // Merged as they were measured: scaling and rounding keep the order.
+            add_level(
+                [&](std::size_t upper, std::size_t lower, std::size_t left, std::size_t right) {
+                    auto range = blocks(left, upper);
+                    range.include(blocks(right, upper));
+                    range.include(blocks(left, lower));
+                    range.include(blocks(right, lower));
+                    return boundsOf(range, scale);
+                });
+        });
+    }
+    while (has_more()) {
+        const Level& finer = pyramid.levels_.back();
+        const Bounds* const nodes = finer.bounds.data();
+        add_level([nodes, width = finer.columns](std::size_t upper, std::size_t lower,
+                                                 std::size_t left, std::size_t right) {
+            Bounds bounds = nodes[upper * width + left];
+            include(bounds, nodes[upper * width + right]);
+            include(bounds, nodes[lower * width + left]);
+            include(bounds, nodes[lower * width + right]);
+            return bounds;
+        });
     }
     return pyramid;
 }

@@ -4,6 +4,7 @@
 #include "core/base/raw_array.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <libdeflate.h>
 #include <memory>
@@ -107,22 +108,77 @@ void difference(const PackShape& shape, const std::byte* numbers, std::byte* sor
     }
 }
 
+// What each number of a row is told to differ from its guess, of `count` numbers in all.
+template <typename T>
+void readDifferences(const std::byte* sorted, std::size_t count, std::span<T> differences)
+{
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        T code{};
+        for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
+            code = static_cast<T>(
+                code | static_cast<T>(static_cast<T>(sorted[byte * count + i]) << (8 * byte)));
+        }
+        differences[i] = unfolded(code);
+    }
+}
+
+// The next number. Each one waits for the one before it: as a wider number, where there is one,
+// their mean and the difference are but an addition and a shift away.
+template <typename T>
+T next(T left, T above, T difference)
+{
+    if constexpr (sizeof(T) < sizeof(std::int64_t)) {
+        using Signed = std::make_signed_t<T>;
+        const auto wide = [](T value) { return std::int64_t{static_cast<Signed>(value)}; };
+        return static_cast<T>((wide(left) + (wide(above) + 2 * wide(difference))) >> 1);
+    } else {
+        return mean(left, above) + difference;
+    }
+}
+
+// Differences of a row after the first as numbers, `kApart` of them side by side.
+template <std::size_t kApart, typename T>
+void addUp(std::span<T> row, std::span<const T> above)
+{
+    std::array<T, kApart> left{};
+    std::copy_n(row.begin(), kApart, left.begin());
+    std::size_t i = kApart;
+    for (; i + kApart <= row.size(); i += kApart) {
+#pragma GCC unroll 2
+        for (std::size_t k = 0; k < kApart; ++k) {
+            left[k] = next(left[k], above[i + k], row[i + k]);
+            row[i + k] = left[k];
+        }
+    }
+    for (; i < row.size(); ++i) {
+        row[i] = next(row[i - kApart], above[i], row[i]);
+    }
+}
+
 template <typename T>
 void sum(const PackShape& shape, const std::byte* sorted, std::byte* numbers)
 {
     const std::size_t count = shape.columns * shape.rows;
-    for (std::size_t row = 0; row < shape.rows; ++row) {
-        for (std::size_t column = 0; column < shape.columns; ++column) {
-            const std::size_t i = row * shape.columns + column;
-            T code{};
-            for (std::size_t byte = 0; byte < sizeof(T); ++byte) {
-                code = static_cast<T>(
-                    code | static_cast<T>(static_cast<T>(sorted[byte * count + i]) << (8 * byte)));
-            }
-            const auto value =
-                static_cast<T>(guess<T>(shape, numbers, row, column) + unfolded(code));
-            std::memcpy(numbers + i * sizeof(T), &value, sizeof(T));
+    const std::size_t apart = std::min(shape.interleaved, shape.columns);
+    std::vector<T> above(shape.columns);
+    std::vector<T> row(shape.columns); // first differences, then numbers
+    for (std::size_t begin = 0; begin < count; begin += shape.columns) {
+        readDifferences<T>(sorted + begin, count, row);
+        for (std::size_t i = 0; i < apart; ++i) {
+            row[i] = static_cast<T>(row[i] + above[i]); // which is 0 in the first row
         }
+        if (begin == 0) {
+            for (std::size_t i = apart; i < shape.columns; ++i) {
+                row[i] = static_cast<T>(row[i] + row[i - apart]);
+            }
+        } else if (apart == 1) {
+            addUp<1, T>(row, above);
+        } else {
+            MARSVIEW_CHECK(apart == 2);
+            addUp<2, T>(row, above);
+        }
+        std::memcpy(numbers + begin * sizeof(T), row.data(), shape.columns * sizeof(T));
+        row.swap(above);
     }
 }
 

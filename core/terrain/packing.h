@@ -13,7 +13,7 @@ struct PackShape {
     std::size_t columns = 0;
     std::size_t rows = 0;
     std::size_t element_bytes = 1; // 1, 2, 4 or 8
-    std::size_t interleaved = 1;   // a number resembles the one that many before it
+    std::size_t interleaved = 1;   // 1 or 2: a number resembles the one that many before it
 
     std::size_t bytes() const noexcept { return columns * rows * element_bytes; }
 };

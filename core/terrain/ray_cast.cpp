@@ -131,7 +131,7 @@ private:
     // The node if the ray passes through its box, or else nothing.
     std::optional<Node> enter(std::size_t level, std::size_t column, std::size_t row) const
     {
-        const MinMaxPyramid::Bounds& bounds = pyramid_.bounds(level, column, row);
+        const MinMaxPyramid::Bounds bounds = pyramid_.bounds(level, column, row);
         if (bounds.isEmpty()) {
             return std::nullopt;
         }
