@@ -16,6 +16,9 @@ constexpr float kNever = 1e30F;
 // Distances are taken again in the graphics driver, as floats.
 constexpr double kRounding = 1.0001;
 
+// Cells along a side of a quadrant.
+constexpr std::size_t kHalf = DetailErrors::kNodeCells / 2;
+
 // Rows of nodes that a thread takes at once.
 constexpr std::size_t kRangeRows = 64;
 
@@ -35,6 +38,35 @@ DetailNode ancestor(const DetailNode& node, std::size_t level)
     return {level, node.column >> up, node.row >> up};
 }
 
+// A value for each node of a level, row by row.
+struct NodeValues {
+    NodeValues() = default;
+    NodeValues(std::size_t column_count, std::size_t row_count)
+        : columns(column_count)
+        , rows(row_count)
+        , values(column_count * row_count)
+    {}
+
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    LargeVector<float> values;
+};
+
+// Of the next level: the largest of each node's children. Nothing of nothing.
+NodeValues largestOfFour(const NodeValues& finer)
+{
+    NodeValues coarser((finer.columns + 1) / 2, (finer.rows + 1) / 2);
+    std::fill(coarser.values.begin(), coarser.values.end(), 0.0F);
+    for (std::size_t row = 0; row < finer.rows; ++row) {
+        const float* from = finer.values.data() + row * finer.columns;
+        float* to = coarser.values.data() + row / 2 * coarser.columns;
+        for (std::size_t column = 0; column < finer.columns; ++column) {
+            to[column / 2] = std::max(to[column / 2], from[column]);
+        }
+    }
+    return coarser;
+}
+
 } // namespace
 
 // What stays the same during one selection.
@@ -44,6 +76,7 @@ struct DetailSelector::Pass {
     DetailTarget target;
     double pixels = 1.0;          // that a metre across the view is wide at one metre's distance
     double range_per_error = 1.0; // metres a metre
+    const SizeRanges& size_ranges_m;
     DetailSelection selection;
 };
 
@@ -63,7 +96,9 @@ DetailSelection DetailSelector::select(const DetailView& view, const DetailTarge
 {
     MARSVIEW_CHECK(target.error_px > 0.0 && target.texel_px > 0.0 && view.exaggeration > 0.0);
     if (view.exaggeration != exaggeration_) {
-        setExaggeration(view.exaggeration);
+        exaggeration_ = view.exaggeration;
+        at_rest_m_.clear();
+        moving_m_.clear();
     }
     const double pixels =
         view.viewport.height / (2.0 * std::tan(view.camera.field_of_view.radians() / 2.0));
@@ -72,10 +107,11 @@ DetailSelection DetailSelector::select(const DetailView& view, const DetailTarge
               .target = target,
               .pixels = pixels,
               .range_per_error = pixels * view.exaggeration / target.error_px,
+              .size_ranges_m = sizeRangesFor(target),
               .selection = {}};
     const std::size_t top = analysis_->errors.levelCount() - 1;
     SelectedNode selected;
-    visit({top, 0, 0}, false, selected, pass);
+    visit({top, 0, 0}, {}, selected, pass);
     std::sort(
         pass.selection.nodes.begin(), pass.selection.nodes.end(),
         [](const SelectedNode& a, const SelectedNode& b) { return a.distance_m < b.distance_m; });
@@ -84,7 +120,7 @@ DetailSelection DetailSelector::select(const DetailView& view, const DetailTarge
 
 // `selected` carries the relief that was found on the way down.
 void DetailSelector::visit(const DetailNode& node,
-                           bool has_relief,
+                           Above above,
                            SelectedNode& selected,
                            Pass& pass) const
 {
@@ -92,15 +128,18 @@ void DetailSelector::visit(const DetailNode& node,
         return;
     }
     const SceneBox box = boxOf(node);
-    if (pass.frustum.isOutside(box)) {
-        return;
+    if (!above.is_inside) {
+        if (pass.frustum.isOutside(box)) {
+            return;
+        }
+        above.is_inside = pass.frustum.isInside(box);
     }
     const double distance_m = distance(pass.eye, box);
-    if (!has_relief) {
+    if (!above.has_relief) {
         const double side_m = cell_m_ * static_cast<double>(DetailErrors::kNodeCells << node.level);
         const double texel_m = side_m / static_cast<double>(kReliefTexels);
-        has_relief = node.level <= kReliefLevelMin ||
-                     pass.pixels * texel_m <= pass.target.texel_px * distance_m;
+        above.has_relief = node.level <= kReliefLevelMin ||
+                           pass.pixels * texel_m <= pass.target.texel_px * distance_m;
         selected.relief = node.level >= kReliefLevelMin ? node : ancestor(node, kReliefLevelMin);
     }
     bool is_drawn = node.level == 0;
@@ -116,12 +155,16 @@ void DetailSelector::visit(const DetailNode& node,
             for (std::size_t column = 2 * node.column;
                  column < std::min(2 * node.column + 2, analysis_->errors.columns(level));
                  ++column) {
-                visit({level, column, row}, has_relief, selected, pass);
+                visit({level, column, row}, above, selected, pass);
             }
         }
         return;
     }
     selected.node = node;
+    selected.quadrants = quadrantsIn(pass.frustum, node, above.is_inside);
+    if (selected.quadrants == 0) {
+        return;
+    }
     selected.distance_m = distance_m;
     selected.parent_ranges_m = {kNever, kNever, kNever, kNever};
     selected.grandparent_ranges_m = selected.parent_ranges_m;
@@ -153,18 +196,54 @@ void DetailSelector::visit(const DetailNode& node,
     DetailSelection& selection = pass.selection;
     selection.nodes.push_back(selected);
     selection.error_px = std::max(selection.error_px, std::min(error_px, pass.target.error_px));
-    const auto cells = [&](std::size_t samples, std::size_t index) {
-        const std::size_t first = index * (DetailErrors::kNodeCells << node.level);
-        const std::size_t left =
-            ((samples - 1 - first) + (std::size_t{1} << node.level) - 1) >> node.level;
-        return std::min(DetailErrors::kNodeCells, left);
+    selection.triangle_count += triangleCount(selected);
+}
+
+// Their ground is that of the nodes one level down: what is drawn of a quadrant are samples of
+// these, to whatever coarser level its vertices have given way.
+std::uint8_t
+DetailSelector::quadrantsIn(const Frustum& frustum, const DetailNode& node, bool is_inside) const
+{
+    if (node.level == 0) {
+        return kAllQuadrants;
+    }
+    const std::size_t level = node.level - 1;
+    unsigned quadrants = 0;
+    for (std::size_t i = 0; i < kQuadrantCount; ++i) {
+        const DetailNode below{level, 2 * node.column + i % 2, 2 * node.row + i / 2};
+        const bool is_there = below.column < analysis_->errors.columns(level) &&
+                              below.row < analysis_->errors.rows(level) &&
+                              !analysis_->bounds.bounds(level, below.column, below.row).isEmpty() &&
+                              (is_inside || !frustum.isOutside(boxOf(below)));
+        quadrants |= is_there ? 1U << i : 0U;
+    }
+    return static_cast<std::uint8_t>(quadrants);
+}
+
+// Of cells with an area.
+std::size_t DetailSelector::triangleCount(const SelectedNode& selected) const
+{
+    const std::size_t level = selected.node.level;
+    const auto cells = [level](std::size_t samples, std::size_t index, std::size_t half) {
+        const std::size_t first = (index * DetailErrors::kNodeCells + half * kHalf) << level;
+        if (first >= samples - 1) {
+            return std::size_t{0};
+        }
+        return std::min(kHalf, ((samples - 1 - first) + (std::size_t{1} << level) - 1) >> level);
     };
-    selection.triangle_count += 2 * cells(columns_, node.column) * cells(rows_, node.row);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kQuadrantCount; ++i) {
+        if ((selected.quadrants >> i & 1U) != 0) {
+            count += 2 * cells(columns_, selected.node.column, i % 2) *
+                     cells(rows_, selected.node.row, i / 2);
+        }
+    }
+    return count;
 }
 
 SceneBox DetailSelector::boxOf(const DetailNode& node) const
 {
-    const MinMaxPyramid::Bounds& bounds =
+    const MinMaxPyramid::Bounds bounds =
         analysis_->bounds.bounds(node.level, node.column, node.row);
     const double low = static_cast<double>(bounds.minimum_m) * exaggeration_;
     const double high = static_cast<double>(bounds.maximum_m) * exaggeration_;
@@ -188,7 +267,7 @@ SceneBox DetailSelector::boxOf(const DetailNode& node) const
 // Of boxOf(node), without making it: there are millions of nodes.
 double DetailSelector::diagonalOf(const DetailNode& node) const
 {
-    const MinMaxPyramid::Bounds& bounds =
+    const MinMaxPyramid::Bounds bounds =
         analysis_->bounds.bounds(node.level, node.column, node.row);
     if (bounds.isEmpty()) {
         return 0.0;
@@ -210,7 +289,7 @@ float DetailSelector::rangeAt(std::size_t level,
                               std::size_t row,
                               const Pass& pass) const
 {
-    const CornerGrid& sizes = size_ranges_m_[level];
+    const CornerGrid& sizes = pass.size_ranges_m[level];
     const float by_size = sizes.values[row * (sizes.columns + 1) + column];
     const double error_m = static_cast<double>(analysis_->errors.cornerError(level, column, row));
     const auto by_error =
@@ -232,27 +311,49 @@ CornerRanges DetailSelector::rangesOf(const DetailNode& node, const Pass& pass) 
             rangeAt(node.level, node.column + 1, node.row + 1, pass)};
 }
 
-// Ranges that follow from the size of the nodes, heights included.
-void DetailSelector::setExaggeration(double exaggeration)
+// Made when first asked for: of millions of nodes, they take some of the time until a first
+// picture.
+const DetailSelector::SizeRanges& DetailSelector::sizeRangesFor(const DetailTarget& target)
 {
-    exaggeration_ = exaggeration;
+    const bool is_moving = target.error_px > kErrorPxAtRest;
+    SizeRanges& ranges_m = is_moving ? moving_m_ : at_rest_m_;
+    if (ranges_m.empty()) {
+        ranges_m = sizeRanges(is_moving ? kRangePerSizeMoving : kRangePerSize);
+    }
+    return ranges_m;
+}
+
+// Ranges that follow from the size of the nodes, heights included.
+DetailSelector::SizeRanges DetailSelector::sizeRanges(double range_per_size) const
+{
     const DetailErrors& errors = analysis_->errors;
-    size_ranges_m_.assign(errors.levelCount(), {});
+    SizeRanges ranges_m(errors.levelCount());
+    NodeValues child_diagonals;      // the largest of a node's children, of the level before
+    NodeValues grandchild_diagonals; // and of theirs
     for (std::size_t level = 1; level < errors.levelCount(); ++level) {
-        const std::size_t columns = errors.columns(level);
-        const std::size_t rows = errors.rows(level);
-        LargeVector<float> ranges_m(columns * rows);
-        parallelRanges(rows, kRangeRows, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin * columns; i < end * columns; ++i) {
-                const DetailNode node{level, i % columns, i / columns};
-                ranges_m[i] = static_cast<float>(kRangePerSize * diagonalOf(node));
+        NodeValues diagonals(errors.columns(level), errors.rows(level));
+        NodeValues ranges(diagonals.columns, diagonals.rows);
+        parallelRanges(ranges.rows, kRangeRows, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin * ranges.columns; i < end * ranges.columns; ++i) {
+                const DetailNode node{level, i % ranges.columns, i / ranges.columns};
+                const double diagonal = diagonalOf(node);
+                diagonals.values[i] = static_cast<float>(diagonal);
+                ranges.values[i] = static_cast<float>(range_per_size * diagonal);
+                if (!grandchild_diagonals.values.empty()) {
+                    const auto below = static_cast<double>(grandchild_diagonals.values[i]);
+                    ranges.values[i] =
+                        std::max(ranges.values[i], static_cast<float>(kRangeTwoBelow * below));
+                }
             }
         });
-        size_ranges_m_[level] = largestAtCorners(columns, rows, ranges_m);
+        ranges_m[level] = largestAtCorners(ranges.columns, ranges.rows, ranges.values);
         if (level > 1) {
-            growCorners(size_ranges_m_[level - 1], size_ranges_m_[level]);
+            growCorners(ranges_m[level - 1], ranges_m[level]);
         }
+        grandchild_diagonals = largestOfFour(child_diagonals);
+        child_diagonals = largestOfFour(diagonals);
     }
+    return ranges_m;
 }
 
 } // namespace marsview

@@ -9,14 +9,16 @@
 //     R = K · e · exaggeration / error_px,    K = picture height / (2 tan(field of view / 2)),
 //
 // so 99 of 100 pixels of the picture are off by at most error_px, and none by more than
-// DetailErrors::kPeak times that, since that is what a node's error stands for. A node is drawn at its level where all of it is
-// further away than kMorphEnd · R. What is drawn is then a function of place and camera alone: on
-// an edge between two nodes all vertices have given way to the coarser node's, in the same bits.
+// DetailErrors::kPeak times that, since that is what a node's error stands for. A node is drawn at
+// its level where all of it is further away than kMorphEnd · R. What is drawn is then a function of
+// place and camera alone: on an edge between two nodes all vertices have given way to the coarser
+// node's, in the same bits.
 //
-// Two levels of giving way are enough in any node: ranges grow by DetailErrors::kGrowth from one
-// level to the next and are no less than kRangePerSize times the size of the nodes. With node k
-// drawn because its parent, of size s, was too near, any point of it is nearer than
-// 1.2 R(k+1) + s <= 2.2 R(k+1), and R(k+3) >= 2.25 R(k+1) is more than that.
+// Two levels of giving way are enough in any node: ranges R grow by DetailErrors::kGrowth from one
+// level to the next, and two levels up are no less than kRangeTwoBelow times the size of the nodes
+// below. With node k drawn because its parent, of size s, was too near, any point of it is nearer
+// than 1.2 R(k+1) + s. Where s <= 1.03 R(k+1) that is at most 2.23 R(k+1), and R(k+3) >= 2.25
+// R(k+1) is more; elsewhere it is less than 2.17 s, and R(k+3) >= 2.19 s is more.
 #pragma once
 
 #include "core/geo/scene_frame.h"
@@ -25,16 +27,26 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace marsview {
 
+class Frustum;
+
 /// Where the move to the next level ends, in ranges.
 inline constexpr double kMorphEnd = 1.2;
 
-/// Least range of a level, in diagonals of its nodes.
+/// Least range of a level, in diagonals of its nodes. Colours by height are those of the vertices:
+/// a picture at rest has cells of at most 18 pixels, however flat they are; one in motion, where
+/// more than kErrorPxAtRest is allowed, twice that.
 inline constexpr double kRangePerSize = 1.0;
+inline constexpr double kRangePerSizeMoving = 0.5;
+inline constexpr double kErrorPxAtRest = 1.0;
+
+/// Least range of a level, in diagonals of the nodes two levels below it.
+inline constexpr double kRangeTwoBelow = 2.19;
 
 /// Texels along a side of the relief of a node; see SelectedNode::relief.
 inline constexpr std::size_t kReliefTexels = 256;
@@ -60,12 +72,17 @@ struct DetailTarget {
 /// right.
 using CornerRanges = std::array<float, 4>;
 
+/// The quadrants of a node: upper left, upper right, lower left, lower right, a bit each.
+inline constexpr std::size_t kQuadrantCount = 4;
+inline constexpr std::uint8_t kAllQuadrants = 0b1111;
+
 struct SelectedNode {
     DetailNode node;
-    CornerRanges parent_ranges_m{};      // of the node one level up, at its own corners
-    CornerRanges grandparent_ranges_m{}; // two levels up
-    DetailNode relief;                   // the node, itself or one around it, whose relief it wears
-    double distance_m = 0.0;             // of its nearest point from the eye
+    std::uint8_t quadrants = kAllQuadrants; // those that are in the picture and not void
+    CornerRanges parent_ranges_m{};         // of the node one level up, at its own corners
+    CornerRanges grandparent_ranges_m{};    // two levels up
+    DetailNode relief;       // the node, itself or one around it, whose relief it wears
+    double distance_m = 0.0; // of its nearest point from the eye
 };
 
 struct DetailSelection {
@@ -88,11 +105,20 @@ public:
 
 private:
     struct Pass;
+    // What holds for a node because it does for one above it.
+    struct Above {
+        bool has_relief = false;
+        bool is_inside = false; // the picture
+    };
 
-    void setExaggeration(double exaggeration);
+    using SizeRanges = std::vector<CornerGrid>; // by level
+    const SizeRanges& sizeRangesFor(const DetailTarget& target);
+    SizeRanges sizeRanges(double range_per_size) const;
     SceneBox boxOf(const DetailNode& node) const;
+    std::uint8_t quadrantsIn(const Frustum& frustum, const DetailNode& node, bool is_inside) const;
+    std::size_t triangleCount(const SelectedNode& selected) const;
     double diagonalOf(const DetailNode& node) const;
-    void visit(const DetailNode& node, bool has_relief, SelectedNode& selected, Pass& pass) const;
+    void visit(const DetailNode& node, Above above, SelectedNode& selected, Pass& pass) const;
     float rangeAt(std::size_t level, std::size_t column, std::size_t row, const Pass& pass) const;
     CornerRanges rangesOf(const DetailNode& node, const Pass& pass) const;
 
@@ -102,7 +128,8 @@ private:
     SceneFrame frame_;
     double cell_m_ = 1.0; // the longer side of a cell of level 0
     double exaggeration_ = 0.0;
-    std::vector<CornerGrid> size_ranges_m_; // by level, for exaggeration_
+    SizeRanges at_rest_m_; // for exaggeration_; empty until asked for
+    SizeRanges moving_m_;
 };
 
 } // namespace marsview

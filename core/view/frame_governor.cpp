@@ -6,7 +6,8 @@
 namespace marsview {
 namespace {
 
-constexpr std::array kErrorsPx{1.0, 1.4, 2.0, 2.8, 4.0, 5.6, kErrorPxMax};
+constexpr std::array kErrorsPx{1.0, 1.4, 2.0, 2.8, 4.0, 5.6, kErrorPxLarge};
+constexpr std::array kLastErrorsPx{11.0, kErrorPxMax};
 constexpr std::array kScales{1.0, 0.85, 0.7, 0.6, kScaleMin};
 
 constexpr double kLearningRate = 0.25;
@@ -86,7 +87,13 @@ FramePlan planFrame(const FrameCost& cost,
         }
     }
     for (const double scale : kScales) {
-        const FramePlan plan{.error_px = kErrorPxMax, .scale = scale};
+        const FramePlan plan{.error_px = kErrorPxLarge, .scale = scale};
+        if (fits(plan)) {
+            return plan;
+        }
+    }
+    for (const double error_px : kLastErrorsPx) {
+        const FramePlan plan{.error_px = error_px, .scale = kScaleMin};
         if (fits(plan)) {
             return plan;
         }

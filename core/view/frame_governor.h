@@ -42,12 +42,14 @@ FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds tak
 
 /// How fine a frame is drawn.
 struct FramePlan {
-    double error_px = 1.0; // 1 … 8
+    double error_px = 1.0; // 1 … kErrorPxMax, of the pixels that are drawn
     double scale = 1.0;    // of width and height, 0.5 … 1
     bool operator==(const FramePlan&) const = default;
 };
 
-inline constexpr double kErrorPxMax = 8.0;
+/// From here on the size of the picture gives way.
+inline constexpr double kErrorPxLarge = 8.0;
+inline constexpr double kErrorPxMax = 16.0;
 inline constexpr double kScaleMin = 0.5;
 
 struct FrameWish {
@@ -59,9 +61,9 @@ struct FrameWish {
 };
 
 /// The finest plan that is predicted to take at most the target: the error gives way first, up to 8
-/// pixels, then the size of the picture. A plan finer than the last one is taken only where it
-/// leaves a margin, so that nothing flickers at the limit. `triangles(plan)` counts what would
-/// be drawn; coarser plans have no more.
+/// pixels, then the size of the picture, and at last the error again. A plan finer than the last
+/// one is taken only where it leaves a margin, so that nothing flickers at the limit.
+/// `triangles(plan)` counts what would be drawn; coarser plans have no more.
 FramePlan planFrame(const FrameCost& cost,
                     const FrameWish& wish,
                     const FramePlan& last,

@@ -4,6 +4,17 @@
 #include <cmath>
 
 namespace marsview {
+namespace {
+
+// How far inside a plane through the eye a box lies with its corner furthest inside.
+double furthestInside(const Vec3& low, const Vec3& high, const Vec3& inward)
+{
+    return dot({inward.x > 0.0 ? high.x : low.x, inward.y > 0.0 ? high.y : low.y,
+                inward.z > 0.0 ? high.z : low.z},
+               inward);
+}
+
+} // namespace
 
 Frustum::Frustum(const OrbitCamera& camera, const Viewport& viewport)
     : eye_(eyeOf(camera))
@@ -19,12 +30,17 @@ bool Frustum::isOutside(const SceneBox& box) const noexcept
 {
     const Vec3 low = box.minimum - eye_;
     const Vec3 high = box.maximum - eye_;
-    return std::any_of(inward_.begin(), inward_.end(), [&](const Vec3& n) {
-        // The corner furthest inside.
-        const Vec3 corner{n.x > 0.0 ? high.x : low.x, n.y > 0.0 ? high.y : low.y,
-                          n.z > 0.0 ? high.z : low.z};
-        return dot(corner, n) < 0.0;
-    });
+    return std::any_of(inward_.begin(), inward_.end(),
+                       [&](const Vec3& n) { return furthestInside(low, high, n) < 0.0; });
+}
+
+bool Frustum::isInside(const SceneBox& box) const noexcept
+{
+    const Vec3 low = box.minimum - eye_;
+    const Vec3 high = box.maximum - eye_;
+    // The corner furthest inside is, of a box that is turned over, the one furthest outside.
+    return std::all_of(inward_.begin(), inward_.end(),
+                       [&](const Vec3& n) { return furthestInside(high, low, n) >= 0.0; });
 }
 
 } // namespace marsview

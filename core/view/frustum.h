@@ -16,6 +16,8 @@ public:
     /// True only if no point of the box is in the picture. False for some boxes near the edges that
     /// are not.
     bool isOutside(const SceneBox& box) const noexcept;
+    /// True only if every point of the box is in the picture or behind its edges by rounding.
+    bool isInside(const SceneBox& box) const noexcept;
 
 private:
     ScenePoint eye_;

@@ -16,10 +16,10 @@ constexpr double kTexelPxMax = 2.0;
 // The target is for the whole frame; the rest goes to what is around the picture.
 constexpr double kPictureShare = 0.85;
 
+// Of the pixels that are drawn: nobody sees more than they show.
 DetailTarget detailFor(const FramePlan& plan)
 {
-    // Texels need not be finer than the pixels that are drawn.
-    return {.error_px = plan.error_px,
+    return {.error_px = plan.error_px / plan.scale,
             .texel_px = std::min(plan.error_px, kTexelPxMax) / plan.scale};
 }
 

@@ -30,6 +30,8 @@ namespace {
 
 constexpr int kCells = static_cast<int>(DetailErrors::kNodeCells);
 constexpr int kSide = kCells + 1;
+constexpr int kHalf = kCells / 2;
+constexpr GLsizei kQuadrantIndices = 6 * kHalf * kHalf;
 
 // How many tiles are sent to the driver for a picture in motion: a millisecond each in software.
 constexpr std::size_t kHastyUploads = 8;
@@ -53,6 +55,12 @@ constexpr double kRemoteTexel = 1.5;
 
 // Around an eye inside a map's box texels stay large however coarse they may be.
 constexpr int kCoarserMax = 12;
+
+// Of the node mesh.
+struct IndexRange {
+    std::size_t first;
+    GLsizei count;
+};
 
 // Software drivers keep the triangles of what is not yet flushed, some 100 bytes each.
 constexpr std::size_t kNodesPerDraw = 32;
@@ -224,8 +232,18 @@ struct TerrainRenderer::Impl {
     GlBuffer instances;
     GlVertexArray node_array;
     GlVertexArray empty_array;
-    GLsizei index_count = 0;
-    std::vector<std::vector<NodeInstance>> batches; // one a page of relief
+    // Of a page of relief: nodes of which all is drawn, and single quadrants of others.
+    struct Batch {
+        std::vector<NodeInstance> nodes;
+        std::array<std::vector<NodeInstance>, kQuadrantCount> quadrants;
+
+        bool isEmpty() const
+        {
+            return nodes.empty() && std::all_of(quadrants.begin(), quadrants.end(),
+                                                [](const auto& part) { return part.empty(); });
+        }
+    };
+    std::vector<Batch> batches; // one a page
 
     Impl(TerrainShaders compiled,
          std::string name,
@@ -256,6 +274,7 @@ struct TerrainRenderer::Impl {
                      const DrawStyle& style,
                      GridPoint anchor) const;
     void drawBatches(bool is_hasty);
+    void drawInstances(std::vector<NodeInstance>& instances_of, const IndexRange& range) const;
     ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 };
 
@@ -271,17 +290,19 @@ void TerrainRenderer::Impl::makeNodeMesh()
     }
     std::vector<std::uint16_t> indices;
     indices.reserve(std::size_t{6} * kCells * kCells);
-    for (int row = 0; row < kCells; ++row) {
-        for (int column = 0; column < kCells; ++column) {
-            const int upper_left = row * kSide + column;
-            const int lower_left = upper_left + kSide;
-            for (const int index : {upper_left, lower_left + 1, upper_left + 1, // upper
-                                    upper_left, lower_left, lower_left + 1}) {  // lower
-                indices.push_back(static_cast<std::uint16_t>(index));
-            }
+    // One quadrant after the other.
+    constexpr int kQuadrantCells = kHalf * kHalf;
+    for (int cell = 0; cell < kCells * kCells; ++cell) {
+        const int quadrant = cell / kQuadrantCells;
+        const int row = quadrant / 2 * kHalf + cell % kQuadrantCells / kHalf;
+        const int column = quadrant % 2 * kHalf + cell % kHalf;
+        const int upper_left = row * kSide + column;
+        const int lower_left = upper_left + kSide;
+        for (const int index : {upper_left, lower_left + 1, upper_left + 1, // upper
+                                upper_left, lower_left, lower_left + 1}) {  // lower
+            indices.push_back(static_cast<std::uint16_t>(index));
         }
     }
-    index_count = static_cast<GLsizei>(indices.size());
     glBindVertexArray(node_array.id());
     glBindBuffer(GL_ARRAY_BUFFER, cell_vertices.id());
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(cells.size()), cells.data(),
@@ -375,7 +396,17 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         if (!relief) {
             continue; // given up and asked for again
         }
-        batches[relief->page].push_back(nodeInstance(selected, anchor, *slot, *relief));
+        Batch& batch = batches[relief->page];
+        const NodeInstance instance = nodeInstance(selected, anchor, *slot, *relief);
+        if (selected.quadrants == kAllQuadrants) {
+            batch.nodes.push_back(instance);
+            continue;
+        }
+        for (std::size_t i = 0; i < kQuadrantCount; ++i) {
+            if ((selected.quadrants >> i & 1U) != 0) {
+                batch.quadrants[i].push_back(instance);
+            }
+        }
     }
     drawBatches(request.is_hasty);
 }
@@ -385,26 +416,39 @@ void TerrainRenderer::Impl::drawBatches(bool is_hasty)
     glBindVertexArray(node_array.id());
     glBindBuffer(GL_ARRAY_BUFFER, instances.id());
     for (std::size_t page = 0; page < batches.size(); ++page) {
-        std::vector<NodeInstance>& batch = batches[page];
-        if (batch.empty()) {
+        Batch& batch = batches[page];
+        if (batch.isEmpty()) {
             continue;
         }
         reliefs.bind(page, GL_TEXTURE0 + Slopes,
                      is_hasty && is_software ? ReliefCache::Mixing::OneLevel
                                              : ReliefCache::Mixing::TwoLevels);
-        for (std::size_t first = 0; first < batch.size(); first += kNodesPerDraw) {
-            const std::size_t count = std::min(kNodesPerDraw, batch.size() - first);
-            glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * sizeof(NodeInstance)),
-                         batch.data() + first, GL_STREAM_DRAW);
-            glDrawElementsInstanced(GL_TRIANGLES, index_count, GL_UNSIGNED_SHORT, nullptr,
-                                    static_cast<GLsizei>(count));
-            if (is_software && count == kNodesPerDraw) {
-                glFlush();
-            }
+        constexpr auto kAll = static_cast<GLsizei>(kQuadrantCount);
+        drawInstances(batch.nodes, {.first = 0, .count = kAll * kQuadrantIndices});
+        for (std::size_t i = 0; i < kQuadrantCount; ++i) {
+            drawInstances(batch.quadrants[i],
+                          {.first = i * kQuadrantIndices, .count = kQuadrantIndices});
         }
-        batch.clear();
     }
     glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+// And forgets them.
+void TerrainRenderer::Impl::drawInstances(std::vector<NodeInstance>& instances_of,
+                                          const IndexRange& range) const
+{
+    for (std::size_t first = 0; first < instances_of.size(); first += kNodesPerDraw) {
+        const std::size_t count = std::min(kNodesPerDraw, instances_of.size() - first);
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * sizeof(NodeInstance)),
+                     instances_of.data() + first, GL_STREAM_DRAW);
+        glDrawElementsInstanced(GL_TRIANGLES, range.count, GL_UNSIGNED_SHORT,
+                                reinterpret_cast<const void*>(range.first * sizeof(std::uint16_t)),
+                                static_cast<GLsizei>(count));
+        if (is_software && count == kNodesPerDraw) {
+            glFlush();
+        }
+    }
+    instances_of.clear();
 }
 
 void TerrainRenderer::Impl::setUniforms(const GlProgram& program,

@@ -134,6 +134,8 @@ public:
     {
         const double pixels = shot.view.viewport.height /
                               (2.0 * std::tan(shot.view.camera.field_of_view.radians() / 2.0));
+        const double range_per_size =
+            shot.target.error_px > kErrorPxAtRest ? kRangePerSizeMoving : kRangePerSize;
         const DetailErrors& errors = map.analysis->errors;
         sizes_.resize(errors.levelCount());
         for (std::size_t level = 1; level < errors.levelCount(); ++level) {
@@ -142,7 +144,8 @@ public:
             sizes_[level].resize((columns + 1) * (rows + 1));
             for (std::size_t row = 0; row < rows; ++row) {
                 for (std::size_t column = 0; column < columns; ++column) {
-                    double least = kRangePerSize * diagonal({level, column, row});
+                    double least = std::max(range_per_size * diagonal({level, column, row}),
+                                            kRangeTwoBelow * largestTwoBelow({level, column, row}));
                     raise(level, column, row, least);
                     for (std::size_t r = 2 * row; level > 1 && r <= 2 * row + 2; ++r) {
                         for (std::size_t c = 2 * column; c <= 2 * column + 2; ++c) {
@@ -213,6 +216,25 @@ private:
         }
     }
 
+    // Of the nodes that make up `node`, two levels below; level 0 has no ranges to be kept apart.
+    double largestTwoBelow(const DetailNode& node) const
+    {
+        double largest = 0.0;
+        if (node.level < 3) {
+            return largest;
+        }
+        const std::size_t level = node.level - 2;
+        const DetailErrors& errors = map_.analysis->errors;
+        for (std::size_t row = 4 * node.row; row < std::min(4 * node.row + 4, errors.rows(level));
+             ++row) {
+            for (std::size_t column = 4 * node.column;
+                 column < std::min(4 * node.column + 4, errors.columns(level)); ++column) {
+                largest = std::max(largest, diagonal({level, column, row}));
+            }
+        }
+        return largest;
+    }
+
     // Of the box around the node's ground, 0 where it has none.
     double diagonal(const DetailNode& node) const
     {
@@ -264,6 +286,11 @@ struct Cover {
     }
 };
 
+bool isDrawn(const SelectedNode& selected, std::size_t quadrant)
+{
+    return (selected.quadrants >> quadrant & 1U) != 0;
+}
+
 Cover coverOf(const Map& map, const DetailSelection& selection)
 {
     const DetailErrors& errors = map.analysis->errors;
@@ -273,13 +300,25 @@ Cover coverOf(const Map& map, const DetailSelection& selection)
         const DetailNode& node = selection.nodes[i].node;
         EXPECT_LT(node.column, errors.columns(node.level));
         EXPECT_LT(node.row, errors.rows(node.level));
-        for (std::size_t row = node.row << node.level;
-             row < std::min((node.row + 1) << node.level, cover.rows); ++row) {
-            for (std::size_t column = node.column << node.level;
-                 column < std::min((node.column + 1) << node.level, cover.columns); ++column) {
-                std::size_t& owner = cover.owner[row * cover.columns + column];
-                EXPECT_EQ(owner, kNobody) << "nodes overlap";
-                owner = i;
+        const auto cover_nodes = [&](const DetailNode& part) {
+            for (std::size_t row = part.row << part.level;
+                 row < std::min((part.row + 1) << part.level, cover.rows); ++row) {
+                for (std::size_t column = part.column << part.level;
+                     column < std::min((part.column + 1) << part.level, cover.columns); ++column) {
+                    std::size_t& owner = cover.owner[row * cover.columns + column];
+                    EXPECT_EQ(owner, kNobody) << "nodes overlap";
+                    owner = i;
+                }
+            }
+        };
+        if (node.level == 0) {
+            EXPECT_EQ(selection.nodes[i].quadrants, kAllQuadrants);
+            cover_nodes(node);
+            continue;
+        }
+        for (std::size_t q = 0; q < kQuadrantCount; ++q) {
+            if (isDrawn(selection.nodes[i], q)) {
+                cover_nodes({node.level - 1, 2 * node.column + q % 2, 2 * node.row + q / 2});
             }
         }
     }
@@ -307,17 +346,20 @@ sceneAt(const Map& map, const DrawnSurface& surface, const Vertex& vertex, doubl
                              height * exaggeration);
 }
 
-// All cells of a node, void or not, that have an area.
-std::size_t triangleCount(const Map& map, const DetailNode& node)
+// All cells of what is drawn of a node, void or not, that have an area.
+std::size_t triangleCount(const Map& map, const SelectedNode& selected)
 {
-    std::size_t columns = 0;
-    std::size_t rows = 0;
-    for (std::size_t i = 0; i < kNode; ++i) {
-        columns +=
-            vertexAt(map, node, i, 0).column < vertexAt(map, node, i + 1, 0).column ? 1U : 0U;
-        rows += vertexAt(map, node, 0, i).row < vertexAt(map, node, 0, i + 1).row ? 1U : 0U;
+    std::size_t triangles = 0;
+    for (std::size_t j = 0; j < kNode; ++j) {
+        for (std::size_t i = 0; i < kNode; ++i) {
+            const Vertex first = vertexAt(map, selected.node, i, j);
+            const Vertex last = vertexAt(map, selected.node, i + 1, j + 1);
+            const bool has_area = first.column < last.column && first.row < last.row;
+            const std::size_t quadrant = 2 * (2 * j / kNode) + 2 * i / kNode;
+            triangles += has_area && isDrawn(selected, quadrant) ? 2U : 0U;
+        }
     }
-    return 2 * columns * rows;
+    return triangles;
 }
 
 bool isInPicture(const Shot& shot, const ScenePoint& p)
@@ -454,6 +496,7 @@ TEST_F(DetailSelectionTest, CoversWhatIsInThePictureOnceAndGivesWayOnEveryEdge)
 {
     EdgeCheck edges;
     std::size_t node_count = 0;
+    std::size_t quadrants_left_out = 0;
     for (const Map& map : maps_) {
         DetailSelector selector(map.analysis, map.field.columns(), map.field.rows(), map.frame);
         for (int i = 0; i < 25; ++i) {
@@ -469,7 +512,8 @@ TEST_F(DetailSelectionTest, CoversWhatIsInThePictureOnceAndGivesWayOnEveryEdge)
             double nearest_m = 0.0;
             for (const SelectedNode& selected : selection.nodes) {
                 const DetailNode& node = selected.node;
-                triangles += triangleCount(map, node);
+                triangles += triangleCount(map, selected);
+                quadrants_left_out += selected.quadrants == kAllQuadrants ? 0U : 1U;
                 EXPECT_GE(selected.distance_m, nearest_m) << "nearest first";
                 nearest_m = selected.distance_m;
                 const std::array<std::array<std::size_t, 2>, 4> corners{
@@ -516,6 +560,7 @@ TEST_F(DetailSelectionTest, CoversWhatIsInThePictureOnceAndGivesWayOnEveryEdge)
             }
         }
     }
+    EXPECT_GT(quadrants_left_out, 0U);
     RecordProperty("nodes", static_cast<int>(node_count));
     RecordProperty("edge_vertices", static_cast<int>(edges.vertices));
     EXPECT_EQ(edges.off, 0U) << "of " << edges.vertices;
