@@ -1,6 +1,7 @@
 #include "ui/haptics_controller.h"
 
 #include "haptics/drivers/polhem_driver.h"
+#include "haptics/trace/replay_check.h"
 #include "ui/hand_sight.h"
 #include "ui/terrain_view.h"
 
@@ -26,12 +27,6 @@ bool isForWindows(const FoundDevice& device)
     return !device.uri.starts_with("null:") && !device.uri.starts_with("mouse:");
 }
 
-// A file that is played back is not a device to come back to.
-bool isToBeRemembered(const QString& uri)
-{
-    return !uri.startsWith(QStringLiteral("replay:"));
-}
-
 QString lastingUri(const QString& uri)
 {
     return QString::fromStdString(lastingPolhemUri(uri.toStdString()));
@@ -50,6 +45,11 @@ bool isElsewhere(const OrbitCamera& camera, const OrbitCamera& wanted)
     return length(camera.target - wanted.target) > kShare * wanted.distance_m ||
            std::abs(camera.distance_m / wanted.distance_m - 1.0) > kShare ||
            std::abs(std::remainder((camera.azimuth - wanted.azimuth).degrees(), 360.0)) > 0.05;
+}
+
+bool isPlayedBack(const QString& uri)
+{
+    return isReplay(uri.toStdString());
 }
 
 QString sentence(const std::string& text)
@@ -166,6 +166,11 @@ void HapticsController::takeDevices(const std::vector<FoundDevice>& devices)
 void HapticsController::connectTo(const QString& uri)
 {
     const bool is_back = is_lost_ && uri == wanted_uri_; // what happened to it is still of use
+    if (!isPlayedBack(uri)) {
+        interrupted_uri_.clear();
+    } else if (connection_ == HapticsConnection::Connected && !isReplaying()) {
+        interrupted_uri_ = lastingUri(uri_);
+    }
     close();
     if (!is_back) {
         is_lost_ = false;
@@ -198,6 +203,11 @@ void HapticsController::holdBackRemembered()
     }
 }
 
+bool HapticsController::isReplaying() const
+{
+    return connection_ == HapticsConnection::Connected && isPlayedBack(uri_);
+}
+
 bool HapticsController::canBeSetAtRest() const
 {
     return connection_ == HapticsConnection::Connected &&
@@ -214,11 +224,15 @@ void HapticsController::setAtRest()
 void HapticsController::disconnectDevice()
 {
     wanted_uri_.clear();
+    interrupted_uri_.clear();
+    const bool is_device = !isPlayedBack(uri_);
     close();
     is_lost_ = false;
-    HapticsSettings settings = settings_;
-    settings.device.clear();
-    setSettings(settings);
+    if (is_device) {
+        HapticsSettings settings = settings_;
+        settings.device.clear();
+        setSettings(settings);
+    }
     setProblem({});
     setLooking(is_looking_);
 }
@@ -228,7 +242,7 @@ void HapticsController::start(std::unique_ptr<HapticDevice> device)
     loop_ = std::make_unique<ServoLoop>(std::move(device));
     connection_ = HapticsConnection::Connected;
     is_quiet_ = false;
-    if (isToBeRemembered(uri_)) {
+    if (!isPlayedBack(uri_)) {
         HapticsSettings settings = settings_;
         settings.device = lastingUri(uri_);
         setSettings(settings);
@@ -284,9 +298,13 @@ void HapticsController::finishLost(const LoopState& state)
     const std::string trouble = loop_->trouble();
     const QString uri = lastingUri(uri_);
     close();
-    const bool is_replay = !isToBeRemembered(uri); // which may end while everything is let go of
+    const bool is_replay = isPlayedBack(uri); // which may end while everything is let go of
     if (state.reason == LetGoReason::DeviceFinished || (is_replay && trouble.empty())) {
         setProblem(tr("The recording has ended"));
+        if (!interrupted_uri_.isEmpty()) {
+            connectTo(QString(interrupted_uri_)); // which is cleared by it
+            return;
+        }
     } else {
         wanted_uri_ = is_replay ? QString() : uri; // once it is there again
         was_wanted_gone_ = false;
@@ -449,7 +467,31 @@ void HapticsController::takeGround()
     takeSight();
     if (!is_kept) {
         setMap(0);
+        checkReplay();
     }
+}
+
+// Not its every change: a recording is of one map, whose model may be another in every part.
+void HapticsController::checkReplay()
+{
+    if (!isReplaying() || !loop_settings_.map) {
+        return;
+    }
+    // Reading may take a while.
+    jobs_.run([this, uri = uri_, map = loop_settings_.map](const auto& outlet) {
+        const Result<std::string> notice = replayNotice(uri.toStdString(), *map);
+        const QString problem = sentence(notice ? *notice : notice.error().message);
+        outlet->post([this, uri, problem, is_refused = !notice] {
+            if (!isReplaying() || uri_ != uri || problem.isEmpty()) {
+                return;
+            }
+            if (is_refused) {
+                close();
+            }
+            setProblem(problem);
+            setLooking(is_looking_);
+        });
+    });
 }
 
 void HapticsController::setMap(std::size_t index)

@@ -54,18 +54,21 @@ public:
     /// that was lost and is there again.
     void setLooking(bool is_looking);
 
-    /// In place of what is connected.
+    /// In place of what is connected. Where that is a device and `uri` a recording, the device is
+    /// connected again when the recording has ended.
     void connectTo(const QString& uri);
     /// The device of the settings. Where it is not there nobody is bothered; it is connected when
     /// it is found.
     void connectToRemembered();
     /// Instead: tells that the program ended unexpectedly while it was connected.
     void holdBackRemembered();
-    /// And forgets it.
+    /// And forgets it; the end of a recording that is replayed makes no device forgotten.
     void disconnectDevice();
     /// The same, but it is connected again at the next start.
     void close();
     HapticsConnection connection() const noexcept { return connection_; }
+    /// Whether a recording is connected in place of a device.
+    bool isReplaying() const;
     /// Whether it is an arm that can be told where it is.
     bool canBeSetAtRest() const;
     /// Connects it anew: it is in its rest position now. Somebody stands beside it and sees that.
@@ -74,8 +77,8 @@ public:
     const QString& uri() const noexcept { return uri_; }
     /// Nothing unless connected.
     const ServoLoop* loop() const noexcept { return loop_.get(); }
-    /// Why the last device was refused, or is no longer connected; empty where all is well. A
-    /// sentence for people.
+    /// Why the last device was refused, or is no longer connected, or what does not suit a
+    /// recording that is replayed; empty where all is well. A sentence for people.
     const QString& problem() const noexcept { return problem_; }
     /// The same, but empty where it can wait until somebody looks for it.
     QString notice() const { return is_quiet_ ? QString() : problem_; }
@@ -158,6 +161,7 @@ private:
     void takeGround();
     void takeExaggeration();
     void chooseMap(const LoopState& state);
+    void checkReplay();
     void setMap(std::size_t index);
     void makeMapAgain();
     void takeSight();
@@ -171,7 +175,8 @@ private:
     std::vector<FoundDevice> devices_;
     QTimer look_timer_; // runs only while nothing is connected and somebody looks
     bool is_looking_ = false;
-    QString wanted_uri_; // of a device that was lost
+    QString wanted_uri_;      // of a device that was lost
+    QString interrupted_uri_; // of one that a recording has taken the place of
     bool was_wanted_gone_ = false;
 
     HapticsConnection connection_ = HapticsConnection::None;

@@ -366,7 +366,8 @@ void MainWindow::connectHaptics()
     connect(haptics_, &HapticsController::connectionChanged, this, &MainWindow::showHaptics);
     connect(haptics_, &HapticsController::connectionChanged, this, [this] {
         if (isRemembered()) {
-            connection_mark_.set(haptics_->connection() == HapticsConnection::Connected);
+            connection_mark_.set(haptics_->connection() == HapticsConnection::Connected &&
+                                 !haptics_->isReplaying());
         }
     });
     connect(haptics_, &HapticsController::recordingChanged, this, &MainWindow::showHaptics);

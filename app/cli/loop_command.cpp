@@ -6,11 +6,11 @@
 #include "app/cli/loop_outcome.h"
 #include "app/cli/loop_report.h"
 #include "app/cli/number_checks.h"
-#include "app/cli/replay_check.h"
 #include "app/cli/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "haptics/loop/rt_scope.h"
+#include "haptics/trace/replay_check.h"
 #include "haptics/trace/session_recorder.h"
 
 #include <CLI/CLI.hpp>
@@ -132,8 +132,7 @@ Status runLoop(const Options& options)
         return std::move(device).error();
     }
 
-    const Result<std::string> replay_notice =
-        replayNotice(options.device, map->opened.dataset->georeference());
+    const Result<std::string> replay_notice = replayNotice(options.device, *map->map);
     if (!replay_notice) {
         return replay_notice.error();
     }

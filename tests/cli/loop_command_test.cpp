@@ -1,4 +1,5 @@
 #include "tests/cli/run_cli.h"
+#include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -7,15 +8,12 @@
 
 #include <algorithm>
 #include <csignal>
-#include <fcntl.h>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/wait.h>
 #include <system_error>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 namespace marsview::test {
@@ -63,41 +61,12 @@ class RunningLoop {
 public:
     RunningLoop(const TempFolder& folder, const std::string& behaviour)
         : folder_(folder)
-    {
-        std::vector<std::string> arguments{"env",
-                                           "XDG_STATE_HOME=" + folder.file("state"),
-                                           MARSVIEW_CLI,
-                                           "loop",
-                                           bundledMars(),
-                                           "--device",
-                                           "plugin:" MARSVIEW_TEST_PLUGINS "/" + behaviour + ".so",
-                                           "--seconds",
-                                           "3600",
-                                           "--record",
-                                           recorded()};
-        std::vector<char*> argv;
-        for (std::string& argument : arguments) {
-            argv.push_back(argument.data());
-        }
-        argv.push_back(nullptr);
-        child_ = fork();
-        if (child_ == 0) {
-            const int out = open(printed().c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-            dup2(out, STDOUT_FILENO);
-            dup2(out, STDERR_FILENO);
-            execvp(argv[0], argv.data());
-            _exit(127);
-        }
-    }
-    ~RunningLoop()
-    {
-        if (child_ > 0) {
-            kill(child_, SIGKILL);
-            (void)wait();
-        }
-    }
-    RunningLoop(const RunningLoop&) = delete;
-    RunningLoop& operator=(const RunningLoop&) = delete;
+        , program_({"env", "XDG_STATE_HOME=" + folder.file("state"), MARSVIEW_CLI, "loop",
+                    bundledMars(), "--device",
+                    "plugin:" MARSVIEW_TEST_PLUGINS "/" + behaviour + ".so", "--seconds", "3600",
+                    "--record", recorded()},
+                   printed())
+    {}
 
     std::string printed() const { return folder_.file("printed"); }
     std::string recorded() const { return folder_.file("recorded.csv"); }
@@ -116,8 +85,7 @@ public:
     bool waitUntil(const std::function<bool()>& is_so)
     {
         while (!is_so()) {
-            if (waitpid(child_, &status_, WNOHANG) != 0) {
-                child_ = -1;
+            if (program_.hasEnded()) {
                 return false;
             }
             std::this_thread::yield();
@@ -127,23 +95,13 @@ public:
     /// The exit status; -1 where the signal ended it.
     int end(int signal)
     {
-        kill(child_, signal);
-        return wait();
+        program_.signal(signal);
+        return program_.wait();
     }
 
 private:
-    int wait()
-    {
-        if (child_ > 0) {
-            waitpid(child_, &status_, 0);
-            child_ = -1;
-        }
-        return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
-    }
-
     const TempFolder& folder_;
-    pid_t child_ = -1;
-    int status_ = 0;
+    RunningProgram program_;
 };
 
 TEST(LoopCommand, RunsASimulatedHandAndTellsHowPunctualItWas)
@@ -290,6 +248,23 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
     EXPECT_EQ(some.exit_status, 0) << some.err;
     EXPECT_THAT(some.err, HasSubstr(": 1 of 2 goals lie beside the map and are put to its edge"));
     EXPECT_EQ(run("0,0,0\n").err, "");
+}
+
+TEST(LoopCommand, SaysThatARecordingWasTouchedInAnotherWay)
+{
+    const TempFolder folder;
+    const std::string goals = folder.write(
+        "goals.csv", "x,y,z,map,part,model,radius_m,exaggeration\n0,0,0,1,1,god-object,9,2\n");
+    const auto run = [&](const std::string& exaggeration) {
+        return runCli({"loop", bundledMars(), "--device", "replay:" + goals, "--model",
+                       "god-object", "--exaggeration", exaggeration});
+    };
+    EXPECT_EQ(run("2").err, "");
+    const ProgramOutput other = run("3");
+    EXPECT_EQ(other.exit_status, 0);
+    EXPECT_THAT(other.err, HasSubstr(": was recorded with god-object at exaggeration 2, which is "
+                                     "not what touches the map now (god-object at exaggeration "
+                                     "3)"));
 }
 
 TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)

@@ -2,6 +2,7 @@
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
+#include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 
 #include <gmock/gmock.h>
@@ -11,13 +12,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace marsview::test {
 namespace {
@@ -46,50 +44,6 @@ nlohmann::json checksumsOf(const std::string& path)
     info.erase("files");
     return info;
 }
-
-// A program that runs beside the test, with its messages in a file.
-class Running {
-public:
-    Running(std::vector<std::string> arguments, const std::string& messages)
-    {
-        arguments.insert(arguments.begin(), MARSVIEW_CLI);
-        std::vector<char*> argv;
-        for (std::string& argument : arguments) {
-            argv.push_back(argument.data());
-        }
-        argv.push_back(nullptr);
-        child_ = fork();
-        if (child_ == 0) {
-            const int out = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-            dup2(out, STDOUT_FILENO);
-            dup2(out, STDERR_FILENO);
-            execv(argv[0], argv.data());
-            _exit(127);
-        }
-    }
-    ~Running()
-    {
-        if (child_ > 0) {
-            kill(child_, SIGKILL);
-            wait();
-        }
-    }
-    Running(const Running&) = delete;
-    Running& operator=(const Running&) = delete;
-
-    void signal(int number) const { kill(child_, number); }
-    /// The exit status; -1 where a signal ended it.
-    int wait()
-    {
-        int status = 0;
-        waitpid(child_, &status, 0);
-        child_ = -1;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-
-private:
-    pid_t child_ = -1;
-};
 
 } // namespace
 
@@ -149,7 +103,8 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
     int finished = 0;
     while (kills < kKills) {
         const std::string messages = folder.file("messages");
-        Running program({"prepare", source, "-o", path, "--checkpoint", kOften}, messages);
+        RunningProgram program(
+            {MARSVIEW_CLI, "prepare", source, "-o", path, "--checkpoint", kOften}, messages);
         const auto moment_ms =
             static_cast<int>(random.uniform(0.0, 0.7 * static_cast<double>(duration_ms)));
         poll(nullptr, 0, moment_ms); // a random moment, not one to wait for
@@ -168,8 +123,9 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
     const std::string journal = path + ".part.journal";
     fs::remove(path);
     for (int i = 0; i < 100 && !fs::exists(journal); ++i) {
-        Running program({"prepare", source, "-o", path, "--checkpoint", kOften},
-                        folder.file("messages"));
+        RunningProgram program(
+            {MARSVIEW_CLI, "prepare", source, "-o", path, "--checkpoint", kOften},
+            folder.file("messages"));
         poll(nullptr, 0,
              static_cast<int>(random.uniform(0.1, 0.5) * static_cast<double>(duration_ms)));
         program.signal(SIGKILL);
@@ -198,7 +154,8 @@ TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
     const std::string source = tallMap(folder);
     const std::string path = folder.file("map.tif");
     const std::string messages = folder.file("messages");
-    Running program({"prepare", source, "-o", path, "--checkpoint", "0"}, messages);
+    RunningProgram program({MARSVIEW_CLI, "prepare", source, "-o", path, "--checkpoint", "0"},
+                           messages);
     while (!fs::exists(path + ".part.journal") && !fs::exists(path)) {
         poll(nullptr, 0, 1);
     }

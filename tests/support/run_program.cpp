@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <fcntl.h>
 #include <memory>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -38,6 +40,17 @@ std::string contents(std::FILE* file)
     return text;
 }
 
+// Null-terminated; execvp leaves the arguments alone.
+std::vector<char*> argvOf(const std::vector<std::string>& arguments)
+{
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments) {
+        argv.push_back(const_cast<char*>(argument.c_str()));
+    }
+    argv.push_back(nullptr);
+    return argv;
+}
+
 } // namespace
 
 ProgramOutput runProgram(const std::vector<std::string>& arguments, const std::string& input)
@@ -48,12 +61,7 @@ ProgramOutput runProgram(const std::vector<std::string>& arguments, const std::s
     std::fwrite(input.data(), 1, input.size(), in.get());
     std::rewind(in.get());
 
-    std::vector<char*> argv;
-    for (const std::string& argument : arguments) {
-        argv.push_back(const_cast<char*>(argument.c_str())); // execvp leaves them alone
-    }
-    argv.push_back(nullptr);
-
+    const std::vector<char*> argv = argvOf(arguments);
     const pid_t child = fork();
     if (child < 0) {
         throw std::system_error(errno, std::generic_category(), "fork");
@@ -88,6 +96,55 @@ std::string runTool(const std::vector<std::string>& arguments, const std::string
                                  ": " + output.err);
     }
     return std::move(output.out);
+}
+
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
+                               const std::string& printed)
+{
+    const std::vector<char*> argv = argvOf(arguments);
+    child_ = fork();
+    if (child_ < 0) {
+        throw std::system_error(errno, std::generic_category(), "fork");
+    }
+    if (child_ == 0) {
+        const int out = open(printed.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        dup2(out, STDOUT_FILENO);
+        dup2(out, STDERR_FILENO);
+        execvp(argv[0], argv.data());
+        _exit(127);
+    }
+}
+
+RunningProgram::~RunningProgram()
+{
+    if (child_ > 0) {
+        signal(SIGKILL);
+        wait();
+    }
+}
+
+void RunningProgram::signal(int number) const
+{
+    if (child_ > 0) {
+        kill(child_, number);
+    }
+}
+
+bool RunningProgram::hasEnded()
+{
+    if (child_ > 0 && waitpid(child_, &status_, WNOHANG) != 0) {
+        child_ = -1;
+    }
+    return child_ < 0;
+}
+
+int RunningProgram::wait()
+{
+    if (child_ > 0) {
+        waitpid(child_, &status_, 0);
+        child_ = -1;
+    }
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
 }
 
 } // namespace marsview::test

@@ -1,10 +1,7 @@
-#include "tests/ui/test_device.h"
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
+#include "tests/ui/hand_window.h"
 #include "ui/connection_mark.h"
-#include "ui/haptics_controller.h"
 
-#include <QApplication>
+#include <QFile>
 #include <QSettings>
 #include <QTest>
 
@@ -32,7 +29,7 @@ qint64 endedProcess()
     return child;
 }
 
-class ConnectionMarkTest : public testing::Test {
+class ConnectionMarkTest : public HandWindowTest {
 protected:
     void SetUp() override
     {
@@ -45,23 +42,7 @@ protected:
         QSettings().remove(QStringLiteral("haptics"));
     }
 
-    void makeWindow()
-    {
-        WindowOptions options = testWindowOptions();
-        options.geometry = WindowOptions::Geometry::Remembered;
-        options.make_drivers = testDrivers(hand_);
-        window_ = std::make_unique<MainWindow>(options);
-        window_->show();
-    }
-    HapticsController& haptics() { return window_->haptics(); }
-    bool isConnectedSoon()
-    {
-        return QTest::qWaitFor(
-            [&] { return haptics().connection() == HapticsConnection::Connected; }, kTimeout);
-    }
-
-    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
-    std::unique_ptr<MainWindow> window_;
+    void makeWindow() { HandWindowTest::makeWindow(kSmall, WindowOptions::Geometry::Remembered); }
 };
 
 TEST_F(ConnectionMarkTest, ADeviceIsNotConnectedByItselfAfterTheProgramEndedWithIt)
@@ -88,6 +69,19 @@ TEST_F(ConnectionMarkTest, IsThereAsLongAsADeviceIsConnected)
               QStringLiteral("hand:"));
     makeWindow();
     EXPECT_TRUE(isConnectedSoon());
+}
+
+TEST_F(ConnectionMarkTest, ARecordingThatIsReplayedIsNoDevice)
+{
+    makeWindow();
+    ASSERT_TRUE(isConnectedSoon());
+    const QString file = maps_.path(QStringLiteral("goals.csv"));
+    QFile text(file);
+    ASSERT_TRUE(text.open(QIODevice::WriteOnly));
+    text.write("x,y,z\n500900,4000600,5000\n");
+    text.close();
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    EXPECT_FALSE(QSettings().contains(markKey()));
 }
 
 TEST_F(ConnectionMarkTest, AnotherProgramThatRunsIsNotTakenForOneThatEnded)

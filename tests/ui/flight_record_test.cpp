@@ -1,15 +1,11 @@
 // The flight record in a real window: of a device that works, and of one that is gone.
 #include "haptics/trace/session_recorder.h"
-#include "tests/ui/test_device.h"
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
-#include "ui/haptics_controller.h"
+#include "tests/ui/hand_window.h"
 #include "ui/notice_bar.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
-#include <QApplication>
 #include <QFile>
 #include <QFileDialog>
 #include <QLabel>
@@ -22,7 +18,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 
 namespace marsview {
@@ -40,20 +35,14 @@ QByteArray lost()
     return QByteArray::fromStdString(std::string(letGoReasonName(LetGoReason::DeviceLost)));
 }
 
-class FlightRecordTest : public testing::Test {
+class FlightRecordTest : public HandWindowTest {
 protected:
     void SetUp() override
     {
-        WindowOptions options = testWindowOptions();
-        options.make_drivers = testDrivers(hand_);
-        window_ = std::make_unique<MainWindow>(options);
-        window_->resize(1280, 800);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        makeWindow(kWithPanels);
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     }
 
-    HapticsController& haptics() { return window_->haptics(); }
     QAction& action() { return *window_->actionSet().save_flight; }
     QPushButton& button()
     {
@@ -62,11 +51,6 @@ protected:
     QString panelText()
     {
         return window_->hapticsPanel()->findChild<QLabel*>(QStringLiteral("recording"))->text();
-    }
-    template <typename F>
-    static bool waitFor(F condition)
-    {
-        return QTest::qWaitFor(condition, kTimeout);
     }
     bool touch()
     {
@@ -101,10 +85,6 @@ protected:
         }
         return rows;
     }
-
-    TestMaps maps_;
-    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(FlightRecordTest, IsOfWhatHappenedBeforeItWasAskedFor)

@@ -1,14 +1,11 @@
 // A hand outside the picture, in a real window: the arrow at the edge that points to it.
 #include "tests/ui/color_contrast.h"
-#include "tests/ui/test_device.h"
-#include "tests/ui/test_map.h"
+#include "tests/ui/hand_window.h"
 #include "tests/ui/timeout.h"
-#include "ui/haptics_controller.h"
 #include "ui/map_overlays.h"
 #include "ui/overlay/hand_pointer.h"
 #include "ui/terrain_view.h"
 
-#include <QApplication>
 #include <QImage>
 #include <QLineF>
 #include <QPainter>
@@ -18,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace marsview {
 namespace {
@@ -44,20 +40,14 @@ QPointF middleOfRed(const QImage& picture)
     return count > 20 ? sum / count : QPointF(-1e3, -1e3);
 }
 
-class HandPointerTest : public testing::Test {
+class HandPointerTest : public HandWindowTest {
 protected:
     void SetUp() override
     {
-        WindowOptions options = testWindowOptions();
-        options.make_drivers = testDrivers(hand_);
-        window_ = std::make_unique<MainWindow>(options);
-        window_->resize(1000, 700);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        makeWindow(kSmall);
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
         window_->overlays()->setCovered(0); // by what the map has to say
     }
-    TerrainView& view() { return *window_->view(); }
     HandPointer& pointer() { return *window_->overlays()->handPointer(); }
     // A hand so far beside the middle of the picture, as shares of what is seen from there to its
     // edges.
@@ -74,10 +64,6 @@ protected:
         view().showDevice(pose);
     }
     QPointF middleOfPointer() { return QRectF(pointer().geometry()).center(); }
-
-    TestMaps maps_;
-    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(HandPointerTest, IsThereOnlyWhileTheHandIsOutsideThePicture)

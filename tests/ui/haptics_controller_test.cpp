@@ -3,17 +3,14 @@
 #include "core/view/color_ramp.h"
 #include "haptics/trace/goal_file.h"
 #include "tests/support/map_maker.h"
+#include "tests/ui/hand_window.h"
 #include "tests/ui/large_maps.h"
-#include "tests/ui/test_device.h"
-#include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
-#include "ui/haptics_controller.h"
 #include "ui/map_overlays.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
-#include <QApplication>
 #include <QFile>
 #include <QSettings>
 #include <QSignalSpy>
@@ -30,11 +27,11 @@
 namespace marsview {
 namespace {
 
-class HapticsControllerTest : public testing::Test {
+class HapticsControllerTest : public HandWindowTest {
 protected:
     void SetUp() override
     {
-        makeWindow(WindowOptions::Geometry::Fixed);
+        makeWindow(kSmall);
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     }
     void TearDown() override
@@ -45,29 +42,6 @@ protected:
         EXPECT_EQ(hand_->force_n, 0.0);
     }
 
-    void makeWindow(WindowOptions::Geometry geometry)
-    {
-        WindowOptions options = testWindowOptions();
-        options.geometry = geometry;
-        options.make_drivers = testDrivers(hand_);
-        window_ = std::make_unique<MainWindow>(options);
-        window_->resize(1000, 700);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
-    }
-    HapticsController& haptics() { return window_->haptics(); }
-    TerrainView& view() { return *window_->view(); }
-    template <typename F>
-    static bool waitFor(F condition)
-    {
-        return QTest::qWaitFor(condition, kTimeout);
-    }
-    bool connectTo(const QString& uri)
-    {
-        haptics().connectTo(uri);
-        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; });
-    }
-    LoopState state() { return haptics().loop()->state(); }
     // Down until the ground is felt.
     bool pressDown()
     {
@@ -115,10 +89,6 @@ protected:
         }
         EXPECT_GT(contacts, 300);
     }
-
-    TestMaps maps_;
-    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(HapticsControllerTest, ASimulatedHandMovesTheStylusAndFillsTheMeter)
@@ -454,13 +424,46 @@ TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
         expectSameProxies(file);
     }
 
-    // And the program: the same hand without one.
+    // And the program: the same hand without one, and after it the device again.
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    EXPECT_TRUE(haptics().isReplaying());
     EXPECT_TRUE(
         waitFor([&] { return view().shownStylus() && view().shownStylus()->is_in_contact; }));
-    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+    EXPECT_EQ(haptics().problem(), QString());
+    ASSERT_TRUE(waitFor([&] { return !haptics().isReplaying() && haptics().loop() != nullptr; }));
+    EXPECT_EQ(haptics().uri(), QStringLiteral("sim:speed=0.2,lift_s=1"));
     EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
+    // Not where it is ended by hand; nor is the device forgotten then.
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    haptics().disconnectDevice();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
+}
+
+TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
+{
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    const auto replay = [&](const QByteArray& columns, const QByteArray& goal) {
+        QFile text(file);
+        EXPECT_TRUE(text.open(QIODevice::WriteOnly | QIODevice::Truncate));
+        text.write("x,y,z" + columns + '\n');
+        for (int i = 0; i < 3000; ++i) {
+            text.write(goal + '\n');
+        }
+        text.close();
+        haptics().connectTo(QStringLiteral("replay:") + file);
+        EXPECT_TRUE(waitFor([&] { return !haptics().problem().isEmpty(); }));
+        return haptics().problem();
+    };
+    const QByteArray parts = ",map,part,model,radius_m,exaggeration";
+    EXPECT_EQ(replay(parts, "500900,4000600,5000,1,1,god-object,1,3"),
+              file +
+                  QStringLiteral(": was recorded with god-object at exaggeration 3, which is not "
+                                 "what touches the map now (continuous-walk at exaggeration 1)"));
+    EXPECT_TRUE(haptics().isReplaying());
+    EXPECT_EQ(haptics().notice(), haptics().problem());
+    EXPECT_TRUE(replay("", "0,0,0").contains(QStringLiteral("3000 of 3000 goals lie beside")));
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
 }
 
 TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
@@ -491,7 +494,7 @@ TEST_F(HapticsControllerTest, NothingRunsWhileNothingIsConnected)
 TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
 {
     QSettings().remove(QStringLiteral("haptics"));
-    makeWindow(WindowOptions::Geometry::Remembered);
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
     HapticsSettings settings;
     settings.stiffness_n_per_m = 120.0;
     settings.force_share = 0.5;
@@ -500,12 +503,12 @@ TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
     window_->close();
     EXPECT_EQ(hand_->open_count, 0);
-    makeWindow(WindowOptions::Geometry::Remembered);
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
     settings.device = QStringLiteral("hand:");
     EXPECT_EQ(haptics().settings(), settings);
     EXPECT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
     haptics().disconnectDevice();
-    makeWindow(WindowOptions::Geometry::Remembered);
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
     EXPECT_EQ(haptics().settings().stiffness_n_per_m, 120.0);
     QSettings().remove(QStringLiteral("haptics"));
@@ -514,7 +517,7 @@ TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
 TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
 {
     QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:"));
-    makeWindow(WindowOptions::Geometry::Remembered);
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
     EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
     EXPECT_NE(haptics().problem(), QString()); // for who looks into the panel
@@ -529,7 +532,7 @@ TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
 TEST_F(HapticsControllerTest, ARememberedDeviceThatIsThereAndRefusesIsToldOf)
 {
     QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:locked"));
-    makeWindow(WindowOptions::Geometry::Remembered);
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
     EXPECT_TRUE(haptics().notice().contains(QStringLiteral("may not be opened")));
     QSettings().remove(QStringLiteral("haptics"));

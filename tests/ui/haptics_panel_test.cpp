@@ -1,7 +1,4 @@
-#include "tests/ui/test_device.h"
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
-#include "ui/haptics_controller.h"
+#include "tests/ui/hand_window.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/time_plot.h"
 #include "ui/terrain_view.h"
@@ -9,7 +6,6 @@
 #include "ui/window_docks.h"
 
 #include <QActionGroup>
-#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
@@ -25,28 +21,17 @@
 namespace marsview {
 namespace {
 
-class HapticsPanelTest : public testing::Test {
+class HapticsPanelTest : public HandWindowTest {
 protected:
     void SetUp() override
     {
-        WindowOptions options = testWindowOptions();
-        options.make_drivers = testDrivers(hand_);
-        window_ = std::make_unique<MainWindow>(options);
-        window_->resize(1280, 800);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        makeWindow(kWithPanels);
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
         window_->actionSet().haptic_devices->trigger();
         ASSERT_TRUE(waitFor([&] { return list().count() == 3; }));
     }
 
-    template <typename F>
-    static bool waitFor(F condition)
-    {
-        return QTest::qWaitFor(condition, kTimeout);
-    }
     HapticsPanel& panel() { return *window_->hapticsPanel(); }
-    HapticsController& haptics() { return window_->haptics(); }
     QListWidget& list() { return *panel().list(); }
     template <typename T>
     T& part(const char* name)
@@ -61,10 +46,6 @@ protected:
         QTest::keyClick(&list(), Qt::Key_Return);
         return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; });
     }
-
-    TestMaps maps_;
-    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(HapticsPanelTest, ListsDevicesWithTheReasonWhyNot)

@@ -1,13 +1,10 @@
 // Recordings that begin in the middle of a touch, and what `marsview-cli trace` makes of them.
 #include "core/contact/contact_model.h"
 #include "haptics/trace/goal_file.h"
-#include "tests/ui/test_device.h"
-#include "tests/ui/test_map.h"
+#include "tests/ui/hand_window.h"
 #include "tests/ui/timeout.h"
-#include "ui/haptics_controller.h"
 #include "ui/terrain_view.h"
 
-#include <QApplication>
 #include <QFile>
 #include <QProcess>
 #include <QTest>
@@ -16,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,25 +50,10 @@ Rows traced(const QString& map, const QString& goals)
     return rowsIn(process.readAllStandardOutput());
 }
 
-class RecordingTest : public testing::Test {
+class RecordingTest : public HandWindowTest {
 protected:
-    void SetUp() override
-    {
-        WindowOptions options = testWindowOptions();
-        options.make_drivers = testDrivers(hand_);
-        window_ = std::make_unique<MainWindow>(options);
-        window_->resize(1000, 700);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
-    }
+    void SetUp() override { makeWindow(kSmall); }
 
-    HapticsController& haptics() { return window_->haptics(); }
-    LoopState state() { return haptics().loop()->state(); }
-    template <typename F>
-    static bool waitFor(F condition)
-    {
-        return QTest::qWaitFor(condition, kTimeout);
-    }
     bool moveTo(const WorkspacePoint& at)
     {
         hand_->moveTo(at);
@@ -81,9 +62,8 @@ protected:
     // Connected, and deep in the ground after a stroke that the file will not know of.
     bool beginTouching()
     {
-        haptics().connectTo(QStringLiteral("hand:"));
-        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }) &&
-               moveTo({-0.05, 0.03, -0.055}) && moveTo({0.01, -0.02, -0.055}) &&
+        return connectTo(QStringLiteral("hand:")) && moveTo({-0.05, 0.03, -0.055}) &&
+               moveTo({0.01, -0.02, -0.055}) &&
                waitFor([&] { return hand_->force_n > 0.5 && state().contact.is_in_contact; });
     }
     // A stroke that never leaves the ground.
@@ -103,10 +83,6 @@ protected:
             ASSERT_EQ(recorded[i][5], again[i][3]) << "update " << i;
         }
     }
-
-    TestMaps maps_;
-    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(RecordingTest, BegunWhileTouchingIsTheSameAgainWithEveryModel)

@@ -150,7 +150,8 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     reason_->setAlignment(Qt::AlignLeading | Qt::AlignTop);
     rest_ = new QPushButton(tr("It Is in Its Rest Position"), this);
     rest_->setObjectName(QStringLiteral("restPosition"));
-    rest_->setToolTip(tr("Put the arm into its rest position first; places are counted from there"));
+    rest_->setToolTip(
+        tr("Put the arm into its rest position first; places are counted from there"));
     rest_->hide();
     connect(rest_, &QPushButton::clicked, &controller_, &HapticsController::setAtRest);
     layout.addWidget(reason_);
@@ -372,6 +373,11 @@ void HapticsPanel::showConnection()
         status_->setText(tr("Connecting to %1…").arg(controller_.uri()));
         break;
     case HapticsConnection::Connected: {
+        if (controller_.isReplaying()) {
+            status_->setText(!controller_.problem().isEmpty() ? controller_.problem()
+                                                              : tr("A recording touches the map."));
+            break;
+        }
         const DeviceCapabilities& device = controller_.loop()->device();
         //: %1 is a device, %2 a force in newtons
         status_->setText(
