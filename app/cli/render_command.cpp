@@ -124,6 +124,7 @@ Status runRender(const Options& options)
         std::fprintf(stderr, "%s: %zu triangles, 99 %% of the pixels within %.2g pixels\n",
                      options.output.c_str(), picture->report.triangle_count,
                      picture->report.error_px);
+        printNotices(scene->map.dataset->info());
     }
     return written;
 }

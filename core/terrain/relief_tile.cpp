@@ -120,6 +120,8 @@ public:
         rows.columns_ = layout.columnsAt(kind, level);
         rows.rows_ = layout.rowsAt(kind, level);
         rows.window_ = window;
+        // Of the map, not of the window: every tile of a map with voids says where it has none.
+        rows.has_voids_ = layout.has_voids;
         rows.heights_.resize(window.columns * window.rows);
         const double base_m = middleOf(heightfield);
         const ElevationScale scale = heightfield.scale();

@@ -359,4 +359,61 @@ TEST_F(RenderCommand, DrawsNoPictureOfAPreparedMapThatIsDamaged)
     EXPECT_GT(refusals, 2);
 }
 
+// Tiles are drawn on their own, most of them without a void.
+TEST_F(RenderCommand, DrawsAllOfAPreparedMapWithAHole)
+{
+    constexpr std::size_t kColumns = 1500;
+    constexpr std::size_t kRows = 1200;
+    constexpr std::int16_t kVoid = -32768;
+    std::vector<std::int16_t> heights(kColumns * kRows);
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const std::size_t column = i % kColumns;
+        const std::size_t row = i / kColumns;
+        const bool is_hole = column > 100 && column < 160 && row > 100 && row < 160;
+        const double waves = 300.0 * std::sin(0.01 * static_cast<double>(column + 2 * row));
+        heights[i] = is_hole ? kVoid : static_cast<std::int16_t>(waves);
+    }
+    RasterRecipe recipe = recipeFor(kColumns, heights);
+    recipe.band_xml = "<NoDataValue>-32768</NoDataValue>";
+    recipe.transform = {500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0};
+    recipe.srs = "EPSG:32610";
+    const std::string map = writeRaster(folder_, "hole.tif", "GTiff", recipe);
+    const std::string prepared = folder_.file("prepared.tif");
+    ASSERT_EQ(runCli({"prepare", map, "-o", prepared}).exit_status, 0);
+    const std::string middle = fmt::format("{},{}", 500000 + 30 * 1100, 4000000 - 30 * 800);
+    for (const std::vector<std::string>& place :
+         {std::vector<std::string>{}, {"--look-at", middle, "--distance", "9000"}}) {
+        const auto drawn = [&](const std::string& path, const std::string& held_mb) {
+            const std::string png = folder_.file("hole.png");
+            std::vector<std::string> command{"env",
+                                             "-u",
+                                             "DISPLAY",
+                                             "-u",
+                                             "WAYLAND_DISPLAY",
+                                             "MARSVIEW_HELD_MB=" + held_mb,
+                                             MARSVIEW_CLI,
+                                             "render",
+                                             path,
+                                             "-o",
+                                             png,
+                                             "--size",
+                                             "200x150"};
+            command.insert(command.end(), place.begin(), place.end());
+            const ProgramOutput output = runProgram(command);
+            EXPECT_EQ(output.exit_status, 0) << output.err;
+            return pixels(png);
+        };
+        const std::string truth = drawn(map, "500");
+        const std::string picture = drawn(prepared, "0");
+        ASSERT_EQ(picture.size(), truth.size());
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            const int levels = std::abs(int{static_cast<unsigned char>(picture[i])} -
+                                        int{static_cast<unsigned char>(truth[i])});
+            different += levels > 8 ? 1U : 0U;
+        }
+        EXPECT_LT(different, truth.size() / 200);
+    }
+}
+
 } // namespace marsview::test

@@ -356,6 +356,29 @@ TEST_P(TiledHeightfield, ReliefIsThatOfTheSamplesUpToTheSizeOfATexel)
     }
 }
 
+// A texture with shares of some tiles alone would leave out the ground of the others.
+TEST_P(TiledHeightfield, EveryReliefTileOfAMapWithVoidsTellsWhereItHasNone)
+{
+    const SceneFrame frame = test::northUpFrame(maps_.held.columns(), maps_.held.rows(), 100.0);
+    for (std::size_t level = 0; level < 4; ++level) {
+        const std::size_t side = ReliefTile::kTexels << level;
+        for (std::size_t row = 0; row * side < maps_.held.rows(); ++row) {
+            for (std::size_t column = 0; column * side < maps_.held.columns(); ++column) {
+                const ReliefTileId id{.level = level, .column = column, .row = row};
+                const ReliefTile truth = makeReliefTile(maps_.held, frame, id, 20.0);
+                const Result<ReliefTile> relief = loadReliefTile(maps_.tiled, frame, id, 20.0);
+                ASSERT_TRUE(relief);
+                for (std::size_t k = 0; k < ReliefTile::kLevels; ++k) {
+                    ASSERT_EQ(relief->levels.at(k).shares.size(), truth.levels.at(k).shares.size());
+                }
+                if (level <= 2) {
+                    EXPECT_EQ(relief->levels[0].shares, truth.levels[0].shares);
+                }
+            }
+        }
+    }
+}
+
 TEST_P(TiledHeightfield, ReliefFromAServerIsMadeOfFewerTilesAndSofter)
 {
     const Pair remote = pairOf(maps_.held, 5, Distance::AtAServer);
