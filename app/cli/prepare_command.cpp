@@ -6,8 +6,10 @@
 #include "app/cli/machine.h"
 #include "app/cli/map_options.h"
 #include "app/cli/text_output.h"
+#include "core/raster/geotiff_skeleton.h"
 #include "core/raster/map_folder.h"
 #include "core/session/prepare_map.h"
+#include "core/terrain/level_file.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -41,6 +43,13 @@ struct Work {
     bool is_in_place = false; // the raster itself will do
 };
 
+std::uint64_t bytesOf(const std::string& path)
+{
+    std::error_code ignored;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+    return ignored ? 0 : bytes;
+}
+
 Result<Work> workFor(const Options& options)
 {
     Work work;
@@ -69,6 +78,14 @@ Result<Work> workFor(const Options& options)
     if (std::filesystem::is_directory(job.raster_path, ignored)) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: is a folder; name the file to write in it", options.output)};
+    }
+    if (!may_be_in_place && bytesOf(options.output) > 0 &&
+        bytesOf(LevelFile::pathFor(options.output)) == 0 &&
+        readGeoTiffOrigin(options.output).key.empty()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: is there already and is no prepared map; name another file, "
+                                 "or remove it",
+                                 options.output)};
     }
     return work;
 }
@@ -105,13 +122,6 @@ void print(const Json& json)
                                        json["samples_per_second"].get<double>() / 1e6));
     }
     line("peak memory", fmt::format("{:.0f} MB", json["peak_memory_bytes"].get<double>() / 1e6));
-}
-
-std::uint64_t bytesOf(const std::string& path)
-{
-    std::error_code ignored;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
-    return ignored ? 0 : bytes;
 }
 
 Status runPrepare(const Options& options)

@@ -21,6 +21,7 @@ enum class ErrorCode {
     OutOfRange,  // a number lies outside the stated range
     TooLarge,    // it would not fit in the memory granted
     Cancelled,   // the user stopped it
+    Damaged,     // it is not what it was, though nobody is known to have changed it
 };
 
 /// What went wrong, in one sentence for the user: which thing, what was found, what to do.

@@ -72,11 +72,15 @@ Result<RawArray<std::byte>> FileBytes::read(std::uint64_t offset, std::uint64_t 
     const GdalMessages messages;
     auto* file = static_cast<VSILFILE*>(file_.get());
     RawArray<std::byte> bytes(count);
-    if (has_exact_ranges_ && readExactly(file, offset, bytes)) {
-        return bytes;
+    // An answer of a server that is cut short is asked for again.
+    constexpr int kAttemptsAtServer = 3;
+    bool is_read = false;
+    for (int i = 0; !is_read && i < (has_exact_ranges_ ? kAttemptsAtServer : 1); ++i) {
+        is_read = (has_exact_ranges_ && readExactly(file, offset, bytes)) ||
+                  (VSIFSeekL(file, offset, SEEK_SET) == 0 &&
+                   VSIFReadL(bytes.data(), 1, bytes.size(), file) == bytes.size());
     }
-    if (VSIFSeekL(file, offset, SEEK_SET) != 0 ||
-        VSIFReadL(bytes.data(), 1, bytes.size(), file) != bytes.size()) {
+    if (!is_read) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: {} bytes at {} cannot be read ({})", path_, count, offset,
                                  messages.firstFailure("reading ended early"))};

@@ -59,6 +59,9 @@ Result<VouchedTiles> vouchedTiles(const RasterFile& file, const RasterInfo& info
     }
     const auto key = levelFileKey(info.path, info.band, info);
     const auto levels = key ? LevelFile::open(level_path, *key) : key.error();
+    if (!levels && levels.error().code == ErrorCode::Damaged) {
+        return levels.error();
+    }
     if (!levels) {
         return VouchedTiles{.tiles = nullptr, .notice = notUsed(level_path, levels.error())};
     }

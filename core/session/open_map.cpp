@@ -249,6 +249,9 @@ Result<OpenPlan> planFor(const DatasetSpec& spec, const MapResources& resources)
         if (levels) {
             return OpenPlan{MapStore::Tiled, raster_path, beside};
         }
+        if (levels.error().code == ErrorCode::Damaged) {
+            return levels.error();
+        }
         if (levels.error().code != ErrorCode::NotFound) {
             notices.push_back(notUsed(beside, levels.error()));
         }

@@ -164,6 +164,9 @@ Status makeLevels(const PrepareJob& job,
             report.are_levels_there = true;
             return Done{};
         }
+        if (there.error().code == ErrorCode::Damaged && job.raster_path.empty()) {
+            return there.error(); // what is damaged would be vouched for
+        }
         if (there.error().code != ErrorCode::NotFound) {
             report.notes.push_back(withoutRemedy(there.error().message) + "; it is made anew");
         }

@@ -11,12 +11,15 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <span>
+#include <system_error>
 #include <utility>
 
 namespace marsview {
@@ -61,6 +64,24 @@ bool isSameKey(const LevelFileKey& stored, const LevelFileKey& expected)
 {
     return isSameContent(stored.raster, expected.raster) && stored.band == expected.band &&
            isSameNodata(stored.nodata, expected.nodata);
+}
+
+// Whoever changes a raster changes its time with it, if only after the second in which the level
+// file was made.
+bool isDamaged(const SourceIdentity& then, const SourceIdentity& now, const std::string& level_path)
+{
+    SourceIdentity as_it_was = now;
+    as_it_was.digest = then.digest;
+    if (!isSameContent(then, as_it_was) || then.modified_s != now.modified_s ||
+        then.digest == now.digest) {
+        return false;
+    }
+    std::error_code elsewhere; // at a server
+    const auto made = std::filesystem::last_write_time(level_path, elsewhere);
+    return !elsewhere &&
+           std::chrono::seconds(then.modified_s) <
+               std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(made))
+                   .time_since_epoch();
 }
 
 // Heights in one scale as heights in another.
@@ -311,6 +332,14 @@ Result<LevelFile> LevelFile::open(const std::string& path, const LevelFileKey& e
     auto impl = std::make_unique<Impl>(std::move(file).value());
     if (auto read = impl->readTail(); !read) {
         return std::move(read).error();
+    }
+    if (isDamaged(impl->header.key.raster, expected.raster, path)) {
+        return Error{
+            ErrorCode::Damaged,
+            fmt::format("{}: its samples are not those that {} was made of, though its "
+                        "time is the same: it is damaged; get it again from where it came, "
+                        "or remove {} where it is right as it is",
+                        expected.raster.path, path, path)};
     }
     if (!isSameKey(impl->header.key, expected)) {
         return damaged(path, fmt::format("was made from another raster than {} is now, or for "

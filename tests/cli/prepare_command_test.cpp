@@ -237,6 +237,28 @@ TEST(PrepareCommand, UsesAMapInPlaceThatIsTiledAndHasOverviews)
     EXPECT_EQ(readFile(path), before);
 }
 
+TEST(PrepareCommand, OverwritesNothingButPreparedMaps)
+{
+    const TempFolder folder;
+    const std::string source = tallMap(folder);
+    const std::string own = folder.write("notes.txt", "weeks of work\n");
+    const std::string raster = writeRaster(folder, "own.tif", "GTiff",
+                                           recipeFor<std::int16_t>(3, {1, 2, 3, 4, 5, 6, 7, 8, 9}));
+    for (const std::string& there : {own, raster}) {
+        const std::string before = readFile(there);
+        const ProgramOutput output = runCli({"prepare", source, "-o", there});
+        EXPECT_EQ(output.exit_status, 1);
+        EXPECT_THAT(output.err, HasSubstr(there + ": is there already and is no prepared map"));
+        EXPECT_TRUE(readFile(there) == before);
+    }
+    // An empty one, as mktemp makes, and one that it made itself.
+    const std::string empty = folder.write("map.tif", "");
+    for (int i = 0; i < 2; ++i) {
+        const ProgramOutput output = runCli({"prepare", source, "-o", empty});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+    }
+}
+
 TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
 {
     const TempFolder folder;

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -275,6 +276,31 @@ TEST_F(OpenMap, MakesLevelsAnewWhereOverviewsBesideTheRasterAreOthers)
     const Result<LoadedMap> map = open(path);
     ASSERT_TRUE(map) << map.error().message;
     EXPECT_EQ(unreadable(*map), 0U);
+}
+
+// It would be taken for another raster, and what is damaged be shown as it is.
+TEST_F(OpenMap, RefusesARasterThatIsNotWhatItWasThoughItsTimeIs)
+{
+    const std::string path = tiled();
+    const auto time = fs::last_write_time(path) - std::chrono::hours(1);
+    fs::last_write_time(path, time);
+    fs::last_write_time(path + ".ovr", time);
+    prepare(path);
+    std::string bytes = test::readFile(path);
+    for (std::size_t i = bytes.size() - 64; i < bytes.size(); ++i) {
+        bytes[i] = static_cast<char>(~bytes[i]);
+    }
+    std::ofstream(path, std::ios::binary) << bytes;
+    fs::last_write_time(path, time);
+    for (const std::size_t held_bytes_max : {std::size_t{0}, std::size_t{1} << 30}) {
+        resources_.held_bytes_max = held_bytes_max;
+        const Result<OpenPlan> refused = plan(path);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::Damaged);
+        EXPECT_THAT(refused.error().message, HasSubstr("or remove " + LevelFile::pathFor(path)));
+    }
+    fs::remove(LevelFile::pathFor(path));
+    EXPECT_TRUE(plan(path));
 }
 
 TEST_F(OpenMap, SaysWhyALevelFileBesideTheRasterIsNotUsed)

@@ -299,10 +299,10 @@ TEST_F(LevelFileDamage, IsToldFromOtherVersionsAndOtherFiles)
 
 TEST_F(LevelFileDamage, OfAnotherRasterIsNotUsed)
 {
-    const auto expect_refused = [&](const LevelFileKey& key) {
+    const auto expect_refused = [&](const LevelFileKey& key, ErrorCode code = ErrorCode::Invalid) {
         const auto file = LevelFile::open(folder_.file("whole"), key);
         ASSERT_FALSE(file);
-        EXPECT_EQ(file.error().code, ErrorCode::Invalid);
+        EXPECT_EQ(file.error().code, code);
     };
     LevelFileKey key = someKey();
     key.raster.path = "/elsewhere/mars.tif";
@@ -312,6 +312,8 @@ TEST_F(LevelFileDamage, OfAnotherRasterIsNotUsed)
     expect_refused(key);
     key = someKey();
     key.raster.digest = "ab13";
+    expect_refused(key, ErrorCode::Damaged); // its time says that nobody changed it
+    ++key.raster.modified_s;
     expect_refused(key);
     key = someKey();
     key.band = 2;
