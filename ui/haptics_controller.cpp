@@ -3,6 +3,7 @@
 #include "haptics/drivers/polhem_driver.h"
 #include "haptics/trace/replay_check.h"
 #include "ui/hand_sight.h"
+#include "ui/haptics_text.h"
 #include "ui/terrain_view.h"
 
 #include <QCoreApplication>
@@ -76,12 +77,11 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
         connection_ = HapticsConnection::None;
         // Of a device that is not plugged in OpenHaptics says no more than of one that is broken.
         is_quiet_ = is_quiet_ && (is_absent || uri_.startsWith(QStringLiteral("openhaptics:")));
-        if (is_quiet_) {
+        if (is_quiet_ || is_coming_back_) {
             wanted_uri_ = uri_;
             was_wanted_gone_ = true;
         }
-        setProblem(problem);
-        setLooking(is_looking_);
+        resumeInterrupted(problem);
     });
     look_timer_.setInterval(kLookInterval);
     connect(&look_timer_, &QTimer::timeout, this, &HapticsController::findDevices);
@@ -168,15 +168,16 @@ void HapticsController::connectTo(const QString& uri)
     const bool is_back = is_lost_ && uri == wanted_uri_; // what happened to it is still of use
     if (!isPlayedBack(uri)) {
         interrupted_uri_.clear();
-    } else if (connection_ == HapticsConnection::Connected && !isReplaying()) {
+        wanted_uri_.clear(); // else it is waited for as soon as the recording has ended
+    } else if (connection_ != HapticsConnection::None && !isPlayedBack(uri_)) {
         interrupted_uri_ = lastingUri(uri_);
     }
     close();
     if (!is_back) {
         is_lost_ = false;
     }
-    wanted_uri_.clear();
     is_quiet_ = false;
+    is_coming_back_ = false;
     uri_ = uri;
     connection_ = HapticsConnection::Opening;
     setProblem({});
@@ -257,6 +258,7 @@ void HapticsController::start(std::unique_ptr<HapticDevice> device)
 void HapticsController::close()
 {
     finder_->cancelOpening();
+    replay_fit_.reset();
     stopRecording();
     poll_timer_.stop();
     keepTicks();
@@ -300,19 +302,33 @@ void HapticsController::finishLost(const LoopState& state)
     close();
     const bool is_replay = isPlayedBack(uri); // which may end while everything is let go of
     if (state.reason == LetGoReason::DeviceFinished || (is_replay && trouble.empty())) {
-        setProblem(tr("The recording has ended"));
-        if (!interrupted_uri_.isEmpty()) {
-            connectTo(QString(interrupted_uri_)); // which is cleared by it
-            return;
-        }
-    } else {
-        wanted_uri_ = is_replay ? QString() : uri; // once it is there again
-        was_wanted_gone_ = false;
-        is_lost_ = true;
-        setProblem(trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
-                                   //: %1 is a device, %2 a sentence about it
-                                   : tr("%1 was lost: %2").arg(name, sentence(trouble)));
+        // Where a device comes back there is nothing to be done about it.
+        resumeInterrupted(interrupted_uri_.isEmpty() ? tr("The recording has ended") : QString());
+        return;
     }
+    const QString problem = trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
+                                            //: %1 is a device, %2 a sentence about it
+                                            : tr("%1 was lost: %2").arg(name, sentence(trouble));
+    if (is_replay) {
+        resumeInterrupted(problem);
+        return;
+    }
+    wanted_uri_ = uri; // once it is there again
+    was_wanted_gone_ = false;
+    is_lost_ = true;
+    setProblem(problem);
+    setLooking(is_looking_);
+}
+
+// A recording is over: what it took the place of, if anything, is connected again.
+void HapticsController::resumeInterrupted(const QString& problem)
+{
+    if (!interrupted_uri_.isEmpty()) {
+        connectTo(QString(interrupted_uri_)); // which is cleared by it
+        is_coming_back_ = true;
+    }
+    was_wanted_gone_ = true; // for all that was seen meanwhile
+    setProblem(problem);
     setLooking(is_looking_);
 }
 
@@ -388,6 +404,7 @@ void HapticsController::setContactModel(ContactModelKind kind)
         model_ = kind;
         makeMapAgain();
         push();
+        tellReplay();
     }
 }
 
@@ -458,6 +475,7 @@ void HapticsController::takeGround()
         loop_settings_.map = nullptr;
         push();
         view_.showDevice(std::nullopt);
+        checkReplay();
         return;
     }
     const bool is_kept =
@@ -467,31 +485,59 @@ void HapticsController::takeGround()
     takeSight();
     if (!is_kept) {
         setMap(0);
-        checkReplay();
     }
+    checkReplay();
 }
 
-// Not its every change: a recording is of one map, whose model may be another in every part.
+// Whether the recording goes with the maps that are there now.
 void HapticsController::checkReplay()
 {
-    if (!isReplaying() || !loop_settings_.map) {
+    replay_fit_.reset();
+    if (!isReplaying()) {
         return;
     }
+    tellReplay();
+    std::vector<std::shared_ptr<const Georeference>> maps;
+    for (const SceneMap& map : view_.ground().maps()) {
+        maps.emplace_back(map.map.dataset, &map.map.dataset->georeference());
+    }
+    if (maps.empty()) {
+        return; // it waits for one
+    }
     // Reading may take a while.
-    jobs_.run([this, uri = uri_, map = loop_settings_.map](const auto& outlet) {
-        const Result<std::string> notice = replayNotice(uri.toStdString(), *map);
-        const QString problem = sentence(notice ? *notice : notice.error().message);
-        outlet->post([this, uri, problem, is_refused = !notice] {
-            if (!isReplaying() || uri_ != uri || problem.isEmpty()) {
-                return;
+    jobs_.run([this, uri = uri_, check = ++replay_check_, maps = std::move(maps)](const auto& to) {
+        Result<ReplayFit> fit = replayFit(replayedFile(uri.toStdString()), maps);
+        if (!fit) {
+            return; // it could be opened, and has gone since: there is nothing to compare
+        }
+        to->post([this, check, fit = std::move(fit).value()] {
+            if (check == replay_check_ && isReplaying()) {
+                replay_fit_ = fit;
+                tellReplay();
             }
-            if (is_refused) {
-                close();
-            }
-            setProblem(problem);
-            setLooking(is_looking_);
         });
     });
+}
+
+// Again whenever the map is touched in another way.
+void HapticsController::tellReplay()
+{
+    if (!isReplaying()) {
+        return;
+    }
+    const QString file = QString::fromStdString(replayedFile(uri_.toStdString()));
+    const TouchedGround ground{
+        .kind = model_,
+        .radius_m = loop_settings_.map ? loop_settings_.map->radius_m : 1.0,
+        .exaggeration = exaggeration_,
+    };
+    const QString text = replay_fit_ ? replayText(file, *replay_fit_, ground) : QString();
+    if (replay_fit_ && replay_fit_->isOfOtherMap()) {
+        close();
+        resumeInterrupted(text);
+    } else if (text != problem_) {
+        setProblem(text);
+    }
 }
 
 void HapticsController::setMap(std::size_t index)
@@ -518,6 +564,7 @@ void HapticsController::takeExaggeration()
         makeMapAgain(); // pushed together with the frame: no update sees one without the other
         takeSight();
         push();
+        tellReplay();
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "haptics/interaction/hand_view.h"
 #include "haptics/loop/servo_loop.h"
+#include "haptics/trace/replay_check.h"
 #include "haptics/trace/session_recorder.h"
 #include "ui/detached_jobs.h"
 #include "ui/device_finder.h"
@@ -155,6 +156,7 @@ private:
     void takeDevices(const std::vector<FoundDevice>& devices);
     void poll();
     void finishLost(const LoopState& state);
+    void resumeInterrupted(const QString& problem);
     void keepTicks();
     void setProblem(const QString& problem);
 
@@ -162,6 +164,7 @@ private:
     void takeExaggeration();
     void chooseMap(const LoopState& state);
     void checkReplay();
+    void tellReplay();
     void setMap(std::size_t index);
     void makeMapAgain();
     void takeSight();
@@ -175,8 +178,11 @@ private:
     std::vector<FoundDevice> devices_;
     QTimer look_timer_; // runs only while nothing is connected and somebody looks
     bool is_looking_ = false;
-    QString wanted_uri_;      // of a device that was lost
-    QString interrupted_uri_; // of one that a recording has taken the place of
+    QString wanted_uri_;                  // of a device that was lost
+    QString interrupted_uri_;             // of one that a recording has taken the place of
+    bool is_coming_back_ = false;         // that one is being connected again
+    std::optional<ReplayFit> replay_fit_; // of the recording that is replayed, once it is known
+    int replay_check_ = 0;                // which of the checks counts
     bool was_wanted_gone_ = false;
 
     HapticsConnection connection_ = HapticsConnection::None;

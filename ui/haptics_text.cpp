@@ -1,10 +1,13 @@
 #include "ui/haptics_text.h"
 
+#include "haptics/trace/replay_check.h"
 #include "ui/haptics_controller.h"
 #include "ui/number_text.h"
+#include "ui/window_actions.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
+#include <QStringList>
 
 namespace marsview {
 namespace {
@@ -95,6 +98,31 @@ QString savedTicksText(const SavedTicks& saved)
     return tr("%1: %2 ticks of %3 s")
         .arg(QFileInfo(saved.file).fileName(), countText(saved.count),
              numberText(saved.seconds, 1));
+}
+
+QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground)
+{
+    const QString name = QFileInfo(file).fileName();
+    if (fit.isOfOtherMap()) {
+        //: %1 is a file
+        return tr("%1 was recorded elsewhere: none of it lies on the map; open the one that it was "
+                  "recorded on")
+            .arg(name);
+    }
+    QStringList sentences;
+    if (fit.beside_count > 0) {
+        //: %1 is a file, %2 and %3 are numbers
+        sentences.append(tr("%1: %2 of %3 goals lie beside the map and are put to its edge.")
+                             .arg(name, countText(fit.beside_count), countText(fit.goal_count)));
+    }
+    if (const GoalPart* other = fit.otherThan(ground)) {
+        //: %1 is a file, %2 and %4 are contact models, %3 and %5 numbers
+        sentences.append(
+            tr("%1 was recorded with %2 at exaggeration %3; the map is touched with %4 at %5.")
+                .arg(name, contactModelText(other->kind), shortNumberText(other->exaggeration, 4),
+                     contactModelText(ground.kind), shortNumberText(ground.exaggeration, 4)));
+    }
+    return sentences.join(QLatin1Char(' '));
 }
 
 QString spanText(std::chrono::nanoseconds span)

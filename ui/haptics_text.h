@@ -11,7 +11,9 @@
 
 namespace marsview {
 
+struct ReplayFit;
 struct SavedTicks;
+struct TouchedGround;
 
 /// A sentence: why there is no force; empty where there may be.
 QString letGoText(LetGoReason reason);
@@ -23,6 +25,9 @@ QString realTimeText(const RealTimeGrants& grants);
 QString recordedText(const QString& file, qulonglong updates);
 /// "flight.csv: 10,000 ticks of 10.0 s".
 QString savedTicksText(const SavedTicks& saved);
+/// Sentences: where a recording does not go with the maps that are open, or was touched in another
+/// way than `ground` is; empty where all is the same.
+QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground);
 /// "12 µs", "3.4 ms"; two significant digits at least.
 QString spanText(std::chrono::nanoseconds span);
 

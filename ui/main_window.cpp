@@ -51,13 +51,19 @@ namespace {
 constexpr QSize kDefaultSize{1280, 800};
 constexpr int kMessageDuration = 4000; // ms
 
+QString asSentence(QString text)
+{
+    if (!text.isEmpty()) {
+        text[0] = text[0].toUpper();
+    }
+    return text;
+}
+
 QStringList noticesOf(const RasterInfo& info)
 {
     QStringList notices;
     for (const std::string& notice : info.notices) {
-        QString sentence = QString::fromStdString(notice);
-        sentence[0] = sentence[0].toUpper();
-        notices.append(sentence);
+        notices.append(asSentence(QString::fromStdString(notice)));
     }
     return notices;
 }
@@ -440,7 +446,7 @@ void MainWindow::connectSounds()
 
 void MainWindow::tellNoSound(const QString& why)
 {
-    reportFailure(tr("Cannot Play Sound"), why);
+    reportFailure(tr("Cannot Play Sound"), asSentence(why));
 }
 
 void MainWindow::showHaptics()

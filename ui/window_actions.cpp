@@ -366,4 +366,15 @@ void WindowActions::showSession(const Session& session)
     contours->setChecked(session.look.has_contours);
 }
 
+QString contactModelText(ContactModelKind kind)
+{
+    const auto action =
+        std::find_if(kContactModelActions.begin(), kContactModelActions.end(),
+                     [kind](const ContactModelAction& known) { return known.model == kind; });
+    QString text = action != kContactModelActions.end()
+                       ? QCoreApplication::translate("WindowActions", action->text)
+                       : QString();
+    return text.remove(QLatin1Char('&'));
+}
+
 } // namespace marsview

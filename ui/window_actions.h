@@ -6,6 +6,7 @@
 #include "ui/panels/dataset_panel.h"
 
 #include <QList>
+#include <QString>
 
 class QAction;
 class QActionGroup;
@@ -78,5 +79,8 @@ private:
 
     QList<QAction*> for_shown_; // of use only while something is shown
 };
+
+/// What the menu calls a contact model.
+QString contactModelText(ContactModelKind kind);
 
 } // namespace marsview

@@ -6,6 +6,7 @@
 #include "app/cli/loop_outcome.h"
 #include "app/cli/loop_report.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/replay_notice.h"
 #include "app/cli/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
@@ -18,11 +19,13 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -125,6 +128,12 @@ Status runLoop(const Options& options)
         }
         map = std::move(opened).value();
     }
+    std::error_code none; // where one of them is not there
+    if (isReplay(options.device) &&
+        std::filesystem::equivalent(replayedFile(options.device), options.record, none)) {
+        return Error{ErrorCode::Invalid,
+                     options.record + ": is what is replayed; record into another file"};
+    }
     OrderlyEnd end;
     DeviceRegistry registry(builtInDrivers());
     Result<std::unique_ptr<HapticDevice>> device = openDevice(registry, options, *map);
@@ -132,7 +141,7 @@ Status runLoop(const Options& options)
         return std::move(device).error();
     }
 
-    const Result<std::string> replay_notice = replayNotice(options.device, *map->map);
+    const Result<std::string> replay_notice = replayNotice(options.device, *map);
     if (!replay_notice) {
         return replay_notice.error();
     }

@@ -2,21 +2,39 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "haptics/loop/servo_map.h"
+#include "core/geo/georeference.h"
+#include "haptics/loop/loop_state.h"
+#include "haptics/trace/goal_file.h"
 
+#include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace marsview {
 
 /// Whether a device is a recording that is played back.
 bool isReplay(std::string_view uri) noexcept;
+/// The file of "replay:FILE" or "replay:FILE#loop".
+std::string replayedFile(std::string_view uri);
 
-/// Of "replay:FILE": says where goals lie beside the map, which the loop clamps to its edge, and
-/// where they were recorded with another contact model or exaggeration than those of `map`, so that
-/// what is touched is another place. Empty where all is the same, and for any other device; Invalid
-/// where every goal lies beside the map. A sentence that begins with the file. Reads it: any thread
-/// but the servo's. Of `map` only what is constant is looked at.
-Result<std::string> replayNotice(const std::string& uri, const ServoMap& map);
+/// What there is to be known of a recording before it is replayed.
+struct ReplayFit {
+    std::size_t goal_count = 0;
+    std::size_t beside_count = 0; // goals beside every map: the loop puts them to an edge
+    std::vector<GoalPart> parts;  // what they were aimed at with; none where the file does not say
+
+    bool isOfOtherMap() const noexcept { return goal_count > 0 && beside_count == goal_count; }
+    /// The first part that was not touched as `ground` is now, so that the proxy goes another way;
+    /// null where all was. Points into `parts`.
+    const GoalPart* otherThan(const TouchedGround& ground) const noexcept;
+};
+
+/// Reads the file: not for the servo thread. What the file cannot be read for. Maps are told apart
+/// by where they lie alone: a recording does not say which one it was made on.
+Result<ReplayFit> replayFit(const std::string& file,
+                            std::span<const std::shared_ptr<const Georeference>> maps);
 
 } // namespace marsview

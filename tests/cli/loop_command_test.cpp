@@ -250,6 +250,17 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
     EXPECT_EQ(run("0,0,0\n").err, "");
 }
 
+TEST(LoopCommand, DoesNotRecordOverWhatItReplays)
+{
+    const TempFolder folder;
+    const std::string goals = folder.write("goals.csv", "x,y,z\n0,0,0\n");
+    const ProgramOutput output =
+        runCli({"loop", bundledMars(), "--device", "replay:" + goals + "#loop", "--record", goals});
+    EXPECT_EQ(output.exit_status, 1);
+    EXPECT_THAT(output.err, HasSubstr("is what is replayed; record into another file"));
+    EXPECT_EQ(readFile(goals), "x,y,z\n0,0,0\n");
+}
+
 TEST(LoopCommand, SaysThatARecordingWasTouchedInAnotherWay)
 {
     const TempFolder folder;

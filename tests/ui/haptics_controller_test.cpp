@@ -27,6 +27,20 @@
 namespace marsview {
 namespace {
 
+// Lines of the same goal, and what a recording tells of it.
+void writeGoals(const QString& file,
+                int count,
+                const QByteArray& goal,
+                const QByteArray& columns = {})
+{
+    QFile text(file);
+    ASSERT_TRUE(text.open(QIODevice::WriteOnly | QIODevice::Truncate));
+    text.write("x,y,z" + columns + '\n');
+    for (int i = 0; i < count; ++i) {
+        text.write(goal + '\n');
+    }
+}
+
 class HapticsControllerTest : public HandWindowTest {
 protected:
     void SetUp() override
@@ -443,27 +457,77 @@ TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
 TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
 {
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    const auto replay = [&](const QByteArray& columns, const QByteArray& goal) {
-        QFile text(file);
-        EXPECT_TRUE(text.open(QIODevice::WriteOnly | QIODevice::Truncate));
-        text.write("x,y,z" + columns + '\n');
-        for (int i = 0; i < 3000; ++i) {
-            text.write(goal + '\n');
-        }
-        text.close();
+    const auto replay = [&](const QByteArray& goal, const QByteArray& columns = {}) {
+        writeGoals(file, 3000, goal, columns);
         haptics().connectTo(QStringLiteral("replay:") + file);
+        EXPECT_EQ(haptics().problem(), QString());
         EXPECT_TRUE(waitFor([&] { return !haptics().problem().isEmpty(); }));
         return haptics().problem();
     };
     const QByteArray parts = ",map,part,model,radius_m,exaggeration";
-    EXPECT_EQ(replay(parts, "500900,4000600,5000,1,1,god-object,1,3"),
-              file +
-                  QStringLiteral(": was recorded with god-object at exaggeration 3, which is not "
-                                 "what touches the map now (continuous-walk at exaggeration 1)"));
+    const QString other = QStringLiteral(
+        "touch.csv was recorded with God-Object at exaggeration 3; the map is touched with "
+        "Continuous Walk (exact) at 1.");
+    EXPECT_EQ(replay("500900,4000600,5000,1,1,god-object,1,3", parts), other);
     EXPECT_TRUE(haptics().isReplaying());
-    EXPECT_EQ(haptics().notice(), haptics().problem());
-    EXPECT_TRUE(replay("", "0,0,0").contains(QStringLiteral("3000 of 3000 goals lie beside")));
+    EXPECT_EQ(haptics().notice(), other);
+    // It follows what touches the map.
+    haptics().setContactModel(ContactModelKind::GodObject);
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("with God-Object at 1.")));
+    view().setExaggeration(3.0);
+    EXPECT_EQ(haptics().problem(), QString());
+    view().setExaggeration(1.0);
+    haptics().setContactModel(kContactModelDefault);
+    EXPECT_EQ(haptics().problem(), other);
+
+    EXPECT_TRUE(replay("0,0,0").contains(QStringLiteral("none of it lies on the map")));
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    // A device is back where no recording takes its place.
+    for (const char* goal : {"0,0,0", "none"}) {
+        ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+        const QString problem = replay(goal);
+        EXPECT_TRUE(problem.contains(QStringLiteral("touch.csv"))) << problem.toStdString();
+        EXPECT_TRUE(waitFor([&] {
+            return haptics().loop() != nullptr && haptics().uri() == QStringLiteral("hand:");
+        })) << goal;
+        EXPECT_EQ(haptics().problem(), problem) << "still to be read";
+        haptics().disconnectDevice();
+    }
+}
+
+TEST_F(HapticsControllerTest, ARecordingOfALowerMapIsReplayed)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.placed("small", "IAU_2015:49900", {10.0, 0.05, 0.0, 20.0, 0.0, -0.05})));
+    ASSERT_EQ(view().ground().maps().size(), 2U);
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 1000, "16,15,5000"); // beside what lies on top
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+}
+
+// Also where it was unplugged meanwhile.
+TEST_F(HapticsControllerTest, ADeviceThatIsGoneAfterAReplayIsConnectedWhenItIsThere)
+{
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 1000, "500900,4000600,5000");
+    for (const bool is_lost_before : {true, false}) {
+        ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+        hand_->is_there = false;
+        if (is_lost_before) {
+            hand_->is_lost = true;
+            ASSERT_TRUE(waitFor([&] { return haptics().isLost(); }));
+        }
+        ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+        ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+        hand_->is_lost = false;
+        hand_->is_there = true;
+        EXPECT_TRUE(waitFor([&] { return haptics().loop() != nullptr; })) << is_lost_before;
+        EXPECT_EQ(haptics().uri(), QStringLiteral("hand:"));
+        haptics().disconnectDevice();
+    }
 }
 
 TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)

@@ -75,6 +75,9 @@ public:
         while (hand_->is_held_up) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
+        if (!hand_->is_there) {
+            return Error{ErrorCode::NotFound, "hand:: is not there"};
+        }
         return std::unique_ptr<HapticDevice>(new HandDevice(hand_));
     }
 

@@ -443,12 +443,12 @@ void GeoreferencingPanel::fillFields()
 Ellipsoid GeoreferencingPanel::ellipsoidFrom(std::optional<double> equatorial_m,
                                              std::optional<double> polar_m) const
 {
-    const auto in_file =
-        dataset_->fileInfo().crs ? dataset_->fileInfo().crs->ellipsoid() : std::nullopt;
     const double only_m = equatorial_m ? *equatorial_m : *polar_m;
-    const Ellipsoid rest = in_file && !in_file->isSphere()
-                               ? *in_file
-                               : Ellipsoid{.equatorial_m = only_m, .polar_m = only_m};
+    Ellipsoid rest{.equatorial_m = only_m, .polar_m = only_m};
+    if (const std::optional<Crs>& crs = dataset_->fileInfo().crs) {
+        const std::optional<Ellipsoid> in_file = crs->ellipsoid();
+        rest = in_file && !in_file->isSphere() ? *in_file : rest;
+    }
     return {.equatorial_m = equatorial_m.value_or(rest.equatorial_m),
             .polar_m = polar_m.value_or(rest.polar_m)};
 }

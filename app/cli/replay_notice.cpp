@@ -1,0 +1,59 @@
+#include "app/cli/replay_notice.h"
+
+#include "haptics/trace/replay_check.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+std::string asText(ContactModelKind kind, double radius_m, double exaggeration)
+{
+    const std::string radius = kind == ContactModelKind::VirtualProxy
+                                   ? fmt::format(" of radius {:.6g} m", radius_m)
+                                   : std::string();
+    return fmt::format("{}{} at exaggeration {:.6g}", contactModelName(kind), radius, exaggeration);
+}
+
+} // namespace
+
+Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
+{
+    if (!isReplay(uri)) {
+        return std::string();
+    }
+    const std::string file = replayedFile(uri);
+    const auto& dataset = map.opened.dataset;
+    const std::shared_ptr<const Georeference> georeference(dataset, &dataset->georeference());
+    const Result<ReplayFit> fit = replayFit(file, {&georeference, 1});
+    if (!fit) {
+        return fit.error();
+    }
+    const std::string count =
+        fmt::format("{} of {} goals lie beside the map", fit->beside_count, fit->goal_count);
+    if (fit->isOfOtherMap()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: {}; give the map that they were recorded on", file, count)};
+    }
+    std::vector<std::string> remarks;
+    if (fit->beside_count > 0) {
+        remarks.push_back(count +
+                          " and are put to its edge; was it another one that they were "
+                          "recorded on?");
+    }
+    const ServoMap& touched = *map.map;
+    const double exaggeration = touched.frame.exaggeration();
+    if (const GoalPart* other = fit->otherThan(
+            {.kind = touched.kind, .radius_m = touched.radius_m, .exaggeration = exaggeration})) {
+        remarks.push_back(
+            fmt::format("was recorded with {}, which is not what touches the map now ({})",
+                        asText(other->kind, other->radius_m, other->exaggeration),
+                        asText(touched.kind, touched.radius_m, exaggeration)));
+    }
+    return remarks.empty() ? std::string()
+                           : fmt::format("{}: {}", file, fmt::join(remarks, " It "));
+}
+
+} // namespace marsview

@@ -1,0 +1,15 @@
+// What is to be said of a recording that a loop replays.
+#pragma once
+
+#include "app/cli/loop_map.h"
+#include "core/base/result.h"
+
+#include <string>
+
+namespace marsview {
+
+/// Of "replay:FILE" where it was not recorded on such a map, or touched it in another way; empty
+/// where all is the same, and for any other device. Invalid where every goal lies beside the map.
+Result<std::string> replayNotice(const std::string& uri, const LoopMap& map);
+
+} // namespace marsview
