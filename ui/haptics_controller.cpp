@@ -1,9 +1,10 @@
 #include "ui/haptics_controller.h"
 
 #include "haptics/drivers/polhem_driver.h"
-#include "haptics/trace/replay_check.h"
+#include "haptics/drivers/replay_driver.h"
 #include "ui/hand_sight.h"
 #include "ui/haptics_text.h"
+#include "ui/sentence.h"
 #include "ui/terrain_view.h"
 
 #include <QCoreApplication>
@@ -51,15 +52,6 @@ bool isElsewhere(const OrbitCamera& camera, const OrbitCamera& wanted)
 bool isPlayedBack(const QString& uri)
 {
     return isReplay(uri.toStdString());
-}
-
-QString sentence(const std::string& text)
-{
-    QString result = QString::fromStdString(text);
-    if (!result.isEmpty()) {
-        result[0] = result[0].toUpper();
-    }
-    return result;
 }
 
 } // namespace
@@ -308,7 +300,7 @@ void HapticsController::finishLost(const LoopState& state)
     }
     const QString problem = trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
                                             //: %1 is a device, %2 a sentence about it
-                                            : tr("%1 was lost: %2").arg(name, sentence(trouble));
+                                            : tr("%1 was lost: %2").arg(name, asSentence(trouble));
     if (is_replay) {
         resumeInterrupted(problem);
         return;

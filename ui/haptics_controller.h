@@ -78,8 +78,8 @@ public:
     const QString& uri() const noexcept { return uri_; }
     /// Nothing unless connected.
     const ServoLoop* loop() const noexcept { return loop_.get(); }
-    /// Why the last device was refused, or is no longer connected, or what does not suit a
-    /// recording that is replayed; empty where all is well. A sentence for people.
+    /// Why the last device or recording was refused, or is no longer connected, or what does not
+    /// suit a recording that is replayed; empty where all is well. Sentences for people.
     const QString& problem() const noexcept { return problem_; }
     /// The same, but empty where it can wait until somebody looks for it.
     QString notice() const { return is_quiet_ ? QString() : problem_; }

@@ -18,6 +18,7 @@
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/recent_files.h"
+#include "ui/sentence.h"
 #include "ui/status_readout.h"
 #include "ui/terrain_view.h"
 #include "ui/theme.h"
@@ -51,19 +52,11 @@ namespace {
 constexpr QSize kDefaultSize{1280, 800};
 constexpr int kMessageDuration = 4000; // ms
 
-QString asSentence(QString text)
-{
-    if (!text.isEmpty()) {
-        text[0] = text[0].toUpper();
-    }
-    return text;
-}
-
 QStringList noticesOf(const RasterInfo& info)
 {
     QStringList notices;
     for (const std::string& notice : info.notices) {
-        notices.append(asSentence(QString::fromStdString(notice)));
+        notices.append(asSentence(notice));
     }
     return notices;
 }

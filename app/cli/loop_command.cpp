@@ -10,8 +10,8 @@
 #include "app/cli/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
+#include "haptics/drivers/replay_driver.h"
 #include "haptics/loop/rt_scope.h"
-#include "haptics/trace/replay_check.h"
 #include "haptics/trace/session_recorder.h"
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,6 @@
 #include "app/cli/replay_notice.h"
 
+#include "haptics/drivers/replay_driver.h"
 #include "haptics/trace/replay_check.h"
 
 #include <fmt/format.h>

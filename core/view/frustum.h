@@ -16,7 +16,7 @@ public:
     /// True only if no point of the box is in the picture. False for some boxes near the edges that
     /// are not.
     bool isOutside(const SceneBox& box) const noexcept;
-    /// True only if every point of the box is in the picture or behind its edges by rounding.
+    /// True only if every point of the box is in the picture.
     bool isInside(const SceneBox& box) const noexcept;
 
 private:

@@ -10,7 +10,13 @@
 namespace marsview {
 namespace {
 
+constexpr std::string_view kScheme = "replay:";
 constexpr std::string_view kLoop = "#loop";
+
+std::string_view withoutLoop(std::string_view address)
+{
+    return address.ends_with(kLoop) ? address.substr(0, address.size() - kLoop.size()) : address;
+}
 
 bool isSomewhere(const TracePoint& goal)
 {
@@ -24,10 +30,7 @@ public:
     Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override
     {
         const bool is_loop = address.ends_with(kLoop);
-        if (is_loop) {
-            address.remove_suffix(kLoop.size());
-        }
-        const std::string path(address);
+        const std::string path(withoutLoop(address));
         if (path.empty() || path == "-") {
             return Error{ErrorCode::Invalid, fmt::format("replay:{}: needs a file of goals, as in "
                                                          "replay:goals.csv",
@@ -95,6 +98,16 @@ bool ReplayDevice::recordedGoal(TracePoint& goal) const noexcept
     }
     goal = goals_[next_ - 1];
     return true;
+}
+
+bool isReplay(std::string_view uri) noexcept
+{
+    return uri.starts_with(kScheme);
+}
+
+std::string replayedFile(std::string_view uri)
+{
+    return std::string(withoutLoop(isReplay(uri) ? uri.substr(kScheme.size()) : uri));
 }
 
 std::unique_ptr<DeviceDriver> makeReplayDriver()

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace marsview {
@@ -29,6 +31,11 @@ private:
     ReplayEnd end_;
     std::size_t next_ = 0;
 };
+
+/// Whether a device is a recording that is played back.
+bool isReplay(std::string_view uri) noexcept;
+/// The file of "replay:FILE" or "replay:FILE#loop".
+std::string replayedFile(std::string_view uri);
 
 /// Scheme "replay". The address is the file, with "#loop" behind it if it should begin anew at its
 /// end.

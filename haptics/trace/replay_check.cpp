@@ -7,9 +7,6 @@
 namespace marsview {
 namespace {
 
-constexpr std::string_view kScheme = "replay:";
-constexpr std::string_view kLoop = "#loop";
-
 // To the outer edges of the pixels.
 bool isOn(const Georeference& georeference, const TracePoint& goal)
 {
@@ -22,20 +19,6 @@ bool isOn(const Georeference& georeference, const TracePoint& goal)
 }
 
 } // namespace
-
-bool isReplay(std::string_view uri) noexcept
-{
-    return uri.starts_with(kScheme);
-}
-
-std::string replayedFile(std::string_view uri)
-{
-    uri.remove_prefix(std::min(kScheme.size(), uri.size()));
-    if (uri.ends_with(kLoop)) {
-        uri.remove_suffix(kLoop.size());
-    }
-    return std::string(uri);
-}
 
 const GoalPart* ReplayFit::otherThan(const TouchedGround& ground) const noexcept
 {

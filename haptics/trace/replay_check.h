@@ -10,15 +10,9 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace marsview {
-
-/// Whether a device is a recording that is played back.
-bool isReplay(std::string_view uri) noexcept;
-/// The file of "replay:FILE" or "replay:FILE#loop".
-std::string replayedFile(std::string_view uri);
 
 /// What there is to be known of a recording before it is replayed.
 struct ReplayFit {

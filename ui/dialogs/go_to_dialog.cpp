@@ -2,6 +2,7 @@
 
 #include "core/geo/coordinate_entry.h"
 #include "core/geo/extent.h"
+#include "ui/sentence.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -174,9 +175,7 @@ void GoToDialog::check()
     const Result<GridPoint> place = placeOnMap(*dataset_, display(), now.text);
     go_button_->setEnabled(place.has_value());
     if (!place) {
-        QString problem = QString::fromStdString(place.error().message);
-        problem[0] = problem[0].toUpper();
-        answer_->setText(problem);
+        answer_->setText(asSentence(place.error().message));
         return;
     }
     const Heightfield& heightfield = dataset_->heightfield();

@@ -4,6 +4,7 @@
 #include "ui/number_text.h"
 #include "ui/panels/caption.h"
 #include "ui/panels/loop_times.h"
+#include "ui/sentence.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -281,10 +282,7 @@ void HapticsPanel::showDevices()
     for (const FoundDevice& device : controller_.devices()) {
         const QString uri = QString::fromStdString(device.uri);
         const QString name = device.name.empty() ? uri : QString::fromStdString(device.name);
-        QString reason = QString::fromStdString(device.reason);
-        if (!reason.isEmpty()) {
-            reason[0] = reason[0].toUpper();
-        }
+        const QString reason = asSentence(device.reason);
         auto* item =
             new QListWidgetItem(reason.isEmpty() ? name : name + QLatin1Char('\n') + reason, list_);
         item->setData(kUriRole, uri);
