@@ -524,7 +524,7 @@ void HapticsController::tellReplay()
         .exaggeration = exaggeration_,
     };
     const QString text = replay_fit_ ? replayText(file, *replay_fit_, ground) : QString();
-    if (replay_fit_ && replay_fit_->isOfOtherMap()) {
+    if (replay_fit_ && replay_fit_->isElsewhere()) {
         close();
         resumeInterrupted(text);
     } else if (text != problem_) {

@@ -1,5 +1,6 @@
 #include "ui/haptics_text.h"
 
+#include "core/geo/body.h"
 #include "haptics/trace/replay_check.h"
 #include "ui/haptics_controller.h"
 #include "ui/number_text.h"
@@ -9,12 +10,21 @@
 #include <QFileInfo>
 #include <QStringList>
 
+#include <string>
+
 namespace marsview {
 namespace {
 
 QString tr(const char* text)
 {
     return QCoreApplication::translate("HapticsText", text);
+}
+
+QString bodyText(const Ellipsoid& ellipsoid)
+{
+    const Body* body = bodyOfRadius(ellipsoid.equatorial_m);
+    return body != nullptr ? QString::fromStdString(std::string(body->name))
+                           : tr("of no body that is known");
 }
 
 } // namespace
@@ -103,7 +113,7 @@ QString savedTicksText(const SavedTicks& saved)
 QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground)
 {
     const QString name = QFileInfo(file).fileName();
-    if (fit.isOfOtherMap()) {
+    if (fit.isElsewhere()) {
         //: %1 is a file
         return tr("%1 was recorded elsewhere: none of it lies on the map; open the one that it was "
                   "recorded on")
@@ -114,6 +124,13 @@ QString replayText(const QString& file, const ReplayFit& fit, const TouchedGroun
         //: %1 is a file, %2 and %3 are numbers
         sentences.append(tr("%1: %2 of %3 goals lie beside the map and are put to its edge.")
                              .arg(name, countText(fit.beside_count), countText(fit.goal_count)));
+    }
+    if (fit.other_map) {
+        //: %1 is a file, %2 and %3 are numbers of samples, %4 is a planet or a moon
+        sentences.append(tr("%1 was recorded on a map that is not open: %2 × %3 samples, %4.")
+                             .arg(name, countText(fit.other_map->columns),
+                                  countText(fit.other_map->rows),
+                                  bodyText(fit.other_map->ellipsoid)));
     }
     if (const GoalPart* other = fit.otherThan(ground)) {
         //: %1 is a file, %2 and %4 are contact models, %3 and %5 numbers

@@ -49,20 +49,25 @@ constexpr std::array kCounters{
 
 } // namespace
 
-Result<std::vector<TraceUpdate>> trace(ContactModel& model,
-                                       const TraceFrame& frame,
-                                       const std::vector<TracePoint>& goals,
-                                       JobMonitor& monitor)
+Status trace(ContactModel& model,
+             const TraceFrame& frame,
+             const std::vector<TracePoint>& goals,
+             std::size_t first,
+             std::size_t end,
+             const BeforeGoal& before_goal,
+             JobMonitor& monitor,
+             std::vector<TraceUpdate>& updates)
 {
-    std::vector<TraceUpdate> updates;
-    updates.reserve(goals.size());
     constexpr std::size_t kReportEvery = 1024;
-    for (std::size_t i = 0; i < goals.size(); ++i) {
+    for (std::size_t i = first; i < end; ++i) {
         if (i % kReportEvery == 0) {
             monitor.report(static_cast<double>(i) / static_cast<double>(goals.size()));
             if (monitor.isCancelled()) {
                 return Error{ErrorCode::Cancelled, "tracing was cancelled"};
             }
+        }
+        if (Status ready = before_goal(i); !ready) {
+            return ready;
         }
         const TracePoint& goal = goals[i];
         const ScenePoint aim = frame.to_scene(goal);
@@ -80,7 +85,7 @@ Result<std::vector<TraceUpdate>> trace(ContactModel& model,
         }
         updates.push_back(update);
     }
-    return updates;
+    return Done{};
 }
 
 std::string asCsv(const std::vector<TraceUpdate>& updates, TraceTiming timing)

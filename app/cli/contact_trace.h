@@ -21,17 +21,26 @@ struct TraceFrame {
     std::function<bool(const TracePoint& goal)> is_clamped;
 };
 
+/// Of one of the goals, before the model is given it.
+using BeforeGoal = std::function<Status(std::size_t goal)>;
+
 struct TraceUpdate {
     TracePoint proxy; // to the digit the goal, where free
     ContactState state;
     double ns = 0.0;
 };
 
-/// Runs the model over the goals; the first places it. Only Cancelled can go wrong.
-Result<std::vector<TraceUpdate>> trace(ContactModel& model,
-                                       const TraceFrame& frame,
-                                       const std::vector<TracePoint>& goals,
-                                       JobMonitor& monitor);
+/// Runs the model over some of the goals, from `first` to before `end`; the first of its first ones
+/// places it. Adds to `updates`, which has one for each goal before. Cancelled, or what
+/// `before_goal` says.
+Status trace(ContactModel& model,
+             const TraceFrame& frame,
+             const std::vector<TracePoint>& goals,
+             std::size_t first,
+             std::size_t end,
+             const BeforeGoal& before_goal,
+             JobMonitor& monitor,
+             std::vector<TraceUpdate>& updates);
 
 /// The trace as CSV, with a column `ns` if asked for.
 enum class TraceTiming { No, Yes };

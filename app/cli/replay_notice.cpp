@@ -1,5 +1,6 @@
 #include "app/cli/replay_notice.h"
 
+#include "core/geo/body.h"
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/trace/replay_check.h"
 
@@ -20,6 +21,14 @@ std::string asText(ContactModelKind kind, double radius_m, double exaggeration)
 
 } // namespace
 
+std::string otherMapText(const GroundPart& recorded)
+{
+    const Body* body = bodyOfRadius(recorded.ellipsoid.equatorial_m);
+    return fmt::format("was recorded on another map, one of {} × {} samples of {}",
+                       recorded.columns, recorded.rows,
+                       body != nullptr ? body->name : "no body that is known");
+}
+
 Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
 {
     if (!isReplay(uri)) {
@@ -34,15 +43,16 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
     }
     const std::string count =
         fmt::format("{} of {} goals lie beside the map", fit->beside_count, fit->goal_count);
-    if (fit->isOfOtherMap()) {
+    if (fit->isElsewhere()) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: {}; give the map that they were recorded on", file, count)};
     }
     std::vector<std::string> remarks;
     if (fit->beside_count > 0) {
-        remarks.push_back(count +
-                          " and are put to its edge; was it another one that they were "
-                          "recorded on?");
+        remarks.push_back(count + " and are put to its edge");
+    }
+    if (fit->other_map) {
+        remarks.push_back(otherMapText(*fit->other_map));
     }
     const ServoMap& touched = *map.map;
     const double exaggeration = touched.frame.exaggeration();
@@ -54,7 +64,7 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
                         asText(touched.kind, touched.radius_m, exaggeration)));
     }
     return remarks.empty() ? std::string()
-                           : fmt::format("{}: {}", file, fmt::join(remarks, " It "));
+                           : fmt::format("{}: {}", file, fmt::join(remarks, "; it "));
 }
 
 } // namespace marsview

@@ -3,10 +3,14 @@
 
 #include "app/cli/loop_map.h"
 #include "core/base/result.h"
+#include "haptics/loop/ground_record.h"
 
 #include <string>
 
 namespace marsview {
+
+/// That a recording was made on another map, without a begin and an end.
+std::string otherMapText(const GroundPart& recorded);
 
 /// Of "replay:FILE" where it was not recorded on such a map, or touched it in another way; empty
 /// where all is the same, and for any other device. Invalid where every goal lies beside the map.

@@ -10,8 +10,11 @@ namespace marsview {
 Result<TouchMap> openTouchMap(const MapOptions& options, TouchStore store, JobMonitor& monitor)
 {
     const DatasetSpec spec = options.spec();
-    const MapResources resources = defaultMapResources();
-    if (store == TouchStore::HeldOrTiled) {
+    MapResources resources = defaultMapResources();
+    if (store == TouchStore::Tiled) {
+        resources.held_bytes_max = 0;
+    }
+    if (store != TouchStore::Held) {
         const Result<OpenPlan> plan = planOpening(spec, resources);
         if (!plan) {
             return plan.error();

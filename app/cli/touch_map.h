@@ -19,8 +19,8 @@ struct TouchMap {
     std::shared_ptr<const MapLevels> levels;         // null where it is held
 };
 
-/// Whether a map may come in tiles, prepared first where it has to be.
-enum class TouchStore { Held, HeldOrTiled };
+/// Whether a map may or has to come in tiles, prepared first where it is not.
+enum class TouchStore { Held, HeldOrTiled, Tiled };
 
 /// Reads the map whole and measures what casts skip by, or opens it in tiles.
 Result<TouchMap> openTouchMap(const MapOptions& options, TouchStore store, JobMonitor& monitor);

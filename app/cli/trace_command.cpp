@@ -4,24 +4,18 @@
 #include "app/cli/contact_trace.h"
 #include "app/cli/long_job.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/replay_notice.h"
 #include "app/cli/text_output.h"
-#include "app/cli/touch_map.h"
-#include "core/contact/resident_heights.h"
-#include "core/mesh/mesh_file.h"
-#include "core/terrain/waiting_terrain.h"
+#include "app/cli/trace_subject.h"
 #include "haptics/trace/goal_file.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -29,6 +23,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace marsview {
@@ -60,144 +55,18 @@ Status write(const std::string& path, const std::string& text)
     return Done{};
 }
 
-// Over a map: heights are those of `sample`, x and y are the CRS'.
-TraceFrame frameOf(const std::shared_ptr<const Dataset>& dataset, double exaggeration)
-{
-    const GoalFrame frame({dataset, &dataset->georeference()}, exaggeration);
-    return {
-        .to_scene = [frame](const TracePoint& goal) { return frame.toScene(goal); },
-        .from_scene = [frame](const ContactState& state) { return frame.fromScene(state.proxy); },
-        .is_clamped = [frame](const TracePoint& goal) { return frame.isClamped(goal); },
-    };
-}
-
-// Over a mesh: coordinates are scene metres, but for the exaggeration.
-TraceFrame meshFrame(double exaggeration)
-{
-    return {
-        .to_scene = [exaggeration](const TracePoint& goal) -> ScenePoint {
-            return {goal.x, goal.y, goal.z * exaggeration};
-        },
-        .from_scene =
-            [exaggeration](const ContactState& state) {
-                return TracePoint{state.proxy.x, state.proxy.y, state.proxy.z / exaggeration};
-            },
-        .is_clamped = [](const TracePoint&) { return false; },
-    };
-}
-
-bool isMesh(const std::string& path)
-{
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending == ".obj" || ending == ".ply" || ending == ".stl";
-}
-
-// How ground is touched by the goals from `first` on.
-struct Touch {
-    std::size_t first = 0;
-    std::uint64_t part = 0; // of a recording: another number is another model
-    ContactModelKind kind = kContactModelDefault;
-    double radius_m = 1.0;
-    double exaggeration = 1.0;
-};
-
-struct Toucher {
-    std::unique_ptr<ContactModel> model;
-    TraceFrame frame;
-};
-
-// What is touched: a map or a mesh.
-struct Subject {
-    std::function<Toucher(const Touch&)> make;
-    double radius_m = 1.0;                         // where nobody has told another
-    std::shared_ptr<const Dataset> dataset;        // null for a mesh
-    std::shared_ptr<const WaitingTerrain> terrain; // of a map in tiles
-};
-
-Result<Subject> meshSubject(const Options& options, JobMonitor& monitor)
-{
-    if (options.map.hasOverrides()) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: a mesh has no CRS, body, band or unit to be told otherwise",
-                                 options.map.path)};
-    }
-    if (options.model == contactModelName(ContactModelKind::VirtualProxy) && !options.radius_m) {
-        return Error{ErrorCode::Invalid,
-                     "--radius: is needed with virtual-proxy over a mesh, which has no cell to be "
-                     "half of"};
-    }
-    Result<TriangleSoup> soup = readTriangles(options.map.path, monitor);
-    if (!soup) {
-        return std::move(soup).error();
-    }
-    const double exaggeration = options.exaggeration.value_or(1.0);
-    for (ScenePoint& vertex : soup.value().vertices) {
-        vertex.z *= exaggeration;
-    }
-    const auto mesh = TriangleMesh::build(std::move(soup).value(), monitor);
-    if (!mesh) {
-        return Error{mesh.error().code,
-                     fmt::format("{}: {}", options.map.path, mesh.error().message)};
-    }
-    const MeshSurface surface(mesh.value());
-    return Subject{.make =
-                       [surface, exaggeration](const Touch& touch) {
-                           return Toucher{
-                               makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
-                               meshFrame(exaggeration)};
-                       },
-                   .radius_m = 1.0,
-                   .dataset = nullptr,
-                   .terrain = nullptr};
-}
-
-Result<Subject> mapSubject(const Options& options, JobMonitor& monitor)
-{
-    Result<TouchMap> map = openTouchMap(options.map, TouchStore::HeldOrTiled, monitor);
-    if (!map) {
-        return std::move(map).error();
-    }
-    const auto dataset = map->dataset;
-    const Georeference& georeference = dataset->georeference();
-    const SceneFrame frame = georeference.sceneFrame();
-    Subject subject{.make = {},
-                    .radius_m =
-                        (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0,
-                    .dataset = dataset,
-                    .terrain = nullptr};
-    if (map->filled) {
-        subject.make = [dataset, frame, filled = map->filled](const Touch& touch) {
-            const HeightfieldSurface surface(filled, frame, touch.exaggeration);
-            return Toucher{makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
-                           frameOf(dataset, touch.exaggeration)};
-        };
-        return subject;
-    }
-    const Heightfield& heightfield = dataset->heightfield();
-    subject.terrain = std::make_shared<const WaitingTerrain>(
-        heightfield.tiles()->raster(),
-        std::make_shared<const TileHeights>(map->levels, heightfield.scale()));
-    subject.make = [dataset, frame, terrain = subject.terrain](const Touch& touch) {
-        const TiledHeightfieldSurface surface(terrain, frame, touch.exaggeration);
-        return Toucher{makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
-                       frameOf(dataset, touch.exaggeration)};
-    };
-    return subject;
-}
-
 // What the command line says holds throughout; otherwise what a recording says.
-Result<std::vector<Touch>>
-touchesOf(const Options& options, const GoalRecording& recording, const Subject& subject)
+Result<std::vector<TraceTouch>>
+touchesOf(const Options& options, const GoalRecording& recording, const TraceSubject& subject)
 {
-    Touch said{.kind = contactModelKind(options.model.value_or("")).value_or(kContactModelDefault),
-               .radius_m = options.radius_m.value_or(subject.radius_m),
-               .exaggeration = options.exaggeration.value_or(1.0)};
+    TraceTouch said{.kind =
+                        contactModelKind(options.model.value_or("")).value_or(kContactModelDefault),
+                    .radius_m = options.radius_m.value_or(subject.radius_m),
+                    .exaggeration = options.exaggeration.value_or(1.0)};
     if (recording.parts.empty() || subject.dataset == nullptr) {
-        return std::vector<Touch>{said};
+        return std::vector<TraceTouch>{said};
     }
-    std::vector<Touch> touches;
+    std::vector<TraceTouch> touches;
     for (const GoalPart& part : recording.parts) {
         if (part.map != recording.parts.front().map) {
             return Error{ErrorCode::Invalid,
@@ -205,43 +74,79 @@ touchesOf(const Options& options, const GoalRecording& recording, const Subject&
                                      "it in two there",
                                      options.goals, part.line)};
         }
-        touches.push_back({.first = part.first,
-                           .part = part.part,
-                           .kind = options.model ? said.kind : part.kind,
-                           .radius_m = options.radius_m.value_or(part.radius_m),
-                           .exaggeration = options.exaggeration.value_or(part.exaggeration)});
+        touches.push_back(
+            {.first = part.first,
+             .part = part.part,
+             .kind = options.model ? said.kind : part.kind,
+             .radius_m = options.radius_m.value_or(part.radius_m),
+             .exaggeration = options.exaggeration.value_or(part.exaggeration),
+             .frame = subject.is_recorded_on ? std::optional(part.ground->frame) : std::nullopt});
     }
     return touches;
 }
 
 // One model after the other; one that comes back goes on where it was.
-Result<std::vector<TraceUpdate>> traceAll(const Subject& subject,
-                                          const std::vector<Touch>& touches,
-                                          const std::vector<TracePoint>& goals,
-                                          JobMonitor& monitor)
-{
-    std::map<std::uint64_t, Toucher> touchers;
-    std::vector<TraceUpdate> updates;
-    updates.reserve(goals.size());
-    for (std::size_t i = 0; i < touches.size(); ++i) {
-        const std::size_t end = i + 1 < touches.size() ? touches[i + 1].first : goals.size();
-        const std::vector<TracePoint> part(goals.begin() +
-                                               static_cast<std::ptrdiff_t>(touches[i].first),
-                                           goals.begin() + static_cast<std::ptrdiff_t>(end));
-        auto found = touchers.find(touches[i].part);
-        if (found == touchers.end()) {
-            found = touchers.emplace(touches[i].part, subject.make(touches[i])).first;
-        }
-        const auto traced = trace(*found->second.model, found->second.frame, part, monitor);
-        if (!traced) {
-            return traced.error();
-        }
-        updates.insert(updates.end(), traced->begin(), traced->end());
-    }
-    return updates;
-}
+class Tracing {
+public:
+    Tracing(const TraceSubject& subject, const GoalRecording& recording)
+        : subject_(subject)
+        , recording_(recording)
+    {}
 
-nlohmann::ordered_json touchJson(const Touch& touch)
+    Result<std::vector<TraceUpdate>> run(const std::vector<TraceTouch>& touches,
+                                         JobMonitor& monitor)
+    {
+        const std::vector<TracePoint>& goals = recording_.goals;
+        std::vector<TraceUpdate> updates;
+        updates.reserve(goals.size());
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            const std::size_t end = i + 1 < touches.size() ? touches[i + 1].first : goals.size();
+            auto found = touchers_.find(touches[i].part);
+            if (found == touchers_.end()) {
+                found = touchers_.emplace(touches[i].part, subject_.make(touches[i])).first;
+            }
+            const Toucher& toucher = found->second;
+            if (Status traced = trace(
+                    *toucher.model, toucher.frame, goals, touches[i].first, end,
+                    [this](std::size_t goal) { return followGround(goal); }, monitor, updates);
+                !traced) {
+                return std::move(traced).error();
+            }
+        }
+        return updates;
+    }
+
+private:
+    Status followGround(std::size_t goal)
+    {
+        if (!subject_.recorded) {
+            return Done{};
+        }
+        for (; next_ground_ < recording_.ground.size() &&
+               recording_.ground[next_ground_].goal <= goal;
+             ++next_ground_) {
+            for (const GroundRecord& record : recording_.ground[next_ground_].records) {
+                if (Status followed = subject_.recorded->follow(record); !followed) {
+                    return followed;
+                }
+                const auto* felt = std::get_if<GroundFelt>(&record);
+                const auto told =
+                    felt != nullptr ? touchers_.find(felt->told_part) : touchers_.end();
+                if (told != touchers_.end()) {
+                    told->second.map_model->terrainChanged();
+                }
+            }
+        }
+        return Done{};
+    }
+
+    const TraceSubject& subject_;
+    const GoalRecording& recording_;
+    std::map<std::uint64_t, Toucher> touchers_; // by part
+    std::size_t next_ground_ = 0;
+};
+
+nlohmann::ordered_json touchJson(const TraceTouch& touch)
 {
     nlohmann::ordered_json json = {{"model", contactModelName(touch.kind)},
                                    {"radius_m", nullptr},
@@ -254,14 +159,14 @@ nlohmann::ordered_json touchJson(const Touch& touch)
 
 // That of the first goals; "parts" has all, where there are several.
 nlohmann::ordered_json summaryOf(const Options& options,
-                                 const std::vector<Touch>& touches,
+                                 const std::vector<TraceTouch>& touches,
                                  const std::vector<TraceUpdate>& updates)
 {
     nlohmann::ordered_json summary = {{"file", options.map.path}};
     summary.update(touchJson(touches.front()));
     if (touches.size() > 1) {
         nlohmann::ordered_json parts = nlohmann::ordered_json::array();
-        for (const Touch& touch : touches) {
+        for (const TraceTouch& touch : touches) {
             parts.push_back(touchJson(touch));
             parts.back()["first_update"] = touch.first;
         }
@@ -269,6 +174,21 @@ nlohmann::ordered_json summaryOf(const Options& options,
     }
     summary.update(traceSummary(updates));
     return summary;
+}
+
+Result<TraceSubject> openMesh(const Options& options, JobMonitor& monitor)
+{
+    if (options.map.hasOverrides()) {
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: a mesh has no CRS, body, band or unit to be told otherwise",
+                                 options.map.path)};
+    }
+    if (options.model == contactModelName(ContactModelKind::VirtualProxy) && !options.radius_m) {
+        return Error{ErrorCode::Invalid,
+                     "--radius: is needed with virtual-proxy over a mesh, which has no cell to be "
+                     "half of"};
+    }
+    return meshSubject(options.map, options.exaggeration.value_or(1.0), monitor);
 }
 
 Status runTrace(const Options& options)
@@ -282,28 +202,29 @@ Status runTrace(const Options& options)
     if (!recording) {
         return recording.error();
     }
-    std::optional<Subject> subject;
+    std::optional<TraceSubject> subject;
     {
         LongJob job("reading");
-        Result<Subject> opened = isMesh(options.map.path) ? meshSubject(options, job.monitor())
-                                                          : mapSubject(options, job.monitor());
+        Result<TraceSubject> opened = isMesh(options.map.path)
+                                          ? openMesh(options, job.monitor())
+                                          : mapSubject(options.map, *recording, job.monitor());
         if (!opened) {
             return std::move(opened).error();
         }
         subject = std::move(opened).value();
     }
-    const Result<std::vector<Touch>> touches = touchesOf(options, *recording, *subject);
+    const Result<std::vector<TraceTouch>> touches = touchesOf(options, *recording, *subject);
     if (!touches) {
         return touches.error();
     }
     LongJob job("tracing");
-    const auto updates = traceAll(*subject, *touches, recording->goals, job.monitor());
+    const auto updates = Tracing(*subject, *recording).run(*touches, job.monitor());
     if (!updates) {
         return Error{updates.error().code,
                      fmt::format("{}: {}", options.map.path, updates.error().message)};
     }
-    if (subject->terrain && subject->terrain->error()) {
-        return *subject->terrain->error();
+    if (subject->waiting && subject->waiting->error()) {
+        return *subject->waiting->error();
     }
     const std::string csv =
         asCsv(*updates, options.has_timing ? TraceTiming::Yes : TraceTiming::No);
@@ -322,6 +243,11 @@ Status runTrace(const Options& options)
     }
     if (subject->dataset) {
         printNotices(subject->dataset->info());
+    }
+    if (subject->dataset && !subject->is_recorded_on && !recording->parts.empty() &&
+        recording->parts.front().ground) {
+        std::fprintf(stderr, "marsview-cli: %s: %s\n", asOneLine(options.goals).c_str(),
+                     otherMapText(*recording->parts.front().ground).c_str());
     }
     return Done{};
 }

@@ -37,24 +37,10 @@ SampleBox ResidentTerrain::near(GridPoint hand) const noexcept
     return {left, right, upper, lower};
 }
 
-bool ResidentTerrain::wasThere(const TileId& id) const noexcept
-{
-    const Shown& shown = shown_[id.level];
-    const std::uint32_t c = id.column - shown.first_column; // wraps where it is less
-    const std::uint32_t r = id.row - shown.first_row;
-    return c < shown.columns && r < shown.rows &&
-           ((shown.is_there >> (r * shown.columns + c)) & 1U) != 0;
-}
-
 void ResidentTerrain::remember() noexcept
 {
     for (std::size_t k = 0; k < window_->levelCount(); ++k) {
-        const ResidentWindow::Level& level = window_->level(k);
-        Shown& shown = shown_[k];
-        shown = {level.first_column, level.first_row, level.columns, level.rows, 0};
-        for (std::size_t i = 0; i < level.slots.size(); ++i) {
-            shown.is_there |= std::uint64_t{level.slots[i].tile != nullptr} << i;
-        }
+        shown_[k] = window_->shown(k);
     }
 }
 
@@ -67,7 +53,7 @@ void ResidentTerrain::putAtHand() noexcept
             setAtHand(*slot.tile);
         }
     }
-    blend_.eachTile([this](const TileId& id) {
+    blend_.eachTile([this](const TileId& id, double) {
         if (id.level == 0) {
             clearPlace(id.column, id.row);
         }
@@ -90,7 +76,7 @@ bool ResidentTerrain::show(const ResidentWindow& window, GridPoint hand) noexcep
             const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
                             level.first_column + static_cast<std::uint32_t>(i) % level.columns,
                             level.first_row + static_cast<std::uint32_t>(i) / level.columns};
-            const bool was_there = wasThere(id);
+            const bool was_there = shown_[k].has(id.column, id.row);
             if (was_there == (slot.tile != nullptr) ||
                 !doOverlap(WindowBlend::reach(layout, id), box)) {
                 continue;
@@ -104,6 +90,14 @@ bool ResidentTerrain::show(const ResidentWindow& window, GridPoint hand) noexcep
     remember();
     putAtHand();
     return is_changed;
+}
+
+void ResidentTerrain::show(const ResidentWindow& window, const WindowBlend& blend) noexcept
+{
+    window_ = &window;
+    blend_ = blend;
+    remember();
+    putAtHand();
 }
 
 bool ResidentTerrain::advance(GridPoint hand, double seconds) noexcept

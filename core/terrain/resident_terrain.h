@@ -46,6 +46,8 @@ public:
     /// may even be gone. `hand` is where the proxy is: tiles that arrive in the 3 × 3 tiles around
     /// it are blended, all others are felt at once. True where heights near the hand may change.
     bool show(const ResidentWindow& window, GridPoint hand) noexcept;
+    /// The ground as another ResidentTerrain had it: its window and its blend.
+    void show(const ResidentWindow& window, const WindowBlend& blend) noexcept;
     /// Time goes on. True where heights near the hand have changed.
     bool advance(GridPoint hand, double seconds) noexcept;
 
@@ -54,6 +56,8 @@ public:
         return window_->isVoid(column, row);
     }
     const ResidentWindow& window() const noexcept { return *window_; }
+    /// Of each level of the window.
+    const ShownTiles& shown(std::size_t level) const noexcept { return shown_[level]; }
     const WindowBlend& blend() const noexcept { return blend_; }
     const WindowMisses& misses() const noexcept { return misses_; }
     void resetMisses() noexcept { misses_ = {}; }
@@ -61,29 +65,20 @@ public:
     /// > 0; the scale from scene to workspace decides what can be felt.
     void setRate(double rate_m_per_s) noexcept { rate_m_per_s_ = rate_m_per_s; }
 
-private:
-    // Maps have fewer than 2^30 samples a side.
+    /// Maps have fewer than 2^30 samples a side.
     static constexpr std::size_t kLevelsMax = 24;
-    static_assert(ResidentWindow::kSideMax <= kPlacesASide);
 
-    // Which tiles of a level were there.
-    struct Shown {
-        std::uint32_t first_column = 0;
-        std::uint32_t first_row = 0;
-        std::uint32_t columns = 0;
-        std::uint32_t rows = 0;
-        std::uint64_t is_there = 0; // a bit a tile, row by row
-    };
+private:
+    static_assert(ResidentWindow::kSideMax <= kPlacesASide);
 
     double sampleElsewhere(std::size_t column, std::size_t row) const noexcept override;
     SampleBox near(GridPoint hand) const noexcept;
-    bool wasThere(const TileId& id) const noexcept;
     void remember() noexcept;
     void putAtHand() noexcept;
 
     const ResidentWindow* window_;
     WindowBlend blend_;
-    std::array<Shown, kLevelsMax> shown_;
+    std::array<ShownTiles, kLevelsMax> shown_;
     double rate_m_per_s_;
     mutable WindowMisses misses_;
 };

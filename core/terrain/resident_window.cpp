@@ -73,8 +73,54 @@ ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
         level.first_row = static_cast<std::uint32_t>(firstTile(centres[k].row, k, tile_rows, rows));
         level.slots.resize(columns * rows);
     }
-    MARSVIEW_CHECK(top && top->id.level == top_level);
+    putTop(std::move(top));
+}
+
+ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
+                               std::shared_ptr<const Tile> top,
+                               std::span<const ShownTiles> squares)
+    : heights_(std::move(heights))
+{
+    const TileLayout& layout = heights_->layout();
+    MARSVIEW_CHECK(squares.size() == layout.topLevel() + 1);
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+        const ShownTiles& square = squares[k];
+        MARSVIEW_CHECK(fits(layout, k, square));
+        levels_.push_back({.first_column = square.first_column,
+                           .first_row = square.first_row,
+                           .columns = square.columns,
+                           .rows = square.rows,
+                           .slots = std::vector<Slot>(std::size_t{square.columns} * square.rows)});
+    }
+    putTop(std::move(top));
+}
+
+bool ResidentWindow::fits(const TileLayout& layout,
+                          std::size_t level,
+                          const ShownTiles& square) noexcept
+{
+    const auto along = [](std::size_t first, std::size_t side, std::size_t tiles) {
+        return side > 0 && side <= kSideMax && first < tiles && side <= tiles - first;
+    };
+    return along(square.first_column, square.columns,
+                 layout.tileColumns(TileKind::Samples, level)) &&
+           along(square.first_row, square.rows, layout.tileRows(TileKind::Samples, level));
+}
+
+void ResidentWindow::putTop(std::shared_ptr<const Tile> top)
+{
+    MARSVIEW_CHECK(top && top->id.level + 1U == levels_.size());
     put(std::move(top), 0.0);
+}
+
+ShownTiles ResidentWindow::shown(std::size_t level) const noexcept
+{
+    const Level& l = levels_[level];
+    ShownTiles shown{l.first_column, l.first_row, l.columns, l.rows, 0};
+    for (std::size_t i = 0; i < l.slots.size(); ++i) {
+        shown.is_there |= std::uint64_t{l.slots[i].tile != nullptr} << i;
+    }
+    return shown;
 }
 
 void ResidentWindow::put(std::shared_ptr<const Tile> tile, double difference_m)

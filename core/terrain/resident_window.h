@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace marsview {
@@ -18,6 +19,23 @@ namespace marsview {
 struct WindowSides {
     std::size_t finest = 8;  // at level 0; 3 to ResidentWindow::kSideMax
     std::size_t coarser = 4; // at every other level; likewise
+};
+
+/// Which tiles of a level are there: a square of them, at most 8 x 8. A small value.
+struct ShownTiles {
+    std::uint32_t first_column = 0; // counted in tiles
+    std::uint32_t first_row = 0;
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    std::uint64_t is_there = 0; // a bit a tile, row by row, from the lowest on
+
+    bool has(std::uint32_t tile_column, std::uint32_t tile_row) const noexcept
+    {
+        const std::uint32_t c = tile_column - first_column; // wraps where it is less
+        const std::uint32_t r = tile_row - first_row;
+        return c < columns && r < rows && ((is_there >> (r * columns + c)) & 1U) != 0;
+    }
+    bool operator==(const ShownTiles&) const = default;
 };
 
 /// For every level of a map, a square of tiles around a place: those that are there. The coarsest
@@ -62,6 +80,10 @@ public:
     static std::size_t
     firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side) noexcept;
 
+    /// Whether there can be such a square at a level of a map.
+    static bool
+    fits(const TileLayout& layout, std::size_t level, const ShownTiles& square) noexcept;
+
     /// `top` is the tile of the coarsest level. Level k lies around `centres[k]`, in samples of
     /// the map; there are as many as levels.
     ResidentWindow(std::shared_ptr<const TileHeights> heights,
@@ -69,12 +91,19 @@ public:
                    const std::vector<GridPoint>& centres,
                    const WindowSides& sides = {});
 
+    /// Around the squares that another window had, one a level, each within the map's tiles; of
+    /// their tiles there is but `top` until they are put.
+    ResidentWindow(std::shared_ptr<const TileHeights> heights,
+                   std::shared_ptr<const Tile> top,
+                   std::span<const ShownTiles> squares);
+
     /// The window covers the tile, and its samples can all be touched (TileHeights::isTouchable).
     void put(std::shared_ptr<const Tile> tile, double difference_m);
 
     const TileHeights& heights() const noexcept { return *heights_; }
     std::size_t levelCount() const noexcept { return levels_.size(); }
     const Level& level(std::size_t level) const noexcept { return levels_[level]; }
+    ShownTiles shown(std::size_t level) const noexcept;
     /// Null where the window does not cover the tile.
     const Slot* slot(const TileId& id) const noexcept { return slot(id.level, id.column, id.row); }
     bool has(const TileId& id) const noexcept
@@ -104,6 +133,7 @@ public:
     double differenceFromCoarser(const TileId& id) const;
 
 private:
+    void putTop(std::shared_ptr<const Tile> top);
     const Slot* slot(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
         const Level& l = levels_[level];

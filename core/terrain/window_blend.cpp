@@ -1,6 +1,7 @@
 #include "core/terrain/window_blend.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace marsview {
@@ -34,6 +35,14 @@ void WindowBlend::add(const TileLayout& layout, const TileId& tile, double diffe
         return;
     }
     tiles_[count_++] = {tile, difference_m, 0.0, reach(layout, tile)};
+}
+
+void WindowBlend::put(const TileLayout& layout, const TileId& tile, double weight) noexcept
+{
+    if (count_ < kTilesMax && !has(tile)) {
+        constexpr double kHeld = std::numeric_limits<double>::infinity(); // no rate moves it
+        tiles_[count_++] = {tile, kHeld, weight, reach(layout, tile)};
+    }
 }
 
 void WindowBlend::advance(double seconds, double rate_m_per_s) noexcept

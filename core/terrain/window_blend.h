@@ -39,6 +39,8 @@ public:
     /// A tile that has arrived; `difference_m` as in ResidentWindow::Slot, finite. One that makes
     /// no difference is felt in full.
     void add(const TileLayout& layout, const TileId& tile, double difference_m) noexcept;
+    /// A tile with the weight that it had in another blend, in [0, 1). It keeps it.
+    void put(const TileLayout& layout, const TileId& tile, double weight) noexcept;
     /// What `keep(tile, reach)` does not want is felt in full, at once.
     template <typename Keep>
     void keepOnly(Keep&& keep) noexcept
@@ -58,7 +60,7 @@ public:
     void eachTile(F&& function) const noexcept
     {
         for (std::size_t i = 0; i < count_; ++i) {
-            function(tiles_[i].id);
+            function(tiles_[i].id, tiles_[i].weight);
         }
     }
 

@@ -260,6 +260,7 @@ private:
         terrain.resident().resetMisses();
         if (terrain.refresh(motion, dt_s_)) {
             map_->model->terrainChanged();
+            result_.has_ground_changed = true;
         }
         if (terrain.silence(input_.now) > options_.terrain_age_max) {
             note(LetGoReason::TerrainStale);

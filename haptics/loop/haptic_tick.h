@@ -119,6 +119,7 @@ struct StepResult {
     double stiffness_n_per_m = 0;     // that was used
     double damping_n_s_per_m = 0;     // that was added to stay passive
     std::uint32_t missed_samples = 0; // of terrain that was not there at full resolution
+    bool has_ground_changed = false;  // the contact model was told that its terrain has changed
 };
 
 /// The tick. `dt_s` is the time from the last sample to this one. Everything that it knows is in

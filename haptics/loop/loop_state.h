@@ -83,6 +83,7 @@ struct TickRecord {
     bool has_goal = false; // false: the contact model was not asked in this tick
     float tick_us = 0.0F;
     TouchedGround ground{};
+    std::uint32_t ground_records = 0; // of what its ground was, since the last update
 };
 
 } // namespace marsview

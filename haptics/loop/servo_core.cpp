@@ -26,7 +26,10 @@ ServoCore::ServoCore(std::unique_ptr<HapticDevice> device, const ServoCoreOption
 
 std::vector<MemoryRange> ServoCore::memory() const
 {
-    return {{this, sizeof *this}, flight_.memory(), {records_.data(), records_.bytes()}};
+    return {{this, sizeof *this},
+            flight_.memory(),
+            {records_.data(), records_.bytes()},
+            {ground_records_.data(), ground_records_.bytes()}};
 }
 
 void ServoCore::begin()
@@ -272,16 +275,47 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
                          .radius_m = map->radius_m,
                          .exaggeration = map->frame.exaggeration()};
     }
-    const bool is_kept = keeps_records_.load(std::memory_order_relaxed);
+    const bool is_kept = takeRecording();
+    const bool has_room = !is_kept || tellGround(result.has_ground_changed);
+    if (!has_room && result.goals.count == 0) {
+        ++counts_.not_recorded;
+    }
     for (std::size_t i = 0; i < result.goals.count; ++i) {
         record.goal = result.goals.goals[i];
         record.proxy = result.goals.proxies[i];
         record.is_in_contact = result.goals.are_in_contact[i];
-        if (is_kept && !records_.put(record)) {
+        record.ground_records = untaken_ground_count_;
+        if (is_kept && has_room && records_.put(record)) {
+            untaken_ground_count_ = 0;
+        } else if (is_kept) {
             ++counts_.not_recorded;
         }
     }
     flight_.add(record);
+}
+
+// Whether updates are kept. One recording after the other is told everything.
+bool ServoCore::takeRecording() noexcept
+{
+    const std::uint64_t recording = recording_.load(std::memory_order_relaxed);
+    if (recording != told_recording_) {
+        told_recording_ = recording;
+        untaken_ground_count_ = 0;
+        ground_log_.forget();
+    }
+    return recording != 0;
+}
+
+// False where there is no room for it.
+bool ServoCore::tellGround(bool was_told) noexcept
+{
+    const auto& map = settings_.front().map;
+    if (map == nullptr) {
+        return true;
+    }
+    const auto count = ground_log_.tell(*map, was_told, ground_records_);
+    untaken_ground_count_ += count.value_or(0);
+    return count.has_value();
 }
 
 } // namespace marsview

@@ -3,6 +3,7 @@
 
 #include "haptics/device/haptic_device.h"
 #include "haptics/loop/flight_recorder.h"
+#include "haptics/loop/ground_log.h"
 #include "haptics/loop/haptic_tick.h"
 #include "haptics/loop/loop_state.h"
 #include "haptics/loop/loop_statistics.h"
@@ -86,9 +87,10 @@ public:
     TripleBuffer<LoopSettings>& settings() noexcept { return settings_; }
     SpscQueue<LoopEvent, 256>& events() noexcept { return events_; }
     SpscQueue<TickRecord, kRecordsMax>& records() noexcept { return records_; }
+    GroundLog::Queue& groundRecords() noexcept { return ground_records_; }
     void keepRecords(bool is_kept) noexcept
     {
-        keeps_records_.store(is_kept, std::memory_order_relaxed);
+        recording_.store(is_kept ? ++last_recording_ : 0, std::memory_order_relaxed);
     }
     /// Of a device that owns the clock.
     const LoopStatistics& clockStatistics() const noexcept { return clock_statistics_; }
@@ -102,6 +104,8 @@ private:
     DeviceStatus writeForce(const Vec3& force_n) noexcept;
     void publish(const StepResult& result, double tick_s) noexcept;
     void record(const StepResult& result, double tick_s) noexcept;
+    bool takeRecording() noexcept;
+    bool tellGround(bool was_told) noexcept;
 
     std::unique_ptr<HapticDevice> device_;
     ServoCoreOptions options_;
@@ -111,9 +115,11 @@ private:
     SeqLock<LoopState> state_;
     SpscQueue<LoopEvent, 256> events_;
     SpscQueue<TickRecord, kRecordsMax> records_;
+    GroundLog::Queue ground_records_;
     FlightRecorder flight_;
     std::atomic<std::uint64_t> beats_{0};
-    std::atomic<bool> keeps_records_{false};
+    std::atomic<std::uint64_t> last_recording_{0};
+    std::atomic<std::uint64_t> recording_{0}; // 0: none
     std::atomic<bool> is_ending_{false};
     std::atomic<bool> has_ended_{false};
     std::atomic<bool> is_abandoned_{false};
@@ -131,6 +137,9 @@ private:
     LoopTime wrote_at_{}; // when the last force had been written
     bool was_too_long_ = false;
     LetGoReason last_reason_ = LetGoReason::NoTouch;
+    GroundLog ground_log_;
+    std::uint64_t told_recording_ = 0;       // that ground_log_ is of
+    std::uint32_t untaken_ground_count_ = 0; // of ground_records_ that no record counts yet
     bool is_finished_ = false;
     LoopTime rested_at_{}; // when it ended; motors cool down meanwhile
 

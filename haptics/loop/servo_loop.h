@@ -84,6 +84,11 @@ public:
     void keepRecords(bool is_kept) noexcept { core_->keepRecords(is_kept); }
     /// One thread, which may be another: the one that writes recordings.
     bool takeRecord(TickRecord& record) noexcept { return core_->records().take(record); }
+    /// TickRecord::ground_records of them belong to a record that was taken, before it.
+    bool takeGroundRecord(GroundRecord& record) noexcept
+    {
+        return core_->groundRecords().take(record);
+    }
 
 private:
     void start();

@@ -38,6 +38,12 @@ public:
         end_.store(end + 1, std::memory_order_release);
         return true;
     }
+    /// The putting thread's: how many values can be put, at least.
+    std::size_t room() const noexcept
+    {
+        return Capacity -
+               (end_.load(std::memory_order_relaxed) - begin_.load(std::memory_order_acquire));
+    }
     /// The taking thread's. False where it is empty.
     bool take(T& value) noexcept
     {

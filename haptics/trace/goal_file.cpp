@@ -1,6 +1,7 @@
 #include "haptics/trace/goal_file.h"
 
 #include "core/base/plain_number.h"
+#include "haptics/trace/ground_text.h"
 
 #include <algorithm>
 #include <array>
@@ -11,10 +12,12 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 namespace marsview {
 namespace {
@@ -75,7 +78,8 @@ struct PartColumns {
     static constexpr std::array<std::string_view, 5> kNames{"map", "part", "model", "radius_m",
                                                             "exaggeration"};
     std::array<std::size_t, kNames.size()> at{};
-    std::size_t count = 0; // of all columns
+    std::optional<std::size_t> ground{}; // older recordings have none
+    std::size_t count = 0;               // of all columns
 };
 
 std::vector<std::string_view> allWordsOf(std::string_view line)
@@ -102,6 +106,10 @@ std::optional<PartColumns> partColumnsOf(std::string_view header)
         }
         columns.at[i] = static_cast<std::size_t>(found - words.begin());
     }
+    const auto ground = std::find(words.begin(), words.end(), kGroundColumn);
+    if (ground != words.end()) {
+        columns.ground = static_cast<std::size_t>(ground - words.begin());
+    }
     return columns;
 }
 
@@ -119,9 +127,9 @@ bool isScale(const std::optional<double>& value)
     return value && *value > 0.0 && *value < kMax;
 }
 
-std::optional<GoalPart> parsePart(std::string_view line, const PartColumns& columns)
+std::optional<GoalPart> parsePart(const std::vector<std::string_view>& words,
+                                  const PartColumns& columns)
 {
-    const std::vector<std::string_view> words = allWordsOf(line);
     if (words.size() != columns.count) {
         return std::nullopt;
     }
@@ -145,6 +153,24 @@ bool isSamePart(const GoalPart& a, const GoalPart& b)
 {
     return a.map == b.map && a.part == b.part && a.kind == b.kind && a.radius_m == b.radius_m &&
            a.exaggeration == b.exaggeration;
+}
+
+// Keeps what is said of parts with the parts, the rest with the goal that comes next.
+void addGround(GoalRecording& recording,
+               std::map<std::uint64_t, GroundPart>& parts,
+               const std::vector<GroundRecord>& records)
+{
+    GoalGround ground{.goal = recording.goals.size(), .records = {}};
+    for (const GroundRecord& record : records) {
+        if (const auto* part = std::get_if<GroundPart>(&record)) {
+            parts[part->part] = *part;
+        } else {
+            ground.records.push_back(record);
+        }
+    }
+    if (!ground.records.empty()) {
+        recording.ground.push_back(std::move(ground));
+    }
 }
 
 std::string quoted(std::string_view line)
@@ -174,6 +200,7 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
     }
     GoalRecording recording;
     std::optional<PartColumns> part_columns;
+    std::map<std::uint64_t, GroundPart> ground_parts;
     std::size_t columns = 0; // 0: no header yet; 4: or more
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::size_t end = rest.find('\n');
@@ -201,16 +228,33 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
                                      name, number, quoted(line))};
         }
         if (part_columns) {
-            std::optional<GoalPart> part = parsePart(line, *part_columns);
+            const std::vector<std::string_view> words = allWordsOf(line);
+            std::optional<GoalPart> part = parsePart(words, *part_columns);
             if (!part) {
                 return Error{ErrorCode::Invalid,
                              fmt::format("{}: line {} does not tell map, part, model, radius_m "
                                          "and exaggeration as a recording does",
                                          name, number)};
             }
+            if (part_columns->ground) {
+                const std::string_view cell = words[*part_columns->ground];
+                const auto records = parseGround(cell);
+                if (!records) {
+                    return Error{
+                        ErrorCode::Invalid,
+                        fmt::format("{}: line {} has the ground \"{}\", which is none that "
+                                    "a recording tells of",
+                                    name, number, quoted(cell))};
+                }
+                addGround(recording, ground_parts, *records);
+            }
             if (recording.parts.empty() || !isSamePart(recording.parts.back(), *part)) {
                 part->first = recording.goals.size();
                 part->line = number;
+                const auto ground = ground_parts.find(part->part);
+                if (ground != ground_parts.end()) {
+                    part->ground = ground->second;
+                }
                 recording.parts.push_back(*part);
             }
         }

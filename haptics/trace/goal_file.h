@@ -4,9 +4,11 @@
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
+#include "haptics/loop/ground_record.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,16 +29,24 @@ struct GoalPart {
     ContactModelKind kind = kContactModelDefault;
     double radius_m = 1.0;
     double exaggeration = 1.0;
+    std::optional<GroundPart> ground{}; // where the file tells it
+};
+
+/// What has changed of the ground before a goal.
+struct GoalGround {
+    std::size_t goal = 0;
+    std::vector<GroundRecord> records; // in order, without GroundParts
 };
 
 /// Goals, and what a recording tells of them.
 struct GoalRecording {
     std::vector<TracePoint> goals;
-    std::vector<GoalPart> parts; // in order; none where the file is but goals
+    std::vector<GoalPart> parts;    // in order; none where the file is but goals
+    std::vector<GoalGround> ground; // in order; none where all of it was there
 };
 
-/// The same as readGoals(), with the columns "map,part,model,radius_m,exaggeration" where the
-/// header has them.
+/// The same as readGoals(), with the columns "map,part,model,radius_m,exaggeration", and with them
+/// "ground", where the header has them.
 Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name);
 
 /// The text of a file, or of standard input where `path` is "-".

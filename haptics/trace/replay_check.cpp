@@ -20,6 +20,12 @@ bool isOn(const Georeference& georeference, const TracePoint& goal)
 
 } // namespace
 
+bool isRecordedOn(const GroundPart& part, const Georeference& map) noexcept
+{
+    const Ellipsoid ellipsoid = map.body() != nullptr ? map.body()->ellipsoid : Ellipsoid{};
+    return part.columns == map.columns() && part.rows == map.rows() && part.ellipsoid == ellipsoid;
+}
+
 const GoalPart* ReplayFit::otherThan(const TouchedGround& ground) const noexcept
 {
     constexpr double kSame = 1e-6; // radii follow from the map's cells, by more ways than one
@@ -48,9 +54,17 @@ Result<ReplayFit> replayFit(const std::string& file,
             return std::none_of(maps.begin(), maps.end(),
                                 [&goal](const auto& map) { return isOn(*map, goal); });
         });
+    const auto other = std::find_if(
+        recording->parts.begin(), recording->parts.end(), [maps](const GoalPart& part) {
+            return part.ground && std::none_of(maps.begin(), maps.end(), [&part](const auto& map) {
+                       return isRecordedOn(*part.ground, *map);
+                   });
+        });
+    const auto other_map = other != recording->parts.end() ? other->ground : std::nullopt;
     return ReplayFit{.goal_count = recording->goals.size(),
                      .beside_count = static_cast<std::size_t>(beside),
-                     .parts = std::move(recording->parts)};
+                     .parts = std::move(recording->parts),
+                     .other_map = other_map};
 }
 
 } // namespace marsview

@@ -1,6 +1,7 @@
 #include "haptics/trace/session_recorder.h"
 
 #include "core/base/plain_number.h"
+#include "haptics/trace/ground_text.h"
 
 #include <array>
 #include <chrono>
@@ -37,7 +38,8 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
 Result<std::unique_ptr<SessionRecorder>>
 SessionRecorder::begin(ServoLoop& loop, const std::string& path, std::uint64_t first_serial)
 {
-    Result<TraceFile> file = TraceFile::begin(path, kSessionColumns);
+    Result<TraceFile> file =
+        TraceFile::begin(path, fmt::format("{},{}", kSessionColumns, kGroundColumn));
     if (!file) {
         return std::move(file).error();
     }
@@ -57,6 +59,9 @@ SessionRecorder::SessionRecorder(ServoLoop& loop,
     // A tick that ran while an earlier recording ended may have left one.
     TickRecord left;
     while (loop_.takeRecord(left)) {
+    }
+    GroundRecord ground_left;
+    while (loop_.takeGroundRecord(ground_left)) {
     }
     missing_before_ = loop_.state().counts.not_recorded;
     loop_.keepRecords(true);
@@ -102,6 +107,7 @@ void SessionRecorder::drain()
 {
     TickRecord record;
     while (loop_.takeRecord(record)) {
+        takeGround(record.ground_records);
         if (first_serial_ != 0 && record.ground.serial != first_serial_) {
             continue; // an update of a model with a past that the file does not know
         }
@@ -110,7 +116,19 @@ void SessionRecorder::drain()
             begin_ns_ = record.time_ns;
         }
         ++updates_;
-        file_.write(sessionLine(record, begin_ns_));
+        std::string line = sessionLine(record, begin_ns_);
+        line.back() = ',';
+        file_.write(line + ground_ + '\n');
+        ground_.clear();
+    }
+}
+
+// That of updates which are left out counts as well.
+void SessionRecorder::takeGround(std::uint32_t count)
+{
+    GroundRecord record;
+    for (std::uint32_t i = 0; i < count && loop_.takeGroundRecord(record); ++i) {
+        ground_ += (ground_.empty() ? "" : " ") + groundText(record);
     }
 }
 

@@ -17,7 +17,7 @@ namespace marsview {
 /// A line a contact update. The first three columns are those of a file of goals: `trace --goals`
 /// gives the same proxies again, to the bit, and "replay:" aims at the same places. The last five
 /// tell what they were aimed at with: `map` and `part` are numbers of the program's, another map
-/// and another contact model having another one.
+/// and another contact model having another one. A session's file has kGroundColumn behind them.
 inline constexpr std::string_view kSessionColumns =
     "x,y,z,time_s,tick,contact,proxy_x,proxy_y,proxy_z,force_x_n,force_y_n,force_z_n,mode,reason,"
     "map,part,model,radius_m,exaggeration";
@@ -50,6 +50,7 @@ private:
     SessionRecorder(ServoLoop& loop, std::string path, TraceFile file, std::uint64_t first_serial);
     void run(const std::stop_token& stop);
     void drain();
+    void takeGround(std::uint32_t count);
 
     ServoLoop& loop_;
     std::string path_;
@@ -59,6 +60,7 @@ private:
     std::uint64_t updates_ = 0;
     std::uint64_t missing_before_ = 0; // in recordings before this
     std::int64_t begin_ns_ = 0;
+    std::string ground_; // of the next line
     std::jthread thread_;
 };
 

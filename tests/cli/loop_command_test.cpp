@@ -146,6 +146,36 @@ TEST(LoopCommand, WhatItRecordsIsTheSameAgainInTraceAndInReplay)
     EXPECT_EQ(a, columnsOf(readFile(traced), {3, 0, 1, 2}));
 }
 
+TEST(LoopCommand, WhatItRecordsOverTilesIsTheSameAgainInTrace)
+{
+    // From the first tick on, when there is nothing but the coarsest tile.
+    const TempFolder folder;
+    const std::string first = folder.file("first.csv");
+    const std::string traced = folder.file("traced.csv");
+    const std::vector<std::string> in_tiles{"env", "MARSVIEW_HELD_MB=0",
+                                            "MARSVIEW_CACHE_DIR=" + folder.file("cache")};
+    const auto run = [&](std::vector<std::string> more) {
+        std::vector<std::string> line = in_tiles;
+        line.insert(line.end(), {MARSVIEW_CLI});
+        line.insert(line.end(), more.begin(), more.end());
+        const ProgramOutput output = runProgram(line);
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        return output;
+    };
+    const ProgramOutput loop = run({"loop", bundledMars(), "--json", "--device", "sim:swipe=30",
+                                    "--seconds", "1", "--record", first});
+    EXPECT_GT(nlohmann::json::parse(loop.out)["samples_missed"], 0);
+    const auto a = columnsOf(readFile(first), {5, 6, 7, 8});
+    ASSERT_GT(a.size(), 500U);
+    run({"trace", bundledMars(), "--goals", first, "-o", traced});
+    EXPECT_EQ(a, columnsOf(readFile(traced), {3, 0, 1, 2}));
+
+    // On another map there is no such ground: as it lies, and said so.
+    const ProgramOutput other = run({"trace", bundledMountain(), "--goals", first, "-o", traced});
+    EXPECT_THAT(other.err, HasSubstr("first.csv: was recorded on another map, one of "));
+    EXPECT_THAT(other.err, HasSubstr(" samples of Mars"));
+}
+
 TEST(LoopCommand, RecordsADeviceAsItMeasures)
 {
     const TempFolder folder;

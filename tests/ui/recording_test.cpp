@@ -108,6 +108,29 @@ TEST_F(RecordingTest, BegunWhileTouchingIsTheSameAgainWithEveryModel)
     }
 }
 
+TEST_F(RecordingTest, OfAMapBelowAnotherIsTheSameAgain)
+{
+    const QString lower = maps_.placed("lower", "IAU_2015:49900", {10, 0.25, 0, 40, 0, -0.25});
+    ASSERT_TRUE(openAndWait(*window_, lower));
+    ASSERT_TRUE(openAndWait(*window_,
+                            maps_.placed("upper", "IAU_2015:49900", {16, 0.05, 0, 37, 0, -0.05})));
+    ASSERT_EQ(view().ground().maps().size(), 2U);
+    OrbitCamera camera = view().camera();
+    camera.target = {-150'000.0, 0.0, 0.0}; // beside the upper map, whose middle is at 0
+    camera.distance_m = 100'000.0;
+    view().setCamera(camera);
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(moveTo({0.01, -0.02, -0.055}));
+    ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    ASSERT_NE(view().ground().maps()[1].frame,
+              view().ground().maps()[1].map.dataset->georeference().sceneFrame());
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    ASSERT_TRUE(haptics().startRecording(file));
+    ASSERT_TRUE(stroke());
+    haptics().stopRecording();
+    expectSameAgain(lower, file);
+}
+
 TEST_F(RecordingTest, IsBegunWithoutTheHandFeelingIt)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));

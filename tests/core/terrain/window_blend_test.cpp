@@ -34,6 +34,17 @@ TEST(WindowBlend, WeighsFromNothingToAllAtTheRate)
     EXPECT_TRUE(blend.isEmpty());
 }
 
+TEST(WindowBlend, KeepsAWeightThatItIsGiven)
+{
+    WindowBlend blend;
+    const TileId tile = samplesTile(0, 2, 3);
+    blend.put(kLayout, tile, 0.3);
+    blend.put(kLayout, tile, 0.4);
+    blend.advance(1e6, 1e6);
+    EXPECT_EQ(blend.weight(tile), 0.3);
+    EXPECT_EQ(blend.count(), 1U);
+}
+
 TEST(WindowBlend, WhatMakesNoDifferenceIsFeltAtOnce)
 {
     WindowBlend blend;

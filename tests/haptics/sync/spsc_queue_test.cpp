@@ -15,8 +15,10 @@ TEST(SpscQueue, GivesWhatWasPutInOrderAndRefusesWhatDoesNotFit)
     EXPECT_FALSE(queue.take(value));
     for (int round = 0; round < 3; ++round) {
         for (int i = 0; i < 4; ++i) {
+            EXPECT_EQ(queue.room(), static_cast<std::size_t>(4 - i));
             EXPECT_TRUE(queue.put(10 * round + i));
         }
+        EXPECT_EQ(queue.room(), 0U);
         EXPECT_FALSE(queue.put(99));
         for (int i = 0; i < 4; ++i) {
             ASSERT_TRUE(queue.take(value));

@@ -1,0 +1,143 @@
+#include "app/cli/trace_subject.h"
+
+#include "app/cli/touch_map.h"
+#include "core/contact/resident_heights.h"
+#include "core/mesh/mesh_file.h"
+#include "haptics/trace/replay_check.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// Over a map: heights are those of `sample`, x and y are the CRS'.
+TraceFrame frameOf(const GoalFrame& frame)
+{
+    return {
+        .to_scene = [frame](const TracePoint& goal) { return frame.toScene(goal); },
+        .from_scene = [frame](const ContactState& state) { return frame.fromScene(state.proxy); },
+        .is_clamped = [frame](const TracePoint& goal) { return frame.isClamped(goal); },
+    };
+}
+
+// Over a mesh: coordinates are scene metres, but for the exaggeration.
+TraceFrame meshFrame(double exaggeration)
+{
+    return {
+        .to_scene = [exaggeration](const TracePoint& goal) -> ScenePoint {
+            return {goal.x, goal.y, goal.z * exaggeration};
+        },
+        .from_scene =
+            [exaggeration](const ContactState& state) {
+                return TracePoint{state.proxy.x, state.proxy.y, state.proxy.z / exaggeration};
+            },
+        .is_clamped = [](const TracePoint&) { return false; },
+    };
+}
+
+Toucher mapToucher(std::unique_ptr<MapContactModel> model, const GoalFrame& frame)
+{
+    MapContactModel* map_model = model.get();
+    return {.model = std::move(model), .map_model = map_model, .frame = frameOf(frame)};
+}
+
+bool isRecordedOn(const GoalRecording& recording, const Georeference& map)
+{
+    return !recording.parts.empty() && std::all_of(recording.parts.begin(), recording.parts.end(),
+                                                   [&map](const GoalPart& part) {
+                                                       return part.ground &&
+                                                              isRecordedOn(*part.ground, map);
+                                                   });
+}
+
+} // namespace
+
+bool isMesh(const std::string& path)
+{
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending == ".obj" || ending == ".ply" || ending == ".stl";
+}
+
+Result<TraceSubject>
+meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
+{
+    Result<TriangleSoup> soup = readTriangles(options.path, monitor);
+    if (!soup) {
+        return std::move(soup).error();
+    }
+    for (ScenePoint& vertex : soup.value().vertices) {
+        vertex.z *= exaggeration;
+    }
+    const auto mesh = TriangleMesh::build(std::move(soup).value(), monitor);
+    if (!mesh) {
+        return Error{mesh.error().code, fmt::format("{}: {}", options.path, mesh.error().message)};
+    }
+    const MeshSurface surface(mesh.value());
+    TraceSubject subject;
+    subject.make = [surface, exaggeration](const TraceTouch& touch) {
+        return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                       .map_model = nullptr,
+                       .frame = meshFrame(exaggeration)};
+    };
+    return subject;
+}
+
+Result<TraceSubject>
+mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor& monitor)
+{
+    const TouchStore store = recording.ground.empty() ? TouchStore::HeldOrTiled : TouchStore::Tiled;
+    Result<TouchMap> map = openTouchMap(options, store, monitor);
+    if (!map) {
+        return std::move(map).error();
+    }
+    TraceSubject subject;
+    const auto dataset = map->dataset;
+    subject.dataset = dataset;
+    const Georeference& georeference = dataset->georeference();
+    subject.radius_m = (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
+    subject.is_recorded_on = isRecordedOn(recording, georeference);
+    const auto goal_frame = [dataset](const TraceTouch& touch) {
+        const Georeference& placed = dataset->georeference();
+        return GoalFrame({dataset, &placed}, touch.frame.value_or(placed.sceneFrame()),
+                         touch.exaggeration);
+    };
+    if (map->filled) {
+        subject.make = [goal_frame, filled = map->filled](const TraceTouch& touch) {
+            const GoalFrame frame = goal_frame(touch);
+            const HeightfieldSurface surface(filled, frame.frame(), touch.exaggeration);
+            return mapToucher(makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                              frame);
+        };
+        return subject;
+    }
+    const Heightfield& heightfield = dataset->heightfield();
+    const TiledRaster& raster = heightfield.tiles()->raster();
+    const auto heights = std::make_shared<const TileHeights>(map->levels, heightfield.scale());
+    std::shared_ptr<const TiledTerrain> terrain;
+    if (subject.is_recorded_on && !recording.ground.empty()) {
+        auto recorded = RecordedGround::make(raster, heights);
+        if (!recorded) {
+            return std::move(recorded).error();
+        }
+        subject.recorded = std::move(recorded).value();
+        terrain = subject.recorded->terrain();
+    } else {
+        subject.waiting = std::make_shared<const WaitingTerrain>(raster, heights);
+        terrain = subject.waiting;
+    }
+    subject.make = [goal_frame, terrain](const TraceTouch& touch) {
+        const GoalFrame frame = goal_frame(touch);
+        const TiledHeightfieldSurface surface(terrain, frame.frame(), touch.exaggeration);
+        return mapToucher(makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                          frame);
+    };
+    return subject;
+}
+
+} // namespace marsview

@@ -1,0 +1,60 @@
+// What `trace` touches: a map or a mesh.
+#pragma once
+
+#include "app/cli/contact_trace.h"
+#include "app/cli/map_options.h"
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/contact/contact_model.h"
+#include "core/geo/scene_frame.h"
+#include "core/session/dataset.h"
+#include "core/terrain/waiting_terrain.h"
+#include "haptics/trace/goal_file.h"
+#include "haptics/trace/recorded_ground.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace marsview {
+
+/// How it is touched by the goals from `first` on.
+struct TraceTouch {
+    std::size_t first = 0;
+    std::uint64_t part = 0; // of a recording: another number is another model
+    ContactModelKind kind = kContactModelDefault;
+    double radius_m = 1.0;
+    double exaggeration = 1.0;
+    std::optional<SceneFrame> frame{}; // of a map that lay in another one's scene
+};
+
+struct Toucher {
+    std::unique_ptr<ContactModel> model;
+    MapContactModel* map_model = nullptr; // the same, of a map
+    TraceFrame frame;
+};
+
+struct TraceSubject {
+    std::function<Toucher(const TraceTouch&)> make;
+    double radius_m = 1.0;                         // where nobody has told another
+    std::shared_ptr<const Dataset> dataset;        // null for a mesh
+    std::shared_ptr<const WaitingTerrain> waiting; // of a map in tiles, or else:
+    std::shared_ptr<RecordedGround> recorded;      // the same as a recording felt it
+    bool is_recorded_on = false;                   // what the recording says of its map holds
+};
+
+/// Whether a path is that of a mesh, by its ending.
+bool isMesh(const std::string& path);
+
+/// `exaggeration` holds for all that touches it.
+Result<TraceSubject>
+meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor);
+
+/// A map in tiles is as the recording felt it, where that was made on such a map.
+Result<TraceSubject>
+mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor& monitor);
+
+} // namespace marsview

@@ -1,0 +1,55 @@
+#include "haptics/loop/ground_log.h"
+
+namespace marsview {
+
+std::optional<std::uint32_t>
+GroundLog::tell(const ServoMap& map, bool was_told, Queue& queue) noexcept
+{
+    if (queue.room() < kMax) {
+        return std::nullopt;
+    }
+    std::uint32_t count = 0;
+    const auto put = [&](const GroundRecord& record) {
+        queue.put(record);
+        ++count;
+    };
+    if (map.serial != serial_) {
+        serial_ = map.serial;
+        const Georeference& georeference = map.frame.georeference();
+        const Body* body = georeference.body();
+        put(GroundPart{.part = map.serial,
+                       .columns = georeference.columns(),
+                       .rows = georeference.rows(),
+                       .ellipsoid = body != nullptr ? body->ellipsoid : Ellipsoid{},
+                       .frame = map.frame.frame()});
+    }
+    if (map.map_id != map_id_) {
+        map_id_ = map.map_id;
+        shown_ = {};
+        is_blending_ = false;
+    }
+    if (map.terrain == nullptr) {
+        return count; // all of it is always there
+    }
+    const ResidentTerrain& terrain = map.terrain->resident();
+    bool has_changed = was_told;
+    for (std::size_t k = 0; k < terrain.window().levelCount(); ++k) {
+        const ShownTiles& shown = terrain.shown(k);
+        if (shown != shown_[k]) {
+            shown_[k] = shown;
+            has_changed = true;
+            put(GroundLevel{k, shown});
+        }
+    }
+    const bool was_blending = is_blending_;
+    is_blending_ = !terrain.blend().isEmpty();
+    if (has_changed || is_blending_ || was_blending) {
+        terrain.blend().eachTile([&put](const TileId& id, double weight) {
+            put(GroundTile{id, weight});
+        });
+        put(GroundFelt{was_told ? map.serial : 0});
+    }
+    return count;
+}
+
+} // namespace marsview

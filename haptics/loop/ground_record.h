@@ -1,0 +1,53 @@
+// What ground a recording's updates felt: what the map alone does not tell.
+#pragma once
+
+#include "core/geo/body.h"
+#include "core/geo/scene_frame.h"
+#include "core/raster/tile.h"
+#include "core/terrain/resident_window.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+
+namespace marsview {
+
+/// A contact model begins: which map it is over, and where that lies in its scene.
+struct GroundPart {
+    std::uint64_t part = 0; // ServoMap's serial
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    Ellipsoid ellipsoid; // of the map's body; zeros where that is not known
+    SceneFrame frame;
+
+    bool operator==(const GroundPart&) const = default;
+};
+
+/// From the next GroundFelt on, these tiles of a level are there.
+struct GroundLevel {
+    std::size_t level = 0;
+    ShownTiles shown;
+
+    bool operator==(const GroundLevel&) const = default;
+};
+
+/// From the next GroundFelt to the one after it, a tile that is there is not felt in full.
+struct GroundTile {
+    TileId id;
+    double weight = 1.0; // in [0, 1), WindowBlend's
+
+    bool operator==(const GroundTile&) const = default;
+};
+
+/// The ground is now as those before this one say.
+struct GroundFelt {
+    std::uint64_t told_part = 0; // whose model was told: MapContactModel::terrainChanged(); 0: none
+
+    bool operator==(const GroundFelt&) const = default;
+};
+
+using GroundRecord = std::variant<GroundPart, GroundLevel, GroundTile, GroundFelt>;
+static_assert(std::is_trivially_copyable_v<GroundRecord>);
+
+} // namespace marsview

@@ -1,0 +1,103 @@
+#include "haptics/trace/recorded_ground.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+namespace marsview {
+namespace {
+
+Error notThere()
+{
+    return Error{ErrorCode::Invalid, "the recording felt tiles that the map does not have"};
+}
+
+} // namespace
+
+Result<std::shared_ptr<RecordedGround>>
+RecordedGround::make(const TiledRaster& raster, std::shared_ptr<const TileHeights> heights)
+{
+    const std::size_t top_level = raster.layout().topLevel();
+    auto top = raster.get({TileKind::Samples, static_cast<std::uint8_t>(top_level), 0, 0});
+    if (!top) {
+        return std::move(top).error();
+    }
+    return std::shared_ptr<RecordedGround>(
+        new RecordedGround(raster, std::move(heights), std::move(top).value()));
+}
+
+RecordedGround::RecordedGround(const TiledRaster& raster,
+                               std::shared_ptr<const TileHeights> heights,
+                               std::shared_ptr<const Tile> top)
+    : raster_(raster)
+    , heights_(std::move(heights))
+    , top_(std::move(top))
+{
+    const std::vector<GridPoint> centres(raster_.layout().topLevel() + 1);
+    window_ = std::make_shared<const ResidentWindow>(heights_, top_, centres);
+    for (std::size_t k = 0; k < window_->levelCount(); ++k) {
+        shown_.push_back(window_->shown(k));
+    }
+    terrain_ = std::make_shared<ResidentTerrain>(*window_, heights_);
+}
+
+Status RecordedGround::follow(const GroundRecord& record)
+{
+    const TileLayout& layout = heights_->layout();
+    if (const auto* level = std::get_if<GroundLevel>(&record)) {
+        const ShownTiles& shown = level->shown;
+        if (level->level >= shown_.size() || !ResidentWindow::fits(layout, level->level, shown) ||
+            std::bit_width(shown.is_there) > shown.columns * shown.rows) {
+            return notThere();
+        }
+        shown_[level->level] = shown;
+        is_other_window_ = true;
+    } else if (const auto* tile = std::get_if<GroundTile>(&record)) {
+        if (!layout.contains(tile->id)) {
+            return notThere();
+        }
+        blend_.put(layout, tile->id, tile->weight);
+    } else if (std::holds_alternative<GroundFelt>(record)) {
+        return showWindow();
+    }
+    return Done{};
+}
+
+Status RecordedGround::showWindow()
+{
+    std::shared_ptr<const ResidentWindow> shown = window_;
+    if (std::exchange(is_other_window_, false)) {
+        const auto next = std::make_shared<ResidentWindow>(heights_, top_, shown_);
+        for (std::size_t k = 0; k < shown_.size(); ++k) {
+            const ShownTiles& level = shown_[k];
+            for (std::uint64_t rest = level.is_there; rest != 0; rest &= rest - 1) {
+                const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+                const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
+                                level.first_column + i % level.columns,
+                                level.first_row + i / level.columns};
+                if (next->has(id)) {
+                    continue; // the coarsest
+                }
+                const ResidentWindow::Slot* slot = window_->slot(id);
+                if (slot != nullptr && slot->tile != nullptr) {
+                    next->put(slot->tile, 0.0);
+                    continue;
+                }
+                auto tile = raster_.get(id);
+                if (!tile) {
+                    return std::move(tile).error();
+                }
+                next->put(std::move(tile).value(), 0.0);
+            }
+        }
+        shown = next;
+    }
+    terrain_->show(*shown, blend_);
+    window_ = std::move(shown);
+    blend_.clear();
+    return Done{};
+}
+
+} // namespace marsview

@@ -1,0 +1,52 @@
+#include "haptics/trace/ground_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+TEST(GroundText, ReadsBackWhatItWritesToTheBit)
+{
+    constexpr double kThird = 1.0 / 3.0;
+    const std::vector<GroundRecord> records{
+        GroundPart{.part = ~std::uint64_t{0},
+                   .columns = 106694,
+                   .rows = 53347,
+                   .ellipsoid = {3396190.0, 3376200.0},
+                   .frame = {.origin = {kThird, -1e-300},
+                             .east_per_column = std::nextafter(200.0, 0.0),
+                             .east_per_row = -0.0,
+                             .north_per_column = 1e22,
+                             .north_per_row = -kThird}},
+        GroundLevel{23, {4'000'000, 17, 8, 8, ~std::uint64_t{0}}},
+        GroundLevel{0, {0, 0, 1, 1, 0}},
+        GroundTile{{TileKind::Samples, 9, 3, 70'000}, std::nextafter(1.0, 0.0)},
+        GroundTile{{TileKind::Samples, 0, 0, 0}, std::numeric_limits<double>::denorm_min()},
+        GroundFelt{0},
+        GroundFelt{12}};
+    std::string cell;
+    for (const GroundRecord& record : records) {
+        cell += (cell.empty() ? "" : " ") + groundText(record);
+    }
+    EXPECT_EQ(cell.find(','), std::string::npos) << "it is a cell of a table";
+    EXPECT_EQ(parseGround(cell), records) << cell;
+    EXPECT_EQ(parseGround(""), std::vector<GroundRecord>{});
+}
+
+TEST(GroundText, RefusesWhatIsNoGround)
+{
+    for (const char* cell :
+         {"felt", "felt/", "felt/-1", "felt/1/2", "fell/1", "level/0/0/0/1/1", "level/0/0/0/1/1/g",
+          "level/0/0/0/1/1/1ffffffffffffffff", "tile/0/0/0/1", "tile/0/0/0/-0.5", "tile/0/0/0/nan",
+          "tile/256/0/0/0.5", "part/1/2/3", " felt/1", "felt/1  felt/2", "/", "nan"}) {
+        EXPECT_FALSE(parseGround(cell)) << cell;
+    }
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,349 @@
+#include "core/base/plain_number.h"
+#include "core/contact/resident_heights.h"
+#include "haptics/drivers/replay_driver.h"
+#include "haptics/loop/window_feeder.h"
+#include "haptics/trace/goal_file.h"
+#include "haptics/trace/recorded_ground.h"
+#include "haptics/trace/session_recorder.h"
+#include "tests/haptics/loop/loop_fixture.h"
+#include "tests/support/fractal_terrain.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/tiled_map.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+TEST(SessionRecorder, ARecordingReplaysToTheSameProxiesToTheBit)
+{
+    const TempFolder folder;
+    const std::string first = folder.file("first.csv");
+    const std::string second = folder.file("second.csv");
+    const auto filled = filledTerrain(201, 201, bumps);
+    const auto record = [&](std::unique_ptr<HapticDevice> device, const std::string& path,
+                            std::uint64_t ticks) {
+        ServoLoop loop(std::move(device), quick(ticks));
+        auto recorder = SessionRecorder::begin(loop, path);
+        ASSERT_TRUE(recorder);
+        loop.set(settingsFor(makeServoMap(metreFrame(201, 201), filled, {})));
+        waitFor(loop);
+        loop.stop();
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+        EXPECT_GT((*recorder)->updates(), 1000U);
+    };
+    record(simulated(), first, 5000);
+    auto goals = readGoals(*readGoalText(first), first);
+    ASSERT_TRUE(goals);
+    record(std::make_unique<ReplayDevice>(*goals), second, 0);
+
+    // Goals, contact and proxies: the first three columns, the sixth to the ninth.
+    const auto columns = [](const std::string& path) {
+        std::vector<std::string> lines;
+        const std::string text = readFile(path);
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = text.find('\n', at);
+            std::string line;
+            std::size_t begin = at;
+            for (int column = 0; column < 9; ++column) {
+                const std::size_t comma = text.find(',', begin);
+                if (column < 3 || column > 4) {
+                    line += text.substr(begin, comma - begin) + ",";
+                }
+                begin = comma + 1;
+            }
+            lines.push_back(line);
+            at = end + 1;
+        }
+        return lines;
+    };
+    const auto a = columns(first);
+    const auto b = columns(second);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ASSERT_EQ(a[i], b[i]) << "line " << i + 1;
+    }
+}
+
+TEST(SessionRecorder, ARecordingTellsWhatItWasTouchedWithWhereThatChanges)
+{
+    // Other models and exaggerations while the hand is on the ground, and one that comes back.
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    const auto filled = filledTerrain(201, 201, bumps);
+    const auto made = [&](ContactModelKind kind, double exaggeration, double radius_m) {
+        const GoalFrame frame(std::make_shared<const Georeference>(
+                                  201, 201,
+                                  GeoTransform::fromTerms({-0.5, 1.0, 0.0, 0.5, 0.0, -1.0}).value(),
+                                  std::nullopt),
+                              exaggeration);
+        return makeServoMap(frame, filled, {.kind = kind, .contact = {.radius_m = radius_m}});
+    };
+    const std::vector maps{made(ContactModelKind::ContinuousWalk, 1.0, 1.0),
+                           made(ContactModelKind::VirtualProxy, 1.0, 0.75),
+                           made(ContactModelKind::GodObject, 2.5, 1.0)};
+    {
+        ServoLoop loop(simulated(), quick(0));
+        auto recorder = SessionRecorder::begin(loop, path);
+        ASSERT_TRUE(recorder);
+        for (int i = 0; i < 8; ++i) {
+            loop.set(settingsFor(maps[static_cast<std::size_t>(i) % maps.size()]));
+            const std::uint64_t until = loop.state().tick + 500;
+            while (loop.state().tick < until) {
+                std::this_thread::yield();
+            }
+        }
+        loop.stop();
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+    }
+    const std::string text = readFile(path);
+    const auto recording = readGoalRecording(text, path);
+    ASSERT_TRUE(recording) << recording.error().message;
+    ASSERT_EQ(recording->parts.size(), 8U);
+    EXPECT_EQ(recording->parts[1].kind, ContactModelKind::VirtualProxy);
+    EXPECT_EQ(recording->parts[1].radius_m, 0.75);
+    EXPECT_EQ(recording->parts[2].exaggeration, 2.5);
+    EXPECT_EQ(recording->parts[3].part, recording->parts[0].part);
+    EXPECT_EQ(recording->parts[7].map, recording->parts[0].map);
+
+    // Models made anew from what the file tells go the same ways, to the bit.
+    std::map<std::uint64_t, std::shared_ptr<ServoMap>> again;
+    std::size_t begin = text.find('\n') + 1;
+    std::size_t in_contact = 0;
+    for (std::size_t p = 0; p < recording->parts.size(); ++p) {
+        const GoalPart& part = recording->parts[p];
+        auto& map = again[part.part];
+        map = map ? map : made(part.kind, part.exaggeration, part.radius_m);
+        const std::size_t end = p + 1 < recording->parts.size() ? recording->parts[p + 1].first
+                                                                : recording->goals.size();
+        for (std::size_t i = part.first; i < end; ++i) {
+            const TracePoint& goal = recording->goals[i];
+            const ContactState state = map->model->update(map->frame.toScene(goal));
+            const TracePoint proxy = state.is_in_contact || map->frame.isClamped(goal)
+                                         ? map->frame.fromScene(state.proxy)
+                                         : goal;
+            const std::size_t line_end = text.find('\n', begin);
+            const std::string line = text.substr(begin, line_end - begin);
+            ASSERT_NE(line.find(fmt::format(",{},{},{},{},", state.is_in_contact ? 1 : 0,
+                                            asText(proxy.x), asText(proxy.y), asText(proxy.z))),
+                      std::string::npos)
+                << "goal " << i << " of part " << p << ": " << line;
+            begin = line_end + 1;
+            in_contact += state.is_in_contact ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(in_contact, 500U);
+}
+
+TEST(SessionRecorder, SaysThatUpdatesAreMissing)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    ServoLoop loop(simulated(), quick(0));
+    loop.set(settingsFor(makeServoMap(metreFrame(201, 201), filledTerrain(201, 201, bumps), {})));
+    auto recorder = SessionRecorder::begin(loop, path);
+    ASSERT_TRUE(recorder) << recorder.error().message;
+    // Nobody reads: a disk that takes nothing any more.
+    while (loop.state().counts.not_recorded == 0) {
+        std::this_thread::yield();
+    }
+    std::jthread drain([reader](const std::stop_token& stop) {
+        std::array<char, 4096> some{};
+        while (!stop.stop_requested()) {
+            if (read(reader, some.data(), some.size()) <= 0) {
+                std::this_thread::yield();
+            }
+        }
+    });
+    const Status finished = (*recorder)->finish();
+    ASSERT_FALSE(finished);
+    EXPECT_THAT(finished.error().message,
+                testing::ContainsRegex(
+                    path + ": [0-9]+ of [0-9]+ updates are missing, as they could not be written"));
+    drain.request_stop();
+    drain.join();
+    close(reader);
+}
+
+TEST(SessionRecorder, ARecordingThatBeginsInTheMiddleOfATouchKnowsAllOfItsModel)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    const auto filled = filledTerrain(201, 201, bumps);
+    const GoalFrame frame = metreFrame(201, 201);
+    ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
+    loop.set(settingsFor(makeServoMap(frame, filled, {})));
+    for (const ContactModelKind kind : kContactModelKinds) {
+        SCOPED_TRACE(contactModelName(kind));
+        const auto runOn = [&](std::uint64_t ticks) {
+            const std::uint64_t until = loop.state().tick + ticks;
+            while (loop.state().tick < until) {
+                std::this_thread::yield();
+            }
+        };
+        const ServoMapOptions options{.kind = kind, .contact = {.radius_m = 0.75}};
+        loop.set(settingsFor(makeServoMap(frame, filled, options)));
+        runOn(2000);
+        ASSERT_TRUE(loop.state().contact.is_in_contact);
+        const auto fresh = makeServoMap(frame, filled, options);
+        auto recorder = SessionRecorder::begin(loop, path, fresh->serial);
+        ASSERT_TRUE(recorder);
+        runOn(100); // of which the file has nothing
+        loop.set(settingsFor(fresh));
+        runOn(2000);
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_EQ(loop.state().counts.not_recorded, 0U);
+
+        const std::string text = readFile(path);
+        const auto recording = readGoalRecording(text, path);
+        ASSERT_TRUE(recording) << recording.error().message;
+        ASSERT_EQ(recording->parts.size(), 1U);
+        EXPECT_EQ(recording->parts[0].part, fresh->serial);
+        EXPECT_GE(recording->goals.size(), 2000U);
+        const auto again = makeServoMap(frame, filled, options);
+        std::size_t begin = text.find('\n') + 1;
+        for (const TracePoint& goal : recording->goals) {
+            const ContactState state = again->model->update(frame.toScene(goal));
+            const TracePoint proxy =
+                state.is_in_contact || frame.isClamped(goal) ? frame.fromScene(state.proxy) : goal;
+            const std::size_t end = text.find('\n', begin);
+            const std::string line = text.substr(begin, end - begin);
+            ASSERT_NE(line.find(fmt::format(",{},{},{},{},", state.is_in_contact ? 1 : 0,
+                                            asText(proxy.x), asText(proxy.y), asText(proxy.z))),
+                      std::string::npos)
+                << line;
+            begin = end + 1;
+        }
+    }
+}
+
+// The proxies of a recording over a map in tiles, from tiles that are read anew.
+std::vector<TracePoint> proxiesAgain(const GoalRecording& recording,
+                                     const TiledMap& map,
+                                     const std::shared_ptr<const Georeference>& georeference)
+{
+    const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
+    const auto ground = RecordedGround::make(TiledRaster(cache, map.source), map.heights).value();
+    std::map<std::uint64_t, std::unique_ptr<MapContactModel>> models;
+    std::vector<TracePoint> proxies;
+    auto next_ground = recording.ground.begin();
+    for (std::size_t p = 0; p < recording.parts.size(); ++p) {
+        const GoalPart& part = recording.parts[p];
+        const GoalFrame frame(georeference, part.ground->frame, part.exaggeration);
+        auto& model = models[part.part];
+        if (!model) {
+            const TiledHeightfieldSurface surface(ground->terrain(), frame.frame(),
+                                                  part.exaggeration);
+            model = makeContactModel(part.kind, surface, {.radius_m = part.radius_m});
+        }
+        const std::size_t end =
+            p + 1 < recording.parts.size() ? recording.parts[p + 1].first : recording.goals.size();
+        for (std::size_t i = part.first; i < end; ++i) {
+            for (; next_ground != recording.ground.end() && next_ground->goal <= i; ++next_ground) {
+                for (const GroundRecord& record : next_ground->records) {
+                    EXPECT_TRUE(ground->follow(record));
+                    const auto* felt = std::get_if<GroundFelt>(&record);
+                    if (felt != nullptr && models.contains(felt->told_part)) {
+                        models[felt->told_part]->terrainChanged();
+                    }
+                }
+            }
+            const TracePoint& goal = recording.goals[i];
+            const ContactState state = model->update(frame.toScene(goal));
+            proxies.push_back(
+                state.is_in_contact || frame.isClamped(goal) ? frame.fromScene(state.proxy) : goal);
+        }
+    }
+    return proxies;
+}
+
+TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
+{
+    constexpr std::size_t kColumns = 2100;
+    constexpr std::size_t kRows = 560;
+    const auto heights = fractalHeights(kColumns, kRows, 9);
+    const TiledMap map = tiledMap(
+        int16Terrain(kColumns, kRows, {.gain = 0.01}, [&](std::size_t column, std::size_t row) {
+            return static_cast<double>(heights[row * kColumns + column]);
+        }));
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    const auto georeference = std::make_shared<const Georeference>(
+        kColumns, kRows, GeoTransform::fromTerms({-0.5, 1.0, 0.0, 0.5, 0.0, -1.0}).value(),
+        std::nullopt);
+    for (const ContactModelKind kind : kContactModelKinds) {
+        SCOPED_TRACE(contactModelName(kind));
+        const TileCache cold({.bytes_max = std::size_t{1} << 20, .loader_threads = 1});
+        const auto feeder =
+            WindowFeeder::create(TiledRaster(cold, map.source), map.heights).value();
+        const auto terrain = std::make_shared<ServoTerrain>(feeder->exchange(), feeder->heights());
+        feeder->start();
+        ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
+        auto recorder = SessionRecorder::begin(loop, path);
+        ASSERT_TRUE(recorder);
+        // Other exaggerations while tiles come; the hand goes half of the map's width a second.
+        for (const double exaggeration : {1.0, 2.0, 1.5}) {
+            LoopSettings settings =
+                settingsFor(makeServoMap(GoalFrame(georeference, exaggeration), terrain,
+                                         {.kind = kind, .contact = {.radius_m = 0.75}}));
+            settings.frame.scene_per_metre = 20'000.0;
+            loop.set(settings);
+            const std::uint64_t until = loop.state().tick + 1500;
+            while (loop.state().tick < until) {
+                std::this_thread::yield();
+            }
+        }
+        loop.stop();
+        ASSERT_TRUE((*recorder)->finish());
+        EXPECT_GT(loop.state().counts.samples_missed, 100U) << "the ground was always there";
+
+        const std::string text = readFile(path);
+        const auto recording = readGoalRecording(text, path);
+        ASSERT_TRUE(recording) << recording.error().message;
+        ASSERT_EQ(recording->parts.size(), 3U);
+        ASSERT_GT(recording->ground.size(), 10U);
+        const std::vector<TracePoint> again = proxiesAgain(*recording, map, georeference);
+        std::size_t begin = text.find('\n') + 1;
+        for (const TracePoint& proxy : again) {
+            const std::size_t end = text.find('\n', begin);
+            const std::string line = text.substr(begin, end - begin);
+            ASSERT_NE(line.find(fmt::format(",{},{},{},", asText(proxy.x), asText(proxy.y),
+                                            asText(proxy.z))),
+                      std::string::npos)
+                << line;
+            begin = end + 1;
+        }
+        EXPECT_EQ(begin, text.size());
+    }
+}
+
+TEST(SessionRecorder, SaysWhereItCannotWrite)
+{
+    ServoLoop loop(simulated(), quick(10));
+    const auto recorder = SessionRecorder::begin(loop, "/nowhere/session.csv");
+    ASSERT_FALSE(recorder);
+    EXPECT_EQ(recorder.error().message,
+              "/nowhere/session.csv: cannot be written (No such file or directory); choose another "
+              "file, in a folder that is there and may be written to");
+}
+
+} // namespace
+} // namespace marsview::test
