@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -24,12 +25,27 @@ struct Options {
     bool tries_again = false;
 };
 
+// Names come from devices and files, and need not be UTF-8.
+std::string shown(const std::string& text)
+{
+    const std::string valid = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return asOneLine(Json::parse(valid).get<std::string>());
+}
+
+// As fmt counts them for the width of a column.
+std::size_t characters(const std::string& utf8)
+{
+    return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    }));
+}
+
 std::string stateOf(const FoundDevice& device)
 {
     if (device.reason.empty()) {
         return "ready";
     }
-    return (device.isUsable() ? "ready; " : "") + asOneLine(device.reason);
+    return (device.isUsable() ? "ready; " : "") + shown(device.reason);
 }
 
 Status runDevices(const Options& options)
@@ -40,7 +56,6 @@ Status runDevices(const Options& options)
     DeviceRegistry registry(builtInDrivers());
     const std::vector<FoundDevice> devices = registry.find();
     if (options.is_json) {
-        // Names come from devices and files, and need not be UTF-8.
         printLine(devicesAsJson(devices, registry.schemes())
                       .dump(-1, ' ', false, Json::error_handler_t::replace));
     } else {
@@ -60,13 +75,13 @@ std::string devicesAsTable(const std::vector<FoundDevice>& devices)
     };
     std::vector<Row> rows{{"URI", "name", "state"}};
     for (const FoundDevice& device : devices) {
-        rows.push_back({asOneLine(device.uri), asOneLine(device.name), stateOf(device)});
+        rows.push_back({shown(device.uri), shown(device.name), stateOf(device)});
     }
     std::size_t uri_width = 0;
     std::size_t name_width = 0;
     for (const Row& row : rows) {
-        uri_width = std::max(uri_width, row.uri.size());
-        name_width = std::max(name_width, row.name.size());
+        uri_width = std::max(uri_width, characters(row.uri));
+        name_width = std::max(name_width, characters(row.name));
     }
     std::string table;
     for (const Row& row : rows) {

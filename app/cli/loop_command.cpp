@@ -117,6 +117,15 @@ std::uint64_t ticksWithin(double seconds, double rate_hz)
     return static_cast<std::uint64_t>(std::min(std::ceil(seconds * rate_hz), kTicksMax));
 }
 
+// A device that is too slow for its rate does not make the loop last much longer.
+LoopWatch::Clock::time_point watchedUntil(double seconds)
+{
+    constexpr double kSecondsMax = 1e9;
+    const double patient_s = std::min(seconds + std::max(1.0, 0.02 * seconds), kSecondsMax);
+    return LoopWatch::Clock::now() + std::chrono::duration_cast<LoopWatch::Clock::duration>(
+                                         std::chrono::duration<double>(patient_s));
+}
+
 Status runLoop(const Options& options)
 {
     std::optional<LoopMap> map;
@@ -170,7 +179,9 @@ Status runLoop(const Options& options)
                   .frame_number = 1,
                   .stiffness_n_per_m = options.stiffness_n_per_m});
         constexpr std::chrono::milliseconds kLook{20};
-        while (!loop.hasEnded() && !end.isAskedFor() && !watch.isSilent()) {
+        const LoopWatch::Clock::time_point give_up = watchedUntil(options.seconds);
+        while (!loop.hasEnded() && !end.isAskedFor() && !watch.isSilent() &&
+               LoopWatch::Clock::now() < give_up) {
             std::this_thread::sleep_for(kLook);
             watch.look(loop, LoopWatch::Clock::now());
             job.monitor().report(std::min(1.0, static_cast<double>(loop.state().tick) /

@@ -31,16 +31,11 @@ protected:
     }
     ProgramOutput devices(const std::vector<std::string>& options = {}) const
     {
-        std::vector<std::string> arguments{
-            "env",
-            "XDG_DATA_HOME=" + folder_.file("data"),
-            "XDG_STATE_HOME=" + folder_.file("state"),
-            "MARSVIEW_PLUGIN_PATH=",
-            MARSVIEW_CLI,
-            "devices",
-        };
+        std::vector<std::string> arguments{"devices"};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        return runProgram(arguments);
+        return runCliWith({"XDG_DATA_HOME=" + folder_.file("data"),
+                           "XDG_STATE_HOME=" + folder_.file("state"), "MARSVIEW_PLUGIN_PATH="},
+                          arguments);
     }
     // What is said about the plugin of this behaviour.
     nlohmann::json entry(const std::string& behaviour) const
@@ -105,8 +100,8 @@ TEST_F(DevicesCommand, SaysWhatWentWrongTheLastTimeADeviceWasUsed)
 {
     add("fails_opening");
     const std::string uri = "plugin:" + (plugins() / "fails_opening.so").string();
-    const ProgramOutput loop = runProgram({"env", "XDG_STATE_HOME=" + folder_.file("state"),
-                                           MARSVIEW_CLI, "loop", bundledMars(), "--device", uri});
+    const ProgramOutput loop = runCliWith({"XDG_STATE_HOME=" + folder_.file("state")},
+                                          {"loop", bundledMars(), "--device", uri});
     EXPECT_EQ(loop.exit_status, 1);
     const nlohmann::json found = entry("fails_opening");
     EXPECT_EQ(found["usable"], true);
@@ -123,6 +118,9 @@ TEST(DevicesTable, AlignsItsColumnsAndKeepsEveryDeviceOnOneLine)
     EXPECT_EQ(devicesAsTable({{"x:", "A hand", "the last\ntime: no power", true}}),
               "URI  name    state\n"
               "x:   A hand  ready; the last time: no power");
+    EXPECT_EQ(devicesAsTable({{"x:", "A h\xe4nd", ""}}),
+              "URI  name    state\n"
+              "x:   A h\xef\xbf\xbdnd  ready");
 }
 
 // As its makers would do it: from an installed program, by CMake's and by pkg-config's way.

@@ -138,8 +138,7 @@ TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
 
 TEST(InfoCommand, TellsOfNumbersInTheEnvironmentThatAreNone)
 {
-    const ProgramOutput output =
-        runProgram({"env", "MARSVIEW_HELD_MB=abc", MARSVIEW_CLI, "info", bundledMars()});
+    const ProgramOutput output = runCliWith({"MARSVIEW_HELD_MB=abc"}, {"info", bundledMars()});
     EXPECT_EQ(output.exit_status, 0);
     EXPECT_THAT(output.err, testing::HasSubstr("MARSVIEW_HELD_MB=\"abc\" in the environment is no "
                                                "number of megabytes"));

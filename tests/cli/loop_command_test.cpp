@@ -152,13 +152,9 @@ TEST(LoopCommand, WhatItRecordsOverTilesIsTheSameAgainInTrace)
     const TempFolder folder;
     const std::string first = folder.file("first.csv");
     const std::string traced = folder.file("traced.csv");
-    const std::vector<std::string> in_tiles{"env", "MARSVIEW_HELD_MB=0",
-                                            "MARSVIEW_CACHE_DIR=" + folder.file("cache")};
-    const auto run = [&](std::vector<std::string> more) {
-        std::vector<std::string> line = in_tiles;
-        line.insert(line.end(), {MARSVIEW_CLI});
-        line.insert(line.end(), more.begin(), more.end());
-        const ProgramOutput output = runProgram(line);
+    const auto run = [&](const std::vector<std::string>& arguments) {
+        const ProgramOutput output = runCliWith(
+            {"MARSVIEW_HELD_MB=0", "MARSVIEW_CACHE_DIR=" + folder.file("cache")}, arguments);
         EXPECT_EQ(output.exit_status, 0) << output.err;
         return output;
     };
@@ -202,10 +198,9 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     const TempFolder folder;
     const auto run = [&](const std::string& behaviour) {
         const std::string uri = "plugin:" MARSVIEW_TEST_PLUGINS "/" + behaviour + ".so";
-        ProgramOutput output =
-            runProgram({"env", "XDG_STATE_HOME=" + folder.file("state"),
-                        "XDG_RUNTIME_DIR=" + folder.file("run"), MARSVIEW_CLI, "loop",
-                        bundledMars(), "--device", uri, "--seconds", "0.5"});
+        ProgramOutput output = runCliWith(
+            {"XDG_STATE_HOME=" + folder.file("state"), "XDG_RUNTIME_DIR=" + folder.file("run")},
+            {"loop", bundledMars(), "--device", uri, "--seconds", "0.5"});
         EXPECT_EQ(output.exit_status, 1) << behaviour;
         EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
         EXPECT_THAT(output.err, StartsWith("marsview-cli: " + uri + ": "));
@@ -234,6 +229,18 @@ TEST(LoopCommand, CountsTheEndOfItsTimeForNoTrouble)
     EXPECT_GT(loop["in_contact"], 100) << "there is a force to be let go";
     EXPECT_FALSE(loop["let_go_s"].contains("device unready")) << loop["let_go_s"];
     EXPECT_NE(loop["last_reason"], "device unready");
+}
+
+TEST(LoopCommand, EndsInTimeWhereADeviceIsTooSlowForItsRate)
+{
+    const TempFolder folder;
+    const ProgramOutput output =
+        runCliWith({"XDG_STATE_HOME=" + folder.file("state")},
+                   {"loop", bundledMars(), "--json", "--seconds", "0.5", "--device",
+                    "plugin:" MARSVIEW_TEST_PLUGINS "/is_slow.so"});
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    // A read takes five milliseconds, so that all 500 ticks would take two and a half seconds.
+    EXPECT_LT(nlohmann::json::parse(output.out)["ticks"], 400);
 }
 
 TEST(LoopCommand, EndsInOrderHoweverItIsToldTo)

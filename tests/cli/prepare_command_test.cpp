@@ -264,8 +264,8 @@ TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
     const TempFolder folder;
     const TempFolder maps;
     const std::string source = tallMap(folder);
-    const ProgramOutput output = runProgram({"env", "MARSVIEW_CACHE_DIR=" + maps.path().string(),
-                                             MARSVIEW_CLI, "prepare", source, "--json"});
+    const ProgramOutput output =
+        runCliWith({"MARSVIEW_CACHE_DIR=" + maps.path().string()}, {"prepare", source, "--json"});
     ASSERT_EQ(output.exit_status, 0) << output.err;
     const std::string file = nlohmann::json::parse(output.out)["file"].get<std::string>();
     EXPECT_EQ(fs::path(file).parent_path(), maps.path());

@@ -27,8 +27,8 @@ protected:
     std::string proxies(const std::string& dem, const std::string& goals) const
     {
         const ProgramOutput output =
-            runProgram({"env", "MARSVIEW_CACHE_DIR=" + cache_.path().string(), MARSVIEW_CLI,
-                        "trace", dem, "--goals", folder_.write("goals.csv", goals)});
+            runCliWith({"MARSVIEW_CACHE_DIR=" + cache_.path().string()},
+                       {"trace", dem, "--goals", folder_.write("goals.csv", goals)});
         EXPECT_EQ(output.exit_status, 0) << output.err;
         std::string found;
         std::istringstream lines(output.out);

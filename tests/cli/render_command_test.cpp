@@ -34,10 +34,19 @@ protected:
     // The program's answer to `render`, without a display server to ask.
     ProgramOutput render(const std::vector<std::string>& options) const
     {
-        std::vector<std::string> arguments{
-            "env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", MARSVIEW_CLI, "render"};
+        return renderHolding({}, options);
+    }
+    // The same with a bound for what is read whole: of a prepared map, nothing.
+    ProgramOutput renderHolding(const std::string& held_mb,
+                                const std::vector<std::string>& options) const
+    {
+        std::vector<std::string> environment{"DISPLAY", "WAYLAND_DISPLAY"};
+        if (!held_mb.empty()) {
+            environment.push_back("MARSVIEW_HELD_MB=" + held_mb);
+        }
+        std::vector<std::string> arguments{"render"};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        return runProgram(arguments);
+        return runCliWith(environment, arguments);
     }
 
     // The bytes of a picture's bands, one after the other, as GDAL reads them.
@@ -333,8 +342,7 @@ TEST_F(RenderCommand, DrawsNoPictureOfAPreparedMapThatIsDamaged)
     const std::string whole = folder_.file("whole.tif");
     ASSERT_EQ(runCli({"prepare", bundledMars(), "-o", whole}).exit_status, 0);
     const auto drawn = [&](const std::string& map, const std::string& picture) {
-        return runProgram({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "MARSVIEW_HELD_MB=0",
-                           MARSVIEW_CLI, "render", map, "-o", picture, "--size", "240x160"});
+        return renderHolding("0", {map, "-o", picture, "--size", "240x160"});
     };
     ASSERT_EQ(drawn(whole, folder_.file("whole.png")).exit_status, 0);
     const std::string truth = readFile(folder_.file("whole.png"));
@@ -385,21 +393,9 @@ TEST_F(RenderCommand, DrawsAllOfAPreparedMapWithAHole)
          {std::vector<std::string>{}, {"--look-at", middle, "--distance", "9000"}}) {
         const auto drawn = [&](const std::string& path, const std::string& held_mb) {
             const std::string png = folder_.file("hole.png");
-            std::vector<std::string> command{"env",
-                                             "-u",
-                                             "DISPLAY",
-                                             "-u",
-                                             "WAYLAND_DISPLAY",
-                                             "MARSVIEW_HELD_MB=" + held_mb,
-                                             MARSVIEW_CLI,
-                                             "render",
-                                             path,
-                                             "-o",
-                                             png,
-                                             "--size",
-                                             "200x150"};
-            command.insert(command.end(), place.begin(), place.end());
-            const ProgramOutput output = runProgram(command);
+            std::vector<std::string> options{path, "-o", png, "--size", "200x150"};
+            options.insert(options.end(), place.begin(), place.end());
+            const ProgramOutput output = renderHolding(held_mb, options);
             EXPECT_EQ(output.exit_status, 0) << output.err;
             return pixels(png);
         };

@@ -12,6 +12,25 @@ ProgramOutput runCli(std::vector<std::string> arguments, const std::string& inpu
     return runProgram(arguments, input);
 }
 
+ProgramOutput runCliWith(const std::vector<std::string>& environment,
+                         const std::vector<std::string>& arguments)
+{
+    std::vector<std::string> line{"env"};
+    for (const std::string& name : environment) {
+        if (name.find('=') == std::string::npos) {
+            line.insert(line.begin() + 1, {"-u", name}); // options come first
+        }
+    }
+    for (const std::string& variable : environment) {
+        if (variable.find('=') != std::string::npos) {
+            line.push_back(variable);
+        }
+    }
+    line.emplace_back(MARSVIEW_CLI);
+    line.insert(line.end(), arguments.begin(), arguments.end());
+    return runProgram(line);
+}
+
 nlohmann::json cliInfo(const std::string& path, const std::vector<std::string>& options)
 {
     std::vector<std::string> arguments{"info", path, "--json"};

@@ -12,6 +12,10 @@ namespace marsview::test {
 /// Runs the program that was built beside the tests.
 ProgramOutput runCli(std::vector<std::string> arguments, const std::string& input = "");
 
+/// The same in an environment with these "NAME=value" besides; a "NAME" alone is taken away.
+ProgramOutput runCliWith(const std::vector<std::string>& environment,
+                         const std::vector<std::string>& arguments);
+
 /// `info PATH --json`, parsed; throws where it fails.
 nlohmann::json cliInfo(const std::string& path, const std::vector<std::string>& options = {});
 

@@ -114,6 +114,10 @@ static uint32_t describeDevice(MarsviewDevice* device, MarsviewCapabilities* cap
 static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
 {
     device->reads += 1;
+#if defined(TINY_IS_SLOW)
+    const struct timespec five_ms = {.tv_nsec = 5000000};
+    nanosleep(&five_ms, NULL);
+#endif
     /* What was written comes back, so that a test sees it. */
     sample->position_m[0] = device->force_n[0] / 1000.0;
     sample->position_m[1] = device->force_n[1] / 1000.0;
