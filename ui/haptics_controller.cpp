@@ -8,6 +8,7 @@
 #include "ui/terrain_view.h"
 
 #include <QCoreApplication>
+#include <QGuiApplication>
 #include <QKeyEvent>
 
 #include <algorithm>
@@ -281,6 +282,7 @@ void HapticsController::poll()
     if (state.tick > 0) {
         followHand(state);
         showHand(state);
+        keepReplayInPicture(state);
         chooseMap(state);
     }
     Q_EMIT polled(state);
@@ -622,6 +624,16 @@ void HapticsController::showHand(const LoopState& state)
                                 .is_in_contact = contact.is_in_contact,
                                 .force_n = force_n,
                                 .force_n_max = loop_->device().force_n_peak});
+}
+
+// A recording tells where the hand was, but not what was seen of the map.
+void HapticsController::keepReplayInPicture(const LoopState& state)
+{
+    const bool is_user_moving = view_.isMoving() || QGuiApplication::mouseButtons() != Qt::NoButton;
+    if (isReplaying() && !is_user_moving && state.contact.is_in_contact &&
+        !view_.isInPicture(state.contact.proxy)) {
+        view_.flyToPlace(state.contact.proxy);
+    }
 }
 
 void HapticsController::push()

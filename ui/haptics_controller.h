@@ -170,6 +170,7 @@ private:
     void takeSight();
     void followHand(const LoopState& state);
     void showHand(const LoopState& state);
+    void keepReplayInPicture(const LoopState& state);
     void push();
     bool isMapWanted() const { return hand_map_ != nullptr; }
 

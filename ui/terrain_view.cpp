@@ -365,11 +365,8 @@ void TerrainView::flyTo(GridPoint grid, double distance_m)
     if (ground_.isEmpty()) {
         return;
     }
-    OrbitCamera goal = onGround(navigator_.goal());
-    const SceneFrame& frame = map_.dataset->georeference().sceneFrame();
-    const ScenePoint place = frame.toScene(grid, 0.0);
-    const double z_m = groundAt(place.x, place.y);
-    goal.target = {place.x, place.y, std::isfinite(z_m) ? z_m : goal.target.z};
+    OrbitCamera goal =
+        lookingAt(map_.dataset->georeference().sceneFrame().toScene(grid, 0.0), navigator_.goal());
     if (distance_m > 0.0) {
         goal.distance_m = distance_m;
     }
@@ -377,15 +374,36 @@ void TerrainView::flyTo(GridPoint grid, double distance_m)
     navigator_.moveTo(goal, kFlyDuration);
 }
 
+void TerrainView::flyToPlace(const ScenePoint& place)
+{
+    if (ground_.isEmpty()) {
+        return;
+    }
+    is_at_opening_view_ = false;
+    navigator_.moveTo(lookingAt(place, navigator_.goal()), kFlyDuration);
+}
+
 void TerrainView::lookAt(const ScenePoint& place)
 {
     if (ground_.isEmpty()) {
         return;
     }
-    OrbitCamera camera = onGround(navigator_.camera());
+    setCamera(lookingAt(place, navigator_.camera()));
+}
+
+// The camera with the ground at a place in the middle of its picture.
+OrbitCamera TerrainView::lookingAt(const ScenePoint& place, const OrbitCamera& camera) const
+{
+    OrbitCamera result = onGround(camera);
     const double z_m = groundAt(place.x, place.y);
-    camera.target = {place.x, place.y, std::isfinite(z_m) ? z_m : camera.target.z};
-    setCamera(camera);
+    result.target = {place.x, place.y, std::isfinite(z_m) ? z_m : result.target.z};
+    return result;
+}
+
+bool TerrainView::isInPicture(const ScenePoint& place) const
+{
+    const auto position = positionOfPlace(place);
+    return position && QRectF(rect()).contains(*position);
 }
 
 std::optional<RayHit> TerrainView::surfaceAt(QPointF position) const

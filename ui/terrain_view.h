@@ -96,6 +96,8 @@ public:
     void turnNorthUp();
     /// Flies to a place of the topmost layer; `distance_m` of 0 keeps the distance.
     void flyTo(GridPoint grid, double distance_m);
+    /// The same to a place of the scene, from the same side and distance.
+    void flyToPlace(const ScenePoint& place);
     /// Looks at a place of the scene at once, from the same side and distance.
     void lookAt(const ScenePoint& place);
 
@@ -106,6 +108,8 @@ public:
     std::optional<QPointF> positionOf(GridPoint grid) const;
     /// A place of the scene in widget coordinates; nothing where it is behind the eye.
     std::optional<QPointF> positionOfPlace(const ScenePoint& place) const;
+    /// Whether nothing but ground before it can hide a place of the scene.
+    bool isInPicture(const ScenePoint& place) const;
 
     /// There is a graphics context.
     bool isReady() const noexcept { return renderer_ != nullptr; }
@@ -190,6 +194,7 @@ private:
     NavigationLimits limits() const;
     OrbitCamera bounded(const OrbitCamera& camera) const;
     OrbitCamera onGround(const OrbitCamera& camera) const;
+    OrbitCamera lookingAt(const ScenePoint& place, const OrbitCamera& camera) const;
     OrbitCamera beforeZoom(double factor) const;
     ScenePoint anchorAt(QPointF position, const OrbitCamera& camera) const;
     bool moveByGrab(QPointF from, QPointF to);

@@ -108,7 +108,9 @@ private:
             state_.has_frame
                 ? settings_.frame.toWorkspace(state_.frame.toScene(state_.hand)) - state_.hand
                 : Vec3{};
-        if (state_.has_frame && !(length(moved_m) < kJumpM)) {
+        if (input_.recorded_goal != nullptr) {
+            state_.has_hand = false; // what is aimed at stays where it is, whatever is seen of it
+        } else if (state_.has_frame && !(length(moved_m) < kJumpM)) {
             has_jumped_ = true;
         }
         // At another scale what is touched lies elsewhere though the hand does not.

@@ -495,6 +495,25 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
     }
 }
 
+TEST_F(HapticsControllerTest, KeepsTheHandOfARecordingInThePicture)
+{
+    OrbitCamera camera = view().camera();
+    camera.target = {-700.0, -400.0, camera.target.z};
+    camera.distance_m = 300.0;
+    view().setCamera(camera);
+    const ScenePoint summit{0.0, 0.0, 0.0};
+    ASSERT_FALSE(view().isInPicture(summit));
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 3000, "500900,4000600,0"); // deep below the map's middle
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    EXPECT_TRUE(waitFor([&] {
+        return !view().isMoving() && view().shownStylus() &&
+               view().isInPicture(view().shownStylus()->proxy);
+    }));
+    EXPECT_TRUE(haptics().isReplaying());
+    EXPECT_NEAR(view().camera().distance_m, 300.0, 50.0) << "only to the side";
+}
+
 TEST_F(HapticsControllerTest, SaysThatARecordingIsOfAMapThatIsNotOpen)
 {
     const QString mars = maps_.mars();

@@ -486,6 +486,33 @@ TEST(HapticTick, AModelThatIsGivenTheGoalsAgainGivesTheSameProxiesToTheBit)
 }
 
 // What the loop itself must keep to, whatever is around it.
+TEST(HapticTick, WhatARecordingAimsAtDoesNotDependOnWhatIsSeen)
+{
+    const auto bumps = [](std::size_t column, std::size_t row) {
+        return 3.0 * std::sin(0.3 * static_cast<double>(column)) +
+               2.0 * std::cos(0.2 * static_cast<double>(row));
+    };
+    Rig rig(servoMap(201, 201, bumps));
+    const auto again = servoMap(201, 201, bumps);
+    Random random;
+    TracePoint goal{100.0, -100.0, -1.0};
+    rig.input.recorded_goal = &goal;
+    for (int i = 0; i < 2000; ++i) {
+        goal.x = std::clamp(goal.x + random.uniform(-2.0, 2.0), 10.0, 190.0);
+        goal.y = std::clamp(goal.y + random.uniform(-2.0, 2.0), -190.0, -10.0);
+        if (random.chance(0.05)) { // the camera jumps
+            rig.settings.frame.place = {random.uniform(-90.0, 90.0), random.uniform(-90.0, 90.0),
+                                        random.uniform(-50.0, 50.0)};
+            rig.settings.frame.scene_per_metre = random.uniform(100.0, 5000.0);
+            ++rig.settings.frame_number;
+        }
+        const StepResult result = rig.at({});
+        const ContactState state = again->model->update(again->frame.toScene(goal));
+        ASSERT_EQ(result.goals.count, 1U) << i;
+        ASSERT_EQ(result.contact.proxy, state.proxy) << i;
+    }
+}
+
 TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
 {
     Random random;
