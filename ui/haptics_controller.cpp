@@ -1,5 +1,6 @@
 #include "ui/haptics_controller.h"
 
+#include "core/raster/output_check.h"
 #include "haptics/drivers/polhem_driver.h"
 #include "haptics/drivers/replay_driver.h"
 #include "ui/hand_sight.h"
@@ -356,6 +357,10 @@ std::vector<TickRecord> HapticsController::lastTicks() const
 
 void HapticsController::saveTicks(std::vector<TickRecord> ticks, const QString& file)
 {
+    if (const Status writable = checkWritable(file); !writable) {
+        Q_EMIT savingFailed(QString::fromStdString(writable.error().message));
+        return;
+    }
     SavedTicks saved{.file = file, .count = ticks.size()};
     for (std::size_t i = 1; i < ticks.size(); ++i) {
         const bool is_same_run = ticks[i].tick > ticks[i - 1].tick;
@@ -424,6 +429,9 @@ Status HapticsController::startRecording(const QString& file)
                             .arg(file)
                             .toStdString()});
     }
+    if (Status writable = checkWritable(file); !writable) {
+        return refused(std::move(writable).error());
+    }
     // From a model that nothing has touched yet, so that a replay has all that it needs. It begins
     // at the old one's proxy: the hand feels nothing of that.
     const std::shared_ptr<ServoMap> fresh = hand_map_->make(model_, exaggeration_);
@@ -440,7 +448,20 @@ Status HapticsController::startRecording(const QString& file)
     return Done{};
 }
 
-void HapticsController::stopRecording()
+// What a recording must not be written over: the maps that are open, and what is replayed.
+Status HapticsController::checkWritable(const QString& file) const
+{
+    FilesInUse files{.maps = {}, .read = {}, .written = {file.toStdString()}};
+    for (const SceneMap& map : view_.ground().maps()) {
+        files.maps.push_back(map.map.dataset->spec().path);
+    }
+    if (isReplaying()) {
+        files.read.push_back(replayedFile(uri_.toStdString()));
+    }
+    return checkOutputs(files);
+}
+
+void HapticsController::stopRecording(RecordingEnd end)
 {
     if (!recorder_) {
         return;
@@ -450,7 +471,7 @@ void HapticsController::stopRecording()
     recorder_.reset();
     Q_EMIT recordingChanged();
     if (written) {
-        Q_EMIT recorded(recording_file_, updates);
+        Q_EMIT recorded(recording_file_, updates, end);
     } else {
         Q_EMIT recordingFailed(QString::fromStdString(written.error().message));
     }
@@ -464,7 +485,7 @@ void HapticsController::takeGround()
     }
     const auto& maps = view_.ground().maps();
     if (maps.empty()) {
-        stopRecording();
+        stopRecording(RecordingEnd::WithItsMap);
         hand_map_.reset();
         loop_settings_.map = nullptr;
         push();
@@ -536,7 +557,7 @@ void HapticsController::tellReplay()
 
 void HapticsController::setMap(std::size_t index)
 {
-    stopRecording();
+    stopRecording(RecordingEnd::WithItsMap);
     hand_map_ = std::make_unique<HandMap>(view_.ground().maps()[index]);
     loop_settings_.map = hand_map_->make(model_, exaggeration_);
     push();
@@ -546,8 +567,7 @@ void HapticsController::setMap(std::size_t index)
 void HapticsController::makeMapAgain()
 {
     if (hand_map_) {
-        stopRecording();
-        loop_settings_.map = hand_map_->make(model_, exaggeration_);
+        loop_settings_.map = hand_map_->make(model_, exaggeration_); // a recording goes on with it
     }
 }
 

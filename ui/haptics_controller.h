@@ -25,6 +25,9 @@ class TerrainView;
 
 enum class HapticsConnection { None, Opening, Connected };
 
+/// Why a recording came to its end: a file holds what was touched of one map.
+enum class RecordingEnd { AsWanted, WithItsMap };
+
 /// A flight record that has been written.
 struct SavedTicks {
     QString file;
@@ -112,7 +115,7 @@ public:
     /// update of a contact model of its own, so that `trace --goals` gives the same proxies to the
     /// bit; the hand feels nothing of the change.
     Status startRecording(const QString& file);
-    void stopRecording();
+    void stopRecording(RecordingEnd end = RecordingEnd::AsWanted);
     bool isRecording() const noexcept { return recorder_ != nullptr; }
     const QString& recordingFile() const noexcept { return recording_file_; }
     bool canRecord() const noexcept { return loop_ != nullptr && loop_->isRunning(); }
@@ -140,7 +143,7 @@ Q_SIGNALS:
     /// "FILE: WHY" of what could not be written.
     void recordingFailed(const QString& problem);
     /// A recording of so many updates is complete.
-    void recorded(const QString& file, qulonglong updates);
+    void recorded(const QString& file, qulonglong updates, marsview::RecordingEnd end);
     void ticksSaved(const SavedTicks& saved);
     /// "FILE: WHY".
     void savingFailed(const QString& problem);
@@ -159,6 +162,8 @@ private:
     void resumeInterrupted(const QString& problem);
     void keepTicks();
     void setProblem(const QString& problem);
+
+    Status checkWritable(const QString& file) const;
 
     void takeGround();
     void takeExaggeration();

@@ -95,11 +95,15 @@ QString realTimeText(const RealTimeGrants& grants)
         .arg(scheduling);
 }
 
-QString recordedText(const QString& file, qulonglong updates)
+QString recordedText(const QString& file, qulonglong updates, RecordingEnd end)
 {
+    const QString name = QFileInfo(file).fileName();
+    const QString count = countText(static_cast<std::size_t>(updates));
     //: %1 is a file, %2 a number
-    return tr("%1: %2 updates recorded")
-        .arg(QFileInfo(file).fileName(), countText(static_cast<std::size_t>(updates)));
+    return end == RecordingEnd::AsWanted
+               ? tr("%1: %2 updates recorded").arg(name, count)
+               : tr("%1: %2 updates recorded; it ended as another map is touched, or none")
+                     .arg(name, count);
 }
 
 QString savedTicksText(const SavedTicks& saved)
@@ -124,6 +128,10 @@ QString replayText(const QString& file, const ReplayFit& fit, const TouchedGroun
         //: %1 is a file, %2 and %3 are numbers
         sentences.append(tr("%1: %2 of %3 goals lie beside the map and are put to its edge.")
                              .arg(name, countText(fit.beside_count), countText(fit.goal_count)));
+    }
+    if (fit.is_cut_short) {
+        //: %1 is a file
+        sentences.append(tr("%1 was cut short in its last line, which is left out.").arg(name));
     }
     if (fit.other_map) {
         //: %1 is a file, %2 and %3 are numbers of samples, %4 is a planet or a moon

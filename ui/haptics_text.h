@@ -11,6 +11,7 @@
 
 namespace marsview {
 
+enum class RecordingEnd;
 struct ReplayFit;
 struct SavedTicks;
 struct TouchedGround;
@@ -21,8 +22,8 @@ QString letGoText(LetGoReason reason);
 QString modeText(StylusMode mode, bool is_in_contact);
 /// A sentence, and that all works without.
 QString realTimeText(const RealTimeGrants& grants);
-/// "touch.csv: 12,345 updates recorded".
-QString recordedText(const QString& file, qulonglong updates);
+/// "touch.csv: 12,345 updates recorded", and why it ended where nobody has ended it.
+QString recordedText(const QString& file, qulonglong updates, RecordingEnd end);
 /// "flight.csv: 10,000 ticks of 10.0 s".
 QString savedTicksText(const SavedTicks& saved);
 /// Sentences: where a recording does not go with the maps that are open, or was touched in another

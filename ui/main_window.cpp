@@ -380,8 +380,8 @@ void MainWindow::connectHaptics()
     connect(haptics_, &HapticsController::recordingFailed, this,
             [this](const QString& problem) { reportFailure(tr("Cannot Record"), problem); });
     connect(haptics_, &HapticsController::recorded, this,
-            [this](const QString& file, qulonglong updates) {
-                statusBar()->showMessage(recordedText(file, updates), kMessageDuration);
+            [this](const QString& file, qulonglong updates, RecordingEnd end) {
+                statusBar()->showMessage(recordedText(file, updates, end), kMessageDuration);
             });
     connect(actions_->haptic_devices, &QAction::triggered, this, [this] {
         docks_->reveal(*docks_->haptics());

@@ -8,8 +8,10 @@
 #include "app/cli/number_checks.h"
 #include "app/cli/replay_notice.h"
 #include "app/cli/text_output.h"
+#include "core/raster/output_check.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
+#include "haptics/drivers/record_driver.h"
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/loop/rt_scope.h"
 #include "haptics/trace/session_recorder.h"
@@ -19,13 +21,11 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -56,7 +56,11 @@ public:
         is_asked_ = 0;
         takeSignals();
     }
-    ~OrderlyEnd() { setAll(SIG_DFL); }
+    ~OrderlyEnd()
+    {
+        setAll(SIG_DFL);
+        std::signal(SIGPIPE, broken_pipe_);
+    }
     OrderlyEnd(const OrderlyEnd&) = delete;
     OrderlyEnd& operator=(const OrderlyEnd&) = delete;
 
@@ -77,6 +81,8 @@ private:
         }
     }
 
+    // Where a recording goes into a pipe, its end is an error like a full disk.
+    void (*broken_pipe_)(int) = std::signal(SIGPIPE, SIG_IGN);
     static inline volatile std::sig_atomic_t is_asked_ = 0;
 };
 
@@ -128,6 +134,15 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
 
 Status runLoop(const Options& options)
 {
+    FilesInUse files{.maps = {options.map.path},
+                     .read = {},
+                     .written = {options.record, options.flight, recordedFile(options.device)}};
+    if (isReplay(options.device)) {
+        files.read.push_back(replayedFile(options.device));
+    }
+    if (Status checked = checkOutputs(files); !checked) {
+        return checked;
+    }
     std::optional<LoopMap> map;
     {
         LongJob job("reading");
@@ -136,12 +151,6 @@ Status runLoop(const Options& options)
             return std::move(opened).error();
         }
         map = std::move(opened).value();
-    }
-    std::error_code none; // where one of them is not there
-    if (isReplay(options.device) &&
-        std::filesystem::equivalent(replayedFile(options.device), options.record, none)) {
-        return Error{ErrorCode::Invalid,
-                     options.record + ": is what is replayed; record into another file"};
     }
     OrderlyEnd end;
     DeviceRegistry registry(builtInDrivers());

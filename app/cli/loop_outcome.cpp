@@ -91,6 +91,13 @@ Status LoopWatch::verdict(const std::string& uri) const
                      fmt::format("{}: did not become ready within {:.1f} s: {}", uri, ran_s,
                                  said("the device does not say why"))};
     }
+    if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceStale)] >=
+        std::min(state_.tick, ticks_max_)) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: every sample was too old or dated ahead; its driver has to "
+                                 "date them by CLOCK_MONOTONIC",
+                                 uri)};
+    }
     // What stopped working without taking the device along, such as a recording.
     if (!trouble_.empty() && last_reason_ != LetGoReason::DeviceUnready) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: {}", uri, trouble_)};

@@ -37,7 +37,8 @@ public:
     /// The last that was not NoTouch; None where forces were never let go.
     LetGoReason lastReason() const noexcept { return last_reason_; }
     /// Done, or what the device did instead of running to the end: it never ticked, never became
-    /// ready, was lost or fell silent; or, where it ran, what else went wrong. Begins with `uri`.
+    /// ready, never had a sample of now, was lost or fell silent; or, where it ran, what else went
+    /// wrong. Begins with `uri`.
     Status verdict(const std::string& uri) const;
 
 private:

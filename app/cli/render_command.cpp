@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/number_checks.h"
 #include "app/cli/scene.h"
+#include "core/raster/output_check.h"
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
 
@@ -79,6 +80,11 @@ Result<OrbitCamera> cameraFrom(const Options& options,
 
 Status runRender(const Options& options)
 {
+    if (Status checked =
+            checkOutputs({.maps = {options.map.path}, .read = {}, .written = {options.output}});
+        !checked) {
+        return checked;
+    }
     if (!hasPngName(options.output)) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: pictures are written as PNG; choose a name that ends in .png",

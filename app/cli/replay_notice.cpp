@@ -51,6 +51,9 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
     if (fit->beside_count > 0) {
         remarks.push_back(count + " and are put to its edge");
     }
+    if (fit->is_cut_short) {
+        remarks.emplace_back(kCutShortText);
+    }
     if (fit->other_map) {
         remarks.push_back(otherMapText(*fit->other_map));
     }

@@ -6,8 +6,13 @@
 #include "haptics/loop/ground_record.h"
 
 #include <string>
+#include <string_view>
 
 namespace marsview {
+
+/// Of a recording whose last line has no end, without a begin and an end.
+inline constexpr std::string_view kCutShortText =
+    "was cut short in its last line, which is left out";
 
 /// That a recording was made on another map, without a begin and an end.
 std::string otherMapText(const GroundPart& recorded);

@@ -7,9 +7,11 @@
 #include "app/cli/replay_notice.h"
 #include "app/cli/text_output.h"
 #include "app/cli/trace_subject.h"
+#include "core/raster/output_check.h"
 #include "haptics/trace/goal_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -146,6 +148,55 @@ private:
     std::size_t next_ground_ = 0;
 };
 
+// Of how many updates something else came than when they were recorded; nothing where the file does
+// not tell, or it was asked for.
+std::optional<std::size_t> differingCount(const Options& options,
+                                          const GoalRecording& recording,
+                                          const std::vector<TraceUpdate>& updates)
+{
+    if (recording.updates.empty() || options.model || options.radius_m || options.exaggeration) {
+        return std::nullopt;
+    }
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < updates.size(); ++i) {
+        const RecordedUpdate now{updates[i].state.is_in_contact, updates[i].proxy};
+        count += now == recording.updates[i] ? 0U : 1U;
+    }
+    return count;
+}
+
+// What is odd about the goals; empty where nothing is.
+std::string noticeOf(const Options& options,
+                     const GoalRecording& recording,
+                     const TraceSubject& subject,
+                     const std::vector<TraceUpdate>& updates)
+{
+    std::vector<std::string> remarks;
+    if (recording.is_cut_short) {
+        remarks.emplace_back(kCutShortText);
+    }
+    if (subject.dataset && !subject.is_recorded_on && !recording.parts.empty() &&
+        recording.parts.front().ground) {
+        remarks.push_back(otherMapText(*recording.parts.front().ground));
+    }
+    if (subject.dataset && !recording.goals.empty()) {
+        const Georeference& map = subject.dataset->georeference();
+        const GoalFrame frame({subject.dataset, &map}, 1.0);
+        if (std::all_of(recording.goals.begin(), recording.goals.end(),
+                        [&frame](const TracePoint& goal) { return frame.isClamped(goal); })) {
+            remarks.emplace_back("lies beside the map, and is put to its edge");
+        }
+    }
+    if (const auto count = differingCount(options, recording, updates); count && *count > 0) {
+        remarks.push_back(
+            fmt::format("has {} of {} updates that come out otherwise now; was it "
+                        "edited, or the map another one, or opened with other options?",
+                        *count, updates.size()));
+    }
+    return remarks.empty() ? std::string()
+                           : fmt::format("{}: {}", options.goals, fmt::join(remarks, "; it "));
+}
+
 nlohmann::ordered_json touchJson(const TraceTouch& touch)
 {
     nlohmann::ordered_json json = {{"model", contactModelName(touch.kind)},
@@ -159,6 +210,7 @@ nlohmann::ordered_json touchJson(const TraceTouch& touch)
 
 // That of the first goals; "parts" has all, where there are several.
 nlohmann::ordered_json summaryOf(const Options& options,
+                                 const GoalRecording& recording,
                                  const std::vector<TraceTouch>& touches,
                                  const std::vector<TraceUpdate>& updates)
 {
@@ -173,6 +225,9 @@ nlohmann::ordered_json summaryOf(const Options& options,
         summary["parts"] = parts;
     }
     summary.update(traceSummary(updates));
+    if (const auto count = differingCount(options, recording, updates)) {
+        summary["differing_updates"] = *count;
+    }
     return summary;
 }
 
@@ -193,6 +248,12 @@ Result<TraceSubject> openMesh(const Options& options, JobMonitor& monitor)
 
 Status runTrace(const Options& options)
 {
+    if (Status checked = checkOutputs({.maps = {options.map.path},
+                                       .read = {options.goals},
+                                       .written = {options.output, options.summary}});
+        !checked) {
+        return checked;
+    }
     const Result<std::string> text = readGoalText(options.goals);
     if (!text) {
         return text.error();
@@ -234,7 +295,7 @@ Status runTrace(const Options& options)
         return written;
     }
     if (!options.summary.empty()) {
-        const nlohmann::ordered_json summary = summaryOf(options, *touches, *updates);
+        const nlohmann::ordered_json summary = summaryOf(options, *recording, *touches, *updates);
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
         if (Status written = write(options.summary, summary.dump(2, ' ', false, replace) + "\n");
             !written) {
@@ -244,10 +305,9 @@ Status runTrace(const Options& options)
     if (subject->dataset) {
         printNotices(subject->dataset->info());
     }
-    if (subject->dataset && !subject->is_recorded_on && !recording->parts.empty() &&
-        recording->parts.front().ground) {
-        std::fprintf(stderr, "marsview-cli: %s: %s\n", asOneLine(options.goals).c_str(),
-                     otherMapText(*recording->parts.front().ground).c_str());
+    if (const std::string notice = noticeOf(options, *recording, *subject, *updates);
+        !notice.empty()) {
+        std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(notice).c_str());
     }
     return Done{};
 }

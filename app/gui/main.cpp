@@ -1,5 +1,6 @@
 // The program with the window: reads the command line and puts the parts together.
 
+#include "app/gui/end_by_signal.h"
 #include "core/session/open_map.h"
 #include "core/session/sample_map.h"
 #include "ui/graphics_check.h"
@@ -123,6 +124,7 @@ int runWindow(QApplication& application, const Options& options)
             Qt::QueuedConnection);
     }
     window.show();
+    const marsview::EndBySignal end_by_signal;
     return QApplication::exec();
 }
 

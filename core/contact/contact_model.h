@@ -73,7 +73,8 @@ public:
     virtual void terrainChanged() noexcept = 0;
 };
 
-/// These allocate; the model shares what the surface shares.
+/// These allocate; the model shares what the surface shares. No height is read: the terrain may be
+/// in the hands of another thread, the one that is going to place the model.
 std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const MeshSurface& surface,
                                                const ContactModelOptions& options = {});

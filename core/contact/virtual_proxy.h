@@ -53,8 +53,8 @@ class VirtualProxy : public SurfaceProxy<VirtualProxy<S>, S> {
     friend Base;
 
 public:
-    /// `radius_m` > 0 and finite. The sphere begins above S::initialContact(); the first update
-    /// places it.
+    /// `radius_m` > 0 and finite. The first update places the sphere; until then it is said to be
+    /// at S::initialContact().
     VirtualProxy(S surface, double radius_m)
         : Base(std::move(surface))
         , walls_(borderWalls(surface_))
@@ -62,9 +62,6 @@ public:
         , reach_m_(4.0 * radius_m)
     {
         MARSVIEW_CHECK(radius_m > 0.0 && std::isfinite(radius_m));
-        centre_ = lifted(surface_.point(surface_.initialContact()));
-        rest();
-        counters_ = {};
     }
 
     double radius() const noexcept { return radius_m_; }
@@ -76,6 +73,9 @@ public:
     {
         surface_ = std::move(surface);
         walls_ = borderWalls(surface_);
+        if (!Base::isPlaced()) {
+            return;
+        }
         const ScenePoint before = centre_;
         const auto under = surface_.goal(before);
         const bool is_in_contact = feature_ != ContactFeature::Free && under;
@@ -196,8 +196,14 @@ private:
         minimise(surface_.goalPoint(goal));
     }
 
-    ContactFeature feature() const noexcept { return feature_; }
-    ScenePoint position() const noexcept { return centre_; }
+    ContactFeature feature() const noexcept
+    {
+        return Base::isPlaced() ? feature_ : ContactFeature::Vertex;
+    }
+    ScenePoint position() const noexcept
+    {
+        return Base::isPlaced() ? centre_ : surface_.point(surface_.initialContact());
+    }
 
     // What double coordinates can tell apart, several times.
     static double ulps(const ScenePoint& p) noexcept

@@ -3,6 +3,8 @@
 
 #include "core/geo/frames.h"
 
+#include <cmath>
+
 namespace marsview {
 
 /// Grid to scene and back: an affine map in the plane; heights pass unchanged except for the
@@ -15,6 +17,20 @@ struct SceneFrame {
     double north_per_column = 0.0;
     double north_per_row = -1.0;
     constexpr bool operator==(const SceneFrame&) const = default;
+
+    /// Whether a map can lie so: numbers, cells of 1e-9 to 1e9 m that are no lines.
+    bool isSound() const noexcept
+    {
+        constexpr double kCellMMax = 1e9;
+        constexpr double kOriginMax = 1e12;
+        constexpr double kAreaM2Min = 1e-18;
+        const auto is_within = [](double value, double most) { return std::abs(value) <= most; };
+        const double area_m2 = east_per_column * north_per_row - east_per_row * north_per_column;
+        return is_within(origin.column, kOriginMax) && is_within(origin.row, kOriginMax) &&
+               is_within(east_per_column, kCellMMax) && is_within(east_per_row, kCellMMax) &&
+               is_within(north_per_column, kCellMMax) && is_within(north_per_row, kCellMMax) &&
+               std::abs(area_m2) >= kAreaM2Min;
+    }
 
     constexpr ScenePoint toScene(GridPoint grid, double scene_height_m) const noexcept
     {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace marsview {
 namespace {
@@ -101,7 +102,7 @@ DeviceStatus PluginDevice::read(DeviceSample& sample) noexcept
 {
     sample_.fill(std::byte{0});
     const DeviceStatus status =
-        statusOf(table_.read(device_, reinterpret_cast<MarsviewSample*>(sample_.data())));
+        noted(table_.read(device_, reinterpret_cast<MarsviewSample*>(sample_.data())));
     if (status != DeviceStatus::Fine) {
         return status;
     }
@@ -118,7 +119,25 @@ DeviceStatus PluginDevice::read(DeviceSample& sample) noexcept
 DeviceStatus PluginDevice::write(const Vec3& force_n) noexcept
 {
     const double force[3] = {force_n.x, force_n.y, force_n.z}; // NOLINT(modernize-avoid-c-arrays)
-    return statusOf(table_.write(device_, force));
+    return noted(table_.write(device_, force));
+}
+
+DeviceStatus PluginDevice::noted(std::uint32_t answer) noexcept
+{
+    if (answer > MARSVIEW_FINISHED) {
+        strange_answer_.store(answer, std::memory_order_relaxed);
+    }
+    return statusOf(answer);
+}
+
+std::string PluginDevice::trouble() const
+{
+    const std::uint32_t answer = strange_answer_.load(std::memory_order_relaxed);
+    return answer == 0 ? std::string()
+                       : fmt::format(
+                             "its plugin answers {}, which means nothing; the plugin has to "
+                             "be mended",
+                             answer);
 }
 
 bool PluginDevice::startClock(ClockTick tick, void* self) noexcept

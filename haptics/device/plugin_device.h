@@ -5,6 +5,7 @@
 #include "haptics/device/plugin_abi.h"
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,13 +40,17 @@ public:
     DeviceStatus write(const Vec3& force_n) noexcept override;
     bool startClock(ClockTick tick, void* self) noexcept override;
     void stopClock() noexcept override;
+    std::string trouble() const override;
 
 private:
+    DeviceStatus noted(std::uint32_t answer) noexcept;
+
     MarsviewPlugin table_;
     MarsviewDevice* device_;
     DeviceCapabilities capabilities_;
     ClockTick tick_ = nullptr;
     void* tick_self_ = nullptr;
+    std::atomic<std::uint32_t> strange_answer_{0}; // the last; 0: none
     // The plugin may have been compiled with a larger sample than this program knows.
     alignas(std::max_align_t) std::array<std::byte, kSampleBytesMax> sample_{};
 };

@@ -167,6 +167,15 @@ public:
 
 } // namespace
 
+std::string recordedFile(std::string_view uri)
+{
+    constexpr std::string_view kScheme = "record:";
+    const std::size_t comma = uri.find(',');
+    return uri.starts_with(kScheme) && comma != std::string_view::npos
+               ? std::string(uri.substr(kScheme.size(), comma - kScheme.size()))
+               : std::string();
+}
+
 std::unique_ptr<DeviceDriver> makeRecordDriver()
 {
     return std::make_unique<RecordDriver>();

@@ -4,6 +4,8 @@
 #include "haptics/device/device_driver.h"
 
 #include <memory>
+#include <string>
+#include <string_view>
 
 namespace marsview {
 
@@ -11,5 +13,8 @@ namespace marsview {
 /// "record:touch.csv,openhaptics:". A line each time the device is read, in its workspace; a
 /// session over a map is recorded by SessionRecorder instead. A thread of its own writes.
 std::unique_ptr<DeviceDriver> makeRecordDriver();
+
+/// The file that such a device writes; empty for any other device.
+std::string recordedFile(std::string_view uri);
 
 } // namespace marsview

@@ -78,8 +78,11 @@ struct PartColumns {
     static constexpr std::array<std::string_view, 5> kNames{"map", "part", "model", "radius_m",
                                                             "exaggeration"};
     std::array<std::size_t, kNames.size()> at{};
+    static constexpr std::array<std::string_view, 4> kUpdateNames{"contact", "proxy_x", "proxy_y",
+                                                                  "proxy_z"};
     std::optional<std::size_t> ground{}; // older recordings have none
-    std::size_t count = 0;               // of all columns
+    std::optional<std::array<std::size_t, kUpdateNames.size()>> update{};
+    std::size_t count = 0; // of all columns
 };
 
 std::vector<std::string_view> allWordsOf(std::string_view line)
@@ -95,21 +98,34 @@ std::vector<std::string_view> allWordsOf(std::string_view line)
     }
 }
 
-std::optional<PartColumns> partColumnsOf(std::string_view header)
+// Where each of the names is; nothing where one is missing.
+template <std::size_t N>
+std::optional<std::array<std::size_t, N>> placesOf(const std::array<std::string_view, N>& names,
+                                                   const std::vector<std::string_view>& words)
 {
-    const std::vector<std::string_view> words = allWordsOf(header);
-    PartColumns columns{.count = words.size()};
-    for (std::size_t i = 0; i < columns.at.size(); ++i) {
-        const auto found = std::find(words.begin(), words.end(), PartColumns::kNames[i]);
+    std::array<std::size_t, N> places{};
+    for (std::size_t i = 0; i < N; ++i) {
+        const auto found = std::find(words.begin(), words.end(), names[i]);
         if (found == words.end()) {
             return std::nullopt;
         }
-        columns.at[i] = static_cast<std::size_t>(found - words.begin());
+        places[i] = static_cast<std::size_t>(found - words.begin());
     }
-    const auto ground = std::find(words.begin(), words.end(), kGroundColumn);
-    if (ground != words.end()) {
-        columns.ground = static_cast<std::size_t>(ground - words.begin());
+    return places;
+}
+
+std::optional<PartColumns> partColumnsOf(std::string_view header)
+{
+    const std::vector<std::string_view> words = allWordsOf(header);
+    const auto places = placesOf(PartColumns::kNames, words);
+    if (!places) {
+        return std::nullopt;
     }
+    PartColumns columns{.at = *places, .count = words.size()};
+    if (const auto ground = placesOf(std::array{kGroundColumn}, words)) {
+        columns.ground = ground->front();
+    }
+    columns.update = placesOf(PartColumns::kUpdateNames, words);
     return columns;
 }
 
@@ -147,6 +163,18 @@ std::optional<GoalPart> parsePart(const std::vector<std::string_view>& words,
                     .kind = *kind,
                     .radius_m = *radius,
                     .exaggeration = *exaggeration};
+}
+
+std::optional<RecordedUpdate> parseUpdate(const std::vector<std::string_view>& words,
+                                          const std::array<std::size_t, 4>& places)
+{
+    const auto contact = countOf(words[places[0]]);
+    const auto x = parseNumber(words[places[1]]);
+    const auto y = parseNumber(words[places[2]]);
+    const auto z = parseNumber(words[places[3]]);
+    return contact && x && y && z ? std::optional(RecordedUpdate{.is_in_contact = *contact != 0,
+                                                                 .proxy = {*x, *y, *z}})
+                                  : std::nullopt;
 }
 
 bool isSamePart(const GoalPart& a, const GoalPart& b)
@@ -204,6 +232,10 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
     std::size_t columns = 0; // 0: no header yet; 4: or more
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::size_t end = rest.find('\n');
+        if (end == std::string_view::npos && part_columns) {
+            recording.is_cut_short = true; // recordings end their lines
+            break;
+        }
         const std::string_view line = trimmed(rest.substr(0, end));
         rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
         if (line.empty()) {
@@ -247,6 +279,16 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
                                     name, number, quoted(cell))};
                 }
                 addGround(recording, ground_parts, *records);
+            }
+            if (part_columns->update) {
+                const auto update = parseUpdate(words, *part_columns->update);
+                if (!update) {
+                    return Error{ErrorCode::Invalid,
+                                 fmt::format("{}: line {} does not tell contact, proxy_x, proxy_y "
+                                             "and proxy_z as a recording does",
+                                             name, number)};
+                }
+                recording.updates.push_back(*update);
             }
             if (recording.parts.empty() || !isSamePart(recording.parts.back(), *part)) {
                 part->first = recording.goals.size();

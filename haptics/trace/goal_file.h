@@ -38,15 +38,27 @@ struct GoalGround {
     std::vector<GroundRecord> records; // in order, without GroundParts
 };
 
+/// What came of a goal when it was recorded.
+struct RecordedUpdate {
+    bool is_in_contact = false;
+    TracePoint proxy{};
+
+    bool operator==(const RecordedUpdate&) const = default;
+};
+
 /// Goals, and what a recording tells of them.
 struct GoalRecording {
     std::vector<TracePoint> goals;
-    std::vector<GoalPart> parts;    // in order; none where the file is but goals
-    std::vector<GoalGround> ground; // in order; none where all of it was there
+    std::vector<GoalPart> parts;         // in order; none where the file is but goals
+    std::vector<GoalGround> ground;      // in order; none where all of it was there
+    std::vector<RecordedUpdate> updates; // of each goal; none where the file does not tell
+    /// The last line of a recording had no end, as when the program was killed or the disk was
+    /// full, and is left out.
+    bool is_cut_short = false;
 };
 
 /// The same as readGoals(), with the columns "map,part,model,radius_m,exaggeration", and with them
-/// "ground", where the header has them.
+/// "ground" and "contact,proxy_x,proxy_y,proxy_z", where the header has them.
 Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name);
 
 /// The text of a file, or of standard input where `path` is "-".

@@ -99,6 +99,7 @@ std::optional<GroundRecord> parseRecord(std::string_view word)
             reader.take(*value);
         }
         record = part;
+        return reader.isDone() && frame.isSound() ? std::optional(record) : std::nullopt;
     } else if (kind == "level") {
         GroundLevel level;
         reader.take(level.level);

@@ -64,6 +64,7 @@ Result<ReplayFit> replayFit(const std::string& file,
     return ReplayFit{.goal_count = recording->goals.size(),
                      .beside_count = static_cast<std::size_t>(beside),
                      .parts = std::move(recording->parts),
+                     .is_cut_short = recording->is_cut_short,
                      .other_map = other_map};
 }
 

@@ -23,6 +23,7 @@ struct ReplayFit {
     std::size_t goal_count = 0;
     std::size_t beside_count = 0; // goals beside every map: the loop puts them to an edge
     std::vector<GoalPart> parts;  // what they were aimed at with; none where the file does not say
+    bool is_cut_short = false;    // GoalRecording's
     std::optional<GroundPart> other_map{}; // the first part's that was recorded on none of the maps
 
     /// Nothing of it can be felt.

@@ -45,10 +45,18 @@ TraceFile::TraceFile(std::string path, File file)
 Result<TraceFile> TraceFile::begin(const std::string& path, std::string_view first_line)
 {
     // Emptied only once it is known to be nobody else's.
-    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    // A pipe that nobody reads is not waited for.
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
     if (descriptor < 0) {
-        return refusal(path, errno);
+        return errno == ENXIO
+                   ? Error{ErrorCode::Unreadable,
+                           fmt::format(
+                               "{}: is a pipe that nobody reads; begin to read it first, or "
+                               "choose another file",
+                               path)}
+                   : refusal(path, errno);
     }
+    fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
     if (isPlainFile(descriptor)) {
         if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             ::close(descriptor);

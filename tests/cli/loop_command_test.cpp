@@ -172,6 +172,51 @@ TEST(LoopCommand, WhatItRecordsOverTilesIsTheSameAgainInTrace)
     EXPECT_THAT(other.err, HasSubstr(" samples of Mars"));
 }
 
+TEST(LoopCommand, ARecordingThatWasCutShortIsReadUpToThere)
+{
+    const TempFolder folder;
+    const std::string whole = folder.file("whole.csv");
+    looped({"--device", "sim:swipe=5,lift_s=0.2", "--seconds", "0.5", "--record", whole});
+    const std::string text = readFile(whole);
+    const std::size_t lines = columnsOf(text, {0}).size();
+    // As where the program was killed, or the disk was full.
+    const std::string cut = folder.write("cut.csv", text.substr(0, text.size() - 3));
+    const ProgramOutput traced = runCli({"trace", bundledMars(), "--goals", cut});
+    EXPECT_EQ(traced.exit_status, 0) << traced.err;
+    EXPECT_EQ(columnsOf(traced.out, {0}).size(), lines - 1);
+    EXPECT_EQ(traced.err,
+              "marsview-cli: " + cut + ": was cut short in its last line, which is left out\n");
+    const ProgramOutput replayed =
+        runCli({"loop", bundledMars(), "--device", "replay:" + cut, "--seconds", "10"});
+    EXPECT_EQ(replayed.exit_status, 0) << replayed.err;
+    EXPECT_THAT(replayed.err, HasSubstr("was cut short in its last line"));
+}
+
+TEST(LoopCommand, WhatComesOutOtherwiseThanItWasRecordedIsToldOf)
+{
+    const TempFolder folder;
+    const std::string file = folder.file("touch.csv");
+    looped({"--device", "sim:swipe=5,lift_s=0.2", "--seconds", "0.5", "--record", file});
+    const auto trace = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"trace", bundledMars(), "--goals",
+                                           file,    "--summary",   folder.file("summary.json")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramOutput output = runCli(arguments);
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        return output.err;
+    };
+    const auto differing = [&] {
+        return nlohmann::json::parse(readFile(folder.file("summary.json")))
+            .value("differing_updates", -1);
+    };
+    EXPECT_EQ(trace({}), "");
+    EXPECT_EQ(differing(), 0);
+    EXPECT_THAT(trace({"--unit", "ft"}), HasSubstr(" updates that come out otherwise now"));
+    EXPECT_GT(differing(), 100);
+    EXPECT_EQ(trace({"--model", "god-object"}), "") << "this was asked for";
+    EXPECT_EQ(differing(), -1);
+}
+
 TEST(LoopCommand, RecordsADeviceAsItMeasures)
 {
     const TempFolder folder;
@@ -212,7 +257,7 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     const ProgramOutput millimetres = run("says_millimetres");
     EXPECT_THAT(millimetres.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
     const ProgramOutput lost = run("answers_nonsense");
-    EXPECT_THAT(lost.err, HasSubstr("its plugin says that it is gone; "));
+    EXPECT_THAT(lost.err, HasSubstr("its plugin answers 4711, which means nothing; "));
     const ProgramOutput unready = run("says_unready");
     EXPECT_THAT(unready.err, HasSubstr("did not become ready within 0.6 s: its plugin says that "
                                        "it is not ready, but not why; "));
@@ -294,8 +339,23 @@ TEST(LoopCommand, DoesNotRecordOverWhatItReplays)
     const ProgramOutput output =
         runCli({"loop", bundledMars(), "--device", "replay:" + goals + "#loop", "--record", goals});
     EXPECT_EQ(output.exit_status, 1);
-    EXPECT_THAT(output.err, HasSubstr("is what is replayed; record into another file"));
+    EXPECT_THAT(output.err, HasSubstr("is what is read; write into another file"));
     EXPECT_EQ(readFile(goals), "x,y,z\n0,0,0\n");
+    // Nor over its map, in whatever way.
+    const std::string map = folder.file("map.tif");
+    std::filesystem::copy_file(bundledMars(), map);
+    const std::string before = readFile(map);
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--device", "sim:", "--record", map},
+          {"--device", "sim:", "--flight", map},
+          {"--device", "record:" + map + ",sim:"}}) {
+        std::vector<std::string> arguments{"loop", map, "--seconds", "0.1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramOutput refused = runCli(arguments);
+        EXPECT_EQ(refused.exit_status, 1) << more.back();
+        EXPECT_THAT(refused.err, HasSubstr("is a map, or a part of one; write into another file"));
+        EXPECT_TRUE(readFile(map) == before) << more.back();
+    }
 }
 
 TEST(LoopCommand, SaysThatARecordingWasTouchedInAnotherWay)

@@ -41,6 +41,13 @@ void writeGoals(const QString& file,
     }
 }
 
+QByteArray contentOf(const QString& file)
+{
+    QFile content(file);
+    EXPECT_TRUE(content.open(QIODevice::ReadOnly));
+    return content.readAll();
+}
+
 class HapticsControllerTest : public HandWindowTest {
 protected:
     void SetUp() override
@@ -579,13 +586,21 @@ TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
     ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("a.csv"))));
     EXPECT_TRUE(haptics().isRecording());
     haptics().setContactModel(ContactModelKind::GodObject);
-    EXPECT_FALSE(haptics().isRecording());
-    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("b.csv"))));
+    view().setExaggeration(2.0 * view().exaggeration());
+    EXPECT_TRUE(haptics().isRecording()) << "it is the same map";
+    QSignalSpy recorded(&haptics(), &HapticsController::recorded);
     ASSERT_TRUE(openAndWait(*window_, maps_.hill(QStringLiteral("other.asc"))));
     EXPECT_FALSE(haptics().isRecording());
+    ASSERT_EQ(recorded.count(), 1);
+    EXPECT_EQ(recorded[0][2].value<RecordingEnd>(), RecordingEnd::WithItsMap);
     const Status refused = haptics().startRecording(QStringLiteral("/no/such/folder/a.csv"));
     EXPECT_FALSE(refused);
     EXPECT_FALSE(haptics().isRecording());
+    const QString map = maps_.path(QStringLiteral("other.asc"));
+    const QByteArray before = contentOf(map);
+    EXPECT_FALSE(haptics().startRecording(map)) << "onto the map itself";
+    haptics().saveTicks(haptics().lastTicks(), map);
+    EXPECT_EQ(contentOf(map), before);
     EXPECT_TRUE(haptics().loop()->isRunning()); // it is felt all the same
 }
 

@@ -1,12 +1,18 @@
 // The program from outside.
 
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 
+#include <QFile>
 #include <QImage>
 #include <QProcess>
 #include <QProcessEnvironment>
+#include <QTest>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
 
 namespace marsview {
 namespace {
@@ -88,6 +94,34 @@ TEST(Program, SurvivesAPlatformWithoutOpenGl)
         EXPECT_EQ(outcome.exit_code, 1);
         EXPECT_TRUE(outcome.errors.startsWith(QStringLiteral("marsview: ")));
     }
+}
+
+// Whether the process handles SIGTERM itself; from then on it may be asked to end.
+bool handlesTerm(qint64 process)
+{
+    QFile status(QStringLiteral("/proc/%1/status").arg(process));
+    if (!status.open(QIODevice::ReadOnly)) {
+        return false;
+    }
+    const QList<QByteArray> lines = status.readAll().split('\n');
+    return std::any_of(lines.begin(), lines.end(), [](const QByteArray& line) {
+        constexpr qulonglong kTerm = 1ULL << (SIGTERM - 1);
+        return line.startsWith("SigCgt:") &&
+               (line.mid(7).trimmed().toULongLong(nullptr, 16) & kTerm);
+    });
+}
+
+TEST(Program, EndsInOrderWhereItIsToldToBySignal)
+{
+    const TestMaps maps;
+    QProcess process;
+    process.start(QStringLiteral(MARSVIEW_PROGRAM), {maps.hill()});
+    ASSERT_TRUE(process.waitForStarted());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return handlesTerm(process.processId()); }, kTimeout));
+    process.terminate();
+    ASSERT_TRUE(process.waitForFinished(kTimeout));
+    EXPECT_EQ(process.exitStatus(), QProcess::NormalExit);
+    EXPECT_EQ(process.exitCode(), 0);
 }
 
 TEST(Program, AnswersWithoutADisplay)

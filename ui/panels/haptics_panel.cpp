@@ -64,12 +64,15 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     auto* layout = new QVBoxLayout(content);
     layout->setContentsMargins(6, 6, 6, 6);
     layout->setSpacing(4);
+    // What has to be found at once, and what is pressed, stays where it is: texts that come and go
+    // are below it.
+    makeStop(*layout);
     makeDevices(*layout);
     makeForce(*layout);
+    makeRecording(*layout);
+    layout->addSpacing(6);
     times_ = new LoopTimes(this);
     layout->addWidget(times_);
-    layout->addSpacing(6);
-    makeRecording(*layout);
     layout->addStretch(1);
     scroll->setWidget(content);
     auto* outer = new QVBoxLayout(this);
@@ -88,8 +91,8 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     connect(&controller_, &HapticsController::ticksSaved, recording_,
             [this](const SavedTicks& saved) { recording_->setText(savedTicksText(saved)); });
     connect(&controller_, &HapticsController::recorded, this,
-            [this](const QString& file, qulonglong updates) {
-                recording_->setText(recordedText(file, updates));
+            [this](const QString& file, qulonglong updates, RecordingEnd end) {
+                recording_->setText(recordedText(file, updates, end));
             });
     showDevices();
     showConnection();
@@ -127,7 +130,7 @@ void HapticsPanel::makeDevices(QBoxLayout& layout)
     layout.addSpacing(6);
 }
 
-void HapticsPanel::makeForce(QBoxLayout& layout)
+void HapticsPanel::makeStop(QBoxLayout& layout)
 {
     stop_ = new QPushButton(this);
     stop_->setObjectName(QStringLiteral("emergencyStop"));
@@ -138,7 +141,11 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     connect(stop_, &QPushButton::clicked, this,
             [this] { controller_.setStopped(!controller_.isStopped()); });
     layout.addWidget(stop_);
+    layout.addSpacing(6);
+}
 
+void HapticsPanel::makeForce(QBoxLayout& layout)
+{
     force_ = new QProgressBar(this);
     force_->setObjectName(QStringLiteral("force"));
     force_->setAccessibleName(tr("Force on the hand"));

@@ -47,6 +47,7 @@ protected:
 
 private:
     void makeDevices(QBoxLayout& layout);
+    void makeStop(QBoxLayout& layout);
     void makeForce(QBoxLayout& layout);
     void makeRecording(QBoxLayout& layout);
     void showDevices();

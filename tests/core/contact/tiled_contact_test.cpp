@@ -25,6 +25,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -339,6 +340,41 @@ TEST_P(TiledContact, ProxyStaysOnWhatIsFeltAndMovesNoFasterThanTheRateWhenTilesA
         EXPECT_GT(terrain.misses().count, 100U);
     }
     EXPECT_TRUE(may_float || fastest > 0.1) << "nothing was blended";
+}
+
+// A terrain that another thread may be changing.
+class UntouchedTerrain final : public TiledTerrain {
+public:
+    explicit UntouchedTerrain(std::shared_ptr<const TileHeights> heights)
+        : TiledTerrain(std::move(heights))
+    {}
+    bool isVoid(std::size_t /*column*/, std::size_t /*row*/) const noexcept override
+    {
+        return false;
+    }
+    int readCount() const { return read_count_; }
+
+private:
+    double sampleElsewhere(std::size_t /*column*/, std::size_t /*row*/) const noexcept override
+    {
+        ++read_count_;
+        return 0.0;
+    }
+    mutable int read_count_ = 0;
+};
+
+TEST_P(TiledContact, IsMadeWithoutReadingAHeight)
+{
+    for (const Samples samples : {Samples::Int16, Samples::Float32, Samples::UInt16}) {
+        const auto terrain =
+            std::make_shared<const UntouchedTerrain>(fractalMap(300, 300, samples, 1.0).heights);
+        const auto model = makeContactModel(
+            GetParam(), TiledHeightfieldSurface(terrain, SceneFrame{.origin = {150.0, 150.0}}, 2.0),
+            {.radius_m = 0.5});
+        EXPECT_EQ(terrain->readCount(), 0);
+        model->update({0.0, 0.0, -1.0});
+        EXPECT_GT(terrain->readCount(), 0);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, TiledContact, testing::ValuesIn(kContactModelKinds), kindName);

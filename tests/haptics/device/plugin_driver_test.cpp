@@ -294,6 +294,7 @@ TEST(PluginDriver, TakesUnknownAnswersForALostDevice)
     ASSERT_TRUE(device) << device.error().message;
     DeviceSample sample;
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
+    EXPECT_THAT((*device)->trouble(), HasSubstr("which means nothing"));
 }
 
 TEST(PluginDriver, LetsADeviceThatOwnsTheClockDriveTheTick)

@@ -21,7 +21,7 @@ TEST(GroundText, ReadsBackWhatItWritesToTheBit)
                    .frame = {.origin = {kThird, -1e-300},
                              .east_per_column = std::nextafter(200.0, 0.0),
                              .east_per_row = -0.0,
-                             .north_per_column = 1e22,
+                             .north_per_column = 1e-22,
                              .north_per_row = -kThird}},
         GroundLevel{23, {4'000'000, 17, 8, 8, ~std::uint64_t{0}}},
         GroundLevel{0, {0, 0, 1, 1, 0}},
@@ -40,10 +40,28 @@ TEST(GroundText, ReadsBackWhatItWritesToTheBit)
 
 TEST(GroundText, RefusesWhatIsNoGround)
 {
-    for (const char* cell :
-         {"felt", "felt/", "felt/-1", "felt/1/2", "fell/1", "level/0/0/0/1/1", "level/0/0/0/1/1/g",
-          "level/0/0/0/1/1/1ffffffffffffffff", "tile/0/0/0/1", "tile/0/0/0/-0.5", "tile/0/0/0/nan",
-          "tile/256/0/0/0.5", "part/1/2/3", " felt/1", "felt/1  felt/2", "/", "nan"}) {
+    for (const char* cell : {"felt",
+                             "felt/",
+                             "felt/-1",
+                             "felt/1/2",
+                             "fell/1",
+                             "level/0/0/0/1/1",
+                             "level/0/0/0/1/1/g",
+                             "level/0/0/0/1/1/1ffffffffffffffff",
+                             "tile/0/0/0/1",
+                             "tile/0/0/0/-0.5",
+                             "tile/0/0/0/nan",
+                             "tile/256/0/0/0.5",
+                             "part/1/2/3",
+                             "part/1/40/30/1.0/1.0/0.0/0.0/0.0/0.0/0.0/-1.0",
+                             "part/1/40/30/1.0/1.0/nan/0.0/1.0/0.0/0.0/-1.0",
+                             "part/1/40/30/1.0/1.0/0.0/0.0/1e308/0.0/0.0/-1.0",
+                             "part/1/40/30/1.0/1.0/0.0/inf/1.0/0.0/0.0/-1.0",
+                             "part/1/40/30/1.0/1.0/0.0/0.0/1.0/nan/0.0/-1.0",
+                             " felt/1",
+                             "felt/1  felt/2",
+                             "/",
+                             "nan"}) {
         EXPECT_FALSE(parseGround(cell)) << cell;
     }
 }

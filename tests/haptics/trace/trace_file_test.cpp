@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <sys/stat.h>
 #include <thread>
 
 namespace marsview::test {
@@ -26,6 +27,16 @@ std::string refusalOf(const std::string& path)
 }
 
 } // namespace
+
+TEST(TraceFile, DoesNotWaitForAPipeThatNobodyReads)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("pipe");
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    EXPECT_EQ(refusalOf(path), path +
+                                   ": is a pipe that nobody reads; begin to read it first, or "
+                                   "choose another file");
+}
 
 TEST(TraceFile, HoldsWhatWasWritten)
 {

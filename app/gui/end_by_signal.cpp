@@ -1,0 +1,58 @@
+#include "app/gui/end_by_signal.h"
+
+#include <QCoreApplication>
+
+#include <cerrno>
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace marsview {
+namespace {
+
+constexpr std::array kSignals{SIGTERM, SIGINT, SIGHUP};
+
+} // namespace
+
+volatile std::sig_atomic_t EndBySignal::told_ = -1;
+
+EndBySignal::EndBySignal()
+{
+    if (pipe2(pipe_.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
+        return; // then they end it as they always do
+    }
+    told_ = pipe_[1];
+    notifier_ = std::make_unique<QSocketNotifier>(pipe_[0], QSocketNotifier::Read);
+    QObject::connect(notifier_.get(), &QSocketNotifier::activated, [this] {
+        notifier_->setEnabled(false); // once is enough
+        QCoreApplication::quit();
+    });
+    for (const int number : kSignals) {
+        if (std::signal(number, &EndBySignal::tell) == SIG_IGN) {
+            std::signal(number, SIG_IGN); // as under nohup
+        }
+    }
+}
+
+EndBySignal::~EndBySignal()
+{
+    if (told_ < 0) {
+        return;
+    }
+    for (const int number : kSignals) {
+        std::signal(number, SIG_DFL);
+    }
+    told_ = -1;
+    notifier_.reset();
+    close(pipe_[0]);
+    close(pipe_[1]);
+}
+
+void EndBySignal::tell(int /*number*/)
+{
+    const int before = errno;
+    const char any = 0;
+    [[maybe_unused]] const auto written = write(told_, &any, 1);
+    errno = before;
+}
+
+} // namespace marsview

@@ -1,0 +1,70 @@
+#include "core/raster/output_check.h"
+
+#include "core/raster/source_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <system_error>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Also of files that are not there yet.
+bool isSameFile(const std::string& a, const std::string& b)
+{
+    std::error_code none;
+    if (fs::equivalent(a, b, none)) {
+        return true;
+    }
+    const fs::path whole_a = fs::weakly_canonical(a, none);
+    const fs::path whole_b = fs::weakly_canonical(b, none);
+    return !whole_a.empty() && whole_a == whole_b;
+}
+
+bool isIn(const std::vector<std::string>& files, const std::string& path)
+{
+    return std::any_of(files.begin(), files.end(),
+                       [&path](const std::string& file) { return isSameFile(file, path); });
+}
+
+} // namespace
+
+Status checkOutputs(const FilesInUse& files)
+{
+    std::vector<std::string> map_files = files.maps;
+    std::vector<std::string> written;
+    bool has_sources = false;
+    for (const std::string& path : files.written) {
+        if (path.empty()) {
+            continue;
+        }
+        std::error_code none;
+        if (!has_sources && fs::exists(path, none)) { // otherwise it is part of no map
+            has_sources = true;
+            for (const std::string& map : files.maps) {
+                const std::vector<std::string> sources = sourceFilesOf(map);
+                map_files.insert(map_files.end(), sources.begin(), sources.end());
+            }
+        }
+        if (isIn(map_files, path)) {
+            return Error{
+                ErrorCode::Invalid,
+                fmt::format("{}: is a map, or a part of one; write into another file", path)};
+        }
+        if (isIn(files.read, path)) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: is what is read; write into another file", path)};
+        }
+        if (isIn(written, path)) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: would be written twice; give two files", path)};
+        }
+        written.push_back(path);
+    }
+    return Done{};
+}
+
+} // namespace marsview

@@ -1,0 +1,54 @@
+#include "core/raster/output_check.h"
+#include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(OutputCheck, RefusesWhatIsReadByWhateverName)
+{
+    const TempFolder folder;
+    const std::string map = folder.file("map.tif");
+    fs::copy_file(bundledMars(), map);
+    fs::create_symlink(map, folder.file("link.tif"));
+    fs::create_hard_link(map, folder.file("hard.tif"));
+    const std::string goals = folder.write("goals.csv", "x,y,z\n");
+    const auto check = [&](const std::vector<std::string>& written) {
+        const Status status = checkOutputs({.maps = {map}, .read = {goals}, .written = written});
+        return status ? std::string() : status.error().message;
+    };
+    EXPECT_EQ(check({"", folder.file("new.csv"), folder.file("other.csv")}), "");
+    EXPECT_EQ(check({folder.write("old.csv", "")}), "");
+    for (const char* name : {"map.tif", "link.tif", "hard.tif", "./map.tif"}) {
+        EXPECT_THAT(check({folder.file(name)}), HasSubstr("is a map, or a part of one")) << name;
+    }
+    EXPECT_THAT(check({goals}), HasSubstr("goals.csv: is what is read; write into another file"));
+    EXPECT_THAT(check({folder.file("new.csv"), folder.file("./new.csv")}),
+                HasSubstr("would be written twice; give two files"));
+}
+
+TEST(OutputCheck, KnowsThePartsOfAMap)
+{
+    const TempFolder folder;
+    const std::string part = folder.file("part.tif");
+    fs::copy_file(bundledMars(), part);
+    const std::string whole = folder.file("whole.vrt");
+    runTool({"gdalbuildvrt", "-q", whole, part});
+    const Status status = checkOutputs({.maps = {whole}, .read = {}, .written = {part}});
+    ASSERT_FALSE(status);
+    EXPECT_THAT(status.error().message, HasSubstr("part.tif: is a map, or a part of one"));
+}
+
+} // namespace
+} // namespace marsview::test
