@@ -56,7 +56,8 @@ std::optional<std::string> impossibilityOf(const DeviceCapabilities& c)
           Bound{"largest stiffness", c.stiffness_n_per_m_max, "N/m", 0.0, kStiffnessMax},
           Bound{"rate", c.rate_hz, "Hz", kRateHzMin, kRateHzMax}}) {
         if (isOutside(bound.value, bound.low, bound.high)) {
-            return fmt::format("states a {} of {} {}", bound.what, bound.value, bound.unit);
+            const double value = std::isnan(bound.value) ? std::abs(bound.value) : bound.value;
+            return fmt::format("states a {} of {} {}", bound.what, value, bound.unit);
         }
     }
     if (c.force_n_continuous > c.force_n_peak) {

@@ -86,8 +86,9 @@ TEST(WindowFeeder, EverythingOnTheHandsWayIsThereInTheEnd)
         EXPECT_EQ(servo.terrain()->sample(column, row), map.filled->sample(column, row));
     }
     feeder->stop();
-    EXPECT_GT(feeder->statistics().tiles_put, 30U);
-    EXPECT_GT(feeder->statistics().published, 4U);
+    // Around the first three places lie 14 tiles; for the fourth the window has to come back.
+    EXPECT_GE(feeder->statistics().tiles_put, 14U);
+    EXPECT_GE(feeder->statistics().published, 4U);
     EXPECT_GT(feeder->statistics().tiles_per_s, 0.0);
 }
 

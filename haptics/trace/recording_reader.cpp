@@ -1,0 +1,151 @@
+#include "haptics/trace/recording_reader.h"
+
+#include "core/base/plain_number.h"
+#include "haptics/trace/ground_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+namespace marsview {
+namespace {
+
+// Where each of the names is; nothing where one is missing.
+template <std::size_t N>
+std::optional<std::array<std::size_t, N>> placesOf(const std::array<std::string_view, N>& names,
+                                                   const TableWords& header)
+{
+    std::array<std::size_t, N> places{};
+    for (std::size_t i = 0; i < N; ++i) {
+        const auto found = std::find(header.begin(), header.end(), names[i]);
+        if (found == header.end()) {
+            return std::nullopt;
+        }
+        places[i] = static_cast<std::size_t>(found - header.begin());
+    }
+    return places;
+}
+
+std::optional<std::uint64_t> countOf(std::string_view word)
+{
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool is_whole = error == std::errc() && end == word.data() + word.size();
+    return is_whole ? std::optional(value) : std::nullopt;
+}
+
+bool isScale(const std::optional<double>& value)
+{
+    constexpr double kMax = 1e12;
+    return value && *value > 0.0 && *value < kMax;
+}
+
+bool isSamePart(const GoalPart& a, const GoalPart& b)
+{
+    return a.map == b.map && a.part == b.part && a.kind == b.kind && a.radius_m == b.radius_m &&
+           a.exaggeration == b.exaggeration;
+}
+
+} // namespace
+
+std::optional<RecordingReader> RecordingReader::forHeader(const TableWords& header)
+{
+    const auto part_at = placesOf(kPartNames, header);
+    if (!part_at) {
+        return std::nullopt;
+    }
+    RecordingReader reader;
+    reader.part_at_ = *part_at;
+    reader.update_at_ = placesOf(kUpdateNames, header);
+    if (const auto ground = placesOf(std::array{kGroundColumn}, header)) {
+        reader.ground_at_ = ground->front();
+    }
+    reader.count_ = header.size();
+    return reader;
+}
+
+std::string
+RecordingReader::read(const TableWords& words, std::size_t number, GoalRecording& recording)
+{
+    std::optional<GoalPart> part = partIn(words);
+    if (!part) {
+        return "does not tell map, part, model, radius_m and exaggeration as a recording does";
+    }
+    if (ground_at_) {
+        const auto records = parseGround(words[*ground_at_]);
+        if (!records) {
+            return fmt::format("has the ground \"{}\", which is none that a recording tells of",
+                               quotedWord(words[*ground_at_]));
+        }
+        addGround(*records, recording);
+    }
+    if (update_at_) {
+        const auto update = updateIn(words);
+        if (!update) {
+            return "does not tell contact, proxy_x, proxy_y and proxy_z as a recording does";
+        }
+        recording.updates.push_back(*update);
+    }
+    if (recording.parts.empty() || !isSamePart(recording.parts.back(), *part)) {
+        part->first = recording.goals.size();
+        part->line = number;
+        if (const auto ground = ground_parts_.find(part->part); ground != ground_parts_.end()) {
+            part->ground = ground->second;
+        }
+        recording.parts.push_back(*part);
+    }
+    return {};
+}
+
+std::optional<GoalPart> RecordingReader::partIn(const TableWords& words) const
+{
+    if (words.size() != count_) {
+        return std::nullopt;
+    }
+    const auto map = countOf(words[part_at_[0]]);
+    const auto part = countOf(words[part_at_[1]]);
+    const auto kind = contactModelKind(words[part_at_[2]]);
+    const auto radius = parseNumber(words[part_at_[3]]);
+    const auto exaggeration = parseNumber(words[part_at_[4]]);
+    if (!map || !part || !kind || !isScale(radius) || !isScale(exaggeration)) {
+        return std::nullopt;
+    }
+    return GoalPart{.map = *map,
+                    .part = *part,
+                    .kind = *kind,
+                    .radius_m = *radius,
+                    .exaggeration = *exaggeration};
+}
+
+std::optional<RecordedUpdate> RecordingReader::updateIn(const TableWords& words) const
+{
+    const auto contact = countOf(words[(*update_at_)[0]]);
+    const auto x = parseNumber(words[(*update_at_)[1]]);
+    const auto y = parseNumber(words[(*update_at_)[2]]);
+    const auto z = parseNumber(words[(*update_at_)[3]]);
+    if (!contact || !x || !y || !z) {
+        return std::nullopt;
+    }
+    return RecordedUpdate{.is_in_contact = *contact != 0, .proxy = {*x, *y, *z}};
+}
+
+// Keeps what is said of parts with the parts, the rest with the goal that comes next.
+void RecordingReader::addGround(const std::vector<GroundRecord>& records, GoalRecording& recording)
+{
+    GoalGround ground{.goal = recording.goals.size(), .records = {}};
+    for (const GroundRecord& record : records) {
+        if (const auto* part = std::get_if<GroundPart>(&record)) {
+            ground_parts_[part->part] = *part;
+        } else {
+            ground.records.push_back(record);
+        }
+    }
+    if (!ground.records.empty()) {
+        recording.ground.push_back(std::move(ground));
+    }
+}
+
+} // namespace marsview

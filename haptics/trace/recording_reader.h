@@ -1,0 +1,46 @@
+// The columns that a recording has besides its goals.
+#pragma once
+
+#include "haptics/loop/ground_record.h"
+#include "haptics/trace/goal_file.h"
+#include "haptics/trace/table_words.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace marsview {
+
+/// Reads them line by line into a GoalRecording.
+class RecordingReader {
+public:
+    /// Nothing where the header does not have the columns "map,part,model,radius_m,exaggeration".
+    static std::optional<RecordingReader> forHeader(const TableWords& header);
+
+    /// A line of the file, the `number`th from 1, whose goal is the next of `recording`. What is
+    /// wrong with the line, to be put after its number; empty where nothing is.
+    std::string read(const TableWords& words, std::size_t number, GoalRecording& recording);
+
+private:
+    static constexpr std::array<std::string_view, 5> kPartNames{"map", "part", "model", "radius_m",
+                                                                "exaggeration"};
+    static constexpr std::array<std::string_view, 4> kUpdateNames{"contact", "proxy_x", "proxy_y",
+                                                                  "proxy_z"};
+
+    std::optional<GoalPart> partIn(const TableWords& words) const;
+    std::optional<RecordedUpdate> updateIn(const TableWords& words) const;
+    void addGround(const std::vector<GroundRecord>& records, GoalRecording& recording);
+
+    // Where columns are; older recordings do not have all.
+    std::array<std::size_t, kPartNames.size()> part_at_{};
+    std::optional<std::array<std::size_t, kUpdateNames.size()>> update_at_;
+    std::optional<std::size_t> ground_at_;
+    std::size_t count_ = 0; // of all columns
+    std::map<std::uint64_t, GroundPart> ground_parts_;
+};
+
+} // namespace marsview
