@@ -452,8 +452,8 @@ Status HapticsController::startRecording(const QString& file)
 Status HapticsController::checkWritable(const QString& file) const
 {
     FilesInUse files{.maps = {}, .read = {}, .written = {file.toStdString()}};
-    for (const SceneMap& map : view_.ground().maps()) {
-        files.maps.push_back(map.map.dataset->spec().path);
+    if (maps_in_use_) {
+        files.maps = maps_in_use_();
     }
     if (isReplaying()) {
         files.read.push_back(replayedFile(uri_.toStdString()));

@@ -15,8 +15,11 @@
 #include <QTimer>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -57,6 +60,11 @@ public:
     /// Looks for devices every few seconds while nothing is connected, and connects anew to one
     /// that was lost and is there again.
     void setLooking(bool is_looking);
+    /// Tells the files of all maps that are open, shown or not: nothing is recorded over them.
+    void setMapsInUse(std::function<std::vector<std::string>()> paths)
+    {
+        maps_in_use_ = std::move(paths);
+    }
 
     /// In place of what is connected. Where that is a device and `uri` a recording, the device is
     /// connected again when the recording has ended.
@@ -180,6 +188,7 @@ private:
     bool isMapWanted() const { return hand_map_ != nullptr; }
 
     TerrainView& view_;
+    std::function<std::vector<std::string>()> maps_in_use_;
     DeviceFinder* finder_ = nullptr;
     std::vector<FoundDevice> devices_;
     QTimer look_timer_; // runs only while nothing is connected and somebody looks

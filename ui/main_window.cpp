@@ -44,7 +44,9 @@
 #include <QStatusBar>
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -362,6 +364,13 @@ void MainWindow::connectView()
 
 void MainWindow::connectHaptics()
 {
+    haptics_->setMapsInUse([this] {
+        std::vector<std::string> paths;
+        for (const Layer& layer : session().layers) {
+            paths.push_back(layer.dataset->spec().path);
+        }
+        return paths;
+    });
     connect(haptics_, &HapticsController::connectionChanged, this, &MainWindow::showHaptics);
     connect(haptics_, &HapticsController::connectionChanged, this, [this] {
         if (isRemembered()) {

@@ -154,7 +154,9 @@ std::optional<std::size_t> differingCount(const Options& options,
                                           const GoalRecording& recording,
                                           const std::vector<TraceUpdate>& updates)
 {
-    if (recording.updates.empty() || options.model || options.radius_m || options.exaggeration) {
+    // A flight record, which tells no ground, begins in the middle of a touch.
+    if (recording.updates.empty() || !recording.parts.front().ground || options.model ||
+        options.radius_m || options.exaggeration) {
         return std::nullopt;
     }
     std::size_t count = 0;
@@ -249,7 +251,7 @@ Result<TraceSubject> openMesh(const Options& options, JobMonitor& monitor)
 Status runTrace(const Options& options)
 {
     if (Status checked = checkOutputs({.maps = {options.map.path},
-                                       .read = {options.goals},
+                                       .read = {options.goals == "-" ? "" : options.goals},
                                        .written = {options.output, options.summary}});
         !checked) {
         return checked;

@@ -21,6 +21,7 @@ EndBySignal::EndBySignal()
         return; // then they end it as they always do
     }
     told_ = pipe_[1];
+    std::signal(SIGPIPE, SIG_IGN); // a recording into a pipe fails like one onto a full disk
     notifier_ = std::make_unique<QSocketNotifier>(pipe_[0], QSocketNotifier::Read);
     QObject::connect(notifier_.get(), &QSocketNotifier::activated, [this] {
         notifier_->setEnabled(false); // once is enough

@@ -10,7 +10,8 @@
 namespace marsview {
 
 /// While it lives, SIGTERM, SIGINT and SIGHUP quit the application as its menu does: devices are
-/// let go of and closed, recordings finished, and the next start finds nothing odd. One at a time,
+/// let go of and closed, recordings finished, and the next start finds nothing odd. Pipes that
+/// nobody reads any more end nothing. One at a time,
 /// in the GUI's thread.
 class EndBySignal {
 public:

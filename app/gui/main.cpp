@@ -99,6 +99,7 @@ int runWindow(QApplication& application, const Options& options)
         window_options.geometry = WindowOptions::Geometry::Fixed;
         window_options.failures = WindowOptions::Failures::BySignalOnly;
     }
+    const marsview::EndBySignal end_by_signal; // outlives the window, which takes time to close
     marsview::MainWindow window(window_options);
     if (options.size.isValid()) {
         window.resize(options.size);
@@ -124,7 +125,6 @@ int runWindow(QApplication& application, const Options& options)
             Qt::QueuedConnection);
     }
     window.show();
-    const marsview::EndBySignal end_by_signal;
     return QApplication::exec();
 }
 

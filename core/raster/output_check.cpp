@@ -38,13 +38,17 @@ Status checkOutputs(const FilesInUse& files)
     std::vector<std::string> written;
     bool has_sources = false;
     for (const std::string& path : files.written) {
-        if (path.empty()) {
-            continue;
-        }
         std::error_code none;
-        if (!has_sources && fs::exists(path, none)) { // otherwise it is part of no map
+        const bool is_there = fs::exists(path, none);
+        if (path.empty() || (is_there && !fs::is_regular_file(path, none))) {
+            continue; // a terminal or /dev/null loses nothing
+        }
+        if (!has_sources && is_there) { // otherwise it is part of no map
             has_sources = true;
             for (const std::string& map : files.maps) {
+                if (!fs::exists(map, none)) {
+                    continue; // at a server: nothing here is a part of it
+                }
                 const std::vector<std::string> sources = sourceFilesOf(map);
                 map_files.insert(map_files.end(), sources.begin(), sources.end());
             }

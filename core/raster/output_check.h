@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-/// What somebody reads and writes; empty paths are none.
+/// What somebody reads and writes; empty paths are none, and devices lose nothing.
 struct FilesInUse {
     std::vector<std::string> maps; // each with all the files that it is made of
     std::vector<std::string> read;

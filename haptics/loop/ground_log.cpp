@@ -43,7 +43,8 @@ GroundLog::tell(const ServoMap& map, bool was_told, Queue& queue) noexcept
     }
     const bool was_blending = is_blending_;
     is_blending_ = !terrain.blend().isEmpty();
-    if (has_changed || is_blending_ || was_blending) {
+    // A blend that moves has been told.
+    if (has_changed || is_blending_ != was_blending) {
         terrain.blend().eachTile([&put](const TileId& id, double weight) {
             put(GroundTile{id, weight});
         });

@@ -16,9 +16,8 @@ namespace marsview {
 /// waits.
 class GroundLog {
 public:
-    /// Of GroundRecords: 160 ticks of the most that one can have to tell. A recorder looks
-    /// every 20.
-    using Queue = SpscQueue<GroundRecord, 1U << 14>;
+    /// 268 ticks of the most that one can have to tell. A recorder looks every 20 ms.
+    using Queue = SpscQueue<GroundRecord, 1U << 15>;
 
     /// What comes next is told from the beginning.
     void forget() noexcept { *this = {}; }

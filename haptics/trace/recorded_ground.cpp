@@ -55,7 +55,8 @@ Status RecordedGround::follow(const GroundRecord& record)
         shown_[level->level] = shown;
         is_other_window_ = true;
     } else if (const auto* tile = std::get_if<GroundTile>(&record)) {
-        if (!layout.contains(tile->id)) {
+        // The coarsest is always felt in full.
+        if (tile->id.level >= layout.topLevel() || !layout.contains(tile->id)) {
             return notThere();
         }
         blend_.put(layout, tile->id, tile->weight);

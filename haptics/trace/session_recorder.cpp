@@ -105,10 +105,11 @@ void SessionRecorder::run(const std::stop_token& stop)
 
 void SessionRecorder::drain()
 {
+    takeGround();
     TickRecord record;
     while (loop_.takeRecord(record)) {
-        takeGround(record.ground_records);
-        if (first_serial_ != 0 && record.ground.serial != first_serial_) {
+        addGround(record.ground_records);
+        if (record.ground.serial < first_serial_) { // they only grow
             continue; // an update of a model with a past that the file does not know
         }
         first_serial_ = 0;
@@ -123,12 +124,25 @@ void SessionRecorder::drain()
     }
 }
 
-// That of updates which are left out counts as well.
-void SessionRecorder::takeGround(std::uint32_t count)
+// Also where no update comes, as while the hand moves the map: there would be no room for more.
+void SessionRecorder::takeGround()
 {
     GroundRecord record;
-    for (std::uint32_t i = 0; i < count && loop_.takeGroundRecord(record); ++i) {
-        ground_ += (ground_.empty() ? "" : " ") + groundText(record);
+    while (loop_.takeGroundRecord(record)) {
+        ground_records_.push_back(record);
+    }
+}
+
+// What the next `count` records of the ground say. That of updates which are left out counts as
+// well.
+void SessionRecorder::addGround(std::uint32_t count)
+{
+    if (ground_records_.size() < count) {
+        takeGround();
+    }
+    for (std::uint32_t i = 0; i < count && !ground_records_.empty(); ++i) {
+        ground_ += (ground_.empty() ? "" : " ") + groundText(ground_records_.front());
+        ground_records_.pop_front();
     }
 }
 

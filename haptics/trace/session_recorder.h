@@ -6,6 +6,7 @@
 #include "haptics/trace/trace_file.h"
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -50,7 +51,8 @@ private:
     SessionRecorder(ServoLoop& loop, std::string path, TraceFile file, std::uint64_t first_serial);
     void run(const std::stop_token& stop);
     void drain();
-    void takeGround(std::uint32_t count);
+    void takeGround();
+    void addGround(std::uint32_t count);
 
     ServoLoop& loop_;
     std::string path_;
@@ -60,7 +62,8 @@ private:
     std::uint64_t updates_ = 0;
     std::uint64_t missing_before_ = 0; // in recordings before this
     std::int64_t begin_ns_ = 0;
-    std::string ground_; // of the next line
+    std::deque<GroundRecord> ground_records_; // taken, of updates that are still to come
+    std::string ground_;                      // of the next line
     std::jthread thread_;
 };
 

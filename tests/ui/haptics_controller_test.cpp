@@ -599,6 +599,8 @@ TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
     const QString map = maps_.path(QStringLiteral("other.asc"));
     const QByteArray before = contentOf(map);
     EXPECT_FALSE(haptics().startRecording(map)) << "onto the map itself";
+    EXPECT_FALSE(haptics().startRecording(maps_.path(QStringLiteral("hill.asc"))))
+        << "onto one below it, of which nothing is seen";
     haptics().saveTicks(haptics().lastTicks(), map);
     EXPECT_EQ(contentOf(map), before);
     EXPECT_TRUE(haptics().loop()->isRunning()); // it is felt all the same

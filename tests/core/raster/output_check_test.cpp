@@ -30,6 +30,7 @@ TEST(OutputCheck, RefusesWhatIsReadByWhateverName)
     };
     EXPECT_EQ(check({"", folder.file("new.csv"), folder.file("other.csv")}), "");
     EXPECT_EQ(check({folder.write("old.csv", "")}), "");
+    EXPECT_EQ(check({"/dev/null", "/dev/null"}), "");
     for (const char* name : {"map.tif", "link.tif", "hard.tif", "./map.tif"}) {
         EXPECT_THAT(check({folder.file(name)}), HasSubstr("is a map, or a part of one")) << name;
     }

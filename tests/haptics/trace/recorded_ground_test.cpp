@@ -69,6 +69,7 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
             ASSERT_TRUE(again->follow(record));
         }
         EXPECT_FALSE(queue.take(record));
+        ASSERT_EQ(log.tell(*servo_map, false, queue), 0U) << "nothing has changed since";
         blended += terrain->resident().blend().isEmpty() ? 0U : 1U;
         for (int i = 0; i < 8; ++i) {
             const auto along = [&](double middle, std::size_t samples) {
@@ -98,7 +99,8 @@ TEST(RecordedGround, RefusesTilesThatTheMapDoesNotHave)
              GroundLevel{top + 1, {0, 0, 1, 1, 1}}, GroundLevel{0, {2, 0, 8, 4, 1}},
              GroundLevel{0, {0, 0, 9, 4, 1}}, GroundLevel{0, {0, 0, 0, 0, 0}},
              GroundLevel{0, {0, 0, 2, 2, 16}}, GroundLevel{0, {~0U, 0, 2, 2, 1}},
-             GroundTile{beside, 0.5}}) {
+             GroundTile{beside, 0.5}, GroundTile{{TileKind::Samples, 200, 0, 0}, 0.5},
+             GroundTile{{TileKind::Samples, static_cast<std::uint8_t>(top), 0, 0}, 0.0}}) {
         const Status refused = ground->follow(record);
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::Invalid);

@@ -235,6 +235,31 @@ TEST(SessionRecorder, ARecordingThatBeginsInTheMiddleOfATouchKnowsAllOfItsModel)
     }
 }
 
+TEST(SessionRecorder, BeginsWithALaterModelWhereTheFirstIsNeverTouched)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("session.csv");
+    const auto filled = filledTerrain(201, 201, bumps);
+    const GoalFrame frame = metreFrame(201, 201);
+    ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
+    loop.set(settingsFor(makeServoMap(frame, filled, {})));
+    const auto fresh = makeServoMap(frame, filled, {});
+    auto recorder = SessionRecorder::begin(loop, path, fresh->serial);
+    ASSERT_TRUE(recorder);
+    // Another model has been chosen before the hand came to touch with that one.
+    const auto chosen = makeServoMap(frame, filled, {.kind = ContactModelKind::GodObject});
+    loop.set(settingsFor(chosen));
+    const std::uint64_t until = loop.state().tick + 1000;
+    while (loop.state().tick < until) {
+        std::this_thread::yield();
+    }
+    ASSERT_TRUE((*recorder)->finish());
+    EXPECT_GT((*recorder)->updates(), 500U);
+    const auto recording = readGoalRecording(readFile(path), path);
+    ASSERT_TRUE(recording) << recording.error().message;
+    EXPECT_EQ(recording->parts.front().part, chosen->serial);
+}
+
 // The proxies of a recording over a map in tiles, from tiles that are read anew.
 std::vector<TracePoint> proxiesAgain(const GoalRecording& recording,
                                      const TiledMap& map,
