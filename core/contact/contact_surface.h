@@ -128,6 +128,7 @@ struct SurfaceLegs {
 ///                      last of which is goal(q)
 ///   stepsMax()         an update may take that many steps from feature to feature; several times
 ///                      what crosses the whole mesh
+///   stepsAlong(w)      the same for a way of w scene metres; no more than stepsMax()
 // clang-format off: version 14 breaks compound requirements into a line a token.
 template <typename S>
 concept ContactSurface = requires(const S& s,

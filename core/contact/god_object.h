@@ -306,7 +306,11 @@ private:
         Planes planes;
         int stalls = 0;
         bool is_done = false;
-        for (std::uint32_t steps = surface_.stepsMax(); steps > 0 && !is_done; --steps) {
+        // Where faces lie in one plane but for rounding, as between the samples of coarse ground,
+        // it may come forward by next to nothing each time: across the largest maps that would be
+        // seconds.
+        const double way = length(surface_.goalPoint(goal) - position());
+        for (std::uint32_t steps = surface_.stepsAlong(way); steps > 0 && !is_done; --steps) {
             is_done = planes.count == 3 || stalls > kKeptStallsMax || advance(goal, planes, stalls);
         }
         counters_.cut_short = is_done ? 0 : 1;

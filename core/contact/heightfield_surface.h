@@ -326,6 +326,15 @@ public:
     Cast castFree(const Goal& from, const Goal& to) const noexcept;
 
     std::uint32_t stepsMax() const noexcept { return steps_max_; }
+    std::uint32_t stepsAlong(double way) const noexcept
+    {
+        constexpr double kStepsMin = 4096.0;
+        constexpr double kStepsACell = 24.0; // eight times what a straight way meets
+        const double cell = std::sqrt(std::min(dot(column_, column_), dot(row_, row_)));
+        const double steps = kStepsMin + kStepsACell * way / cell;
+        return steps < static_cast<double>(steps_max_) ? static_cast<std::uint32_t>(steps)
+                                                       : steps_max_;
+    }
 
 private:
     // A place in a cell: fractions of a column and of a row in [0, 1].

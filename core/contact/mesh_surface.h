@@ -248,6 +248,7 @@ public:
     }
 
     std::uint32_t stepsMax() const noexcept { return steps_max_; }
+    std::uint32_t stepsAlong(double /*way*/) const noexcept { return steps_max_; }
 
 private:
     static std::uint32_t cornerOf(const Facet& facet, std::size_t i) noexcept
