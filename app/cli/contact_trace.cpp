@@ -51,25 +51,14 @@ constexpr std::array kCounters{
 
 Status trace(ContactModel& model,
              const TraceFrame& frame,
-             const std::vector<TracePoint>& goals,
-             std::size_t first,
-             std::size_t end,
+             std::span<const TracePoint> goals,
              const BeforeGoal& before_goal,
-             JobMonitor& monitor,
              std::vector<TraceUpdate>& updates)
 {
-    constexpr std::size_t kReportEvery = 1024;
-    for (std::size_t i = first; i < end; ++i) {
-        if (i % kReportEvery == 0) {
-            monitor.report(static_cast<double>(i) / static_cast<double>(goals.size()));
-            if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "tracing was cancelled"};
-            }
-        }
-        if (Status ready = before_goal(i); !ready) {
+    for (const TracePoint& goal : goals) {
+        if (Status ready = before_goal(updates.size()); !ready) {
             return ready;
         }
-        const TracePoint& goal = goals[i];
         const ScenePoint aim = frame.to_scene(goal);
         TraceUpdate update;
         const Clock::time_point begin = Clock::now();

@@ -1,13 +1,14 @@
 // A contact model run over a list of goals, one update a line.
 #pragma once
 
-#include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
 
+#include <cstddef>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct TraceFrame {
     std::function<bool(const TracePoint& goal)> is_clamped;
 };
 
-/// Of one of the goals, before the model is given it.
+/// Of one of all goals, counted from 0, before the model is given it.
 using BeforeGoal = std::function<Status(std::size_t goal)>;
 
 struct TraceUpdate {
@@ -30,16 +31,12 @@ struct TraceUpdate {
     double ns = 0.0;
 };
 
-/// Runs the model over some of the goals, from `first` to before `end`; the first of its first ones
-/// places it. Adds to `updates`, which has one for each goal before. Cancelled, or what
-/// `before_goal` says.
+/// Runs the model over some of the goals; the first of its first ones places it. Adds to `updates`,
+/// which has one for each goal before. What `before_goal` says.
 Status trace(ContactModel& model,
              const TraceFrame& frame,
-             const std::vector<TracePoint>& goals,
-             std::size_t first,
-             std::size_t end,
+             std::span<const TracePoint> goals,
              const BeforeGoal& before_goal,
-             JobMonitor& monitor,
              std::vector<TraceUpdate>& updates);
 
 /// The trace as CSV, with a column `ns` if asked for.

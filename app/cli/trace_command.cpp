@@ -22,6 +22,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -109,8 +110,9 @@ public:
             }
             const Toucher& toucher = found->second;
             if (Status traced = trace(
-                    *toucher.model, toucher.frame, goals, touches[i].first, end,
-                    [this](std::size_t goal) { return followGround(goal); }, monitor, updates);
+                    *toucher.model, toucher.frame,
+                    std::span(goals).subspan(touches[i].first, end - touches[i].first),
+                    [&](std::size_t goal) { return beforeGoal(goal, monitor); }, updates);
                 !traced) {
                 return std::move(traced).error();
             }
@@ -119,6 +121,18 @@ public:
     }
 
 private:
+    Status beforeGoal(std::size_t goal, JobMonitor& monitor)
+    {
+        constexpr std::size_t kReportEvery = 1024;
+        if (goal % kReportEvery == 0) {
+            monitor.report(static_cast<double>(goal) /
+                           static_cast<double>(recording_.goals.size()));
+            if (monitor.isCancelled()) {
+                return Error{ErrorCode::Cancelled, "tracing was cancelled"};
+            }
+        }
+        return followGround(goal);
+    }
     Status followGround(std::size_t goal)
     {
         if (!subject_.recorded) {
