@@ -15,6 +15,15 @@ namespace {
 // steep. 16 bits then resolve 5e-4 of that, which no light shows.
 constexpr double kSlopeReach = 16.0;
 
+// Of the relief of the whole map.
+SlopeRange slopesOf(const ReliefTile& whole, const Heightfield& heightfield, double slope_max)
+{
+    const std::size_t step = std::size_t{1}
+                             << wholeRelief(heightfield.columns(), heightfield.rows()).level;
+    return slopeRange(whole, (heightfield.columns() + step - 1) / step,
+                      (heightfield.rows() + step - 1) / step, slope_max);
+}
+
 } // namespace
 
 Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor& monitor)
@@ -45,8 +54,9 @@ Result<LoadedMap> prepareMap(std::shared_ptr<const Dataset> dataset, JobMonitor&
                      .filled = std::make_shared<const FilledHeightfield>(std::move(filled).value()),
                      .levels = nullptr,
                      .tint_range = tinted,
+                     .slope_range = slopesOf(*relief, heightfield, slope_max),
                      .slope_max = slope_max,
-                     .relief = std::move(relief)};
+                     .relief = relief};
 }
 
 Result<LoadedMap> prepareTiledMap(std::shared_ptr<const Dataset> dataset,
@@ -68,6 +78,7 @@ Result<LoadedMap> prepareTiledMap(std::shared_ptr<const Dataset> dataset,
                      .filled = nullptr,
                      .levels = std::move(levels),
                      .tint_range = tinted,
+                     .slope_range = slopesOf(*relief, heightfield, slope_max),
                      .slope_max = slope_max,
                      .relief = std::make_shared<const ReliefTile>(std::move(relief).value())};
 }

@@ -6,6 +6,7 @@
 #include "core/terrain/level_file.h"
 #include "core/terrain/relief_tile.h"
 #include "core/terrain/surface_analysis.h"
+#include "core/view/slope_range.h"
 
 #include <memory>
 
@@ -20,6 +21,7 @@ struct LoadedMap {
     /// What touching tiles needs. Null where the map is held.
     std::shared_ptr<const MapLevels> levels;
     HeightRange tint_range; // over which colours are spread: all but the rarest heights
+    SlopeRange slope_range; // over which colors of slopes are spread by default
     double slope_max = 1.0; // that relief tiles are made for
     /// The relief of the whole map, the first that drawing needs.
     std::shared_ptr<const ReliefTile> relief;

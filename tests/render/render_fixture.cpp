@@ -23,6 +23,7 @@ TerrainLayer DrawnMap::layer() const
             .frame = frame,
             .ramp = &defaultColorRamp(""),
             .tint_range = tintRange(analysis->means, range),
+            .slope_range = {},
             .slope_max = slope_max,
             .relief = std::make_shared<const ReliefTile>(makeReliefTile(
                 *field, frame, wholeRelief(field->columns(), field->rows()), slope_max))};

@@ -18,6 +18,7 @@ struct TerrainLayer {
     SceneFrame frame;                                // from its grid to the scene
     const ColorRamp* ramp = nullptr;                 // static data
     HeightRange tint_range; // over which the ramp is spread: all but the rarest heights
+    SlopeRange slope_range; // over which it is spread where it shows slopes
     double slope_max = 1.0; // that relief tiles are made for
     std::shared_ptr<const ReliefTile> relief; // of the whole map
 };
@@ -31,6 +32,7 @@ terrainLayer(const LoadedMap& map, const SceneFrame& frame, const ColorRamp& ram
             .frame = frame,
             .ramp = &ramp,
             .tint_range = tintedRange(ramp, map.tint_range),
+            .slope_range = map.slope_range,
             .slope_max = map.slope_max,
             .relief = map.relief};
 }

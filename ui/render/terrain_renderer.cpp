@@ -506,6 +506,10 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         level * std::cos(look.light_azimuth.radians()), std::sin(look.light_altitude.radians()));
     set("u_slope_unit", layer.source.slope_max * style.exaggeration);
     set("u_slope_unit_true", layer.source.slope_max);
+    const SlopeRange& slopes = layer.source.slope_range;
+    const double slopes_rad = (slopes.maximum - slopes.minimum).radians();
+    set("u_slope_tint", slopes_rad > 0.0 ? 1.0 / slopes_rad : 0.0,
+        slopes_rad > 0.0 ? -slopes.minimum.radians() / slopes_rad : 0.5);
 
     const HeightRange range = heightfield.range().value_or(HeightRange{});
     const double pixel_m = metresPerPixel(request.camera, request.viewport);

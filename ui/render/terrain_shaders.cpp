@@ -92,6 +92,7 @@ uniform sampler2DArray u_slopes;
 uniform sampler2D u_ramp;
 uniform float u_slope_unit; // exaggerated slope of the texture's 1
 uniform float u_slope_unit_true;
+uniform vec2 u_slope_tint; // share of the ramp = slope in radians × x + y
 uniform vec2 u_tint; // share of the ramp = height × x + y
 uniform vec3 u_light;
 out vec4 color;
@@ -197,7 +198,7 @@ void main()
     vec3 surface = vec3(0.92 * shade);
 #else
     float steep = atan(length(slope) * u_slope_unit_true);
-    vec3 surface = rampColor(steep / radians(40.0)) * (0.75 + 0.35 * shade);
+    vec3 surface = rampColor(steep * u_slope_tint.x + u_slope_tint.y) * (0.75 + 0.35 * shade);
 #endif
 #ifdef CONTOURS
     surface = mix(surface, vec3(0.08, 0.07, 0.06), 0.7 * ink);

@@ -52,6 +52,7 @@ void warmUp(TerrainRenderer& renderer)
                          .frame = frame,
                          .ramp = &ramp,
                          .tint_range = {0.0, kHeightM},
+                         .slope_range = {},
                          .slope_max = kSlopeMax,
                          .relief = std::make_shared<const ReliefTile>(makeReliefTile(
                              *heightfield, frame, wholeRelief(kSide, kSide), kSlopeMax))}});
