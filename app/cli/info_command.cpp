@@ -56,6 +56,20 @@ Json cornersOf(const OpenedMap& map, LatitudeKind latitude_kind)
     return corners;
 }
 
+Json suggestionOf(const RasterInfo& info)
+{
+    if (!info.crs_suggestion) {
+        return nullptr;
+    }
+    Json choices = Json::array();
+    for (const CrsChoice& choice : info.crs_suggestion->choices) {
+        choices.push_back({{"body", choice.body}, {"crs", choice.crs}});
+    }
+    return {{"reason", info.crs_suggestion->reason},
+            {"is_certain", info.crs_suggestion->is_certain},
+            {"choices", std::move(choices)}};
+}
+
 Json describe(const OpenedMap& map, const SampleStatistics& statistics, const MapOptions& options)
 {
     const RasterInfo& info = map.info;
@@ -94,6 +108,7 @@ Json describe(const OpenedMap& map, const SampleStatistics& statistics, const Ma
     json["crs_name"] = info.crs ? Json(info.crs->name()) : Json(nullptr);
     json["crs_unit"] = info.crs ? Json(info.crs->unitName()) : Json(nullptr);
     json["crs_wkt"] = info.crs ? Json(info.crs->wkt()) : Json(nullptr);
+    json["crs_suggestion"] = suggestionOf(info);
     json["body"] = info.body != nullptr ? Json(info.body->name) : Json(nullptr);
     const auto ellipsoid = info.crs ? info.crs->ellipsoid() : std::nullopt;
     json["radii_m"] = ellipsoid ? Json{ellipsoid->equatorial_m, ellipsoid->polar_m} : Json(nullptr);

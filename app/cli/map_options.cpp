@@ -1,5 +1,6 @@
 #include "app/cli/map_options.h"
 
+#include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "core/raster/remote_raster.h"
 #include "core/session/dataset.h"
@@ -35,7 +36,20 @@ void MapOptions::addOverridesTo(CLI::App& command)
             "x0 dx/dcolumn dx/drow y0 dy/dcolumn dy/drow, of the first pixel's outer corner")
         ->expected(6)
         ->group(group);
-    command.add_option("--unit", vertical_unit, "unit of the heights: m, km, ft, \"US survey ft\"")
+    command
+        .add_option("--unit", vertical_unit, "unit of the elevations: m, km, ft, \"US survey ft\"")
+        ->group(group);
+    command
+        .add_option("--scale", scale,
+                    "elevation = sample × scale + offset, in the unit of the elevations")
+        ->check(finiteNumber())
+        ->group(group);
+    command.add_option("--offset", offset, "added to the scaled samples")
+        ->check(finiteNumber())
+        ->group(group);
+    command
+        .add_option("--vertical-datum", vertical_datum,
+                    "name of the surface that elevations count from: areoid, EGM96 geoid, …")
         ->group(group);
     command.add_option("--nodata", nodata, "raw value that means void")->group(group);
     command
@@ -53,6 +67,9 @@ RasterOverrides MapOptions::overrides() const
     overrides.crs = given(crs);
     overrides.body = given(body);
     overrides.vertical_unit = given(vertical_unit);
+    overrides.scale = scale;
+    overrides.offset = offset;
+    overrides.vertical_datum = given(vertical_datum);
     overrides.nodata = nodata;
     if (!radii_m.empty()) {
         overrides.ellipsoid = Ellipsoid{radii_m.front(), radii_m.back()};
@@ -90,6 +107,9 @@ std::vector<std::string> MapOptions::overrideArguments() const
     add_all("--radii", radii_m);
     add_all("--geotransform", geotransform);
     add("--unit", vertical_unit);
+    add("--scale", scale ? asText(*scale) : std::string());
+    add("--offset", offset ? asText(*offset) : std::string());
+    add("--vertical-datum", vertical_datum);
     add("--nodata", nodata ? asText(*nodata) : std::string());
     add("--latitude", latitude);
     return words;
@@ -98,7 +118,8 @@ std::vector<std::string> MapOptions::overrideArguments() const
 bool MapOptions::hasOverrides() const
 {
     return band != 1 || !crs.empty() || !body.empty() || !radii_m.empty() ||
-           !geotransform.empty() || !vertical_unit.empty() || nodata || !latitude.empty();
+           !geotransform.empty() || !vertical_unit.empty() || scale || offset ||
+           !vertical_datum.empty() || nodata || !latitude.empty();
 }
 
 LatitudeKind MapOptions::latitudeKind(const Body* of_body) const
@@ -121,6 +142,10 @@ Result<OpenedMap> openMap(const MapOptions& options)
     Result<RasterInfo> info = withOverrides(file->info(), options.overrides());
     if (!info) {
         return Error{info.error().code, fmt::format("{}: {}", options.path, info.error().message)};
+    }
+    if (info->crs_suggestion) { // here it is set by an option
+        std::replace(info->notices.begin(), info->notices.end(), noticeOf(*info->crs_suggestion),
+                     optionNoticeOf(*info->crs_suggestion));
     }
     Georeference georeference = georeferenceOf(*info);
     return OpenedMap{std::move(file).value(), std::move(info).value(), std::move(georeference)};

@@ -27,6 +27,9 @@ struct MapOptions {
     std::vector<double> radii_m; // equatorial, or equatorial and polar
     std::vector<double> geotransform;
     std::string vertical_unit;
+    std::optional<double> scale;
+    std::optional<double> offset;
+    std::string vertical_datum;
     std::optional<double> nodata;
     std::string latitude; // "planetocentric", "planetographic", or empty for the body's custom
 

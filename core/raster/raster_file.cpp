@@ -1,5 +1,6 @@
 #include "core/raster/raster_file.h"
 
+#include "core/raster/axis_hints.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/geotiff_skeleton.h"
@@ -467,6 +468,9 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     impl->netcdf = netcdfExtentOf(dataset, info.driver);
     readNodata(*impl->band, info);
     readPlacement(dataset, pds3, info);
+    if (!info.crs) {
+        info.axis_hints = axisHintsOf(dataset, path);
+    }
     readVertical(dataset, *impl->band, pds3, info);
     info.typical_raw = impl->findTypicalSample();
     if (impl->strips) {

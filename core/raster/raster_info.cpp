@@ -38,7 +38,7 @@ std::optional<double> bodyRadius(const RasterInfo& info)
 
 bool fitsInDegrees(const RasterInfo& info)
 {
-    if (!info.transform) {
+    if (!info.transform || !canBeAngles(info)) {
         return false;
     }
     const double columns = static_cast<double>(info.columns);
@@ -46,8 +46,157 @@ bool fitsInDegrees(const RasterInfo& info)
     const MapPoint first = info.transform->toMap({0.0, 0.0});
     const MapPoint last = info.transform->toMap({columns - 1.0, rows - 1.0});
     return std::max(std::abs(first.x), std::abs(last.x)) <= 540.0 &&
-           std::abs(last.x - first.x) <= 361.0 &&
-           std::max(std::abs(first.y), std::abs(last.y)) <= 90.0;
+           std::abs(last.x - first.x) <= 361.0;
+}
+
+struct FieldName {
+    OverrideField field;
+    std::string_view name;
+};
+
+constexpr std::array kFieldNames{
+    FieldName{OverrideField::Crs, "CRS"},
+    FieldName{OverrideField::Body, "body"},
+    FieldName{OverrideField::Radii, "radii"},
+    FieldName{OverrideField::Transform, "geotransform"},
+    FieldName{OverrideField::VerticalUnit, "vertical unit"},
+    FieldName{OverrideField::Scale, "scale"},
+    FieldName{OverrideField::Offset, "offset"},
+    FieldName{OverrideField::VerticalDatum, "vertical datum"},
+    FieldName{OverrideField::Nodata, "nodata"},
+};
+
+Error refusal(OverrideField field, const std::string& why, ErrorCode code = ErrorCode::Invalid)
+{
+    const auto* const known =
+        std::find_if(kFieldNames.begin(), kFieldNames.end(),
+                     [field](const FieldName& name) { return name.field == field; });
+    // Sentences of other parts may begin with the name already.
+    const std::string name = std::string(known->name) + " ";
+    return {code, fmt::format("{}: {}", known->name,
+                              why.starts_with(name) ? why.substr(name.size()) : why)};
+}
+
+Status applyVertical(RasterInfo& info, const RasterOverrides& overrides)
+{
+    if (overrides.vertical_unit) {
+        const auto unit = verticalUnitFrom(*overrides.vertical_unit);
+        if (!unit) {
+            return refusal(OverrideField::VerticalUnit,
+                           fmt::format("\"{}\" is unknown; use m, km, ft or \"US survey ft\"",
+                                       *overrides.vertical_unit));
+        }
+        info.unit = *unit;
+        info.is_unit_declared = true;
+    }
+    if (overrides.scale) {
+        if (!std::isfinite(*overrides.scale) || *overrides.scale == 0.0) {
+            return refusal(OverrideField::Scale,
+                           fmt::format("{} cannot scale elevations; use a finite number other "
+                                       "than 0",
+                                       *overrides.scale),
+                           ErrorCode::OutOfRange);
+        }
+        info.scale = *overrides.scale;
+    }
+    if (overrides.offset) {
+        if (!std::isfinite(*overrides.offset)) {
+            return refusal(OverrideField::Offset,
+                           fmt::format("{} cannot be added to elevations; use a finite number",
+                                       *overrides.offset),
+                           ErrorCode::OutOfRange);
+        }
+        info.offset = *overrides.offset;
+    }
+    const ElevationScale scale = info.elevationScale();
+    if (!std::isfinite(scale.gain) || !std::isfinite(scale.offset_m)) {
+        return refusal(overrides.scale ? OverrideField::Scale : OverrideField::Offset,
+                       fmt::format("is too large for elevations in {}", info.unit.name),
+                       ErrorCode::OutOfRange);
+    }
+    if (overrides.vertical_datum &&
+        overrides.vertical_datum->find_first_not_of(" \t\r\n") == std::string::npos) {
+        return refusal(OverrideField::VerticalDatum, "the name is empty");
+    }
+    if (overrides.nodata) {
+        info.nodata = overrides.nodata;
+    }
+    return Done{};
+}
+
+Status applyTransform(RasterInfo& info, const RasterOverrides& overrides)
+{
+    if (!overrides.transform) {
+        return Done{};
+    }
+    Result<GeoTransform> transform = GeoTransform::fromTerms(*overrides.transform);
+    if (!transform) {
+        return refusal(OverrideField::Transform, transform.error().message, transform.error().code);
+    }
+    info.transform = *transform;
+    return Done{};
+}
+
+Status applyCrs(RasterInfo& info, const RasterOverrides& overrides)
+{
+    if (!overrides.crs) {
+        return Done{};
+    }
+    Result<Crs> crs = Crs::fromText(*overrides.crs);
+    if (!crs) {
+        return refusal(OverrideField::Crs, crs.error().message, crs.error().code);
+    }
+    info.crs = std::move(crs).value();
+    info.body = info.crs->body();
+    return Done{};
+}
+
+// Small bodies are irregular: radii may differ by so much from the body's and still be its own.
+bool areRadiiOf(const Body& body, const Ellipsoid& ellipsoid)
+{
+    constexpr double kFactorMax = 1.3;
+    const double ratio = ellipsoid.equatorial_m / body.ellipsoid.equatorial_m;
+    return ratio < kFactorMax && ratio > 1.0 / kFactorMax;
+}
+
+Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
+{
+    if (overrides.ellipsoid && !isOblate(*overrides.ellipsoid)) {
+        return refusal(OverrideField::Radii,
+                       fmt::format("{} m and {} m are not those of an oblate ellipsoid",
+                                   overrides.ellipsoid->equatorial_m, overrides.ellipsoid->polar_m),
+                       ErrorCode::OutOfRange);
+    }
+    if (!overrides.body && !overrides.ellipsoid) {
+        return Done{};
+    }
+    const Body* body = overrides.body ? bodyNamed(*overrides.body) : info.body;
+    if (overrides.body && body == nullptr) {
+        return refusal(OverrideField::Body,
+                       fmt::format("\"{}\" is unknown; give its radii instead, or a name such as "
+                                   "Mars, Moon, Earth, Vesta or Titan",
+                                   *overrides.body));
+    }
+    if (!overrides.body && (body == nullptr || !areRadiiOf(*body, *overrides.ellipsoid))) {
+        body = bodyOfRadius(overrides.ellipsoid->equatorial_m);
+    }
+    const Ellipsoid ellipsoid = overrides.ellipsoid ? *overrides.ellipsoid : body->ellipsoid;
+    const bool is_other_ellipsoid = overrides.ellipsoid || body != info.body;
+    if (info.crs && is_other_ellipsoid) {
+        Result<Crs> crs = info.crs->onEllipsoid(ellipsoid, body != nullptr ? std::string(body->name)
+                                                                           : "unnamed body");
+        if (!crs) {
+            return refusal(overrides.ellipsoid ? OverrideField::Radii : OverrideField::Body,
+                           crs.error().message, crs.error().code);
+        }
+        info.crs = std::move(crs).value();
+    } else if (!info.crs && body != nullptr && fitsInDegrees(info)) {
+        info.crs = Crs::geographic(*body, ellipsoid);
+        info.notices.push_back(
+            fmt::format("no CRS in the file: its extent is read as degrees on {}", body->name));
+    }
+    info.body = body;
+    return Done{};
 }
 
 } // namespace
@@ -119,105 +268,63 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
 
 void notePlacement(RasterInfo& info)
 {
-    if (!info.transform) {
-        return; // told when the file was opened
-    }
-    if (!info.crs) {
+    info.crs_suggestion = suggestCrs(info);
+    if (info.crs_suggestion) {
+        info.notices.push_back(noticeOf(*info.crs_suggestion));
+    } else if (!info.transform) {
+        return; // reported when the file was opened
+    } else if (!info.crs) {
         info.notices.emplace_back(
-            "no CRS: map units are taken as metres; tell its CRS or body to "
+            "no CRS: map units are taken as metres; set its CRS or body to "
             "get longitude and latitude");
-        return;
+    } else if (const std::string misfit = angularMisfit(info); !misfit.empty()) {
+        info.notices.push_back("CRS " + misfit);
     }
-    if (info.crs->kind() != CrsKind::Geographic) {
-        return;
-    }
-    const double columns = static_cast<double>(info.columns);
-    const double rows = static_cast<double>(info.rows);
-    const double turn = *info.crs->turn();
-    for (const GridPoint corner :
-         {GridPoint{0.0, 0.0}, GridPoint{columns - 1.0, 0.0}, GridPoint{0.0, rows - 1.0},
-          GridPoint{columns - 1.0, rows - 1.0}}) {
-        const MapPoint p = info.transform->toMap(corner);
-        if (std::abs(p.y) > turn / 4.0 + info.transform->pixelHeight() ||
-            std::abs(p.x) > 2.0 * turn) {
-            info.notices.push_back(fmt::format(
-                "its corner ({}, {}) is no longitude and latitude, so CRS \"{}\" cannot "
-                "be right; tell another one",
-                p.x, p.y, info.crs->name()));
-            return;
+}
+
+std::optional<OverrideField> refusedField(const Error& error)
+{
+    // The sentence follows the last path, which may have any words in it.
+    const std::string& message = error.message;
+    for (std::size_t at = 0; at != std::string::npos;) {
+        const std::string_view rest = std::string_view(message).substr(at);
+        for (const FieldName& known : kFieldNames) {
+            if (rest.starts_with(known.name) && rest.substr(known.name.size()).starts_with(": ")) {
+                return known.field;
+            }
         }
+        at = message.find(": ", at);
+        at = at == std::string::npos ? at : at + 2;
     }
+    return std::nullopt;
 }
 
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides)
 {
-    if (overrides.vertical_unit) {
-        const auto unit = verticalUnitFrom(*overrides.vertical_unit);
-        if (!unit) {
-            return Error{ErrorCode::Invalid,
-                         fmt::format("vertical unit: \"{}\" is not known; use m, km, ft or "
-                                     "\"US survey ft\"",
-                                     *overrides.vertical_unit)};
-        }
-        info.unit = *unit;
-        info.is_unit_declared = true;
+    std::optional<RasterInfo> as_read; // where what it says of itself matters
+    if (overrides.crs && !overrides.transform) {
+        as_read = info;
+        as_read->crs_suggestion = suggestCrs(info);
     }
-    if (overrides.nodata) {
-        info.nodata = overrides.nodata;
+    for (const auto apply : {applyVertical, applyTransform, applyCrs, applyBody}) {
+        if (Status applied = apply(info, overrides); !applied) {
+            return std::move(applied).error();
+        }
     }
-    if (overrides.transform) {
-        Result<GeoTransform> transform = GeoTransform::fromTerms(*overrides.transform);
-        if (!transform) {
-            return std::move(transform).error();
+    if (overrides.crs || overrides.transform) {
+        std::string misfit = angularMisfit(info);
+        if (misfit.empty() && as_read) {
+            misfit = projectedMisfit(info, *as_read);
         }
-        info.transform = *transform;
-    }
-    if (overrides.crs) {
-        Result<Crs> crs = Crs::fromText(*overrides.crs);
-        if (!crs) {
-            return Error{crs.error().code, "CRS: " + crs.error().message};
+        if (!misfit.empty()) {
+            return overrides.crs ? refusal(OverrideField::Crs, misfit)
+                                 : refusal(OverrideField::Transform, "CRS " + misfit);
         }
-        info.crs = std::move(crs).value();
-        info.body = info.crs->body();
-    }
-    if (overrides.ellipsoid && !isOblate(*overrides.ellipsoid)) {
-        return Error{ErrorCode::OutOfRange,
-                     fmt::format("radii: {} m and {} m are not those of an oblate ellipsoid",
-                                 overrides.ellipsoid->equatorial_m, overrides.ellipsoid->polar_m)};
-    }
-    if (overrides.body || overrides.ellipsoid) {
-        const Body* body = overrides.body ? bodyNamed(*overrides.body) : info.body;
-        if (overrides.body && body == nullptr) {
-            return Error{ErrorCode::Invalid,
-                         fmt::format("body: \"{}\" is not known; give its radii instead, or a name "
-                                     "such as Mars, Moon, Earth, Vesta or Titan",
-                                     *overrides.body)};
-        }
-        constexpr double kFactorMax = 1.3; // small bodies are irregular
-        const auto suits = [](const Body& candidate, const Ellipsoid& e) {
-            const double ratio = e.equatorial_m / candidate.ellipsoid.equatorial_m;
-            return ratio < kFactorMax && ratio > 1.0 / kFactorMax;
-        };
-        if (!overrides.body && (body == nullptr || !suits(*body, *overrides.ellipsoid))) {
-            body = bodyOfRadius(overrides.ellipsoid->equatorial_m);
-        }
-        const Ellipsoid ellipsoid = overrides.ellipsoid ? *overrides.ellipsoid : body->ellipsoid;
-        const bool is_other_ellipsoid = overrides.ellipsoid || body != info.body;
-        if (info.crs && is_other_ellipsoid) {
-            Result<Crs> crs = info.crs->onEllipsoid(
-                ellipsoid, body != nullptr ? std::string(body->name) : "unnamed body");
-            if (!crs) {
-                return std::move(crs).error();
-            }
-            info.crs = std::move(crs).value();
-        } else if (!info.crs && body != nullptr && fitsInDegrees(info)) {
-            info.crs = Crs::geographic(*body, ellipsoid);
-            info.notices.push_back(
-                fmt::format("no CRS in the file: its extent is read as degrees on {}", body->name));
-        }
-        info.body = body;
     }
     deduceHeightReference(info);
+    if (overrides.vertical_datum) {
+        info.vertical_datum = *overrides.vertical_datum;
+    }
     notePlacement(info);
     return info;
 }

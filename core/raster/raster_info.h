@@ -5,11 +5,13 @@
 #include "core/geo/crs.h"
 #include "core/geo/geotransform.h"
 #include "core/geo/vertical.h"
+#include "core/raster/crs_suggestion.h"
 #include "core/raster/sample_grid.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace marsview {
@@ -54,6 +56,9 @@ struct RasterInfo {
     std::optional<GeoTransform> transform;
     std::optional<Crs> crs;
     const Body* body = nullptr; // of the CRS, or told by the user; null where unknown
+    AxisHints axis_hints;       // what the file says of its axes and its body without a CRS
+    /// Where there is no CRS, but the grid looks like one in degrees.
+    std::optional<CrsSuggestion> crs_suggestion;
 
     /// What was noticed, assumed or corrected; whole sentences for the user.
     std::vector<std::string> notices;
@@ -65,22 +70,45 @@ struct RasterInfo {
 
 /// What the user knows better than the file. The file itself is never changed.
 struct RasterOverrides {
-    std::optional<std::string> crs;     // text as for Crs::fromText
-    std::optional<std::string> body;    // name as for bodyNamed
-    std::optional<Ellipsoid> ellipsoid; // radii in metres
-    std::optional<GeoTransform::Terms> transform;
-    std::optional<std::string> vertical_unit; // spelling as for verticalUnitFrom
-    std::optional<double> nodata;             // raw
+    std::optional<std::string> crs{};     // text as for Crs::fromText
+    std::optional<std::string> body{};    // name as for bodyNamed
+    std::optional<Ellipsoid> ellipsoid{}; // radii in metres
+    std::optional<GeoTransform::Terms> transform{};
+    std::optional<std::string> vertical_unit{}; // spelling as for verticalUnitFrom
+    std::optional<double> scale{};  // value = raw × scale + offset, in the vertical unit
+    std::optional<double> offset{}; // finite, as the scale, which is not 0 either
+    std::optional<std::string> vertical_datum{}; // a name for people
+    std::optional<double> nodata{};              // raw
 
     bool operator==(const RasterOverrides&) const = default;
     bool isEmpty() const { return *this == RasterOverrides{}; }
 };
 
-/// Adds a notice where there is no CRS, or where the placement cannot be meant in the CRS.
+/// Adds a notice where there is no CRS, or where the placement cannot be meant in the CRS. Sets the
+/// suggestion of a CRS.
 void notePlacement(RasterInfo& info);
 
-/// `info` as the file tells it, with the overrides in place of what it says. Errors name the
-/// option that cannot be used and why.
+/// One of RasterOverrides, for errors.
+enum class OverrideField {
+    Crs,
+    Body,
+    Radii,
+    Transform,
+    VerticalUnit,
+    Scale,
+    Offset,
+    VerticalDatum,
+    Nodata,
+};
+
+/// What an error of withOverrides() is about: for showing it next to the field. Nothing for other
+/// errors. A path before the sentence is skipped.
+std::optional<OverrideField> refusedField(const Error& error);
+
+/// `info` as the file describes it, with the overrides in place of what it says. Errors begin with
+/// the name of the option ("scale: …"; see refusedField) and say why it cannot be used. A CRS in
+/// degrees is refused for a grid that cannot be in degrees, and a map projection for a grid that
+/// must be.
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
 
 /// Adds a notice where the samples look as if the file forgot to declare its voids, has nothing but

@@ -1,0 +1,235 @@
+#include "core/raster/crs_suggestion.h"
+
+#include "core/geo/crs.h"
+#include "core/raster/raster_info.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace marsview {
+namespace {
+
+constexpr double kTurn = 360.0;
+constexpr double kPole = 90.0;
+
+struct Extent {
+    double west, east, south, north; // map units
+    double width() const { return east - west; }
+};
+
+// Of the positions from half a sample before the first to half a sample behind the last, or of
+// those `inset` samples further in.
+Extent extentOf(const RasterInfo& info, double inset = 0.0)
+{
+    const GeoTransform transform = info.transform.value_or(GeoTransform{});
+    const double right = static_cast<double>(info.columns) - 0.5 - inset;
+    const double below = static_cast<double>(info.rows) - 0.5 - inset;
+    const double first = inset - 0.5;
+    std::array<MapPoint, 4> corners{
+        transform.toMap({first, first}), transform.toMap({right, first}),
+        transform.toMap({first, below}), transform.toMap({right, below})};
+    const auto [west, east] =
+        std::minmax_element(corners.begin(), corners.end(),
+                            [](const MapPoint& a, const MapPoint& b) { return a.x < b.x; });
+    const auto [south, north] =
+        std::minmax_element(corners.begin(), corners.end(),
+                            [](const MapPoint& a, const MapPoint& b) { return a.y < b.y; });
+    return {west->x, east->x, south->y, north->y};
+}
+
+Extent sampleExtentOf(const RasterInfo& info)
+{
+    return extentOf(info, 0.5);
+}
+
+bool isGlobal(const RasterInfo& info)
+{
+    const Extent extent = extentOf(info);
+    const double pixel = std::abs(info.transform->pixelWidth());
+    constexpr double kLatitudesMin = 100.0; // maps of a whole body may leave out its poles
+    return std::abs(extent.width() - kTurn) < 1.5 * pixel &&
+           extent.north - extent.south > kLatitudesMin;
+}
+
+bool isWhole(double value)
+{
+    constexpr double kTolerance = 1e-3; // files write 0.000833333
+    return value > 0.5 && std::abs(value - std::round(value)) < kTolerance * value;
+}
+
+// Grids in degrees have a whole number of samples a degree, as 1200 or 12, or of seconds a sample.
+// Grids in metres that small begin at 0 or lie around it.
+bool looksLikeDegrees(const RasterInfo& info)
+{
+    const Extent extent = extentOf(info);
+    const double pixel = std::min(info.transform->pixelWidth(), info.transform->pixelHeight());
+    constexpr double kFinePixel = 0.01; // of a centimetre, if these were metres
+    constexpr double kSecondsADegree = 3600.0;
+    const bool is_usual = isWhole(1.0 / pixel) || isWhole(pixel * kSecondsADegree);
+    const bool is_small = pixel < 1.0 && (is_usual || pixel <= kFinePixel);
+    const auto beginsAtZero = [pixel](double low, double high) {
+        return std::min(std::abs(low), std::abs(high)) <= pixel;
+    };
+    const auto isAroundZero = [pixel](double low, double high) {
+        return std::abs(low + high) <= 2.0 * pixel;
+    };
+    const bool is_local =
+        (beginsAtZero(extent.west, extent.east) || isAroundZero(extent.west, extent.east)) &&
+        (beginsAtZero(extent.south, extent.north) || isAroundZero(extent.south, extent.north));
+    return is_small && !is_local;
+}
+
+std::string longitudeRange(const Extent& extent)
+{
+    const auto text = [&extent](double degrees) {
+        const double shown = std::round(degrees * 1e4) / 1e4;
+        if (extent.west >= -0.1) { // of a sample placed at 0, the edge lies before it
+            return fmt::format("{}°", shown == 0.0 ? 0.0 : shown);
+        }
+        return fmt::format("{}°{}", std::abs(shown), shown < 0.0 ? " W" : shown > 0.0 ? " E" : "");
+    };
+    return text(extent.west) + " – " + text(extent.east);
+}
+
+std::string latitudeRange(const Extent& extent)
+{
+    const auto text = [](double degrees) {
+        const double shown = std::round(degrees * 1e4) / 1e4;
+        return fmt::format("{}°{}", std::abs(shown), shown < 0.0 ? " S" : shown > 0.0 ? " N" : "");
+    };
+    return text(extent.south) + " – " + text(extent.north);
+}
+
+// Latitudes count as `--body` has them: planetocentric but on the Earth.
+CrsChoice choiceFor(const Body& body)
+{
+    struct Code {
+        std::string_view body;
+        const char* crs;
+    };
+    constexpr std::array kCodes{Code{"Earth", "EPSG:4326"}, Code{"Mars", "IAU_2015:49902"},
+                                Code{"Moon", "IAU_2015:30100"}};
+    const auto* const code =
+        std::find_if(kCodes.begin(), kCodes.end(),
+                     [&body](const Code& candidate) { return candidate.body == body.name; });
+    return {std::string(body.name),
+            code != kCodes.end() ? code->crs : Crs::geographic(body, body.ellipsoid).wkt()};
+}
+
+bool isCode(const CrsChoice& choice)
+{
+    return choice.crs.find('[') == std::string::npos;
+}
+
+std::string joined(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    }
+    return text;
+}
+
+constexpr const char* kUntilThen = "until then, map units are taken as metres";
+
+} // namespace
+
+bool canBeAngles(const RasterInfo& info, double turn)
+{
+    const Extent samples = sampleExtentOf(info);
+    const double degree = turn / kTurn;
+    const double pixel = info.transform.value_or(GeoTransform{}).pixelHeight();
+    const double beyond = std::min(0.5 * pixel, degree) + 1e-6 * degree;
+    return std::max(std::abs(samples.south), std::abs(samples.north)) <= kPole * degree + beyond &&
+           std::max(std::abs(samples.west), std::abs(samples.east)) <= 2.0 * turn;
+}
+
+std::optional<CrsSuggestion> suggestCrs(const RasterInfo& info)
+{
+    if (info.crs || !info.transform || !canBeAngles(info)) {
+        return std::nullopt;
+    }
+    const Extent extent = extentOf(info);
+    if (extent.width() > kTurn + 2.0 * std::abs(info.transform->pixelWidth())) {
+        return std::nullopt;
+    }
+    CrsSuggestion suggestion;
+    const bool is_declared = !info.axis_hints.degree_axes.empty();
+    suggestion.is_certain = is_declared || isGlobal(info);
+    if (!suggestion.is_certain && !looksLikeDegrees(info)) {
+        return std::nullopt;
+    }
+    suggestion.reason = is_declared ? info.axis_hints.degree_axes
+                                    : fmt::format("its extent is {}, {}", longitudeRange(extent),
+                                                  latitudeRange(extent));
+    if (info.axis_hints.body != nullptr) {
+        suggestion.choices.push_back(choiceFor(*info.axis_hints.body));
+    } else {
+        for (const char* name : {"Earth", "Mars", "Moon"}) {
+            suggestion.choices.push_back(choiceFor(*bodyNamed(name)));
+        }
+    }
+    return suggestion;
+}
+
+std::string noticeOf(const CrsSuggestion& suggestion)
+{
+    std::vector<std::string> choices;
+    for (const CrsChoice& choice : suggestion.choices) {
+        choices.push_back(isCode(choice) ? fmt::format("{} ({})", choice.crs, choice.body)
+                                         : fmt::format("the body {}", choice.body));
+    }
+    return fmt::format(
+        "no CRS, but it looks like longitude and latitude in degrees ({}): set {}; {}",
+        suggestion.reason, joined(choices), kUntilThen);
+}
+
+std::string optionNoticeOf(const CrsSuggestion& suggestion)
+{
+    std::vector<std::string> choices;
+    for (const CrsChoice& choice : suggestion.choices) {
+        choices.push_back(isCode(choice) ? fmt::format("--crs {} ({})", choice.crs, choice.body)
+                                         : fmt::format("--body {}", choice.body));
+    }
+    return fmt::format(
+        "no CRS, but it looks like longitude and latitude in degrees ({}); set the "
+        "CRS with {}; {}",
+        suggestion.reason, joined(choices), kUntilThen);
+}
+
+std::string angularMisfit(const RasterInfo& info)
+{
+    if (!info.crs || info.crs->kind() != CrsKind::Geographic ||
+        canBeAngles(info, *info.crs->turn())) {
+        return {};
+    }
+    const Extent extent = extentOf(info);
+    return fmt::format(
+        "\"{}\" (unit {}) cannot place a grid that covers x {} to {} and y {} to {}; "
+        "choose a projected CRS, or set a geotransform in degrees",
+        info.crs->name(), info.crs->unitName(), extent.west, extent.east, extent.south,
+        extent.north);
+}
+
+std::string projectedMisfit(const RasterInfo& info, const RasterInfo& as_read)
+{
+    if (!info.crs || info.crs->kind() == CrsKind::Geographic) {
+        return {};
+    }
+    const bool is_in_degrees =
+        as_read.crs ? as_read.crs->kind() == CrsKind::Geographic && as_read.transform &&
+                          canBeAngles(as_read, *as_read.crs->turn())
+                    : as_read.crs_suggestion && as_read.crs_suggestion->is_certain;
+    if (!is_in_degrees) {
+        return {};
+    }
+    const Extent extent = extentOf(as_read);
+    return fmt::format(
+        "\"{}\" (unit {}) cannot place a grid in degrees ({}, {}); choose a CRS of "
+        "longitude and latitude, or set a geotransform in its unit",
+        info.crs->name(), info.crs->unitName(), longitudeRange(extent), latitudeRange(extent));
+}
+
+} // namespace marsview
