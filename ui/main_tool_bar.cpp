@@ -5,6 +5,7 @@
 #include "ui/window_actions.h"
 
 #include <QAction>
+#include <QActionGroup>
 #include <QLabel>
 #include <QMenu>
 #include <QSlider>
@@ -29,6 +30,8 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     setMovable(false);
     addAction(actions.open);
     addAction(actions.save_picture);
+    addSeparator();
+    addActions(actions.tools->actions());
     addSeparator();
     addAction(actions.home);
     addAction(actions.north);

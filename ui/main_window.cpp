@@ -214,6 +214,8 @@ void MainWindow::connectActions()
     on(actions_->stop_preparing, [this] { controller_->stopPreparing(); });
     on(actions_->quit, [this] { close(); });
     on(actions_->preferences, [this] { showPreferences(); });
+    connect(actions_->tools, &QActionGroup::triggered, this,
+            [this](QAction* action) { view_->setTool(static_cast<Tool>(action->data().toInt())); });
     on(actions_->home, [this] { view_->goHome(); });
     on(actions_->north, [this] { view_->turnNorthUp(); });
     on(actions_->go_to_coordinate, [this] { goToCoordinate(); });
@@ -352,6 +354,8 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::unavailable, this,
             [this](const QString& reason) { reportFailure(tr("Cannot Draw"), reason); });
     connect(view_, &TerrainView::pointerMoved, readout_, &StatusReadout::setHit);
+    connect(view_, &TerrainView::toolChanged, this,
+            [this](Tool tool) { actions_->showTool(tool); });
     connect(view_, &TerrainView::exaggerationChanged, tool_bar_, &MainToolBar::showExaggeration);
     connect(view_, &TerrainView::mapShown, this, &MainWindow::showActive);
     connect(view_, &TerrainView::pictureCompleted, this, &MainWindow::settleIfIdle);

@@ -70,6 +70,9 @@ MapOverlays::MapOverlays(TerrainView& view)
     makeAction(tr("&Overview Map"), QStringLiteral("minimap"), {minimap_});
     makeAction(tr("&Legend"), QStringLiteral("legend"), {legend_});
     makeAction(tr("&Compass and Scale Bar"), QStringLiteral("compass"), {compass_, scale_bar_});
+    for (QWidget* part : std::initializer_list<QWidget*>{minimap_, compass_, scale_bar_, legend_}) {
+        part->setCursor(Qt::ArrowCursor); // not the tool's
+    }
     connect(&view_, &TerrainView::layersChanged, this, &MapOverlays::showMap);
     connect(&view_, &TerrainView::lookChanged, this, &MapOverlays::showMap);
     connect(&view_, &TerrainView::exaggerationChanged, this, &MapOverlays::showMap);

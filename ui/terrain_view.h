@@ -10,6 +10,7 @@
 #include "ui/render/governed_picture.h"
 #include "ui/render/terrain_renderer.h"
 #include "ui/shown_layer.h"
+#include "ui/tools/map_cursor.h"
 
 #include <QOpenGLWidget>
 #include <QTimer>
@@ -22,9 +23,6 @@
 class QLabel;
 
 namespace marsview {
-
-/// What a drag of the mouse does.
-enum class DragAction { None, Touch, Pan, Orbit };
 
 /// A motion of the camera by one step: what keys and menu entries ask for.
 enum class NavigationStep {
@@ -88,6 +86,10 @@ public:
     void setContactModel(ContactModelKind model);
     ContactModelKind contactModel() const noexcept { return stylus_.model(); }
 
+    /// What a drag with the left button does; Pan to begin with. A drag that is under way ends.
+    void setTool(Tool tool);
+    Tool tool() const noexcept { return tool_; }
+
     void step(NavigationStep step);
     /// Moves as a cap is pushed, for the time since it was asked last: once a frame while the cap
     /// is pushed, and once at rest to end with. Draws nothing where the camera stays where it is.
@@ -120,7 +122,8 @@ public:
     const std::optional<StylusPose>& stylus() const noexcept { return stylus_.pose(); }
     /// Where a haptic device has its stylus; nothing for none.
     void showDevice(const std::optional<StylusPose>& pose);
-    /// What is drawn: a device's stylus, unless the mouse presses or grabs.
+    /// What is drawn: a device's stylus, unless the mouse presses or grabs with the Touch tool;
+    /// the mouse's with the Touch tool only.
     const std::optional<StylusPose>& shownStylus() const noexcept;
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture();
@@ -150,6 +153,11 @@ Q_SIGNALS:
     void stylusMoved();
     /// The key that grabs is held, or is no more.
     void grabbingChanged(bool is_grabbing);
+    void toolChanged(Tool tool);
+    /// A gesture of the mouse moved the camera or the stylus, or asked for the menu.
+    void gestureMade(MapAction action);
+    /// The context menu of what lies at a position in widget coordinates is asked for.
+    void menuRequested(QPointF position);
 
 protected:
     void initializeGL() override;
@@ -164,6 +172,7 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;
     void keyReleaseEvent(QKeyEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
     void leaveEvent(QEvent* event) override;
 
 private:
@@ -202,8 +211,12 @@ private:
     void moveStylus();
     void reportPointer();
     void readUnderPointer();
+    void beginDrag(MapAction action);
+    void dragTo(QPointF position);
+    void endDrag();
     void releaseTouch();
     void refreshTouch();
+    void showMapCursor();
 
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
@@ -235,11 +248,15 @@ private:
 
     CapRates cap_; // that moved the camera last, since it was at rest
 
-    DragAction drag_action_ = DragAction::None;
+    Tool tool_ = Tool::Pan;
+    MapCursor map_cursor_ = MapCursor::Arrow;
+    MapAction drag_action_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;
+    bool may_be_click_ = false; // the drag has not left the place where it began
     QPointF drag_position_;
     double grabbed_z_m_ = 0.0; // of what the drag, or the stylus, has hold of
     std::optional<QPointF> pointer_;
+    bool is_pointer_over_terrain_ = false;
     StylusButtons buttons_;
     bool has_hand_moved_ = false; // since it began to press
     Stylus stylus_;

@@ -2,13 +2,14 @@
 
 #include "ui/terrain_view.h"
 
+#include <QApplication>
+#include <QContextMenuEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QWheelEvent>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -19,31 +20,6 @@ using std::chrono::milliseconds;
 constexpr double kGrabZoomPoints = 160.0;
 
 constexpr double kDeeperPerNotch = 1.15; // of the stylus' depth
-
-// Which drag does what: the first line that fits is taken.
-struct DragBinding {
-    Qt::MouseButton button;
-    Qt::KeyboardModifiers modifiers; // that have to be down; others are ignored
-    DragAction action;
-};
-constexpr std::array kDragBindings{
-    DragBinding{Qt::LeftButton, Qt::ShiftModifier, DragAction::Pan},
-    DragBinding{Qt::MiddleButton, Qt::ShiftModifier, DragAction::Pan},
-    DragBinding{Qt::RightButton, Qt::ShiftModifier, DragAction::Pan},
-    DragBinding{Qt::MiddleButton, Qt::NoModifier, DragAction::Orbit},
-    DragBinding{Qt::RightButton, Qt::NoModifier, DragAction::Orbit},
-    DragBinding{Qt::LeftButton, Qt::NoModifier, DragAction::Touch},
-};
-
-DragAction dragActionFor(const QMouseEvent& event)
-{
-    const auto* hit =
-        std::find_if(kDragBindings.begin(), kDragBindings.end(), [&](const DragBinding& binding) {
-            return binding.button == event.button() &&
-                   (event.modifiers() & binding.modifiers) == binding.modifiers;
-        });
-    return hit != kDragBindings.end() ? hit->action : DragAction::None;
-}
 
 // A drag across 600 pixels turns the map by half a turn.
 constexpr Angle kTurnPerPixel = Angle::degrees(0.3);
@@ -63,70 +39,130 @@ constexpr milliseconds kArrivalInterval{40};
 
 } // namespace
 
+void TerrainView::setTool(Tool tool)
+{
+    if (tool == tool_) {
+        return;
+    }
+    endDrag();
+    tool_ = tool;
+    moveStylus();
+    update(); // the cursor of the mouse's stylus comes or goes
+    Q_EMIT toolChanged(tool);
+}
+
 void TerrainView::mousePressEvent(QMouseEvent* event)
 {
-    if (ground_.isEmpty() || drag_action_ != DragAction::None) {
+    if (ground_.isEmpty() || drag_action_ != MapAction::None) {
         return;
     }
     navigator_.stop();
-    drag_action_ = dragActionFor(*event);
     drag_button_ = event->button();
     drag_position_ = event->position();
     pointer_ = event->position();
+    may_be_click_ =
+        actionOf(Gesture::Click, event->button(), event->modifiers(), tool_) != MapAction::None;
+    beginDrag(actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_));
+    reportPointer();
+}
+
+void TerrainView::beginDrag(MapAction action)
+{
+    drag_action_ = action;
     grabbed_z_m_ = anchorAt(drag_position_, navigator_.camera()).z;
-    if (drag_action_ == DragAction::Orbit) {
+    if (action == MapAction::Orbit && !may_be_click_) {
         setCamera(onGround(navigator_.camera()));
     }
-    buttons_.is_pressing = drag_action_ == DragAction::Touch;
+    buttons_.is_pressing = action == MapAction::Touch;
     has_hand_moved_ = false;
     moveStylus();
-    reportPointer();
 }
 
 void TerrainView::mouseMoveEvent(QMouseEvent* event)
 {
-    const QPointF from = pointer_.value_or(event->position());
-    pointer_ = event->position();
-    const QPointF moved = event->position() - drag_position_;
+    if (may_be_click_) {
+        const QPointF moved = event->position() - drag_position_;
+        if (moved.manhattanLength() < QApplication::startDragDistance()) {
+            return;
+        }
+        // A drag after all, from where it began.
+        may_be_click_ = false;
+        if (drag_action_ == MapAction::Orbit) {
+            setCamera(onGround(navigator_.camera()));
+        }
+    }
+    dragTo(event->position());
+}
+
+void TerrainView::dragTo(QPointF position)
+{
+    const QPointF from = pointer_.value_or(position);
+    pointer_ = position;
+    const QPointF moved = position - drag_position_;
     has_hand_moved_ = has_hand_moved_ || !moved.isNull();
     switch (drag_action_) {
-    case DragAction::Pan:
+    case MapAction::Pan:
         setCamera(dragged(navigator_.camera(), viewport(),
                           {.from = pixelAt(drag_position_),
-                           .to = pixelAt(event->position()),
+                           .to = pixelAt(position),
                            .grabbed_z_m = grabbed_z_m_}));
         break;
-    case DragAction::Orbit:
+    case MapAction::Orbit:
         setCamera(
             orbited(navigator_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
         break;
-    case DragAction::Touch:
-    case DragAction::None:
-        if (!moveByGrab(from, event->position())) {
+    default:
+        if (!moveByGrab(from, position)) {
             moveStylus();
         }
         reportPointer();
         break;
     }
-    drag_position_ = event->position();
+    if (drag_action_ != MapAction::None && !moved.isNull()) {
+        Q_EMIT gestureMade(drag_action_);
+    }
+    drag_position_ = position;
 }
 
 void TerrainView::mouseReleaseEvent(QMouseEvent* event)
 {
-    if (event->button() == drag_button_ || event->buttons() == Qt::NoButton) {
-        drag_action_ = DragAction::None;
-        buttons_.is_pressing = false;
-        moveStylus();
+    if (event->button() != drag_button_ && event->buttons() != Qt::NoButton) {
+        return;
+    }
+    const bool is_click = std::exchange(may_be_click_, false);
+    endDrag();
+    if (is_click && actionOf(Gesture::Click, event->button(), event->modifiers(), tool_) ==
+                        MapAction::OpenMenu) {
+        Q_EMIT menuRequested(event->position());
+    }
+}
+
+void TerrainView::endDrag()
+{
+    drag_action_ = MapAction::None;
+    may_be_click_ = false;
+    buttons_.is_pressing = false;
+    moveStylus();
+}
+
+// The mouse asks when its button is released, see above; this is for the keyboard.
+void TerrainView::contextMenuEvent(QContextMenuEvent* event)
+{
+    event->accept();
+    if (event->reason() != QContextMenuEvent::Mouse && !ground_.isEmpty()) {
+        Q_EMIT menuRequested(QRectF(rect()).center());
     }
 }
 
 void TerrainView::mouseDoubleClickEvent(QMouseEvent* event)
 {
     const std::optional<RayHit> hit = surfaceAt(event->position());
-    if (!hit || event->button() != Qt::LeftButton) {
+    if (!hit || actionOf(Gesture::DoubleClick, event->button(), event->modifiers(), tool_) !=
+                    MapAction::FlyThere) {
         return;
     }
     flyTo(hit->grid, onGround(navigator_.goal()).distance_m * kFlyFactor);
+    Q_EMIT gestureMade(MapAction::FlyThere);
 }
 
 void TerrainView::wheelEvent(QWheelEvent* event)
@@ -136,17 +172,20 @@ void TerrainView::wheelEvent(QWheelEvent* event)
         return;
     }
     event->accept();
-    if (buttons_.is_pressing) {
+    const Gesture gesture = buttons_.is_pressing ? Gesture::WheelWhilePressing : Gesture::Wheel;
+    const MapAction action = actionOf(gesture, Qt::NoButton, event->modifiers(), tool_);
+    if (action == MapAction::PressDeeper) {
         stylus_.deepen(std::pow(kDeeperPerNotch, -notches));
         moveStylus();
-        return;
+    } else {
+        const double factor =
+            std::pow(action == MapAction::ZoomFinely ? kWheelFactorFine : kWheelFactor, notches);
+        const OrbitCamera goal = beforeZoom(factor);
+        const ScenePoint anchor = anchorAt(event->position(), goal);
+        is_at_opening_view_ = false;
+        navigator_.moveTo(zoomed(goal, factor, anchor, limits()), kWheelDuration);
     }
-    const bool is_fine = (event->modifiers() & Qt::ControlModifier) != 0;
-    const double factor = std::pow(is_fine ? kWheelFactorFine : kWheelFactor, notches);
-    const OrbitCamera goal = beforeZoom(factor);
-    const ScenePoint anchor = anchorAt(event->position(), goal);
-    is_at_opening_view_ = false;
-    navigator_.moveTo(zoomed(goal, factor, anchor, limits()), kWheelDuration);
+    Q_EMIT gestureMade(action);
 }
 
 void TerrainView::keyPressEvent(QKeyEvent* event)
@@ -154,6 +193,12 @@ void TerrainView::keyPressEvent(QKeyEvent* event)
     if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier) {
         if (!event->isAutoRepeat()) {
             setGrabbing(true);
+        }
+        return;
+    }
+    if (event->key() == Qt::Key_F10 && event->modifiers() == Qt::ShiftModifier) {
+        if (!ground_.isEmpty()) { // the other key of the context menu, which Qt leaves out on X11
+            Q_EMIT menuRequested(QRectF(rect()).center());
         }
         return;
     }
@@ -204,7 +249,8 @@ void TerrainView::showDevice(const std::optional<StylusPose>& pose)
 
 const std::optional<StylusPose>& TerrainView::shownStylus() const noexcept
 {
-    const auto& mouse = stylus_.pose();
+    static const std::optional<StylusPose> kNone;
+    const auto& mouse = tool_ == Tool::Touch ? stylus_.pose() : kNone;
     const bool is_mouse_at_work = mouse && mouse->mode != StylusMode::Hover;
     return device_ && !is_mouse_at_work ? device_ : mouse;
 }
@@ -248,6 +294,7 @@ void TerrainView::setGrabbing(bool is_grabbing)
 
 void TerrainView::moveStylus()
 {
+    const bool was_shown = shownStylus().has_value();
     const auto ground =
         pointer_ && !ground_.isEmpty() ? groundUnder(*pointer_) : std::optional<GroundPoint>();
     if (ground) {
@@ -262,10 +309,14 @@ void TerrainView::moveStylus()
     } else if (!buttons_.is_pressing && !buttons_.is_grabbing) {
         stylus_.lift();
     }
+    is_pointer_over_terrain_ = ground.has_value();
+    showMapCursor();
     if (stylus_.isWaiting() != touch_timer_.isActive()) {
         touch_timer_.isActive() ? touch_timer_.stop() : touch_timer_.start();
     }
-    update();
+    if (was_shown || shownStylus()) {
+        update();
+    }
     Q_EMIT stylusMoved();
 }
 
@@ -285,10 +336,22 @@ void TerrainView::refreshTouch()
 // Until the button is pressed again.
 void TerrainView::releaseTouch()
 {
-    if (drag_action_ == DragAction::Touch) {
-        drag_action_ = DragAction::None;
+    if (drag_action_ == MapAction::Touch) {
+        drag_action_ = MapAction::None;
     }
     buttons_.is_pressing = false;
+}
+
+void TerrainView::showMapCursor()
+{
+    const MapCursor cursor =
+        mapCursor({.tool = tool_,
+                   .drag = may_be_click_ ? MapAction::None : drag_action_,
+                   .stylus = stylus_.pose() ? stylus_.pose()->mode : StylusMode::Hover,
+                   .is_over_terrain = is_pointer_over_terrain_});
+    if (cursor != std::exchange(map_cursor_, cursor)) {
+        setCursor(cursorOf(cursor));
+    }
 }
 
 void TerrainView::reportPointer()

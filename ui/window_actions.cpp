@@ -208,6 +208,7 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     go_to_coordinate = menu->addAction(tr("&Go to Coordinate…"));
     go_to_coordinate->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_G));
     menu->addSeparator();
+    makeToolMenu(window, *menu, map);
     QMenu* move = menu->addMenu(tr("&Move"));
     for (const StepAction& entry : kStepActions) {
         QAction* action = move->addAction(tr(entry.text));
@@ -222,6 +223,25 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     add_key(exaggerate_less, {Qt::Key_Minus});
     menu->addSeparator();
     panels = menu->addMenu(tr("&Panels"));
+}
+
+void WindowActions::makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map)
+{
+    //: What the left mouse button does
+    QMenu* menu = view.addMenu(tr("&Tool"));
+    tools = new QActionGroup(&window);
+    for (const ToolInfo& info : toolInfos()) {
+        QAction* action = menu->addAction(info.text());
+        action->setCheckable(true);
+        action->setData(static_cast<int>(info.tool));
+        action->setToolTip(info.tip());
+        action->setWhatsThis(info.whatsThis());
+        action->setShortcut(info.key);
+        action->setShortcutContext(Qt::WidgetShortcut);
+        map.addAction(action);
+        tools->addAction(action);
+    }
+    showTool(Tool::Pan);
 }
 
 void WindowActions::makeMapMenu(QMainWindow& window)
@@ -333,6 +353,13 @@ void WindowActions::showContactModel(ContactModelKind model)
 {
     for (QAction* action : contact_model_group->actions()) {
         action->setChecked(action->data().toInt() == static_cast<int>(model));
+    }
+}
+
+void WindowActions::showTool(Tool tool)
+{
+    for (QAction* action : tools->actions()) {
+        action->setChecked(action->data().toInt() == static_cast<int>(tool));
     }
 }
 

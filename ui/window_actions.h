@@ -4,6 +4,7 @@
 #include "core/contact/contact_model.h"
 #include "core/view/terrain_look.h"
 #include "ui/panels/dataset_panel.h"
+#include "ui/tools/tool.h"
 
 #include <QList>
 #include <QString>
@@ -34,6 +35,7 @@ struct WindowActions {
     QAction* quit = nullptr;
     QAction* preferences = nullptr;
 
+    QActionGroup* tools = nullptr; // data(): the Tool
     QAction* home = nullptr;
     QAction* north = nullptr;
     QAction* go_to_coordinate = nullptr;
@@ -68,11 +70,14 @@ struct WindowActions {
     void showSession(const Session& session);
     /// Checks `model`.
     void showContactModel(ContactModelKind model);
+    /// Checks `tool`.
+    void showTool(Tool tool);
 
 private:
     void makeFileMenu(QMainWindow& window);
     void makeEditMenu(QMainWindow& window, QUndoStack& undo_stack);
     void makeViewMenu(QMainWindow& window, QWidget& map);
+    void makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map);
     void makeMapMenu(QMainWindow& window);
     void makeHapticsMenu(QMainWindow& window);
     void makeHelpMenu(QMainWindow& window);

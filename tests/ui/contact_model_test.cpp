@@ -136,6 +136,7 @@ TEST_F(ContactModelTest, ChangesInTheMiddleOfATouch)
     window.show();
     ASSERT_TRUE(openAndWait(window, maps_.hill()));
     TerrainView& view = *window.view();
+    view.setTool(Tool::Touch);
     const QPointF at = QRectF(view.rect()).center();
     QMouseEvent press(QEvent::MouseButtonPress, at, view.mapToGlobal(at), Qt::LeftButton,
                       Qt::LeftButton, Qt::NoModifier);

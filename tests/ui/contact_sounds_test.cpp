@@ -24,6 +24,7 @@ protected:
     void SetUp() override
     {
         view_ = std::make_unique<TerrainView>();
+        view_->setTool(Tool::Touch);
         view_->resize(800, 600);
         view_->show();
         ASSERT_TRUE(QTest::qWaitFor([this] { return view_->isReady(); }, kTimeout));

@@ -747,6 +747,7 @@ TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
     EXPECT_TRUE(comesToTouch(below, HUGE_VAL));
     EXPECT_FALSE(touches(below, kExactM)) << "what is held back makes a difference";
     // The mouse likewise.
+    view_->setTool(Tool::Touch);
     QTest::mousePress(view_.get(), Qt::LeftButton, {}, view_->rect().center());
     ASSERT_TRUE(view_->stylus());
     EXPECT_TRUE(view_->stylus()->is_in_contact);

@@ -115,6 +115,7 @@ protected:
         TerrainView& view = *window.view();
         ASSERT_TRUE(QTest::qWaitFor([&] { return view.isPictureComplete(); }, kTimeout));
         const QPoint middle = view.rect().center();
+        view.setTool(Tool::Touch);
         QTest::mouseMove(&view, middle);
         QTest::mousePress(&view, Qt::LeftButton, Qt::NoModifier, middle);
         ASSERT_TRUE(view.stylus());

@@ -237,6 +237,7 @@ TEST_F(PreviewsTest, StayWhenPreparingIsStoppedUntilItGoesOn)
     EXPECT_TRUE(window_->actionSet().layer.prepare->isEnabled());
     // It can be looked at and touched as before.
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
+    view().setTool(Tool::Touch);
     QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
     ASSERT_TRUE(view().stylus());
     EXPECT_TRUE(view().stylus()->is_in_contact);
@@ -343,6 +344,7 @@ TEST_F(PreviewsTest, AreLetGoOfByTheStylusBeforeTheyGo)
 {
     ASSERT_TRUE(openPreview(map()));
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
+    view().setTool(Tool::Touch);
     const QPoint middle = view().rect().center();
     QTest::mouseMove(&view(), middle);
     QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, middle);

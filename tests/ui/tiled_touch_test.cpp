@@ -41,6 +41,7 @@ protected:
     static std::unique_ptr<TerrainView> show(const LoadedMap& map)
     {
         auto view = std::make_unique<TerrainView>();
+        view->setTool(Tool::Touch);
         view->resize(500, 400);
         view->show();
         EXPECT_TRUE(QTest::qWaitFor([&] { return view->isReady(); }, kTimeout));

@@ -151,6 +151,7 @@ protected:
     void start()
     {
         view_ = std::make_unique<TerrainView>();
+        view_->setTool(Tool::Touch);
         view_->resize(800, 600);
         view_->show();
         QApplication::setActiveWindow(view_.get()); // there may be no window manager to do it

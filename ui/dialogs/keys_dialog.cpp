@@ -1,5 +1,7 @@
 #include "ui/dialogs/keys_dialog.h"
 
+#include "ui/tools/gestures.h"
+
 #include <QAction>
 #include <QDialogButtonBox>
 #include <QGridLayout>
@@ -19,20 +21,14 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent)
     grid->setHorizontalSpacing(20);
     grid->setVerticalSpacing(3);
     grid->setColumnMinimumWidth(2, 24);
-    const std::array<std::array<QString, 2>, 11> mouse{{
-        {tr("Left drag"), tr("Touch the ground")},
-        {tr("Wheel while touching"), tr("Press deeper or less deep")},
-        {tr("Space held"), tr("Grab: pan on the ground, zoom in the air")},
-        {tr("Shift+drag"), tr("Pan")},
-        {tr("Right or middle drag"), tr("Turn and tilt")},
-        {tr("Wheel"), tr("Zoom to the pointer")},
-        {tr("Ctrl+wheel"), tr("Zoom finely")},
-        {tr("Double click"), tr("Fly there")},
-        {tr("Drop files"), tr("Open them")},
-        {tr("Cap of a SpaceMouse"), tr("Pan, zoom, turn and tilt")},
-        {tr("Its first button"), tr("Show the whole map")},
-    }};
-    QList<std::array<QString, 2>> lines(mouse.begin(), mouse.end());
+    QList<std::array<QString, 2>> lines;
+    for (const GestureLine& line : gestureLines()) {
+        lines.append({line.gesture, line.action});
+    }
+    lines.append({tr("Space held"), tr("Grab: pan in contact, zoom in the air")});
+    lines.append({tr("Drop files"), tr("Open them")});
+    lines.append({tr("SpaceMouse cap"), tr("Pan, zoom, turn and tilt")});
+    lines.append({tr("SpaceMouse button 1"), tr("Show the whole map")});
     for (const QAction* action : actions) {
         if (!action->shortcut().isEmpty()) {
             lines.append({QKeySequence::listToString(action->shortcuts().mid(0, 1),
