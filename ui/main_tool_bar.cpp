@@ -18,6 +18,8 @@ namespace {
 constexpr int kSliderStepsDown = 18;
 constexpr int kSliderStepsUp = 12;
 
+constexpr int kToolIconSide = 20; // points
+
 } // namespace
 
 MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
@@ -26,7 +28,7 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     , label_(new QLabel(this))
 {
     setObjectName(QStringLiteral("mainToolBar"));
-    setToolButtonStyle(Qt::ToolButtonTextOnly);
+    setIconSize({kToolIconSide, kToolIconSide});
     setMovable(false);
     addAction(actions.open);
     addAction(actions.save_picture);
@@ -53,6 +55,7 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     const auto add_menu = [this](QMenu* menu, const QString& text, const QString& tip) {
         auto* button = new QToolButton(this);
         button->setText(text);
+        button->setIcon(menu->icon());
         button->setToolTip(tip);
         button->setAccessibleName(tip);
         button->setMenu(menu);
@@ -61,8 +64,7 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     };
     add_menu(actions.shading, tr("Shading"), tr("What the colours of the ground tell"));
     add_menu(actions.ramps, tr("Ramp"), tr("Colour ramp of the active layer"));
-    //: The sign is a sun
-    actions.light->setIconText(tr("Light ☼"));
+    actions.light->setIconText(tr("Light"));
     addAction(actions.light);
     light_button_ = widgetForAction(actions.light);
     light_button_->setAccessibleName(tr("Direction of the light"));
@@ -70,6 +72,11 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     for (QToolButton* button : findChildren<QToolButton*>(QString(), Qt::FindDirectChildrenOnly)) {
         if (button->objectName() != QStringLiteral("qt_toolbar_ext_button")) {
             button->setFocusPolicy(Qt::TabFocus);
+            const bool is_general = button->defaultAction() == actions.open ||
+                                    button->defaultAction() == actions.save_picture ||
+                                    button->defaultAction() == actions.home ||
+                                    button->defaultAction() == actions.north;
+            (is_general ? general_buttons_ : special_buttons_).append(button);
         } else {
             //: The button that opens what the toolbar has no room for
             button->setAccessibleName(tr("More Tools"));
@@ -101,6 +108,39 @@ void MainToolBar::setExaggerationEnabled(bool is_enabled)
 {
     slider_->setEnabled(is_enabled);
     label_->setEnabled(is_enabled);
+}
+
+void MainToolBar::resizeEvent(QResizeEvent* event)
+{
+    QToolBar::resizeEvent(event);
+    fitTexts();
+}
+
+void MainToolBar::changeEvent(QEvent* event)
+{
+    QToolBar::changeEvent(event);
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
+        fitTexts();
+    }
+}
+
+// As many texts as there is room for, so that nothing moves into the menu at the end: on all
+// buttons, on those whose icons are less known, or on none.
+void MainToolBar::fitTexts()
+{
+    const auto set = [](const QList<QToolButton*>& buttons, Qt::ToolButtonStyle style) {
+        for (QToolButton* button : buttons) {
+            button->setToolButtonStyle(style);
+        }
+    };
+    set(general_buttons_, Qt::ToolButtonTextBesideIcon);
+    set(special_buttons_, Qt::ToolButtonTextBesideIcon);
+    if (sizeHint().width() > width()) {
+        set(general_buttons_, Qt::ToolButtonIconOnly);
+    }
+    if (sizeHint().width() > width()) {
+        set(special_buttons_, Qt::ToolButtonIconOnly);
+    }
 }
 
 const QWidget& MainToolBar::lightAnchor() const

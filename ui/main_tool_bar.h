@@ -1,6 +1,7 @@
 // The toolbar: what is used all the time.
 #pragma once
 
+#include <QList>
 #include <QToolBar>
 
 class QLabel;
@@ -22,10 +23,19 @@ public:
     /// The button of the light, or the toolbar where it has no room for it.
     const QWidget& lightAnchor() const;
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
 Q_SIGNALS:
     void exaggerationRequested(double exaggeration);
 
 private:
+    void fitTexts();
+
+    /// Those without a text first, where there is no room for all texts.
+    QList<QToolButton*> general_buttons_;
+    QList<QToolButton*> special_buttons_; // tools and menus
     QSlider* slider_ = nullptr;
     QLabel* label_ = nullptr;
     QWidget* light_button_ = nullptr;

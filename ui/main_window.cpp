@@ -2,6 +2,7 @@
 
 #include "core/view/exaggeration.h"
 #include "haptics/drivers/built_in_drivers.h"
+#include "ui/action_icons.h"
 #include "ui/contact_sounds.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
@@ -9,6 +10,7 @@
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/haptics_controller.h"
 #include "ui/haptics_text.h"
+#include "ui/icons.h"
 #include "ui/light_popup.h"
 #include "ui/load_status.h"
 #include "ui/main_tool_bar.h"
@@ -22,6 +24,8 @@
 #include "ui/status_readout.h"
 #include "ui/terrain_view.h"
 #include "ui/theme.h"
+#include "ui/tools/map_menu.h"
+#include "ui/whats_this.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
 
@@ -34,8 +38,10 @@
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QImage>
+#include <QKeyEvent>
 #include <QListWidget>
 #include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
 #include <QOpenGLContext>
@@ -101,6 +107,11 @@ QString overlayKey(const QAction& action)
     return QStringLiteral("overlays/%1").arg(action.objectName());
 }
 
+QString hintKey()
+{
+    return QStringLiteral("hint/isDismissed");
+}
+
 QString displayKey()
 {
     return QStringLiteral("window/coordinates");
@@ -137,6 +148,8 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     }
     standard_tile_bytes_ = options_.opener.resources.tiles->bytesMax();
     setAcceptDrops(true);
+    setWindowIcon(programIcon());
+    map_menu_ = new MapMenu(*view_, [this](const GroundPoint& ground) { return factsAt(ground); });
     resize(kDefaultSize);
     addToolBar(tool_bar_);
     makeCentre();
@@ -146,10 +159,18 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     actions_->panels->addAction(docks_->haptics()->toggleViewAction());
     actions_->panels->addSeparator();
     actions_->panels->addActions(overlays_->visibilityActions());
+    setIcons(*docks_);
+    explainControls({.view = view_,
+                     .overlays = overlays_,
+                     .readout = readout_,
+                     .load_status = load_status_,
+                     .docks = docks_,
+                     .actions = actions_.get()});
     connectActions();
     connectPanels();
     connectController();
     connectView();
+    connectHint();
     if (isRemembered()) {
         restoreWindow();
         haptics_->setSettings(hapticsSettingsFrom(QSettings()));
@@ -261,6 +282,9 @@ void MainWindow::connectActions()
         preferences.contact_model = static_cast<ContactModelKind>(action->data().toInt());
         setPreferences(preferences);
     });
+    on(actions_->full_screen, [this](bool is_full) {
+        setWindowState(windowState().setFlag(Qt::WindowFullScreen, is_full));
+    });
     on(actions_->keys, [this] { showKeys(); });
     on(actions_->about, [this] { showAbout(); });
 }
@@ -364,6 +388,29 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::loadingChanged, readout_, &StatusReadout::setLoading);
     connect(view_, &TerrainView::problemChanged, readout_, &StatusReadout::setProblem);
     connect(view_, &TerrainView::problemChanged, this, &MainWindow::showPreparation);
+}
+
+// For people who have not dismissed it yet.
+void MainWindow::connectHint()
+{
+    if (!isRemembered() || QSettings().value(hintKey(), false).toBool()) {
+        return;
+    }
+    connect(overlays_, &MapOverlays::hintDismissed, this,
+            [] { QSettings().setValue(hintKey(), true); });
+    overlays_->offerHint();
+}
+
+PlaceFacts MainWindow::factsAt(const GroundPoint& ground) const
+{
+    const std::shared_ptr<const Dataset>& dataset =
+        view_->ground().maps()[ground.index].map.dataset;
+    const auto& layers = session().layers;
+    const auto layer = std::find_if(layers.begin(), layers.end(),
+                                    [&](const Layer& known) { return known.dataset == dataset; });
+    return placeFacts(
+        *dataset, layer != layers.end() ? QString::fromStdString(layer->name) : QString(),
+        ground.grid, {.display = readout_->display(), .unit = preferences_.height_unit});
 }
 
 void MainWindow::connectHaptics()
@@ -791,12 +838,7 @@ void MainWindow::showAbout()
 
 void MainWindow::showKeys()
 {
-    QList<QAction*> actions{actions_->open, actions_->open_folder, actions_->open_address,
-                            actions_->save_picture, actions_->go_to_coordinate};
-    actions += view_->actions();
-    actions += {actions_->layer.move_up, actions_->layer.move_down, actions_->layer.rename,
-                actions_->layer.remove, actions_->emergency_stop};
-    auto* dialog = new KeysDialog(actions, this);
+    auto* dialog = new KeysDialog(*menuBar(), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->show();
 }
@@ -821,6 +863,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
     controller_->stopAll();
     if (isRemembered()) {
         QSettings settings;
+        setWindowState(windowState().setFlag(Qt::WindowFullScreen, false)); // not the next time
         settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
         docks_->save(settings);
         for (const QAction* action : overlays_->visibilityActions()) {
@@ -828,6 +871,28 @@ void MainWindow::closeEvent(QCloseEvent* event)
         }
     }
     QMainWindow::closeEvent(event);
+}
+
+void MainWindow::changeEvent(QEvent* event)
+{
+    QMainWindow::changeEvent(event);
+    if (event->type() == QEvent::WindowStateChange && actions_) {
+        actions_->full_screen->setChecked(isFullScreen());
+    }
+}
+
+// Nothing else took the key.
+void MainWindow::keyPressEvent(QKeyEvent* event)
+{
+    if (event->key() != Qt::Key_Escape || event->modifiers() != Qt::NoModifier) {
+        QMainWindow::keyPressEvent(event);
+    } else if (isFullScreen()) {
+        actions_->full_screen->trigger();
+    } else if (overlays_->isHintOffered()) {
+        overlays_->dismissHint();
+    } else {
+        QMainWindow::keyPressEvent(event);
+    }
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event)

@@ -4,6 +4,7 @@
 #include "ui/connection_mark.h"
 #include "ui/device_finder.h"
 #include "ui/dialogs/go_to_dialog.h"
+#include "ui/place_facts.h"
 #include "ui/preferences.h"
 #include "ui/session_controller.h"
 #include "ui/spacemouse_controller.h"
@@ -24,11 +25,13 @@ class LightPopup;
 class LoadStatus;
 class MapOverlays;
 class MainToolBar;
+class MapMenu;
 class NoticeBar;
 class RecentFiles;
 class StatusReadout;
 class TerrainView;
 class WindowDocks;
+struct GroundPoint;
 struct WindowActions;
 
 /// How a window behaves beyond showing maps.
@@ -74,6 +77,7 @@ public:
     const SpaceMouseController& spacemouse() const noexcept { return *spacemouse_; }
     WindowDocks* docks() const noexcept { return docks_; }
     MapOverlays* overlays() const noexcept { return overlays_; }
+    MapMenu* mapMenu() const noexcept { return map_menu_; }
     RecentFiles* recentFiles() const noexcept { return recent_; }
     const WindowActions& actionSet() const noexcept { return *actions_; }
     SessionController& controller() noexcept { return *controller_; }
@@ -98,6 +102,8 @@ Q_SIGNALS:
 
 protected:
     void closeEvent(QCloseEvent* event) override;
+    void changeEvent(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
@@ -113,6 +119,8 @@ private:
     void connectPanels();
     void connectController();
     void connectView();
+    void connectHint();
+    PlaceFacts factsAt(const GroundPoint& ground) const;
     void connectHaptics();
     void connectSpaceMouse();
     void connectSounds();
@@ -134,6 +142,7 @@ private:
     Preferences preferences_;
     TerrainView* view_ = nullptr;
     MapOverlays* overlays_ = nullptr;
+    MapMenu* map_menu_ = nullptr;
     SessionController* controller_ = nullptr;
     std::unique_ptr<WindowActions> actions_;
     NoticeBar* notices_ = nullptr;

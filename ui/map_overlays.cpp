@@ -5,6 +5,7 @@
 #include "core/view/scale_bar.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/force_meter.h"
+#include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/minimap.h"
@@ -13,6 +14,7 @@
 #include "ui/terrain_view.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QImage>
 #include <QPainter>
 
@@ -60,12 +62,14 @@ MapOverlays::MapOverlays(TerrainView& view)
     , legend_(new Legend(&view))
     , force_meter_(new ForceMeter(&view))
     , hand_pointer_(new HandPointer(&view))
+    , hint_(new GestureHint(&view))
     , layout_(new OverlayLayout(&view,
                                 {.minimap = minimap_,
                                  .legend = legend_,
                                  .compass = compass_,
                                  .scale_bar = scale_bar_,
-                                 .force_meter = force_meter_}))
+                                 .force_meter = force_meter_,
+                                 .hint = hint_}))
 {
     makeAction(tr("&Overview Map"), QStringLiteral("minimap"), {minimap_});
     makeAction(tr("&Legend"), QStringLiteral("legend"), {legend_});
@@ -79,8 +83,29 @@ MapOverlays::MapOverlays(TerrainView& view)
     connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::showSight);
     connect(&view_, &TerrainView::stylusMoved, this, &MapOverlays::showTouch);
     connect(minimap_, &Minimap::placeRequested, &view_, &TerrainView::lookAt);
+    connect(&view_, &TerrainView::gestureMade, hint_, &GestureHint::markDone);
+    connect(hint_, &GestureHint::dismissed, this, &MapOverlays::dismissHint);
+    layout_->setWanted(hint_, false);
     connect(compass_, &Compass::northRequested, &view_, &TerrainView::turnNorthUp);
     showMap();
+}
+
+void MapOverlays::offerHint()
+{
+    is_hint_offered_ = true;
+    showMap();
+}
+
+void MapOverlays::dismissHint()
+{
+    if (is_hint_offered_) {
+        is_hint_offered_ = false;
+        if (hint_->isAncestorOf(QApplication::focusWidget())) {
+            view_.setFocus();
+        }
+        layout_->setWanted(hint_, false);
+        Q_EMIT hintDismissed();
+    }
 }
 
 void MapOverlays::makeAction(const QString& text, const QString& name, const QList<QWidget*>& parts)
@@ -118,6 +143,7 @@ void MapOverlays::setCovered(int height)
 void MapOverlays::showMap()
 {
     layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());
+    layout_->setWanted(hint_, bool(view_.map()) && is_hint_offered_);
     if (!view_.map()) {
         minimap_->clear();
         scale_bar_->clear();

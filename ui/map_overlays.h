@@ -11,6 +11,7 @@ namespace marsview {
 
 class Compass;
 class ForceMeter;
+class GestureHint;
 class HandPointer;
 class Legend;
 class Minimap;
@@ -33,6 +34,13 @@ public:
     ForceMeter* forceMeter() const noexcept { return force_meter_; }
     HandPointer* handPointer() const noexcept { return hand_pointer_; }
 
+    GestureHint* hint() const noexcept { return hint_; }
+
+    /// Shows the gestures to a newcomer, from the first map on, until they are dismissed.
+    void offerHint();
+    bool isHintOffered() const noexcept { return is_hint_offered_; }
+    void dismissHint();
+
     /// Puts what explains the map into a picture of the view: legend, compass and scale bar, as far
     /// as they are to be seen.
     void paintOver(QImage& picture) const;
@@ -43,6 +51,10 @@ public:
     /// Checkable actions that show and hide the overlays which people may not want; each has an
     /// object name to be remembered by.
     const QList<QAction*>& visibilityActions() const noexcept { return actions_; }
+
+Q_SIGNALS:
+    /// By the user.
+    void hintDismissed();
 
 private:
     void makeAction(const QString& text, const QString& name, const QList<QWidget*>& parts);
@@ -59,7 +71,9 @@ private:
     Legend* legend_ = nullptr;
     ForceMeter* force_meter_ = nullptr;
     HandPointer* hand_pointer_ = nullptr; // over all of them
+    GestureHint* hint_ = nullptr;
     OverlayLayout* layout_ = nullptr;
+    bool is_hint_offered_ = false;
     int covered_height_ = 0;
     QList<QAction*> actions_;
 };

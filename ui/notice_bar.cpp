@@ -1,5 +1,7 @@
 #include "ui/notice_bar.h"
 
+#include "ui/icons.h"
+
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QStyle>
@@ -34,7 +36,7 @@ NoticeBar::NoticeBar(QWidget* parent)
     details->setText(tr("Details"));
     details->setAutoRaise(true);
     auto* close = new QToolButton(this);
-    close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
+    close->setIcon(lineIcon(QStringLiteral("close")));
     close->setAutoRaise(true);
     close->setAccessibleName(tr("Close Notices"));
     auto* layout = new QHBoxLayout(this);

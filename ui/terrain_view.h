@@ -100,12 +100,16 @@ public:
     void flyTo(GridPoint grid, double distance_m);
     /// The same to a place of the scene, from the same side and distance.
     void flyToPlace(const ScenePoint& place);
+    /// Flies to what surfaceAt() found, and much nearer to it.
+    void flyNearer(const RayHit& hit);
     /// Looks at a place of the scene at once, from the same side and distance.
     void lookAt(const ScenePoint& place);
 
     /// The ground behind a position in widget coordinates, at full resolution: where it is on the
     /// topmost map's grid, which lower maps may reach beyond.
     std::optional<RayHit> surfaceAt(QPointF position) const;
+    /// The same with the map that it is on, and the place on that map's own grid.
+    std::optional<GroundPoint> groundUnder(QPointF position) const;
     /// A position of the topmost map's surface in widget coordinates.
     std::optional<QPointF> positionOf(GridPoint grid) const;
     /// A place of the scene in widget coordinates; nothing where it is behind the eye.
@@ -198,7 +202,6 @@ private:
     PictureStage lastStage() const;
     void goToOpeningView();
     PixelPoint pixelAt(QPointF position) const;
-    std::optional<GroundPoint> groundUnder(QPointF position) const;
     double groundAt(double east_m, double north_m) const;
     NavigationLimits limits() const;
     OrbitCamera bounded(const OrbitCamera& camera) const;

@@ -161,8 +161,13 @@ void TerrainView::mouseDoubleClickEvent(QMouseEvent* event)
                     MapAction::FlyThere) {
         return;
     }
-    flyTo(hit->grid, onGround(navigator_.goal()).distance_m * kFlyFactor);
+    flyNearer(*hit);
     Q_EMIT gestureMade(MapAction::FlyThere);
+}
+
+void TerrainView::flyNearer(const RayHit& hit)
+{
+    flyTo(hit.grid, onGround(navigator_.goal()).distance_m * kFlyFactor);
 }
 
 void TerrainView::wheelEvent(QWheelEvent* event)

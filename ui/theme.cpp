@@ -1,8 +1,9 @@
 #include "ui/theme.h"
 
+#include "ui/line_style.h"
+
 #include <QApplication>
 #include <QStyle>
-#include <QStyleFactory>
 #include <QToolTip>
 
 namespace marsview {
@@ -111,8 +112,8 @@ QPalette darkPalette()
 void applyTheme(Theme theme)
 {
     static const bool kIsDesktopDark = isDark(QApplication::palette());
-    if (QApplication::style()->name() != QStringLiteral("fusion")) {
-        QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    if (qobject_cast<LineStyle*>(QApplication::style()) == nullptr) {
+        QApplication::setStyle(new LineStyle);
     }
     const bool is_dark = theme == Theme::Dark || (theme == Theme::System && kIsDesktopDark);
     const QPalette palette = is_dark ? darkPalette() : lightPalette();

@@ -1,5 +1,7 @@
 #include "ui/window_actions.h"
 
+#include "ui/action_icons.h"
+#include "ui/icons.h"
 #include "ui/ramp_text.h"
 #include "ui/terrain_view.h"
 
@@ -9,6 +11,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QUndoStack>
+#include <QWhatsThis>
 
 #include <algorithm>
 #include <array>
@@ -138,6 +141,7 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeMapMenu(window);
     makeHapticsMenu(window);
     makeHelpMenu(window);
+    setIcons(*this);
     for_shown_ += {save_picture, home, north, go_to_coordinate, exaggerate_more, exaggerate_less};
     for_shown_ += steps;
     showSession({});
@@ -180,9 +184,11 @@ void WindowActions::makeEditMenu(QMainWindow& window, QUndoStack& undo_stack)
     QMenu* menu = window.menuBar()->addMenu(tr("&Edit"));
     QAction* undo = undo_stack.createUndoAction(&window, tr("&Undo"));
     undo->setShortcut(QKeySequence::Undo);
+    undo->setIcon(lineIcon(QStringLiteral("undo")));
     menu->addAction(undo);
     QAction* redo = undo_stack.createRedoAction(&window, tr("&Redo"));
     redo->setShortcut(QKeySequence::Redo);
+    redo->setIcon(lineIcon(QStringLiteral("redo")));
     menu->addAction(redo);
     menu->addSeparator();
     preferences = menu->addAction(tr("&Preferences…"));
@@ -223,6 +229,9 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     add_key(exaggerate_less, {Qt::Key_Minus});
     menu->addSeparator();
     panels = menu->addMenu(tr("&Panels"));
+    full_screen = menu->addAction(tr("&Full Screen"));
+    full_screen->setShortcut(Qt::Key_F11);
+    full_screen->setCheckable(true);
 }
 
 void WindowActions::makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map)
@@ -344,6 +353,9 @@ void WindowActions::makeHelpMenu(QMainWindow& window)
     QMenu* menu = window.menuBar()->addMenu(tr("&Help"));
     keys = menu->addAction(tr("&Keys and Mouse"));
     keys->setShortcut(QKeySequence::HelpContents);
+    whats_this = QWhatsThis::createAction(&window);
+    whats_this->setText(tr("&What's This?"));
+    menu->addAction(whats_this);
     menu->addSeparator();
     about = menu->addAction(tr("&About MarsView"));
     about->setMenuRole(QAction::AboutRole);

@@ -42,7 +42,8 @@ struct WindowActions {
     QList<QAction*> steps; // data(): the NavigationStep
     QAction* exaggerate_more = nullptr;
     QAction* exaggerate_less = nullptr;
-    QMenu* panels = nullptr; // filled by the docks
+    QMenu* panels = nullptr;        // filled by the docks
+    QAction* full_screen = nullptr; // checkable
 
     LayerActions layer;
     QAction* toggle_visibility = nullptr;
@@ -64,6 +65,7 @@ struct WindowActions {
     QAction* save_flight = nullptr;
 
     QAction* keys = nullptr;
+    QAction* whats_this = nullptr;
     QAction* about = nullptr;
 
     /// Checks and enables what fits `session`.

@@ -11,6 +11,7 @@
 #include "ui/window_docks.h"
 
 #include <QAccessible>
+#include <QActionGroup>
 #include <QApplication>
 #include <QDockWidget>
 #include <QMenu>
@@ -137,6 +138,10 @@ TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
                                   actions.stop_preparing,
                                   actions.layer.prepare,
                                   actions.emergency_stop,
+                                  actions.full_screen,
+                                  actions.tools->actions()[0],
+                                  actions.tools->actions()[1],
+                                  actions.tools->actions()[2],
                                   actions.record_touch,
                                   actions.replay_touch,
                                   actions.save_flight}) {

@@ -2,6 +2,7 @@
 #include "tests/support/random.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/force_meter.h"
+#include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
@@ -543,7 +544,7 @@ protected:
     }
     std::vector<QWidget*> parts()
     {
-        return {minimap_, legend_, compass_, scale_bar_, force_meter_};
+        return {minimap_, legend_, compass_, scale_bar_, force_meter_, hint_};
     }
     // How many are seen; fails where two overlap or one sticks out.
     int checkedCount()
@@ -577,12 +578,14 @@ protected:
     Compass* compass_ = new Compass(&host_);
     ScaleBarView* scale_bar_ = new ScaleBarView(&host_);
     ForceMeter* force_meter_ = new ForceMeter(&host_);
+    GestureHint* hint_ = new GestureHint(&host_);
     OverlayLayout* layout_ = new OverlayLayout(&host_,
                                                {.minimap = minimap_,
                                                 .legend = legend_,
                                                 .compass = compass_,
                                                 .scale_bar = scale_bar_,
-                                                .force_meter = force_meter_});
+                                                .force_meter = force_meter_,
+                                                .hint = hint_});
 };
 
 TEST_F(OverlayLayoutTest, NeverOverlapsInWindowsOfAnySize)
@@ -590,7 +593,7 @@ TEST_F(OverlayLayoutTest, NeverOverlapsInWindowsOfAnySize)
     host_.setUpdatesEnabled(false); // painting takes nearly all of the time
     host_.show();
     test::Random random;
-    std::array<int, 6> seen{};
+    std::array<int, 7> seen{};
     for (int i = 0; i < 1500; ++i) {
         const int width = 1 + static_cast<int>(random.below(i % 3 == 0 ? 2000 : 500));
         const int height = 1 + static_cast<int>(random.below(i % 3 == 0 ? 1200 : 400));

@@ -18,6 +18,7 @@
 #include <QApplication>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenuBar>
 #include <QRegularExpression>
 #include <QTest>
 #include <QTranslator>
@@ -167,7 +168,7 @@ TEST_F(TranslationTest, ReachesEveryDialog)
     AboutDialog about(QString(), window_.get());
     names_ += {QCoreApplication::applicationVersion(), QString::fromLatin1(qVersion())};
     expectMarked(about);
-    const KeysDialog keys(window_->view()->actions(), window_.get());
+    const KeysDialog keys(*window_->menuBar(), window_.get());
     for (const QLabel* label : keys.findChildren<QLabel*>()) {
         if (label->font().bold()) {
             names_.append(label->text()); // the keys, as Qt names them

@@ -1,6 +1,7 @@
 #include "ui/dialogs/about_dialog.h"
 
 #include "core/raster/raster_file.h"
+#include "ui/icons.h"
 
 #include <QCoreApplication>
 #include <QDialogButtonBox>
@@ -9,6 +10,11 @@
 #include <QVBoxLayout>
 
 namespace marsview {
+namespace {
+
+constexpr int kAboutIconSide = 96; // points
+
+} // namespace
 
 AboutDialog::AboutDialog(const QString& graphics, QWidget* parent)
     : QDialog(parent)
@@ -33,13 +39,26 @@ AboutDialog::AboutDialog(const QString& graphics, QWidget* parent)
     add(tr("GDAL"), QString::fromStdString(gdalVersion()));
     add(tr("Qt"), QString::fromLatin1(qVersion()));
     add(tr("OpenGL"), graphics.isEmpty() ? tr("none") : graphics);
-    add(tr("Licence"), tr("MIT; the file LICENSE tells its terms"));
+    add(tr("License"), tr("Licensed under the MIT License"));
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     auto* layout = new QVBoxLayout(this);
     layout->setSpacing(12);
-    layout->addWidget(title);
-    layout->addWidget(text);
+    auto* icon = new QLabel(this);
+    icon->setObjectName(QStringLiteral("programIcon"));
+    icon->setPixmap(programIcon().pixmap(QSize(kAboutIconSide, kAboutIconSide), devicePixelRatioF()));
+    icon->setAccessibleName(tr("Icon of the program"));
+    auto* name = new QVBoxLayout;
+    name->setSpacing(4);
+    name->addStretch(1);
+    name->addWidget(title);
+    name->addWidget(text);
+    name->addStretch(1);
+    auto* head = new QHBoxLayout;
+    head->setSpacing(16);
+    head->addWidget(icon);
+    head->addLayout(name, 1);
+    layout->addLayout(head);
     layout->addLayout(facts);
     layout->addStretch(1);
     layout->addWidget(buttons);

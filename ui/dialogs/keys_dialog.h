@@ -2,6 +2,11 @@
 #pragma once
 
 #include <QDialog>
+#include <QList>
+#include <QString>
+
+class QMenu;
+class QMenuBar;
 
 namespace marsview {
 
@@ -9,8 +14,22 @@ class KeysDialog final : public QDialog {
     Q_OBJECT
 
 public:
-    /// Lists the keys of `actions`.
-    explicit KeysDialog(const QList<QAction*>& actions, QWidget* parent = nullptr);
+    /// Lists the gestures of the mouse and, by menu, every entry that has a key.
+    explicit KeysDialog(const QMenuBar& menus, QWidget* parent = nullptr);
+
+private:
+    struct Line {
+        QString key;
+        QString effect;
+    };
+    struct Group {
+        QString title;
+        QList<Line> lines;
+    };
+
+    static Group mouseGroup();
+    static void addMenu(QList<Group>& groups, const QMenu& menu);
+    QWidget* makeGroup(const Group& group);
 };
 
 } // namespace marsview

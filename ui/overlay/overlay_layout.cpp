@@ -2,6 +2,7 @@
 
 #include "ui/overlay/compass.h"
 #include "ui/overlay/force_meter.h"
+#include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/legend.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/scale_bar_view.h"
@@ -35,8 +36,8 @@ OverlayLayout::OverlayLayout(QWidget* host, const OverlayParts& parts)
     : QObject(host)
     , host_(host)
     , parts_(parts)
-    , entries_{Entry{parts.minimap}, Entry{parts.legend}, Entry{parts.compass},
-               Entry{parts.scale_bar}, Entry{parts.force_meter}}
+    , entries_{Entry{parts.minimap},   Entry{parts.legend},      Entry{parts.compass},
+               Entry{parts.scale_bar}, Entry{parts.force_meter}, Entry{parts.hint}}
 {
     for (const Entry& entry : entries_) {
         if (entry.widget != nullptr) {
@@ -165,6 +166,11 @@ void OverlayLayout::arrange()
         put(parts_.legend, {inside.left(), bottom - parts_.legend->sizeHint().height()});
     } else {
         hide(parts_.legend);
+    }
+    if (isNeeded(parts_.hint)) {
+        put(parts_.hint, inside.topLeft());
+    } else {
+        hide(parts_.hint);
     }
     // Last, so that it moves nothing: as low as it can be, then as near to the middle.
     if (isNeeded(parts_.force_meter)) {

@@ -12,6 +12,7 @@ namespace marsview {
 
 class Compass;
 class ForceMeter;
+class GestureHint;
 class Legend;
 class Minimap;
 class ScaleBarView;
@@ -23,13 +24,15 @@ struct OverlayParts {
     Compass* compass = nullptr;
     ScaleBarView* scale_bar = nullptr;
     ForceMeter* force_meter = nullptr;
+    GestureHint* hint = nullptr;
 };
 
 /// Keeps overlays in the corners of a widget: the minimap in the upper right, compass and scale bar
-/// in the lower right, the legend in the lower left, the force meter at the bottom in the middle,
-/// or as near to that as there is room. Mirrored in layouts from right to left. No two ever
-/// overlap; what has no room is hidden, the legend first, then the minimap, the compass, the scale
-/// bar. A force meter that comes and goes moves and hides nothing else.
+/// in the lower right, the legend in the lower left, the hint in the upper left, the force meter at
+/// the bottom in the middle, or as near to that as there is room. Mirrored in layouts from right to
+/// left. No two ever overlap; what has no room is hidden, the hint first, then the legend, the
+/// minimap, the compass, the scale bar. A force meter that comes and goes moves and hides nothing
+/// else.
 class OverlayLayout final : public QObject {
     Q_OBJECT
 
@@ -57,7 +60,7 @@ private:
 
     QWidget* host_ = nullptr;
     OverlayParts parts_;
-    std::array<Entry, 5> entries_;
+    std::array<Entry, 6> entries_;
     int covered_height_ = 0;
     bool is_arranging_ = false;
 };

@@ -1,0 +1,206 @@
+// What helps a newcomer: the hint over the map, full screen, What's This and the list of keys.
+
+#include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
+#include "ui/dialogs/keys_dialog.h"
+#include "ui/map_overlays.h"
+#include "ui/overlay/gesture_hint.h"
+#include "ui/overlay/legend.h"
+#include "ui/overlay/minimap.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QApplication>
+#include <QGroupBox>
+#include <QHelpEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolButton>
+#include <QWhatsThis>
+#include <QWheelEvent>
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace marsview {
+namespace {
+
+class FirstMinuteTest : public testing::Test {
+protected:
+    void SetUp() override { QSettings().clear(); }
+    void TearDown() override
+    {
+        window_.reset();
+        QSettings().clear();
+    }
+
+    void open(WindowOptions::Geometry geometry = WindowOptions::Geometry::Remembered)
+    {
+        WindowOptions options = testWindowOptions();
+        options.geometry = geometry;
+        window_ = std::make_unique<MainWindow>(options);
+        window_->resize(1280, 800);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there may be no window manager to do it
+        ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+        view().setFocus();
+        ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
+    }
+
+    TerrainView& view() { return *window_->view(); }
+    GestureHint& hint() { return *window_->overlays()->hint(); }
+    void drag(Qt::MouseButton button)
+    {
+        const QPointF from = QRectF(view().rect()).center() + QPointF(0.0, 60.0);
+        const auto send = [&](QEvent::Type type, QPointF at, Qt::MouseButton b,
+                              Qt::MouseButtons held) {
+            QMouseEvent event(type, at, view().mapToGlobal(at), b, held, Qt::NoModifier);
+            QApplication::sendEvent(&view(), &event);
+        };
+        send(QEvent::MouseButtonPress, from, button, button);
+        send(QEvent::MouseMove, from + QPointF(30.0, 5.0), Qt::NoButton, button);
+        send(QEvent::MouseButtonRelease, from + QPointF(30.0, 5.0), button, Qt::NoButton);
+    }
+
+    TestMaps maps_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(FirstMinuteTest, TheHintNamesTheGesturesUntilItIsClosed)
+{
+    open();
+    ASSERT_TRUE(hint().isVisible());
+    EXPECT_FALSE(hint().accessibleName().isEmpty());
+    for (const char* word : {"Drag", "Right-drag", "Wheel", "Double-click", "Press T"}) {
+        EXPECT_TRUE(hint().accessibleDescription().contains(QString::fromLatin1(word))) << word;
+    }
+    for (const QWidget* other : std::initializer_list<const QWidget*>{
+             window_->overlays()->legend(), window_->overlays()->minimap()}) {
+        EXPECT_TRUE(other->isVisible());
+        EXPECT_FALSE(hint().geometry().intersects(other->geometry()));
+    }
+    QTest::mouseClick(hint().findChild<QToolButton*>(QStringLiteral("closeHint")), Qt::LeftButton);
+    EXPECT_FALSE(hint().isVisible());
+    open(); // the next start
+    EXPECT_FALSE(hint().isVisible());
+}
+
+TEST_F(FirstMinuteTest, EscClosesTheHint)
+{
+    open();
+    ASSERT_TRUE(hint().isVisible());
+    QTest::keyClick(&view(), Qt::Key_Escape);
+    EXPECT_FALSE(hint().isVisible());
+    open();
+    EXPECT_FALSE(hint().isVisible());
+}
+
+TEST_F(FirstMinuteTest, TheHintGoesWhenAllWasTried)
+{
+    open();
+    drag(Qt::LeftButton);
+    EXPECT_TRUE(hint().isDone(MapAction::Pan));
+    EXPECT_FALSE(hint().isDone(MapAction::Orbit));
+    drag(Qt::RightButton);
+    EXPECT_TRUE(hint().isDone(MapAction::Orbit));
+    const QPointF middle = QRectF(view().rect()).center();
+    QWheelEvent wheel(middle, view().mapToGlobal(middle), {}, {0, 120}, Qt::NoButton,
+                      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&view(), &wheel);
+    EXPECT_TRUE(hint().isDone(MapAction::Zoom));
+    QTest::keyClick(&view(), Qt::Key_T);
+    drag(Qt::LeftButton);
+    EXPECT_TRUE(hint().isDone(MapAction::Touch));
+    EXPECT_TRUE(hint().isVisible());
+    QTest::mouseDClick(&view(), Qt::LeftButton, {}, middle.toPoint());
+    EXPECT_FALSE(hint().isVisible());
+    open();
+    EXPECT_FALSE(hint().isVisible());
+}
+
+TEST_F(FirstMinuteTest, ThereIsNoHintInPicturesOfTheWindow)
+{
+    open(WindowOptions::Geometry::Fixed);
+    EXPECT_FALSE(hint().isVisible());
+}
+
+TEST_F(FirstMinuteTest, FullScreenIsEnteredAndLeftByKey)
+{
+    open();
+    QTest::keyClick(&view(), Qt::Key_F11);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window_->isFullScreen(); }, kTimeout));
+    EXPECT_TRUE(window_->actionSet().full_screen->isChecked());
+    EXPECT_TRUE(window_->menuBar()->isVisible());
+    QTest::keyClick(&view(), Qt::Key_F11);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window_->isFullScreen(); }, kTimeout));
+    window_->actionSet().full_screen->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window_->isFullScreen(); }, kTimeout));
+    QTest::keyClick(&view(), Qt::Key_Escape);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window_->isFullScreen(); }, kTimeout));
+    EXPECT_FALSE(window_->actionSet().full_screen->isChecked());
+    EXPECT_TRUE(hint().isVisible()) << "one thing at a time";
+}
+
+TEST_F(FirstMinuteTest, WhatsThisExplainsTheMainControls)
+{
+    open();
+    QTest::keyClick(&view(), Qt::Key_F1, Qt::ShiftModifier);
+    EXPECT_TRUE(QWhatsThis::inWhatsThisMode());
+    QWhatsThis::leaveWhatsThisMode();
+    for (QWidget* control : std::initializer_list<QWidget*>{&view(), window_->overlays()->legend(),
+                                                            window_->overlays()->minimap()}) {
+        QHelpEvent asked(QEvent::QueryWhatsThis, QPoint(5, 5), control->mapToGlobal(QPoint(5, 5)));
+        QApplication::sendEvent(control, &asked);
+        EXPECT_TRUE(asked.isAccepted());
+        EXPECT_GT(control->whatsThis().size(), 20);
+    }
+    for (const QAction* action : window_->actionSet().tools->actions()) {
+        EXPECT_GT(action->whatsThis().size(), 20);
+    }
+}
+
+TEST_F(FirstMinuteTest, TheListOfKeysHasEveryKeyOfTheMenusInGroups)
+{
+    open();
+    QTest::keyClick(&view(), Qt::Key_F1);
+    auto* dialog = window_->findChild<KeysDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    QStringList texts;
+    for (const QLabel* label : dialog->findChildren<QLabel*>()) {
+        texts.append(label->text());
+    }
+    int count = 0;
+    for (const QMenu* menu : window_->menuBar()->findChildren<QMenu*>()) {
+        for (const QAction* action : menu->actions()) {
+            if (action->menu() == nullptr && !action->shortcut().isEmpty()) {
+                ++count;
+                const QString text = action->text().remove(QLatin1Char('&')).remove(QChar(0x2026));
+                EXPECT_TRUE(texts.contains(text)) << text.toStdString();
+                const QString key = action->shortcut().toString(QKeySequence::NativeText);
+                EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [&](const QString& t) {
+                    return t.startsWith(key);
+                })) << key.toStdString();
+            }
+        }
+    }
+    EXPECT_GT(count, 25);
+    QStringList titles;
+    for (const QGroupBox* group : dialog->findChildren<QGroupBox*>()) {
+        titles.append(group->title());
+        EXPECT_FALSE(group->findChildren<QLabel*>().isEmpty());
+    }
+    for (const char* title : {"Mouse", "File", "View", "Tool", "Move", "Help"}) {
+        EXPECT_TRUE(titles.contains(QString::fromLatin1(title))) << title;
+    }
+    dialog->close();
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,186 @@
+// The menu of a place on the map, by mouse and by keyboard.
+
+#include "core/terrain/surface_slope.h"
+#include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
+#include "ui/dialogs/place_dialog.h"
+#include "ui/terrain_view.h"
+#include "ui/tools/map_menu.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace marsview {
+namespace {
+
+class MapMenuTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        window_ = std::make_unique<MainWindow>(testWindowOptions());
+        window_->resize(1000, 700);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there may be no window manager to do it
+        // Rises by 6 m to the east and 3 m to the north in each cell of 30 m.
+        ASSERT_TRUE(openAndWait(
+            *window_, maps_.write(QStringLiteral("plane.asc"), {}, [](int column, int row) {
+                return 6.0 * column - 3.0 * row + 1000.0;
+            })));
+        view().setFocus();
+        ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
+    }
+    void TearDown() override
+    {
+        delete menu();
+        window_.reset();
+    }
+
+    TerrainView& view() { return *window_->view(); }
+    QMenu* menu() { return window_->mapMenu()->menu(); }
+    PlaceDialog* card() { return window_->mapMenu()->card(); }
+    QPointF middle() { return QRectF(view().rect()).center(); }
+    QPointF placeOf(GridPoint grid) { return view().positionOf(grid).value(); }
+    void rightClick(QPointF at)
+    {
+        const auto send = [&](QEvent::Type type, Qt::MouseButtons held) {
+            QMouseEvent event(type, at, view().mapToGlobal(at), Qt::RightButton, held,
+                              Qt::NoModifier);
+            QApplication::sendEvent(&view(), &event);
+        };
+        send(QEvent::MouseButtonPress, Qt::RightButton);
+        send(QEvent::MouseButtonRelease, Qt::NoButton);
+    }
+    QAction* entry(const char* text)
+    {
+        for (QAction* action : menu()->actions()) {
+            if (action->text().remove(QLatin1Char('&')) == QString::fromUtf8(text)) {
+                return action;
+            }
+        }
+        return nullptr;
+    }
+    QString fact(const QString& name)
+    {
+        for (const QLabel* label : card()->findChildren<QLabel*>()) {
+            if (label->accessibleName() == name) {
+                return label->text();
+            }
+        }
+        return {};
+    }
+
+    TestMaps maps_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(MapMenuTest, CopiesTheElevationOfThePlaceThatIsClicked)
+{
+    rightClick(placeOf({20.0, 12.0}));
+    ASSERT_NE(menu(), nullptr);
+    EXPECT_TRUE(menu()->isVisible());
+    entry("Copy Elevation")->trigger();
+    EXPECT_NEAR(QGuiApplication::clipboard()->text().toDouble(), 6.0 * 20 - 3.0 * 12 + 1000.0, 0.2);
+    entry("Copy Coordinates")->trigger();
+    // Samples are 30 m apart; the lower left corner of the grid is at (500000, 4000000).
+    const QString text = QGuiApplication::clipboard()->text();
+    EXPECT_FALSE(text.isEmpty());
+}
+
+TEST_F(MapMenuTest, FliesAndCenters)
+{
+    const double before = view().camera().distance_m;
+    rightClick(placeOf({25.0, 15.0}));
+    entry("Center Here")->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !view().isMoving(); }, kTimeout));
+    auto hit = view().surfaceAt(middle());
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->grid.column, 25.0, 0.3);
+    EXPECT_NEAR(hit->grid.row, 15.0, 0.3);
+    EXPECT_NEAR(view().camera().distance_m, before, 0.2 * before);
+    rightClick(placeOf({30.0, 20.0}));
+    entry("Fly Here")->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !view().isMoving(); }, kTimeout));
+    hit = view().surfaceAt(middle());
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->grid.column, 30.0, 0.3);
+    EXPECT_NEAR(hit->grid.row, 20.0, 0.3);
+    EXPECT_LT(view().camera().distance_m, 0.6 * before);
+}
+
+TEST_F(MapMenuTest, SaysWhatIsHereWhateverTheExaggeration)
+{
+    for (const double exaggeration : {1.0, 7.0}) {
+        view().setExaggeration(exaggeration);
+        rightClick(placeOf({20.0, 12.0}));
+        entry("What Is Here…")->trigger();
+        ASSERT_NE(card(), nullptr);
+        EXPECT_TRUE(card()->isVisible());
+        EXPECT_FALSE(card()->isModal());
+        EXPECT_EQ(fact(QStringLiteral("Layer")), QStringLiteral("plane.asc"));
+        EXPECT_EQ(fact(QStringLiteral("Sample")), QStringLiteral("column 20, row 12"));
+        EXPECT_TRUE(fact(QStringLiteral("Elevation")).startsWith(QStringLiteral("1,084")) ||
+                    fact(QStringLiteral("Elevation")).startsWith(QStringLiteral("1084")))
+            << fact(QStringLiteral("Elevation")).toStdString();
+        // Up by 0.2 eastward and 0.1 northward: atan of the square root of 0.05, facing west by
+        // south.
+        EXPECT_EQ(fact(QStringLiteral("Slope")), QStringLiteral("12.6°"));
+        EXPECT_EQ(fact(QStringLiteral("Aspect")), QStringLiteral("243° (SW)"));
+        card()->findChild<QPushButton*>(QStringLiteral("copyAll"))->click();
+        const QString text = QGuiApplication::clipboard()->text();
+        EXPECT_TRUE(text.contains(QStringLiteral("Slope: 12.6°"))) << text.toStdString();
+        EXPECT_TRUE(text.contains(QStringLiteral("Sample: column 20, row 12")));
+        card()->close();
+    }
+}
+
+TEST_F(MapMenuTest, OpensInTheMiddleByKeyboard)
+{
+    const auto here = view().surfaceAt(middle());
+    ASSERT_TRUE(here);
+    QTest::keyClick(&view(), Qt::Key_F10, Qt::ShiftModifier);
+    ASSERT_NE(menu(), nullptr);
+    entry("Copy Elevation")->trigger();
+    EXPECT_NEAR(QGuiApplication::clipboard()->text().toDouble(), here->height_m, 0.2);
+    delete menu();
+    QContextMenuEvent key(QContextMenuEvent::Keyboard, {1, 1}, view().mapToGlobal(QPoint(1, 1)),
+                          Qt::NoModifier);
+    QApplication::sendEvent(&view(), &key);
+    EXPECT_NE(menu(), nullptr);
+}
+
+TEST_F(MapMenuTest, OffersNothingWhereThereIsNoTerrain)
+{
+    OrbitCamera low = view().camera();
+    low.tilt = Angle::degrees(85.0);
+    view().setCamera(low);
+    rightClick({view().width() / 2.0, 4.0});
+    ASSERT_NE(menu(), nullptr);
+    for (const QAction* action : menu()->actions()) {
+        EXPECT_TRUE(action->isSeparator() || !action->isEnabled()) << action->text().toStdString();
+    }
+}
+
+TEST_F(MapMenuTest, TheCardOutlivesItsLayer)
+{
+    rightClick(placeOf({20.0, 12.0}));
+    entry("What Is Here…")->trigger();
+    ASSERT_NE(card(), nullptr);
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    window_->controller().remove(window_->session().layers.back().id);
+    QCoreApplication::processEvents();
+    EXPECT_EQ(fact(QStringLiteral("Layer")), QStringLiteral("plane.asc"));
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,14 @@
+// The icons of the window's actions.
+#pragma once
+
+namespace marsview {
+
+class WindowDocks;
+struct WindowActions;
+
+/// Gives every action and menu that has one its icon.
+void setIcons(const WindowActions& actions);
+/// The same for the menu entries of the panels.
+void setIcons(const WindowDocks& docks);
+
+} // namespace marsview

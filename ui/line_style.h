@@ -1,0 +1,21 @@
+// Fusion with icons that can be read in light and dark themes.
+#pragma once
+
+#include <QProxyStyle>
+
+namespace marsview {
+
+/// Draws the glyphs of Fusion that are black pictures, such as the buttons that close a panel, as
+/// line icons in the color of the palette's text.
+class LineStyle final : public QProxyStyle {
+    Q_OBJECT
+
+public:
+    LineStyle();
+
+    QIcon standardIcon(StandardPixmap which,
+                       const QStyleOption* option = nullptr,
+                       const QWidget* widget = nullptr) const override;
+};
+
+} // namespace marsview

@@ -1,0 +1,77 @@
+#include "ui/whats_this.h"
+
+#include "ui/load_status.h"
+#include "ui/map_overlays.h"
+#include "ui/overlay/compass.h"
+#include "ui/overlay/legend.h"
+#include "ui/overlay/minimap.h"
+#include "ui/overlay/scale_bar_view.h"
+#include "ui/status_readout.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+#include "ui/window_docks.h"
+
+#include <QAction>
+#include <QCoreApplication>
+#include <QDockWidget>
+#include <QMenu>
+
+namespace marsview {
+namespace {
+
+QString helpTr(const char* text)
+{
+    return QCoreApplication::translate("WhatsThis", text);
+}
+
+} // namespace
+
+void explainControls(const ExplainedControls& controls)
+{
+    controls.view->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "The terrain. A drag with the left button does what the tool says: pan, touch or orbit. "
+        "A drag with the right button turns and tilts, the wheel zooms to the pointer, a double "
+        "click flies there, and a right click opens a menu for the place.")));
+    controls.overlays->minimap()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "The whole topmost map. The outline is what the view shows. Click or drag to "
+        "look at another place.")));
+    controls.overlays->compass()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis", "The needle points north. Click to turn north to the top.")));
+    controls.overlays->scaleBar()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis", "The length of the bar on the terrain in the middle of the picture.")));
+    controls.overlays->legend()->setWhatsThis(
+        helpTr(QT_TRANSLATE_NOOP("WhatsThis", "What the colors of the terrain represent.")));
+    controls.readout->setWhatsThis(helpTr(
+        QT_TRANSLATE_NOOP("WhatsThis",
+                          "Position and elevation under the pointer, read from the full-resolution "
+                          "surface, and how far the drawn surface is off, in pixels.")));
+    controls.load_status->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis", "What is being loaded or built, how far it is, and a button to stop it.")));
+    controls.docks->datasets()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "The open maps as layers, the topmost first. Tick a layer to show it, drag it "
+        "to move it, choose its color ramp below.")));
+    controls.docks->georeferencing()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "Where the active layer lies: body, ellipsoid, CRS, pixel size, extent and "
+        "vertical unit. Override what the file lacks or has wrong.")));
+    controls.docks->haptics()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "Haptic devices: connect one, set how the terrain feels, record and replay "
+        "touches, and stop all forces.")));
+    const WindowActions& actions = *controls.actions;
+    actions.open->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis", "Opens any elevation raster that GDAL reads as a new layer.")));
+    actions.save_picture->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis", "Saves what the map shows, with legend, compass and scale bar.")));
+    actions.home->setWhatsThis(
+        helpTr(QT_TRANSLATE_NOOP("WhatsThis", "Shows the whole map from the south.")));
+    actions.north->setWhatsThis(
+        helpTr(QT_TRANSLATE_NOOP("WhatsThis", "Turns the view until north is at the top.")));
+    actions.light->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis", "Chooses the azimuth and altitude of the light that shades the terrain.")));
+}
+
+} // namespace marsview

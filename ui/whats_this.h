@@ -1,0 +1,26 @@
+// The texts of the What's This mode (Shift+F1).
+#pragma once
+
+namespace marsview {
+
+class LoadStatus;
+class MapOverlays;
+class StatusReadout;
+class TerrainView;
+class WindowDocks;
+struct WindowActions;
+
+/// What is explained. None is null.
+struct ExplainedControls {
+    TerrainView* view = nullptr;
+    MapOverlays* overlays = nullptr;
+    StatusReadout* readout = nullptr;
+    LoadStatus* load_status = nullptr;
+    WindowDocks* docks = nullptr;
+    const WindowActions* actions = nullptr;
+};
+
+/// Gives the main controls their texts.
+void explainControls(const ExplainedControls& controls);
+
+} // namespace marsview
