@@ -110,6 +110,8 @@ Json asJson(const RestingPose& pose)
     if (pose.difference) {
         difference = {{"full_triangle_count", pose.difference->full_triangle_count},
                       {"mean_color_difference_levels", pose.difference->mean_levels},
+                      {"p99_color_difference_levels", pose.difference->p99_levels},
+                      {"max_color_difference_levels", pose.difference->max_levels},
                       {"share_visibly_different", pose.difference->share_visible}};
     }
     return {{"camera", asJson(pose.camera)},
@@ -163,6 +165,17 @@ Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
     for (const FlightResult& flight : result.flights) {
         flights.push_back(asJson(flight));
     }
+    Json colors = Json::array();
+    for (const ColorResult& color : result.colors) {
+        Json poses = Json::array();
+        for (const ColorError& pose : color.poses) {
+            poses.push_back({{"pixel_count", pose.pixel_count},
+                             {"mean_levels", pose.mean_levels},
+                             {"p99_levels", pose.p99_levels},
+                             {"max_levels", pose.max_levels}});
+        }
+        colors.push_back({{"exaggeration", color.exaggeration}, {"poses", poses}});
+    }
     return {{"file", result.path},
             {"columns", result.columns},
             {"rows", result.rows},
@@ -174,6 +187,7 @@ Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
             {"peak_memory_flown_mb", megabytes(result.peak_memory_flown_bytes)},
             {"frame_median_ms", medianMilliseconds(result)},
             {"frame_median_against_first_map", growth(result, first)},
+            {"colors_at_rest", colors},
             {"flights", flights}};
 }
 
@@ -235,12 +249,14 @@ void printPoses(const ViewBenchResult& result, double error_px)
     printLine(fmt::format("\nat rest, threshold {} px", asText(error_px)));
     printLine(fmt::format("{:<7}{:>11}{:>11}{:>9}{:>9}{:>9}{:>9}  {}", "flight", "triangles",
                           "within", "mean px", "p99 px", "max px", "bound",
-                          "colour against every sample"));
+                          "color against every sample"));
     for (const FlightResult& flight : result.flights) {
         for (const RestingPose& pose : flight.poses) {
             const std::string difference =
                 pose.difference
-                    ? fmt::format("{:.2f} levels, {:.2f} % visible", pose.difference->mean_levels,
+                    ? fmt::format("mean {:.2f}, p99 {}, max {} of 255; {:.2f} % visible",
+                                  pose.difference->mean_levels, pose.difference->p99_levels,
+                                  pose.difference->max_levels,
                                   100.0 * pose.difference->share_visible)
                     : std::string("left out");
             printLine(fmt::format("{:<7}{:>11}{:>9.3f} %{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}  {}",
@@ -249,6 +265,34 @@ void printPoses(const ViewBenchResult& result, double error_px)
                                   pose.error.p99_px, pose.error.max_px, pose.error_bound_px,
                                   difference));
         }
+    }
+}
+
+// Of all poses of an exaggeration: medians and the largest.
+void printColors(const ViewBenchResult& result)
+{
+    if (result.colors.empty()) {
+        return;
+    }
+    printLine("\ncolors at rest against those of the surface at full resolution, levels of 255");
+    printLine(fmt::format("{:<13}{:>9}{:>13}{:>14}{:>14}", "exaggeration", "mean", "p99 median",
+                          "p99 largest", "max largest"));
+    for (const ColorResult& colors : result.colors) {
+        std::vector<double> p99;
+        double mean = 0.0;
+        double most = 0.0;
+        for (const ColorError& pose : colors.poses) {
+            p99.push_back(pose.p99_levels);
+            mean += pose.mean_levels / static_cast<double>(colors.poses.size());
+            most = std::max(most, pose.max_levels);
+        }
+        if (p99.empty()) {
+            continue;
+        }
+        std::sort(p99.begin(), p99.end());
+        printLine(fmt::format("{:<13}{:>9.2f}{:>13.1f}{:>14.1f}{:>14.1f}",
+                              asText(colors.exaggeration), mean, p99[p99.size() / 2], p99.back(),
+                              most));
     }
 }
 
@@ -272,6 +316,7 @@ void printForPeople(const Options& options, const std::vector<ViewBenchResult>& 
         printFlights(result);
         printCourses(result);
         printPoses(result, bench.error_px);
+        printColors(result);
     }
     if (results.size() > 1) {
         printLine("\ngrowth of the median frame against the first map");
@@ -357,6 +402,12 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
     command
         ->add_option("--exaggeration", options->bench.exaggeration,
                      "of heights, by default what suits each map")
+        ->check(positiveNumber());
+    command
+        ->add_option("--color-exaggerations", options->bench.color_exaggerations,
+                     "at which the colors of pictures at rest are measured")
+        ->capture_default_str()
+        ->delimiter(',')
         ->check(positiveNumber());
     command->add_flag("--full", options->bench.is_full,
                       "compare with pictures of every sample even of large maps");

@@ -17,6 +17,12 @@ constexpr int kSideMax = 16384;
 
 } // namespace
 
+const ColorRamp& Scene::ramp() const
+{
+    const Body* body = map.dataset->info().body;
+    return defaultColorRamp(body != nullptr ? body->name : std::string_view{});
+}
+
 SceneBox Scene::box(double with_exaggeration) const
 {
     const Heightfield& heightfield = map.dataset->heightfield();
@@ -65,11 +71,9 @@ Result<Scene> emptyScene(std::function<void()> notify)
 void showIn(Scene& scene, LoadedMap map, const ColorRamp* ramp)
 {
     scene.map = std::move(map);
-    const Body* body = scene.map.dataset->info().body;
-    const ColorRamp& suitable = defaultColorRamp(body != nullptr ? body->name : std::string_view{});
     scene.renderer->setLayers(
         {terrainLayer(scene.map, scene.map.dataset->georeference().sceneFrame(),
-                      ramp != nullptr ? *ramp : suitable)});
+                      ramp != nullptr ? *ramp : scene.ramp())});
     scene.exaggeration = suitableExaggeration(*scene.map.dataset);
 }
 

@@ -20,6 +20,8 @@ struct Scene {
     LoadedMap map;
     double exaggeration = 1.0; // that suits the map
 
+    /// The ramp that suits the map's body.
+    const ColorRamp& ramp() const;
     /// The box of the map at an exaggeration.
     SceneBox box(double with_exaggeration) const;
     /// Which ground counts where tiles of the map are missing: what stands in for them now, or

@@ -8,6 +8,7 @@
 #include "ui/render/offscreen_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <cstdlib>
@@ -24,6 +25,9 @@ using Clock = std::chrono::steady_clock;
 
 // A difference that the eye sees between neighbouring areas, of 255.
 constexpr int kVisibleLevels = 8;
+
+// Of the pixels at which colors are measured: every fourth.
+constexpr std::size_t kColorStride = 2;
 
 // The renderer's word from its threads that shading has come. It may outlive the bench.
 class News {
@@ -56,11 +60,13 @@ ColorDifference differenceOf(const Picture& a, const Picture& b)
     ColorDifference difference;
     double sum = 0.0;
     std::size_t visible = 0;
+    std::array<std::size_t, 256> counts{};
     for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
         int most = 0;
         for (std::size_t channel = i; channel < i + 3; ++channel) {
             const int levels = std::abs(int{a.rgb[channel]} - int{b.rgb[channel]});
             sum += levels;
+            ++counts[static_cast<std::size_t>(levels)];
             most = std::max(most, levels);
         }
         visible += most > kVisibleLevels ? 1U : 0U;
@@ -68,28 +74,40 @@ ColorDifference differenceOf(const Picture& a, const Picture& b)
     const auto values = static_cast<double>(a.rgb.size());
     difference.mean_levels = sum / values;
     difference.share_visible = 3.0 * static_cast<double>(visible) / values;
+    double below = 0.0;
+    for (std::size_t levels = 0; levels < counts.size(); ++levels) {
+        difference.p99_levels += below < 0.99 * values && levels > 0 ? 1 : 0;
+        below += static_cast<double>(counts[levels]);
+        difference.max_levels =
+            counts[levels] > 0 ? static_cast<int>(levels) : difference.max_levels;
+    }
     return difference;
 }
 
 // Draws one map as ui/terrain_view.cpp does.
 class Bench {
 public:
-    Bench(const Scene& scene, const ViewBenchOptions& options, News& news, JobMonitor& monitor)
+    Bench(const Scene& scene,
+          double exaggeration,
+          const ViewBenchOptions& options,
+          News& news,
+          JobMonitor& monitor)
         : scene_(scene)
+        , exaggeration_(exaggeration)
         , options_(options)
         , news_(news)
         , monitor_(monitor)
         , buffer_(options.viewport)
         , picture_(*scene.renderer)
-        , ground_{.box = scene.box(scene.exaggeration),
+        , ground_{.box = scene.box(exaggeration),
                   .pixel_m = std::min(scene.map.dataset->georeference().pixelWidthMetres(),
                                       scene.map.dataset->georeference().pixelHeightMetres()),
                   .height = [this](double east_m, double north_m) {
-                      return scene_.ground(east_m, north_m, scene_.exaggeration);
+                      return scene_.ground(east_m, north_m, exaggeration_);
                   }}
     {
         picture_.setTarget(options.target);
-        style_.exaggeration = scene.exaggeration;
+        style_.exaggeration = exaggeration;
     }
     Bench(const Bench&) = delete;
     Bench& operator=(const Bench&) = delete;
@@ -98,7 +116,7 @@ public:
 
     OrbitCamera camera(Flight flight, double t) const
     {
-        return scene_.bounded(cameraOn(flight, t, ground_, options_.viewport), scene_.exaggeration);
+        return scene_.bounded(cameraOn(flight, t, ground_, options_.viewport), exaggeration_);
     }
 
     DrawReport paint(const OrbitCamera& camera, PictureStage stage)
@@ -168,8 +186,8 @@ public:
         RestingPose pose{.camera = camera,
                          .triangle_count = picture->report.triangle_count,
                          .error_bound_px = picture->report.error_px,
-                         .error = measurePictureError({heightfield, frame, scene_.exaggeration},
-                                                      camera, options_.viewport, picture->depths_m,
+                         .error = measurePictureError({heightfield, frame, exaggeration_}, camera,
+                                                      options_.viewport, picture->depths_m,
                                                       options_.error_px),
                          .difference = std::nullopt};
         const std::size_t all = scene_.map.dataset->info().triangleCount();
@@ -184,6 +202,30 @@ public:
             pose.difference->full_triangle_count = full->report.triangle_count;
         }
         return pose;
+    }
+
+    Result<ColorError> colors(const OrbitCamera& camera)
+    {
+        DrawRequest request{.camera = camera, .viewport = options_.viewport};
+        request.detail = {.error_px = options_.error_px, .texel_px = 1.0};
+        DrawStyle style = style_;
+        const Result<OffscreenPicture> tint =
+            drawOffscreen(*scene_.renderer, request, style, DepthUse::Yes);
+        style.look.mode = ShadingMode::Hillshade;
+        const Result<OffscreenPicture> light =
+            drawOffscreen(*scene_.renderer, request, style, DepthUse::No);
+        if (!tint || !light) {
+            return tint ? light.error() : tint.error();
+        }
+        return measureColorError(
+            {.drawn = {scene_.map.dataset->heightfield(),
+                       scene_.map.dataset->georeference().sceneFrame(), exaggeration_},
+             .bounds = scene_.map.analysis->bounds,
+             .ramp = scene_.ramp(),
+             .range = tintedRange(scene_.ramp(), scene_.map.tint_range)},
+            camera, options_.viewport,
+            {.tint = tint->colors.rgb, .light = light->colors.rgb, .depths_m = tint->depths_m},
+            kColorStride);
     }
 
 private:
@@ -204,6 +246,7 @@ private:
     }
 
     const Scene& scene_;
+    double exaggeration_;
     const ViewBenchOptions& options_;
     News& news_;
     JobMonitor& monitor_;
@@ -227,7 +270,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     scene->exaggeration = options.exaggeration.value_or(scene->exaggeration);
     const RasterInfo& info = scene->map.dataset->info();
     LongJob job("flying");
-    Bench bench(*scene, options, *news, job.monitor());
+    Bench bench(*scene, scene->exaggeration, options, *news, job.monitor());
     if (!bench.canDraw()) {
         return Error{ErrorCode::OutOfRange,
                      fmt::format("{} × {} pixels: this driver has no frame buffer of that size",
@@ -247,7 +290,8 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     result.sharp_picture = Clock::now() - begin;
     result.peak_memory_loaded_bytes = peakMemoryBytes();
     const std::size_t step_count =
-        kFlights.size() * static_cast<std::size_t>(1 + options.pose_count);
+        kFlights.size() + kFlights.size() * static_cast<std::size_t>(options.pose_count) *
+                              (1 + options.color_exaggerations.size());
     std::size_t step = 0;
     const auto go_on = [&] {
         job.monitor().report(static_cast<double>(++step) / static_cast<double>(step_count));
@@ -262,17 +306,34 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
         }
     }
     result.peak_memory_flown_bytes = peakMemoryBytes();
+    const auto pose_moment = [&](int pose) { return (pose + 0.5) / options.pose_count; };
     // Last, as these pictures are no part of what the window draws.
     for (FlightResult& flight : result.flights) {
         for (int i = 0; i < options.pose_count; ++i) {
-            Result<RestingPose> pose =
-                bench.rest(bench.camera(flight.flight, (i + 0.5) / options.pose_count));
+            Result<RestingPose> pose = bench.rest(bench.camera(flight.flight, pose_moment(i)));
             if (!pose) {
                 return std::move(pose).error();
             }
             flight.poses.push_back(*pose);
             if (!go_on()) {
                 return cancelled;
+            }
+        }
+    }
+    for (const double exaggeration : options.color_exaggerations) {
+        Bench other(*scene, exaggeration, options, *news, job.monitor());
+        ColorResult& colors = result.colors.emplace_back();
+        colors.exaggeration = exaggeration;
+        for (const Flight flight : kFlights) {
+            for (int i = 0; i < options.pose_count; ++i) {
+                const Result<ColorError> error = other.colors(other.camera(flight, pose_moment(i)));
+                if (!error) {
+                    return error.error();
+                }
+                colors.poses.push_back(*error);
+                if (!go_on()) {
+                    return cancelled;
+                }
             }
         }
     }

@@ -3,6 +3,7 @@
 
 #include "app/cli/scene.h"
 #include "core/base/job_monitor.h"
+#include "core/view/color_error.h"
 #include "core/view/flight.h"
 #include "core/view/frame_governor.h"
 #include "core/view/picture_error.h"
@@ -21,6 +22,7 @@ struct ViewBenchOptions {
     int pose_count = 5;                 // of a flight, at which the error is measured
     double error_px = 1.0;              // at rest
     std::optional<double> exaggeration; // by default what suits each map
+    std::vector<double> color_exaggerations{0.5, 1.0, 2.0, 10.0}; // at which colors are measured
     bool is_full = false; // compare with pictures of every sample however many there are
 };
 
@@ -35,7 +37,9 @@ struct FlownFrame {
 
 /// A picture in which every sample is drawn, against the one at rest.
 struct ColorDifference {
-    double mean_levels = 0.0;   // of 255, over all pixels and channels
+    double mean_levels = 0.0; // of 255, over all pixels and channels
+    int p99_levels = 0;
+    int max_levels = 0;
     double share_visible = 0.0; // of pixels of which a channel is off by more than 8 levels
     std::size_t full_triangle_count = 0;
 };
@@ -47,6 +51,12 @@ struct RestingPose {
     double error_bound_px = 0.0; // promised
     PictureError error;          // measured
     std::optional<ColorDifference> difference;
+};
+
+/// The colors of pictures at rest at one exaggeration, against those of the surface.
+struct ColorResult {
+    double exaggeration = 1.0;
+    std::vector<ColorError> poses; // those of all flights
 };
 
 struct FlightResult {
@@ -71,6 +81,7 @@ struct ViewBenchResult {
     std::size_t peak_memory_loaded_bytes = 0;
     std::size_t peak_memory_flown_bytes = 0;
     std::vector<FlightResult> flights;
+    std::vector<ColorResult> colors;
 };
 
 /// More triangles than this are not drawn one and all unless asked for.

@@ -12,6 +12,9 @@ enum class ShadingMode {
     Slope,     // colours of the ramp for the steepness of the ground
 };
 
+/// The gray of fully lit ground in the mode Hillshade, as a share of white.
+inline constexpr double kHillshadeWhite = 0.92;
+
 struct TerrainLook {
     ShadingMode mode = ShadingMode::Tint;
     bool has_contours = false;
