@@ -1,4 +1,5 @@
-// What shading needs of a piece of a map: slopes, averaged to the size at which they are seen.
+// What coloring and shading need of a piece of a map: slopes and elevations, averaged to the size
+// at which they are seen.
 #pragma once
 
 #include "core/geo/scene_frame.h"
@@ -20,12 +21,22 @@ struct ReliefTileId {
     bool operator==(const ReliefTileId&) const = default;
 };
 
-/// Mean slopes of the surface per texel, with those of half, a quarter and an eighth of the texels
-/// behind them. A mean of slopes over a texel is the slope of its mean height, so shading by them
-/// looks the same whichever level it is taken from.
+/// One texel: means over its samples, as signed 16-bit numbers, each times the share of the samples
+/// that are not void. Filters may mix them; what is mixed, divided by the mixed share, is the mean.
+struct ReliefTexel {
+    std::int16_t east = 0;   // slope: ±32767 is ±slope_max metres up per metre east
+    std::int16_t north = 0;  // likewise per metre north
+    std::int16_t height = 0; // ±32767 is ±height_reach_m from height_middle_m
+    std::int16_t share = 0;  // 0 … 32767: of the texel's samples, those that are not void
+    bool operator==(const ReliefTexel&) const = default;
+};
+
+/// Mean slopes and elevations of the surface per texel, with those of half, a quarter and an eighth
+/// of the texels behind them. A mean of slopes over a texel is the slope of its mean elevation, so
+/// pictures look the same whichever level they are taken from.
 ///
-/// Slopes are metres up per metre east and per metre north, times the share of the texel's samples
-/// that are not void, as signed 16-bit numbers: ±32767 is ±slope_max. Shares are 0 … 255.
+/// Elevations are spread over the 16 bits of each tile: they are within 1/131 000 of the tile's
+/// relief, 0.2 m where it spans all of Mars. A finer tile spans less.
 struct ReliefTile {
     static constexpr std::size_t kTexels = 256;
     /// Texels around the tile, which filters reach into: whole ones at every level.
@@ -34,11 +45,12 @@ struct ReliefTile {
     static constexpr std::size_t kLevels = 4;
 
     struct Level {
-        std::size_t side = 0;             // texels
-        std::vector<std::int16_t> slopes; // east and north, side × side pairs, row by row
-        std::vector<std::uint8_t> shares; // side × side; empty where the map has no voids
+        std::size_t side = 0;            // texels
+        std::vector<ReliefTexel> texels; // side × side, row by row
     };
     std::array<Level, kLevels> levels;
+    double height_middle_m = 0.0;
+    double height_reach_m = 1.0; // > 0
 };
 
 /// Makes a tile from samples in memory, reading each of them once. Any thread. `slope_max` > 0:

@@ -38,9 +38,9 @@ class Frustum;
 /// Where the move to the next level ends, in ranges.
 inline constexpr double kMorphEnd = 1.2;
 
-/// Least range of a level, in diagonals of its nodes. Colours by height are those of the vertices:
-/// a picture at rest has cells of at most 18 pixels, however flat they are; one in motion, where
-/// more than kErrorPxAtRest is allowed, twice that.
+/// Least range of a level, in diagonals of its nodes: a picture at rest has cells of at most 18
+/// pixels, however flat they are, so that what is drawn on them is moved by less than the error
+/// allows; one in motion, where more than kErrorPxAtRest is allowed, twice that.
 inline constexpr double kRangePerSize = 1.0;
 inline constexpr double kRangePerSizeMoving = 0.5;
 inline constexpr double kErrorPxAtRest = 1.0;

@@ -40,11 +40,10 @@ slopeRange(const ReliefTile& whole, std::size_t columns, std::size_t rows, doubl
     constexpr std::size_t kBegin = ReliefTile::kBorder;
     for (std::size_t j = kBegin; j < kBegin + std::min(rows, ReliefTile::kTexels); ++j) {
         for (std::size_t i = kBegin; i < kBegin + std::min(columns, ReliefTile::kTexels); ++i) {
-            const std::size_t at = j * finest.side + i;
-            const double share = finest.shares.empty() ? 1.0 : finest.shares[at] / 255.0;
+            const ReliefTexel& texel = finest.texels[j * finest.side + i];
+            const double share = texel.share / 32767.0;
             if (share >= 0.5) {
-                slopes.push_back(std::hypot(finest.slopes[2 * at], finest.slopes[2 * at + 1]) *
-                                 unit / share);
+                slopes.push_back(std::hypot(texel.east, texel.north) * unit / share);
             }
         }
     }

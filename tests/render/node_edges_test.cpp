@@ -147,7 +147,7 @@ public:
                 flush();
                 place = atlas_.place(key, surface, 0, missing);
             }
-            batch.push_back(nodeInstance(selected, anchor, *place,
+            batch.push_back(nodeInstance(selected, anchor, surface.baseMetres(), *place,
                                          {.page = 0, .layer = 0, .node = selected.relief}));
         }
         flush();

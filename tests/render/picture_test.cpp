@@ -1,6 +1,8 @@
 // What pictures with less detail show, against the surface and the picture with all of it.
 
 #include "core/session/loaded_map.h"
+#include "core/terrain/ray_cast.h"
+#include "core/view/color_error.h"
 #include "core/view/navigation.h"
 #include "core/view/picture_error.h"
 #include "tests/render/render_fixture.h"
@@ -100,6 +102,122 @@ protected:
         }
     }
 
+    // Each pixel has the color of the elevation where its ray meets the surface at full resolution,
+    // whatever the mesh: at exaggeration 1 its cells are many pixels wide.
+    void expectColorsOfTheSurface(const std::string& name, const LoadedTestMap& map)
+    {
+        const ColorRamp& ramp = defaultColorRamp("");
+        renderer_->setLayers({terrainLayer(map.map, map.frame(), ramp)});
+        const Viewport size{.width = 1280, .height = 800};
+        for (const double exaggeration : {0.5, 1.0, 2.0, 10.0}) {
+            double mean_p99 = 0.0; // of the views
+            const auto cameras = views(map, exaggeration, size);
+            for (const OrbitCamera& camera : cameras) {
+                DrawStyle style;
+                style.exaggeration = exaggeration;
+                const OffscreenPicture tint = draw(camera, size, {}, style);
+                style.look.mode = ShadingMode::Hillshade;
+                const OffscreenPicture light = draw(camera, size, {}, style);
+                const SceneFrame frame = map.frame();
+                const ColorError error = measureColorError(
+                    {.drawn = {map.field(), frame, exaggeration},
+                     .bounds = map.map.analysis->bounds,
+                     .ramp = ramp,
+                     .range = tintedRange(ramp, map.map.tint_range)},
+                    camera, size,
+                    {.tint = tint.colors.rgb, .light = light.colors.rgb, .depths_m = tint.depths_m},
+                    2);
+                const auto view = static_cast<std::size_t>(&camera - cameras.data());
+                std::printf(
+                    "%s ×%g view %zu: %zu triangles, color mean %.2f, 99%% %.1f, max %.1f "
+                    "of 255\n",
+                    name.c_str(), exaggeration, view, tint.report.triangle_count, error.mean_levels,
+                    error.p99_levels, error.max_levels);
+                EXPECT_GT(error.pixel_count, 1000U);
+                EXPECT_LE(error.p99_levels, 6.0) << view;
+                mean_p99 += error.p99_levels / static_cast<double>(cameras.size());
+            }
+            EXPECT_LE(mean_p99, 3.0) << exaggeration;
+        }
+    }
+
+    // Lines are where the elevation at full resolution passes a multiple of the interval.
+    void expectContoursOfTheSurface(const LoadedTestMap& map, double exaggeration)
+    {
+        renderer_->setLayers({terrainLayer(map.map, map.frame(), defaultColorRamp(""))});
+        const Viewport size{.width = 640, .height = 400};
+        const auto width = static_cast<std::size_t>(size.width);
+        const auto height = static_cast<std::size_t>(size.height);
+        for (const OrbitCamera& camera : views(map, exaggeration, size)) {
+            if (camera.tilt.degrees() > 60.0) {
+                continue; // lines run together towards the horizon
+            }
+            DrawStyle style;
+            style.exaggeration = exaggeration;
+            style.look.mode = ShadingMode::Hillshade;
+            const Picture plain = draw(camera, size, {}, style).colors;
+            style.look.has_contours = true;
+            const Picture lined = draw(camera, size, {}, style).colors;
+            const double interval_m = contourInterval(style.look, map.field().range().value(),
+                                                      metresPerPixel(camera, size));
+            std::vector<int> step(width *
+                                  height); // which interval a pixel is in; of no pixel: none
+            constexpr int kNone = std::numeric_limits<int>::min();
+            const SceneFrame frame = map.frame();
+            for (std::size_t i = 0; i < step.size(); ++i) {
+                const Ray ray = pickRay(
+                    camera, size,
+                    {static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5});
+                const auto hit = castRay(map.field(), map.map.analysis->bounds,
+                                         gridRay(ray.origin, ray.direction, frame, exaggeration));
+                step[i] = hit ? static_cast<int>(std::floor(hit->height_m / interval_m)) : kNone;
+            }
+            // How many different intervals there are around a pixel.
+            const auto differs = [&](std::size_t x, std::size_t y, std::size_t reach) {
+                for (std::size_t v = y - reach; v <= y + reach; ++v) {
+                    for (std::size_t u = x - reach; u <= x + reach; ++u) {
+                        if (step[v * width + u] != step[y * width + x]) {
+                            return true;
+                        }
+                    }
+                }
+                return false;
+            };
+            std::size_t lines = 0;
+            std::size_t misplaced = 0;
+            std::size_t crossings = 0;
+            std::size_t missing = 0;
+            for (std::size_t y = 3; y < height - 3; ++y) {
+                for (std::size_t x = 3; x < width - 3; ++x) {
+                    const std::size_t i = y * width + x;
+                    if (step[i] == kNone || plain.rgb[3 * i] < 30) {
+                        continue;
+                    }
+                    const double ink =
+                        1.0 - lined.rgb[3 * i] / static_cast<double>(plain.rgb[3 * i]);
+                    if (ink > 0.4) {
+                        ++lines;
+                        misplaced += differs(x, y, 2) ? 0U : 1U;
+                    }
+                    const bool is_crossing = step[i + 1] != step[i];
+                    if (is_crossing && step[i + 1] != kNone) {
+                        ++crossings;
+                        bool is_inked = false;
+                        for (const std::size_t near : {i - 1, i, i + 1, i + 2}) {
+                            is_inked = is_inked || plain.rgb[3 * near] > lined.rgb[3 * near] + 4;
+                        }
+                        missing += is_inked ? 0U : 1U;
+                    }
+                }
+            }
+            std::printf("%zu pixels of lines, %zu misplaced; %zu crossings, %zu without a line\n",
+                        lines, misplaced, crossings, missing);
+            EXPECT_GT(crossings, 300U);
+            EXPECT_LT(static_cast<double>(misplaced), 0.05 * static_cast<double>(lines));
+            EXPECT_LT(static_cast<double>(missing), 0.03 * static_cast<double>(crossings));
+        }
+    }
+
     // Pictures with detail chosen look like those with every sample. Without several samples a
     // pixel, rims that are off by a part of a pixel differ: up to 2.1 % in the whole of Mars.
     void expectSameColors(const std::string& name, const LoadedTestMap& map)
@@ -149,6 +267,31 @@ TEST_F(PictureTest, OfTheMoonIsWithinOnePixel)
     MARSVIEW_NEEDS_SHARED_DATA();
     expectWithinOnePixel(
         "Moon", LoadedTestMap(sharedData() / "derived/moon_gld100_64ppd_crop_8192x4096.tif"));
+}
+
+TEST_F(PictureTest, OfMarsHasTheColorsOfTheSurfaceAtEveryExaggeration)
+{
+    expectColorsOfTheSurface("Mars", LoadedTestMap(bundledSamples() / "mars_mola_4ppd.tif"));
+}
+
+TEST_F(PictureTest, OfMountStHelensHasTheColorsOfTheSurfaceAtEveryExaggeration)
+{
+    expectColorsOfTheSurface("Helens", LoadedTestMap(bundledSamples() / "mount_st_helens_30m.tif"));
+}
+
+TEST_F(PictureTest, OfTheMoonAndTheEarthHasTheColorsOfTheSurfaceAtEveryExaggeration)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    expectColorsOfTheSurface("SRTM", LoadedTestMap(sharedData() / "srtm/N44W072.hgt"));
+    expectColorsOfTheSurface(
+        "Moon", LoadedTestMap(sharedData() / "derived/moon_gld100_64ppd_crop_8192x4096.tif"));
+}
+
+TEST_F(PictureTest, HasContoursWhereTheSurfaceHasThem)
+{
+    const LoadedTestMap mars(bundledSamples() / "mars_mola_4ppd.tif");
+    expectContoursOfTheSurface(mars, 1.0);
+    expectContoursOfTheSurface(mars, 10.0);
 }
 
 TEST_F(PictureTest, HasTheColorsOfThePictureWithEverySample)

@@ -22,6 +22,7 @@ std::array<float, 2> placeIn(const DetailNode& node, std::size_t levels_up)
 
 NodeInstance nodeInstance(const SelectedNode& selected,
                           const GridPoint& anchor,
+                          double base_m,
                           const HeightAtlas::Place& heights,
                           const ReliefCache::Found& relief)
 {
@@ -52,6 +53,11 @@ NodeInstance nodeInstance(const SelectedNode& selected,
     instance.relief = {static_cast<float>(1.0 / (texel * side)),
                        coordinate(first_column, tile.column), coordinate(first_row, tile.row),
                        static_cast<float>(relief.layer) + (tile.level == 0 ? 0.25F : 0.0F)};
+    // While a larger relief stands in, the mesh has more detail wherever its cells are smaller.
+    const bool is_mesh_finer = relief.node.level != selected.relief.level && step < texel;
+    instance.color_heights = {static_cast<float>(relief.height_reach_m),
+                              static_cast<float>(relief.height_middle_m - base_m),
+                              is_mesh_finer ? 1.0F : 0.0F};
     return instance;
 }
 
@@ -75,6 +81,7 @@ void describeNodeInstances()
     attribute(kUncleAttribute, 2, offsetof(NodeInstance, uncle));
     attribute(kParentAttribute, 4, offsetof(NodeInstance, parent));
     attribute(kGrandparentAttribute, 4, offsetof(NodeInstance, grandparent));
+    attribute(kColorHeightsAttribute, 3, offsetof(NodeInstance, color_heights));
 }
 
 } // namespace marsview

@@ -18,11 +18,13 @@ struct NodeInstance {
     std::array<float, 2> uncle;
     CornerRanges parent;
     CornerRanges grandparent;
+    std::array<float, 3> color_heights;
 };
 
-/// `anchor` is the sample that positions are relative to.
+/// `anchor` is the sample that positions are relative to, `base_m` the height that heights are.
 NodeInstance nodeInstance(const SelectedNode& selected,
                           const GridPoint& anchor,
+                          double base_m,
                           const HeightAtlas::Place& heights,
                           const ReliefCache::Found& relief);
 

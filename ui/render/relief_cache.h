@@ -19,6 +19,9 @@ public:
         std::size_t page = 0;
         std::size_t layer = 0; // of the page
         DetailNode node;       // whose relief it is: the wanted one or one around it
+        // Of its heights, see ReliefTile.
+        double height_middle_m = 0.0;
+        double height_reach_m = 1.0;
     };
 
     /// Tiles of one texture array.
@@ -49,19 +52,20 @@ public:
     /// Whether two levels of the texture are mixed.
     enum class Mixing { OneLevel, TwoLevels };
 
-    /// A page's slopes to `slope_unit`, its shares, if it has any, to the next one.
-    void bind(std::size_t page, GLenum slope_unit, Mixing mixing) const;
+    /// A page to a texture unit. Its channels are those of ReliefTexel, ±32767 as ±1.
+    void bind(std::size_t page, GLenum unit, Mixing mixing) const;
 
 private:
-    struct Page {
-        std::optional<GlTexture> slopes;
-        std::optional<GlTexture> shares; // made for the first map that has voids
+    struct Heights {
+        double middle_m = 0.0;
+        double reach_m = 1.0;
     };
 
     void upload(const LayerNode& key, const ReliefTile& tile);
 
     LruSlots<LayerNode, LayerNodeHash> slots_;
-    std::vector<Page> pages_;
+    std::vector<std::optional<GlTexture>> pages_; // made when their first tile comes
+    std::vector<Heights> heights_;                // by slot
     std::vector<ReliefRequest> missing_;
     ReliefLoader loader_;
 };

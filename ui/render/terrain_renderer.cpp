@@ -37,7 +37,7 @@ constexpr GLsizei kQuadrantIndices = 6 * kHalf * kHalf;
 constexpr std::size_t kHastyUploads = 8;
 
 // What is held at the driver's. In software it is the processor's memory: a window of 1280 × 800
-// shows some 60 tiles of 0.4 MB and some 500 nodes of 4 kB; a GPU has more pixels to fill.
+// shows some 60 tiles of 0.8 MB and some 500 nodes of 4 kB; a GPU has more pixels to fill.
 struct StoreSizes {
     std::size_t relief_tiles;
     std::size_t atlas_columns;
@@ -56,6 +56,18 @@ constexpr double kRemoteTexel = 1.5;
 // Around an eye inside a map's box texels stay large however coarse they may be.
 constexpr int kCoarserMax = 12;
 
+// Colors begin to be those of the mesh at this depth, in samples, and are at half of it: nodes of
+// level 1 are further away than kRangePerSizeMoving × kMorphEnd of their diagonals, 54 samples.
+constexpr double kMeshDepth = 40.0;
+constexpr double kAllDepths = 1e20;
+
+constexpr double kDirectLight = 0.84;
+
+// The fill light: from the side, so that ribs of a slope in shadow differ, and low.
+constexpr Angle kFillAzimuth = Angle::degrees(110.0); // from that of the main light
+constexpr Angle kFillAltitude = Angle::degrees(20.0);
+constexpr double kFillLight = 0.168;
+
 // Of the node mesh.
 struct IndexRange {
     std::size_t first;
@@ -66,7 +78,7 @@ struct IndexRange {
 constexpr std::size_t kNodesPerDraw = 32;
 
 // Texture units.
-enum Unit : GLint { Heights, Ramp, Slopes, Shares, FirstCover };
+enum Unit : GLint { Heights, Ramp, Relief, FirstCover };
 
 struct Color3 {
     float red;
@@ -397,7 +409,8 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
             continue; // given up and asked for again
         }
         Batch& batch = batches[relief->page];
-        const NodeInstance instance = nodeInstance(selected, anchor, *slot, *relief);
+        const NodeInstance instance =
+            nodeInstance(selected, anchor, layer.surface.baseMetres(), *slot, *relief);
         if (selected.quadrants == kAllQuadrants) {
             batch.nodes.push_back(instance);
             continue;
@@ -420,7 +433,7 @@ void TerrainRenderer::Impl::drawBatches(bool is_hasty)
         if (batch.isEmpty()) {
             continue;
         }
-        reliefs.bind(page, GL_TEXTURE0 + Slopes,
+        reliefs.bind(page, GL_TEXTURE0 + Relief,
                      is_hasty && is_software ? ReliefCache::Mixing::OneLevel
                                              : ReliefCache::Mixing::TwoLevels);
         constexpr auto kAll = static_cast<GLsizei>(kQuadrantCount);
@@ -477,8 +490,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     glBindTexture(GL_TEXTURE_2D, layer.ramp.id());
     glUniform1i(program.uniform("u_heights"), Heights);
     glUniform1i(program.uniform("u_ramp"), Ramp);
-    glUniform1i(program.uniform("u_slopes"), Slopes);
-    glUniform1i(program.uniform("u_shares"), Shares);
+    glUniform1i(program.uniform("u_relief"), Relief);
 
     const Matrix4 clip_from_eye =
         projection(request.camera, request.viewport, clip(request.camera, style.exaggeration)) *
@@ -495,16 +507,26 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     set("u_last_sample", static_cast<double>(heightfield.columns() - 1) - anchor.column,
         static_cast<double>(heightfield.rows() - 1) - anchor.row);
 
+    set("u_mesh_depth",
+        request.detail.has_every_sample
+            ? kAllDepths
+            : kMeshDepth * std::max(std::hypot(frame.east_per_column, frame.north_per_column),
+                                    std::hypot(frame.east_per_row, frame.north_per_row)));
     const HeightRange& tinted = layer.source.tint_range;
     const double tinted_m = tinted.maximum_m - tinted.minimum_m;
     // A flat map has the middle colour.
     set("u_tint", tinted_m > 0.0 ? 1.0 / tinted_m : 0.0,
         tinted_m > 0.0 ? (base_m - tinted.minimum_m) / tinted_m : 0.5);
     const TerrainLook& look = style.look;
-    const double level = std::cos(look.light_altitude.radians());
-    set("u_light", level * std::sin(look.light_azimuth.radians()),
-        level * std::cos(look.light_azimuth.radians()), std::sin(look.light_altitude.radians()));
-    set("u_slope_unit", layer.source.slope_max * style.exaggeration);
+    const double slope_unit = layer.source.slope_max * style.exaggeration;
+    const auto set_light = [&](const char* name, Angle azimuth, Angle altitude, double strength) {
+        const double level = strength * slope_unit * std::cos(altitude.radians());
+        set(name, -level * std::sin(azimuth.radians()), -level * std::cos(azimuth.radians()),
+            strength * std::sin(altitude.radians()));
+    };
+    set_light("u_light", look.light_azimuth, look.light_altitude, kDirectLight);
+    set_light("u_fill_light", look.light_azimuth + kFillAzimuth, kFillAltitude, kFillLight);
+    set("u_slope_square", slope_unit * slope_unit);
     set("u_slope_unit_true", layer.source.slope_max);
     const SlopeRange& slopes = layer.source.slope_range;
     const double slopes_rad = (slopes.maximum - slopes.minimum).radians();

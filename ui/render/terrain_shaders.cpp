@@ -18,6 +18,7 @@ layout(location = 3) in vec4 a_relief;
 layout(location = 4) in vec2 a_uncle;
 layout(location = 5) in vec4 a_parent;
 layout(location = 6) in vec4 a_grandparent;
+layout(location = 7) in vec3 a_color_heights;
 uniform sampler2D u_heights;
 uniform vec2 u_last_sample;
 uniform vec3 u_anchor_from_eye;
@@ -28,6 +29,7 @@ out float v_height;
 out vec2 v_relief;
 out vec2 v_sample; // relative to the anchor
 flat out float v_layer;
+flat out vec3 v_color_heights;
 invariant gl_Position;
 
 const float kNodeCells = 32.0;
@@ -79,6 +81,7 @@ void main()
     v_sample = p.xy;
     v_relief = (p.xy - a_place.xy) * a_relief.x + a_relief.yz;
     v_layer = a_relief.w;
+    v_color_heights = a_color_heights;
     gl_Position = u_clip_from_eye * vec4(fromEye(p), 1.0);
 }
 )";
@@ -88,27 +91,41 @@ in float v_height;
 in vec2 v_relief;
 in vec2 v_sample;
 flat in float v_layer;
-uniform sampler2DArray u_slopes;
+flat in vec3 v_color_heights;
+uniform sampler2DArray u_relief; // the channels of ReliefTexel
 uniform sampler2D u_ramp;
-uniform float u_slope_unit; // exaggerated slope of the texture's 1
+uniform float u_slope_square; // of the exaggerated slope of the texture's 1
 uniform float u_slope_unit_true;
 uniform vec2 u_slope_tint; // share of the ramp = slope in radians × x + y
 uniform vec2 u_tint; // share of the ramp = height × x + y
-uniform vec3 u_light;
+uniform vec3 u_light;      // light = (z + slope · xy) × length of the normal
+uniform vec3 u_fill_light; // likewise
+uniform float u_mesh_depth; // at half this depth and nearer all of the mesh's cells are samples
 out vec4 color;
 
 const float kAmbient = 0.28;
-const float kDirect = 0.84;
+const float kFillLoss = 0.028;
+const float kShadow = 2.4; // it ends where the light is 1 / kShadow
+
+// A weak light from the side of the main one shows the relief of slopes that face away from that,
+// and fades out as they turn to it: ground in full light keeps its contrast. The normal is
+// (-slope × unit, 1), which is divided by its length last; the unit is part of the lights.
+float shadeOf(vec2 slope)
+{
+    float shorten = inversesqrt(u_slope_square * dot(slope, slope) + 1.0);
+    float facing = (u_light.z + dot(slope, u_light.xy)) * shorten;
+    float fill = (u_fill_light.z + dot(slope, u_fill_light.xy)) * shorten - kFillLoss;
+    float shadow = clamp(1.0 - kShadow * facing, 0.0, 1.0);
+    return max(facing, 0.0) + kAmbient + shadow * shadow * fill;
+}
 
 vec3 rampColor(float share)
 {
     // The ends lie in the middles of the first and the last texel.
-    return texture(u_ramp, vec2(clamp(share, 0.0, 1.0) * (1.0 - 1.0 / RAMP_TEXELS) +
-                                0.5 / RAMP_TEXELS, 0.5)).rgb;
+    return texture(u_ramp, vec2(share * (1.0 - 1.0 / RAMP_TEXELS) + 0.5 / RAMP_TEXELS, 0.5)).rgb;
 }
 
 #ifdef VOIDS
-uniform sampler2DArray u_shares;
 const float kTexels = 256.0;
 const float kBorder = 8.0;
 
@@ -118,10 +135,10 @@ bool isInHole(vec2 place)
     ivec2 cell = ivec2(floor(place));
     vec2 f = place - vec2(cell);
     int layer = int(v_layer + 0.5);
-    float third = texelFetch(u_shares, ivec3(cell + (f.x >= f.y ? ivec2(1, 0) : ivec2(0, 1)),
-                                             layer), 0).r;
-    return min(third, min(texelFetch(u_shares, ivec3(cell, layer), 0).r,
-                          texelFetch(u_shares, ivec3(cell + ivec2(1), layer), 0).r)) < 0.5;
+    float third = texelFetch(u_relief, ivec3(cell + (f.x >= f.y ? ivec2(1, 0) : ivec2(0, 1)),
+                                             layer), 0).a;
+    return min(third, min(texelFetch(u_relief, ivec3(cell, layer), 0).a,
+                          texelFetch(u_relief, ivec3(cell + ivec2(1), layer), 0).a)) < 0.5;
 }
 #endif
 
@@ -156,9 +173,9 @@ bool isCovered()
 uniform vec2 u_contour; // lines per metre, and the line at height 0
 
 // The share of a line on this pixel: 1 wide, every fifth 1.8.
-float contour()
+float contour(float height)
 {
-    float line = v_height * u_contour.x + u_contour.y;
+    float line = height * u_contour.x + u_contour.y;
     float per_pixel = max(fwidth(line), 1e-6);
     float nearest = floor(line + 0.5);
     float width = abs(nearest - 5.0 * floor(nearest / 5.0 + 0.5)) < 0.25 ? 1.8 : 1.0;
@@ -168,14 +185,28 @@ float contour()
 }
 #endif
 
+// Over the base. The relief's, which has a texel for a pixel whatever the mesh: a mesh that is as
+// exact as the picture shows can be much coarser than what colors and lines show. Near the eye,
+// where samples are many pixels wide, that of the triangles between them.
+float colorHeight(float relief)
+{
+    float own = max(v_color_heights.z, clamp(u_mesh_depth * gl_FragCoord.w - 1.0, 0.0, 1.0));
+    return mix(relief * v_color_heights.x + v_color_heights.y, v_height, own);
+}
+
 void main()
 {
-#ifdef CONTOURS
-    float ink = contour(); // before any pixel is given up, as it takes differences between them
-#endif
-    vec2 slope = texture(u_slopes, vec3(v_relief, v_layer)).rg;
+    vec4 relief = texture(u_relief, vec3(v_relief, v_layer));
 #ifdef VOIDS
-    float share = texture(u_shares, vec3(v_relief, v_layer)).r;
+    float share = relief.a;
+    relief.rgb /= max(share, 0.5);
+#endif
+    vec2 slope = relief.rg;
+    float height = colorHeight(relief.b);
+#ifdef CONTOURS
+    float ink = contour(height); // before any pixel is given up: it takes differences between them
+#endif
+#ifdef VOIDS
     vec2 texel = v_relief * (kTexels + 2.0 * kBorder);
     vec2 texels_per_pixel = fwidth(texel);
     // A layer that holds a texel a sample is marked by a fraction.
@@ -183,22 +214,20 @@ void main()
     if (is_exact ? isInHole(texel - 0.5) : share < 0.5) {
         discard;
     }
-    slope /= max(share, 0.5);
 #endif
 #if COVERS > 0
     if (isCovered()) {
         discard;
     }
 #endif
-    vec3 normal = normalize(vec3(-slope * u_slope_unit, 1.0));
-    float shade = kAmbient + kDirect * max(dot(normal, u_light), 0.0);
+    float shade = shadeOf(slope);
 #if MODE == 0
-    vec3 surface = rampColor(v_height * u_tint.x + u_tint.y) * shade;
+    vec3 surface = rampColor(height * u_tint.x + u_tint.y) * shade;
 #elif MODE == 1
-    vec3 surface = vec3(0.92 * shade);
+    vec3 surface = vec3(HILLSHADE_WHITE * shade);
 #else
     float steep = atan(length(slope) * u_slope_unit_true);
-    vec3 surface = rampColor(steep * u_slope_tint.x + u_slope_tint.y) * (0.75 + 0.35 * shade);
+    vec3 surface = rampColor(steep * u_slope_tint.x + u_slope_tint.y) * shade;
 #endif
 #ifdef CONTOURS
     surface = mix(surface, vec3(0.08, 0.07, 0.06), 0.7 * ink);
@@ -231,8 +260,9 @@ void main()
 Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
 {
     const std::string fragment = fmt::format(
-        "#version 330 core\n#define RAMP_TEXELS {}.0\n#define MODE {}\n#define COVERS {}\n{}{}{}",
-        kRampTexels, static_cast<int>(key.mode), key.cover_count,
+        "#version 330 core\n#define RAMP_TEXELS {}.0\n#define HILLSHADE_WHITE {:.4f}\n"
+        "#define MODE {}\n#define COVERS {}\n{}{}{}",
+        kRampTexels, kHillshadeWhite, static_cast<int>(key.mode), key.cover_count,
         key.has_contours ? "#define CONTOURS\n" : "", key.has_voids ? "#define VOIDS\n" : "",
         kTerrainFragment);
     return GlProgram::create(kTerrainVertex, fragment.c_str());

@@ -27,13 +27,14 @@ inline constexpr int kCoversMax = 3;
 
 /// The program's locations of the vertex attributes.
 enum TerrainAttribute : unsigned {
-    kCellAttribute,        // vertex: column and row within the node, 0 … 32
-    kPlaceAttribute,       // node: first sample relative to the anchor, samples a cell
-    kSlotAttribute,        // node: place in the height atlas, place in the parent
-    kReliefAttribute,      // node: texture coordinate = sample × x + (y, z), layer w
-    kUncleAttribute,       // node: place in the grandparent
-    kParentAttribute,      // node: ranges at the parent's corners
-    kGrandparentAttribute, // node: ranges at the grandparent's corners
+    kCellAttribute,         // vertex: column and row within the node, 0 … 32
+    kPlaceAttribute,        // node: first sample relative to the anchor, samples a cell
+    kSlotAttribute,         // node: place in the height atlas, place in the parent
+    kReliefAttribute,       // node: texture coordinate = sample × x + (y, z), layer w
+    kUncleAttribute,        // node: place in the grandparent
+    kParentAttribute,       // node: ranges at the parent's corners
+    kGrandparentAttribute,  // node: ranges at the grandparent's corners
+    kColorHeightsAttribute, // node: height = relief's × x + y; share z of the mesh's own height
 };
 
 class TerrainShaders {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -96,7 +97,35 @@ Slope trueSlope(const Heightfield& field, const SceneFrame& frame, const TexelSa
 
 double slopeAt(const ReliefTile::Level& level, std::size_t i, std::size_t j, std::size_t which)
 {
-    return level.slopes[2 * (j * level.side + i) + which] / 32767.0;
+    const ReliefTexel& texel = level.texels[j * level.side + i];
+    return (which == 0 ? texel.east : texel.north) / 32767.0;
+}
+
+double shareAt(const ReliefTile::Level& level, std::size_t i, std::size_t j)
+{
+    return level.texels[j * level.side + i].share / 32767.0;
+}
+
+// Times the share, over the middle of the tile's heights.
+double weightedHeightAt(const ReliefTile& tile, std::size_t level, std::size_t i, std::size_t j)
+{
+    const ReliefTile::Level& mip = tile.levels.at(level);
+    return mip.texels[j * mip.side + i].height / 32767.0 * tile.height_reach_m;
+}
+
+// Of the texel's samples that are not void; NaN where there is none.
+double meanHeight(const Heightfield& field, const TexelSamples& texel)
+{
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t y = texel.y0; y < texel.y1; ++y) {
+        for (std::size_t x = texel.x0; x < texel.x1; ++x) {
+            const double height_m = field.sample(x, y);
+            sum += std::isnan(height_m) ? 0.0 : height_m;
+            count += std::isnan(height_m) ? 0.0 : 1.0;
+        }
+    }
+    return sum / count;
 }
 
 SceneFrame rotatedFrame(std::size_t columns, std::size_t rows)
@@ -128,9 +157,11 @@ void expectTrueSlopes(const Heightfield& field, const SceneFrame& frame, const R
     const ReliefTile tile = makeReliefTile(field, frame, id, kSlopeMax);
     const ReliefTile::Level& finest = tile.levels.front();
     ASSERT_EQ(finest.side, ReliefTile::kSide);
-    ASSERT_TRUE(finest.shares.empty());
     std::size_t compared = 0;
-    std::map<std::array<std::size_t, 2>, Slope> known; // texels beside the map share theirs
+    // Texels beyond the map share those of its edge.
+    std::map<std::array<std::size_t, 2>, Slope> known;
+    double low_m = std::numeric_limits<double>::infinity();
+    double high_m = -low_m;
     for (std::size_t j = 0; j < finest.side; ++j) {
         for (std::size_t i = 0; i < finest.side; ++i) {
             const auto samples =
@@ -142,6 +173,13 @@ void expectTrueSlopes(const Heightfield& field, const SceneFrame& frame, const R
                 entry->second = trueSlope(field, frame, *samples);
             }
             const Slope& slope = entry->second;
+            const double height_m = meanHeight(field, *samples);
+            low_m = std::min(low_m, height_m);
+            high_m = std::max(high_m, height_m);
+            ASSERT_NEAR(tile.height_middle_m + weightedHeightAt(tile, 0, i, j), height_m,
+                        0.51 / 32767.0 * tile.height_reach_m + 1e-3)
+                << i << ", " << j;
+            ASSERT_EQ(shareAt(finest, i, j), 1.0);
             ASSERT_NEAR(slopeAt(finest, i, j, 0) * kSlopeMax, slope.east, 1.0 / 32767.0 * kSlopeMax)
                 << i << ", " << j;
             ASSERT_NEAR(slopeAt(finest, i, j, 1) * kSlopeMax, slope.north,
@@ -151,9 +189,12 @@ void expectTrueSlopes(const Heightfield& field, const SceneFrame& frame, const R
         }
     }
     EXPECT_EQ(compared, ReliefTile::kSide * ReliefTile::kSide);
+    if (low_m < high_m) {
+        EXPECT_NEAR(tile.height_reach_m, (high_m - low_m) / 2.0, 1e-3) << "no bit is wasted";
+    }
 }
 
-TEST(ReliefTile, HoldsTheMeanSlopesOfItsTexelsUpToTheMapsBorders)
+TEST(ReliefTile, HoldsTheMeanSlopesAndElevationsOfItsTexelsUpToTheMapsBorders)
 {
     test::Random random;
     constexpr std::size_t kColumns = 571;
@@ -208,7 +249,7 @@ TEST(ReliefTile, HasAPlanesSlopeUpToTheBordersOfMapsAndHoles)
             for (const ReliefTile::Level& mip : tile.levels) {
                 for (std::size_t j = 0; j < mip.side; ++j) {
                     for (std::size_t i = 0; i < mip.side; ++i) {
-                        if (!mip.shares.empty() && mip.shares[j * mip.side + i] < 255) {
+                        if (shareAt(mip, i, j) < 1.0) {
                             continue; // weighted, and known from one side only
                         }
                         constexpr double kTolerance = 3.0 / 32767.0; // a half for every level
@@ -225,7 +266,7 @@ TEST(ReliefTile, HasAPlanesSlopeUpToTheBordersOfMapsAndHoles)
 
 // As the file describes it: the sample on the other side of a texel's border takes the place of a
 // void, half a sample away.
-TEST(ReliefTile, WeighsSlopesByTheShareThatIsNotVoid)
+TEST(ReliefTile, WeighsSlopesAndElevationsByTheShareThatIsNotVoid)
 {
     test::Random random;
     constexpr std::size_t kColumns = 300;
@@ -286,7 +327,11 @@ TEST(ReliefTile, WeighsSlopesByTheShareThatIsNotVoid)
                 ASSERT_NEAR(slopeAt(finest, i, j, 0) * kSlopeMax, expected,
                             1.0 / 32767.0 * kSlopeMax)
                     << level << ": " << i << ", " << j;
-                ASSERT_NEAR(finest.shares[j * finest.side + i] / 255.0, share, 0.5 / 255.0 + 1e-6);
+                ASSERT_NEAR(shareAt(finest, i, j), share, 0.5 / 32767.0 + 1e-6);
+                const double height_m =
+                    there > 0.0 ? (meanHeight(field, *texel) - tile.height_middle_m) * share : 0.0;
+                ASSERT_NEAR(weightedHeightAt(tile, 0, i, j), height_m,
+                            1.1 / 32767.0 * tile.height_reach_m + 1e-3);
             }
         }
     }
@@ -308,14 +353,17 @@ TEST(ReliefTile, SmallerCopiesAreWhatTheCoarserLevelsHold)
         // Tile (1, 0) begins in the middle of tile (0, 0) of the next level.
         for (std::size_t j = kBorder; j < kBorder / 2 + kTexels / 2; ++j) {
             for (std::size_t i = 0; i < half.side; ++i) {
+                const std::size_t there_i = i + kBorder / 2 + kTexels / 2;
+                const std::size_t there_j = j + kBorder / 2;
                 for (const std::size_t which : {0U, 1U}) {
-                    ASSERT_NEAR(half.slopes[2 * (j * half.side + i) + which],
-                                coarse.levels[0].slopes[2 * ((j + kBorder / 2) * ReliefTile::kSide +
-                                                             (i + kBorder / 2 + kTexels / 2)) +
-                                                        which],
-                                2)
+                    ASSERT_NEAR(slopeAt(half, i, j, which),
+                                slopeAt(coarse.levels[0], there_i, there_j, which), 2.0 / 32767.0)
                         << level << ": " << i << ", " << j;
                 }
+                ASSERT_NEAR(fine.height_middle_m + weightedHeightAt(fine, 1, i, j),
+                            coarse.height_middle_m + weightedHeightAt(coarse, 0, there_i, there_j),
+                            2.0 / 32767.0 * coarse.height_reach_m)
+                    << level << ": " << i << ", " << j;
             }
         }
     }
@@ -326,8 +374,8 @@ TEST(ReliefTile, CutsSlopesOffAtTheSteepest)
     const Heightfield field = test::floatTerrain(
         20, 20, [](std::size_t c, std::size_t) { return 10.0 * static_cast<double>(c); });
     const ReliefTile tile = makeReliefTile(field, test::northUpFrame(20, 20, 1.0), {0, 0, 0}, 2.0);
-    EXPECT_EQ(tile.levels.front().slopes[0], 32767);
-    EXPECT_EQ(tile.levels.front().slopes[1], 0);
+    EXPECT_EQ(tile.levels.front().texels[0].east, 32767);
+    EXPECT_EQ(tile.levels.front().texels[0].north, 0);
 }
 
 } // namespace
