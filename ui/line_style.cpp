@@ -26,4 +26,14 @@ QIcon LineStyle::standardIcon(StandardPixmap which,
     }
 }
 
+int LineStyle::styleHint(StyleHint hint,
+                         const QStyleOption* option,
+                         const QWidget* widget,
+                         QStyleHintReturn* data) const
+{
+    return hint == SH_DialogButtonBox_ButtonsHaveIcons
+               ? 0
+               : QProxyStyle::styleHint(hint, option, widget, data);
+}
+
 } // namespace marsview

@@ -16,6 +16,11 @@ public:
     QIcon standardIcon(StandardPixmap which,
                        const QStyleOption* option = nullptr,
                        const QWidget* widget = nullptr) const override;
+    /// Buttons of dialogs have texts alone: Fusion's pictures for them are black.
+    int styleHint(StyleHint hint,
+                  const QStyleOption* option = nullptr,
+                  const QWidget* widget = nullptr,
+                  QStyleHintReturn* data = nullptr) const override;
 };
 
 } // namespace marsview

@@ -185,10 +185,12 @@ void WindowActions::makeEditMenu(QMainWindow& window, QUndoStack& undo_stack)
     QAction* undo = undo_stack.createUndoAction(&window, tr("&Undo"));
     undo->setShortcut(QKeySequence::Undo);
     undo->setIcon(lineIcon(QStringLiteral("undo")));
+    undo->setProperty(kKeyTextProperty, tr("Undo")); // without what would be undone
     menu->addAction(undo);
     QAction* redo = undo_stack.createRedoAction(&window, tr("&Redo"));
     redo->setShortcut(QKeySequence::Redo);
     redo->setIcon(lineIcon(QStringLiteral("redo")));
+    redo->setProperty(kKeyTextProperty, tr("Redo"));
     menu->addAction(redo);
     menu->addSeparator();
     preferences = menu->addAction(tr("&Preferences…"));

@@ -87,6 +87,9 @@ private:
     QList<QAction*> for_shown_; // of use only while something is shown
 };
 
+/// A property of actions whose texts change: what the list of keys calls them.
+inline constexpr const char* kKeyTextProperty = "keyText";
+
 /// What the menu calls a contact model.
 QString contactModelText(ContactModelKind kind);
 

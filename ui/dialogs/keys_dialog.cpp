@@ -1,6 +1,7 @@
 #include "ui/dialogs/keys_dialog.h"
 
 #include "ui/tools/gestures.h"
+#include "ui/window_actions.h"
 
 #include <QAction>
 #include <QDialogButtonBox>
@@ -21,12 +22,23 @@
 namespace marsview {
 namespace {
 
-constexpr int kColumns = 3;
+constexpr int kColumnsMax = 3;
 constexpr int kTitleLines = 2; // a group's title and frame are as high as so many of its lines
 
 QString plainTitle(QString text)
 {
     return text.remove(QLatin1Char('&')).remove(QChar(0x2026));
+}
+
+QString withMinusSign(const QString& key)
+{
+    return key == QStringLiteral("-") ? QString(QChar(0x2212)) : key;
+}
+
+QString textOf(const QAction& action)
+{
+    const QString text = action.property(kKeyTextProperty).toString();
+    return text.isEmpty() ? plainTitle(action.text()) : text;
 }
 
 QString keysOf(const QAction& action)
@@ -35,7 +47,7 @@ QString keysOf(const QAction& action)
     if (keys.isEmpty()) {
         return {};
     }
-    const QString first = keys[0].toString(QKeySequence::NativeText);
+    const QString first = withMinusSign(keys[0].toString(QKeySequence::NativeText));
     return keys.size() == 1
                ? first
                //: Two keys for the same
@@ -54,7 +66,34 @@ KeysDialog::KeysDialog(const QMenuBar& menus, QWidget* parent)
             addMenu(groups, *action->menu());
         }
     }
-    // Columns of about the same height, in reading order.
+    const QSize room = screen()->availableSize() * 9 / 10;
+    QWidget* page = nullptr;
+    for (int columns = kColumnsMax; columns > 0; --columns) {
+        delete page;
+        page = makePage(groups, columns);
+        if (page->sizeHint().width() < room.width()) {
+            break;
+        }
+    }
+    auto* area = new QScrollArea(this);
+    area->setWidget(page);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setAccessibleName(tr("Keys and gestures"));
+    const QSize page_size = page->sizeHint();
+    area->setMinimumSize(
+        std::min(page_size.width() + area->verticalScrollBar()->sizeHint().width(), room.width()),
+        std::min(page_size.height() + 4, room.height() - 80));
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(area, 1);
+    layout->addWidget(buttons);
+}
+
+// Columns of about the same height, in reading order.
+QWidget* KeysDialog::makePage(const QList<Group>& groups, int columns)
+{
     const auto heightOf = [](const Group& group) {
         return static_cast<int>(group.lines.size()) + kTitleLines;
     };
@@ -67,34 +106,20 @@ KeysDialog::KeysDialog(const QMenuBar& menus, QWidget* parent)
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(12);
     auto next = groups.begin();
-    for (int column = 0; column < kColumns; ++column) {
+    for (int column = 0; column < columns; ++column) {
         auto* stack = new QVBoxLayout;
         row->addLayout(stack);
-        const int share = left / (kColumns - column);
+        const int share = left / (columns - column);
         int height = 0;
         while (next != groups.end() &&
-               (height == 0 || column + 1 == kColumns || height + heightOf(*next) / 2 <= share)) {
+               (height == 0 || column + 1 == columns || height + heightOf(*next) / 2 <= share)) {
             height += heightOf(*next);
             stack->addWidget(makeGroup(*next++));
         }
         left -= height;
         stack->addStretch(1);
     }
-    auto* area = new QScrollArea(this);
-    area->setWidget(page);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setAccessibleName(tr("Keys and gestures"));
-    const QSize page_size = page->sizeHint();
-    const QSize room = screen()->availableSize() * 9 / 10;
-    area->setMinimumSize(
-        std::min(page_size.width() + area->verticalScrollBar()->sizeHint().width(), room.width()),
-        std::min(page_size.height() + 4, room.height() - 80));
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    auto* layout = new QVBoxLayout(this);
-    layout->addWidget(area, 1);
-    layout->addWidget(buttons);
+    return page;
 }
 
 KeysDialog::Group KeysDialog::mouseGroup()
@@ -119,7 +144,7 @@ void KeysDialog::addMenu(QList<Group>& groups, const QMenu& menu)
         if (action->menu() != nullptr) {
             addMenu(inner, *action->menu());
         } else if (!action->shortcut().isEmpty()) {
-            group.lines.append({keysOf(*action), plainTitle(action->text())});
+            group.lines.append({keysOf(*action), textOf(*action)});
         }
     }
     if (!group.lines.isEmpty()) {

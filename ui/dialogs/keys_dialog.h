@@ -29,6 +29,7 @@ private:
 
     static Group mouseGroup();
     static void addMenu(QList<Group>& groups, const QMenu& menu);
+    QWidget* makePage(const QList<Group>& groups, int columns);
     QWidget* makeGroup(const Group& group);
 };
 

@@ -1,7 +1,5 @@
 #include "ui/dialogs/place_dialog.h"
 
-#include "ui/icons.h"
-
 #include <QClipboard>
 #include <QDialogButtonBox>
 #include <QFormLayout>
@@ -31,7 +29,6 @@ PlaceDialog::PlaceDialog(std::function<PlaceFacts()> read, QWidget* parent)
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     QPushButton* copy = buttons->addButton(tr("&Copy All"), QDialogButtonBox::ActionRole);
     copy->setObjectName(QStringLiteral("copyAll"));
-    copy->setIcon(lineIcon(QStringLiteral("copy")));
     connect(copy, &QPushButton::clicked, this,
             [this] { QGuiApplication::clipboard()->setText(text()); });
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
