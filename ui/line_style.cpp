@@ -2,6 +2,9 @@
 
 #include "ui/icons.h"
 
+#include <QPainter>
+#include <QStyleOptionMenuItem>
+
 namespace marsview {
 
 LineStyle::LineStyle()
@@ -24,6 +27,25 @@ QIcon LineStyle::standardIcon(StandardPixmap which,
     default:
         return QProxyStyle::standardIcon(which, option, widget);
     }
+}
+
+void LineStyle::drawControl(ControlElement element,
+                            const QStyleOption* option,
+                            QPainter* painter,
+                            const QWidget* widget) const
+{
+    const auto* entry = qstyleoption_cast<const QStyleOptionMenuItem*>(option);
+    const QStyle::State highlighted = State_Selected | State_Enabled;
+    if (element != CE_MenuItem || entry == nullptr || entry->icon.isNull() ||
+        (entry->state & highlighted) != highlighted) {
+        QProxyStyle::drawControl(element, option, painter, widget);
+        return;
+    }
+    QStyleOptionMenuItem copy(*entry);
+    const int side = pixelMetric(PM_SmallIconSize, option, widget);
+    copy.icon = QIcon(entry->icon.pixmap(QSize(side, side), painter->device()->devicePixelRatioF(),
+                                         QIcon::Selected));
+    QProxyStyle::drawControl(element, &copy, painter, widget);
 }
 
 int LineStyle::styleHint(StyleHint hint,

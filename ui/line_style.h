@@ -16,6 +16,11 @@ public:
     QIcon standardIcon(StandardPixmap which,
                        const QStyleOption* option = nullptr,
                        const QWidget* widget = nullptr) const override;
+    /// The icon of a menu entry that is highlighted has the color of its text.
+    void drawControl(ControlElement element,
+                     const QStyleOption* option,
+                     QPainter* painter,
+                     const QWidget* widget = nullptr) const override;
     /// Buttons of dialogs have texts alone: Fusion's pictures for them are black.
     int styleHint(StyleHint hint,
                   const QStyleOption* option = nullptr,
