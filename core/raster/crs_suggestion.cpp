@@ -44,13 +44,15 @@ Extent sampleExtentOf(const RasterInfo& info)
     return extentOf(info, 0.5);
 }
 
+// Around the body once, over most latitudes or up to a pole.
 bool isGlobal(const RasterInfo& info)
 {
     const Extent extent = extentOf(info);
-    const double pixel = std::abs(info.transform->pixelWidth());
+    const double pixel = info.transform->pixelWidth();
     constexpr double kLatitudesMin = 100.0; // maps of a whole body may leave out its poles
+    const double to_pole = kPole - std::max(std::abs(extent.south), std::abs(extent.north));
     return std::abs(extent.width() - kTurn) < 1.5 * pixel &&
-           extent.north - extent.south > kLatitudesMin;
+           (extent.north - extent.south > kLatitudesMin || std::abs(to_pole) <= pixel);
 }
 
 bool isWhole(double value)

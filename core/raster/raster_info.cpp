@@ -238,7 +238,7 @@ void deduceHeightReference(RasterInfo& info)
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
 {
     if (!statistics.hasSamples()) {
-        info.notices.push_back(fmt::format("holds no height: all of its {} samples are void",
+        info.notices.push_back(fmt::format("holds no elevations: all of its {} samples are void",
                                            statistics.sample_count));
         return;
     }
@@ -252,16 +252,16 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
         const double height_m = info.elevationScale().height(raw);
         if (!(std::abs(height_m) <= height_max_m)) {
             info.notices.push_back(
-                fmt::format("a height of {} m is larger than any body's; if it "
-                            "marks voids, give {} as nodata, or tell the unit",
-                            height_m, raw));
+                fmt::format("the sample {} makes an elevation of {} m, which is implausible; set "
+                            "it as nodata, or set the unit or the scale",
+                            raw, height_m));
             break;
         }
     }
     if (!info.nodata && is_usual_mark) {
         info.notices.push_back(
-            fmt::format("the lowest sample, {}, is a usual mark for voids, but "
-                        "the file declares none; if it is one, give it as nodata",
+            fmt::format("the lowest sample is {}, which often marks voids, but the file declares "
+                        "no nodata value; if it marks voids, set it as nodata",
                         statistics.raw_minimum));
     }
 }

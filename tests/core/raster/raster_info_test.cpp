@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -162,6 +165,91 @@ TEST(Overrides, ABodyMakesDegreesOfABareGlobalGrid)
     ASSERT_TRUE(metres);
     EXPECT_FALSE(metres->crs);
     EXPECT_EQ(metres->body->name, "Vesta");
+}
+
+TEST(Overrides, ScaleAndOffsetCountInTheVerticalUnit)
+{
+    RasterInfo file = mars();
+    file.scale = 2.0;
+    file.offset = 7.0;
+    file.unit = {"km", 1000.0};
+    RasterOverrides overrides;
+    overrides.scale = 0.1;
+    overrides.offset = -20.0;
+    overrides.vertical_unit = "ft";
+    const auto info = withOverrides(file, overrides);
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_DOUBLE_EQ(info->elevationScale().height(1234.0), (1234.0 * 0.1 - 20.0) * 0.3048);
+    // Each replaces its own number alone.
+    overrides.offset.reset();
+    EXPECT_DOUBLE_EQ(withOverrides(file, overrides)->elevationScale().height(100.0),
+                     (100.0 * 0.1 + 7.0) * 0.3048);
+    overrides.scale = -1.0; // depths
+    EXPECT_DOUBLE_EQ(withOverrides(file, overrides)->elevationScale().height(100.0),
+                     (100.0 * -1.0 + 7.0) * 0.3048);
+}
+
+TEST(Overrides, ScaleAndOffsetDecideAnewBetweenHeightsAndRadii)
+{
+    RasterInfo file = mars();
+    RasterOverrides overrides;
+    overrides.offset = 3396000.0; // as MOLA's labels of radii have it
+    const auto radii = withOverrides(file, overrides);
+    ASSERT_TRUE(radii);
+    EXPECT_EQ(radii->reference_radius_m, 3396000.0);
+    EXPECT_EQ(radii->elevationScale().height(100.0), 100.0);
+    EXPECT_EQ(radii->vertical_datum, "sphere of radius 3396000 m");
+    file.offset = 3396000.0;
+    deduceHeightReference(file);
+    overrides.offset = 0.0;
+    const auto heights = withOverrides(file, overrides);
+    ASSERT_TRUE(heights);
+    EXPECT_FALSE(heights->reference_radius_m);
+    EXPECT_EQ(heights->vertical_datum, "");
+    file.offset = 0.0;
+    file.typical_raw = 33895.0; // hundreds of metres
+    overrides.offset.reset();
+    overrides.scale = 100.0;
+    EXPECT_EQ(withOverrides(file, overrides)->reference_radius_m, 3396190.0);
+}
+
+TEST(Overrides, TheNameOfTheVerticalDatumIsTheUsers)
+{
+    RasterInfo file = mars();
+    file.vertical_datum = "mean sea level";
+    RasterOverrides overrides;
+    overrides.vertical_datum = "areoid";
+    EXPECT_EQ(withOverrides(file, overrides)->vertical_datum, "areoid");
+    overrides.offset = 3396000.0;
+    EXPECT_EQ(withOverrides(file, overrides)->vertical_datum, "areoid");
+}
+
+TEST(Overrides, ErrorsNameTheField)
+{
+    const std::vector<std::pair<OverrideField, RasterOverrides>> bad{
+        {OverrideField::Crs, {.crs = "EPSG:99999999"}},
+        {OverrideField::Crs, {.crs = "EPSG:4978"}},
+        {OverrideField::Body, {.body = "Vulcan"}},
+        {OverrideField::Radii, {.ellipsoid = Ellipsoid{0.0, 0.0}}},
+        {OverrideField::Transform, {.transform = GeoTransform::Terms{0, 0, 0, 0, 0, 0}}},
+        {OverrideField::VerticalUnit, {.vertical_unit = "parsec"}},
+        {OverrideField::Scale, {.scale = 0.0}},
+        {OverrideField::Scale, {.scale = kNan}},
+        {OverrideField::Scale, {.scale = -std::numeric_limits<double>::infinity()}},
+        {OverrideField::Scale, {.vertical_unit = "km", .scale = 1e308}},
+        {OverrideField::Offset, {.offset = kNan}},
+        {OverrideField::Offset, {.offset = std::numeric_limits<double>::infinity()}},
+        {OverrideField::VerticalDatum, {.vertical_datum = "  "}},
+    };
+    for (const auto& [field, overrides] : bad) {
+        const auto info = withOverrides(mars(), overrides);
+        ASSERT_FALSE(info) << static_cast<int>(field);
+        const std::string& message = info.error().message;
+        EXPECT_EQ(refusedField(info.error()), field) << message;
+        EXPECT_EQ(refusedField({info.error().code, "/maps/scale: x/a.tif: " + message}), field);
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+    EXPECT_FALSE(refusedField({ErrorCode::NotFound, "a.tif: there is no such file"}));
 }
 
 TEST(Overrides, WhatCannotBeUsedIsRefusedInOneSentence)

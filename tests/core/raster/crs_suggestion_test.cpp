@@ -1,0 +1,196 @@
+#include "core/raster/crs_suggestion.h"
+#include "core/raster/raster_info.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using testing::HasSubstr;
+
+RasterInfo gridAt(double west, double north, double pixel, std::size_t columns, std::size_t rows)
+{
+    RasterInfo info;
+    info.columns = columns;
+    info.rows = rows;
+    info.transform = *GeoTransform::fromTerms({west, pixel, 0, north, 0, -pixel});
+    return info;
+}
+
+TEST(CrsSuggestion, IsMadeForGridsThatLookLikeDegrees)
+{
+    const std::vector<RasterInfo> grids{
+        gridAt(0, 90, 1.0, 360, 180),                                     // a whole body, from 0
+        gridAt(-180, 90, 0.25, 1440, 720),                                // and from the other side
+        gridAt(20, 90, 1.0, 360, 180),                                    // and from anywhere
+        gridAt(-0.5, 90.5, 1.0, 361, 181),                                // samples on the poles
+        gridAt(-1.0 / 24, 90 + 1.0 / 24, 1.0 / 12, 4320, 2161),           // ETOPO5
+        gridAt(-105.550416666684, 40.2104166666, 1.0 / 1200, 240, 144),   // SRTM
+        gridAt(-100.041666666667, 40.0416666667, 0.0833333333, 480, 600), // GTOPO30's layout
+        gridAt(-122.2, 43.0, 0.000269965979, 429, 279),                   // 30 m of some program
+    };
+    for (const RasterInfo& grid : grids) {
+        const auto suggestion = suggestCrs(grid);
+        ASSERT_TRUE(suggestion) << grid.transform->terms()[0];
+        ASSERT_EQ(suggestion->choices.size(), 3U);
+        EXPECT_EQ(suggestion->choices[0], (CrsChoice{"Earth", "EPSG:4326"}));
+        EXPECT_EQ(suggestion->choices[1], (CrsChoice{"Mars", "IAU_2015:49902"}));
+        EXPECT_EQ(suggestion->choices[2], (CrsChoice{"Moon", "IAU_2015:30100"}));
+    }
+}
+
+TEST(CrsSuggestion, IsNotMadeForGridsInMetres)
+{
+    const std::vector<RasterInfo> grids{
+        gridAt(500000, 4100000, 30, 100, 100), // UTM
+        gridAt(0, 550, 10, 76, 55),            // a site that counts from its corner
+        gridAt(0, 50, 0.5, 100, 100),          // a trench
+        gridAt(-40, 40, 0.1, 800, 800),        // around its own origin
+        gridAt(10, 60, 1, 50, 50),             // cells of 1 m
+        gridAt(-90, 45, 30, 6, 3),             // too coarse for degrees
+        gridAt(-720.5, 90, 0.5, 2880, 360),    // two turns of longitude
+    };
+    for (const RasterInfo& grid : grids) {
+        EXPECT_FALSE(suggestCrs(grid)) << grid.transform->terms()[0];
+    }
+    RasterInfo placed = gridAt(0, 90, 1, 360, 180);
+    placed.crs = *Crs::fromText("EPSG:4326");
+    EXPECT_FALSE(suggestCrs(placed));
+    RasterInfo nowhere = gridAt(0, 90, 1, 360, 180);
+    nowhere.transform.reset();
+    EXPECT_FALSE(suggestCrs(nowhere));
+}
+
+TEST(CrsSuggestion, DeclaredAxesAndTheBodyOfTheFileDecide)
+{
+    RasterInfo tile = gridAt(0, 10, 2, 5, 5); // would pass for metres
+    EXPECT_FALSE(suggestCrs(tile));
+    tile.axis_hints.degree_axes = "its axes are lon in degrees_east and lat in degrees_north";
+    tile.axis_hints.body = bodyNamed("Moon");
+    const auto suggestion = suggestCrs(tile);
+    ASSERT_TRUE(suggestion);
+    EXPECT_TRUE(suggestion->is_certain);
+    EXPECT_EQ(suggestion->reason, tile.axis_hints.degree_axes);
+    EXPECT_EQ(suggestion->choices, (std::vector<CrsChoice>{{"Moon", "IAU_2015:30100"}}));
+}
+
+TEST(CrsSuggestion, EveryChoiceMakesTheCrsThatItsBodyMakes)
+{
+    for (const Body& body : knownBodies()) {
+        RasterInfo grid = gridAt(0, 90, 1, 360, 180);
+        grid.axis_hints.body = &body;
+        const auto suggestion = suggestCrs(grid);
+        ASSERT_TRUE(suggestion) << body.name;
+        ASSERT_EQ(suggestion->choices.size(), 1U);
+        RasterOverrides by_crs;
+        by_crs.crs = suggestion->choices[0].crs;
+        RasterOverrides by_body;
+        by_body.body = std::string(body.name);
+        const auto first = withOverrides(grid, by_crs);
+        const auto second = withOverrides(grid, by_body);
+        ASSERT_TRUE(first && second) << body.name;
+        EXPECT_EQ(first->body, &body);
+        EXPECT_EQ(first->crs->latitudeKind(), second->crs->latitudeKind()) << body.name;
+        EXPECT_NEAR(first->crs->ellipsoid()->equatorial_m, body.ellipsoid.equatorial_m, 1e-3);
+        EXPECT_NEAR(first->crs->ellipsoid()->polar_m, body.ellipsoid.polar_m, 1e-3) << body.name;
+        EXPECT_FALSE(first->crs_suggestion);
+    }
+}
+
+TEST(CrsSuggestion, IsANoticeUntilTheCrsIsSet)
+{
+    const RasterInfo grid = gridAt(0, 90, 1, 360, 180);
+    const auto bare = withOverrides(grid, {});
+    ASSERT_TRUE(bare && bare->crs_suggestion);
+    EXPECT_THAT(bare->notices, testing::ElementsAre(noticeOf(*bare->crs_suggestion)));
+    EXPECT_EQ(noticeOf(*bare->crs_suggestion),
+              "no CRS, but it looks like longitude and latitude in degrees (its extent is 0° – "
+              "360°, 90° S – 90° N): set EPSG:4326 (Earth), IAU_2015:49902 (Mars) or "
+              "IAU_2015:30100 (Moon); until then, map units are taken as metres");
+    EXPECT_THAT(optionNoticeOf(*bare->crs_suggestion),
+                HasSubstr("set the CRS with --crs EPSG:4326 (Earth), --crs IAU_2015:49902 (Mars)"));
+    RasterOverrides overrides;
+    overrides.crs = bare->crs_suggestion->choices[0].crs;
+    const auto set = withOverrides(grid, overrides);
+    ASSERT_TRUE(set);
+    EXPECT_FALSE(set->crs_suggestion);
+    EXPECT_TRUE(set->notices.empty()) << set->notices.front();
+    // A geotransform in metres takes the reason away.
+    RasterOverrides metres;
+    metres.transform = GeoTransform::Terms{5e5, 30, 0, 4e6, 0, -30};
+    EXPECT_FALSE(withOverrides(grid, metres)->crs_suggestion);
+}
+
+TEST(CrsSuggestion, SaysOnWhichSideOfTheMeridianTheExtentLies)
+{
+    EXPECT_EQ(suggestCrs(gridAt(-105.5, 40.25, 1.0 / 1200, 240, 144))->reason,
+              "its extent is 105.5° W – 105.3° W, 40.13° N – 40.25° N");
+    EXPECT_EQ(suggestCrs(gridAt(-180, 0, 0.25, 1440, 360))->reason,
+              "its extent is 180° W – 180° E, 90° S – 0°");
+}
+
+struct Placed {
+    const char* name;
+    RasterInfo grid;
+    const char* crs;
+    bool is_accepted;
+};
+
+TEST(CrsOverride, IsRefusedWhereItsUnitCannotBeTheGrids)
+{
+    RasterInfo in_degrees = gridAt(0, 90, 0.25, 1440, 720);
+    in_degrees.crs = *Crs::fromText("IAU_2015:49900");
+    RasterInfo misplaced = gridAt(499980, 4200000, 30, 100, 100);
+    misplaced.crs = *Crs::fromText("EPSG:4326"); // as the file says, wrongly
+    RasterInfo axes = gridAt(10, 50, 1, 20, 20);
+    axes.axis_hints.degree_axes = "its axes are x in degrees_east and y in degrees_north";
+    const std::vector<Placed> cases{
+        {"degrees on UTM", gridAt(499980, 4200000, 30, 100, 100), "EPSG:4326", false},
+        {"beyond the pole by samples", gridAt(0, 93, 1, 360, 180), "EPSG:4326", false},
+        {"beyond two turns", gridAt(700, 10, 1, 60, 20), "EPSG:4326", false},
+        {"degrees on a site of metres", gridAt(0, 550, 10, 76, 55), "IAU_2015:49900", false},
+        {"projection on a whole body", gridAt(0, 90, 1, 360, 180), "EPSG:32610", false},
+        {"projection on declared degrees", axes, "EPSG:32610", false},
+        {"projection in place of degrees", in_degrees, "EPSG:32610", false},
+        {"0 to 360", gridAt(0, 90, 1, 360, 180), "EPSG:4326", true},
+        {"samples on the poles", gridAt(-0.5, 90.5, 1, 361, 181), "EPSG:4326", true},
+        {"another turn", gridAt(200, 10, 1, 360, 20), "EPSG:4326", true},
+        {"other degrees", in_degrees, "EPSG:4326", true},
+        {"metres near the origin", gridAt(-40, 40, 0.1, 800, 800), "IAU_2015:30135", true},
+        {"metres of some site", gridAt(10, 60, 1, 50, 50), "EPSG:32610", true},
+        {"metres in place of wrong degrees", misplaced, "EPSG:32610", true},
+    };
+    for (const Placed& one : cases) {
+        RasterOverrides overrides;
+        overrides.crs = one.crs;
+        const auto info = withOverrides(one.grid, overrides);
+        ASSERT_EQ(info.has_value(), one.is_accepted)
+            << one.name << ": " << (info ? "" : info.error().message);
+        if (!info) {
+            EXPECT_EQ(refusedField(info.error()), OverrideField::Crs) << info.error().message;
+            EXPECT_THAT(info.error().message, HasSubstr("cannot place a grid"));
+        }
+    }
+}
+
+TEST(CrsOverride, IsAcceptedWithAGeotransformOfItsUnit)
+{
+    RasterInfo in_degrees = gridAt(0, 90, 0.25, 1440, 720);
+    RasterOverrides overrides;
+    overrides.crs = "EPSG:32610";
+    overrides.transform = GeoTransform::Terms{5e5, 30, 0, 4e6, 0, -30};
+    EXPECT_TRUE(withOverrides(in_degrees, overrides));
+    // And the reverse: the geotransform is at fault.
+    in_degrees.crs = *Crs::fromText("EPSG:4326");
+    overrides.crs.reset();
+    const auto refused = withOverrides(in_degrees, overrides);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refusedField(refused.error()), OverrideField::Transform) << refused.error().message;
+}
+
+} // namespace
+} // namespace marsview
