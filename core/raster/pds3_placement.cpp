@@ -1,11 +1,22 @@
 #include "core/raster/pds3_placement.h"
 
 #include "core/base/check.h"
+#include "core/raster/gdal_runtime.h"
+#include "core/raster/odl_label.h"
 
+#include <cpl_conv.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+
+#include <atomic>
+#include <cctype>
 #include <cmath>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -38,7 +49,79 @@ int wholePixels(double pixels)
                : 0;
 }
 
+// Names of raw images, which GDAL opens before it looks at the rest of the label.
+void appendPointers(const OdlStatement& group, std::vector<std::string>& names)
+{
+    for (const OdlStatement& statement : group.statements) {
+        if (statement.is_group) {
+            appendPointers(statement, names);
+        } else if (statement.name == "^IMAGE" || statement.name == "^QUBE") {
+            names.push_back(odlItems(statement.value).front());
+        }
+    }
+}
+
+// Without objects of compressed files, and of the same length.
+std::string asOfRawImage(std::string text)
+{
+    constexpr std::string_view kCompressed = "COMPRESSED_FILE";
+    for (std::size_t at = text.find(kCompressed); at != std::string::npos;
+         at = text.find(kCompressed, at + 1)) {
+        if (at == 0 || std::isalpha(static_cast<unsigned char>(text[at - 1])) == 0) {
+            text[at] = 'X';
+        }
+    }
+    return text;
+}
+
+void writeMemoryFile(const std::string& path, const std::string& content)
+{
+    VSILFILE* const file = VSIFOpenL(path.c_str(), "wb");
+    if (file != nullptr) {
+        VSIFWriteL(content.data(), 1, content.size(), file);
+        VSIFCloseL(file);
+    }
+}
+
+std::string labelText(const std::string& path)
+{
+    constexpr std::size_t kBytesMax = std::size_t{1} << 20;
+    std::string text(kBytesMax, '\0');
+    VSILFILE* const file = VSIFOpenL(path.c_str(), "rb");
+    text.resize(file != nullptr ? VSIFReadL(text.data(), 1, text.size(), file) : 0);
+    if (file != nullptr) {
+        VSIFCloseL(file);
+    }
+    return text;
+}
+
 } // namespace
+
+std::shared_ptr<GDALDataset> openPds3Placement(const std::string& label_path)
+{
+    const std::string text = labelText(label_path);
+    const std::optional<OdlStatement> root = parseOdl(text);
+    if (!root) {
+        return nullptr;
+    }
+    static std::atomic<unsigned> count{0};
+    const std::string folder = fmt::format("/vsimem/marsview_label_{}", count++);
+    std::vector<std::string> names{"image"};
+    appendPointers(*root, names);
+    for (const std::string& name : names) {
+        writeMemoryFile(folder + "/" + CPLGetFilename(name.c_str()), " ");
+    }
+    const std::string label = folder + "/marsview_placement.lbl";
+    writeMemoryFile(label, asOfRawImage(text));
+    const GdalMessages messages;
+    const char* const drivers[] = {"PDS", nullptr};
+    std::shared_ptr<GDALDataset> dataset(GDALDataset::Open(label.c_str(), GDAL_OF_RASTER, drivers),
+                                         [folder](GDALDataset* opened) {
+                                             GDALClose(opened);
+                                             VSIRmdirRecursive(folder.c_str());
+                                         });
+    return dataset.get() != nullptr ? dataset : nullptr;
+}
 
 PixelShift
 pds3PlacementShift(const nlohmann::json& label, const GeoTransform& transform, const Crs& crs)

@@ -5,7 +5,11 @@
 #include "core/geo/geotransform.h"
 
 #include <cstddef>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+
+class GDALDataset;
 
 namespace marsview {
 
@@ -28,5 +32,9 @@ pds3PlacementShift(const nlohmann::json& label, const GeoTransform& transform, c
 
 /// `transform` moved by `shift`.
 GeoTransform shifted(const GeoTransform& transform, PixelShift shift);
+
+/// A dataset that has the placement and the metadata of a PDS3 label, but no samples: for products
+/// whose samples GDAL does not find through it. Null where the label has none.
+std::shared_ptr<GDALDataset> openPds3Placement(const std::string& label_path);
 
 } // namespace marsview

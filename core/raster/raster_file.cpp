@@ -4,6 +4,7 @@
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/geotiff_skeleton.h"
+#include "core/raster/label_elevation.h"
 #include "core/raster/large_blocks.h"
 #include "core/raster/mosaic.h"
 #include "core/raster/netcdf_extent.h"
@@ -77,6 +78,7 @@ struct OpenedDataset {
     std::string name;
     std::optional<RemoteVersion> remote{};  // of a raster at a server
     std::shared_ptr<const Mosaic> mosaic{}; // of a folder of rasters
+    std::string label{};                    // of a product whose samples are in a TIFF or JPEG2000
 };
 
 // By GDAL's name, or its text of a virtual raster.
@@ -95,6 +97,22 @@ Result<Dataset> openLocal(const std::string& name)
         }
     }
     return dataset;
+}
+
+// What a label describes, where the samples are in a TIFF or JPEG2000, which GDAL would take for
+// raw ones. Nothing for everything else.
+std::optional<Result<OpenedDataset>> openEncodedImage(const std::string& name)
+{
+    const std::string image =
+        lowerCase(name).ends_with(".lbl") ? encodedImageOf(name) : std::string();
+    if (image.empty()) {
+        return std::nullopt;
+    }
+    Result<Dataset> dataset = openLocal(image);
+    if (!dataset) {
+        return Error{dataset.error().code, fmt::format("{}: {}", image, dataset.error().message)};
+    }
+    return OpenedDataset{.dataset = std::move(dataset).value(), .name = image, .label = name};
 }
 
 Result<OpenedDataset> openFolder(const std::string& path, int band)
@@ -169,6 +187,9 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     }
     std::string first_failure;
     for (const std::string& name : *names) {
+        if (auto image = openEncodedImage(name)) {
+            return *std::move(image);
+        }
         Result<Dataset> dataset = openLocal(name);
         if (dataset) {
             return OpenedDataset{.dataset = std::move(dataset).value(), .name = name};
@@ -217,6 +238,7 @@ std::string labelText(const nlohmann::json& label, const char* object, const cha
 void readVertical(GDALDataset& dataset,
                   GDALRasterBand& band,
                   const nlohmann::json& pds3,
+                  const std::optional<LabelElevation>& label,
                   RasterInfo& info)
 {
     int has_scale = 0;
@@ -225,26 +247,26 @@ void readVertical(GDALDataset& dataset,
     const double offset = band.GetOffset(&has_offset);
     if (has_scale != 0 && std::isfinite(scale) && scale != 0.0) {
         info.scale = scale;
-    } else if (has_scale != 0) {
+    } else if (has_scale != 0 && !(label && label->scale)) {
         info.notices.push_back(
-            fmt::format("a scale of {} makes no heights; 1 is used instead", scale));
+            fmt::format("the scale {} cannot make elevations; 1 is used instead", scale));
     }
     if (has_offset != 0 && std::isfinite(offset)) {
         info.offset = offset;
     }
     std::string unit = band.GetUnitType() != nullptr ? band.GetUnitType() : "";
-    if (unit.empty()) {
-        unit = labelText(pds3, "IMAGE", "UNIT");
-    }
     if (const auto known = verticalUnitFrom(unit)) {
         info.unit = *known;
         info.is_unit_declared = true;
-    } else if (!unit.empty()) {
+    }
+    if (label) {
+        applyLabel(info, *label);
+        unit = unit.empty() ? label->unit : unit;
+    }
+    if (!info.is_unit_declared && !unit.empty()) {
         info.notices.push_back(
-            fmt::format("unit \"{}\" is not a length known here; metres are "
-                        "assumed",
-                        unit));
-    } else if (info.crs && info.crs->verticalUnit()) {
+            fmt::format("the unit \"{}\" is not a known unit of length; metres are assumed", unit));
+    } else if (!info.is_unit_declared && info.crs && info.crs->verticalUnit()) {
         info.unit = *info.crs->verticalUnit();
         info.is_unit_declared = true;
     }
@@ -260,6 +282,27 @@ void readVertical(GDALDataset& dataset,
     } else if (labelText(pds3, "IMAGE", "DESCRIPTION").find("areoid") != std::string::npos) {
         info.vertical_datum = "areoid";
     }
+}
+
+bool isPlaced(GDALDataset& dataset)
+{
+    GeoTransform::Terms terms{};
+    return dataset.GetGeoTransform(terms.data()) == CE_None;
+}
+
+// The label of a TIFF or JPEG2000, where that places it: a TIFF's own placement goes first.
+std::shared_ptr<GDALDataset>
+placementOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path)
+{
+    const bool is_tiff = info.driver == "GTiff";
+    if ((is_tiff && isPlaced(dataset)) || (!is_tiff && !info.driver.starts_with("JP2"))) {
+        return nullptr;
+    }
+    const std::string path = label_path.empty() ? labelNextTo(info.path) : label_path;
+    std::shared_ptr<GDALDataset> label = path.empty() ? nullptr : openPds3Placement(path);
+    const bool is_of_same_size = label && label->GetRasterXSize() == dataset.GetRasterXSize() &&
+                                 label->GetRasterYSize() == dataset.GetRasterYSize();
+    return is_of_same_size && isPlaced(*label) ? label : nullptr;
 }
 
 void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo& info)
@@ -301,8 +344,8 @@ void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo&
         if (!shift.isNone()) {
             info.transform = shifted(*info.transform, shift);
             info.notices.push_back(fmt::format(
-                "moved by {} column and {} row to lie where the label's latitude and longitude "
-                "limits are",
+                "shifted by {} column and {} row to match the latitude and longitude limits in the "
+                "label",
                 shift.columns, shift.rows));
         }
     }
@@ -464,14 +507,17 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
         }
     }
     const GdalMessages messages;
-    const nlohmann::json pds3 = jsonDomain(dataset, "json:PDS");
+    const std::shared_ptr<GDALDataset> label_placement =
+        impl->remote ? nullptr : placementOf(dataset, info, opened->label);
+    GDALDataset& placed = label_placement ? *label_placement : dataset;
+    const nlohmann::json pds3 = jsonDomain(placed, "json:PDS");
     impl->netcdf = netcdfExtentOf(dataset, info.driver);
     readNodata(*impl->band, info);
-    readPlacement(dataset, pds3, info);
+    readPlacement(placed, pds3, info);
     if (!info.crs) {
         info.axis_hints = axisHintsOf(dataset, path);
     }
-    readVertical(dataset, *impl->band, pds3, info);
+    readVertical(dataset, *impl->band, pds3, labelElevationOf(dataset, info, opened->label), info);
     info.typical_raw = impl->findTypicalSample();
     if (impl->strips) {
         impl->strips->rest();
@@ -504,7 +550,7 @@ std::optional<double> RasterFile::Impl::findTypicalSample()
 {
     const bool can_hold_radius = sampleBytes(info.type) >= 4 || info.scale != 1.0 ||
                                  info.offset != 0.0 || info.unit.metres != 1.0;
-    if (!can_hold_radius || !info.crs) {
+    if (!can_hold_radius || (!info.crs && remote)) {
         return std::nullopt;
     }
     if (const int overviews = band->GetOverviewCount(); remote && overviews > 0) {

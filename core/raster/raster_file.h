@@ -25,9 +25,10 @@ struct LoadedSamples {
 class RasterFile {
 public:
     /// Opens anything that holds elevations and that GDAL understands: files, labels, headers,
-    /// archives with one raster, folders of adjoining rasters (mosaic.h), GDAL's connection
-    /// strings. Refuses pictures (colour, indexed), complex numbers and what is absurdly large.
-    /// `band` counts from 1.
+    /// archives (archive_rasters.h), folders of adjoining rasters (mosaic.h), GDAL's connection
+    /// strings. Scale, offset, unit and nodata are those of the product's label where there is one
+    /// (label_elevation.h). Refuses pictures (colour, indexed), complex numbers and what is
+    /// absurdly large. `band` counts from 1.
     ///
     /// Error messages begin with the path.
     static Result<RasterFile> open(const std::string& path, int band = 1);

@@ -187,7 +187,7 @@ TEST_P(CatalogueFile, LiesWhereGdalinfoPutsIt)
         expected[0] += expected[1];
         expected[3] += expected[5];
         EXPECT_TRUE(std::any_of(info.notices.begin(), info.notices.end(), [](const std::string& n) {
-            return n.starts_with("moved by 1 column and 1 row");
+            return n.starts_with("shifted by 1 column and 1 row");
         }));
     }
     for (std::size_t i = 0; i < 6; ++i) {

@@ -1,0 +1,462 @@
+#include "core/raster/label_elevation.h"
+
+#include "core/base/plain_number.h"
+#include "core/raster/nodata.h"
+#include "core/raster/odl_label.h"
+#include "core/raster/raster_path.h"
+
+#include <cpl_conv.h>
+#include <cpl_minixml.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+constexpr std::size_t kLabelBytesMax = std::size_t{1} << 20;
+
+bool isAtServer(const std::string& path)
+{
+    return path.find("/vsicurl") != std::string::npos || path.find("/vsis3") != std::string::npos ||
+           path.find("/vsigs") != std::string::npos || path.find("/vsiaz") != std::string::npos ||
+           path.find("://") != std::string::npos;
+}
+
+// 16#FF7FFFFB# are the bits of the sample, whatever its type.
+std::optional<double> basedNumber(std::string_view text, SampleType type)
+{
+    const std::size_t first = text.find('#');
+    if (first == std::string_view::npos || !text.ends_with('#') || first + 2 > text.size() - 1) {
+        return std::nullopt;
+    }
+    const std::string_view base_text = text.substr(0, first);
+    const std::string_view digits = text.substr(first + 1, text.size() - first - 2);
+    int base = 0;
+    std::uint64_t bits = 0;
+    const auto base_read =
+        std::from_chars(base_text.data(), base_text.data() + base_text.size(), base);
+    if (base_read.ec != std::errc{} || base < 2 || base > 16) {
+        return std::nullopt;
+    }
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), bits, base);
+    if (read.ec != std::errc{} || read.ptr != digits.data() + digits.size()) {
+        return std::nullopt;
+    }
+    return dispatchSampleType(type, [bits](auto zero) {
+        using T = decltype(zero);
+        if constexpr (std::is_same_v<T, float>) {
+            return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        } else if constexpr (std::is_same_v<T, double>) {
+            return std::bit_cast<double>(bits);
+        } else {
+            return static_cast<double>(static_cast<T>(bits));
+        }
+    });
+}
+
+std::optional<double> numberFrom(std::string text)
+{
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    const std::size_t end = text.find_last_not_of(" \t\r\n");
+    if (begin == std::string::npos) {
+        return std::nullopt;
+    }
+    text = text.substr(begin, end - begin + 1);
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
+    const std::optional<double> number = parseNumber(text);
+    return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+// The value for one band: of a list its item, of a single value that.
+std::optional<std::string> itemIn(const OdlStatement& group, std::string_view name, int band)
+{
+    const OdlStatement* const statement = statementIn(group, name);
+    if (statement == nullptr) {
+        return std::nullopt;
+    }
+    const std::vector<std::string> items = odlItems(statement->value);
+    return items[std::min(static_cast<std::size_t>(band - 1), items.size() - 1)];
+}
+
+std::optional<double> numberIn(const OdlStatement& group, std::string_view name, int band)
+{
+    const std::optional<std::string> item = itemIn(group, name, band);
+    return item ? numberFrom(*item) : std::nullopt;
+}
+
+struct Names {
+    std::string_view scale, offset, unit;
+    std::array<std::string_view, 6> nodata; // the first that is there counts
+};
+constexpr Names kImageNames{"SCALING_FACTOR",
+                            "OFFSET",
+                            "UNIT",
+                            {"MISSING_CONSTANT", "MISSING", "NULL_CONSTANT", "CORE_NULL",
+                             "INVALID_CONSTANT", "UNKNOWN_CONSTANT"}};
+constexpr Names kQubeNames{"CORE_MULTIPLIER", "CORE_BASE", "CORE_UNIT", {"CORE_NULL"}};
+constexpr Names kIsis3Names{"MULTIPLIER", "BASE", "", {}};
+
+LabelElevation elevationIn(const OdlStatement& group, const Names& names, int band, SampleType type)
+{
+    LabelElevation label;
+    label.scale = numberIn(group, names.scale, band);
+    label.offset = numberIn(group, names.offset, band);
+    const std::string unit = itemIn(group, names.unit, band).value_or("");
+    label.unit = unit == "N/A" || unit == "NULL" || unit == "UNK" ? "" : unit;
+    for (const std::string_view name : names.nodata) {
+        const std::optional<std::string> item =
+            name.empty() ? std::nullopt : itemIn(group, name, band);
+        if (item && !label.nodata) {
+            label.nodata = basedNumber(*item, type);
+            label.nodata = label.nodata ? label.nodata : numberFrom(*item);
+        }
+    }
+    const std::string samples = itemIn(group, "SAMPLE_TYPE", band).value_or("");
+    if (samples.find("INTEGER") != std::string::npos) {
+        label.is_signed = samples.find("UNSIGNED") == std::string::npos;
+    }
+    return label;
+}
+
+// The object with the samples: IMAGE, in whatever it is nested, or one such as HEIGHT_IMAGE.
+const OdlStatement* imageIn(const OdlStatement& group)
+{
+    if (const OdlStatement* const image = groupNamed(group, "IMAGE")) {
+        return image;
+    }
+    for (const OdlStatement& statement : group.statements) {
+        if (!statement.is_group) {
+            continue;
+        }
+        if (statement.name.ends_with("_IMAGE") && statementIn(statement, "LINES") != nullptr) {
+            return &statement;
+        }
+        if (const OdlStatement* const deeper = imageIn(statement)) {
+            return deeper;
+        }
+    }
+    return nullptr;
+}
+
+std::optional<LabelElevation> odlElevation(const OdlStatement& root, int band, SampleType type)
+{
+    if (const OdlStatement* const cube = groupNamed(root, "ISISCUBE")) {
+        const OdlStatement* const pixels = groupNamed(*cube, "PIXELS");
+        return pixels != nullptr ? std::optional(elevationIn(*pixels, kIsis3Names, band, type))
+                                 : std::nullopt;
+    }
+    if (const OdlStatement* const image = imageIn(root)) {
+        return elevationIn(*image, kImageNames, band, type);
+    }
+    for (const char* name : {"QUBE", "SPECTRAL_QUBE"}) {
+        if (const OdlStatement* const qube = groupNamed(root, name)) {
+            return elevationIn(*qube, kQubeNames, band, type);
+        }
+    }
+    return std::nullopt;
+}
+
+struct XmlCloser {
+    void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
+};
+
+// The first element of that name, `node` included, at any depth.
+const CPLXMLNode* elementNamed(const CPLXMLNode* node, std::string_view name, int depth = 0)
+{
+    constexpr int kDepthMax = 32;
+    for (; node != nullptr && depth < kDepthMax; node = node->psNext) {
+        if (node->eType == CXT_Element && name == node->pszValue) {
+            return node;
+        }
+        if (const CPLXMLNode* const found = elementNamed(node->psChild, name, depth + 1)) {
+            return found;
+        }
+    }
+    return nullptr;
+}
+
+std::optional<LabelElevation> pds4Elevation(const std::string& text)
+{
+    const std::unique_ptr<CPLXMLNode, XmlCloser> xml(CPLParseXMLString(text.c_str()));
+    if (!xml) {
+        return std::nullopt;
+    }
+    CPLStripXMLNamespace(xml.get(), nullptr, TRUE);
+    const CPLXMLNode* array = nullptr;
+    for (const char* name : {"Array_2D_Map", "Array_2D_Image", "Array_2D", "Array_3D_Image",
+                             "Array_3D", "Array_2D_Spectrum", "Array_3D_Spectrum"}) {
+        array = array != nullptr ? array : elementNamed(xml.get(), name);
+    }
+    if (array == nullptr) {
+        return std::nullopt;
+    }
+    const auto textAt = [array](const char* path) {
+        const char* value = CPLGetXMLValue(array, path, nullptr);
+        return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
+    };
+    const auto numberAt = [&textAt](const char* path) {
+        const std::optional<std::string> value = textAt(path);
+        return value ? numberFrom(*value) : std::nullopt;
+    };
+    LabelElevation label;
+    label.scale = numberAt("Element_Array.scaling_factor");
+    label.offset = numberAt("Element_Array.value_offset");
+    label.unit = textAt("Element_Array.unit").value_or("");
+    label.nodata = numberAt("Special_Constants.missing_constant");
+    return label;
+}
+
+std::string textOf(const std::string& path)
+{
+    const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"),
+                                                                &VSIFCloseL);
+    std::string text(file ? kLabelBytesMax : 0, '\0');
+    text.resize(file ? VSIFReadL(text.data(), 1, text.size(), file.get()) : 0);
+    return text;
+}
+
+// Names of the files in the folder of `path`.
+std::vector<std::string> namesNextTo(const std::string& path)
+{
+    const std::string folder = CPLGetPath(path.c_str());
+    const CPLStringList entries(VSIReadDir(folder.empty() ? "." : folder.c_str()));
+    return {entries.List(), entries.List() + entries.Count()};
+}
+
+std::string besideOf(const std::string& path, const std::string& name)
+{
+    const std::string folder = CPLGetPath(path.c_str());
+    return folder.empty() ? name : folder + "/" + name;
+}
+
+bool isXml(const std::string& text)
+{
+    const std::size_t first = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+    return first != std::string::npos && text[first] == '<';
+}
+
+// JPEG2000 as a file or as a bare codestream, or TIFF of either kind and order.
+bool isEncodedImage(const std::string& path)
+{
+    const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(path.c_str(), "rb"),
+                                                                &VSIFCloseL);
+    std::string head(12, '\0');
+    head.resize(file ? VSIFReadL(head.data(), 1, head.size(), file.get()) : 0);
+    using namespace std::string_view_literals;
+    constexpr std::array kSignatures{
+        "\0\0\0\x0CjP  "sv, "\xFF\x4F\xFF\x51"sv, "II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+    return std::any_of(kSignatures.begin(), kSignatures.end(),
+                       [&head](std::string_view signature) { return head.starts_with(signature); });
+}
+
+// Both in lower case; not as the end of another name.
+bool hasFileName(const std::string& text, const std::string& name)
+{
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+        const char before = at == 0 ? ' ' : text[at - 1];
+        const bool is_part = (before >= 'a' && before <= 'z') || (before >= '0' && before <= '9') ||
+                             before == '_' || before == '-' || before == '.';
+        if (!is_part) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool isSameNodata(SampleType type, const std::optional<double>& a, const std::optional<double>& b)
+{
+    return dispatchSampleType(type, [&a, &b](auto zero) {
+        using T = decltype(zero);
+        const Nodata<T> first(a);
+        const Nodata<T> second(b);
+        return first.exists == second.exists && (!first.exists || first.value == second.value);
+    });
+}
+
+bool isSigned(SampleType type)
+{
+    return dispatchSampleType(type, [](auto zero) { return std::is_signed_v<decltype(zero)>; });
+}
+
+} // namespace
+
+std::optional<LabelElevation> labelElevationIn(const std::string& text, int band, SampleType type)
+{
+    if (isXml(text)) {
+        return pds4Elevation(text);
+    }
+    const std::optional<OdlStatement> root = parseOdl(text);
+    return root ? odlElevation(*root, band, type) : std::nullopt;
+}
+
+bool isJpeg2000Name(const std::string& path)
+{
+    const std::string lower = lowerCase(path);
+    return lower.ends_with(".jp2") || lower.ends_with(".j2k") || lower.ends_with(".jpx") ||
+           lower.ends_with(".j2c") || lower.ends_with(".jpc");
+}
+
+std::optional<LabelElevation>
+labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path)
+{
+    if (isAtServer(info.path)) {
+        return std::nullopt;
+    }
+    std::string path;
+    std::optional<LabelElevation> label;
+    if (info.driver == "PDS" || info.driver == "ISIS2" || info.driver == "ISIS3") {
+        const CPLStringList files(dataset.GetFileList());
+        path = files.Count() > 0 ? files[0] : info.path;
+        if (const std::optional<OdlStatement> root = readOdlLabel(path)) {
+            label = odlElevation(*root, info.band, info.type);
+        }
+    } else if (info.driver == "PDS4") {
+        path = info.path;
+        char** const xml = dataset.GetMetadata("xml:PDS4");
+        label = xml != nullptr && xml[0] != nullptr ? pds4Elevation(xml[0]) : std::nullopt;
+    } else if (info.driver == "GTiff" || info.driver.starts_with("JP2")) {
+        path = label_path.empty() ? labelNextTo(info.path) : label_path;
+        if (!path.empty()) {
+            label = labelElevationIn(textOf(path), info.band, info.type);
+        }
+    }
+    if (label) {
+        label->path = std::move(path);
+    }
+    return label;
+}
+
+void applyLabel(RasterInfo& info, const LabelElevation& label)
+{
+    std::vector<std::string> ours;
+    std::vector<std::string> theirs;
+    const auto note = [&](const char* what, const std::string& label_says,
+                          const std::string& gdal_says) {
+        ours.push_back(fmt::format("{} {}", what, label_says));
+        theirs.push_back(fmt::format("{} {}", what, gdal_says));
+    };
+    // Both read the same digits.
+    const auto isOther = [](const std::optional<double>& declared, double applied) {
+        return declared && std::abs(*declared - applied) > 1e-12 * std::abs(applied);
+    };
+    if (label.scale && *label.scale != 0.0 && isOther(label.scale, info.scale)) {
+        note("scale", fmt::format("{}", *label.scale), fmt::format("{}", info.scale));
+        info.scale = *label.scale;
+    }
+    if (isOther(label.offset, info.offset)) {
+        note("offset", fmt::format("{}", *label.offset), fmt::format("{}", info.offset));
+        info.offset = *label.offset;
+    }
+    if (const auto unit = verticalUnitFrom(label.unit);
+        unit && (*unit != info.unit || !info.is_unit_declared)) {
+        const bool is_other = *unit != info.unit;
+        if (is_other) {
+            note("unit", label.unit, info.is_unit_declared ? info.unit.name : "none");
+        }
+        info.unit = *unit;
+        info.is_unit_declared = true;
+    }
+    if (label.nodata && !isSameNodata(info.type, label.nodata, info.nodata)) {
+        note("nodata", fmt::format("{}", *label.nodata),
+             info.nodata ? fmt::format("{}", *info.nodata) : std::string("none"));
+        info.nodata = label.nodata;
+    }
+    if (!label.nodata && info.driver == "PDS" && info.nodata == 0.0 && !isSigned(info.type)) {
+        note("nodata", "none", "0"); // for every product of unsigned samples
+        info.nodata.reset();
+    }
+    const auto list = [](const std::vector<std::string>& items) {
+        return fmt::format("{}", fmt::join(items, ", "));
+    };
+    if (!ours.empty()) {
+        info.notices.push_back(fmt::format("from the label {}: {} (GDAL reads {})",
+                                           CPLGetFilename(label.path.c_str()), list(ours),
+                                           list(theirs)));
+    }
+    const bool is_integer =
+        dispatchSampleType(info.type, [](auto zero) { return std::is_integral_v<decltype(zero)>; });
+    if (label.is_signed && is_integer && *label.is_signed != isSigned(info.type)) {
+        info.notices.push_back(fmt::format(
+            "the label {} declares {} samples, but the file holds {} ones; check the elevations",
+            CPLGetFilename(label.path.c_str()), *label.is_signed ? "signed" : "unsigned",
+            *label.is_signed ? "unsigned" : "signed"));
+    }
+}
+
+std::string labelNextTo(const std::string& data_path)
+{
+    if (isAtServer(data_path) || data_path.empty()) {
+        return {};
+    }
+    const std::string data_name = lowerCase(CPLGetFilename(data_path.c_str()));
+    const std::string stem = lowerCase(CPLGetBasename(data_path.c_str()));
+    std::string of_same_name;
+    for (const std::string& name : namesNextTo(data_path)) {
+        const std::string lower = lowerCase(name);
+        const bool is_candidate = lower == stem + ".lbl" || lower == stem + ".xml" ||
+                                  lower == stem + "_jp2.lbl" || lower == data_name + ".lbl" ||
+                                  lower == data_name + ".xml";
+        if (!is_candidate || lower == data_name) {
+            continue;
+        }
+        const std::string path = besideOf(data_path, name);
+        const std::string text = lowerCase(textOf(path));
+        const bool is_label = isXml(text) ? text.find("<product_observational") != std::string::npos
+                                          : text.find("pds_version_id") != std::string::npos;
+        if (is_label && hasFileName(text, data_name)) {
+            return path;
+        }
+        if (is_label && !isXml(text)) {
+            of_same_name = path;
+        }
+    }
+    // A TIFF of the same name may have been made of the product, with its elevations in metres.
+    // JPEG2000 holds whole numbers.
+    return isJpeg2000Name(data_name) ? of_same_name : std::string();
+}
+
+std::string encodedImageOf(const std::string& label_path)
+{
+    const std::optional<OdlStatement> root =
+        isAtServer(label_path) ? std::nullopt : readOdlLabel(label_path);
+    if (!root) {
+        return {};
+    }
+    const OdlStatement* const compressed = groupNamed(*root, "COMPRESSED_FILE");
+    const OdlStatement* file =
+        compressed != nullptr ? statementIn(*compressed, "FILE_NAME") : nullptr;
+    if (compressed == nullptr) {
+        file = statementIn(*root, "^IMAGE");
+        for (const OdlStatement& statement : root->statements) {
+            if (file == nullptr && statement.is_group) {
+                file = statementIn(statement, "^IMAGE");
+            }
+        }
+    }
+    const std::string wanted =
+        file != nullptr ? lowerCase(odlItems(file->value).front()) : std::string();
+    for (const std::string& name : namesNextTo(label_path)) {
+        const std::string path = besideOf(label_path, name);
+        if (lowerCase(name) == wanted && isEncodedImage(path)) {
+            return path;
+        }
+    }
+    return {};
+}
+
+} // namespace marsview

@@ -1,0 +1,52 @@
+// How the label of a product turns its samples into elevations, read from the label itself.
+//
+// GDAL 3.6 leaves a part of it out: everything of PDS3 products in JPEG2000 or TIFF, units of PDS3,
+// numbers in quotes, lists or other bases, missing constants under other names, and labels next to
+// a data file that is opened without them.
+#pragma once
+
+#include "core/raster/raster_info.h"
+#include "core/raster/sample_type.h"
+
+#include <optional>
+#include <string>
+
+class GDALDataset;
+
+namespace marsview {
+
+/// What a label says of the samples; nothing where it does not say.
+struct LabelElevation {
+    std::string path;            // of the label
+    std::optional<double> scale; // value = raw × scale + offset, in `unit`
+    std::optional<double> offset;
+    std::optional<double> nodata; // raw
+    std::string unit;             // as it is written
+    std::optional<bool> is_signed;
+};
+
+/// Of a PDS3, ISIS 2, ISIS 3 or PDS4 label in `text`, for samples of that type.
+std::optional<LabelElevation> labelElevationIn(const std::string& text, int band, SampleType type);
+
+/// Of the label that `dataset` was opened through, or, for a TIFF or JPEG2000, of the label next to
+/// it (`labelNextTo`), or of `label_path` where that is known. Nothing for other formats, and at a
+/// server. `info` has driver, path, band and type.
+std::optional<LabelElevation>
+labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path = {});
+
+/// Puts what the label says in place of what GDAL says, which `info` has, with one notice that
+/// names what differs.
+void applyLabel(RasterInfo& info, const LabelElevation& label);
+
+bool isJpeg2000Name(const std::string& path);
+
+/// The PDS3 or PDS4 label that describes a data file in the same folder or archive: one that names
+/// it, or else, for a JPEG2000, one of the same name. Empty where there is none, and at a server.
+std::string labelNextTo(const std::string& data_path);
+
+/// Of a PDS3 label: the TIFF or JPEG2000 with the samples, in whatever case it is named. GDAL 3.6
+/// finds a compressed file only in the same case, and reads one that the label declares as a plain
+/// image as if its bytes were samples. Empty for other products, and where the file is not there.
+std::string encodedImageOf(const std::string& label_path);
+
+} // namespace marsview

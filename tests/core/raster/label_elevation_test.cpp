@@ -1,0 +1,472 @@
+// Elevations of labelled products against their labels, read here as text. GDAL 3.6 leaves out a
+// part of each.
+#include "core/raster/label_elevation.h"
+#include "core/raster/raster_file.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using test::TempFolder;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr std::size_t kColumns = 40;
+constexpr std::size_t kRows = 20;
+
+template <typename T>
+std::string bytesOf(const std::vector<T>& samples)
+{
+    return {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(T)};
+}
+
+std::vector<std::int16_t> someSamples()
+{
+    std::vector<std::int16_t> samples(kColumns * kRows);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<std::int16_t>(static_cast<int>(i * 79 % 37000) - 17000);
+    }
+    return samples;
+}
+
+// The number that stands behind "KEY =" in a label.
+double numberBehind(const std::string& label, const std::string& key)
+{
+    const std::size_t at = label.find(key);
+    const std::size_t equals = label.find('=', at);
+    if (at == std::string::npos || equals == std::string::npos) {
+        throw std::runtime_error("no " + key);
+    }
+    return std::stod(label.substr(label.find_first_not_of(" \"(", equals + 1)));
+}
+
+constexpr std::string_view kProjection = R"(OBJECT = IMAGE_MAP_PROJECTION
+ MAP_PROJECTION_TYPE          = "SIMPLE CYLINDRICAL"
+ MAP_RESOLUTION               = 4 <pix/deg>
+ A_AXIS_RADIUS                = 1737.4 <km>
+ B_AXIS_RADIUS                = 1737.4 <km>
+ C_AXIS_RADIUS                = 1737.4 <km>
+ POSITIVE_LONGITUDE_DIRECTION = "EAST"
+ CENTER_LATITUDE              = 0 <deg>
+ CENTER_LONGITUDE             = 180 <deg>
+ LINE_FIRST_PIXEL             = 1
+ SAMPLE_FIRST_PIXEL           = 1
+ MAP_PROJECTION_ROTATION      = 0.0
+ MAP_SCALE                    = 7580.84 <m/pix>
+ MAXIMUM_LATITUDE             = 90 <deg>
+ MINIMUM_LATITUDE             = 85 <deg>
+ WESTERNMOST_LONGITUDE        = 0 <deg>
+ EASTERNMOST_LONGITUDE        = 10 <deg>
+ LINE_PROJECTION_OFFSET       = 359.5 <pix>
+ SAMPLE_PROJECTION_OFFSET     = 719.5 <pix>
+END_OBJECT = IMAGE_MAP_PROJECTION
+)";
+
+struct Product {
+    std::string pointer{};    // the file that ^IMAGE names
+    std::string compressed{}; // the file of a COMPRESSED_FILE object
+    std::string image{};      // statements of IMAGE besides its size
+    std::string type = "LSB_INTEGER";
+    int bits = 16;
+    bool is_nested = true;
+};
+
+// In the form of LOLA's labels.
+std::string pds3Label(const Product& product)
+{
+    const std::size_t row_bytes = kColumns * static_cast<std::size_t>(product.bits) / 8;
+    std::string label = "PDS_VERSION_ID = \"PDS3\"\n/* made for a test */\nTARGET_NAME = MOON\n";
+    if (!product.compressed.empty()) {
+        label += "OBJECT = COMPRESSED_FILE\n FILE_NAME = \"" + product.compressed +
+                 "\"\n RECORD_TYPE = UNDEFINED\n ENCODING_TYPE = \"JP2\"\n"
+                 " ENCODING_TYPE_VERSION_NAME = \"ISO/IEC15444-1:2004\"\n"
+                 " INTERCHANGE_FORMAT = BINARY\n UNCOMPRESSED_FILE_NAME = \"" +
+                 product.pointer +
+                 "\"\n REQUIRED_STORAGE_BYTES = " + std::to_string(row_bytes * kRows) +
+                 " <BYTES>\nEND_OBJECT = COMPRESSED_FILE\n";
+    }
+    if (product.is_nested) {
+        label += "OBJECT = UNCOMPRESSED_FILE\n FILE_NAME = \"" + product.pointer + "\"\n";
+    }
+    label += " RECORD_TYPE = FIXED_LENGTH\n FILE_RECORDS = " + std::to_string(kRows) +
+             "\n RECORD_BYTES = " + std::to_string(row_bytes) + "\n ^IMAGE = \"" + product.pointer +
+             "\"\n OBJECT = IMAGE\n  NAME = HEIGHT\n  LINES = " + std::to_string(kRows) +
+             "\n  LINE_SAMPLES = " + std::to_string(kColumns) +
+             "\n  SAMPLE_TYPE = " + product.type +
+             "\n  SAMPLE_BITS = " + std::to_string(product.bits) + "\n" + product.image +
+             " END_OBJECT = IMAGE\n";
+    if (product.is_nested) {
+        label += "END_OBJECT = UNCOMPRESSED_FILE\n";
+    }
+    return label + std::string(kProjection) + "END\n";
+}
+
+constexpr const char* kRadii = "  UNIT = METER\n  SCALING_FACTOR = 0.5\n  OFFSET = 1737400.\n";
+
+template <typename T>
+std::string
+writeJpeg2000(const TempFolder& folder, const std::string& file, const std::vector<T>& samples)
+{
+    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    recipe.transform.reset();
+    return test::writeRaster(
+        folder, file, "JP2OpenJPEG", recipe,
+        {"-co", "QUALITY=100", "-co", "REVERSIBLE=YES", "-co", "GMLJP2=NO", "-co", "GeoJP2=NO"});
+}
+
+RasterFile openOrThrow(const std::string& path)
+{
+    auto file = RasterFile::open(path);
+    if (!file) {
+        throw std::runtime_error(file.error().message);
+    }
+    return std::move(*file);
+}
+
+std::vector<double> elevationsOf(RasterFile& file)
+{
+    JobMonitor monitor;
+    auto loaded = file.readAll(monitor, {file.info().nodata}, std::size_t{1} << 30);
+    if (!loaded) {
+        throw std::runtime_error(loaded.error().message);
+    }
+    std::vector<double> elevations;
+    for (std::size_t r = 0; r < loaded->grid.rows(); ++r) {
+        for (std::size_t c = 0; c < loaded->grid.columns(); ++c) {
+            elevations.push_back(loaded->grid.isVoid(c, r)
+                                     ? std::numeric_limits<double>::quiet_NaN()
+                                     : file.info().elevationScale().height(loaded->grid.raw(c, r)));
+        }
+    }
+    return elevations;
+}
+
+void expectElevations(RasterFile& file,
+                      const std::vector<std::int16_t>& samples,
+                      double scale,
+                      double offset)
+{
+    const std::vector<double> elevations = elevationsOf(file);
+    ASSERT_EQ(elevations.size(), samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        ASSERT_DOUBLE_EQ(elevations[i], samples[i] * scale + offset) << i;
+    }
+}
+
+TEST(Pds3InJpeg2000, HasTheElevationsAndThePlaceOfItsRawTwin)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    folder.write("twin.img", bytesOf(samples));
+    RasterFile twin =
+        openOrThrow(folder.write("twin.lbl", pds3Label({.pointer = "TWIN.IMG", .image = kRadii})));
+    const std::string label =
+        pds3Label({.pointer = "LDEM.IMG", .compressed = "LDEM.JP2", .image = kRadii});
+    writeJpeg2000(folder, "ldem.jp2", samples);
+    folder.write("ldem_jp2.lbl", label);
+    const double radius_m = numberBehind(label, "OFFSET");
+    for (const char* name : {"ldem_jp2.lbl", "ldem.jp2"}) {
+        SCOPED_TRACE(name);
+        RasterFile file = openOrThrow(folder.file(name));
+        const RasterInfo& info = file.info();
+        expectElevations(file, samples, numberBehind(label, "SCALING_FACTOR"), 0.0);
+        EXPECT_EQ(elevationsOf(file), elevationsOf(twin));
+        EXPECT_EQ(info.scale, 0.5);
+        EXPECT_EQ(info.offset, radius_m);
+        EXPECT_EQ(info.reference_radius_m, radius_m);
+        EXPECT_TRUE(info.is_unit_declared);
+        EXPECT_EQ(info.transform, twin.info().transform);
+        ASSERT_TRUE(info.crs);
+        EXPECT_EQ(info.crs->wkt(), twin.info().crs->wkt());
+        EXPECT_THAT(info.notices,
+                    Contains("from the label ldem_jp2.lbl: scale 0.5, offset 1737400 (GDAL reads "
+                             "scale 1, offset 0)"));
+    }
+}
+
+TEST(Pds3InJpeg2000, TakesTheLabelOfTheSameNameInAnyCase)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    const std::string image = "  SCALING_FACTOR = 0.25\n  UNIT = KILOMETER\n";
+    folder.write("A.LBL", pds3Label({.pointer = "a.img", .compressed = "a.jp2", .image = image}));
+    RasterFile upper = openOrThrow(writeJpeg2000(folder, "A.JP2", samples));
+    expectElevations(upper, samples, 250.0, 0.0);
+    // The label of the raw image, of which only this edition is there.
+    folder.write("b.lbl", pds3Label({.pointer = "B.IMG", .image = image}));
+    RasterFile edition = openOrThrow(writeJpeg2000(folder, "b.jp2", samples));
+    expectElevations(edition, samples, 250.0, 0.0);
+    // And none at all.
+    RasterFile bare = openOrThrow(writeJpeg2000(folder, "c.jp2", samples));
+    expectElevations(bare, samples, 1.0, 0.0);
+    EXPECT_FALSE(bare.info().is_unit_declared);
+}
+
+TEST(Pds3InJpeg2000, MissingConstantsAreVoid)
+{
+    const TempFolder folder;
+    std::vector<std::int16_t> samples = someSamples();
+    samples[5] = -32000;
+    for (const char* statement : {"MISSING_CONSTANT = -32000", "CORE_NULL = \"-32000\"",
+                                  "MISSING_CONSTANT = 16#8300#", "INVALID_CONSTANT = -32000"}) {
+        SCOPED_TRACE(statement);
+        folder.write("v.lbl",
+                     pds3Label({.pointer = "v.img",
+                                .compressed = "v.jp2",
+                                .image = kRadii + ("  " + std::string(statement) + "\n")}));
+        RasterFile file = openOrThrow(writeJpeg2000(folder, "v.jp2", samples));
+        EXPECT_EQ(file.info().nodata, -32000.0);
+        EXPECT_TRUE(std::isnan(elevationsOf(file)[5]));
+        EXPECT_FALSE(std::isnan(elevationsOf(file)[6]));
+        EXPECT_THAT(file.info().notices, Contains(HasSubstr("nodata -32000")));
+    }
+}
+
+TEST(Pds3InJpeg2000, SaysWhereSignsDisagree)
+{
+    const TempFolder folder;
+    folder.write("u.lbl", pds3Label({.pointer = "u.img", .compressed = "u.jp2", .image = kRadii}));
+    const RasterFile file = openOrThrow(writeJpeg2000(
+        folder, "u.jp2", std::vector<std::uint16_t>(kColumns * kRows, std::uint16_t{40000})));
+    EXPECT_THAT(file.info().notices, Contains(HasSubstr("declares signed samples")));
+}
+
+// GDAL would read the bytes of the compressed file as samples.
+TEST(Pds3Label, OfAnEncodedImageOpensThatImage)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    writeJpeg2000(folder, "plain.jp2", samples);
+    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    recipe.transform.reset();
+    test::writeRaster(folder, "plain.tif", "GTiff", recipe, {"-co", "COMPRESS=DEFLATE"});
+    folder.write("raw.img", bytesOf(samples));
+    const RasterFile twin =
+        openOrThrow(folder.write("raw.lbl", pds3Label({.pointer = "RAW.IMG", .image = kRadii})));
+    for (const char* data : {"PLAIN.JP2", "PLAIN.TIF"}) {
+        SCOPED_TRACE(data);
+        for (const bool is_nested : {true, false}) {
+            const std::string label =
+                folder.write("product.lbl",
+                             pds3Label({.pointer = data, .image = kRadii, .is_nested = is_nested}));
+            RasterFile file = openOrThrow(label);
+            expectElevations(file, samples, 0.5, 0.0);
+            EXPECT_EQ(file.info().transform, twin.info().transform);
+            EXPECT_THAT(file.info().notices, Contains(HasSubstr("from the label product.lbl")));
+        }
+    }
+    // By its data alone, which a label of the same name describes.
+    std::filesystem::remove(folder.file("product.lbl"));
+    folder.write("plain.lbl", pds3Label({.pointer = "plain.tif", .image = kRadii}));
+    RasterFile data = openOrThrow(folder.file("plain.tif"));
+    expectElevations(data, samples, 0.5, 0.0);
+    EXPECT_EQ(data.info().transform, twin.info().transform);
+}
+
+TEST(Pds3Label, IsNotAppliedToATiffThatItDoesNotName)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    folder.write("made.lbl", pds3Label({.pointer = "made.img", .image = kRadii}));
+    RasterFile made = openOrThrow(
+        test::writeRaster(folder, "made.tif", "GTiff", test::recipeFor(kColumns, samples)));
+    expectElevations(made, samples, 1.0, 0.0);
+}
+
+TEST(Pds3Label, CountsWhereGdalReadsItsNumbersWrong)
+{
+    struct Case {
+        const char* image;
+        double scale, offset, metres;
+    };
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    folder.write("d.img", bytesOf(samples));
+    for (const Case& one : {
+             Case{"  SCALING_FACTOR = \"0.25\"\n  OFFSET = \"12\"\n", 0.25, 12.0, 1.0},
+             Case{"  SCALING_FACTOR = (0.25)\n  OFFSET = (12.0)\n", 0.25, 12.0, 1.0},
+             Case{"  SCALING_FACTOR = 2.5E-1 <m>\n  OFFSET = +12 <m>\n", 0.25, 12.0, 1.0},
+             Case{"  SCALING_FACTOR = 0.001\n  UNIT = \"KILOMETERS\"\n", 0.001, 0.0, 1000.0},
+             Case{"  UNIT = 'FEET'\n", 1.0, 0.0, 0.3048},
+             Case{"  UNIT = 'N/A'\n", 1.0, 0.0, 1.0},
+         }) {
+        for (const bool is_nested : {true, false}) {
+            SCOPED_TRACE(one.image);
+            RasterFile file = openOrThrow(folder.write(
+                "d.lbl",
+                pds3Label({.pointer = "d.img", .image = one.image, .is_nested = is_nested})));
+            expectElevations(file, samples, one.scale * one.metres, one.offset * one.metres);
+        }
+    }
+}
+
+// GDAL 3.6 takes 0 for nodata in every product of unsigned samples.
+TEST(Pds3Label, MakesZeroAnElevationUnlessItDeclaresItMissing)
+{
+    const TempFolder folder;
+    std::vector<std::uint16_t> samples(kColumns * kRows, std::uint16_t{300});
+    samples[7] = 0;
+    folder.write("u.img", bytesOf(samples));
+    const auto open = [&folder](const std::string& image) {
+        return openOrThrow(folder.write(
+            "u.lbl",
+            pds3Label({.pointer = "u.img", .image = image, .type = "LSB_UNSIGNED_INTEGER"})));
+    };
+    RasterFile plain = open("  OFFSET = -100\n");
+    EXPECT_FALSE(plain.info().nodata);
+    EXPECT_EQ(elevationsOf(plain)[7], -100.0);
+    EXPECT_EQ(elevationsOf(plain)[8], 200.0);
+    RasterFile declared = open("  MISSING_CONSTANT = 0\n");
+    EXPECT_TRUE(std::isnan(elevationsOf(declared)[7]));
+}
+
+TEST(Pds3Label, FloatsHaveTheirMissingConstantInBits)
+{
+    const TempFolder folder;
+    std::vector<float> samples(kColumns * kRows, 1.5F);
+    samples[3] = -3.40282266e38F; // 16#FF7FFFFB#
+    folder.write("f.img", bytesOf(samples));
+    RasterFile file =
+        openOrThrow(folder.write("f.lbl", pds3Label({.pointer = "f.img",
+                                                     .image = "  UNIT = KILOMETER\n"
+                                                              "  MISSING_CONSTANT = 16#FF7FFFFB#\n",
+                                                     .type = "PC_REAL",
+                                                     .bits = 32})));
+    EXPECT_TRUE(std::isnan(elevationsOf(file)[3]));
+    EXPECT_EQ(elevationsOf(file)[4], 1500.0);
+}
+
+TEST(Isis2Label, HasBaseAndMultiplier)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    recipe.transform.reset();
+    const std::string path = test::writeRaster(folder, "cube.lab", "ISIS2", recipe);
+    std::string cube = test::readFile(path);
+    // Replaced by texts of the same length, so that the samples stay where the label says.
+    const auto replace = [&cube](const std::string& key, const std::string& value) {
+        const std::size_t at = cube.find(key);
+        ASSERT_NE(at, std::string::npos) << key;
+        const std::size_t begin = cube.find('=', at) + 1;
+        const std::size_t end = cube.find('\n', begin);
+        ASSERT_GE(end - begin, value.size()) << key;
+        cube.replace(begin, end - begin, value + std::string(end - begin - value.size(), ' '));
+    };
+    replace("CORE_MULTIPLIER", " .1");
+    replace("CORE_BASE", " 50");
+    RasterFile file = openOrThrow(folder.write("cube.lab", cube));
+    EXPECT_EQ(file.info().driver, "ISIS2");
+    expectElevations(file, samples, 0.1, 50.0);
+}
+
+// These GDAL reads right: what a label says is not applied twice.
+TEST(ScaleAndOffset, OfEveryOtherFormatAreAppliedOnce)
+{
+    struct Format {
+        const char* driver;
+        const char* file;
+        std::vector<std::string> options{};
+    };
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    recipe.srs = "EPSG:32611";
+    recipe.transform = {5e5, 30.0, 0.0, 4e6, 0.0, -30.0};
+    recipe.band_xml = "<Scale>0.25</Scale><Offset>-40</Offset><UnitType>m</UnitType>";
+    for (const Format& format : std::vector<Format>{
+             {"GTiff", "s.tif"},
+             {"ENVI", "s.bin"},
+             {"netCDF", "s.nc"},
+             {"ISIS3", "s.cub"},
+             {"ISIS3", "detached.lbl", {"-co", "DATA_LOCATION=EXTERNAL"}},
+             {"PDS4", "s.xml"},
+             {"PDS4", "geotiff.xml", {"-co", "IMAGE_FORMAT=GEOTIFF"}},
+         }) {
+        SCOPED_TRACE(format.file);
+        RasterFile file = openOrThrow(
+            test::writeRaster(folder, format.file, format.driver, recipe, format.options));
+        EXPECT_EQ(file.info().driver, format.driver);
+        expectElevations(file, samples, 0.25, -40.0);
+        EXPECT_THAT(file.info().notices, testing::Not(Contains(HasSubstr("from the label"))));
+    }
+}
+
+TEST(Pds4Label, CountsWhenItsTiffIsOpened)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    recipe.srs = "EPSG:32611";
+    recipe.transform = {5e5, 30.0, 0.0, 4e6, 0.0, -30.0};
+    recipe.band_xml =
+        "<NoDataValue>-17000</NoDataValue><Scale>0.25</Scale><Offset>-40</Offset><UnitType>ft</"
+        "UnitType>";
+    test::writeRaster(folder, "dtm.xml", "PDS4", recipe, {"-co", "IMAGE_FORMAT=GEOTIFF"});
+    RasterFile label = openOrThrow(folder.file("dtm.xml"));
+    RasterFile data = openOrThrow(folder.file("dtm.tif"));
+    for (RasterFile* file : {&label, &data}) {
+        EXPECT_EQ(file->info().unit.name, "ft");
+        const std::vector<double> elevations = elevationsOf(*file);
+        EXPECT_TRUE(std::isnan(elevations[0])); // -17000
+        for (std::size_t i = 1; i < samples.size(); ++i) {
+            ASSERT_NEAR(elevations[i], (samples[i] * 0.25 - 40.0) * 0.3048, 1e-9) << i;
+        }
+    }
+}
+
+// A label whose samples are elsewhere is refused as before.
+TEST(Pds3Label, OfACompressedFileThatIsNotThereIsRefused)
+{
+    const TempFolder folder;
+    const std::string label = folder.write(
+        "gone.lbl", pds3Label({.pointer = "gone.img", .compressed = "gone.jp2", .image = kRadii}));
+    EXPECT_FALSE(RasterFile::open(label));
+}
+
+// Of the real products.
+TEST(RealLabels, AgreeWithTheirTextAndGdalsSamples)
+{
+    MARSVIEW_NEEDS_SHARED_DATA();
+    const std::string label = (test::sharedData() / "moon_lola/LDEM_4.LBL").string();
+    const std::string text = test::readFile(label);
+    const RasterFile file = openOrThrow(label);
+    EXPECT_EQ(file.info().scale, numberBehind(text, "SCALING_FACTOR "));
+    EXPECT_EQ(file.info().offset, numberBehind(text, " OFFSET "));
+    EXPECT_EQ(file.info().unit.name, "m");
+    EXPECT_TRUE(file.info().is_unit_declared);
+    const TempFolder folder;
+    test::runTool({"gdal_translate", "-q", "-of", "JP2OpenJPEG", "-co", "QUALITY=100", "-co",
+                   "REVERSIBLE=YES", "-co", "GeoJP2=NO", "-co", "GMLJP2=NO", label,
+                   folder.file("ldem_4.jp2")});
+    std::filesystem::remove(folder.file("ldem_4.jp2.aux.xml"));
+    const std::size_t begin = text.find("OBJECT                    = UNCOMPRESSED_FILE");
+    ASSERT_NE(begin, std::string::npos);
+    folder.write("ldem_4_jp2.lbl",
+                 text.substr(0, begin) +
+                     "OBJECT = COMPRESSED_FILE\n FILE_NAME = \"LDEM_4.JP2\"\n ENCODING_TYPE = "
+                     "\"JP2\"\n UNCOMPRESSED_FILE_NAME = \"LDEM_4.IMG\"\nEND_OBJECT = "
+                     "COMPRESSED_FILE\n" +
+                     text.substr(begin));
+    RasterFile raw = openOrThrow(label);
+    RasterFile edition = openOrThrow(folder.file("ldem_4.jp2"));
+    EXPECT_EQ(elevationsOf(edition), elevationsOf(raw));
+    EXPECT_EQ(edition.info().transform, raw.info().transform);
+}
+
+} // namespace
+} // namespace marsview
