@@ -1,5 +1,6 @@
 #include "core/raster/raster_file.h"
 
+#include "core/raster/archive_rasters.h"
 #include "core/raster/axis_hints.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
@@ -460,7 +461,11 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
         return Error{code, fmt::format("{}: {}", path, why)};
     };
     if (info.path != path && !impl->remote) {
-        info.notices.push_back(fmt::format("opened through {}", info.path));
+        const std::string archive = archiveNameFor(path);
+        const std::string notice =
+            archive.empty() ? std::string() : archiveNotice(rastersInArchive(archive), info.path);
+        info.notices.push_back(notice.empty() ? fmt::format("opened through {}", info.path)
+                                              : notice);
     }
     info.driver = dataset.GetDriverName();
     info.band_count = dataset.GetRasterCount();

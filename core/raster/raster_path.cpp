@@ -1,8 +1,8 @@
 #include "core/raster/raster_path.h"
 
+#include "core/raster/archive_rasters.h"
 #include "core/raster/remote_raster.h"
 
-#include <cpl_string.h>
 #include <cpl_vsi.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -52,12 +53,10 @@ void appendSiblings(const fs::path& path,
     }
 }
 
-void appendArchiveEntries(const std::string& path, std::vector<std::string>& names)
+void appendArchiveEntries(const std::string& archive, std::vector<std::string>& names)
 {
-    const std::string archive = "/vsizip/" + path;
-    const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
-    for (int i = 0; i < entries.Count(); ++i) {
-        names.push_back(archive + "/" + entries[i]);
+    for (ArchiveRaster& raster : rastersInArchive(archive)) {
+        names.push_back(std::move(raster.name));
     }
 }
 
@@ -86,6 +85,9 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
         return std::vector<std::string>{*remote};
     }
     if (!isFileName(path)) {
+        if (const std::string archive = archiveNameFor(path); !archive.empty()) {
+            appendArchiveEntries(archive, names);
+        }
         return names;
     }
     std::error_code failure;
@@ -126,8 +128,8 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
         std::vector<std::string> data;
         appendSiblings(path, kDataExtensions, data);
         names.insert(names.begin(), data.begin(), data.end());
-    } else if (extension == ".zip") {
-        appendArchiveEntries(path, names);
+    } else if (const std::string archive = archiveNameFor(path); !archive.empty()) {
+        appendArchiveEntries(archive, names);
     }
     return names;
 }

@@ -26,11 +26,11 @@ std::vector<std::int16_t> slope()
     return samples;
 }
 
-double sampleAt(const std::string& path,
-                const char* column,
-                const char* row,
-                const std::vector<std::string>& options,
-                const std::vector<std::string>& environment = {})
+double sampleWith(const std::string& path,
+                  const char* column,
+                  const char* row,
+                  const std::vector<std::string>& options,
+                  const std::vector<std::string>& environment = {})
 {
     std::vector<std::string> arguments{"sample", path, "--pixel", column, row};
     arguments.insert(arguments.end(), options.begin(), options.end());
@@ -48,7 +48,7 @@ TEST(ElevationOptions, ScaleOffsetAndUnitMakeElevationsOfSamples)
         writeRaster(folder, "map.tif", "GTiff", recipeFor(600, slope()), {"TILED=YES"});
     const double raw = rawSamples(path, {{321, 123}}).at(0);
     EXPECT_DOUBLE_EQ(
-        sampleAt(path, "321", "123", {"--scale", "0.1", "--offset", "-7", "--unit", "ft"}),
+        sampleWith(path, "321", "123", {"--scale", "0.1", "--offset", "-7", "--unit", "ft"}),
         (raw * 0.1 - 7.0) * 0.3048);
     const nlohmann::json info =
         cliInfo(path, {"--scale", "-2", "--offset", "1e3", "--vertical-datum", "areoid"});
@@ -72,13 +72,13 @@ TEST(ElevationOptions, ApplyToAPreparedMapWhateverItWasPreparedWith)
                   .exit_status,
               0);
     const double raw = rawSamples(source, {{599, 499}}).at(0);
-    EXPECT_DOUBLE_EQ(sampleAt(scaled, "599", "499", {}), raw * 0.5 + 20.0);
+    EXPECT_DOUBLE_EQ(sampleWith(scaled, "599", "499", {}), raw * 0.5 + 20.0);
     EXPECT_EQ(cliInfo(scaled)["vertical_datum"], "local tide");
     const std::vector<std::string> tiled{"MARSVIEW_HELD_MB=0"};
     for (const std::string& prepared : {plain, scaled}) {
         SCOPED_TRACE(prepared);
         const std::vector<std::string> options{"--scale", "-0.25", "--offset", "3"};
-        EXPECT_DOUBLE_EQ(sampleAt(prepared, "599", "499", options), raw * -0.25 + 3.0);
+        EXPECT_DOUBLE_EQ(sampleWith(prepared, "599", "499", options), raw * -0.25 + 3.0);
         // Its levels, bounds and fills are in other elevations than it was prepared with.
         nlohmann::json info = nlohmann::json::parse(
             runCliWith(tiled, {"info", prepared, "--json", "--scale", "-0.25", "--offset", "3"})

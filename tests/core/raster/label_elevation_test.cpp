@@ -25,8 +25,8 @@ using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr std::size_t kColumns = 40;
-constexpr std::size_t kRows = 20;
+constexpr std::size_t kLabelColumns = 40;
+constexpr std::size_t kLabelRows = 20;
 
 template <typename T>
 std::string bytesOf(const std::vector<T>& samples)
@@ -36,7 +36,7 @@ std::string bytesOf(const std::vector<T>& samples)
 
 std::vector<std::int16_t> someSamples()
 {
-    std::vector<std::int16_t> samples(kColumns * kRows);
+    std::vector<std::int16_t> samples(kLabelColumns * kLabelRows);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         samples[i] = static_cast<std::int16_t>(static_cast<int>(i * 79 % 37000) - 17000);
     }
@@ -88,7 +88,7 @@ struct Product {
 // In the form of LOLA's labels.
 std::string pds3Label(const Product& product)
 {
-    const std::size_t row_bytes = kColumns * static_cast<std::size_t>(product.bits) / 8;
+    const std::size_t row_bytes = kLabelColumns * static_cast<std::size_t>(product.bits) / 8;
     std::string label = "PDS_VERSION_ID = \"PDS3\"\n/* made for a test */\nTARGET_NAME = MOON\n";
     if (!product.compressed.empty()) {
         label += "OBJECT = COMPRESSED_FILE\n FILE_NAME = \"" + product.compressed +
@@ -96,16 +96,16 @@ std::string pds3Label(const Product& product)
                  " ENCODING_TYPE_VERSION_NAME = \"ISO/IEC15444-1:2004\"\n"
                  " INTERCHANGE_FORMAT = BINARY\n UNCOMPRESSED_FILE_NAME = \"" +
                  product.pointer +
-                 "\"\n REQUIRED_STORAGE_BYTES = " + std::to_string(row_bytes * kRows) +
+                 "\"\n REQUIRED_STORAGE_BYTES = " + std::to_string(row_bytes * kLabelRows) +
                  " <BYTES>\nEND_OBJECT = COMPRESSED_FILE\n";
     }
     if (product.is_nested) {
         label += "OBJECT = UNCOMPRESSED_FILE\n FILE_NAME = \"" + product.pointer + "\"\n";
     }
-    label += " RECORD_TYPE = FIXED_LENGTH\n FILE_RECORDS = " + std::to_string(kRows) +
+    label += " RECORD_TYPE = FIXED_LENGTH\n FILE_RECORDS = " + std::to_string(kLabelRows) +
              "\n RECORD_BYTES = " + std::to_string(row_bytes) + "\n ^IMAGE = \"" + product.pointer +
-             "\"\n OBJECT = IMAGE\n  NAME = HEIGHT\n  LINES = " + std::to_string(kRows) +
-             "\n  LINE_SAMPLES = " + std::to_string(kColumns) +
+             "\"\n OBJECT = IMAGE\n  NAME = HEIGHT\n  LINES = " + std::to_string(kLabelRows) +
+             "\n  LINE_SAMPLES = " + std::to_string(kLabelColumns) +
              "\n  SAMPLE_TYPE = " + product.type +
              "\n  SAMPLE_BITS = " + std::to_string(product.bits) + "\n" + product.image +
              " END_OBJECT = IMAGE\n";
@@ -121,7 +121,7 @@ template <typename T>
 std::string
 writeJpeg2000(const TempFolder& folder, const std::string& file, const std::vector<T>& samples)
 {
-    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
     recipe.transform.reset();
     return test::writeRaster(
         folder, file, "JP2OpenJPEG", recipe,
@@ -241,7 +241,8 @@ TEST(Pds3InJpeg2000, SaysWhereSignsDisagree)
     const TempFolder folder;
     folder.write("u.lbl", pds3Label({.pointer = "u.img", .compressed = "u.jp2", .image = kRadii}));
     const RasterFile file = openOrThrow(writeJpeg2000(
-        folder, "u.jp2", std::vector<std::uint16_t>(kColumns * kRows, std::uint16_t{40000})));
+        folder, "u.jp2",
+        std::vector<std::uint16_t>(kLabelColumns * kLabelRows, std::uint16_t{40000})));
     EXPECT_THAT(file.info().notices, Contains(HasSubstr("declares signed samples")));
 }
 
@@ -251,7 +252,7 @@ TEST(Pds3Label, OfAnEncodedImageOpensThatImage)
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
     writeJpeg2000(folder, "plain.jp2", samples);
-    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
     recipe.transform.reset();
     test::writeRaster(folder, "plain.tif", "GTiff", recipe, {"-co", "COMPRESS=DEFLATE"});
     folder.write("raw.img", bytesOf(samples));
@@ -283,7 +284,7 @@ TEST(Pds3Label, IsNotAppliedToATiffThatItDoesNotName)
     const std::vector<std::int16_t> samples = someSamples();
     folder.write("made.lbl", pds3Label({.pointer = "made.img", .image = kRadii}));
     RasterFile made = openOrThrow(
-        test::writeRaster(folder, "made.tif", "GTiff", test::recipeFor(kColumns, samples)));
+        test::writeRaster(folder, "made.tif", "GTiff", test::recipeFor(kLabelColumns, samples)));
     expectElevations(made, samples, 1.0, 0.0);
 }
 
@@ -318,7 +319,7 @@ TEST(Pds3Label, CountsWhereGdalReadsItsNumbersWrong)
 TEST(Pds3Label, MakesZeroAnElevationUnlessItDeclaresItMissing)
 {
     const TempFolder folder;
-    std::vector<std::uint16_t> samples(kColumns * kRows, std::uint16_t{300});
+    std::vector<std::uint16_t> samples(kLabelColumns * kLabelRows, std::uint16_t{300});
     samples[7] = 0;
     folder.write("u.img", bytesOf(samples));
     const auto open = [&folder](const std::string& image) {
@@ -337,7 +338,7 @@ TEST(Pds3Label, MakesZeroAnElevationUnlessItDeclaresItMissing)
 TEST(Pds3Label, FloatsHaveTheirMissingConstantInBits)
 {
     const TempFolder folder;
-    std::vector<float> samples(kColumns * kRows, 1.5F);
+    std::vector<float> samples(kLabelColumns * kLabelRows, 1.5F);
     samples[3] = -3.40282266e38F; // 16#FF7FFFFB#
     folder.write("f.img", bytesOf(samples));
     RasterFile file =
@@ -354,7 +355,7 @@ TEST(Isis2Label, HasBaseAndMultiplier)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
-    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
     recipe.transform.reset();
     const std::string path = test::writeRaster(folder, "cube.lab", "ISIS2", recipe);
     std::string cube = test::readFile(path);
@@ -384,7 +385,7 @@ TEST(ScaleAndOffset, OfEveryOtherFormatAreAppliedOnce)
     };
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
-    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
     recipe.srs = "EPSG:32611";
     recipe.transform = {5e5, 30.0, 0.0, 4e6, 0.0, -30.0};
     recipe.band_xml = "<Scale>0.25</Scale><Offset>-40</Offset><UnitType>m</UnitType>";
@@ -410,7 +411,7 @@ TEST(Pds4Label, CountsWhenItsTiffIsOpened)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
-    test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
     recipe.srs = "EPSG:32611";
     recipe.transform = {5e5, 30.0, 0.0, 4e6, 0.0, -30.0};
     recipe.band_xml =

@@ -1,0 +1,156 @@
+#include "core/raster/archive_rasters.h"
+
+#include "core/raster/gdal_runtime.h"
+#include "core/raster/raster_path.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr std::size_t kEntriesMax = 500;
+
+// What comes with rasters, and is opened through them or not at all.
+bool isCompanion(const std::string& name)
+{
+    static constexpr std::array<std::string_view, 22> kExtensions{
+        ".aux.xml", ".ovr",  ".prj", ".tfw",      ".jgw",    ".wld", ".txt", ".pdf",
+        ".htm",     ".html", ".csv", ".md5",      ".sha256", ".dbf", ".shp", ".shx",
+        ".cpg",     ".qml",  ".md",  ".marsview", ".kml",    ".json"};
+    const std::string lower = lowerCase(name);
+    return lower.find("__macosx/") != std::string::npos || lower.ends_with("/") ||
+           std::any_of(kExtensions.begin(), kExtensions.end(),
+                       [&lower](std::string_view extension) { return lower.ends_with(extension); });
+}
+
+struct Candidate {
+    ArchiveRaster raster;
+    bool is_picture = false;
+    bool has_bytes = false;
+    std::vector<std::string> parts; // other files that it is read from
+};
+
+std::vector<Candidate> candidatesIn(const std::string& archive)
+{
+    const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
+    std::vector<Candidate> candidates;
+    const GdalMessages messages;
+    std::size_t opened = 0;
+    for (int i = 0; i < entries.Count() && opened < kEntriesMax; ++i) {
+        const std::string name = archive + "/" + entries[i];
+        if (isCompanion(entries[i])) {
+            continue;
+        }
+        ++opened;
+        const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
+        if (!dataset || dataset->GetRasterCount() == 0) {
+            continue;
+        }
+        GDALRasterBand& band = *dataset->GetRasterBand(1);
+        Candidate candidate;
+        candidate.raster = {name, static_cast<std::size_t>(dataset->GetRasterXSize()),
+                            static_cast<std::size_t>(dataset->GetRasterYSize())};
+        candidate.has_bytes = band.GetRasterDataType() == GDT_Byte;
+        candidate.is_picture = band.GetColorTable() != nullptr ||
+                               (dataset->GetRasterCount() >= 3 && candidate.has_bytes);
+        const CPLStringList files(dataset->GetFileList());
+        for (int f = 0; f < files.Count(); ++f) {
+            if (name != files[f]) {
+                candidate.parts.emplace_back(files[f]);
+            }
+        }
+        candidates.push_back(std::move(candidate));
+    }
+    return candidates;
+}
+
+std::string listOf(const std::vector<std::string>& names, std::size_t left_out)
+{
+    return left_out == 0 ? fmt::format("{}", fmt::join(names, ", "))
+                         : fmt::format("{} and {} more", fmt::join(names, ", "), left_out);
+}
+
+} // namespace
+
+std::string archiveNameFor(const std::string& path)
+{
+    const std::string lower = lowerCase(path);
+    if (lower.starts_with("/vsizip/") || lower.starts_with("/vsitar/")) {
+        return isFolder(path) ? path : std::string();
+    }
+    if (lower.starts_with("/vsi") || path.find("://") != std::string::npos) {
+        return {};
+    }
+    if (lower.ends_with(".zip")) {
+        return "/vsizip/" + path;
+    }
+    const bool is_tar =
+        lower.ends_with(".tar") || lower.ends_with(".tgz") || lower.ends_with(".tar.gz");
+    return is_tar ? "/vsitar/" + path : std::string();
+}
+
+std::vector<ArchiveRaster> rastersInArchive(const std::string& archive)
+{
+    ensureGdal();
+    std::vector<Candidate> candidates = candidatesIn(archive);
+    std::set<std::string> parts;
+    for (const Candidate& candidate : candidates) {
+        parts.insert(candidate.parts.begin(), candidate.parts.end());
+    }
+    std::erase_if(candidates, [&parts](const Candidate& candidate) {
+        return parts.count(candidate.raster.name) != 0;
+    });
+    const bool has_elevations =
+        std::any_of(candidates.begin(), candidates.end(),
+                    [](const Candidate& candidate) { return !candidate.is_picture; });
+    if (has_elevations) {
+        std::erase_if(candidates, [](const Candidate& candidate) { return candidate.is_picture; });
+    }
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        const auto rank = [](const Candidate& c) {
+            return std::pair(c.has_bytes, -static_cast<double>(c.raster.columns) *
+                                              static_cast<double>(c.raster.rows));
+        };
+        return std::tuple(rank(a), a.raster.name) < std::tuple(rank(b), b.raster.name);
+    });
+    std::vector<ArchiveRaster> rasters;
+    rasters.reserve(candidates.size());
+    for (Candidate& candidate : candidates) {
+        rasters.push_back(std::move(candidate.raster));
+    }
+    return rasters;
+}
+
+std::string archiveNotice(const std::vector<ArchiveRaster>& rasters, const std::string& opened)
+{
+    if (rasters.size() < 2) {
+        return {};
+    }
+    constexpr std::size_t kNamedMax = 4;
+    std::vector<std::string> others;
+    std::size_t left_out = 0;
+    for (const ArchiveRaster& raster : rasters) {
+        if (raster.name == opened) {
+            continue;
+        }
+        if (others.size() < kNamedMax) {
+            others.push_back(fmt::format("{} ({} × {})", raster.name, raster.columns, raster.rows));
+        } else {
+            ++left_out;
+        }
+    }
+    return fmt::format("the archive holds {} rasters; {} is open; open another one by its name: {}",
+                       rasters.size(), opened, listOf(others, left_out));
+}
+
+} // namespace marsview
