@@ -1,6 +1,7 @@
 #include "ui/load_controller.h"
 
 #include "core/base/job_monitor.h"
+#include "core/raster/opening_job.h"
 
 #include <chrono>
 #include <exception>
@@ -79,6 +80,7 @@ Result<LoadedMap> LoadController::run(Job& job)
 {
     const LoadRequest& request = job.request;
     const MapOpener& opener = job.opener;
+    const OpeningJob opening(&job.monitor);
     try {
         if (request.loaded) {
             auto dataset = withOverrides(*request.loaded, request.spec.overrides);

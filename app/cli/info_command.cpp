@@ -4,6 +4,7 @@
 #include "app/cli/long_job.h"
 #include "app/cli/map_options.h"
 #include "app/cli/text_output.h"
+#include "core/raster/remote_raster.h"
 #include "core/session/open_map.h"
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +28,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 struct Options {
     MapOptions map;
     bool is_json = false;
+    bool has_statistics = true;
 };
 
 Json textOrNull(const std::string& text)
@@ -70,13 +73,15 @@ Json suggestionOf(const RasterInfo& info)
             {"choices", std::move(choices)}};
 }
 
-Json describe(const OpenedMap& map, const SampleStatistics& statistics, const MapOptions& options)
+Json describe(const OpenedMap& map,
+              const std::optional<SampleStatistics>& statistics,
+              const MapOptions& options)
 {
     const RasterInfo& info = map.info;
     const ElevationScale scale = info.elevationScale();
-    const bool has_samples = statistics.hasSamples();
-    double low = has_samples ? scale.height(statistics.raw_minimum) : kNone;
-    double high = has_samples ? scale.height(statistics.raw_maximum) : kNone;
+    const bool has_samples = statistics && statistics->hasSamples();
+    double low = has_samples ? scale.height(statistics->raw_minimum) : kNone;
+    double high = has_samples ? scale.height(statistics->raw_maximum) : kNone;
     if (low > high) {
         std::swap(low, high);
     }
@@ -93,11 +98,11 @@ Json describe(const OpenedMap& map, const SampleStatistics& statistics, const Ma
         json["nodata"] = "nan";
     }
     json["has_mask"] = info.has_mask_band;
-    json["void_count"] = statistics.void_count;
+    json["void_count"] = statistics ? Json(statistics->void_count) : Json(nullptr);
     json["minimum"] = asJson(low);
     json["maximum"] = asJson(high);
-    json["raw_minimum"] = asJson(has_samples ? statistics.raw_minimum : kNone);
-    json["raw_maximum"] = asJson(has_samples ? statistics.raw_maximum : kNone);
+    json["raw_minimum"] = asJson(has_samples ? statistics->raw_minimum : kNone);
+    json["raw_maximum"] = asJson(has_samples ? statistics->raw_maximum : kNone);
     json["scale"] = info.scale;
     json["offset"] = info.offset;
     json["vertical_unit"] = info.unit.name;
@@ -164,8 +169,9 @@ void printForPeople(const Json& json, const RasterInfo& info)
     print("sample type", field("sample_type"));
     print("nodata", json["nodata"].is_null() ? "none" : field("nodata"));
     print("voids", field("void_count"));
-    print("minimum", json["minimum"].is_null() ? "none" : field("minimum") + " m");
-    print("maximum", json["maximum"].is_null() ? "none" : field("maximum") + " m");
+    const std::string missing = json["void_count"].is_null() ? "unknown" : "none";
+    print("minimum", json["minimum"].is_null() ? missing : field("minimum") + " m");
+    print("maximum", json["maximum"].is_null() ? missing : field("maximum") + " m");
     if (info.scale != 1.0 || info.offset != 0.0) {
         print("scale, offset", field("scale") + " " + field("offset"));
     }
@@ -218,11 +224,21 @@ Status runInfo(const Options& options)
     if (!map) {
         return std::move(map).error();
     }
-    Result<SampleStatistics> statistics = statisticsOf(*map, options.map);
-    if (!statistics) {
-        return std::move(statistics).error();
+    std::optional<SampleStatistics> statistics;
+    if (options.has_statistics) {
+        const Result<SampleStatistics> computed = statisticsOf(*map, options.map);
+        if (computed) {
+            statistics = *computed;
+            noteSuspiciousSamples(map->info, *statistics);
+        } else if (computed.error().code == ErrorCode::TooLarge) {
+            const std::string path = addressOf(map->info.path) + ": ";
+            const std::string& why = computed.error().message;
+            map->info.notices.push_back("minimum, maximum and voids are not computed: " +
+                                        (why.starts_with(path) ? why.substr(path.size()) : why));
+        } else {
+            return computed.error();
+        }
     }
-    noteSuspiciousSamples(map->info, *statistics);
     // Described it can be, but what needs a surface refuses it.
     if (const Status surface = checkIsSurface("", map->info); !surface) {
         constexpr std::string_view kNoPath = ": ";
@@ -246,6 +262,9 @@ void addInfoCommand(CLI::App& app, CommandAction& run)
     CLI::App* command = app.add_subcommand("info", "Say what a map is and where it lies");
     options->map.addTo(*command);
     command->add_flag("--json", options->is_json, "for machines");
+    command->add_flag_callback(
+        "--no-statistics", [options] { options->has_statistics = false; },
+        "do not read the samples: minimum, maximum and voids are unknown then");
     command->callback([options, &run] { run = [options] { return runInfo(*options); }; });
 }
 

@@ -18,9 +18,13 @@ static_assert(std::atomic<JobMonitor*>::is_always_lock_free);
 
 void cancelRunningJob(int)
 {
-    if (JobMonitor* job = running_job.load()) {
+    JobMonitor* const job = running_job.load();
+    if (job != nullptr && !job->isCancelled()) {
         job->cancel();
+        return;
     }
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
 }
 
 } // namespace
@@ -43,6 +47,11 @@ LongJob::~LongJob()
     }
     std::signal(SIGINT, SIG_DFL);
     running_job.store(nullptr);
+}
+
+bool LongJob::isRunning() noexcept
+{
+    return running_job.load() != nullptr;
 }
 
 std::string LongJob::timeLeft(double begin, double fraction, std::chrono::duration<double> elapsed)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
+#include "core/raster/opening_job.h"
 
 #include <chrono>
 #include <string>
@@ -10,8 +11,8 @@
 namespace marsview {
 
 /// While it lives, shows the monitor's progress on stderr if that is a terminal, with the time left
-/// where that is worth waiting for, and lets Ctrl-C cancel the job instead of killing the program.
-/// One at a time.
+/// where that is worth waiting for, and lets Ctrl-C cancel the job, the opening of rasters on this
+/// thread included, instead of killing the program; a second Ctrl-C kills it. One at a time.
 class LongJob {
 public:
     explicit LongJob(std::string what);
@@ -20,6 +21,9 @@ public:
     LongJob& operator=(const LongJob&) = delete;
 
     JobMonitor& monitor() noexcept { return monitor_; }
+
+    /// Whether there is one now.
+    static bool isRunning() noexcept;
 
     /// "about 3 min left" for a job that came from `begin` to `fraction` in `elapsed`; empty where
     /// that is too early to say or hardly any time is left.
@@ -31,6 +35,7 @@ private:
 
     std::string what_;
     JobMonitor monitor_;
+    OpeningJob opening_{&monitor_};
     std::jthread display_;
 };
 

@@ -1,5 +1,6 @@
 #include "app/cli/map_options.h"
 
+#include "app/cli/long_job.h"
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "core/raster/remote_raster.h"
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
+#include <optional>
 
 namespace marsview {
 
@@ -135,6 +137,10 @@ LatitudeKind MapOptions::latitudeKind(const Body* of_body) const
 
 Result<OpenedMap> openMap(const MapOptions& options)
 {
+    std::optional<LongJob> job;
+    if (!LongJob::isRunning()) {
+        job.emplace("opening");
+    }
     Result<RasterFile> file = RasterFile::open(options.path, options.band);
     if (!file) {
         return std::move(file).error();

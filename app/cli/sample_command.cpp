@@ -178,6 +178,9 @@ Status sampleStdin(Sampler& sampler)
 
 Status runSample(const Options& options)
 {
+    if (options.is_stdin) {
+        allowLargeBlockCache();
+    }
     Result<OpenedMap> map = openMap(options.map);
     if (!map) {
         return std::move(map).error();

@@ -1,5 +1,7 @@
 #include "core/raster/gdal_runtime.h"
 
+#include "core/raster/gdal_drivers.h"
+
 #include <cpl_conv.h>
 #include <gdal_priv.h>
 
@@ -11,20 +13,22 @@ namespace marsview {
 namespace {
 
 // Enough for a row of 256² int16 tiles across 100 000 columns; GDAL's default, 5 % of the memory,
-// would hold whole maps twice.
+// would hold whole maps twice. Scattered reads need more (allowLargeBlockCache()).
 constexpr GIntBig kBlockCacheBytes = GIntBig{32} << 20;
 
-// What servers need to be read from with patience, but not for ever: what these say concerns HTTP
+// What servers need to be read from with patience, but not for ever: most of these concern HTTP
 // alone. The user's own settings stay. GDAL's pieces of 16 KiB are right as they are: with 32 or
 // 64 KiB a map of 16384² samples opened with its first tile in as many requests, and 1.5 and 2
 // times the bytes.
-void setHttpDefaults()
+void setDefaults()
 {
     struct Option {
         const char* name;
         const char* value;
     };
-    constexpr std::array<Option, 6> options{{
+    constexpr std::array<Option, 8> options{{
+        {"GDAL_PAM_ENABLED", "YES"},
+        {"GDAL_NUM_THREADS", "ALL_CPUS"},   // compressed tiles decode in parallel
         {"GDAL_HTTP_CONNECTTIMEOUT", "10"}, // seconds
         // Slower than this many bytes a second for so many seconds counts as no answer.
         {"GDAL_HTTP_LOW_SPEED_LIMIT", "100"},
@@ -34,7 +38,7 @@ void setHttpDefaults()
         {"GDAL_HTTP_TCP_KEEPALIVE", "YES"},
     }};
     for (const Option& option : options) {
-        if (CPLGetConfigOption(option.name, nullptr) == nullptr) {
+        if (!hasUserOption(option.name)) {
             CPLSetConfigOption(option.name, option.value);
         }
     }
@@ -53,16 +57,22 @@ std::string asOneLine(const char* text)
 
 } // namespace
 
+bool hasUserOption(const char* name)
+{
+    return CPLGetConfigOption(name, nullptr) != nullptr;
+}
+
 void ensureGdal()
 {
     static std::once_flag once;
     std::call_once(once, [] {
         CPLSetErrorHandler(CPLQuietErrorHandler);
-        CPLSetConfigOption("GDAL_PAM_ENABLED", "YES");
-        CPLSetConfigOption("GDAL_NUM_THREADS", "ALL_CPUS"); // compressed tiles decode in parallel
-        setHttpDefaults();
-        GDALSetCacheMax64(kBlockCacheBytes);
-        GDALAllRegister();
+        GDALAllRegister(); // which reads the user's configuration file
+        leaveOutDrivers();
+        setDefaults();
+        if (!hasUserOption("GDAL_CACHEMAX")) {
+            GDALSetCacheMax64(kBlockCacheBytes);
+        }
     });
 }
 

@@ -8,9 +8,13 @@
 
 namespace marsview {
 
-/// Registers the drivers and bounds GDAL's block cache, once. Any thread; cheap after the first
-/// call. Silences GDAL's own printing to stderr: messages are collected by GdalMessages.
+/// Registers the drivers (gdal_drivers.h) and bounds GDAL's block cache, once. Any thread; cheap
+/// after the first call. Silences GDAL's own printing to stderr: messages are collected by
+/// GdalMessages. Settings of the user, in the environment or in GDAL's configuration file, stay.
 void ensureGdal();
+
+/// Whether the user set an option of GDAL's. After ensureGdal().
+bool hasUserOption(const char* name);
 
 /// Collects what GDAL reports on this thread while it lives.
 class GdalMessages {

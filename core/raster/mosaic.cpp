@@ -1,8 +1,10 @@
 #include "core/raster/mosaic.h"
 
 #include "core/base/parallel.h"
+#include "core/raster/gdal_drivers.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/mosaic_grid.h"
+#include "core/raster/opening_job.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/raster_path.h"
 
@@ -113,14 +115,16 @@ std::string nameOf(const Part& part)
 // Other files lie beside maps without a word.
 bool isRaster(const std::string& path)
 {
-    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr;
+    return recognisingDriverFor(path).has_value();
 }
 
 // The rasters among the files, each once: a label and its data are the same one.
 Result<Parts> openParts(const std::string& folder, const Listing& listing, int band)
 {
     std::vector<Opened> opened(listing.size());
+    const JobMonitor* const current = OpeningJob::current();
     parallelRanges(listing.size(), 4, [&](std::size_t begin, std::size_t end) {
+        const OpeningJob job(current);
         for (std::size_t i = begin; i < end; ++i) {
             opened[i] = openPart(listing[i].path, band);
         }

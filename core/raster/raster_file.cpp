@@ -9,6 +9,8 @@
 #include "core/raster/large_blocks.h"
 #include "core/raster/mosaic.h"
 #include "core/raster/netcdf_extent.h"
+#include "core/raster/open_guard.h"
+#include "core/raster/opening_job.h"
 #include "core/raster/pds3_placement.h"
 #include "core/raster/raster_path.h"
 #include "core/raster/remote_raster.h"
@@ -36,10 +38,11 @@ constexpr std::size_t kBandBytes = std::size_t{8} << 20;
 // A row of blocks larger than this is read in parts, though its blocks are then decoded again.
 constexpr std::size_t kBandBytesMax = std::size_t{64} << 20;
 
-struct DatasetCloser {
-    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
+// Larger blocks are not decoded for statistics: with a copy in GDAL's cache and the compressed
+// bytes they would take 300 MB.
+constexpr std::size_t kScannedBlockBytesMax = std::size_t{96} << 20;
+
+using Dataset = GDALDatasetUniquePtr;
 
 std::string listOfSubdatasets(GDALDataset& dataset)
 {
@@ -79,23 +82,39 @@ struct OpenedDataset {
     std::string name;
     std::optional<RemoteVersion> remote{};  // of a raster at a server
     std::shared_ptr<const Mosaic> mosaic{}; // of a folder of rasters
+<<<<<<< HEAD
     std::string label{};                    // of a product whose samples are in a TIFF or JPEG2000
+=======
+    bool prints = false;                    // a library prints lines to stderr
+>>>>>>> 67e410a (wip)
 };
 
-// By GDAL's name, or its text of a virtual raster.
-Result<Dataset> openLocal(const std::string& name)
+// The first of GDAL's names that opens; errors as of openFirst().
+Result<OpenedDataset> openLocal(const std::vector<std::string>& names)
+{
+    Result<GuardedDataset> opened = openFirst(names);
+    if (!opened) {
+        return std::move(opened).error();
+    }
+    OpenedDataset result{.dataset = std::move(opened->dataset),
+                         .name = names[opened->name],
+                         .prints = opened->prints};
+    if (hasLargePlainStrips(*result.dataset)) {
+        const DirectReads scope;
+        if (Dataset direct = reopen(result.name, *opened)) {
+            result.dataset = std::move(direct);
+        }
+    }
+    return result;
+}
+
+// The virtual raster of a mosaic, whose parts were opened before.
+Result<Dataset> openMosaic(const Mosaic& mosaic)
 {
     const GdalMessages messages;
-    Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+    Dataset dataset(GDALDataset::Open(mosaic.vrt.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
     if (!dataset) {
         return Error{ErrorCode::Unsupported, messages.firstFailure("")};
-    }
-    if (hasLargePlainStrips(*dataset)) {
-        const DirectReads scope;
-        Dataset direct(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
-        if (direct) {
-            return direct;
-        }
     }
     return dataset;
 }
@@ -122,7 +141,7 @@ Result<OpenedDataset> openFolder(const std::string& path, int band)
     if (!mosaic) {
         return std::move(mosaic).error();
     }
-    Result<Dataset> dataset = openLocal((*mosaic)->vrt);
+    Result<Dataset> dataset = openMosaic(**mosaic);
     if (!dataset) {
         return Error{dataset.error().code, fmt::format("{}: {}", path, dataset.error().message)};
     }
@@ -135,7 +154,17 @@ Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version
 {
     const GdalMessages messages;
     const RemoteScope scope(name, version);
-    Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+    constexpr std::array<const char*, 2> kTiff{"GTiff", nullptr};
+    Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER, kTiff.data()));
+    if (!dataset && !messages.hasFailed()) {
+        Result<GuardedDataset> opened = openFirst({name});
+        if (opened) {
+            dataset = std::move(opened->dataset);
+        } else if (opened.error().code != ErrorCode::Unsupported) {
+            return Error{opened.error().code,
+                         fmt::format("{}: {}", addressOf(name), opened.error().message)};
+        }
+    }
     if (!dataset) {
         return remoteFailure(name, version, messages,
                              "is in no raster format that GDAL recognises, or the connection "
@@ -186,6 +215,7 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     if (remoteNameFor(names->front())) {
         return openRemote(names->front());
     }
+<<<<<<< HEAD
     std::string first_failure;
     for (const std::string& name : *names) {
         if (auto image = openEncodedImage(name)) {
@@ -199,6 +229,15 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
         if (first_failure.empty() || name != path) {
             first_failure = dataset.error().message;
         }
+=======
+    Result<OpenedDataset> opened = openLocal(*names);
+    if (opened) {
+        return opened;
+    }
+    std::string first_failure = opened.error().message;
+    if (opened.error().code != ErrorCode::Unsupported) {
+        return Error{opened.error().code, fmt::format("{}: {}", path, first_failure)};
+>>>>>>> 67e410a (wip)
     }
     if (isFolder(path)) {
         return openFolder(path, band);
@@ -401,6 +440,7 @@ struct RasterFile::Impl {
     bool has_plain_strips = false; // of which nobody holds more than is asked for
     // After a read that failed, GDAL 3.6 returns other samples without a word.
     mutable bool is_spoilt = false;
+    bool prints = false; // a library prints lines to stderr
 
     Status renew();
 
@@ -418,6 +458,7 @@ struct RasterFile::Impl {
     Error readFailure(const GdalMessages& messages, const GridWindow& window) const;
     Error readFailure(const std::string& why, const GridWindow& window) const;
     std::size_t rowsPerBand() const;
+    Result<GridSize> scanStep() const;
     std::optional<double> findTypicalSample();
 };
 
@@ -442,6 +483,8 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     }
     auto impl = std::make_unique<Impl>();
     impl->dataset = std::move(opened->dataset);
+    impl->prints = opened->prints;
+    const QuietStderr quiet(impl->prints);
     if (opened->mosaic) {
         impl->info = opened->mosaic->info;
         impl->info.path = path;
@@ -522,7 +565,14 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     if (!info.crs) {
         info.axis_hints = axisHintsOf(dataset, path);
     }
+<<<<<<< HEAD
     readVertical(dataset, *impl->band, pds3, labelElevationOf(dataset, info, opened->label), info);
+=======
+    readVertical(dataset, *impl->band, pds3, info);
+    if (Status complete = impl->checkExtent({0, 0, info.columns, info.rows}); !complete) {
+        return std::move(complete).error();
+    }
+>>>>>>> 67e410a (wip)
     info.typical_raw = impl->findTypicalSample();
     if (impl->strips) {
         impl->strips->rest();
@@ -653,7 +703,15 @@ Status RasterFile::Impl::renew()
         }
         fresh = std::move(opened).value();
     } else {
-        Result<Dataset> opened = openLocal(mosaic ? mosaic->vrt : info.path);
+        const auto open_again = [this]() -> Result<Dataset> {
+            if (mosaic) {
+                return openMosaic(*mosaic);
+            }
+            Result<OpenedDataset> opened = openLocal({info.path});
+            return opened ? Result<Dataset>(std::move(opened->dataset))
+                          : Result<Dataset>(std::move(opened).error());
+        };
+        Result<Dataset> opened = open_again();
         if (!opened) {
             const std::string& why = opened.error().message;
             return Error{ErrorCode::Unreadable,
@@ -738,6 +796,7 @@ Status RasterFile::Impl::readRows(GDALRasterBand& from,
         return read ? read : readFailure(read.error().message, window);
     }
     const GdalMessages messages;
+    const QuietStderr quiet(prints);
     const CPLErr outcome =
         from.RasterIO(GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
                       static_cast<int>(window.columns), static_cast<int>(window.rows),
@@ -885,23 +944,57 @@ RasterFile::readAll(JobMonitor& monitor, const VoidRule& voids, std::size_t memo
     return LoadedSamples{std::move(*grid), statistics};
 }
 
+// Whole blocks, about kBandBytes of them, so that none is decoded twice.
+Result<GridSize> RasterFile::Impl::scanStep() const
+{
+    int block_columns = 0;
+    int block_rows = 0;
+    band->GetBlockSize(&block_columns, &block_rows);
+    const std::size_t sample_bytes = sampleBytes(info.type);
+    if (strips || has_plain_strips) {
+        return GridSize{info.columns, rowsPerBand()};
+    }
+    const auto columns = static_cast<std::size_t>(std::max(1, block_columns));
+    const auto rows = static_cast<std::size_t>(std::max(1, block_rows));
+    const std::size_t block_bytes = columns * rows * sample_bytes;
+    if (block_bytes > kScannedBlockBytesMax) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{}: is stored in blocks of {} × {} samples, {:.1f} GB each; "
+                                 "gdal_translate -co TILED=YES makes a file whose statistics can "
+                                 "be computed in little memory",
+                                 addressOf(info.path), columns, rows,
+                                 static_cast<double>(block_bytes) / 1e9)};
+    }
+    const std::size_t across = std::max<std::size_t>(1, kBandBytes / block_bytes);
+    const std::size_t step_columns = std::min(info.columns, across * columns);
+    const std::size_t down =
+        std::max<std::size_t>(1, kBandBytes / (step_columns * rows * sample_bytes));
+    return GridSize{step_columns, std::min(info.rows, down * rows)};
+}
+
 Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& voids)
 {
     const RasterInfo& info = impl_->info;
+    const Result<GridSize> step = impl_->scanStep();
+    if (!step) {
+        return step.error();
+    }
     SampleStatistics statistics;
-    const std::size_t step = impl_->rowsPerBand();
-    for (std::size_t row = 0; row < info.rows; row += step) {
-        if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled,
-                         fmt::format("{}: reading was cancelled", addressOf(info.path))};
+    for (std::size_t row = 0; row < info.rows; row += step->rows) {
+        const std::size_t rows = std::min(step->rows, info.rows - row);
+        for (std::size_t column = 0; column < info.columns; column += step->columns) {
+            if (monitor.isCancelled()) {
+                return Error{ErrorCode::Cancelled,
+                             fmt::format("{}: reading was cancelled", addressOf(info.path))};
+            }
+            Result<LoadedSamples> loaded = readWindow(
+                {column, row, std::min(step->columns, info.columns - column), rows}, voids);
+            if (!loaded) {
+                return std::move(loaded).error();
+            }
+            statistics.merge(loaded->statistics);
         }
-        const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
-        Result<LoadedSamples> loaded = readWindow(window, voids);
-        if (!loaded) {
-            return std::move(loaded).error();
-        }
-        statistics.merge(loaded->statistics);
-        monitor.report(static_cast<double>(row + window.rows) / static_cast<double>(info.rows));
+        monitor.report(static_cast<double>(row + rows) / static_cast<double>(info.rows));
     }
     return statistics;
 }
@@ -914,6 +1007,14 @@ std::size_t defaultMemoryBudget()
         return std::size_t{2} << 30;
     }
     return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_bytes);
+}
+
+void allowLargeBlockCache()
+{
+    ensureGdal();
+    if (!hasUserOption("GDAL_CACHEMAX")) {
+        GDALSetCacheMax64(CPLGetUsablePhysicalRAM() / 20);
+    }
 }
 
 std::string gdalVersion()

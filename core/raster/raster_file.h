@@ -25,10 +25,18 @@ struct LoadedSamples {
 class RasterFile {
 public:
     /// Opens anything that holds elevations and that GDAL understands: files, labels, headers,
+<<<<<<< HEAD
     /// archives (archive_rasters.h), folders of adjoining rasters (mosaic.h), GDAL's connection
     /// strings. Scale, offset, unit and nodata are those of the product's label where there is one
     /// (label_elevation.h). Refuses pictures (colour, indexed), complex numbers and what is
     /// absurdly large. `band` counts from 1.
+=======
+    /// archives with one raster, folders of adjoining rasters (mosaic.h), GDAL's connection
+    /// strings. Refuses pictures (colour, indexed), complex numbers and what is absurdly large.
+    /// `band` counts from 1. What is not a plain file is opened in a child process first, within
+    /// limits of time and memory (open_guard.h); the thread's OpeningJob cancels that. A file that
+    /// cannot hold what its header promises is refused.
+>>>>>>> 67e410a (wip)
     ///
     /// Error messages begin with the path.
     static Result<RasterFile> open(const std::string& path, int band = 1);
@@ -68,7 +76,8 @@ public:
     /// Whole rows, read one after the other, take no more than they are, however large the blocks.
     bool hasCheapRows() const noexcept;
 
-    /// Range and void count without keeping the samples: bounded memory on a raster of any size.
+    /// Range and void count without keeping the samples: less than 300 MB on a raster of any size.
+    /// TooLarge where a single block of it takes more.
     Result<SampleStatistics> scan(JobMonitor& monitor, const VoidRule& voids);
 
 private:
@@ -80,6 +89,11 @@ private:
 
 /// Half of the machine's memory: what a single map may take by default.
 std::size_t defaultMemoryBudget();
+
+/// Lets GDAL hold its default share of the memory, 5 %, in decoded blocks, unless the user set
+/// GDAL_CACHEMAX: for reads that come back to blocks in any order. Otherwise it holds 32 MB. Before
+/// the first raster is opened or after.
+void allowLargeBlockCache();
 
 /// The version of GDAL in use, "3.6.2".
 std::string gdalVersion();

@@ -2,6 +2,7 @@
 
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/mosaic.h"
+#include "core/raster/open_guard.h"
 #include "core/raster/raster_path.h"
 
 #include <cpl_string.h>
@@ -53,12 +54,9 @@ std::vector<std::string> listedFilesOf(const std::string& path)
         return {};
     }
     const GdalMessages messages;
-    for (const std::string& name : *names) {
-        const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
-        if (dataset) {
-            const CPLStringList listed(dataset->GetFileList());
-            return {listed.List(), listed.List() + listed.Count()};
-        }
+    if (const Result<GuardedDataset> opened = openFirst(*names)) {
+        const CPLStringList listed(opened->dataset->GetFileList());
+        return {listed.List(), listed.List() + listed.Count()};
     }
     if (isFolder(path)) {
         const Result<std::shared_ptr<const Mosaic>> mosaic = mosaicOf(path, 1);

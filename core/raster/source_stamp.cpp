@@ -48,7 +48,9 @@ std::int64_t nanoseconds(const timespec& time)
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-std::string textOf(const std::vector<std::string>& files)
+} // namespace
+
+std::string stampTextOf(const std::vector<std::string>& files)
 {
     std::string text;
     for (const std::string& file : files) {
@@ -61,8 +63,6 @@ std::string textOf(const std::vector<std::string>& files)
     return text;
 }
 
-} // namespace
-
 SourceStamp stampOf(const std::string& path)
 {
     SourceStamp stamp;
@@ -73,13 +73,13 @@ SourceStamp stampOf(const std::string& path)
     if (stamp.files.empty()) {
         stamp.files.push_back(path);
     }
-    stamp.text = textOf(stamp.files);
+    stamp.text = stampTextOf(stamp.files);
     return stamp;
 }
 
 bool isUntouched(const SourceStamp& then)
 {
-    return textOf(then.files) == then.text;
+    return stampTextOf(then.files) == then.text;
 }
 
 } // namespace marsview

@@ -19,6 +19,9 @@ struct SourceStamp {
 /// To be taken before the first byte is read. Reads no samples. Any thread.
 SourceStamp stampOf(const std::string& path);
 
+/// The text of SourceStamp for these files; those that are not on a disk are left out.
+std::string stampTextOf(const std::vector<std::string>& files);
+
 /// Whether the same files still are as they were then.
 bool isUntouched(const SourceStamp& then);
 

@@ -1,0 +1,134 @@
+#include "core/raster/gdal_drivers.h"
+
+#include <gdal_priv.h>
+
+#include <array>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+// Formats without elevations. A user who needs one of them converts it with gdal_translate.
+constexpr std::array kLeftOut{
+    // Web services and databases: not files, and slow or without end to ask.
+    "WCS",
+    "WMS",
+    "WMTS",
+    "OGCAPI",
+    "PLMOSAIC",
+    "PLSCENES",
+    "DAAS",
+    "EEDAI",
+    "NGW",
+    "HTTP",
+    "STACTA",
+    "STACIT",
+    "PostGISRaster",
+    "Rasterlite",
+    "MBTiles",
+    "ESRIC",
+    // Documents, drawings, and pictures for people.
+    "PDF",
+    "CAD",
+    "KMLSUPEROVERLAY",
+    "HEIF",
+    "WEBP",
+    "GIF",
+    "BIGGIF",
+    "XPM",
+    "SGI",
+    "TGA",
+    "CALS",
+    // Scanned maps and charts.
+    "RPFTOC",
+    "ECRGTOC",
+    "BSB",
+    "RIK",
+    "OZI",
+    "MAP",
+    "ADRG",
+    "SRP",
+    "CTG",
+    // Radar and optical imagery.
+    "SAR_CEOS",
+    "CEOS",
+    "JAXAPALSAR",
+    "GFF",
+    "ESAT",
+    "DIMAP",
+    "AirSAR",
+    "RS2",
+    "SAFE",
+    "SENTINEL2",
+    "COSAR",
+    "TSX",
+    "COASP",
+    "CPG",
+    "L1B",
+    "MSGN",
+    "TIL",
+    "DOQ1",
+    "DOQ2",
+    "FAST",
+    "NDF",
+    "EIR",
+    "DIPEx",
+    "GSC",
+    "IRIS",
+};
+
+// README.md, "What it reads". Their files name other files in ways that OpenGuard looks for.
+constexpr std::array<const char*, 15> kPlain{
+    "GTiff", "SRTMHGT", "DTED", "USGSDEM", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
+    "ISIS3", "ISIS2",   "PDS",  "PDS4",    "VICAR",   "GSBG",           nullptr};
+
+std::vector<GDALDriver*>& leftOut()
+{
+    static std::vector<GDALDriver*> drivers; // live as long as the program
+    return drivers;
+}
+
+} // namespace
+
+void leaveOutDrivers()
+{
+    GDALDriverManager& manager = *GetGDALDriverManager();
+    for (const char* name : kLeftOut) {
+        if (GDALDriver* driver = manager.GetDriverByName(name)) {
+            manager.DeregisterDriver(driver);
+            leftOut().push_back(driver);
+        }
+    }
+}
+
+const char* const* plainDrivers()
+{
+    return kPlain.data();
+}
+
+std::optional<std::string> recognisingDriverFor(const std::string& name)
+{
+    GDALDriverManager& manager = *GetGDALDriverManager();
+    GDALOpenInfo header(name.c_str(), GA_ReadOnly | GDAL_OF_RASTER);
+    for (int i = 0; i < manager.GetDriverCount(); ++i) {
+        const GDALDriver& driver = *manager.GetDriver(i);
+        if (driver.pfnIdentify != nullptr && driver.pfnIdentify(&header) == TRUE) {
+            return driver.GetDescription();
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> leftOutDriverFor(const std::string& name)
+{
+    GDALOpenInfo header(name.c_str(), GA_ReadOnly);
+    for (const GDALDriver* driver : leftOut()) {
+        if (driver->pfnIdentify != nullptr && header.nHeaderBytes > 0 &&
+            driver->pfnIdentify(&header) == TRUE) {
+            return driver->GetDescription();
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace marsview

@@ -1,0 +1,24 @@
+// Which of GDAL's drivers this program uses, and how far each is trusted. Used inside core/raster
+// only.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace marsview {
+
+/// Leaves out drivers of formats that hold no elevations: web services, radar and optical imagery,
+/// scanned charts, documents, pictures for the web. The list in the .cpp is the only one.
+void leaveOutDrivers();
+
+/// Names, ended by a null pointer, of drivers that read simple formats with code of GDAL's own:
+/// they open files in this process. What any other driver opens is tried in a child process first.
+const char* const* plainDrivers();
+
+/// The name of a driver that recognises the file by its beginning, without opening it.
+std::optional<std::string> recognisingDriverFor(const std::string& name);
+
+/// The name of the driver that was left out, where it recognises the file; for a sentence.
+std::optional<std::string> leftOutDriverFor(const std::string& name);
+
+} // namespace marsview

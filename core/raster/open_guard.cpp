@@ -1,0 +1,292 @@
+#include "core/raster/open_guard.h"
+
+#include "core/raster/gdal_drivers.h"
+#include "core/raster/gdal_runtime.h"
+#include "core/raster/open_memory.h"
+#include "core/raster/open_probe.h"
+#include "core/raster/opening_job.h"
+#include "core/raster/raster_path.h"
+#include "core/raster/tiff_promise.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLabelBytes = 65536;
+
+std::string beginningOf(const std::string& path, std::size_t bytes)
+{
+    std::ifstream stream(path, std::ios::binary);
+    std::string text(bytes, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(bytes));
+    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+    return text;
+}
+
+bool holds(std::string_view text, std::string_view word)
+{
+    return std::search(text.begin(), text.end(), word.begin(), word.end(), [](char a, char b) {
+               return (a >= 'a' && a <= 'z' ? a - 'a' + 'A' : a) == b;
+           }) != text.end();
+}
+
+bool isTiff(std::string_view beginning)
+{
+    return beginning.starts_with("II") || beginning.starts_with("MM");
+}
+
+// A label may say that its samples are in a file of another format.
+bool namesOtherFormat(std::string_view label)
+{
+    constexpr std::array<std::string_view, 5> kWords{"JP2", "JPEG", "TIFF", "ENCODING_TYPE",
+                                                     "COMPRESSED_FILE"};
+    return std::any_of(kWords.begin(), kWords.end(),
+                       [label](std::string_view word) { return holds(label, word); });
+}
+
+// Overviews and masks beside a raster are opened with it, by any driver.
+bool hasStrangeCompanions(const std::string& path)
+{
+    std::error_code none;
+    for (const char* ending : {".ovr", ".msk", ".aux"}) {
+        const std::string companion = path + ending;
+        if (fs::exists(companion, none) && !isTiff(beginningOf(companion, 2))) {
+            return true;
+        }
+    }
+    if (fs::exists(fs::path(path).replace_extension(".aux"), none)) {
+        return true;
+    }
+    return holds(beginningOf(path + ".aux.xml", kLabelBytes), "OVERVIEW_FILE");
+}
+
+bool isOnDisk(const std::string& name)
+{
+    std::error_code none;
+    return !name.starts_with("/vsi") && fs::is_regular_file(name, none);
+}
+
+std::uintmax_t bytesOf(const std::string& path)
+{
+    std::error_code failure;
+    const std::uintmax_t bytes = fs::file_size(path, failure);
+    return failure ? 0 : bytes;
+}
+
+// What a text file of these samples takes at least.
+Status checkTextHolds(GDALDataset& dataset, const std::string& path)
+{
+    const std::string_view driver = dataset.GetDriverName();
+    const auto columns = static_cast<std::uint64_t>(dataset.GetRasterXSize());
+    const auto rows = static_cast<std::uint64_t>(dataset.GetRasterYSize());
+    std::uint64_t bytes = 0;
+    if (driver == "AAIGrid" || driver == "GRASSASCIIGrid") {
+        bytes = 2 * columns * rows - 1; // a digit and a blank each
+    } else if (driver == "USGSDEM") {
+        bytes = 144 * columns; // a header for each profile
+    }
+    if (bytesOf(path) >= bytes) {
+        return Done{};
+    }
+    return Error{ErrorCode::Unreadable,
+                 fmt::format("is cut short or damaged: its {} × {} samples take {} bytes or more, "
+                             "the file has {}; fetch it again",
+                             columns, rows, bytes, bytesOf(path))};
+}
+
+struct PlainAttempt {
+    GDALDatasetUniquePtr dataset;
+    std::optional<Error> refusal;
+};
+
+PlainAttempt openPlain(const std::string& name)
+{
+    PlainAttempt attempt;
+    if (!isOnDisk(name)) {
+        return attempt;
+    }
+    if (const auto tiff = tiffPromiseOf(name)) {
+        if (!tiff->fits) {
+            attempt.refusal = tiff->fits.error();
+            return attempt;
+        }
+        if (!tiff->is_plain) {
+            return attempt;
+        }
+    } else if (namesOtherFormat(beginningOf(name, kLabelBytes))) {
+        return attempt;
+    }
+    if (hasStrangeCompanions(name)) {
+        return attempt;
+    }
+    const GdalMessages ignored;
+    attempt.dataset.reset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER, plainDrivers()));
+    if (attempt.dataset) {
+        if (Status holds_all = checkTextHolds(*attempt.dataset, name); !holds_all) {
+            attempt.refusal = holds_all.error();
+            attempt.dataset.reset();
+        }
+    }
+    return attempt;
+}
+
+// What a driver of GDAL did to the child, for people.
+Error refusalOf(const ProbeAnswer& answer, const std::vector<std::string>& names, double seconds)
+{
+    const std::string which = answer.name == 0 ? std::string("this file")
+                                               : fs::path(names[answer.name]).filename().string();
+    const std::string driver = answer.driver.empty()
+                                   ? std::string("GDAL")
+                                   : fmt::format("the {} driver of GDAL", answer.driver);
+    switch (answer.kind) {
+    case ProbeAnswer::Kind::TimedOut:
+        return {ErrorCode::Unreadable,
+                fmt::format("{} did not open {} within {:.0f} s; if the file is not damaged, set "
+                            "MARSVIEW_OPEN_SECONDS to a larger number or convert it to GeoTIFF",
+                            driver, which, seconds)};
+    case ProbeAnswer::Kind::OutOfMemory:
+        return {ErrorCode::TooLarge,
+                fmt::format("{} needs more than {:.1f} GB of memory to open {}; if the file is not "
+                            "damaged, set MARSVIEW_OPEN_MB to a larger number",
+                            driver, static_cast<double>(probeMemoryBytes()) / 1e9, which)};
+    default:
+        return {ErrorCode::Unreadable,
+                fmt::format("{} crashed on {}; fetch the file again or convert it to GeoTIFF with "
+                            "another program",
+                            driver, which)};
+    }
+}
+
+Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
+{
+    std::uintmax_t bytes = 0;
+    for (const std::string& name : names) {
+        bytes = std::max(bytes, bytesOf(name));
+    }
+    std::optional<ProbeAnswer> answer = recallProbe(names);
+    if (!answer) {
+        Result<ProbeAnswer> fresh = probeNames(names, bytes, OpeningJob::current());
+        if (!fresh) {
+            return std::move(fresh).error();
+        }
+        answer = std::move(fresh).value();
+        rememberProbe(names, *answer);
+    }
+    if (answer->kind == ProbeAnswer::Kind::NotOpened) {
+        return Error{ErrorCode::Unsupported, answer->message};
+    }
+    if (answer->kind != ProbeAnswer::Kind::Opened) {
+        return refusalOf(*answer, names, probeSeconds(bytes));
+    }
+    GuardedDataset opened;
+    opened.name = answer->name;
+    opened.opening_driver = answer->driver;
+    opened.prints = answer->prints;
+    const GdalMessages messages;
+    opened.dataset = reopen(names[opened.name], opened);
+    if (!opened.dataset) {
+        return Error{ErrorCode::Unsupported, messages.firstFailure("")};
+    }
+    return opened;
+}
+
+struct Silence {
+    std::mutex mutex;
+    int count = 0;
+    int kept = -1; // stderr as it was
+};
+
+Silence& silence()
+{
+    static Silence shared;
+    return shared;
+}
+
+} // namespace
+
+Result<GuardedDataset> openFirst(const std::vector<std::string>& names)
+{
+    ensureGdal();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        PlainAttempt attempt = openPlain(names[i]);
+        if (attempt.refusal) {
+            return std::move(*attempt.refusal);
+        }
+        if (attempt.dataset) {
+            GuardedDataset opened;
+            opened.opening_driver = attempt.dataset->GetDriverName();
+            opened.dataset = std::move(attempt.dataset);
+            opened.name = i;
+            return opened;
+        }
+    }
+    Result<GuardedDataset> opened = openAfterProbe(names);
+    if (!opened && opened.error().message.empty()) {
+        if (const auto driver = leftOutDriverFor(names.front())) {
+            return Error{ErrorCode::Unsupported,
+                         fmt::format("is of the format {}, which is not read as elevations; "
+                                     "convert it to GeoTIFF with gdal_translate if it holds any",
+                                     *driver)};
+        }
+    }
+    return opened;
+}
+
+GDALDatasetUniquePtr reopen(const std::string& name, const GuardedDataset& opened)
+{
+    const QuietStderr quiet(opened.prints);
+    const std::array<const char*, 2> only{opened.opening_driver.c_str(), nullptr};
+    return GDALDatasetUniquePtr(
+        GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, only.data()));
+}
+
+QuietStderr::QuietStderr(bool is_needed)
+    : is_needed_(is_needed)
+{
+    if (!is_needed_) {
+        return;
+    }
+    Silence& shared = silence();
+    const std::lock_guard lock(shared.mutex);
+    if (shared.count++ == 0) {
+        shared.kept = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+        const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+        if (shared.kept >= 0 && nowhere >= 0) {
+            dup2(nowhere, STDERR_FILENO);
+        }
+        if (nowhere >= 0) {
+            close(nowhere);
+        }
+    }
+}
+
+QuietStderr::~QuietStderr()
+{
+    if (!is_needed_) {
+        return;
+    }
+    Silence& shared = silence();
+    const std::lock_guard lock(shared.mutex);
+    if (--shared.count == 0 && shared.kept >= 0) {
+        dup2(shared.kept, STDERR_FILENO);
+        close(shared.kept);
+        shared.kept = -1;
+    }
+}
+
+} // namespace marsview

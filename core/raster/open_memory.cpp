@@ -1,0 +1,196 @@
+#include "core/raster/open_memory.h"
+
+#include "core/base/environment.h"
+#include "core/raster/raster_file.h"
+#include "core/raster/source_stamp.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// Another number where drivers, limits or what is read of a file change.
+constexpr int kFormat = 1;
+
+// Of the folder: a few hundred bytes each.
+constexpr std::size_t kFilesMax = 4096;
+constexpr std::size_t kHeldMax = 1024;
+constexpr std::uintmax_t kFileBytesMax = std::uintmax_t{16} << 20;
+
+fs::path folder()
+{
+    if (const std::string chosen = environmentVariable("MARSVIEW_CACHE_DIR"); !chosen.empty()) {
+        return fs::path(chosen) / "opened";
+    }
+    return userFolder("XDG_CACHE_HOME", ".cache") / "marsview" / "opened";
+}
+
+// Relative names are of this working folder.
+std::string keyOf(const std::vector<std::string>& names)
+{
+    std::error_code none;
+    std::string key =
+        fmt::format("{}\n{}\n{}\n", kFormat, gdalVersion(), fs::current_path(none).string());
+    for (const std::string& name : names) {
+        key += name + "\n";
+    }
+    return key;
+}
+
+fs::path fileFor(const std::string& key)
+{
+    std::uint64_t hash = 0xcbf29ce484222325U; // FNV-1a; the file holds the key itself
+    for (const char c : key) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    }
+    return folder() / fmt::format("{:016x}.json", hash);
+}
+
+struct Remembered {
+    ProbeAnswer answer;
+    std::string stamp; // of answer.files
+};
+
+std::mutex mutex;
+std::map<std::string, Remembered>& held()
+{
+    static std::map<std::string, Remembered> answers;
+    return answers;
+}
+
+std::optional<Remembered> load(const std::string& key)
+{
+    const fs::path path = fileFor(key);
+    std::error_code failure;
+    if (fs::file_size(path, failure) > kFileBytesMax || failure) {
+        return std::nullopt;
+    }
+    std::ifstream stream(path);
+    const Json json = Json::parse(stream, nullptr, false);
+    if (!json.is_object()) {
+        return std::nullopt;
+    }
+    try {
+        if (json.at("key") != key) {
+            return std::nullopt;
+        }
+        Remembered found;
+        found.stamp = json.at("stamp").get<std::string>();
+        found.answer.kind =
+            json.at("opens").get<bool>() ? ProbeAnswer::Kind::Opened : ProbeAnswer::Kind::Crashed;
+        found.answer.name = json.at("name").get<std::size_t>();
+        found.answer.driver = json.at("driver").get<std::string>();
+        found.answer.files = json.at("files").get<std::vector<std::string>>();
+        found.answer.prints = json.at("prints").get<bool>();
+        return found;
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    }
+}
+
+void makeRoom(const fs::path& in)
+{
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(in, none)) {
+        files.emplace_back(entry.last_write_time(none), entry.path());
+    }
+    if (files.size() < kFilesMax) {
+        return;
+    }
+    std::sort(files.begin(), files.end());
+    for (std::size_t i = 0; i < kFilesMax / 4; ++i) {
+        fs::remove(files[i].second, none);
+    }
+}
+
+// A failure costs the next opening a child process, and no more.
+void save(const std::string& key, const Remembered& remembered)
+{
+    const fs::path path = fileFor(key);
+    std::error_code failure;
+    fs::create_directories(path.parent_path(), failure);
+    makeRoom(path.parent_path());
+    const ProbeAnswer& answer = remembered.answer;
+    const Json json{{"key", key},
+                    {"stamp", remembered.stamp},
+                    {"opens", answer.kind == ProbeAnswer::Kind::Opened},
+                    {"name", answer.name},
+                    {"driver", answer.driver},
+                    {"files", answer.files},
+                    {"prints", answer.prints}};
+    const fs::path part = path.string() + fmt::format(".{}.part", getpid());
+    std::ofstream stream(part);
+    stream << json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    stream.close();
+    if (stream) {
+        fs::rename(part, path, failure);
+    } else {
+        fs::remove(part, failure);
+    }
+}
+
+} // namespace
+
+std::optional<ProbeAnswer> recallProbe(const std::vector<std::string>& names)
+{
+    const std::string key = keyOf(names);
+    std::optional<Remembered> found;
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto at = held().find(key); at != held().end()) {
+            found = at->second;
+        }
+    }
+    if (!found || stampTextOf(found->answer.files) != found->stamp) {
+        found = load(key);
+        if (!found || found->answer.name >= names.size() ||
+            stampTextOf(found->answer.files) != found->stamp) {
+            return std::nullopt;
+        }
+        const std::lock_guard lock(mutex);
+        held().insert_or_assign(key, *found);
+    }
+    return found->answer;
+}
+
+void rememberProbe(const std::vector<std::string>& names, const ProbeAnswer& answer)
+{
+    const bool is_crash = answer.kind == ProbeAnswer::Kind::Crashed && answer.driver != "VRT";
+    if (!is_crash && answer.kind != ProbeAnswer::Kind::Opened) {
+        return;
+    }
+    Remembered remembered{answer, {}};
+    std::vector<std::string>& files = remembered.answer.files;
+    files.insert(files.end(), names.begin(),
+                 names.begin() + static_cast<std::ptrdiff_t>(answer.name) + 1);
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    remembered.stamp = stampTextOf(files);
+    if (remembered.stamp.empty()) {
+        return;
+    }
+    const std::string key = keyOf(names);
+    save(key, remembered);
+    const std::lock_guard lock(mutex);
+    if (held().size() >= kHeldMax) {
+        held().clear();
+    }
+    held().insert_or_assign(key, std::move(remembered));
+}
+
+} // namespace marsview

@@ -1,0 +1,228 @@
+#include "core/raster/gdal_runtime.h"
+#include "core/raster/open_probe.h"
+#include "core/raster/remote_raster.h"
+
+#include <cpl_string.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <fcntl.h>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <unistd.h>
+
+namespace marsview {
+namespace {
+
+using Json = nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+// Long enough for all samples of a small file, short enough not to be noticed with a large one.
+constexpr std::chrono::milliseconds kReadingTime{20};
+
+// Larger blocks are left to the reader of the samples, who bounds them.
+constexpr double kBlockBytesMax = 256e6;
+
+int answers = -1; // stdout as it was before libraries were kept from printing there
+
+void send(const Json& line)
+{
+    const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::size_t sent = 0;
+    while (sent < text.size()) {
+        const ssize_t count = write(answers, text.data() + sent, text.size() - sent);
+        if (count <= 0) {
+            _exit(1);
+        }
+        sent += static_cast<std::size_t>(count);
+    }
+}
+
+void onOutOfMemory()
+{
+    constexpr std::string_view kLine = "{\"memory\":1}\n";
+    const ssize_t ignored = write(answers, kLine.data(), kLine.size());
+    _exit(ignored > 0 ? 3 : 4);
+}
+
+std::vector<std::string> readNames()
+{
+    std::string text;
+    std::array<char, 65536> buffer{};
+    for (ssize_t count = 0; (count = read(STDIN_FILENO, buffer.data(), buffer.size())) > 0;) {
+        text.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = text.find('\0', begin);
+        names.push_back(text.substr(begin, end - begin));
+        begin = end == std::string::npos ? text.size() : end + 1;
+    }
+    return names;
+}
+
+struct Attempt {
+    GDALDatasetUniquePtr dataset;
+    std::string failure;
+};
+
+// As GDAL goes through its drivers, but says which one before it is let at the file.
+Attempt open(const std::string& name, std::size_t index)
+{
+    GDALDriverManager& manager = *GetGDALDriverManager();
+    GDALOpenInfo header(name.c_str(), GA_ReadOnly | GDAL_OF_RASTER);
+    Attempt attempt;
+    for (int i = 0; i < manager.GetDriverCount(); ++i) {
+        GDALDriver& driver = *manager.GetDriver(i);
+        if (driver.GetMetadataItem(GDAL_DCAP_RASTER) == nullptr ||
+            driver.GetMetadataItem(GDAL_DCAP_OPEN) == nullptr ||
+            (driver.pfnIdentify != nullptr && driver.pfnIdentify(&header) == FALSE)) {
+            continue;
+        }
+        send({{"opening", driver.GetDescription()}, {"name", index}});
+        const GdalMessages messages;
+        const std::array<const char*, 2> only{driver.GetDescription(), nullptr};
+        attempt.dataset.reset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER, only.data()));
+        if (attempt.dataset) {
+            return attempt;
+        }
+        if (messages.hasFailed()) {
+            attempt.failure = messages.firstFailure("");
+            return attempt;
+        }
+    }
+    return attempt;
+}
+
+void readSamples(GDALRasterBand& band, Clock::time_point end)
+{
+    int block_columns = 0;
+    int block_rows = 0;
+    band.GetBlockSize(&block_columns, &block_rows);
+    const int sample_bytes = GDALGetDataTypeSizeBytes(band.GetRasterDataType());
+    if (block_columns <= 0 || block_rows <= 0 ||
+        1.0 * block_columns * block_rows * sample_bytes > kBlockBytesMax) {
+        return;
+    }
+    const int columns = std::min(band.GetXSize(), std::min(block_columns, 4096));
+    const int rows = std::min(band.GetYSize(), std::min(block_rows, 4096));
+    std::vector<double> samples(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    const auto read_at = [&](int column, int row) {
+        column = std::clamp(column, 0, band.GetXSize() - columns);
+        row = std::clamp(row, 0, band.GetYSize() - rows);
+        return band.RasterIO(GF_Read, column, row, columns, rows, samples.data(), columns, rows,
+                             GDT_Float64, 0, 0, nullptr) == CE_None &&
+               Clock::now() < end;
+    };
+    if (!read_at(0, 0) || !read_at(band.GetXSize() / 2, band.GetYSize() / 2) ||
+        !read_at(band.GetXSize(), band.GetYSize())) {
+        return;
+    }
+    for (int row = 0; row < band.GetYSize(); row += rows) {
+        for (int column = 0; column < band.GetXSize(); column += columns) {
+            if (!read_at(column, row)) {
+                return;
+            }
+            if (column > band.GetXSize() - columns) {
+                break;
+            }
+        }
+        if (row > band.GetYSize() - rows) {
+            break;
+        }
+    }
+}
+
+// What RasterFile asks for.
+std::vector<std::string> use(GDALDataset& dataset)
+{
+    const GdalMessages messages;
+    const CPLStringList listed(dataset.GetFileList());
+    for (const char* domain : {"", "SUBDATASETS", "json:PDS", "IMAGE_STRUCTURE", "GEOLOCATION"}) {
+        dataset.GetMetadata(domain);
+    }
+    if (const OGRSpatialReference* crs = dataset.GetSpatialRef()) {
+        char* wkt = nullptr;
+        crs->exportToWkt(&wkt);
+        CPLFree(wkt);
+    }
+    std::array<double, 6> terms{};
+    dataset.GetGeoTransform(terms.data());
+    const Clock::time_point end = Clock::now() + kReadingTime;
+    for (int i = 1; i <= std::min(dataset.GetRasterCount(), 8) && Clock::now() < end; ++i) {
+        GDALRasterBand& band = *dataset.GetRasterBand(i);
+        int has_value = 0;
+        band.GetNoDataValue(&has_value);
+        band.GetScale(&has_value);
+        band.GetOffset(&has_value);
+        band.GetUnitType();
+        band.GetColorTable();
+        band.GetColorInterpretation();
+        band.GetMaskFlags();
+        band.GetMetadata("");
+        const int overviews = band.GetOverviewCount();
+        readSamples(band, end);
+        if (overviews > 0) {
+            if (GDALRasterBand* smallest = band.GetOverview(overviews - 1)) {
+                readSamples(*smallest, end);
+            }
+        }
+    }
+    return {listed.List(), listed.List() + listed.Count()};
+}
+
+// Of a file at a server, on the conditions that it is read on later.
+Json answerFor(const std::string& name, std::size_t index, std::string& failure)
+{
+    std::optional<RemoteScope> scope;
+    if (remoteNameFor(name)) {
+        const Result<RemoteVersion> version = askRemote(name);
+        if (!version) {
+            return {};
+        }
+        scope.emplace(name, *version);
+    }
+    Attempt attempt = open(name, index);
+    if (!attempt.dataset) {
+        failure = attempt.failure;
+        return {};
+    }
+    const std::vector<std::string> files = use(*attempt.dataset);
+    attempt.dataset.reset(); // which may crash, too
+    return {{"kind", "opened"}, {"files", files}};
+}
+
+} // namespace
+
+int runProbe()
+{
+    answers = dup(STDOUT_FILENO);
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (answers < 0 || nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0) {
+        return 1;
+    }
+    std::set_new_handler(onOutOfMemory);
+    const std::vector<std::string> names = readNames();
+    ensureGdal();
+    std::string first_failure;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        std::string failure;
+        if (const Json answer = answerFor(names[i], i, failure); !answer.empty()) {
+            send(answer);
+            return 0;
+        }
+        // The companion of a bare data file is the one that can tell what is wrong.
+        if (first_failure.empty() || (i > 0 && !failure.empty())) {
+            first_failure = failure;
+        }
+    }
+    send({{"kind", "not opened"}, {"message", first_failure}});
+    return 0;
+}
+
+} // namespace marsview

@@ -1,0 +1,309 @@
+// Files that crash, stop or fill what reads them: each ends in one line, or opens.
+#include "tests/cli/run_cli.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/random.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/stat.h>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramOutput;
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+std::string bytesOf(std::uint64_t value, std::size_t count)
+{
+    std::string bytes;
+    for (std::size_t i = 0; i < count; ++i) {
+        bytes += static_cast<char>(value >> (8 * i) & 0xff);
+    }
+    return bytes;
+}
+
+struct TiffEntry {
+    std::uint16_t tag;
+    std::uint16_t type;
+    std::uint32_t count;
+    std::uint32_t value;
+};
+
+constexpr std::uint16_t kShort = 3;
+constexpr std::uint16_t kLong = 4;
+
+// A classic TIFF of one directory.
+std::string tiffOf(const std::vector<TiffEntry>& entries, std::uint32_t next = 0)
+{
+    std::string bytes = "II*" + bytesOf(0, 1) + bytesOf(8, 4) + bytesOf(entries.size(), 2);
+    for (const TiffEntry& entry : entries) {
+        bytes += bytesOf(entry.tag, 2) + bytesOf(entry.type, 2) + bytesOf(entry.count, 4) +
+                 bytesOf(entry.value, 4);
+    }
+    return bytes + bytesOf(next, 4);
+}
+
+// What GDAL's own test file many_blocks_truncated.tif does: a raster of 16 million strips.
+std::string manyBlocks(std::uint32_t listed, std::uint32_t offsets_at)
+{
+    constexpr std::uint32_t kRows = 1U << 24U;
+    return tiffOf({{256, kLong, 1, 64},
+                   {257, kLong, 1, kRows},
+                   {258, kShort, 1, 8},
+                   {259, kShort, 1, 1},
+                   {262, kShort, 1, 1},
+                   {273, kLong, listed, offsets_at},
+                   {277, kShort, 1, 1},
+                   {278, kLong, 1, 1},
+                   {279, kLong, listed, offsets_at}});
+}
+
+class HostileFiles : public testing::Test {
+protected:
+    std::string faulty(const std::string& fault) const
+    {
+        return folder_.write(fault + ".faulty", "FAULTY " + fault + "\n" + std::string(100, '.'));
+    }
+    ProgramOutput info(const std::string& path, const std::vector<std::string>& options = {}) const
+    {
+        std::vector<std::string> arguments{"info", path};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        std::vector<std::string> environment{"MARSVIEW_CACHE_DIR=" + folder_.file("cache"),
+                                             "GDAL_DRIVER_PATH=" MARSVIEW_TEST_GDAL_DRIVERS};
+        environment.insert(environment.end(), environment_.begin(), environment_.end());
+        return test::runCliWith(environment, arguments);
+    }
+    static void expectOneLine(const ProgramOutput& output, const std::string& path)
+    {
+        EXPECT_EQ(output.exit_status, 1) << output.err;
+        EXPECT_THAT(output.out, IsEmpty());
+        EXPECT_THAT(output.err, StartsWith("marsview-cli: " + path + ": "));
+        EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
+        EXPECT_THAT(output.err, EndsWith("\n"));
+    }
+
+    test::TempFolder folder_;
+    std::vector<std::string> environment_;
+};
+
+TEST_F(HostileFiles, ACrashIsOneLineThatNamesTheDriverAndTheFile)
+{
+    for (const char* fault : {"crash", "overflow", "crash while reading", "crash while closing"}) {
+        SCOPED_TRACE(fault);
+        const std::string path = faulty(fault);
+        const ProgramOutput output = info(path);
+        expectOneLine(output, path);
+        EXPECT_THAT(output.err, HasSubstr("the FAULTY driver of GDAL crashed on this file"));
+    }
+}
+
+TEST_F(HostileFiles, ADriverThatNeverEndsIsStopped)
+{
+    environment_ = {"MARSVIEW_OPEN_SECONDS=1"};
+    const std::string path = faulty("hang");
+    const ProgramOutput output = info(path);
+    expectOneLine(output, path);
+    EXPECT_THAT(output.err,
+                HasSubstr("the FAULTY driver of GDAL did not open this file within 1 s"));
+}
+
+TEST_F(HostileFiles, ADriverThatTakesAllMemoryIsStopped)
+{
+    environment_ = {"MARSVIEW_OPEN_MB=300"};
+    const std::string path = faulty("memory");
+    const ProgramOutput output = info(path);
+    expectOneLine(output, path);
+    EXPECT_THAT(output.err, HasSubstr("the FAULTY driver of GDAL needs more than 0.3 GB"));
+}
+
+TEST_F(HostileFiles, WhatLibrariesPrintIsNotShown)
+{
+    const ProgramOutput opened = info(faulty("print"), {"--json"});
+    EXPECT_EQ(opened.exit_status, 0) << opened.err;
+    EXPECT_THAT(opened.err, Not(HasSubstr("library")));
+    EXPECT_EQ(nlohmann::json::parse(opened.out)["maximum"], 399.0);
+    const std::string path = faulty("refuse");
+    const ProgramOutput refused = info(path);
+    expectOneLine(refused, path);
+    EXPECT_THAT(refused.err, HasSubstr("The header is wrong. In two lines\n"));
+}
+
+TEST_F(HostileFiles, AnAnswerIsRememberedUntilTheFileChanges)
+{
+    const std::string path = faulty("crash");
+    expectOneLine(info(path), path);
+    environment_ = {"GDAL_DRIVER_PATH=/nonexistent"}; // no driver recognises it now
+    EXPECT_THAT(info(path).err, HasSubstr("the FAULTY driver of GDAL crashed"));
+    faulty("crash"); // the same bytes, written again
+    EXPECT_THAT(info(path).err, HasSubstr("is in no raster format"));
+}
+
+TEST_F(HostileFiles, ATiffThatPromisesMoreBlocksThanItHoldsIsRefused)
+{
+    for (const auto& [listed, place] :
+         std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1U << 24U, 200}, {1, 0}}) {
+        const std::string path = folder_.write("many_blocks.tif", manyBlocks(listed, place));
+        const ProgramOutput output = info(path);
+        expectOneLine(output, path);
+        EXPECT_THAT(output.err, AllOf(HasSubstr("16777216 blocks"), HasSubstr("cut short")));
+    }
+}
+
+TEST_F(HostileFiles, BombsAreRefused)
+{
+    std::vector<std::string> paths{
+        folder_.write("loop.tif", tiffOf({{256, kLong, 1, 4},
+                                          {257, kLong, 1, 4},
+                                          {258, kShort, 1, 8},
+                                          {259, kShort, 1, 1},
+                                          {262, kShort, 1, 1},
+                                          {273, kLong, 1, 8},
+                                          {277, kShort, 1, 1},
+                                          {278, kLong, 1, 4},
+                                          {279, kLong, 1, 16}},
+                                         8)),
+        folder_.write("huge.asc",
+                      "ncols 1000000000\nnrows 1000000000\nxllcorner 0\nyllcorner 0\n"
+                      "cellsize 1\n1 2 3\n"),
+        folder_.write("large.asc",
+                      "ncols 10000\nnrows 10000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n"),
+        folder_.write("empty.tif", ""),
+        "/dev/zero",
+    };
+    const auto virtual_of = [&](const std::string& name, const std::string& source) {
+        return folder_.write(
+            name,
+            "<VRTDataset rasterXSize=\"20\" rasterYSize=\"20\"><VRTRasterBand "
+            "dataType=\"Byte\" band=\"1\"><SimpleSource><SourceFilename relativeToVRT=\"0\">" +
+                source + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>");
+    };
+    paths.push_back(virtual_of("itself.vrt", folder_.file("itself.vrt")));
+    paths.push_back(virtual_of("zero.vrt", "/dev/zero"));
+    const std::string pipe = folder_.file("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    paths.push_back(pipe);
+    environment_ = {"MARSVIEW_OPEN_SECONDS=3"};
+    paths.push_back(virtual_of("pipe.vrt", pipe));
+    for (const std::string& path : paths) {
+        SCOPED_TRACE(path);
+        expectOneLine(info(path), path);
+    }
+}
+
+// A few bytes of a file, changed as transfers and bad disks do.
+std::string damaged(std::string bytes, int how, test::Random& random)
+{
+    switch (how) {
+    case 0:
+        bytes.resize(1 + random.below(bytes.size() - 1));
+        break;
+    case 1:
+        for (int i = 0; i < 8; ++i) {
+            char& byte = bytes[random.below(bytes.size())];
+            byte = static_cast<char>(static_cast<unsigned char>(byte) ^ (1U << random.below(8)));
+        }
+        break;
+    case 2: {
+        const std::size_t begin = random.below(std::min<std::size_t>(bytes.size(), 600));
+        const std::size_t count = std::min<std::size_t>(bytes.size() - begin, 1 + random.below(32));
+        bytes.replace(begin, count, std::string(count, '\0'));
+        break;
+    }
+    default: {
+        const std::size_t begin = random.below(std::min<std::size_t>(bytes.size(), 400));
+        const std::size_t count = std::min<std::size_t>(bytes.size() - begin, 4);
+        bytes.replace(begin, count, std::string(count, '\xff'));
+        break;
+    }
+    }
+    return bytes;
+}
+
+TEST_F(HostileFiles, DamagedFilesOpenOrEndInOneLine)
+{
+    const std::vector<std::pair<std::string, std::string>> formats{
+        {"GTiff", "tif"},   {"netCDF", "nc"}, {"JP2OpenJPEG", "jp2"}, {"HFA", "img"},
+        {"AAIGrid", "asc"}, {"PNG", "png"},   {"NITF", "ntf"},        {"GSBG", "grd"},
+        {"ISIS3", "cub"},   {"VICAR", "vic"}, {"FITS", "fits"},       {"RST", "rst"},
+        {"PCIDSK", "pix"},  {"BT", "bt"},     {"XYZ", "xyz"},
+    };
+    std::vector<std::int16_t> samples(std::size_t{32} * 32);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        samples[i] = static_cast<std::int16_t>(i % 251);
+    }
+    test::Random random;
+    environment_ = {"MARSVIEW_OPEN_SECONDS=5"};
+    for (const auto& [format, ending] : formats) {
+        const std::string whole = test::readFile(
+            test::writeRaster(folder_, "whole." + ending, format, test::recipeFor(32, samples)));
+        for (int how = 0; how < 4; ++how) {
+            const std::string path = folder_.write("map" + std::to_string(how) + "." + ending,
+                                                   damaged(whole, how, random));
+            SCOPED_TRACE(path);
+            const ProgramOutput output = info(path, {"--json"});
+            if (output.exit_status != 0) {
+                expectOneLine(output, path);
+            }
+        }
+    }
+}
+
+TEST_F(HostileFiles, StatisticsCanBeSkipped)
+{
+    std::vector<std::int16_t> samples(std::size_t{32} * 32, 7);
+    const std::string path =
+        test::writeRaster(folder_, "map.tif", "GTiff", test::recipeFor(32, samples));
+    const ProgramOutput output = info(path, {"--no-statistics", "--json"});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    const auto json = nlohmann::json::parse(output.out);
+    EXPECT_EQ(json["columns"], 32);
+    for (const char* field : {"minimum", "maximum", "raw_minimum", "raw_maximum", "void_count"}) {
+        EXPECT_TRUE(json[field].is_null()) << field;
+    }
+    EXPECT_THAT(info(path, {"--no-statistics"}).out, HasSubstr("minimum         unknown"));
+}
+
+// 100 million samples in one tile: GDAL would hold it whole.
+TEST_F(HostileFiles, StatisticsOfHugeBlocksAreLeftOut)
+{
+    const std::string path = test::writeRaster(
+        folder_, "map.tif", "GTiff", test::recipeFor(2, std::vector<std::int16_t>{1, 2, 3, 4}),
+        {"-outsize", "10000", "10000", "-co", "COMPRESS=ZSTD", "-co", "TILED=YES", "-co",
+         "BLOCKXSIZE=10000", "-co", "BLOCKYSIZE=10000"});
+    const ProgramOutput output = info(path, {"--json"});
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    EXPECT_TRUE(nlohmann::json::parse(output.out)["minimum"].is_null());
+    EXPECT_THAT(output.err, HasSubstr("minimum, maximum and voids are not computed: is stored in "
+                                      "blocks of 10000 × 10000 samples"));
+}
+
+TEST_F(HostileFiles, TheUsersBlockCacheIsKept)
+{
+    std::vector<std::int16_t> samples(std::size_t{32} * 32, 7);
+    const std::string path =
+        test::writeRaster(folder_, "map.tif", "GTiff", test::recipeFor(32, samples));
+    // GDAL says so when it takes the size from the setting.
+    environment_ = {"CPL_DEBUG=GDAL", "GDAL_CACHEMAX=77"};
+    EXPECT_THAT(info(path).err, HasSubstr("GDAL_CACHEMAX = 77 MB"));
+    const std::string settings = folder_.write("gdalrc", "[configoptions]\nGDAL_CACHEMAX=66\n");
+    environment_ = {"CPL_DEBUG=GDAL", "GDAL_CONFIG_FILE=" + settings};
+    EXPECT_THAT(info(path).err, HasSubstr("GDAL_CACHEMAX = 66 MB"));
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,110 @@
+// Opening in a child process, as RasterFile does; what it does to bad drivers is in
+// tests/cli/hostile_files_test.cpp.
+#include "core/raster/opening_job.h"
+#include "core/raster/raster_file.h"
+#include "tests/support/make_raster.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class OpenGuardTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        setenv("MARSVIEW_CACHE_DIR", folder_.file("cache").c_str(), 1); // NOLINT
+        setenv("GDAL_DRIVER_PATH", MARSVIEW_TEST_GDAL_DRIVERS, 1);      // NOLINT
+    }
+    void TearDown() override
+    {
+        unsetenv("MARSVIEW_CACHE_DIR"); // NOLINT
+        unsetenv("GDAL_DRIVER_PATH");   // NOLINT
+    }
+    bool remembersSomething() const
+    {
+        return fs::exists(folder_.file("cache/opened")) &&
+               !fs::is_empty(folder_.file("cache/opened"));
+    }
+    std::string write(const std::string& file, const std::string& format) const
+    {
+        return test::writeRaster(folder_, file, format,
+                                 test::recipeFor<std::int16_t>(3, {1, 2, 3, 4, 5, 6, 7, 8, 9}));
+    }
+
+    test::TempFolder folder_;
+};
+
+TEST_F(OpenGuardTest, PlainFilesNeedNoChild)
+{
+    for (const auto& [file, format] :
+         std::vector<std::pair<std::string, std::string>>{{"map.tif", "GTiff"},
+                                                          {"map.asc", "AAIGrid"},
+                                                          {"map.bil", "EHdr"},
+                                                          {"map.dat", "ENVI"},
+                                                          {"map.cub", "ISIS3"},
+                                                          {"map.vic", "VICAR"}}) {
+        const auto opened = RasterFile::open(write(file, format));
+        ASSERT_TRUE(opened) << opened.error().message;
+        EXPECT_EQ(opened->info().driver, format);
+        EXPECT_FALSE(remembersSomething()) << format;
+    }
+}
+
+TEST_F(OpenGuardTest, OthersAreOpenedByAChildFirstAndRemembered)
+{
+    const std::string path = write("map.img", "HFA");
+    for (int i = 0; i < 2; ++i) {
+        auto opened = RasterFile::open(path);
+        ASSERT_TRUE(opened) << opened.error().message;
+        EXPECT_EQ(opened->info().driver, "HFA");
+        EXPECT_TRUE(remembersSomething());
+        EXPECT_EQ(opened->readWindow({2, 2, 1, 1}, {})->grid.raw(0, 0), 9.0);
+    }
+}
+
+TEST_F(OpenGuardTest, ARasterThatNamesOthersIsLookedAtAgainWhenTheyChange)
+{
+    const std::string source = write("map.img", "HFA");
+    const std::string path =
+        folder_.write("map.vrt",
+                      "<VRTDataset rasterXSize=\"3\" rasterYSize=\"3\"><VRTRasterBand "
+                      "dataType=\"Int16\" band=\"1\"><SimpleSource><SourceFilename "
+                      "relativeToVRT=\"1\">map.img</SourceFilename></SimpleSource></VRTRasterBand>"
+                      "</VRTDataset>");
+    ASSERT_TRUE(RasterFile::open(path));
+    folder_.write("map.img", "FAULTY crash\n");
+    const auto opened = RasterFile::open(path);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, HasSubstr("crashed on this file"));
+}
+
+TEST_F(OpenGuardTest, ACancelEndsTheChild)
+{
+    const std::string path = folder_.write("map.faulty", "FAULTY hang\n");
+    JobMonitor monitor;
+    ErrorCode code = ErrorCode::Invalid;
+    std::jthread opener([&] {
+        const OpeningJob job(&monitor);
+        const auto opened = RasterFile::open(path);
+        code = opened ? ErrorCode::Invalid : opened.error().code;
+    });
+    monitor.cancel();
+    opener.join();
+    EXPECT_EQ(code, ErrorCode::Cancelled);
+}
+
+} // namespace
+} // namespace marsview

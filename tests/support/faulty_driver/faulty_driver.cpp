@@ -1,0 +1,140 @@
+// A driver for GDAL, loaded from GDAL_DRIVER_PATH, that does to the program what faulty libraries
+// do. Its files hold "FAULTY" and, after a blank, which fault.
+#include <gdal_priv.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace {
+
+std::string faultOf(const GDALOpenInfo& info)
+{
+    const std::string text(reinterpret_cast<const char*>(info.pabyHeader),
+                           static_cast<std::size_t>(info.nHeaderBytes));
+    return text.substr(std::strlen("FAULTY "), text.find('\n') - std::strlen("FAULTY "));
+}
+
+void hang()
+{
+    volatile bool is_on = true;
+    while (is_on) {
+    }
+}
+
+// Each call holds on to a page of the stack.
+int overflow(volatile char* above)
+{
+    volatile char page[4096];
+    page[0] = *above;
+    return overflow(page) + page[0];
+}
+
+void takeMemory()
+{
+    for (;;) {
+        char* const bytes = new char[std::size_t{16} << 20];
+        std::memset(bytes, 1, std::size_t{16} << 20);
+    }
+}
+
+class Band final : public GDALRasterBand {
+public:
+    Band(GDALDataset* dataset, std::string fault)
+        : fault_(std::move(fault))
+    {
+        poDS = dataset;
+        nBand = 1;
+        eDataType = GDT_Int16;
+        nBlockXSize = 20;
+        nBlockYSize = 1;
+    }
+
+private:
+    CPLErr IReadBlock(int, int row, void* to) override
+    {
+        if (fault_ == "crash while reading" && row == 15) {
+            std::abort();
+        }
+        if (fault_ == "print") {
+            std::fprintf(stderr, "library: row %d\n", row);
+        }
+        for (int i = 0; i < 20; ++i) {
+            static_cast<GInt16*>(to)[i] = static_cast<GInt16>(row * 20 + i);
+        }
+        return CE_None;
+    }
+
+    std::string fault_;
+};
+
+class Dataset final : public GDALDataset {
+public:
+    explicit Dataset(std::string fault)
+        : fault_(fault)
+    {
+        nRasterXSize = 20;
+        nRasterYSize = 20;
+        SetBand(1, new Band(this, std::move(fault)));
+    }
+    ~Dataset() override
+    {
+        if (fault_ == "crash while closing") {
+            std::raise(SIGSEGV);
+        }
+    }
+
+private:
+    std::string fault_;
+};
+
+int identify(GDALOpenInfo* info)
+{
+    return info->nHeaderBytes > 7 &&
+                   std::memcmp(info->pabyHeader, "FAULTY ", std::strlen("FAULTY ")) == 0
+               ? TRUE
+               : FALSE;
+}
+
+GDALDataset* open(GDALOpenInfo* info)
+{
+    if (identify(info) == FALSE) {
+        return nullptr;
+    }
+    const std::string fault = faultOf(*info);
+    if (fault == "crash") {
+        std::abort();
+    } else if (fault == "overflow") {
+        volatile char top = 0;
+        overflow(&top);
+    } else if (fault == "hang") {
+        hang();
+    } else if (fault == "memory") {
+        takeMemory();
+    } else if (fault == "print") {
+        std::fprintf(stderr, "library: first\nlibrary: second\n");
+        std::printf("library: on stdout\n");
+    } else if (fault == "refuse") {
+        std::fprintf(stderr, "library: I refuse\n");
+        CPLError(CE_Failure, CPLE_AppDefined, "The header is wrong.\nIn two lines.");
+        return nullptr;
+    }
+    return new Dataset(fault);
+}
+
+} // namespace
+
+extern "C" CPL_DLL void GDALRegister_FAULTY(); // the name that GDAL looks for
+
+void GDALRegister_FAULTY()
+{
+    auto* driver = new GDALDriver;
+    driver->SetDescription("FAULTY");
+    driver->SetMetadataItem(GDAL_DCAP_RASTER, "YES");
+    driver->SetMetadataItem(GDAL_DCAP_OPEN, "YES");
+    driver->pfnIdentify = identify;
+    driver->pfnOpen = open;
+    GetGDALDriverManager()->RegisterDriver(driver);
+}
