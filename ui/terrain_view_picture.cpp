@@ -1,5 +1,6 @@
 // Painting: the terrain in stages, from ready in time to as fine as can be, and the cursor over it.
 
+#include "ui/render/offscreen_picture.h"
 #include "ui/terrain_view.h"
 
 #include <QImage>
@@ -20,6 +21,10 @@ constexpr int kShadowSides = 24;
 // No part of the cursor is further from its place and its shadow than this.
 constexpr double kCursorReachPoints = 32.0;
 
+// Pictures for files have smooth edges up to so many pixels: a frame buffer of 1 GB.
+constexpr double kSmoothPixelsMax = 3.2e7;
+constexpr int kSmoothSamples = 4;
+
 } // namespace
 
 bool TerrainView::isPictureComplete() const
@@ -34,6 +39,47 @@ QImage TerrainView::terrainPicture()
     is_cursor_shown_ = true;
     update(); // what was grabbed may come on screen
     return picture;
+}
+
+Result<QImage> TerrainView::drawnPicture(const OrbitCamera& camera, QSize size)
+{
+    if (!renderer_) {
+        return Error{ErrorCode::Unsupported,
+                     "there is no graphics context to draw a picture with; install the graphics "
+                     "driver"};
+    }
+    makeCurrent();
+    if (!std::exchange(are_layers_sent_, true)) {
+        renderer_->setLayers(layers_);
+    }
+    const bool is_smooth =
+        has_antialiasing_ &&
+        static_cast<double>(size.width()) * static_cast<double>(size.height()) <= kSmoothPixelsMax;
+    auto drawn = drawOffscreen(*renderer_,
+                               {.camera = camera,
+                                .viewport = {.width = size.width(), .height = size.height()},
+                                .samples = is_smooth ? kSmoothSamples : 1},
+                               style_, DepthUse::No);
+    doneCurrent();
+    redrawTerrain(); // the picture that was kept for the window is gone
+    if (!drawn) {
+        return std::move(drawn).error();
+    }
+    const Picture& colors = drawn->colors;
+    return QImage(colors.rgb.data(), colors.width, colors.height,
+                  static_cast<qsizetype>(3) * colors.width, QImage::Format_RGB888)
+        .copy();
+}
+
+int TerrainView::pictureSideMax()
+{
+    if (!renderer_) {
+        return 0;
+    }
+    makeCurrent();
+    const int side_max = offscreenSideMax();
+    doneCurrent();
+    return side_max;
 }
 
 void TerrainView::initializeGL()

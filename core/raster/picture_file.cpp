@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/raster/gdal_runtime.h"
 
+#include <cpl_string.h>
 #include <gdal_priv.h>
 
 #include <array>
@@ -12,8 +13,10 @@
 #include <memory>
 
 namespace marsview {
+namespace {
 
-Status writePng(const Picture& picture, const std::string& path)
+Status
+write(const Picture& picture, const std::string& path, const char* driver_name, char** options)
 {
     MARSVIEW_CHECK(picture.rgb.size() == static_cast<std::size_t>(picture.width) *
                                              static_cast<std::size_t>(picture.height) * 3);
@@ -25,8 +28,8 @@ Status writePng(const Picture& picture, const std::string& path)
                                  path, messages.firstFailure("unknown reason"))};
     };
     GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
-    GDALDriver* png = GetGDALDriverManager()->GetDriverByName("PNG");
-    if (memory == nullptr || png == nullptr) {
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name);
+    if (memory == nullptr || driver == nullptr) {
         return refusal();
     }
     const GDALDatasetUniquePtr source(
@@ -42,7 +45,7 @@ Status writePng(const Picture& picture, const std::string& path)
     std::error_code error;
     {
         const GDALDatasetUniquePtr written(
-            png->CreateCopy(unfinished.c_str(), source.get(), FALSE, nullptr, nullptr, nullptr));
+            driver->CreateCopy(unfinished.c_str(), source.get(), FALSE, options, nullptr, nullptr));
         if (!written) {
             std::filesystem::remove(unfinished, error); // of a full disk, say
             return refusal();
@@ -61,6 +64,22 @@ Status writePng(const Picture& picture, const std::string& path)
                                  path, error.message())};
     }
     return Done{};
+}
+
+} // namespace
+
+Status writePng(const Picture& picture, const std::string& path)
+{
+    return write(picture, path, "PNG", nullptr);
+}
+
+Status writeTiff(const Picture& picture, const std::string& path)
+{
+    CPLStringList options;
+    options.SetNameValue("COMPRESS", "DEFLATE");
+    options.SetNameValue("PREDICTOR", "2");
+    options.SetNameValue("PHOTOMETRIC", "RGB");
+    return write(picture, path, "GTiff", options.List());
 }
 
 } // namespace marsview

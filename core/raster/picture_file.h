@@ -19,5 +19,7 @@ struct Picture {
 /// Writes a PNG file, in place of one of that name only when it is whole. Unreadable where it
 /// cannot be written.
 Status writePng(const Picture& picture, const std::string& path);
+/// The same as a TIFF file, compressed without loss.
+Status writeTiff(const Picture& picture, const std::string& path);
 
 } // namespace marsview

@@ -172,25 +172,6 @@ TEST_F(WindowMemoryTest, LeavesNoTraceWhereItIsToldSo)
         << QSettings().allKeys().join(QLatin1Char(' ')).toStdString();
 }
 
-TEST_F(WindowMemoryTest, SavesThePictureOfTheMap)
-{
-    MainWindow window(testWindowOptions());
-    window.show();
-    ASSERT_TRUE(openAndWait(window, maps_.hill()));
-    window.actionSet().save_picture->trigger();
-    auto* dialog = window.findChild<QFileDialog*>();
-    ASSERT_NE(dialog, nullptr);
-    const QString file = maps_.path(QStringLiteral("picture.png"));
-    Q_EMIT dialog->fileSelected(file);
-    dialog->reject();
-    const QImage picture(file);
-    EXPECT_EQ(picture.size(), window.view()->size() * window.view()->devicePixelRatioF());
-    // What is to be seen there, rather than the window around it.
-    EXPECT_EQ(picture.pixelColor(picture.rect().center()),
-              window.view()->grabFramebuffer().pixelColor(picture.rect().center()));
-    EXPECT_NE(picture.pixelColor(picture.rect().center()), picture.pixelColor(2, 2));
-}
-
 TEST_F(WindowMemoryTest, TheMapKeepsTwoThirdsAtEveryWidth)
 {
     const auto window = makeWindow({1600, 700});

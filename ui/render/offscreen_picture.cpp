@@ -30,14 +30,20 @@ std::vector<T> upsideDown(const std::vector<T>& rows, std::size_t row_length)
 
 } // namespace
 
+int offscreenSideMax()
+{
+    GLint side_max = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &side_max);
+    return side_max;
+}
+
 Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
                                        const DrawRequest& request,
                                        const DrawStyle& style,
                                        DepthUse depth_use)
 {
     const Viewport& size = request.viewport;
-    GLint side_max = 0;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &side_max);
+    const int side_max = offscreenSideMax();
     if (std::max(size.width, size.height) > side_max) {
         return Error{ErrorCode::OutOfRange,
                      fmt::format("{} × {} pixels: this driver draws at most {} a side", size.width,

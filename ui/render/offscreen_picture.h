@@ -19,6 +19,9 @@ struct OffscreenPicture {
 
 enum class DepthUse { No, Yes };
 
+/// Pixels a side that the driver of the current context draws.
+int offscreenSideMax();
+
 /// Draws `request` whole and reads it back. OutOfRange where the driver has no frame buffer of that
 /// size.
 Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,

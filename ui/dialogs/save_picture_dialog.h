@@ -1,0 +1,50 @@
+// Choosing the size and the contents of a saved picture.
+#pragma once
+
+#include <QDialog>
+#include <QSize>
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QSpinBox;
+
+namespace marsview {
+
+struct PictureLimits {
+    int side_max = 16384;               // pixels; what the graphics driver draws
+    qint64 pixel_count_max = 1LL << 27; // of width × height
+};
+
+struct PictureChoice {
+    QSize size; // pixels
+    bool has_legend = true;
+    bool has_scale = true; // compass and scale bar
+};
+
+class SavePictureDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    /// `view_size` is that of the map on screen, in pixels.
+    SavePictureDialog(QSize view_size, const PictureLimits& limits, QWidget* parent = nullptr);
+
+    PictureChoice choice() const;
+
+private:
+    void showSize();
+    QString problem() const;
+
+    QSize view_size_;
+    PictureLimits limits_;
+    QComboBox* sizes_ = nullptr;
+    QSpinBox* width_ = nullptr;
+    QSpinBox* height_ = nullptr;
+    QCheckBox* legend_ = nullptr;
+    QCheckBox* scale_ = nullptr;
+    QLabel* note_ = nullptr;
+    QPushButton* save_ = nullptr;
+};
+
+} // namespace marsview

@@ -1,0 +1,16 @@
+// Writing pictures into files.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <QImage>
+#include <QString>
+
+namespace marsview {
+
+/// Writes PNG, JPEG or TIFF, as the name ends: .png, .jpg, .jpeg, .tif or .tiff. A file of that
+/// name is replaced only by a whole picture. Unsupported for another ending, Unreadable where the
+/// file cannot be written; the sentence says what to do.
+Status writePictureFile(const QImage& picture, const QString& file);
+
+} // namespace marsview
