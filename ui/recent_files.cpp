@@ -2,9 +2,12 @@
 
 #include "core/raster/remote_raster.h"
 
+#include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
+#include <QHash>
 #include <QMenu>
+#include <QSet>
 #include <QSettings>
 
 #include <algorithm>
@@ -30,6 +33,48 @@ QString withoutMnemonics(QString text)
 bool isAddress(const QString& file)
 {
     return file.contains(QStringLiteral("://")) && remoteNameFor(file.toStdString()).has_value();
+}
+
+QStringList namesFor(const QStringList& files)
+{
+    const auto parts_of = [](const QString& file) {
+        return file.split(QLatin1Char('/'), Qt::SkipEmptyParts);
+    };
+    // The last `depth` folders of a path.
+    const auto folders_of = [&parts_of](const QString& file, qsizetype depth) {
+        QStringList parts = parts_of(file);
+        parts.removeLast();
+        return parts.mid(std::max<qsizetype>(0, parts.size() - depth)).join(QLatin1Char('/'));
+    };
+    QHash<QString, QStringList> same_name;
+    for (const QString& file : files) {
+        same_name[QFileInfo(file).fileName()].append(file);
+    }
+    QStringList names;
+    for (const QString& file : files) {
+        const QString name = QFileInfo(file).fileName();
+        const QStringList& others = same_name[name];
+        if (others.size() < 2 || parts_of(file).isEmpty()) {
+            names.append(name);
+            continue;
+        }
+        qsizetype depth = 1;
+        const auto is_ambiguous = [&] {
+            QSet<QString> folders;
+            for (const QString& other : others) {
+                folders.insert(folders_of(other, depth));
+            }
+            return folders.size() < others.size();
+        };
+        const qsizetype depth_max = parts_of(file).size();
+        while (depth < depth_max && is_ambiguous()) {
+            ++depth;
+        }
+        //: In a list of files: %1 is a file's name, %2 the end of its folder's path
+        names.append(QCoreApplication::translate("RecentFiles", "%1 — %2/")
+                         .arg(name, folders_of(file, depth)));
+    }
+    return names;
 }
 
 RecentFiles::RecentFiles(QMenu& menu, Memory memory, QObject* parent)
@@ -75,8 +120,9 @@ void RecentFiles::fillMenu()
     const auto gone = std::stable_partition(ordered.begin(), ordered.end(), [](const QString& f) {
         return isAddress(f) || QFileInfo::exists(f);
     });
+    const QStringList names = namesFor(ordered);
     for (auto file = ordered.begin(); file != ordered.end(); ++file) {
-        const QString name = withoutMnemonics(QFileInfo(*file).fileName());
+        const QString name = withoutMnemonics(names[file - ordered.begin()]);
         QAction* action = menu_.addAction(
             //: In the list of recent files: %1 is a file that is no longer there
             file < gone ? name : tr("%1 (missing)").arg(name), this,

@@ -11,6 +11,11 @@ namespace marsview {
 /// Whether a name is an address (https://…), which is opened as it is.
 bool isAddress(const QString& file);
 
+/// What a list shows for each of these files or addresses: its name, and for names that occur more
+/// than once the last folders of its path, as many as it takes to tell the files apart:
+/// "dem.tif — mars/".
+QStringList namesFor(const QStringList& files);
+
 /// Remembers ten files or addresses, the last opened first, for this and for later windows. Files
 /// that are gone stay in the list, behind the others, and say so.
 class RecentFiles final : public QObject {

@@ -70,8 +70,8 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     memory_->setKeyboardTracking(false); // not every digit on the way
     memory_->setAccessibleName(tr("Memory for tiles of large maps"));
     memory_->setToolTip(
-        tr("What is seen and touched of large maps is kept in so much memory; what was used last "
-           "stays longest"));
+        tr("Tiles of large maps that are shown or touched stay in memory up to this size; the "
+           "least recently used are evicted first"));
     folder_->setReadOnly(true);
     folder_->setAccessibleName(tr("Folder of prepared maps"));
     folder_->setMinimumWidth(220);
@@ -84,12 +84,15 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     bound_->setSuffix(tr(" GB"));
     bound_->setGroupSeparatorShown(true);
     bound_->setKeyboardTracking(false);
-    bound_->setAccessibleName(tr("Most that prepared maps may take"));
+    bound_->setAccessibleName(tr("Maximum size of prepared maps"));
     bound_->setToolTip(
-        tr("When a map is prepared and there is not enough room, those that were not used for "
-           "longest are removed"));
+        tr("When a new map needs room, the maps that have not been used for the longest time are "
+           "removed"));
     maps_->setAccessibleName(tr("Prepared maps"));
     maps_->setObjectName(QStringLiteral("preparedMaps"));
+    // As low as the first page; it grows with the dialog.
+    maps_->setMinimumHeight(6 * maps_->fontMetrics().height());
+    maps_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);
     maps_->setHeaderLabels({tr("Prepared map"), tr("Size"), tr("Last used")});
     maps_->setRootIsDecorated(false);
     maps_->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -111,9 +114,8 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     folder_row->addWidget(choose_button);
     folder_row->addWidget(open_button_);
     auto* form = new QFormLayout;
-    form->addRow(tr("&Memory for tiles"), memory_);
-    form->addRow(tr("Prepared maps in"), folder_row);
-    form->addRow(tr("At mo&st"), bound_);
+    form->addRow(tr("Prepared maps"), folder_row);
+    form->addRow(tr("&Maximum size"), bound_);
     auto* foot = new QHBoxLayout;
     foot->addWidget(total_, 1);
     foot->addWidget(remove_button_);
@@ -165,10 +167,10 @@ QWidget* LargeMapsPage::makeFetchedBox()
     fetched_bound_->setSpecialValueText(tr("Automatic (%1)").arg(bytesText(kFetchedBytesMax)));
     fetched_bound_->setGroupSeparatorShown(true);
     fetched_bound_->setKeyboardTracking(false);
-    fetched_bound_->setAccessibleName(tr("Most that tiles from servers may take"));
+    fetched_bound_->setAccessibleName(tr("Maximum size of tiles from servers"));
     fetched_bound_->setToolTip(
-        tr("When more tiles come and there is not enough room, those that were not used for "
-           "longest are removed"));
+        tr("When new tiles need room, the tiles that have not been used for the longest time are "
+           "removed"));
     fetched_total_->setObjectName(QStringLiteral("fetchedTotal"));
     empty_button_->setObjectName(QStringLiteral("emptyFetched"));
     empty_button_->setAutoDefault(false);
@@ -178,8 +180,8 @@ QWidget* LargeMapsPage::makeFetchedBox()
     auto* box = new QWidget(this);
     auto* form = new QFormLayout(box);
     form->setContentsMargins(0, 12, 0, 0); // apart from what is above
-    form->addRow(tr("Tiles from servers in"), fetched_folder_);
-    form->addRow(tr("A&t most"), fetched_bound_);
+    form->addRow(tr("Tiles from servers"), fetched_folder_);
+    form->addRow(tr("Ma&ximum size"), fetched_bound_);
     form->addRow(foot);
     connect(fetched_bound_, &QSpinBox::valueChanged, this, &LargeMapsPage::changed);
     connect(empty_button_, &QPushButton::clicked, this, &LargeMapsPage::emptyFetched);
@@ -315,7 +317,7 @@ void LargeMapsPage::countFetched()
     const QString path = QDir::toNativeSeparators(QString::fromStdString(fetched));
     fetched_folder_->setText(path);
     fetched_folder_->setToolTip(path);
-    fetched_total_->setText(tr("Looking at what is there…"));
+    fetched_total_->setText(tr("Calculating…"));
     empty_button_->setEnabled(false);
     jobs_.run([this, fetched, path](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
         const KeptTiles kept = keptTilesIn(fetched);
@@ -354,7 +356,7 @@ void LargeMapsPage::emptyFetched()
     connect(remove, &QPushButton::clicked, this, [this] {
         const std::string fetched = fetchedTilesFolder(folder());
         const QString path = fetched_folder_->text();
-        fetched_total_->setText(tr("Being removed…"));
+        fetched_total_->setText(tr("Removing…"));
         empty_button_->setEnabled(false);
         jobs_.run([this, fetched, path](const std::shared_ptr<DetachedJobs::Outlet>& outlet) {
             const Status removed = removeKeptTiles(fetched);

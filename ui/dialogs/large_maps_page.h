@@ -24,13 +24,16 @@ struct LargeMapDefaults {
     std::size_t tile_bytes = 0;   // of memory for tiles
 };
 
-/// How much memory their tiles take, where prepared maps lie and what is there, and the same of
-/// tiles that came from servers.
+/// Where prepared maps are stored, which there are and how much they may take, and the same for
+/// tiles from servers. How much memory tiles take is a field that the owner places.
 class LargeMapsPage final : public QWidget {
     Q_OBJECT
 
 public:
     explicit LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent = nullptr);
+
+    /// For the memory of tiles. A child of this page until it is put into another layout.
+    QSpinBox* memoryField() const noexcept { return memory_; }
 
     void fill(const Preferences& preferences);
     /// Puts what is chosen here in its place.

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
+#include <QGroupBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QTabWidget>
@@ -19,35 +20,48 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     , theme_(new QComboBox(this))
     , height_unit_(new QComboBox(this))
     , frame_rate_(new QComboBox(this))
-    , antialiasing_(new QCheckBox(tr("Smooth &edges"), this))
+    , antialiasing_(new QCheckBox(tr("&Anti-aliasing"), this))
     , large_maps_(new LargeMapsPage(standard, this))
     , pages_(new QTabWidget(this))
 {
     setWindowTitle(tr("Preferences"));
     //: A theme: as light or dark as the desktop
-    theme_->addItem(tr("As the desktop"), static_cast<int>(Theme::System));
+    theme_->addItem(tr("Follow system"), static_cast<int>(Theme::System));
     theme_->addItem(tr("Light"), static_cast<int>(Theme::Light));
     theme_->addItem(tr("Dark"), static_cast<int>(Theme::Dark));
     theme_->setAccessibleName(tr("Theme"));
-    height_unit_->addItem(tr("Metres"), static_cast<int>(HeightUnit::Metres));
+    height_unit_->addItem(tr("Meters"), static_cast<int>(HeightUnit::Metres));
     height_unit_->addItem(tr("Feet"), static_cast<int>(HeightUnit::Feet));
-    height_unit_->setAccessibleName(tr("Unit of heights"));
+    height_unit_->setAccessibleName(tr("Elevation unit"));
     for (const int rate : {20, 30, 60}) {
         //: Frames per second
-        frame_rate_->addItem(tr("%n per second", nullptr, rate), rate);
+        frame_rate_->addItem(tr("%n fps", nullptr, rate), rate);
     }
-    frame_rate_->setAccessibleName(tr("Pictures while moving"));
+    frame_rate_->setAccessibleName(tr("Frame rate while moving"));
     frame_rate_->setToolTip(
-        tr("More pictures make motion smoother and the ground coarser while it lasts"));
-    antialiasing_->setAccessibleName(tr("Smooth edges"));
-    antialiasing_->setToolTip(tr("Where the graphics driver does it without effort"));
+        tr("A higher rate makes motion smoother and the terrain coarser while it moves"));
+    antialiasing_->setAccessibleName(tr("Anti-aliasing"));
+    antialiasing_->setToolTip(tr("Smooth edges when the picture is at rest"));
 
     auto* general = new QWidget(this);
-    auto* form = new QFormLayout(general);
-    form->addRow(tr("&Theme"), theme_);
-    form->addRow(tr("&Heights in"), height_unit_);
-    form->addRow(tr("&Pictures while moving"), frame_rate_);
-    form->addRow(QString(), antialiasing_);
+    auto* groups = new QVBoxLayout(general);
+    const auto add_group = [general, groups](const QString& title) {
+        auto* group = new QGroupBox(title, general);
+        groups->addWidget(group);
+        return new QFormLayout(group);
+    };
+    //: A group of the preferences
+    QFormLayout* appearance = add_group(tr("Appearance"));
+    appearance->addRow(tr("&Theme"), theme_);
+    appearance->addRow(tr("&Elevation unit"), height_unit_);
+    //: A group of the preferences: the picture of the terrain
+    QFormLayout* picture = add_group(tr("Map view"));
+    picture->addRow(tr("&Frame rate while moving"), frame_rate_);
+    picture->addRow(QString(), antialiasing_);
+    //: A group of the preferences
+    QFormLayout* memory = add_group(tr("Memory"));
+    memory->addRow(tr("Tiles of &large maps"), large_maps_->memoryField());
+    groups->addStretch(1);
     auto* buttons =
         new QDialogButtonBox(QDialogButtonBox::Close | QDialogButtonBox::RestoreDefaults, this);
     // The Enter key must not undo what was just chosen.
@@ -57,8 +71,8 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     pages_->setAccessibleName(tr("Pages of the preferences"));
     //: A page of the preferences
     pages_->addTab(general, tr("&General"));
-    //: A page of the preferences: about maps that do not fit into memory
-    pages_->addTab(large_maps_, tr("&Large Maps"));
+    //: A page of the preferences: files that are kept on disk
+    pages_->addTab(large_maps_, tr("&Storage"));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(pages_);
     layout->addWidget(buttons);
