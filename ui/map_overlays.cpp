@@ -1,7 +1,7 @@
 #include "ui/map_overlays.h"
 
+#include "core/session/range_in_picture.h"
 #include "core/view/edge_mark.h"
-#include "core/view/map_preview.h"
 #include "core/view/scale_bar.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/force_meter.h"
@@ -10,46 +10,27 @@
 #include "ui/overlay/legend.h"
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
+#include "ui/overlay/overview_picture.h"
 #include "ui/overlay/scale_bar_view.h"
 #include "ui/terrain_view.h"
 
 #include <QAction>
 #include <QApplication>
+#include <QHelpEvent>
 #include <QImage>
 #include <QPainter>
+#include <QToolTip>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace marsview {
 namespace {
 
-// Twice what the minimap is wide on a screen with two pixels a point.
-constexpr std::size_t kPreviewSideMax = 640;
-
-QImage
-previewOf(const LoadedMap& map, const ColorRamp& ramp, const TerrainLook& look, double exaggeration)
-{
-    const BlockMeans& means = map.analysis->means;
-    std::size_t level = 0;
-    while (std::max(means.means(level).columns(), means.means(level).rows()) > kPreviewSideMax) {
-        ++level;
-    }
-    const GridView<const float> heights = means.means(level);
-    const Georeference& georeference = map.dataset->georeference();
-    const SceneFrame frame = previewFrame(georeference.sceneFrame(), georeference.columns(),
-                                          georeference.rows(), heights.columns(), heights.rows());
-    const MapPreview preview = mapPreview(heights, frame,
-                                          {.ramp = sampledRamp(ramp),
-                                           .tint_range = tintedRange(ramp, map.tint_range),
-                                           .light_azimuth = look.light_azimuth,
-                                           .light_altitude = look.light_altitude,
-                                           .exaggeration = exaggeration});
-    return QImage(preview.rgba.data(), static_cast<int>(preview.columns),
-                  static_cast<int>(preview.rows), static_cast<int>(4 * preview.columns),
-                  QImage::Format_RGBA8888)
-        .copy();
-}
+// Which layers the picture shows is looked for when it has been still for so long, with few rays.
+constexpr std::chrono::milliseconds kProbeAfter{150};
+constexpr PictureProbes kProbes{.columns = 24, .rows = 16};
 
 } // namespace
 
@@ -82,6 +63,10 @@ MapOverlays::MapOverlays(TerrainView& view)
     connect(&view_, &TerrainView::exaggerationChanged, this, &MapOverlays::showMap);
     connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::showSight);
     connect(&view_, &TerrainView::stylusMoved, this, &MapOverlays::showTouch);
+    probe_timer_.setSingleShot(true);
+    probe_timer_.setInterval(kProbeAfter);
+    connect(&probe_timer_, &QTimer::timeout, this, &MapOverlays::findSeenLayers);
+    view_.installEventFilter(this); // the legend is transparent to the mouse
     connect(minimap_, &Minimap::placeRequested, &view_, &TerrainView::lookAt);
     connect(&view_, &TerrainView::gestureMade, hint_, &GestureHint::markDone);
     connect(hint_, &GestureHint::dismissed, this, &MapOverlays::dismissHint);
@@ -122,15 +107,25 @@ void MapOverlays::makeAction(const QString& text, const QString& name, const QLi
     actions_.append(action);
 }
 
-void MapOverlays::paintOver(QImage& picture) const
+void MapOverlays::paintOver(QImage& picture, const PictureParts& parts) const
 {
-    picture.setDevicePixelRatio(view_.devicePixelRatioF());
+    // The view's angle is vertical: what is as high shows the same metres per pixel.
+    const double scale = static_cast<double>(picture.height()) / view_.height();
+    const int more_width = qRound(picture.width() / scale) - view_.width();
+    picture.setDevicePixelRatio(scale);
     QPainter painter(&picture);
-    for (QWidget* part : std::initializer_list<QWidget*>{legend_, compass_, scale_bar_}) {
-        if (part->isVisible()) {
-            part->render(&painter, part->pos(), QRegion(), QWidget::DrawChildren);
+    const auto paint = [&](QWidget* part, bool is_wanted) {
+        if (is_wanted && part->isVisible()) {
+            const bool is_at_right = part->geometry().center().x() > view_.width() / 2;
+            part->render(&painter, part->pos() + QPoint(is_at_right ? more_width : 0, 0), QRegion(),
+                         QWidget::DrawChildren);
         }
-    }
+    };
+    paint(legend_, parts.has_legend);
+    paint(compass_, parts.has_scale);
+    paint(scale_bar_, parts.has_scale);
+    painter.end();
+    picture.setDevicePixelRatio(1.0);
 }
 
 void MapOverlays::setCovered(int height)
@@ -150,9 +145,10 @@ void MapOverlays::showMap()
         legend_->setContent({});
         return;
     }
-    const Georeference& georeference = view_.map().dataset->georeference();
-    minimap_->setMap(previewOf(view_.map(), *view_.ramp(), view_.look(), view_.exaggeration()),
-                     georeference.sceneFrame(), georeference.columns(), georeference.rows());
+    const OverviewPicture overview =
+        overviewPicture(view_.shownLayers(), view_.ground(), view_.look(), view_.exaggeration());
+    minimap_->setMap(overview.image, overview.frame, overview.columns, overview.rows);
+    seen_.clear();
     showSight();
 }
 
@@ -165,19 +161,92 @@ void MapOverlays::showSight()
     minimap_->setCamera(view_.camera(), view_.viewport());
     compass_->setCamera(view_.camera());
     scale_bar_->setCamera(view_.camera(), view_.viewport());
+    if (view_.shownLayers().size() > 1) {
+        probe_timer_.start();
+    }
     showLegend();
+}
+
+void MapOverlays::setSession(const Session& session)
+{
+    session_ = session;
+    showLegend();
+}
+
+void MapOverlays::setHeightUnit(HeightUnit unit)
+{
+    height_unit_ = unit;
+    showLegend();
+}
+
+bool MapOverlays::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() == QEvent::ToolTip && watched == &view_ && legend_->isVisible()) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        if (legend_->geometry().contains(help->pos())) {
+            QToolTip::showText(help->globalPos(), legend_->summary(), &view_, legend_->geometry());
+            return true;
+        }
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+void MapOverlays::findSeenLayers()
+{
+    seen_.clear();
+    for (const auto& range : rangesInPicture(view_.ground(), view_.camera(), view_.viewport(),
+                                             view_.exaggeration(), kProbes)) {
+        seen_.push_back(range.has_value());
+    }
+    showLegend();
+}
+
+// The active layer where the picture shows it, otherwise the topmost layer that it shows.
+std::size_t MapOverlays::explainedLayer() const
+{
+    const std::vector<ShownLayer>& shown = view_.shownLayers();
+    const auto is_seen = [this, &shown](std::size_t index) {
+        return seen_.size() != shown.size() || seen_[index];
+    };
+    const Layer* active = activeLayer(session_);
+    std::size_t topmost = 0;
+    for (std::size_t i = shown.size(); i > 0; --i) {
+        if (is_seen(i - 1)) {
+            topmost = i - 1;
+            if (active != nullptr && shown[i - 1].map.dataset.get() == active->dataset.get()) {
+                return i - 1;
+            }
+        }
+    }
+    return topmost;
 }
 
 void MapOverlays::showLegend()
 {
-    const LoadedMap& map = view_.map();
+    if (!view_.map()) {
+        legend_->setContent({});
+        return;
+    }
+    const std::vector<ShownLayer>& shown = view_.shownLayers();
+    const ShownLayer& layer = shown[explainedLayer()];
     const TerrainLook& look = view_.look();
-    legend_->setContent({.mode = look.mode,
-                         .ramp = view_.ramp(),
-                         .range = tintedRange(*view_.ramp(), map.tint_range),
-                         .contour_interval_m = contourInterval(
-                             look, map.dataset->heightfield().range().value_or(HeightRange{}),
-                             metresPerPixel(view_.camera(), view_.viewport()))});
+    const auto known =
+        std::find_if(session_.layers.begin(), session_.layers.end(), [&layer](const Layer& l) {
+            return l.dataset.get() == layer.map.dataset.get();
+        });
+    const bool is_named = shown.size() > 1 && known != session_.layers.end();
+    const HeightRange all = layer.map.dataset->heightfield().range().value_or(HeightRange{});
+    legend_->setContent(
+        {.mode = look.mode,
+         .ramp = layer.ramp,
+         .range = colorRangeOf(layer),
+         .slopes = slopeRangeOf(layer),
+         .contour_interval_m =
+             contourInterval(look, all, metresPerPixel(view_.camera(), view_.viewport())),
+         .unit = height_unit_,
+         .all = all,
+         .layer = is_named ? QString::fromStdString(known->name) : QString(),
+         .datum = QString::fromStdString(layer.map.dataset->info().vertical_datum)});
 }
 
 void MapOverlays::showTouch()

@@ -1,8 +1,15 @@
 // What lies over the map, kept true to it.
 #pragma once
 
+#include "core/session/session.h"
+#include "ui/number_text.h"
+
 #include <QList>
 #include <QObject>
+#include <QTimer>
+
+#include <cstddef>
+#include <vector>
 
 class QAction;
 class QImage;
@@ -41,9 +48,18 @@ public:
     bool isHintOffered() const noexcept { return is_hint_offered_; }
     void dismissHint();
 
-    /// Puts what explains the map into a picture of the view: legend, compass and scale bar, as far
-    /// as they are to be seen.
-    void paintOver(QImage& picture) const;
+    /// Which overlays a picture gets, as far as they are shown in the view.
+    struct PictureParts {
+        bool has_legend = true;
+        bool has_scale = true; // compass and scale bar
+    };
+    /// Puts overlays into a picture of the view of any size: as large as in the view where it is as
+    /// high, and at the same distance from their corners.
+    void paintOver(QImage& picture, const PictureParts& parts) const;
+
+    /// Names of layers, and which one is active. After the view shows them.
+    void setSession(const Session& session);
+    void setHeightUnit(HeightUnit unit);
 
     /// So much of the view's upper edge is covered by something else.
     void setCovered(int height);
@@ -56,7 +72,12 @@ Q_SIGNALS:
     /// By the user.
     void hintDismissed();
 
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
+    void findSeenLayers();
+    std::size_t explainedLayer() const;
     void makeAction(const QString& text, const QString& name, const QList<QWidget*>& parts);
     void showMap();
     void showSight();
@@ -74,6 +95,10 @@ private:
     GestureHint* hint_ = nullptr;
     OverlayLayout* layout_ = nullptr;
     bool is_hint_offered_ = false;
+    Session session_;
+    HeightUnit height_unit_ = HeightUnit::Metres;
+    std::vector<bool> seen_; // which of the view's layers, top first; empty: not known yet
+    QTimer probe_timer_;
     int covered_height_ = 0;
     QList<QAction*> actions_;
 };

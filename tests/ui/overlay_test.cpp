@@ -443,7 +443,7 @@ TEST(OverlayText, WritesLengthsWithTheDigitsTheyHave)
     EXPECT_EQ(numberText(-0.004, 0.1), QStringLiteral("0.0"));
 }
 
-TEST(Legend, SaysWhatColoursAndLinesMean)
+TEST(Legend, SaysWhatColorsAndLinesMean)
 {
     Legend legend;
     EXPECT_TRUE(legend.sizeHint().isEmpty());
@@ -454,18 +454,60 @@ TEST(Legend, SaysWhatColoursAndLinesMean)
         return legend.accessibleName().toStdString();
     };
     EXPECT_EQ(name({.ramp = ramp, .range = mars, .contour_interval_m = 500.0}),
-              "Legend: height from -8068 m to 21171 m, contour lines every 500 m");
+              "Legend: elevation from −8068 m to 21171 m, contour lines every 500 m");
     EXPECT_FALSE(legend.sizeHint().isEmpty());
-    EXPECT_EQ(name({.mode = ShadingMode::Slope, .ramp = ramp, .range = mars}),
-              "Legend: slope from 0° to 40°");
+    EXPECT_EQ(name({.mode = ShadingMode::Slope,
+                    .ramp = ramp,
+                    .range = mars,
+                    .slopes = {.minimum = {}, .maximum = Angle::degrees(1.5)}}),
+              "Legend: slope from 0.0° to 1.5°");
     EXPECT_EQ(name({.mode = ShadingMode::Hillshade, .ramp = ramp, .contour_interval_m = 2000.0}),
               "Legend: contour lines every 2 km");
     EXPECT_FALSE(legend.sizeHint().isEmpty());
     EXPECT_EQ(name({.mode = ShadingMode::Hillshade, .ramp = ramp}), "Legend");
     EXPECT_TRUE(legend.sizeHint().isEmpty()) << "light alone needs no legend";
     EXPECT_EQ(name({.ramp = ramp, .range = {5.0, 5.0}}), "Legend");
-    EXPECT_TRUE(legend.sizeHint().isEmpty()) << "one height has one colour";
+    EXPECT_TRUE(legend.sizeHint().isEmpty()) << "one height has one color";
     EXPECT_TRUE(legend.testAttribute(Qt::WA_TransparentForMouseEvents));
+}
+
+TEST(Legend, CountsInTheUnitOfThePreferences)
+{
+    Legend legend;
+    const LegendContent content{.ramp = colorRampNamed("rust"),
+                                .range = {.minimum_m = -3048.0, .maximum_m = 6096.0},
+                                .unit = HeightUnit::Feet,
+                                .datum = QStringLiteral("areoid")};
+    legend.setContent(content);
+    EXPECT_EQ(legend.accessibleName(),
+              QStringLiteral("Legend: elevation from −10000 ft to 20000 ft (areoid)"));
+    EXPECT_FALSE(legend.hasLower());
+    EXPECT_FALSE(legend.hasHigher());
+}
+
+TEST(Legend, MarksElevationsBeyondTheEndsOfTheRamp)
+{
+    Legend legend;
+    LegendContent content{.ramp = colorRampNamed("rust"),
+                          .range = {.minimum_m = -5000.0, .maximum_m = 8000.0}};
+    content.all = content.range;
+    legend.setContent(content);
+    const QSize size = legend.sizeHint();
+    legend.resize(size);
+    const QImage plain = legend.grab().toImage();
+    content.all.maximum_m = 21171.0;
+    legend.setContent(content);
+    EXPECT_TRUE(legend.hasHigher());
+    EXPECT_FALSE(legend.hasLower());
+    EXPECT_EQ(legend.accessibleName(),
+              QStringLiteral("Legend: elevation from −5000 m to 8000 m, highest 21171 m"));
+    EXPECT_EQ(legend.sizeHint(), size) << "arrows take no room of their own";
+    const QImage marked = legend.grab().toImage();
+    EXPECT_NE(marked, plain);
+    content.all.minimum_m = -8200.0;
+    legend.setContent(content);
+    EXPECT_TRUE(legend.hasLower());
+    EXPECT_NE(legend.grab().toImage(), marked);
 }
 
 TEST(Legend, HasTheHighestColourOnTop)

@@ -5,6 +5,7 @@
 
 #include <QFontMetrics>
 #include <QPainter>
+#include <QPainterPath>
 #include <QStyle>
 
 #include <algorithm>
@@ -18,6 +19,9 @@ constexpr int kTickLength = 4;
 constexpr int kGap = 4;
 constexpr int kTicksMost = 7;
 constexpr double kLinesOfText = 6.5; // as high as the ramp is
+constexpr int kArrowHeight = 6;
+constexpr int kWidestHeading = 190;
+constexpr double kBeyondShare = 1e-3; // of the ramp's range: less beyond its ends is not marked
 
 QImage columnOf(const ColorRamp& ramp)
 {
@@ -30,13 +34,27 @@ QImage columnOf(const ColorRamp& ramp)
     return column;
 }
 
+// A triangle from its tip; a negative height points down. A rim keeps dark ends visible.
+void drawArrow(QPainter& painter, QPointF tip, QSizeF size, const QColor& color)
+{
+    QPainterPath path(tip);
+    path.lineTo(tip + QPointF(-size.width() / 2.0, size.height()));
+    path.lineTo(tip + QPointF(size.width() / 2.0, size.height()));
+    path.closeSubpath();
+    painter.setPen(QPen(overlayTextColor(), 1.0));
+    painter.setBrush(color);
+    painter.drawPath(path);
+}
+
 } // namespace
 
 bool LegendContent::operator==(const LegendContent& other) const noexcept
 {
     return mode == other.mode && ramp == other.ramp && range.minimum_m == other.range.minimum_m &&
-           range.maximum_m == other.range.maximum_m &&
-           contour_interval_m == other.contour_interval_m;
+           range.maximum_m == other.range.maximum_m && slopes == other.slopes &&
+           contour_interval_m == other.contour_interval_m && unit == other.unit &&
+           all.minimum_m == other.all.minimum_m && all.maximum_m == other.all.maximum_m &&
+           layer == other.layer && datum == other.datum;
 }
 
 Legend::Legend(QWidget* parent)
@@ -45,7 +63,7 @@ Legend::Legend(QWidget* parent)
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setFocusPolicy(Qt::NoFocus);
     setAccessibleName(tr("Legend"));
-    setAccessibleDescription(tr("What the colours and lines on the map mean"));
+    setAccessibleDescription(tr("What the colors and lines on the map mean"));
 }
 
 void Legend::setContent(const LegendContent& content)
@@ -56,8 +74,8 @@ void Legend::setContent(const LegendContent& content)
     const QSize room = sizeHint();
     content_ = content;
     const bool is_slope = content.mode == ShadingMode::Slope;
-    low_ = is_slope ? 0.0 : content.range.minimum_m;
-    high_ = is_slope ? kSlopeShownMax.degrees() : content.range.maximum_m;
+    low_ = is_slope ? content.slopes.minimum.degrees() : shown(content.range.minimum_m);
+    high_ = is_slope ? content.slopes.maximum.degrees() : shown(content.range.maximum_m);
     ticks_ = hasRamp() ? roundTicks(low_, high_, kTicksMost) : RoundTicks{};
     colors_ = hasRamp() ? columnOf(*content.ramp) : QImage();
     setAccessibleName(summary());
@@ -74,10 +92,43 @@ bool Legend::hasRamp() const
            std::isfinite(high_ - low_);
 }
 
-// Labels count in this many metres (or degrees).
-double Legend::unit() const
+bool Legend::isOfHeights() const
 {
-    return content_.mode == ShadingMode::Tint && ticks_.step >= 1000.0 ? 1000.0 : 1.0;
+    return hasRamp() && content_.mode == ShadingMode::Tint;
+}
+
+double Legend::shown(double height_m) const
+{
+    return inUnit(height_m, content_.unit);
+}
+
+bool Legend::hasHigher() const
+{
+    const HeightRange& range = content_.range;
+    if (hasRamp() && content_.mode == ShadingMode::Slope) {
+        return content_.slopes.maximum < Angle::degrees(90.0);
+    }
+    return isOfHeights() && content_.all.maximum_m > content_.all.minimum_m &&
+           content_.all.maximum_m >
+               range.maximum_m + kBeyondShare * (range.maximum_m - range.minimum_m);
+}
+
+bool Legend::hasLower() const
+{
+    const HeightRange& range = content_.range;
+    if (hasRamp() && content_.mode == ShadingMode::Slope) {
+        return content_.slopes.minimum > Angle();
+    }
+    return isOfHeights() && content_.all.maximum_m > content_.all.minimum_m &&
+           content_.all.minimum_m <
+               range.minimum_m - kBeyondShare * (range.maximum_m - range.minimum_m);
+}
+
+// Labels count in so many metres: kilometres where these are round. Feet stay feet.
+double Legend::kilo() const
+{
+    const bool is_long = content_.unit == HeightUnit::Metres && ticks_.step >= 1000.0;
+    return content_.mode == ShadingMode::Tint && is_long ? 1000.0 : 1.0;
 }
 
 QString Legend::title() const
@@ -86,8 +137,27 @@ QString Legend::title() const
         //: Title of the legend of slopes in degrees
         return tr("Slope (°)");
     }
-    //: Titles of the legend of heights, with the unit of its numbers
-    return unit() == 1000.0 ? tr("Height (km)") : tr("Height (m)");
+    //: Title of the legend of elevations; %1 is the unit of its numbers
+    return tr("Elevation (%1)")
+        .arg(kilo() == 1000.0 ? QStringLiteral("km") : unitSymbol(content_.unit));
+}
+
+// Above the ramp: the layer, what is shown, what it refers to.
+QStringList Legend::headings() const
+{
+    QStringList lines;
+    if (!content_.layer.isEmpty()) {
+        lines.append(content_.layer);
+    }
+    lines.append(title());
+    if (content_.mode == ShadingMode::Tint && !content_.datum.isEmpty()) {
+        lines.append(content_.datum);
+    }
+    const QFontMetrics metrics(font());
+    for (QString& line : lines) {
+        line = metrics.elidedText(line, Qt::ElideMiddle, kWidestHeading);
+    }
+    return lines;
 }
 
 QString Legend::contourText() const
@@ -101,30 +171,55 @@ QString Legend::contourText() const
 
 QString Legend::label(double value) const
 {
-    return numberText(value / unit(), ticks_.step / unit());
+    return numberText(value / kilo(), ticks_.step / kilo());
 }
 
-// For those who hear it: ends of the ramp, unit, interval.
+QString Legend::rampSummary() const
+{
+    if (!hasRamp()) {
+        return {};
+    }
+    if (content_.mode == ShadingMode::Slope) {
+        const double step = roundNumberBelow((high_ - low_) / 10.0);
+        return tr("Legend: slope from %1° to %2°")
+            .arg(numberText(low_, step), numberText(high_, step));
+    }
+    // Colors resolve a hundredth of the range.
+    const double step = roundNumberAbove((high_ - low_) / 100.0);
+    const auto text = [&](double value) {
+        //: %1 is an elevation, %2 its unit
+        return tr("%1 %2").arg(numberText(value, step), unitSymbol(content_.unit));
+    };
+    //: %1 and %2 are elevations
+    QString summary = tr("Legend: elevation from %1 to %2").arg(text(low_), text(high_));
+    if (!content_.datum.isEmpty()) {
+        //: %1 describes a legend, %2 is what its elevations refer to, such as "areoid"
+        summary = tr("%1 (%2)").arg(summary, content_.datum);
+    }
+    if (!content_.layer.isEmpty()) {
+        //: %1 describes the legend of a layer, %2 is the layer
+        summary = tr("%1, layer %2").arg(summary, content_.layer);
+    }
+    if (hasLower()) {
+        //: %1 describes a legend, %2 is an elevation below its lower end
+        summary = tr("%1, lowest %2").arg(summary, text(shown(content_.all.minimum_m)));
+    }
+    if (hasHigher()) {
+        //: %1 describes a legend, %2 is an elevation above its upper end
+        summary = tr("%1, highest %2").arg(summary, text(shown(content_.all.maximum_m)));
+    }
+    return summary;
+}
+
 QString Legend::summary() const
 {
-    QString text;
-    if (hasRamp()) {
-        // Whole degrees; of heights a hundredth of the range is what colours can tell.
-        const double step =
-            content_.mode == ShadingMode::Slope ? 1.0 : roundNumberAbove((high_ - low_) / 100.0);
-        const QString low = numberText(low_, step);
-        const QString high = numberText(high_, step);
-        text = content_.mode == ShadingMode::Slope
-                   ? tr("Legend: slope from %1° to %2°").arg(low, high)
-                   : tr("Legend: height from %1 m to %2 m").arg(low, high);
-    }
-    const QString contours = contourText();
-    if (contours.isEmpty()) {
+    const QString text = rampSummary();
+    if (contourText().isEmpty()) {
         return text.isEmpty() ? tr("Legend") : text;
     }
     const QString interval = lengthText(content_.contour_interval_m);
     return text.isEmpty() ? tr("Legend: contour lines every %1").arg(interval)
-                          //: %1 is what the legend says of colours, %2 the interval of contours
+                          //: %1 describes the colors of a legend, %2 is the interval of contours
                           : tr("%1, contour lines every %2").arg(text, interval);
 }
 
@@ -139,10 +234,13 @@ QSize Legend::sizeHint() const
         for (const double value : ticks_.values) {
             labels = std::max(labels, metrics.horizontalAdvance(label(value)));
         }
-        width =
-            std::max(kBarWidth + kTickLength + kGap + labels, metrics.horizontalAdvance(title()));
-        height = metrics.height() + kGap + static_cast<int>(metrics.height() * kLinesOfText) +
-                 metrics.height() / 2 + kGap;
+        width = kBarWidth + kTickLength + kGap + labels;
+        for (const QString& line : headings()) {
+            width = std::max(width, metrics.horizontalAdvance(line));
+        }
+        height = static_cast<int>(headings().size()) * metrics.height() + kGap +
+                 static_cast<int>(metrics.height() * kLinesOfText) + metrics.height() / 2 + kGap +
+                 2 * kArrowHeight;
     }
     if (!contours.isEmpty()) {
         width = std::max(width, metrics.horizontalAdvance(contours));
@@ -167,14 +265,26 @@ void Legend::paintEvent(QPaintEvent* /*event*/)
         QStyle::visualAlignment(layoutDirection(), Qt::AlignLeft) | Qt::AlignVCenter;
     int top = inside.top();
     if (hasRamp()) {
-        drawText(painter, QRect(inside.left(), top, inside.width(), metrics.height()), leading,
-                 title());
-        top += metrics.height() + kGap + metrics.height() / 4;
+        for (const QString& line : headings()) {
+            drawText(painter, QRect(inside.left(), top, inside.width(), metrics.height()), leading,
+                     line);
+            top += metrics.height();
+        }
+        top += kGap + metrics.height() / 4 + kArrowHeight;
         const QRect bar = placed(
             {inside.left(), top, kBarWidth, static_cast<int>(metrics.height() * kLinesOfText)});
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(bar, colors_);
         painter.setRenderHint(QPainter::Antialiasing);
+        const QRectF area(bar);
+        if (hasHigher()) {
+            drawArrow(painter, {area.center().x(), area.top() - 1.0 - kArrowHeight},
+                      {area.width(), kArrowHeight}, colors_.pixelColor(0, 0));
+        }
+        if (hasLower()) {
+            drawArrow(painter, {area.center().x(), area.bottom() + 1.0 + kArrowHeight},
+                      {area.width(), -kArrowHeight}, colors_.pixelColor(0, colors_.height() - 1));
+        }
         for (const double value : ticks_.values) {
             const double y = bar.bottom() + 1 - (value - low_) / (high_ - low_) * bar.height();
             const int line = static_cast<int>(std::lround(y));
@@ -185,7 +295,7 @@ void Legend::paintEvent(QPaintEvent* /*event*/)
                              line - metrics.height() / 2, inside.width(), metrics.height()}),
                      leading, label(value));
         }
-        top = bar.bottom() + 1 + metrics.height() / 4 + 2 * kGap;
+        top = bar.bottom() + 1 + metrics.height() / 4 + 2 * kGap + kArrowHeight;
     }
     const QString contours = contourText();
     if (!contours.isEmpty()) {

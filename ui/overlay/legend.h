@@ -1,9 +1,11 @@
-// What the colours on the map mean.
+// What the colors on the map mean.
 #pragma once
 
 #include "core/view/color_ramp.h"
 #include "core/view/round_numbers.h"
+#include "core/view/slope_range.h"
 #include "core/view/terrain_look.h"
+#include "ui/number_text.h"
 
 #include <QImage>
 #include <QWidget>
@@ -13,15 +15,21 @@ namespace marsview {
 /// What a legend explains. The ramp outlives it.
 struct LegendContent {
     ShadingMode mode = ShadingMode::Tint;
-    const ColorRamp* ramp = nullptr; // of the colours in use; null where there are none
-    HeightRange range{};             // heights at the ends of the ramp, for Tint
+    const ColorRamp* ramp = nullptr; // of the colors in use; null where there are none
+    HeightRange range{};             // elevations at the ends of the ramp, for Tint
+    SlopeRange slopes{};             // slopes there, for Slope
     double contour_interval_m = 0.0; // of the lines drawn; 0 without
+    HeightUnit unit = HeightUnit::Metres;
+    /// Of the layer. Where it reaches beyond `range`, arrows at the ends of the ramp show it.
+    HeightRange all{};
+    QString layer{}; // its name, where several layers are in the picture
+    QString datum{}; // that elevations refer to; empty where unknown
 
     bool operator==(const LegendContent& other) const noexcept;
 };
 
-/// The ramp with round heights or slopes beside it, and the interval of the contour lines. Nothing
-/// where colours mean nothing. Lets the mouse through.
+/// The ramp with round elevations or slopes next to it, and the interval of the contour lines.
+/// Nothing where colors mean nothing. Transparent to the mouse.
 class Legend final : public QWidget {
     Q_OBJECT
 
@@ -34,6 +42,13 @@ public:
     /// Empty while there is nothing to explain.
     QSize sizeHint() const override;
 
+    /// All that is shown, and the extremes beyond the ends of the ramp, in words: the accessible
+    /// name, and a tooltip.
+    QString summary() const;
+    /// Some elevations have the color of the upper (lower) end and lie beyond it.
+    bool hasHigher() const;
+    bool hasLower() const;
+
 Q_SIGNALS:
     /// There is more or less to show than before.
     void roomChanged();
@@ -43,17 +58,20 @@ protected:
 
 private:
     bool hasRamp() const;
-    double unit() const;
+    bool isOfHeights() const;
+    double shown(double value) const;
+    double kilo() const;
     QString title() const;
+    QStringList headings() const;
     QString contourText() const;
     QString label(double value) const;
-    QString summary() const;
+    QString rampSummary() const;
 
     LegendContent content_;
-    double low_ = 0.0; // at the ends of the ramp: metres, or degrees of slope
+    double low_ = 0.0; // at the ends of the ramp: elevations in content_.unit, or degrees of slope
     double high_ = 0.0;
-    RoundTicks ticks_;
-    QImage colors_; // one column, the highest on top
+    RoundTicks ticks_; // in the same unit
+    QImage colors_;    // one column, the highest on top
 };
 
 } // namespace marsview

@@ -1,6 +1,7 @@
 #include "ui/overlay/overlay_text.h"
 
 #include "core/view/round_numbers.h"
+#include "ui/number_text.h"
 
 #include <QCoreApplication>
 #include <QLocale>
@@ -39,7 +40,7 @@ QString numberText(double value, double step)
 {
     const int decimals = step > 0.0 ? decimalsOf(roundNumberBelow(step)) : 0;
     const double half = 0.5 * std::pow(10.0, -decimals);
-    return QLocale().toString(std::abs(value) < half ? 0.0 : value, 'f', decimals);
+    return withMinusSigns(QLocale().toString(std::abs(value) < half ? 0.0 : value, 'f', decimals));
 }
 
 QString lengthText(double round_length_m)
