@@ -1,22 +1,17 @@
 #include "ui/main_tool_bar.h"
 
-#include "core/view/exaggeration.h"
-#include "ui/number_text.h"
+#include "ui/exaggeration_control.h"
 #include "ui/window_actions.h"
 
 #include <QAction>
 #include <QActionGroup>
+#include <QEvent>
 #include <QLabel>
 #include <QMenu>
-#include <QSlider>
 #include <QToolButton>
 
 namespace marsview {
 namespace {
-
-// The slider spans ×0.001, for degrees against metres, to ×100 in round steps of about 1.5.
-constexpr int kSliderStepsDown = 18;
-constexpr int kSliderStepsUp = 12;
 
 constexpr int kToolIconSide = 20; // points
 
@@ -24,8 +19,7 @@ constexpr int kToolIconSide = 20; // points
 
 MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     : QToolBar(tr("Main Toolbar"), parent)
-    , slider_(new QSlider(Qt::Horizontal, this))
-    , label_(new QLabel(this))
+    , exaggeration_(new ExaggerationControl(this))
 {
     setObjectName(QStringLiteral("mainToolBar"));
     setIconSize({kToolIconSide, kToolIconSide});
@@ -41,16 +35,7 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     auto* caption = new QLabel(tr("Exaggeration"), this);
     caption->setContentsMargins(6, 0, 6, 0);
     addWidget(caption);
-    slider_->setAccessibleName(tr("Vertical exaggeration"));
-    slider_->setToolTip(tr("How much heights are stretched (+ and −)"));
-    slider_->setRange(-kSliderStepsDown, kSliderStepsUp);
-    slider_->setPageStep(2);
-    slider_->setMinimumWidth(70);
-    slider_->setMaximumWidth(150);
-    addWidget(slider_);
-    label_->setContentsMargins(6, 0, 6, 0);
-    label_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("×0.0001")) + 12);
-    addWidget(label_);
+    addWidget(exaggeration_);
     addSeparator();
     const auto add_menu = [this](QMenu* menu, const QString& text, const QString& tip) {
         auto* button = new QToolButton(this);
@@ -62,8 +47,11 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
         button->setPopupMode(QToolButton::InstantPopup);
         addWidget(button);
     };
-    add_menu(actions.shading, tr("Shading"), tr("What the colours of the ground tell"));
-    add_menu(actions.ramps, tr("Ramp"), tr("Colour ramp of the active layer"));
+    add_menu(actions.shading, tr("Shading"), tr("What the terrain colors represent"));
+    //: On a button: color ramps
+    add_menu(actions.ramps, tr("Colors"), tr("Color ramp of the active layer"));
+    //: On a button: over which elevations the color ramp is spread
+    add_menu(actions.stretches, tr("Stretch"), tr("Color stretch of the active layer"));
     actions.light->setIconText(tr("Light"));
     addAction(actions.light);
     light_button_ = widgetForAction(actions.light);
@@ -82,32 +70,26 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
             button->setAccessibleName(tr("More Tools"));
         }
     }
-    // Steps count from ×1, so a position means the same on every map.
-    connect(slider_, &QSlider::valueChanged, this,
-            [this](int steps) { Q_EMIT exaggerationRequested(steppedExaggeration(1.0, steps)); });
-    showExaggeration(1.0);
-    setExaggerationEnabled(false);
+    connect(exaggeration_, &ExaggerationControl::requested, this,
+            &MainToolBar::exaggerationRequested);
+    connect(exaggeration_, &ExaggerationControl::dragged, this, &MainToolBar::exaggerationDragged);
+    connect(exaggeration_, &ExaggerationControl::dragEnded, this, &MainToolBar::dragEnded);
+    exaggeration_->setEnabled(false);
 }
 
 void MainToolBar::showExaggeration(double exaggeration)
 {
-    //: Vertical exaggeration: a factor
-    label_->setText(tr("×%1").arg(shortNumberText(exaggeration, 3)));
-    int steps = 0;
-    while (steps < kSliderStepsUp && steppedExaggeration(1.0, steps + 1) <= exaggeration * 1.001) {
-        ++steps;
-    }
-    while (steps > -kSliderStepsDown && steppedExaggeration(1.0, steps) > exaggeration * 1.001) {
-        --steps;
-    }
-    const QSignalBlocker blocker(slider_);
-    slider_->setValue(steps);
+    exaggeration_->showExaggeration(exaggeration);
+}
+
+void MainToolBar::setExaggerationRange(const ExaggerationRange& range)
+{
+    exaggeration_->setRange(range);
 }
 
 void MainToolBar::setExaggerationEnabled(bool is_enabled)
 {
-    slider_->setEnabled(is_enabled);
-    label_->setEnabled(is_enabled);
+    exaggeration_->setEnabled(is_enabled);
 }
 
 void MainToolBar::resizeEvent(QResizeEvent* event)

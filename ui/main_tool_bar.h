@@ -1,15 +1,16 @@
 // The toolbar: what is used all the time.
 #pragma once
 
+#include "core/view/exaggeration.h"
+
 #include <QList>
 #include <QToolBar>
 
-class QLabel;
-class QSlider;
 class QToolButton;
 
 namespace marsview {
 
+class ExaggerationControl;
 struct WindowActions;
 
 class MainToolBar final : public QToolBar {
@@ -19,6 +20,7 @@ public:
     explicit MainToolBar(const WindowActions& actions, QWidget* parent = nullptr);
 
     void showExaggeration(double exaggeration);
+    void setExaggerationRange(const ExaggerationRange& range);
     void setExaggerationEnabled(bool is_enabled);
     /// The button of the light, or the toolbar where it has no room for it.
     const QWidget& lightAnchor() const;
@@ -29,6 +31,10 @@ protected:
 
 Q_SIGNALS:
     void exaggerationRequested(double exaggeration);
+    /// As exaggerationRequested(), while the slider is dragged.
+    void exaggerationDragged(double exaggeration);
+    /// A drag of the slider begins or has ended.
+    void dragEnded();
 
 private:
     void fitTexts();
@@ -36,8 +42,7 @@ private:
     /// Those without a text first, where there is no room for all texts.
     QList<QToolButton*> general_buttons_;
     QList<QToolButton*> special_buttons_; // tools and menus
-    QSlider* slider_ = nullptr;
-    QLabel* label_ = nullptr;
+    ExaggerationControl* exaggeration_ = nullptr;
     QWidget* light_button_ = nullptr;
 };
 

@@ -1,6 +1,5 @@
 #include "ui/main_window.h"
 
-#include "core/view/exaggeration.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "ui/action_icons.h"
 #include "ui/contact_sounds.h"
@@ -19,9 +18,11 @@
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
+#include "ui/picture_saver.h"
 #include "ui/recent_files.h"
 #include "ui/sentence.h"
 #include "ui/status_readout.h"
+#include "ui/stretch_control.h"
 #include "ui/terrain_view.h"
 #include "ui/theme.h"
 #include "ui/tools/map_menu.h"
@@ -142,6 +143,12 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
                                              : RecentFiles::Memory::WindowOnly,
                               this))
     , light_popup_(new LightPopup(this))
+    , picture_saver_(new PictureSaver(*view_,
+                                      *overlays_,
+                                      isRemembered() ? PictureSaver::Memory::Settings
+                                                     : PictureSaver::Memory::WindowOnly,
+                                      this))
+    , stretch_(new StretchControl(*controller_, *actions_, *view_, this))
 {
     if (!options_.opener.resources.tiles) {
         options_.opener.resources.tiles = std::make_shared<TileCache>(TileCacheOptions{});
@@ -245,11 +252,8 @@ void MainWindow::connectActions()
             view_->step(step);
         });
     }
-    const auto exaggerate = [this](int steps) {
-        view_->setExaggeration(steppedExaggeration(view_->exaggeration(), steps));
-    };
-    on(actions_->exaggerate_more, [exaggerate] { exaggerate(1); });
-    on(actions_->exaggerate_less, [exaggerate] { exaggerate(-1); });
+    on(actions_->exaggerate_more, [this] { controller_->stepExaggeration(1); });
+    on(actions_->exaggerate_less, [this] { controller_->stepExaggeration(-1); });
     on(actions_->toggle_visibility,
        [this](bool is_visible) { controller_->setVisible(session().active, is_visible); });
     on(actions_->layer.go_to, [this] { controller_->goTo(session().active); });
@@ -313,12 +317,24 @@ void MainWindow::connectPanels()
             controller_->prepare(session().active);
         }
     });
-    connect(tool_bar_, &MainToolBar::exaggerationRequested, view_, &TerrainView::setExaggeration);
+    connect(tool_bar_, &MainToolBar::exaggerationRequested, controller_,
+            [this](double exaggeration) { controller_->setExaggeration(exaggeration); });
+    connect(tool_bar_, &MainToolBar::exaggerationDragged, controller_, [this](double exaggeration) {
+        controller_->setExaggeration(exaggeration, ChangeKind::OfDrag);
+    });
+    connect(tool_bar_, &MainToolBar::dragEnded, controller_, &SessionController::endDrag);
     connect(light_popup_, &LightPopup::lightChanged, controller_, &SessionController::setLight);
     connect(load_status_, &LoadStatus::cancelRequested, this, &MainWindow::cancelLoading);
     connect(load_status_, &LoadStatus::stopPreparingRequested, controller_,
             &SessionController::stopPreparing);
     connect(recent_, &RecentFiles::chosen, this, &MainWindow::open);
+    connect(picture_saver_, &PictureSaver::saved, this, [this](const QString& file) {
+        //: In the status bar, for a few seconds; %1 is a file
+        statusBar()->showMessage(tr("Saved %1").arg(QDir::toNativeSeparators(file)),
+                                 kMessageDuration);
+    });
+    connect(picture_saver_, &PictureSaver::failed, this,
+            [this](const QString& problem) { reportFailure(tr("Cannot Save Picture"), problem); });
     connect(readout_, &StatusReadout::displayChosen, this, [this](CoordinateDisplay display) {
         if (isRemembered()) {
             QSettings().setValue(displayKey(), static_cast<int>(display));
@@ -544,13 +560,18 @@ void MainWindow::cancelLoading()
     controller_->cancel();
 }
 
+QStringList MainWindow::rasterFilters()
+{
+    return {tr("Elevation maps (*.tif *.tiff *.lbl *.img *.cub *.hgt *.dem *.asc *.flt *.hdr *.bil "
+               "*.nc *.cdf *.dt0 *.dt1 *.dt2 *.vrt *.xml *.zip)"),
+            tr("All files (*)")};
+}
+
 void MainWindow::chooseFile()
 {
     auto* dialog = new QFileDialog(this, tr("Open Map"), last_folder_);
     dialog->setFileMode(QFileDialog::ExistingFiles);
-    dialog->setNameFilters({tr("Elevation maps (*.tif *.tiff *.lbl *.img *.cub *.hgt *.dem *.asc "
-                               "*.flt *.hdr *.bil *.nc *.cdf *.dt0 *.dt1 *.dt2 *.vrt *.xml *.zip)"),
-                            tr("All files (*)")});
+    dialog->setNameFilters(rasterFilters());
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::filesSelected, controller_, &SessionController::open);
     dialog->open();
@@ -560,7 +581,12 @@ void MainWindow::chooseFolder()
 {
     auto* dialog = new QFileDialog(this, tr("Open Folder of Rasters"), last_folder_);
     dialog->setFileMode(QFileDialog::Directory);
-    dialog->setOption(QFileDialog::ShowDirsOnly);
+    // Most dialogs of desktops hide the files of a folder; people choose it by its files.
+    dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setOption(QFileDialog::ShowDirsOnly, false);
+    dialog->setNameFilters(rasterFilters());
+    //: On a button: open all rasters in a folder as one map
+    dialog->setLabelText(QFileDialog::Accept, tr("Open Folder"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::filesSelected, controller_, &SessionController::open);
     dialog->open();
@@ -585,7 +611,14 @@ void MainWindow::showSession()
     actions_->showSession(session());
     datasets_->setSession(session());
     light_popup_->setLight(session().look.light_azimuth, session().look.light_altitude);
-    tool_bar_->setExaggerationEnabled(!shownLayers(session()).empty());
+    const std::vector<const Layer*> shown = shownLayers(session());
+    tool_bar_->setExaggerationEnabled(!shown.empty());
+    if (!shown.empty()) {
+        tool_bar_->setExaggerationRange(
+            exaggerationRange(suitableExaggeration(*shown.front()->dataset)));
+        tool_bar_->showExaggeration(exaggerationOf(session()));
+    }
+    overlays_->setSession(session());
     showActive();
     settleIfIdle();
 }
@@ -708,63 +741,12 @@ void MainWindow::reportFailure(const QString& title, const QString& problem)
     }
 }
 
-// The picture is of what is seen now, with all that belongs to it: pieces of a large map may be on
-// their way while the dialog is open, and after that.
 void MainWindow::savePicture()
 {
-    struct Order {
-        QImage picture;
-        QString file;
-    };
-    const auto order = std::make_shared<Order>();
     const Layer* active = activeLayer(session());
-    const QString name = active != nullptr
-                             ? QFileInfo(QString::fromStdString(active->name)).completeBaseName()
-                             : tr("map");
-    auto* dialog = new QFileDialog(this, tr("Save Picture"), last_folder_);
-    dialog->selectFile(name + QStringLiteral(".png"));
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters({tr("PNG picture (*.png)"), tr("JPEG picture (*.jpg *.jpeg)")});
-    dialog->setDefaultSuffix(QStringLiteral("png"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    const auto write_if_there = [this, order] {
-        if (!order->picture.isNull() && !order->file.isEmpty()) {
-            writePicture(order->picture, order->file);
-        }
-    };
-    const auto take = [this, order, write_if_there] {
-        order->picture = view_->terrainPicture();
-        overlays_->paintOver(order->picture);
-        write_if_there();
-    };
-    if (view_->isPictureComplete()) {
-        take();
-    } else {
-        auto* once = new QObject(this);
-        connect(
-            view_, &TerrainView::pictureCompleted, once,
-            [once, take] {
-                once->deleteLater();
-                take();
-            },
-            Qt::SingleShotConnection);
-        connect(dialog, &QFileDialog::rejected, once, &QObject::deleteLater);
-    }
-    connect(dialog, &QFileDialog::fileSelected, this, [order, write_if_there](const QString& file) {
-        order->file = file;
-        write_if_there();
-    });
-    dialog->open();
-}
-
-void MainWindow::writePicture(const QImage& picture, const QString& file)
-{
-    if (!picture.save(file)) {
-        reportFailure(tr("Cannot Save Picture"),
-                      tr("%1: the picture cannot be written; choose another folder or a name "
-                         "that ends in .png")
-                          .arg(file));
-    }
+    picture_saver_->start(active != nullptr
+                              ? QFileInfo(QString::fromStdString(active->name)).completeBaseName()
+                              : tr("map"));
 }
 
 void MainWindow::goToCoordinate()
@@ -798,6 +780,8 @@ void MainWindow::setPreferences(const Preferences& preferences)
     readout_->setHeightUnit(preferences.height_unit);
     datasets_->setHeightUnit(preferences.height_unit);
     georeferencing_->setHeightUnit(preferences.height_unit);
+    overlays_->setHeightUnit(preferences.height_unit);
+    stretch_->setHeightUnit(preferences.height_unit);
     view_->setAntialiasing(preferences.has_antialiasing);
     view_->setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));
     view_->setContactModel(preferences.contact_model);

@@ -9,7 +9,6 @@
 #include "ui/session_controller.h"
 #include "ui/spacemouse_controller.h"
 
-#include <QImage>
 #include <QMainWindow>
 
 #include <memory>
@@ -27,8 +26,10 @@ class MapOverlays;
 class MainToolBar;
 class MapMenu;
 class NoticeBar;
+class PictureSaver;
 class RecentFiles;
 class StatusReadout;
+class StretchControl;
 class TerrainView;
 class WindowDocks;
 struct GroundPoint;
@@ -81,6 +82,7 @@ public:
     RecentFiles* recentFiles() const noexcept { return recent_; }
     const WindowActions& actionSet() const noexcept { return *actions_; }
     SessionController& controller() noexcept { return *controller_; }
+    StretchControl& stretch() noexcept { return *stretch_; }
     const Session& session() const noexcept { return controller_->session(); }
     QUndoStack& undoStack() noexcept { return controller_->undoStack(); }
     const LoadController& loader() const noexcept { return controller_->loader(); }
@@ -132,8 +134,8 @@ private:
     void showPreparation();
     QString troubleWithFetched(const std::shared_ptr<const Dataset>& dataset) const;
     void reportFailure(const QString& title, const QString& problem);
+    static QStringList rasterFilters();
     void savePicture();
-    void writePicture(const QImage& picture, const QString& file);
     void openLightPopup();
     void settleIfIdle();
 
@@ -159,6 +161,8 @@ private:
     LoadStatus* load_status_ = nullptr;
     RecentFiles* recent_ = nullptr;
     LightPopup* light_popup_ = nullptr;
+    PictureSaver* picture_saver_ = nullptr;
+    StretchControl* stretch_ = nullptr;
     std::shared_ptr<const Dataset> noticed_; // whose notices were shown last
     PreparationState noticed_state_ = PreparationState::None;
     QString noticed_trouble_; // that tiles from servers are not kept

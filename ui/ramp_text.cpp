@@ -20,12 +20,14 @@ struct NamedRamp {
 
 // A ramp that is not here is called by its own name with a capital.
 constexpr std::array kNames{
-    //: A colour ramp from blue to rose, as the sky at sunrise
+    //: A color ramp from blue to rose, as the sky at sunrise
     NamedRamp{"dawn", QT_TRANSLATE_NOOP("ColorRamp", "Dawn")},
-    //: A colour ramp of the colours of Mars
+    //: A color ramp of the colors of Mars
     NamedRamp{"rust", QT_TRANSLATE_NOOP("ColorRamp", "Rust")},
-    //: A colour ramp from dark to light grey
-    NamedRamp{"grey", QT_TRANSLATE_NOOP("ColorRamp", "Grey")},
+    //: A color ramp from dark to light gray
+    NamedRamp{"grey", QT_TRANSLATE_NOOP("ColorRamp", "Gray")},
+    //: A color ramp with different colors below and above the elevation 0
+    NamedRamp{"datum", QT_TRANSLATE_NOOP("ColorRamp", "Diverging (at 0)")},
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// Colour ramps as people see and read them.
+// Color ramps as people see and read them.
 #pragma once
 
 #include "core/view/color_ramp.h"

@@ -3,9 +3,14 @@
 #include <utility>
 
 namespace marsview {
+namespace {
+
+constexpr int kKindBits = 2;
+
+} // namespace
 
 SessionCommand::SessionCommand(
-    const QString& text, Session before, Session after, Apply apply, Run run)
+    const QString& text, Session before, Session after, Apply apply, SessionRun run)
     : QUndoCommand(text)
     , before_(std::move(before))
     , after_(std::move(after))
@@ -13,10 +18,20 @@ SessionCommand::SessionCommand(
     , run_(run)
 {}
 
+int SessionCommand::id() const
+{
+    return run_.kind == SessionRun::Kind::None
+               ? -1 // merges with nothing
+               : (run_.serial << kKindBits) + static_cast<int>(run_.kind);
+}
+
 bool SessionCommand::mergeWith(const QUndoCommand* other)
 {
     // Commands of one id are of one class.
-    after_ = static_cast<const SessionCommand*>(other)->after_;
+    const auto* next = static_cast<const SessionCommand*>(other);
+    after_ = next->after_;
+    setText(next->text());
+    setObsolete(after_ == before_);
     return true;
 }
 

@@ -1,5 +1,8 @@
 #include "ui/session_controller.h"
 
+#include "core/session/range_in_picture.h"
+#include "core/view/exaggeration.h"
+#include "ui/number_text.h"
 #include "ui/terrain_view.h"
 
 #include <algorithm>
@@ -22,10 +25,14 @@ QString nameOf(const Layer& layer)
 
 bool isSame(const std::vector<ShownLayer>& a, const std::vector<ShownLayer>& b)
 {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const ShownLayer& x, const ShownLayer& y) {
-                          return x.map.dataset == y.map.dataset && x.ramp == y.ramp;
-                      });
+    return std::equal(
+        a.begin(), a.end(), b.begin(), b.end(), [](const ShownLayer& x, const ShownLayer& y) {
+            const HeightRange a_range = colorRangeOf(x);
+            const HeightRange b_range = colorRangeOf(y);
+            return x.map.dataset == y.map.dataset && x.ramp == y.ramp &&
+                   marsview::slopeRangeOf(x) == marsview::slopeRangeOf(y) &&
+                   a_range.minimum_m == b_range.minimum_m && a_range.maximum_m == b_range.maximum_m;
+        });
 }
 
 // A place of `layer` on the grid of the scene, which lies in the same CRS.
@@ -301,7 +308,8 @@ void SessionController::setRamp(LayerId id, const QString& ramp)
 {
     if (const Layer* layer = layerOf(session_, id)) {
         //: Continues "Undo …"; %1 is a layer
-        change(tr("Ramp of %1").arg(nameOf(*layer)), withRamp(session_, id, ramp.toStdString()));
+        change(tr("Color Ramp of %1").arg(nameOf(*layer)),
+               withRamp(session_, id, ramp.toStdString()));
     }
 }
 
@@ -337,7 +345,106 @@ void SessionController::setLight(Angle azimuth, Angle altitude)
     look.light_azimuth = azimuth;
     look.light_altitude = altitude;
     //: Continues "Undo …"
-    change(tr("Light"), withLook(session_, look), SessionCommand::Run::Light);
+    change(tr("Light"), withLook(session_, look),
+           {.kind = SessionRun::Kind::Light, .serial = drag_serial_});
+}
+
+void SessionController::setStretch(LayerId id, const ColorStretch& stretch, ChangeKind kind)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Color Stretch of %1").arg(nameOf(*layer)), withStretch(session_, id, stretch),
+               kind == ChangeKind::OfDrag
+                   ? SessionRun{.kind = SessionRun::Kind::Stretch, .serial = drag_serial_}
+                   : SessionRun{});
+    }
+}
+
+void SessionController::setSlopeRange(LayerId id, const std::optional<SlopeRange>& range)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Slope Colors of %1").arg(nameOf(*layer)), withSlopeRange(session_, id, range));
+    }
+}
+
+SlopeRange SessionController::slopeRangeOf(const Layer& layer) const
+{
+    return layer.slope_range.value_or(maps_.find(layer.dataset).slope_range);
+}
+
+void SessionController::stretchToView(LayerId id)
+{
+    const Layer* layer = layerOf(session_, id);
+    if (layer == nullptr) {
+        return;
+    }
+    const SceneSurface& ground = view_.ground();
+    const auto ranges =
+        rangesInPicture(ground, view_.camera(), view_.viewport(), view_.exaggeration());
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        if (ground.maps()[i].map.dataset.get() == layer->dataset.get() && ranges[i] &&
+            isStretchRange(ranges[i]->minimum_m, ranges[i]->maximum_m)) {
+            //: Continues "Undo …"; %1 is a layer
+            change(tr("Stretch of %1 to Current View").arg(nameOf(*layer)),
+                   withStretch(session_, id,
+                               fixedStretch(ranges[i]->minimum_m, ranges[i]->maximum_m)));
+            return;
+        }
+    }
+}
+
+HeightRange SessionController::stretchedRangeOf(const Layer& layer) const
+{
+    std::erase_if(known_ranges_, [](const KnownRange& known) { return known.dataset.expired(); });
+    const auto known =
+        std::find_if(known_ranges_.begin(), known_ranges_.end(), [&layer](const KnownRange& range) {
+            return range.dataset.lock() == layer.dataset && range.stretch == layer.stretch;
+        });
+    if (known != known_ranges_.end()) {
+        return known->range;
+    }
+    const LoadedMap map = maps_.find(layer.dataset);
+    if (!map) {
+        return layer.dataset->heightfield().range().value_or(HeightRange{});
+    }
+    const HeightRange range =
+        stretchedRange(layer.stretch, {.heights = layer.dataset->heightfield(),
+                                       .means = map.analysis->means,
+                                       .automatic = map.tint_range});
+    if (layer.stretch.kind == StretchKind::Percentile) {
+        known_ranges_.push_back(
+            {.dataset = layer.dataset, .stretch = layer.stretch, .range = range});
+    }
+    return range;
+}
+
+void SessionController::setExaggeration(double exaggeration, ChangeKind kind)
+{
+    const std::vector<const Layer*> shown = shownLayers(session_);
+    if (shown.empty() || !(exaggeration > 0.0)) {
+        return;
+    }
+    const ExaggerationRange range =
+        exaggerationRange(suitableExaggeration(*shown.front()->dataset));
+    const double bounded = std::clamp(exaggeration, range.least, range.most);
+    const SessionRun run =
+        kind == ChangeKind::OfDrag
+            ? SessionRun{.kind = SessionRun::Kind::Exaggeration, .serial = drag_serial_}
+            : SessionRun{};
+    //: Continues "Undo …"; %1 is a factor
+    change(tr("Exaggeration ×%1").arg(shortNumberText(bounded, 3)),
+           withExaggeration(session_, bounded), run);
+}
+
+void SessionController::stepExaggeration(int steps)
+{
+    setExaggeration(steppedExaggeration(exaggerationOf(session_), steps));
+}
+
+void SessionController::endDrag()
+{
+    ++drag_serial_;
 }
 
 void SessionController::activate(LayerId id)
@@ -347,7 +454,7 @@ void SessionController::activate(LayerId id)
     }
 }
 
-void SessionController::change(const QString& text, const Session& after, SessionCommand::Run run)
+void SessionController::change(const QString& text, const Session& after, SessionRun run)
 {
     if (after == session_) {
         return;
@@ -374,11 +481,16 @@ void SessionController::show()
 {
     std::vector<ShownLayer> shown;
     for (const Layer* layer : shownLayers(session_)) {
-        shown.push_back({.map = maps_.find(layer->dataset), .ramp = &rampOf(*layer)});
+        shown.push_back({.map = maps_.find(layer->dataset),
+                         .ramp = &rampOf(*layer),
+                         .color_range = stretchedRangeOf(*layer),
+                         .slope_range = layer->slope_range});
     }
     if (!isSame(shown, shown_)) {
         shown_ = std::move(shown);
-        view_.setLayers(shown_);
+        view_.setLayers(shown_, exaggerationOf(session_));
+    } else if (!shown_.empty()) {
+        view_.setExaggeration(exaggerationOf(session_));
     }
     if (view_.look() != session_.look) {
         view_.setLook(session_.look);

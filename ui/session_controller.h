@@ -42,6 +42,9 @@ struct Preparation {
     QString problem{}; // "FILE: WHY" of what failed
 };
 
+/// Whether a change is a step of undo by itself, or one of many of a drag.
+enum class ChangeKind { Single, OfDrag };
+
 /// Holds the session and changes it on request; every change is undoable, except which layer is
 /// active. What has to be loaded is loaded first, one after the other in the order asked for, and
 /// becomes a change when it is there. Lives in the GUI thread; must not outlive the view.
@@ -90,7 +93,25 @@ public:
     void setVisible(LayerId id, bool is_visible);
     /// A name of colorRamps(); empty for the one that suits the body.
     void setRamp(LayerId id, const QString& ramp);
+    /// Over which elevations the layer's ramp is spread.
+    void setStretch(LayerId id, const ColorStretch& stretch, ChangeKind kind = ChangeKind::Single);
+    /// Over which slopes it is spread; nothing for the slopes that suit the map.
+    void setSlopeRange(LayerId id, const std::optional<SlopeRange>& range);
+    /// Over which slopes it is spread now.
+    SlopeRange slopeRangeOf(const Layer& layer) const;
+    /// From the lowest to the highest elevation of the layer in the picture. Nothing where the
+    /// picture shows none of it, or a single elevation.
+    void stretchToView(LayerId id);
+    /// The elevations that a layer's stretch comes to, without the symmetry of diverging ramps.
+    HeightRange stretchedRangeOf(const Layer& layer) const;
     void rename(LayerId id, const QString& name);
+    /// Of the picture, bounded to exaggerationRange() of the topmost layer in it. Nothing where all
+    /// layers are hidden.
+    void setExaggeration(double exaggeration, ChangeKind kind = ChangeKind::Single);
+    /// The next round number above, or below for steps < 0.
+    void stepExaggeration(int steps);
+    /// What is dragged next is a step of undo of its own.
+    void endDrag();
     void setShading(ShadingMode mode);
     void setContours(bool has_contours);
     void setLight(Angle azimuth, Angle altitude);
@@ -148,9 +169,7 @@ private:
     void forgetEnding(const DatasetSpec& spec);
     void lookAfterPreviews();
     bool isCompleting(LayerId id) const;
-    void change(const QString& text,
-                const Session& after,
-                SessionCommand::Run run = SessionCommand::Run::None);
+    void change(const QString& text, const Session& after, SessionRun run = {});
     void apply(const Session& session);
     void show();
     void revealWhatCame();
@@ -170,6 +189,14 @@ private:
     int begun_count_ = 0;
     LayerId to_reveal_ = LayerId::None;
     std::vector<ShownLayer> shown_;
+    int drag_serial_ = 0;
+    /// A percentile takes a while to find.
+    struct KnownRange {
+        std::weak_ptr<const Dataset> dataset;
+        ColorStretch stretch;
+        HeightRange range;
+    };
+    mutable std::vector<KnownRange> known_ranges_;
 };
 
 /// The ramp that a layer is drawn with.

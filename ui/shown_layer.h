@@ -4,11 +4,28 @@
 #include "core/session/loaded_map.h"
 #include "core/view/color_ramp.h"
 
+#include <optional>
+
 namespace marsview {
 
 struct ShownLayer {
     LoadedMap map;
     const ColorRamp* ramp = nullptr; // one of colorRamps(); never null
+    /// Over which elevations the ramp is spread; nothing for what suits the map.
+    std::optional<HeightRange> color_range{};
+    std::optional<SlopeRange> slope_range{}; // the same for slopes
 };
+
+/// The elevations at the ends of the layer's ramp.
+inline HeightRange colorRangeOf(const ShownLayer& layer)
+{
+    return tintedRange(*layer.ramp, layer.color_range.value_or(layer.map.tint_range));
+}
+
+/// The slopes there in the mode Slope.
+inline SlopeRange slopeRangeOf(const ShownLayer& layer)
+{
+    return layer.slope_range.value_or(layer.map.slope_range);
+}
 
 } // namespace marsview

@@ -118,8 +118,10 @@ TerrainView::~TerrainView()
     releaseGraphics();
 }
 
-void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
+void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
+                            std::optional<double> exaggeration)
 {
+    shown_ = top_first;
     std::vector<LoadedMap> maps;
     for (const ShownLayer& layer : top_first) {
         maps.push_back(layer.map);
@@ -137,6 +139,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     // What is seen of a preview is seen of its map, whatever would suit that better.
     const bool is_suited =
         map_ && !is_completed && style_.exaggeration == suitableExaggeration(*map_.dataset);
+    const double exaggeration_before = style_.exaggeration;
     const SceneSurface before = ground_;
     map_ = map;
     ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
@@ -144,6 +147,8 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     layers_.clear();
     for (std::size_t i = 0; i < maps.size(); ++i) {
         layers_.push_back(terrainLayer(maps[i], ground_.maps()[i].frame, *top_first[i].ramp));
+        layers_.back().tint_range = colorRangeOf(top_first[i]);
+        layers_.back().slope_range = slopeRangeOf(top_first[i]);
     }
     are_layers_sent_ = false;
     empty_hint_->setVisible(!map_);
@@ -163,6 +168,15 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     } else if (is_other_place) {
         style_.exaggeration = suitableExaggeration(*map_.dataset);
     }
+    if (map_ && exaggeration && *exaggeration != style_.exaggeration) {
+        if (sight || !is_other_place) { // otherwise the opening view follows
+            const OrbitCamera camera = sight ? sight->camera : navigator_.goal();
+            sight = Sight{.dataset = map_.dataset,
+                          .camera = reexaggerated(camera, style_.exaggeration, *exaggeration),
+                          .exaggeration = *exaggeration};
+        }
+        style_.exaggeration = *exaggeration;
+    }
     if (isCompletionOf(before, ground_)) {
         releaseTouch(); // what is pressed into is no more
     }
@@ -176,6 +190,9 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first)
     redrawTerrain();
     moveStylus();
     Q_EMIT layersChanged();
+    if (!is_other_map && style_.exaggeration != exaggeration_before) {
+        Q_EMIT exaggerationChanged(style_.exaggeration);
+    }
     if (is_other_map) {
         QMetaObject::invokeMethod(
             this,

@@ -50,8 +50,12 @@ public:
     /// Puts these layers in place of those shown, top first; none for an empty view. All lie in one
     /// CRS. What is in sight stays there if one of its maps does, or a preview of it did, and a map
     /// that was shown before is seen as it was left; otherwise the camera goes to the new one's
-    /// opening view. mapShown() follows.
-    void setLayers(const std::vector<ShownLayer>& top_first);
+    /// opening view. mapShown() follows. Without an exaggeration the view chooses one: that of what
+    /// stays in sight, the one a map was left with, or the one that suits a new map.
+    void setLayers(const std::vector<ShownLayer>& top_first,
+                   std::optional<double> exaggeration = std::nullopt);
+    /// As they were set, top first.
+    const std::vector<ShownLayer>& shownLayers() const noexcept { return shown_; }
     /// `map` is going to be shown in place of `preview`: it is seen as that was left. To be told
     /// before setLayers().
     void succeed(const std::shared_ptr<const Dataset>& preview,
@@ -131,6 +135,11 @@ public:
     const std::optional<StylusPose>& shownStylus() const noexcept;
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture();
+    /// The terrain from another camera or in another size (pixels), drawn whole: waits for all that
+    /// is missing. OutOfRange where the driver has no frame buffer of that size.
+    Result<QImage> drawnPicture(const OrbitCamera& camera, QSize size);
+    /// Pixels a side that the graphics driver draws; 0 without a graphics context.
+    int pictureSideMax();
 
 Q_SIGNALS:
     /// There is a graphics context.
@@ -229,6 +238,7 @@ private:
     std::chrono::milliseconds frame_target_{33};
     bool has_antialiasing_ = true;
 
+    std::vector<ShownLayer> shown_;
     LoadedMap map_;
     const ColorRamp* ramp_ = nullptr;
     SceneSurface ground_;

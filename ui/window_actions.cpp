@@ -61,12 +61,43 @@ struct ShadingAction {
 };
 
 constexpr std::array kShadingActions{
-    //: Colours by height, with light and shade
-    ShadingAction{ShadingMode::Tint, QT_TRANSLATE_NOOP("WindowActions", "&Heights and Light")},
+    //: Colors by elevation, with light and shade
+    ShadingAction{ShadingMode::Tint, QT_TRANSLATE_NOOP("WindowActions", "&Shaded Relief")},
     //: Light and shade alone
-    ShadingAction{ShadingMode::Hillshade, QT_TRANSLATE_NOOP("WindowActions", "&Light Only")},
-    //: Colours by steepness
-    ShadingAction{ShadingMode::Slope, QT_TRANSLATE_NOOP("WindowActions", "&Slope")},
+    ShadingAction{ShadingMode::Hillshade, QT_TRANSLATE_NOOP("WindowActions", "&Hillshade")},
+    //: Colors by steepness
+    ShadingAction{ShadingMode::Slope, QT_TRANSLATE_NOOP("WindowActions", "S&lope")},
+};
+
+struct StretchAction {
+    StretchKind kind;
+    const char* text;
+    const char* tip;
+};
+
+constexpr std::array kStretchActions{
+    StretchAction{StretchKind::Automatic,
+                  //: A color stretch: what is cut off at either end of the elevations
+                  QT_TRANSLATE_NOOP("WindowActions", "&Automatic"),
+                  QT_TRANSLATE_NOOP("WindowActions",
+                                    "Spread the color ramp over all but the rarest half percent of "
+                                    "elevations at either end")},
+    StretchAction{StretchKind::Full,
+                  //: A color stretch
+                  QT_TRANSLATE_NOOP("WindowActions", "&Full Range"),
+                  QT_TRANSLATE_NOOP("WindowActions",
+                                    "Spread the color ramp from the lowest to the highest "
+                                    "elevation of the layer")},
+    StretchAction{
+        StretchKind::Percentile,
+        //: A color stretch: so many percent are cut off at either end
+        QT_TRANSLATE_NOOP("WindowActions", "&Percentile…"),
+        QT_TRANSLATE_NOOP("WindowActions", "Cut off a percentage of the elevations at either end")},
+    StretchAction{
+        StretchKind::Fixed,
+        //: A color stretch: minimum and maximum are typed
+        QT_TRANSLATE_NOOP("WindowActions", "&Minimum and Maximum…"),
+        QT_TRANSLATE_NOOP("WindowActions", "Enter the values at the ends of the color ramp")},
 };
 
 struct ContactModelAction {
@@ -125,6 +156,14 @@ constexpr std::array kContactModelActions{
                           "Touches with a sphere as wide as a cell of the map; it rounds off sharp "
                           "ridges, but does not reach into narrow dips")},
 };
+
+StretchKind shownStretch(const Layer& layer, ShadingMode mode)
+{
+    if (mode != ShadingMode::Slope) {
+        return layer.stretch.kind;
+    }
+    return layer.slope_range ? StretchKind::Fixed : StretchKind::Automatic;
+}
 
 QString fromStd(std::string_view text)
 {
@@ -269,7 +308,7 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     shading->addSeparator();
     contours = shading->addAction(tr("&Contour Lines"));
     contours->setCheckable(true);
-    ramps = menu->addMenu(tr("&Ramp"));
+    ramps = menu->addMenu(tr("&Color Ramp"));
     ramp_group = new QActionGroup(&window);
     const auto add_ramp = [this](const QString& text, const QString& name) {
         QAction* action = ramps->addAction(text);
@@ -278,12 +317,13 @@ void WindowActions::makeMapMenu(QMainWindow& window)
         ramp_group->addAction(action);
         return action;
     };
-    //: A colour ramp: the one that suits the map's body
+    //: A color ramp: the one that suits the map's body
     add_ramp(tr("Automatic"), {});
     ramps->addSeparator();
     for (const ColorRamp& ramp : colorRamps()) {
         add_ramp(rampName(ramp), fromStd(ramp.name))->setIcon(rampIcon(ramp));
     }
+    makeStretchMenu(window, *menu);
     light = menu->addAction(tr("&Light…"));
     light->setToolTip(tr("Choose where the light comes from"));
     menu->addSeparator();
@@ -309,6 +349,25 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     layer.remove->setShortcut(QKeySequence::Delete);
     layer.remove->setShortcutContext(Qt::WidgetShortcut);
     layer.open = open;
+}
+
+void WindowActions::makeStretchMenu(QMainWindow& window, QMenu& map)
+{
+    stretches = map.addMenu(tr("Color S&tretch"));
+    stretch_group = new QActionGroup(&window);
+    for (const StretchAction& entry : kStretchActions) {
+        QAction* action = stretches->addAction(tr(entry.text));
+        action->setCheckable(true);
+        action->setData(static_cast<int>(entry.kind));
+        action->setStatusTip(tr(entry.tip));
+        stretch_group->addAction(action);
+    }
+    stretches->addSeparator();
+    stretch_to_view = stretches->addAction(tr("&Stretch to Current View"));
+    stretch_to_view->setStatusTip(
+        tr("Spread the color ramp over the elevations that the picture shows now"));
+    edit_stretch = stretches->addAction(tr("&Edit Stretch…"));
+    edit_stretch->setStatusTip(tr("Show the histogram of the layer with the ends of the stretch"));
 }
 
 void WindowActions::makeHapticsMenu(QMainWindow& window)
@@ -401,6 +460,16 @@ void WindowActions::showSession(const Session& session)
         action->setChecked(active != nullptr &&
                            action->data().toString() == QString::fromStdString(active->ramp));
     }
+    const bool is_slope = session.look.mode == ShadingMode::Slope;
+    for (QAction* action : stretch_group->actions()) {
+        const auto kind = static_cast<StretchKind>(action->data().toInt());
+        const bool is_for_slopes = kind == StretchKind::Automatic || kind == StretchKind::Fixed;
+        action->setEnabled(active != nullptr && (!is_slope || is_for_slopes));
+        action->setChecked(active != nullptr && kind == shownStretch(*active, session.look.mode));
+    }
+    stretch_to_view->setEnabled(active != nullptr && index < states.size() &&
+                                states[index] == LayerState::Shown && !is_slope);
+    edit_stretch->setEnabled(active != nullptr);
     for (QAction* action : shading_group->actions()) {
         action->setChecked(action->data().toInt() == static_cast<int>(session.look.mode));
     }

@@ -49,6 +49,10 @@ struct WindowActions {
     QAction* toggle_visibility = nullptr;
     QMenu* ramps = nullptr;
     QActionGroup* ramp_group = nullptr; // data(): the ramp's name
+    QMenu* stretches = nullptr;
+    QActionGroup* stretch_group = nullptr; // data(): the StretchKind
+    QAction* stretch_to_view = nullptr;
+    QAction* edit_stretch = nullptr;
     QMenu* shading = nullptr;
     QActionGroup* shading_group = nullptr; // data(): the ShadingMode
     QAction* contours = nullptr;
@@ -81,6 +85,7 @@ private:
     void makeViewMenu(QMainWindow& window, QWidget& map);
     void makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map);
     void makeMapMenu(QMainWindow& window);
+    void makeStretchMenu(QMainWindow& window, QMenu& map);
     void makeHapticsMenu(QMainWindow& window);
     void makeHelpMenu(QMainWindow& window);
 

@@ -1,5 +1,7 @@
 #include "core/session/session.h"
 
+#include "core/session/loaded_map.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +49,22 @@ LayerState stateBeside(const Dataset& scene, const Dataset& dataset)
                                                                            : LayerState::OtherCrs;
 }
 
+bool isShownIn(const std::vector<const Layer*>& shown, LayerId id)
+{
+    return std::any_of(shown.begin(), shown.end(),
+                       [id](const Layer* layer) { return layer->id == id; });
+}
+
+// `after` with the exaggeration of `before` where a layer stayed in the picture.
+Session withPictureKept(const Session& before, Session after)
+{
+    const std::vector<const Layer*> then = shownLayers(before);
+    const std::vector<const Layer*> now = shownLayers(after);
+    const bool has_stayed = std::any_of(
+        now.begin(), now.end(), [&then](const Layer* layer) { return isShownIn(then, layer->id); });
+    return has_stayed ? withExaggeration(std::move(after), then.front()->exaggeration) : after;
+}
+
 } // namespace
 
 const Layer* layerOf(const Session& session, LayerId id)
@@ -65,6 +83,10 @@ std::size_t indexOf(const Session& session, LayerId id)
 Session added(Session session, Layer layer)
 {
     MARSVIEW_CHECK(layer.dataset != nullptr);
+    const Session before = session;
+    if (!(layer.exaggeration > 0.0)) {
+        layer.exaggeration = suitableExaggeration(*layer.dataset);
+    }
     layer.id = LayerId{session.next_id};
     ++session.next_id;
     if (layer.name.empty()) {
@@ -75,7 +97,7 @@ Session added(Session session, Layer layer)
     }
     session.active = layer.id;
     session.layers.insert(session.layers.begin(), std::move(layer));
-    return session;
+    return withPictureKept(before, std::move(session));
 }
 
 Session removed(Session session, LayerId id)
@@ -84,13 +106,14 @@ Session removed(Session session, LayerId id)
     if (index == session.layers.size()) {
         return session;
     }
+    const Session before = session;
     session.layers.erase(session.layers.begin() + static_cast<std::ptrdiff_t>(index));
     if (session.layers.empty()) {
         session.active = LayerId::None;
     } else if (session.active == id) {
         session.active = session.layers[std::min(index, session.layers.size() - 1)].id;
     }
-    return session;
+    return withPictureKept(before, std::move(session));
 }
 
 Session moved(Session session, LayerId id, std::size_t index)
@@ -99,12 +122,13 @@ Session moved(Session session, LayerId id, std::size_t index)
     if (from == session.layers.size()) {
         return session;
     }
+    const Session before = session;
     Layer layer = std::move(session.layers[from]);
     session.layers.erase(session.layers.begin() + static_cast<std::ptrdiff_t>(from));
     const std::size_t to = std::min(index, session.layers.size());
     session.layers.insert(session.layers.begin() + static_cast<std::ptrdiff_t>(to),
                           std::move(layer));
-    return session;
+    return withPictureKept(before, std::move(session));
 }
 
 Session activated(Session session, LayerId id)
@@ -117,12 +141,24 @@ Session activated(Session session, LayerId id)
 
 Session withVisibility(Session session, LayerId id, bool is_visible)
 {
-    return changed(std::move(session), id, [&](Layer& layer) { layer.is_visible = is_visible; });
+    const Session before = session;
+    return withPictureKept(before, changed(std::move(session), id,
+                                           [&](Layer& layer) { layer.is_visible = is_visible; }));
 }
 
 Session withRamp(Session session, LayerId id, std::string ramp)
 {
     return changed(std::move(session), id, [&](Layer& layer) { layer.ramp = std::move(ramp); });
+}
+
+Session withStretch(Session session, LayerId id, const ColorStretch& stretch)
+{
+    return changed(std::move(session), id, [&](Layer& layer) { layer.stretch = stretch; });
+}
+
+Session withSlopeRange(Session session, LayerId id, const std::optional<SlopeRange>& range)
+{
+    return changed(std::move(session), id, [&](Layer& layer) { layer.slope_range = range; });
 }
 
 Session withName(Session session, LayerId id, std::string name)
@@ -133,8 +169,12 @@ Session withName(Session session, LayerId id, std::string name)
 Session withDataset(Session session, LayerId id, std::shared_ptr<const Dataset> dataset)
 {
     MARSVIEW_CHECK(dataset != nullptr);
-    return changed(std::move(session), id,
-                   [&](Layer& layer) { layer.dataset = std::move(dataset); });
+    return changed(std::move(session), id, [&](Layer& layer) {
+        if (layer.exaggeration == suitableExaggeration(*layer.dataset)) {
+            layer.exaggeration = suitableExaggeration(*dataset);
+        }
+        layer.dataset = std::move(dataset);
+    });
 }
 
 Session withLook(Session session, const TerrainLook& look)
@@ -171,6 +211,24 @@ std::vector<const Layer*> shownLayers(const Session& session)
         }
     }
     return shown;
+}
+
+double exaggerationOf(const Session& session)
+{
+    const std::vector<const Layer*> shown = shownLayers(session);
+    return shown.empty() ? 1.0 : shown.front()->exaggeration;
+}
+
+Session withExaggeration(Session session, double exaggeration)
+{
+    MARSVIEW_CHECK(exaggeration > 0.0 && std::isfinite(exaggeration));
+    const std::vector<LayerState> states = placement(session);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (states[i] == LayerState::Shown) {
+            session.layers[i].exaggeration = exaggeration;
+        }
+    }
+    return session;
 }
 
 bool isSameCrs(const Crs& a, const Crs& b, const Georeference& sample)

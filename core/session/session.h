@@ -5,11 +5,14 @@
 #pragma once
 
 #include "core/session/dataset.h"
+#include "core/view/color_stretch.h"
+#include "core/view/slope_range.h"
 #include "core/view/terrain_look.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,11 @@ struct Layer {
     bool is_visible = true;                 // as far as the user is concerned; see placement()
     std::string ramp{};     // a name of colorRamps(); empty: the one that suits the body
     bool is_sample = false; // came by itself, and goes when the user opens something
+    ColorStretch stretch{}; // over which elevations the ramp is spread
+    std::optional<SlopeRange> slope_range{}; // the same for slopes; nothing: what suits the map
+    /// Vertical exaggeration of the scene while this layer is the topmost in it. Positive in a
+    /// session; 0 in a layer that is added: suitableExaggeration().
+    double exaggeration = 0.0;
 
     bool operator==(const Layer&) const = default;
 };
@@ -50,6 +58,9 @@ std::size_t indexOf(const Session& session, LayerId id);
 
 /// The layer on top, under a new id, and active. Samples make room for what is none. An empty name
 /// becomes the last part of the dataset's path.
+///
+/// Where a change of layers leaves a layer in the picture that was there before, the picture keeps
+/// its exaggeration: all layers that are shown take it over.
 Session added(Session session, Layer layer);
 
 // The following leave a session as it is where there is no such layer.
@@ -61,7 +72,11 @@ Session moved(Session session, LayerId id, std::size_t index);
 Session activated(Session session, LayerId id);
 Session withVisibility(Session session, LayerId id, bool is_visible);
 Session withRamp(Session session, LayerId id, std::string ramp);
+Session withStretch(Session session, LayerId id, const ColorStretch& stretch);
+/// Nothing: the range that suits the map.
+Session withSlopeRange(Session session, LayerId id, const std::optional<SlopeRange>& range);
 Session withName(Session session, LayerId id, std::string name);
+/// A layer whose exaggeration suited the old dataset gets the one that suits the new dataset.
 Session withDataset(Session session, LayerId id, std::shared_ptr<const Dataset> dataset);
 Session withLook(Session session, const TerrainLook& look);
 
@@ -81,6 +96,11 @@ std::vector<LayerState> placement(const Session& session);
 
 /// The layers in the picture, top first; empty where all are hidden.
 std::vector<const Layer*> shownLayers(const Session& session);
+
+/// Vertical exaggeration of the picture; 1 where all layers are hidden.
+double exaggerationOf(const Session& session);
+/// For all layers in the picture; `exaggeration` is positive.
+Session withExaggeration(Session session, double exaggeration);
 
 /// True where map coordinates of `a` mean the same places as those of `b`, so that the grids of
 /// rasters in them differ by an affine map: the same system under whatever name, up to whole turns

@@ -64,6 +64,18 @@ double steppedExaggeration(double exaggeration, int steps)
     return std::clamp(factorAt(place + steps), kExaggerationMin, kExaggerationMax);
 }
 
+ExaggerationRange exaggerationRange(double suitable)
+{
+    ExaggerationRange range;
+    if (suitable < range.least) {
+        range.least = steppedExaggeration(suitable, -static_cast<int>(kRoundNumbers.size()));
+    }
+    if (suitable > range.most) {
+        range.most = steppedExaggeration(suitable, static_cast<int>(kRoundNumbers.size()));
+    }
+    return range;
+}
+
 OrbitCamera reexaggerated(OrbitCamera camera, double from, double to)
 {
     camera.target.z *= to / from;

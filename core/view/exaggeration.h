@@ -14,6 +14,14 @@ double defaultExaggeration(double extent_m, double relief_m);
 /// Bounded to [1e-6, 1e6].
 double steppedExaggeration(double exaggeration, int steps);
 
+/// The factors that people choose from: 0.1 to 100, and a decade beyond `suitable` where that lies
+/// outside, as for maps without georeferencing.
+struct ExaggerationRange {
+    double least = 0.1;
+    double most = 100.0;
+};
+ExaggerationRange exaggerationRange(double suitable);
+
 /// The camera that looks at the same piece of ground after the exaggeration changed: the target
 /// moves with the ground, the eye with the target.
 OrbitCamera reexaggerated(OrbitCamera camera, double from, double to);

@@ -25,9 +25,6 @@ struct TerrainLook {
     bool operator==(const TerrainLook&) const = default;
 };
 
-/// The slope at the upper end of the ramp in the mode Slope; steeper ground has its last colour.
-constexpr Angle kSlopeShownMax = Angle::degrees(40.0);
-
 /// A round interval (1, 2, 5 × 10^n m) for contour lines: some 12 to 30 lines over the whole range,
 /// and finer ones the nearer the camera is, so that ground rising one in ten has a line about every
 /// 40 to 100 pixels. 0 where there is nothing to draw lines of: heights all equal or unknown, or no

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <vector>
+#include <utility>
 
 namespace marsview {
 namespace {
 
 constexpr double kRareShare = 0.005;
 constexpr std::size_t kBlocksMax = 1'000'000;
-constexpr std::size_t kBlocksMin = 400; // fewer tell nothing about half a percent
+constexpr std::size_t kBlocksMin = 400; // half a percent of fewer is less than two blocks
 
 } // namespace
 
-HeightRange tintRange(const BlockMeans& means, const HeightRange& all)
+std::vector<float> blockHeights(const BlockMeans& means)
 {
     std::size_t level = 0;
     while (means.means(level).columns() * means.means(level).rows() > kBlocksMax) {
@@ -28,18 +28,34 @@ HeightRange tintRange(const BlockMeans& means, const HeightRange& all)
         std::copy_if(line.begin(), line.end(), std::back_inserter(heights),
                      [](float h) { return !std::isnan(h); });
     }
-    if (heights.size() < kBlocksMin) {
-        return all;
+    return heights;
+}
+
+std::optional<HeightRange> rangeWithoutRarest(std::vector<float> heights_m, double share)
+{
+    if (heights_m.empty()) {
+        return std::nullopt;
     }
-    const auto rare = static_cast<std::ptrdiff_t>(kRareShare * static_cast<double>(heights.size()));
-    std::nth_element(heights.begin(), heights.begin() + rare, heights.end());
-    const float low = heights[static_cast<std::size_t>(rare)];
-    std::nth_element(heights.begin(), heights.end() - 1 - rare, heights.end());
-    const float high = *(heights.end() - 1 - rare);
-    if (!(low < high)) {
-        return all; // a hill in a plain is all that there is to see
+    const auto rare = static_cast<std::ptrdiff_t>(share * static_cast<double>(heights_m.size()));
+    const auto low = heights_m.begin() + rare;
+    std::nth_element(heights_m.begin(), low, heights_m.end());
+    const float low_m = *low;
+    const auto high = heights_m.end() - 1 - rare;
+    std::nth_element(heights_m.begin(), high, heights_m.end());
+    const float high_m = *high;
+    if (!(low_m < high_m)) {
+        return std::nullopt; // a hill in a plain is all that there is to see
     }
-    return {.minimum_m = static_cast<double>(low), .maximum_m = static_cast<double>(high)};
+    return HeightRange{.minimum_m = static_cast<double>(low_m),
+                       .maximum_m = static_cast<double>(high_m)};
+}
+
+HeightRange tintRange(const BlockMeans& means, const HeightRange& all)
+{
+    std::vector<float> heights = blockHeights(means);
+    return heights.size() < kBlocksMin
+               ? all
+               : rangeWithoutRarest(std::move(heights), kRareShare).value_or(all);
 }
 
 } // namespace marsview

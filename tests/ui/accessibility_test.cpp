@@ -3,6 +3,8 @@
 #include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
+#include "ui/dialogs/save_picture_dialog.h"
+#include "ui/dialogs/stretch_dialog.h"
 #include "ui/light_popup.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
@@ -79,6 +81,8 @@ TEST_F(AccessibilityTest, EveryControlHasAName)
     expectNames(PreferencesDialog({}, {}, window_.get()));
     expectNames(AddressDialog({}, window_.get()));
     expectNames(LightPopup(window_.get()));
+    expectNames(SavePictureDialog({800, 600}, {}, window_.get()));
+    expectNames(StretchDialog(window_.get()));
     expectNames(GoToDialog(window_->view()->map().dataset, {}, window_.get()));
 }
 
@@ -101,6 +105,11 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
     preferences.pages()->setCurrentIndex(1);
     expectReached(preferences);
     preferences.close();
+    SavePictureDialog picture({800, 600}, {}, window_.get());
+    picture.show();
+    QApplication::setActiveWindow(&picture);
+    expectReached(picture);
+    picture.close();
     AddressDialog address({}, window_.get());
     address.show();
     QApplication::setActiveWindow(&address);
@@ -134,6 +143,7 @@ TEST_F(AccessibilityTest, EveryButtonOfTheToolbarIsInAMenuToo)
                                   actions.layer.move_down,
                                   actions.shading->menuAction(),
                                   actions.ramps->menuAction(),
+                                  actions.stretches->menuAction(),
                                   actions.cancel_loading,
                                   actions.stop_preparing,
                                   actions.layer.prepare,

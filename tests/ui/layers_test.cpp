@@ -163,6 +163,10 @@ TEST_F(LayersTest, EveryChangeIsUndoneAndRedoneImmediately)
              model->setData(model->index(2), Qt::Unchecked, Qt::CheckStateRole);
          }},
         {"ramp", [&] { actions.ramp_group->actions().last()->trigger(); }},
+        {"stretch", [this] { controller().setStretch(id(1), fixedStretch(100.0, 200.0)); }},
+        {"slope colors",
+         [this] { controller().setSlopeRange(id(1), SlopeRange{.maximum = Angle::degrees(3.0)}); }},
+        {"exaggeration", [this] { controller().setExaggeration(4.0); }},
         {"rename", [this] { controller().rename(id(1), QStringLiteral("Crater Rim")); }},
         {"shading", [&] { actions.shading_group->actions().last()->trigger(); }},
         {"contours", [&] { actions.contours->trigger(); }},
@@ -340,7 +344,7 @@ TEST_F(LayersTest, AMapOnTopKeepsWhatIsInSight)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     TerrainView& view = *window_->view();
-    view.setExaggeration(2.0);
+    controller().setExaggeration(2.0);
     view.flyTo({.column = 30.0, .row = 20.0}, 4e5);
     ASSERT_TRUE(settle());
     const GeographicPoint place =
@@ -359,7 +363,7 @@ TEST_F(LayersTest, AMapShownBeforeIsSeenAsItWasLeft)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     TerrainView& view = *window_->view();
-    view.setExaggeration(3.0);
+    controller().setExaggeration(3.0);
     view.flyTo({.column = 10.0, .row = 8.0}, 3e5);
     ASSERT_TRUE(settle());
     const OrbitCamera left = view.camera();

@@ -7,6 +7,8 @@
 #include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
+#include <QAbstractItemModel>
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QDir>
 #include <QDropEvent>
@@ -89,6 +91,31 @@ TEST_F(MainWindowTest, OpensAFolderOfAdjoiningRastersAsOneMap)
     EXPECT_EQ(view().map().dataset->heightfield().height({90.0, 10.0}), 30.0 + 20.0);
     EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("tiles")));
     EXPECT_TRUE(window_->recentFiles()->files().contains(folder));
+}
+
+TEST_F(MainWindowTest, ShowsTheRastersOfAFolderThatIsChosen)
+{
+    ASSERT_TRUE(QDir().mkpath(maps_.path(QStringLiteral("tiles"))));
+    maps_.hill(QStringLiteral("tiles/hill.asc"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    window_->actionSet().open_folder->trigger();
+    auto* dialog = window_->findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    dialog->setDirectory(maps_.path(QStringLiteral("tiles")));
+    const auto is_listed = [dialog] {
+        for (const QAbstractItemView* list : dialog->findChildren<QAbstractItemView*>()) {
+            const QAbstractItemModel* model = list->model();
+            for (int row = 0; model != nullptr && row < model->rowCount(list->rootIndex()); ++row) {
+                if (model->index(row, 0, list->rootIndex()).data().toString() ==
+                    QStringLiteral("hill.asc")) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    EXPECT_TRUE(QTest::qWaitFor(is_listed, kTimeout));
+    dialog->reject();
 }
 
 TEST_F(MainWindowTest, OpensAFolderThatIsDropped)

@@ -129,7 +129,7 @@ TEST_F(PreviewsTest, GiveWayToTheirMapsInPlace)
     camera.azimuth = Angle::degrees(33.0);
     camera.distance_m *= 0.4;
     view().setCamera(camera);
-    view().setExaggeration(7.5);
+    controller().setExaggeration(7.5);
     camera = view().camera();
     const QRect place = view().geometry();
     EXPECT_FALSE(notice().isEmpty());

@@ -8,10 +8,13 @@
 #include "ui/dialogs/go_to_dialog.h"
 #include "ui/dialogs/keys_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
+#include "ui/dialogs/save_picture_dialog.h"
+#include "ui/dialogs/stretch_dialog.h"
 #include "ui/light_popup.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
+#include "ui/stretch_control.h"
 #include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
@@ -178,6 +181,10 @@ TEST_F(TranslationTest, ReachesEveryDialog)
     expectMarked(AddressDialog({}, window_.get()));
     expectMarked(PreferencesDialog({}, {}, window_.get()));
     expectMarked(LightPopup(window_.get()));
+    expectMarked(SavePictureDialog({800, 600}, {}, window_.get()));
+    window_->actionSet().edit_stretch->trigger();
+    expectMarked(*window_->stretch().dialog());
+    window_->stretch().dialog()->close();
     GoToDialog go_to(window_->view()->map().dataset, {}, window_.get());
     expectMarked(go_to);
     go_to.findChild<QLineEdit*>(QStringLiteral("coordinate"))->setText(QStringLiteral("15, 15"));

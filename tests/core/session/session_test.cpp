@@ -1,3 +1,4 @@
+#include "core/session/loaded_map.h"
 #include "core/session/session.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
@@ -170,6 +171,61 @@ TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
         EXPECT_EQ(session.layers.empty(), activeLayer(session) == nullptr);
         EXPECT_EQ(placement(session).size(), session.layers.size());
     }
+}
+
+TEST(SessionExaggeration, IsWhatSuitsTheFirstLayer)
+{
+    Maps maps;
+    EXPECT_EQ(exaggerationOf({}), 1.0);
+    const auto map = maps.any();
+    EXPECT_EQ(exaggerationOf(with({map})), suitableExaggeration(*map));
+}
+
+TEST(SessionExaggeration, StaysWithThePictureWhenLayersComeAndGo)
+{
+    Maps maps;
+    Session session = withExaggeration(with({maps.any()}), 4.0);
+    EXPECT_EQ(exaggerationOf(session), 4.0);
+    const LayerId lower = session.active;
+    session = added(session, {.dataset = maps.any(), .exaggeration = 9.0});
+    EXPECT_EQ(exaggerationOf(session), 4.0) << "a layer on top of what was there";
+    const LayerId upper = session.active;
+    session = withVisibility(session, lower, false);
+    session = withExaggeration(session, 6.0);
+    EXPECT_EQ(layerOf(session, lower)->exaggeration, 4.0) << "it was not in the picture";
+    session = moved(withVisibility(session, lower, true), lower, 0);
+    EXPECT_EQ(exaggerationOf(session), 6.0);
+    session = removed(session, upper);
+    EXPECT_EQ(exaggerationOf(session), 6.0);
+}
+
+TEST(SessionExaggeration, IsOfItsOwnOnEachBody)
+{
+    Maps maps;
+    Session session = withExaggeration(with({maps.at("IAU_2015:49900", kDegrees)}), 3.0);
+    const LayerId mars = session.active;
+    session = added(session, {.dataset = maps.at("IAU_2015:30100", kDegrees)});
+    const LayerId moon = session.active;
+    EXPECT_EQ(exaggerationOf(session), suitableExaggeration(*layerOf(session, moon)->dataset));
+    session = withExaggeration(session, 7.0);
+    EXPECT_EQ(layerOf(session, mars)->exaggeration, 3.0);
+    session = withVisibility(session, moon, false);
+    EXPECT_EQ(exaggerationOf(session), 3.0);
+}
+
+TEST(SessionStretch, IsOfEachLayer)
+{
+    Maps maps;
+    const Session before = with({maps.any(), maps.any()});
+    const LayerId id = before.layers[1].id;
+    Session session = withStretch(before, id, fixedStretch(1.0, 2.0));
+    EXPECT_EQ(layerOf(session, id)->stretch, fixedStretch(1.0, 2.0));
+    EXPECT_EQ(session.layers[0].stretch, ColorStretch{});
+    session = withSlopeRange(session, id, SlopeRange{.maximum = Angle::degrees(5.0)});
+    EXPECT_EQ(layerOf(session, id)->slope_range->maximum, Angle::degrees(5.0));
+    EXPECT_NE(session, before);
+    session = withSlopeRange(withStretch(session, id, {}), id, std::nullopt);
+    EXPECT_EQ(session, before);
 }
 
 TEST(Placement, ShowsTheTopmostVisibleLayerAndWhatLiesInItsSystem)

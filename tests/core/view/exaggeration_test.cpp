@@ -48,6 +48,17 @@ TEST(SteppedExaggeration, LeavesOddNumbersForTheNextRoundOne)
     EXPECT_EQ(steppedExaggeration(4.0, -1), 3.0);
 }
 
+TEST(ExaggerationRange, ReachesBeyondWhatSuitsUnusualMaps)
+{
+    for (const double suitable : {0.1, 0.5, 1.0, 20.0, 100.0}) {
+        EXPECT_EQ(exaggerationRange(suitable).least, 0.1) << suitable;
+        EXPECT_EQ(exaggerationRange(suitable).most, 100.0) << suitable;
+    }
+    EXPECT_DOUBLE_EQ(exaggerationRange(0.002).least, 0.0002); // degrees against meters
+    EXPECT_EQ(exaggerationRange(0.002).most, 100.0);
+    EXPECT_DOUBLE_EQ(exaggerationRange(300.0).most, 3000.0);
+}
+
 TEST(Reexaggerated, LooksAtTheSamePieceOfGround)
 {
     const OrbitCamera camera{.target = {10.0, 20.0, 300.0}, .distance_m = 1000.0};

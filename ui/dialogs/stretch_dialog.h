@@ -1,0 +1,82 @@
+// Choosing over which elevations a layer's color ramp is spread.
+#pragma once
+
+#include "core/terrain/height_histogram.h"
+#include "core/view/color_ramp.h"
+#include "core/view/color_stretch.h"
+#include "core/view/slope_range.h"
+#include "ui/number_text.h"
+
+#include <QDialog>
+#include <QString>
+
+#include <memory>
+#include <optional>
+
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QPushButton;
+
+namespace marsview {
+
+class ElevationBox;
+class StretchPlot;
+
+struct StretchContent {
+    QString layer; // its name; empty: there is none, and nothing can be chosen
+    ColorStretch stretch{};
+    HeightRange stretched{}; // that the stretch comes to, in metres
+    HeightRange all{};       // of the layer
+    const ColorRamp* ramp = nullptr;
+    std::shared_ptr<const HeightHistogram> histogram{}; // null while it is being counted
+    bool is_in_picture = false;
+    /// The colors show slopes: over which, and whether that was chosen. Elevations are left out.
+    std::optional<SlopeRange> slopes{};
+    bool are_slopes_chosen = false;
+};
+
+/// Stays open while people work with the map. Every choice takes effect at once and can be undone.
+class StretchDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    explicit StretchDialog(QWidget* parent = nullptr);
+
+    void setContent(const StretchContent& content);
+    void setHeightUnit(HeightUnit unit);
+    /// Puts the focus into what `kind` lets people enter.
+    void edit(StretchKind kind);
+
+Q_SIGNALS:
+    void stretchRequested(const ColorStretch& stretch);
+    /// As stretchRequested(), while an end is dragged.
+    void stretchDragged(const ColorStretch& stretch);
+    /// A drag begins or has ended.
+    void dragEnded();
+    void stretchToViewRequested();
+    /// Nothing for what suits the layer.
+    void slopesRequested(const std::optional<SlopeRange>& slopes);
+
+private:
+    void fill();
+    void requestKind();
+    void requestEnds();
+    void requestSlopes();
+    void fillSlopes();
+    void fillHeights();
+
+    StretchContent content_;
+    HeightUnit unit_ = HeightUnit::Metres;
+    QFormLayout* form_ = nullptr;
+    StretchPlot* plot_ = nullptr;
+    QComboBox* kind_ = nullptr;
+    QDoubleSpinBox* cut_ = nullptr;
+    ElevationBox* low_ = nullptr;
+    ElevationBox* high_ = nullptr;
+    QPushButton* to_view_ = nullptr;
+    QLabel* note_ = nullptr;
+};
+
+} // namespace marsview

@@ -1,0 +1,27 @@
+// A field for an elevation.
+#pragma once
+
+#include <QDoubleSpinBox>
+
+namespace marsview {
+
+/// Numbers as numberText() writes them; hyphens and minus signs are both read, and group separators
+/// may be left out.
+class ElevationBox final : public QDoubleSpinBox {
+    Q_OBJECT
+
+public:
+    explicit ElevationBox(QWidget* parent = nullptr);
+
+    /// What elevations can be, in metres or feet.
+    void setElevationRange();
+
+    QString textFromValue(double value) const override;
+    double valueFromText(const QString& text) const override;
+    QValidator::State validate(QString& text, int& position) const override;
+
+private:
+    QString digitsOf(QString text) const;
+};
+
+} // namespace marsview
