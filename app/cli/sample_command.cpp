@@ -154,6 +154,7 @@ std::optional<Position> parsePosition(std::string line)
 
 Status sampleStdin(Sampler& sampler)
 {
+    std::ios::sync_with_stdio(false); // so that std::cin can say whether it has more
     std::string line;
     for (std::size_t number = 1; std::getline(std::cin, line); ++number) {
         if (line.find_first_not_of(" \t\r") == std::string::npos) {
@@ -171,6 +172,10 @@ Status sampleStdin(Sampler& sampler)
         }
         if (Status status = sampler.print(*position); !status) {
             return status;
+        }
+        // A program at the other end of a pipe may wait for this answer before it asks again.
+        if (std::cin.rdbuf()->in_avail() <= 0) {
+            std::fflush(stdout);
         }
     }
     return Done{};

@@ -1,6 +1,8 @@
 #include "core/raster/archive_rasters.h"
 
+#include "core/raster/gdal_drivers.h"
 #include "core/raster/gdal_runtime.h"
+#include "core/raster/open_guard.h"
 #include "core/raster/raster_path.h"
 
 #include <cpl_string.h>
@@ -33,6 +35,18 @@ bool isCompanion(const std::string& name)
                        [&lower](std::string_view extension) { return lower.ends_with(extension); });
 }
 
+// Opening costs a child process for each: only what a driver recognises by its beginning, and raw
+// data, which has none.
+bool mayBeRaster(const std::string& name)
+{
+    static constexpr std::array<std::string_view, 8> kRaw{".bil", ".bip", ".bsq", ".flt",
+                                                          ".dem", ".dat", ".img", ".bin"};
+    const std::string lower = lowerCase(name);
+    return std::any_of(kRaw.begin(), kRaw.end(),
+                       [&lower](std::string_view ending) { return lower.ends_with(ending); }) ||
+           recognisingDriverFor(name).has_value();
+}
+
 struct Candidate {
     ArchiveRaster raster;
     bool is_picture = false;
@@ -52,10 +66,17 @@ std::vector<Candidate> candidatesIn(const std::string& archive)
             continue;
         }
         ++opened;
-        const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
-        if (!dataset || dataset->GetRasterCount() == 0) {
+        if (!mayBeRaster(name)) {
             continue;
         }
+        const Result<GuardedDataset> guarded = openFirst({name});
+        if (!guarded && guarded.error().code == ErrorCode::Cancelled) {
+            return {};
+        }
+        if (!guarded || guarded->dataset->GetRasterCount() == 0) {
+            continue;
+        }
+        GDALDataset* const dataset = guarded->dataset.get();
         GDALRasterBand& band = *dataset->GetRasterBand(1);
         Candidate candidate;
         candidate.raster = {name, static_cast<std::size_t>(dataset->GetRasterXSize()),

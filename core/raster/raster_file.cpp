@@ -82,11 +82,8 @@ struct OpenedDataset {
     std::string name;
     std::optional<RemoteVersion> remote{};  // of a raster at a server
     std::shared_ptr<const Mosaic> mosaic{}; // of a folder of rasters
-<<<<<<< HEAD
     std::string label{};                    // of a product whose samples are in a TIFF or JPEG2000
-=======
     bool prints = false;                    // a library prints lines to stderr
->>>>>>> 67e410a (wip)
 };
 
 // The first of GDAL's names that opens; errors as of openFirst().
@@ -128,11 +125,12 @@ std::optional<Result<OpenedDataset>> openEncodedImage(const std::string& name)
     if (image.empty()) {
         return std::nullopt;
     }
-    Result<Dataset> dataset = openLocal(image);
-    if (!dataset) {
-        return Error{dataset.error().code, fmt::format("{}: {}", image, dataset.error().message)};
+    Result<OpenedDataset> opened = openLocal({image});
+    if (!opened) {
+        return Error{opened.error().code, fmt::format("{}: {}", image, opened.error().message)};
     }
-    return OpenedDataset{.dataset = std::move(dataset).value(), .name = image, .label = name};
+    opened->label = name;
+    return opened;
 }
 
 Result<OpenedDataset> openFolder(const std::string& path, int band)
@@ -215,21 +213,17 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     if (remoteNameFor(names->front())) {
         return openRemote(names->front());
     }
-<<<<<<< HEAD
-    std::string first_failure;
-    for (const std::string& name : *names) {
-        if (auto image = openEncodedImage(name)) {
+    for (std::size_t i = 0; i < names->size(); ++i) {
+        if (auto image = openEncodedImage((*names)[i])) {
+            if (i > 0) {
+                if (auto before = openLocal(
+                        {names->begin(), names->begin() + static_cast<std::ptrdiff_t>(i)})) {
+                    return before;
+                }
+            }
             return *std::move(image);
         }
-        Result<Dataset> dataset = openLocal(name);
-        if (dataset) {
-            return OpenedDataset{.dataset = std::move(dataset).value(), .name = name};
-        }
-        // The companion of a bare data file is the one that can tell what is wrong.
-        if (first_failure.empty() || name != path) {
-            first_failure = dataset.error().message;
-        }
-=======
+    }
     Result<OpenedDataset> opened = openLocal(*names);
     if (opened) {
         return opened;
@@ -237,7 +231,6 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     std::string first_failure = opened.error().message;
     if (opened.error().code != ErrorCode::Unsupported) {
         return Error{opened.error().code, fmt::format("{}: {}", path, first_failure)};
->>>>>>> 67e410a (wip)
     }
     if (isFolder(path)) {
         return openFolder(path, band);
@@ -565,14 +558,10 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     if (!info.crs) {
         info.axis_hints = axisHintsOf(dataset, path);
     }
-<<<<<<< HEAD
     readVertical(dataset, *impl->band, pds3, labelElevationOf(dataset, info, opened->label), info);
-=======
-    readVertical(dataset, *impl->band, pds3, info);
     if (Status complete = impl->checkExtent({0, 0, info.columns, info.rows}); !complete) {
         return std::move(complete).error();
     }
->>>>>>> 67e410a (wip)
     info.typical_raw = impl->findTypicalSample();
     if (impl->strips) {
         impl->strips->rest();

@@ -25,18 +25,12 @@ struct LoadedSamples {
 class RasterFile {
 public:
     /// Opens anything that holds elevations and that GDAL understands: files, labels, headers,
-<<<<<<< HEAD
     /// archives (archive_rasters.h), folders of adjoining rasters (mosaic.h), GDAL's connection
     /// strings. Scale, offset, unit and nodata are those of the product's label where there is one
     /// (label_elevation.h). Refuses pictures (colour, indexed), complex numbers and what is
-    /// absurdly large. `band` counts from 1.
-=======
-    /// archives with one raster, folders of adjoining rasters (mosaic.h), GDAL's connection
-    /// strings. Refuses pictures (colour, indexed), complex numbers and what is absurdly large.
-    /// `band` counts from 1. What is not a plain file is opened in a child process first, within
+    /// absurdly large. `band` counts from 1. What is not a plain file is opened in a child process first, within
     /// limits of time and memory (open_guard.h); the thread's OpeningJob cancels that. A file that
     /// cannot hold what its header promises is refused.
->>>>>>> 67e410a (wip)
     ///
     /// Error messages begin with the path.
     static Result<RasterFile> open(const std::string& path, int band = 1);

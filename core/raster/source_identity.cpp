@@ -3,6 +3,7 @@
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_files.h"
+#include "core/raster/source_stamp.h"
 
 #include <cpl_vsi.h>
 
@@ -170,8 +171,13 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
             digest.add(static_cast<std::uint64_t>(modified_s));
         }
         if (!VSI_ISDIR(status.st_mode) && ++sampled <= kSampledFilesMax) {
-            if (Status added = addSamples(file, bytes, digest); !added) {
-                return std::move(added).error();
+            // Going to and fro within an archive unpacks it again and again: its own bytes do.
+            const std::string archive = file.starts_with("/vsi") ? fileHolding(file) : "";
+            const Status added = archive.empty()
+                                     ? addSamples(file, bytes, digest)
+                                     : addSamples(archive, fs::file_size(archive, ignored), digest);
+            if (!added) {
+                return added.error();
             }
         }
     }

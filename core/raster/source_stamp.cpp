@@ -21,28 +21,6 @@ std::optional<FileStatus> statusOf(const std::string& file)
                                                                        : std::nullopt;
 }
 
-// The archive, where the file is one of GDAL's names of something within it
-// ("/vsizip/maps/mars.zip/mars.tif"); nothing where there is none on a disk.
-std::optional<FileStatus> statusOfHolder(const std::string& file)
-{
-    if (!file.starts_with("/vsi")) {
-        return statusOf(file);
-    }
-    for (std::size_t begin = file.find('/', 1); begin != std::string::npos;
-         begin = file.find_first_of("/,{", begin + 1)) {
-        for (std::size_t end = file.size(); end != std::string::npos && end > begin + 1;
-             end = file.find_last_of("/}", end - 1)) {
-            if (const auto status = statusOf(file.substr(begin + 1, end - begin - 1))) {
-                return status;
-            }
-            if (const auto status = statusOf(file.substr(begin, end - begin))) {
-                return status;
-            }
-        }
-    }
-    return std::nullopt;
-}
-
 std::int64_t nanoseconds(const timespec& time)
 {
     return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
@@ -50,11 +28,31 @@ std::int64_t nanoseconds(const timespec& time)
 
 } // namespace
 
+std::string fileHolding(const std::string& name)
+{
+    if (!name.starts_with("/vsi")) {
+        return statusOf(name) ? name : std::string();
+    }
+    for (std::size_t begin = name.find('/', 1); begin != std::string::npos;
+         begin = name.find_first_of("/,{", begin + 1)) {
+        for (std::size_t end = name.size(); end != std::string::npos && end > begin + 1;
+             end = name.find_last_of("/}", end - 1)) {
+            for (const std::size_t first : {begin + 1, begin}) {
+                std::string file = name.substr(first, end - first);
+                if (statusOf(file)) {
+                    return file;
+                }
+            }
+        }
+    }
+    return {};
+}
+
 std::string stampTextOf(const std::vector<std::string>& files)
 {
     std::string text;
     for (const std::string& file : files) {
-        if (const std::optional<FileStatus> status = statusOfHolder(file)) {
+        if (const std::optional<FileStatus> status = statusOf(fileHolding(file))) {
             fmt::format_to(std::back_inserter(text), "{} {} {} {};", status->st_ino,
                            status->st_size, nanoseconds(status->st_mtim),
                            nanoseconds(status->st_ctim));

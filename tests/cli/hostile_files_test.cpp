@@ -164,6 +164,24 @@ TEST_F(HostileFiles, ATiffThatPromisesMoreBlocksThanItHoldsIsRefused)
     }
 }
 
+// 2026-11: GDAL 3.6 looks for a row beyond the last one without end.
+TEST_F(HostileFiles, ATextGridThatIsCutShortIsRefused)
+{
+    const std::string whole = test::readFile(test::writeRaster(
+        folder_, "whole.asc", "AAIGrid",
+        test::recipeFor(32, std::vector<std::int16_t>(std::size_t{32} * 32, 1234))));
+    EXPECT_EQ(info(folder_.file("whole.asc")).exit_status, 0);
+    const std::string zero_byte = whole.substr(0, whole.size() / 2) + std::string(1, '\0') +
+                                  whole.substr(whole.size() / 2 + 1);
+    for (const std::string& text :
+         {whole.substr(0, whole.size() / 2), whole.substr(0, whole.size() - 6), zero_byte}) {
+        const std::string path = folder_.write("map.asc", text);
+        const ProgramOutput output = info(path);
+        expectOneLine(output, path);
+        EXPECT_THAT(output.err, HasSubstr("its header promises 1024 samples"));
+    }
+}
+
 TEST_F(HostileFiles, BombsAreRefused)
 {
     std::vector<std::string> paths{

@@ -1,0 +1,16 @@
+// Whether an ASCII grid has as many numbers as its header promises.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstdint>
+#include <string>
+
+namespace marsview {
+
+/// For ESRI and GRASS ASCII grids: Unreadable, a sentence without the path, where fewer than
+/// `count` words follow the header. A zero byte ends the words, as for GDAL. Reads the file, a
+/// gigabyte in a second or two; the answer is remembered until the file changes. Any thread.
+Status checkTextGrid(const std::string& path, std::uint64_t count);
+
+} // namespace marsview
