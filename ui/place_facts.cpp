@@ -39,7 +39,7 @@ placeFacts(const Dataset& dataset, const QString& layer, GridPoint grid, const P
 {
     const Heightfield& heightfield = dataset.heightfield();
     const Georeference& georeference = dataset.georeference();
-    const double height_m = heightfield.height(grid); // asks for what is missing
+    const double height_m = heightfield.height(grid); // requests missing tiles
     PlaceFacts place;
     place.is_rough = !heightfield.isExact(grid);
     const auto add = [&place](const char* name, const QString& value) {

@@ -1,4 +1,4 @@
-// What is known of a place on the terrain, as people read it.
+// The facts of a place on the terrain, as text.
 #pragma once
 
 #include "core/geo/frames.h"

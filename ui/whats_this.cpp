@@ -48,7 +48,8 @@ void explainControls(const ExplainedControls& controls)
                           "Position and elevation under the pointer, read from the full-resolution "
                           "surface, and how far the drawn surface is off, in pixels.")));
     controls.load_status->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
-        "WhatsThis", "What is being loaded or built, how far it is, and a button to stop it.")));
+        "WhatsThis",
+        "Maps that are loading or being built, with their progress and a button to stop.")));
     controls.docks->datasets()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
         "The open maps as layers, the topmost first. Tick a layer to show it, drag it "

@@ -10,7 +10,7 @@ class TerrainView;
 class WindowDocks;
 struct WindowActions;
 
-/// What is explained. None is null.
+/// The controls with a text. None is null.
 struct ExplainedControls {
     TerrainView* view = nullptr;
     MapOverlays* overlays = nullptr;

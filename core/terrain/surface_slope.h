@@ -19,8 +19,8 @@ struct SurfaceSlope {
 /// an edge it is one of the two triangles. Without a CRS, lengths and north are those of the map.
 /// At a pole there is no aspect.
 ///
-/// Nothing outside the outermost samples and where one of the three is void. Of a map in tiles by
-/// what is there now; see Heightfield::isExact().
+/// Nothing outside the outermost samples and where one of the three is void. Of a tiled map by
+/// the samples that are loaded; see Heightfield::isExact().
 std::optional<SurfaceSlope>
 slopeAt(const Heightfield& heightfield, const Georeference& georeference, GridPoint grid);
 

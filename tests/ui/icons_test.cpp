@@ -71,7 +71,7 @@ TEST_F(IconsTest, ContrastWithWhatTheyAreDrawnOnInBothThemes)
             EXPECT_GE(contrast(normal, ground), 7.0);
             const QColor disabled = inkOf(icon.pixmap(20, QIcon::Disabled));
             EXPECT_GE(contrast(disabled, ground), 2.5);
-            EXPECT_GE(contrast(disabled, normal), 1.8) << "to be told from what is enabled";
+            EXPECT_GE(contrast(disabled, normal), 1.8) << "differs from what is enabled";
         }
     }
 }

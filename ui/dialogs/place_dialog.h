@@ -1,4 +1,4 @@
-// What is at a place of the map.
+// The card with the facts of a place.
 #pragma once
 
 #include "ui/place_facts.h"

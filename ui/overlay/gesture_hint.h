@@ -1,4 +1,4 @@
-// What a newcomer needs to know: how to move over the map, and that it can be touched.
+// The hint of the first minute: how to move over the map, and an invitation to touch it.
 #pragma once
 
 #include "ui/tools/gestures.h"
@@ -19,7 +19,7 @@ class GestureHint final : public QWidget {
 public:
     explicit GestureHint(QWidget* parent = nullptr);
 
-    /// Somebody did this on the map.
+    /// The gesture was made on the map.
     void markDone(MapAction action);
     bool isDone(MapAction action) const;
 

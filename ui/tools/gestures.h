@@ -1,4 +1,4 @@
-// What the mouse does on the map: one table, which the view obeys and the list of keys shows.
+// The gestures of the mouse and their actions: one table for the view and for the list of keys.
 #pragma once
 
 #include "ui/tools/tool.h"

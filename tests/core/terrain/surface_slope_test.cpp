@@ -137,7 +137,7 @@ TEST(SurfaceSlope, IsOfTheTriangleThatHoldsThePlace)
     EXPECT_NEAR(lower->aspect->degrees(), 45.0, 1e-4);
 }
 
-TEST(SurfaceSlope, IsNothingBesideTheMapAndWhereACornerIsVoid)
+TEST(SurfaceSlope, IsMissingOutsideTheMapAndWhereACornerIsVoid)
 {
     MapMaker maker;
     const LoadedMap map = maker.make(
