@@ -34,7 +34,7 @@ MainToolBar::MainToolBar(const WindowActions& actions, QWidget* parent)
     addSeparator();
     auto* caption = new QLabel(tr("Exaggeration"), this);
     caption->setContentsMargins(6, 0, 6, 0);
-    addWidget(caption);
+    caption_ = addWidget(caption);
     addWidget(exaggeration_);
     addSeparator();
     const auto add_menu = [this](QMenu* menu, const QString& text, const QString& tip) {
@@ -115,6 +115,7 @@ void MainToolBar::fitTexts()
             button->setToolButtonStyle(style);
         }
     };
+    caption_->setVisible(true);
     set(general_buttons_, Qt::ToolButtonTextBesideIcon);
     set(special_buttons_, Qt::ToolButtonTextBesideIcon);
     if (sizeHint().width() > width()) {
@@ -122,6 +123,9 @@ void MainToolBar::fitTexts()
     }
     if (sizeHint().width() > width()) {
         set(special_buttons_, Qt::ToolButtonIconOnly);
+    }
+    if (sizeHint().width() > width()) {
+        caption_->setVisible(false);
     }
 }
 

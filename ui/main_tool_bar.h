@@ -42,6 +42,7 @@ private:
     /// Those without a text first, where there is no room for all texts.
     QList<QToolButton*> general_buttons_;
     QList<QToolButton*> special_buttons_; // tools and menus
+    QAction* caption_ = nullptr;          // of the exaggeration
     ExaggerationControl* exaggeration_ = nullptr;
     QWidget* light_button_ = nullptr;
 };
