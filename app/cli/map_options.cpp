@@ -45,6 +45,14 @@ void MapOptions::addOverridesTo(CLI::App& command)
         .add_option("--scale", scale,
                     "elevation = sample × scale + offset, in the unit of the elevations")
         ->check(finiteNumber())
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                double value = 1.0;
+                return CLI::detail::lexical_cast(text, value) && value == 0.0
+                           ? text + " would make every elevation the same"
+                           : std::string();
+            },
+            ""))
         ->group(group);
     command.add_option("--offset", offset, "added to the scaled samples")
         ->check(finiteNumber())

@@ -131,8 +131,8 @@ TEST(ElevationOptions, OfTheWrongFormAreUsageErrors)
         }
     }
     const ProgramOutput zero = runCli({"info", mars, "--scale", "0"});
-    EXPECT_NE(zero.exit_status, 0);
-    EXPECT_THAT(zero.err, HasSubstr("scale"));
+    EXPECT_EQ(zero.exit_status, 2);
+    EXPECT_THAT(zero.err, HasSubstr("--scale: 0 would make every elevation the same"));
 }
 
 TEST(ElevationOptions, AreTakenByEveryCommandThatOpensAMap)
