@@ -12,8 +12,11 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <map>
+#include <mutex>
 #include <set>
 #include <string_view>
+#include <sys/stat.h>
 #include <tuple>
 #include <utility>
 
@@ -101,28 +104,8 @@ std::string listOf(const std::vector<std::string>& names, std::size_t left_out)
                          : fmt::format("{} and {} more", fmt::join(names, ", "), left_out);
 }
 
-} // namespace
-
-std::string archiveNameFor(const std::string& path)
+std::vector<ArchiveRaster> findRasters(const std::string& archive)
 {
-    const std::string lower = lowerCase(path);
-    if (lower.starts_with("/vsizip/") || lower.starts_with("/vsitar/")) {
-        return isFolder(path) ? path : std::string();
-    }
-    if (lower.starts_with("/vsi") || path.find("://") != std::string::npos) {
-        return {};
-    }
-    if (lower.ends_with(".zip")) {
-        return "/vsizip/" + path;
-    }
-    const bool is_tar =
-        lower.ends_with(".tar") || lower.ends_with(".tgz") || lower.ends_with(".tar.gz");
-    return is_tar ? "/vsitar/" + path : std::string();
-}
-
-std::vector<ArchiveRaster> rastersInArchive(const std::string& archive)
-{
-    ensureGdal();
     std::vector<Candidate> candidates = candidatesIn(archive);
     std::set<std::string> parts;
     for (const Candidate& candidate : candidates) {
@@ -148,6 +131,62 @@ std::vector<ArchiveRaster> rastersInArchive(const std::string& archive)
     rasters.reserve(candidates.size());
     for (Candidate& candidate : candidates) {
         rasters.push_back(std::move(candidate.raster));
+    }
+    return rasters;
+}
+
+// When the archive was last written to; empty where it is not on a disk.
+std::string stampOf(const std::string& archive)
+{
+    struct stat status {};
+    const std::string file = archive.substr(std::string_view("/vsizip/").size());
+    return stat(file.c_str(), &status) == 0
+               ? fmt::format("{} {} {} {}", status.st_ino, status.st_size, status.st_mtim.tv_sec,
+                             status.st_mtim.tv_nsec)
+               : std::string();
+}
+
+} // namespace
+
+std::string archiveNameFor(const std::string& path)
+{
+    const std::string lower = lowerCase(path);
+    if (lower.starts_with("/vsizip/") || lower.starts_with("/vsitar/")) {
+        return isFolder(path) ? path : std::string();
+    }
+    if (lower.starts_with("/vsi") || path.find("://") != std::string::npos) {
+        return {};
+    }
+    if (lower.ends_with(".zip")) {
+        return "/vsizip/" + path;
+    }
+    const bool is_tar =
+        lower.ends_with(".tar") || lower.ends_with(".tgz") || lower.ends_with(".tar.gz");
+    return is_tar ? "/vsitar/" + path : std::string();
+}
+
+std::vector<ArchiveRaster> rastersInArchive(const std::string& archive)
+{
+    ensureGdal();
+    // One opening of a map asks several times.
+    static std::mutex mutex;
+    static std::map<std::string, std::vector<ArchiveRaster>> known;
+    constexpr std::size_t kKnownMax = 16;
+    const std::string stamp = stampOf(archive);
+    if (stamp.empty()) {
+        return findRasters(archive);
+    }
+    const std::string key = archive + " " + stamp;
+    const std::lock_guard lock(mutex);
+    if (const auto found = known.find(key); found != known.end()) {
+        return found->second;
+    }
+    if (known.size() >= kKnownMax) {
+        known.clear();
+    }
+    std::vector<ArchiveRaster> rasters = findRasters(archive);
+    if (!rasters.empty()) { // the search may have been cancelled
+        known[key] = rasters;
     }
     return rasters;
 }

@@ -244,6 +244,23 @@ std::string besideOf(const std::string& path, const std::string& name)
     return folder.empty() ? name : folder + "/" + name;
 }
 
+// Of those names that are there: folders may hold thousands of TIFFs, so none is listed for each.
+std::vector<std::string> usualLabelNamesOf(const std::string& path)
+{
+    const std::string file = CPLGetFilename(path.c_str());
+    const std::string stem = CPLGetBasename(path.c_str());
+    std::vector<std::string> names;
+    for (const char* extension : {".lbl", ".LBL", ".Lbl", ".xml", ".XML"}) {
+        for (const std::string& name : {stem + extension, file + extension}) {
+            VSIStatBufL status{};
+            if (VSIStatL(besideOf(path, name).c_str(), &status) == 0) {
+                names.push_back(name);
+            }
+        }
+    }
+    return names;
+}
+
 bool isXml(const std::string& text)
 {
     const std::size_t first = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
@@ -406,7 +423,8 @@ std::string labelNextTo(const std::string& data_path)
     const std::string data_name = lowerCase(CPLGetFilename(data_path.c_str()));
     const std::string stem = lowerCase(CPLGetBasename(data_path.c_str()));
     std::string of_same_name;
-    for (const std::string& name : namesNextTo(data_path)) {
+    for (const std::string& name :
+         isJpeg2000Name(data_name) ? namesNextTo(data_path) : usualLabelNamesOf(data_path)) {
         const std::string lower = lowerCase(name);
         const bool is_candidate = lower == stem + ".lbl" || lower == stem + ".xml" ||
                                   lower == stem + "_jp2.lbl" || lower == data_name + ".lbl" ||
