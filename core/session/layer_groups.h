@@ -1,0 +1,34 @@
+// Layers by the body they are on: how a list presents them.
+//
+// The order of a session is one list, top first. Layers on different bodies are never in the
+// picture together, so people see one list for each body; the order within a group is that of the
+// session.
+#pragma once
+
+#include "core/session/session.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+struct LayerGroup {
+    const Body* body = nullptr;      // null: unknown
+    std::vector<std::size_t> layers; // indexes into Session::layers, top first; never empty
+};
+
+/// The groups in the order of their topmost layers.
+std::vector<LayerGroup> layerGroups(const Session& session);
+
+/// The index to give to moved() so that the layer has `place` other layers of its group above it;
+/// beyond the end is the end. Nothing if there is no such layer or it is alone in its group.
+std::optional<std::size_t> indexForPlace(const Session& session, LayerId id, std::size_t place);
+
+enum class GroupStep { Up, Down };
+
+/// The index to give to moved() so that the layer changes places with its neighbor in its group.
+/// Nothing if there is no neighbor on that side.
+std::optional<std::size_t> indexBeside(const Session& session, LayerId id, GroupStep step);
+
+} // namespace marsview
