@@ -86,13 +86,13 @@ void ContactSounds::open()
         if (opening->owner != nullptr) {
             QMetaObject::invokeMethod(
                 opening->owner,
-                [owner = opening->owner, player] { owner->opened(std::move(*player)); },
+                [owner = opening->owner, player] { owner->take(std::move(*player)); },
                 Qt::QueuedConnection);
         }
     }).detach();
 }
 
-void ContactSounds::opened(Result<SoundPlayer> player)
+void ContactSounds::take(Result<SoundPlayer> player)
 {
     opening_.reset();
     if (!is_on_) {
@@ -105,6 +105,7 @@ void ContactSounds::opened(Result<SoundPlayer> player)
     }
     player_ = std::move(player).value();
     listenAnew();
+    Q_EMIT opened();
 }
 
 void ContactSounds::listenAnew()

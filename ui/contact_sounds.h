@@ -41,14 +41,16 @@ public:
 
 Q_SIGNALS:
     void onChanged(bool is_on);
-    /// There is no output: a sentence for people. It is off again.
+    /// The output is open.
+    void opened();
+    /// There is no output, for the reason in the sentence. It is off again.
     void failed(const QString& why);
 
 private:
     struct Opening;
 
     void open();
-    void opened(Result<SoundPlayer> player);
+    void take(Result<SoundPlayer> player);
     void listenAnew();
     void takeSight();
     void play();

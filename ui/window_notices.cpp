@@ -1,0 +1,203 @@
+#include "ui/window_notices.h"
+
+#include "core/raster/tile_disk_cache.h"
+#include "ui/haptics_controller.h"
+#include "ui/notice_center.h"
+#include "ui/sentence.h"
+#include "ui/session_controller.h"
+#include "ui/terrain_view.h"
+
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr int kSampleNoticeDuration = 20000; // ms
+
+// A name in a sentence, cut short in its middle if it would fill a line.
+QString shortName(const std::string& name)
+{
+    constexpr qsizetype kLengthMax = 40;
+    const QString text = QString::fromStdString(name);
+    return text.size() <= kLengthMax
+               ? text
+               : text.first(kLengthMax / 2) + QChar(0x2026) + text.last(kLengthMax / 2);
+}
+
+QString idOf(LayerId layer, const QString& what)
+{
+    return QStringLiteral("layer %1: %2").arg(static_cast<uint>(layer)).arg(what);
+}
+
+} // namespace
+
+WindowNotices::WindowNotices(Parts parts, NoticeCommands commands, QObject* parent)
+    : QObject(parent)
+    , parts_(std::move(parts))
+    , commands_(std::move(commands))
+{}
+
+void WindowNotices::update()
+{
+    const Layer* active = activeLayer(parts_.session.session());
+    NoticeCenter& center = parts_.center;
+    center.setNotices(NoticeSource::Device, ofDevice());
+    center.setNotices(NoticeSource::Picture, active != nullptr ? ofPicture() : QList<Notice>());
+    center.setNotices(NoticeSource::Sample, ofSample());
+    center.setNotices(NoticeSource::Layer, active != nullptr ? ofLayer(*active) : QList<Notice>());
+    center.setNotices(NoticeSource::Storage, ofStorage());
+}
+
+QList<Notice> WindowNotices::ofDevice() const
+{
+    HapticsController& haptics = parts_.haptics;
+    if (haptics.isStopped()) {
+        return {{.id = QStringLiteral("device: stopped"),
+                 .text = tr("Emergency stop: the forces of the haptic device are off"),
+                 //: On a button: after an emergency stop of the haptic device
+                 .actions = {{tr("Resume Forces"), [&haptics] { haptics.setStopped(false); }}},
+                 .show_details = commands_.show_haptics}};
+    }
+    const QString problem = haptics.notice();
+    if (problem.isEmpty()) {
+        return {};
+    }
+    Notice notice{.id = QStringLiteral("device: ") + problem,
+                  .text = problem,
+                  .show_details = commands_.show_haptics};
+    if (haptics.isLost() && haptics.hasTicks()) {
+        //: On a button: after a haptic device was lost
+        notice.actions.append({tr("Save Diagnostic Log…"), commands_.save_diagnostic_log});
+    }
+    return {notice};
+}
+
+QList<Notice> WindowNotices::ofPicture() const
+{
+    const QString problem = parts_.view.problem();
+    if (problem.isEmpty()) {
+        return {};
+    }
+    return {{.id = QStringLiteral("picture: ") + problem,
+             //: %1 says which file, and why
+             .text = tr("Part of the picture is coarse for now. %1").arg(problem)}};
+}
+
+QList<Notice> WindowNotices::ofSample() const
+{
+    SessionController& session = parts_.session;
+    const Layer* sample = session.replacedSample();
+    const Layer* active = activeLayer(session.session());
+    if (sample == nullptr || active == nullptr) {
+        return {};
+    }
+    const Body* body = sample->dataset->info().body;
+    const QString name =
+        body != nullptr
+            ? QString::fromUtf8(body->name.data(), static_cast<qsizetype>(body->name.size()))
+            : QString();
+    return {{.id = idOf(sample->id, QStringLiteral("sample")),
+             .text = name.isEmpty()
+                         ? tr("The sample map was closed to show your file")
+                         //: %1 is a body
+                         : tr("The sample map of %1 was closed to show your file").arg(name),
+             .actions = {{name.isEmpty() ? tr("Keep Sample")
+                                         //: On a button: keep the sample map; %1 is a body
+                                         : tr("Keep %1").arg(name),
+                          [&session] { session.keepSample(); }}},
+             .duration_ms = kSampleNoticeDuration}};
+}
+
+QList<Notice> WindowNotices::ofLayer(const Layer& layer) const
+{
+    const Dataset& dataset = *layer.dataset;
+    QList<Notice> notices;
+    // The first notice of a preview says in numbers that it is one.
+    const std::size_t first = dataset.isPreview() ? 1 : 0;
+    if (dataset.isPreview()) {
+        notices.append(ofPreview(layer));
+    }
+    const auto& suggestion = dataset.info().crs_suggestion;
+    const std::string of_suggestion = suggestion ? noticeOf(*suggestion) : std::string();
+    const auto& texts = dataset.info().notices;
+    for (std::size_t i = first; i < texts.size(); ++i) {
+        const QString text = QString::fromStdString(texts[i]);
+        notices.append({.id = idOf(layer.id, text),
+                        .text = asSentence(text),
+                        .show_details = [show = commands_.show_fact, text] { show(text); }});
+        if (suggestion && texts[i] == of_suggestion) {
+            addChoices(notices.back(), *suggestion, layer);
+        }
+    }
+    return notices;
+}
+
+// One click for each system that would fit; every one is a step that can be undone.
+void WindowNotices::addChoices(Notice& notice,
+                               const CrsSuggestion& suggestion,
+                               const Layer& layer) const
+{
+    //: %1 is a reason, such as "its extent is 0° – 360°, 90° S – 90° N"
+    notice.text = tr("Looks like longitude and latitude, but the file has no CRS (%1)")
+                      .arg(QString::fromStdString(suggestion.reason));
+    SessionController& session = parts_.session;
+    for (const CrsChoice& choice : suggestion.choices) {
+        const QString name =
+            choice.body == "Earth" ? tr("WGS 84 (Earth)") : QString::fromStdString(choice.body);
+        RasterOverrides overrides = layer.dataset->spec().overrides;
+        overrides.crs = choice.crs;
+        notice.actions.append(
+            {suggestion.choices.size() == 1
+                 //: On a button: read a map in longitude and latitude on that body
+                 ? tr("Use %1").arg(name)
+                 : name,
+             [&session, id = layer.id, overrides] {
+                 session.overrideGeoreferencing(id, overrides);
+             }});
+    }
+    //: On a button that lists bodies: read a map in longitude and latitude on one of them
+    notice.menu_text = tr("Use…");
+}
+
+Notice WindowNotices::ofPreview(const Layer& layer) const
+{
+    SessionController& session = parts_.session;
+    const Preparation preparation = session.preparationOf(layer.id);
+    const QString name = shortName(layer.name);
+    const auto build = [&session, id = layer.id] { session.prepare(id); };
+    switch (preparation.state) {
+    case PreparationState::None:
+    case PreparationState::Waiting:
+    case PreparationState::Running:
+        break;
+    case PreparationState::Stopped:
+        return {.id = idOf(layer.id, QStringLiteral("stopped %1").arg(preparation.ending)),
+                //: %1 is a layer
+                .text = tr("%1 is shown as a preview. Build its overviews to see and touch all "
+                           "of it")
+                            .arg(name),
+                .actions = {{tr("Build Overviews"), build}}};
+    case PreparationState::Failed:
+        return {.id = idOf(layer.id, QStringLiteral("failed %1").arg(preparation.ending)),
+                .text = preparation.problem,
+                //: On a button: build the overviews of a large map after that failed
+                .actions = {{tr("Try Again"), build}}};
+    }
+    return {.id = idOf(layer.id, QStringLiteral("preview")),
+            //: %1 is a layer
+            .text = tr("%1 is shown as a preview while its overviews are being built").arg(name)};
+}
+
+// Why tiles from servers are not kept on disk.
+QList<Notice> WindowNotices::ofStorage() const
+{
+    const auto& tiles = parts_.fetched_tiles;
+    const std::optional<std::string> trouble = tiles ? tiles->trouble() : std::nullopt;
+    if (!trouble) {
+        return {};
+    }
+    const QString text = QString::fromStdString(*trouble);
+    return {{.id = QStringLiteral("storage: ") + text, .text = text}};
+}
+
+} // namespace marsview

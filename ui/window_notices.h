@@ -1,0 +1,63 @@
+// The notices of the window: what is reported about the active layer, the picture and the haptic
+// device, with the buttons that go with it.
+#pragma once
+
+#include "ui/notice.h"
+
+#include <QObject>
+
+#include <functional>
+#include <memory>
+
+namespace marsview {
+
+class HapticsController;
+class NoticeCenter;
+class SessionController;
+class TerrainView;
+class TileDiskCache;
+struct CrsSuggestion;
+struct Layer;
+
+/// What the buttons of notices do outside the session.
+struct NoticeCommands {
+    /// Shows a notice of the active layer among its facts.
+    std::function<void(const QString& notice)> show_fact;
+    std::function<void()> show_haptics;
+    std::function<void()> save_diagnostic_log;
+};
+
+/// Collects the notices and gives them to the center. GUI thread; must not outlive what it is made
+/// from.
+class WindowNotices final : public QObject {
+    Q_OBJECT
+
+public:
+    struct Parts {
+        NoticeCenter& center;
+        SessionController& session;
+        const TerrainView& view;
+        HapticsController& haptics;
+        /// May be null.
+        std::shared_ptr<TileDiskCache> fetched_tiles;
+    };
+
+    WindowNotices(Parts parts, NoticeCommands commands, QObject* parent = nullptr);
+
+    /// To be called when anything of what is reported may have changed. Cheap if nothing did.
+    void update();
+
+private:
+    QList<Notice> ofDevice() const;
+    QList<Notice> ofPicture() const;
+    QList<Notice> ofSample() const;
+    QList<Notice> ofLayer(const Layer& layer) const;
+    void addChoices(Notice& notice, const CrsSuggestion& suggestion, const Layer& layer) const;
+    Notice ofPreview(const Layer& layer) const;
+    QList<Notice> ofStorage() const;
+
+    Parts parts_;
+    NoticeCommands commands_;
+};
+
+} // namespace marsview
