@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLabelWidth = 150; // pixels
 constexpr int kBarWidth = 110;
-constexpr int kPreparingLabelWidth = 340;
+constexpr int kPreparingLabelWidth = 400;
 constexpr int kPreparingBarWidth = 70;
 
 } // namespace
@@ -27,7 +27,7 @@ LoadStatus::LoadStatus(QWidget* parent)
     , bar_(new QProgressBar(this))
     , cancel_(new QToolButton(this))
 {
-    label_->setAccessibleName(tr("What is loading"));
+    label_->setAccessibleName(tr("Loading"));
     label_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     bar_->setAccessibleName(tr("Progress of loading"));
     bar_->setRange(0, 100);
@@ -81,11 +81,11 @@ void LoadStatus::showPreparing(const PrepareProgress& progress)
     const int percent = static_cast<int>(std::floor(progress.fraction * 100.0));
     QString rest = tr("%1 %").arg(percent);
     if (progress.left) {
-        //: How far something is, and how long it still takes: "37 %, 4 min left"
+        //: The share that is done and the time left: "37 %, 4 min left"
         rest = tr("%1, %2").arg(rest, timeLeftText(*progress.left));
     }
-    //: In the status bar: %1 is a file, %2 how far it is
-    const QString sentence = tr("Preparing %1: %2");
+    //: In the status bar: %1 is a file, %2 the progress
+    const QString sentence = tr("Building overviews of %1: %2");
     const QFontMetrics metrics = label_->fontMetrics();
     const int room =
         kPreparingLabelWidth - metrics.horizontalAdvance(sentence.arg(QString(), rest));
@@ -93,7 +93,7 @@ void LoadStatus::showPreparing(const PrepareProgress& progress)
         sentence.arg(metrics.elidedText(QFileInfo(path).fileName(), Qt::ElideMiddle, room), rest);
     preparing_tip_ = path;
     if (progress.waiting_count > 0) {
-        //: Tool tip: %1 is a file, %n how many maps are to be prepared after it
+        //: Tool tip: %1 is a file, %n the number of maps whose turn is after it
         preparing_tip_ = tr("%1\n%n more waiting", nullptr, progress.waiting_count).arg(path);
     }
     preparing_fraction_ = progress.fraction;
@@ -114,9 +114,9 @@ void LoadStatus::showWhatGoesOn()
     label_->setFixedWidth(is_loading ? kLabelWidth : kPreparingLabelWidth);
     bar_->setFixedWidth(is_loading ? kBarWidth : kPreparingBarWidth);
     bar_->setTextVisible(is_loading);
-    cancel_->setAccessibleName(is_loading ? tr("Cancel Loading") : tr("Stop Preparing"));
+    cancel_->setAccessibleName(is_loading ? tr("Cancel Loading") : tr("Stop Building"));
     cancel_->setToolTip(is_loading ? tr("Cancel loading (Esc)")
-                                   : tr("Stop preparing; it can be gone on with later"));
+                                   : tr("Stop building overviews; it can be resumed later"));
     if (!is_loading) {
         label_->setText(preparing_text_);
         label_->setToolTip(preparing_tip_);

@@ -1,4 +1,4 @@
-// What is loading, in the status bar.
+// Progress of loading and of building overviews, in the status bar.
 #pragma once
 
 #include <QWidget>
@@ -12,8 +12,8 @@ namespace marsview {
 struct LoadReport;
 struct PrepareProgress;
 
-/// What is read, or else what is prepared, how far it is and a way to stop it. Hidden while there
-/// is neither.
+/// The file that is read, or else the map whose overviews are built, with progress and a button
+/// that stops it. Hidden otherwise.
 class LoadStatus final : public QWidget {
     Q_OBJECT
 
@@ -22,7 +22,7 @@ public:
 
     void showReport(const LoadReport& report);
     void endLoading();
-    /// To be seen while nothing loads.
+    /// Shown while nothing loads.
     void showPreparing(const PrepareProgress& progress);
     void endPreparing();
 

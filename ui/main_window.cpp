@@ -1,5 +1,6 @@
 #include "ui/main_window.h"
 
+#include "core/session/layer_groups.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "ui/action_icons.h"
 #include "ui/contact_sounds.h"
@@ -15,6 +16,7 @@
 #include "ui/main_tool_bar.h"
 #include "ui/map_overlays.h"
 #include "ui/notice_bar.h"
+#include "ui/notice_center.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
@@ -29,6 +31,7 @@
 #include "ui/whats_this.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
+#include "ui/window_notices.h"
 
 #include <QActionGroup>
 #include <QCloseEvent>
@@ -61,15 +64,6 @@ namespace {
 constexpr QSize kDefaultSize{1280, 800};
 constexpr int kMessageDuration = 4000; // ms
 
-QStringList noticesOf(const RasterInfo& info)
-{
-    QStringList notices;
-    for (const std::string& notice : info.notices) {
-        notices.append(asSentence(notice));
-    }
-    return notices;
-}
-
 // Files and addresses that can be opened.
 QStringList mapsIn(const QMimeData& data)
 {
@@ -82,15 +76,6 @@ QStringList mapsIn(const QMimeData& data)
         }
     }
     return files;
-}
-
-// A name in a sentence, cut short in its middle where it would fill a line of its own.
-QString shortName(const QString& name)
-{
-    constexpr qsizetype kLengthMax = 40;
-    return name.size() <= kLengthMax
-               ? name
-               : name.first(kLengthMax / 2) + QChar(0x2026) + name.last(kLengthMax / 2);
 }
 
 DriverMaker driversOf(const WindowOptions& options)
@@ -127,7 +112,8 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     , overlays_(new MapOverlays(*view_))
     , controller_(new SessionController(*view_, this))
     , actions_(std::make_unique<WindowActions>(*this, *view_, controller_->undoStack()))
-    , notices_(new NoticeBar(this))
+    , notice_bar_(new NoticeBar(this))
+    , notice_center_(new NoticeCenter(*notice_bar_, this))
     , datasets_(new DatasetPanel(actions_->layer, this))
     , georeferencing_(new GeoreferencingPanel(this))
     , haptics_(new HapticsController(*view_, driversOf(options), this))
@@ -178,6 +164,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectController();
     connectView();
     connectHint();
+    makeNotices();
     if (isRemembered()) {
         restoreWindow();
         haptics_->setSettings(hapticsSettingsFrom(QSettings()));
@@ -207,14 +194,14 @@ MainWindow::~MainWindow()
 void MainWindow::makeCentre()
 {
     auto* centre = new QWidget(this);
-    // Notices lie over the map: the picture does not move when they come and go.
+    // Notices lie over the map: the picture does not move when they appear and disappear.
     auto* layout = new QGridLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(view_, 0, 0);
-    layout->addWidget(notices_, 0, 0, Qt::AlignTop);
-    notices_->raise();
-    connect(notices_, &NoticeBar::coverChanged, this,
-            [this] { overlays_->setCovered(notices_->coveredHeight()); });
+    layout->addWidget(notice_bar_, 0, 0, Qt::AlignTop);
+    notice_bar_->raise();
+    connect(notice_bar_, &NoticeBar::coverChanged, this,
+            [this] { overlays_->setCovered(notice_bar_->coveredHeight()); });
     setCentralWidget(centre);
 }
 
@@ -263,12 +250,13 @@ void MainWindow::connectActions()
         datasets_->editName();
     });
     on(actions_->layer.remove, [this] { controller_->remove(session().active); });
-    const auto move = [this](int by) {
-        const auto index = static_cast<int>(indexOf(session(), session().active));
-        controller_->move(session().active, static_cast<std::size_t>(std::max(0, index + by)));
+    const auto step = [this](GroupStep to) {
+        if (const auto index = indexBeside(session(), session().active, to)) {
+            controller_->move(session().active, *index);
+        }
     };
-    on(actions_->layer.move_up, [move] { move(-1); });
-    on(actions_->layer.move_down, [move] { move(1); });
+    on(actions_->layer.move_up, [step] { step(GroupStep::Up); });
+    on(actions_->layer.move_down, [step] { step(GroupStep::Down); });
     on(actions_->override_georeferencing, [this] {
         docks_->reveal(*docks_->georeferencing());
         georeferencing_->edit();
@@ -306,17 +294,6 @@ void MainWindow::connectPanels()
             [this](const RasterOverrides& overrides) {
                 controller_->overrideGeoreferencing(session().active, overrides);
             });
-    connect(notices_, &NoticeBar::detailsRequested, this,
-            [this] { docks_->reveal(*docks_->georeferencing()); });
-    connect(notices_, &NoticeBar::actionRequested, this, [this] {
-        if (haptics_->isStopped()) {
-            haptics_->setStopped(false);
-        } else if (!noticed_device_.isEmpty()) {
-            haptics_panel_->chooseFlightRecord();
-        } else {
-            controller_->prepare(session().active);
-        }
-    });
     connect(tool_bar_, &MainToolBar::exaggerationRequested, controller_,
             [this](double exaggeration) { controller_->setExaggeration(exaggeration); });
     connect(tool_bar_, &MainToolBar::exaggerationDragged, controller_, [this](double exaggeration) {
@@ -360,7 +337,7 @@ void MainWindow::connectController()
     });
     connect(controller_, &SessionController::loadingCancelled, this, [this] {
         //: In the status bar, for a few seconds
-        statusBar()->showMessage(tr("Loading was cancelled"), kMessageDuration);
+        statusBar()->showMessage(tr("Loading canceled"), kMessageDuration);
     });
     connect(controller_, &SessionController::preparingProgressed, this,
             [this](const PrepareProgress& progress) {
@@ -386,6 +363,12 @@ void MainWindow::connectController()
     });
     connect(controller_, &SessionController::failed, this,
             [this](const QString& problem) { reportFailure(tr("Cannot Open Map"), problem); });
+    connect(controller_, &SessionController::overrideFailed, this,
+            [this](LayerId id, const QString& problem) {
+                controller_->activate(id);
+                docks_->reveal(*docks_->georeferencing());
+                georeferencing_->showFailure(problem);
+            });
 }
 
 void MainWindow::connectView()
@@ -480,6 +463,24 @@ void MainWindow::connectHaptics()
             [this] { haptics_->setStopped(true); });
 }
 
+void MainWindow::makeNotices()
+{
+    notices_ =
+        new WindowNotices({.center = *notice_center_,
+                           .session = *controller_,
+                           .view = *view_,
+                           .haptics = *haptics_,
+                           .fetched_tiles = options_.opener.resources.fetched_tiles},
+                          {.show_fact =
+                               [this](const QString& notice) {
+                                   docks_->reveal(*docks_->georeferencing());
+                                   georeferencing_->showNotice(notice);
+                               },
+                           .show_haptics = [this] { docks_->reveal(*docks_->haptics()); },
+                           .save_diagnostic_log = [this] { haptics_panel_->chooseFlightRecord(); }},
+                          this);
+}
+
 void MainWindow::connectSpaceMouse()
 {
     spacemouse_ = new SpaceMouseController(*view_, options_.spacemouse, this);
@@ -493,29 +494,36 @@ void MainWindow::connectSpaceMouse()
     });
 }
 
+// A sound that failed is off at the next start too. A failure is reported only to a user who has
+// just switched the sound on.
 void MainWindow::connectSounds()
 {
-    sounds_ = new ContactSounds(*view_, &SoundPlayer::open, this);
+    sounds_ = new ContactSounds(*view_, options_.open_sound, this);
     const QString key = QStringLiteral("haptics/sound");
-    if (isRemembered() && QSettings().value(key, false).toBool()) {
-        sounds_->setOn(true); // where it fails nobody is bothered
-        actions_->contact_sound->setChecked(true);
-    }
-    connect(actions_->contact_sound, &QAction::triggered, this, [this, key](bool is_on) {
-        sounds_->setOn(is_on);
+    const auto remember = [this, key](bool is_on) {
         if (isRemembered()) {
             QSettings().setValue(key, is_on);
         }
-        // Whoever asks is told why there is none.
-        connect(sounds_, &ContactSounds::failed, this, &MainWindow::tellNoSound,
-                Qt::UniqueConnection);
+    };
+    QAction* action = actions_->contact_sound;
+    connect(action, &QAction::triggered, this, [this, remember](bool is_on) {
+        is_sound_remembered_ = false;
+        sounds_->setOn(is_on);
+        if (!is_on) {
+            remember(false);
+        }
     });
-    connect(sounds_, &ContactSounds::onChanged, actions_->contact_sound, &QAction::setChecked);
-}
-
-void MainWindow::tellNoSound(const QString& why)
-{
-    reportFailure(tr("Cannot Play Sound"), asSentence(why));
+    connect(sounds_, &ContactSounds::opened, this, [remember] { remember(true); });
+    connect(sounds_, &ContactSounds::failed, this, [this, remember](const QString& why) {
+        remember(false);
+        if (!is_sound_remembered_) {
+            reportFailure(tr("Cannot Play Sound"), asSentence(why));
+        }
+        is_sound_remembered_ = false;
+    });
+    connect(sounds_, &ContactSounds::onChanged, action, &QAction::setChecked);
+    is_sound_remembered_ = isRemembered() && QSettings().value(key, false).toBool();
+    sounds_->setOn(is_sound_remembered_);
 }
 
 void MainWindow::showHaptics()
@@ -623,7 +631,7 @@ void MainWindow::showSession()
     settleIfIdle();
 }
 
-// What is told of the active layer.
+// Everything that is shown about the active layer.
 void MainWindow::showActive()
 {
     const Layer* active = activeLayer(session());
@@ -645,88 +653,12 @@ void MainWindow::showActive()
                           is_shown && is_scene_current ? dataset : nullptr);
 }
 
-// What was assumed about the active layer, and first how far it is where it is a preview.
 void MainWindow::showPreparation()
 {
-    const Layer* active = activeLayer(session());
-    const auto dataset = active != nullptr ? active->dataset : nullptr;
-    const Preparation preparation = controller_->preparationOf(session().active);
-    const PreparationState state = preparation.state;
-    const bool is_stopped = state == PreparationState::Stopped || state == PreparationState::Failed;
-    actions_->layer.prepare->setEnabled(is_stopped);
-    const QString problem = dataset ? view_->problem() : QString();
-    const QString device = haptics_->isStopped()
-                               ? tr("Emergency stop: the haptic device does not push")
-                               : haptics_->notice();
-    const QString trouble = troubleWithFetched(dataset);
-    if (dataset == noticed_ && state == noticed_state_ && trouble == noticed_trouble_ &&
-        problem == noticed_problem_ && device == noticed_device_) {
-        return; // it may have been closed
-    }
-    if (!trouble.isEmpty()) {
-        told_trouble_ = trouble;
-    }
-    noticed_trouble_ = trouble;
-    noticed_ = dataset;
-    noticed_state_ = state;
-    noticed_problem_ = problem;
-    noticed_device_ = device;
-    QStringList notices = dataset ? noticesOf(dataset->info()) : QStringList();
-    QString action;
-    if (dataset && dataset->isPreview()) {
-        notices.removeFirst(); // that it is one, in numbers
-        const QString name = shortName(QString::fromStdString(active->name));
-        switch (state) {
-        case PreparationState::None:
-        case PreparationState::Waiting:
-        case PreparationState::Running:
-            //: %1 is a layer
-            notices.prepend(tr("%1 is shown as a preview while it is being prepared").arg(name));
-            break;
-        case PreparationState::Stopped:
-            //: %1 is a layer
-            notices.prepend(
-                tr("%1 is shown as a preview; prepare it to see and touch all of it").arg(name));
-            //: On a button: prepare a large map
-            action = tr("Prepare");
-            break;
-        case PreparationState::Failed:
-            notices.prepend(preparation.problem);
-            //: On a button: prepare a large map, after that has failed
-            action = tr("Try Again");
-            break;
-        }
-    }
-    if (!trouble.isEmpty()) {
-        notices.insert(action.isEmpty() ? 0 : 1, trouble); // the action is about the first
-    }
-    if (!problem.isEmpty()) {
-        //: %1 says which file, and why
-        notices.prepend(tr("Part of the picture is coarse for now. %1").arg(problem));
-        action.clear(); // it is about the first of them
-    }
-    if (!device.isEmpty()) {
-        notices.prepend(device);
-        action = haptics_->isStopped()
-                     //: On a button: after an emergency stop of the haptic device
-                     ? tr("Let Forces Return")
-                     : haptics_->isLost() && haptics_->hasTicks()
-                           //: On a button: after a haptic device was lost
-                           ? tr("Save Flight Record…")
-                           : QString();
-    }
-    notices_->setNotices(notices, action);
-}
-
-// Why tiles from servers are not kept on disk. Said once: not again for another layer, nor after it
-// has come and gone.
-QString MainWindow::troubleWithFetched(const std::shared_ptr<const Dataset>& dataset) const
-{
-    const auto& fetched = options_.opener.resources.fetched_tiles;
-    const std::optional<std::string> trouble = fetched ? fetched->trouble() : std::nullopt;
-    const QString sentence = trouble ? QString::fromStdString(*trouble) : QString();
-    const bool is_shown = sentence == noticed_trouble_ && dataset == noticed_;
-    return is_shown || sentence != told_trouble_ ? sentence : QString();
+    const PreparationState state = controller_->preparationOf(session().active).state;
+    actions_->layer.prepare->setEnabled(state == PreparationState::Stopped ||
+                                        state == PreparationState::Failed);
+    notices_->update();
 }
 
 void MainWindow::reportFailure(const QString& title, const QString& problem)

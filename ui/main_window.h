@@ -1,6 +1,7 @@
 // The window: puts the map, the panels, the toolbar and the dialogs together.
 #pragma once
 
+#include "haptics/sound/sound_player.h"
 #include "ui/connection_mark.h"
 #include "ui/device_finder.h"
 #include "ui/dialogs/go_to_dialog.h"
@@ -11,6 +12,7 @@
 
 #include <QMainWindow>
 
+#include <functional>
 #include <memory>
 
 namespace marsview {
@@ -26,12 +28,14 @@ class MapOverlays;
 class MainToolBar;
 class MapMenu;
 class NoticeBar;
+class NoticeCenter;
 class PictureSaver;
 class RecentFiles;
 class StatusReadout;
 class StretchControl;
 class TerrainView;
 class WindowDocks;
+class WindowNotices;
 struct GroundPoint;
 struct WindowActions;
 
@@ -47,6 +51,8 @@ struct WindowOptions {
     /// Of haptic devices; empty for those that come with the program.
     DriverMaker make_drivers{};
     SpaceMouseOptions spacemouse{};
+    /// Opens the output of contact sounds.
+    std::function<Result<SoundPlayer>()> open_sound = &SoundPlayer::open;
 };
 
 class MainWindow final : public QMainWindow {
@@ -126,13 +132,12 @@ private:
     void connectHaptics();
     void connectSpaceMouse();
     void connectSounds();
-    void tellNoSound(const QString& why);
+    void makeNotices();
     void showHaptics();
     void restoreWindow();
     void showSession();
     void showActive();
     void showPreparation();
-    QString troubleWithFetched(const std::shared_ptr<const Dataset>& dataset) const;
     void reportFailure(const QString& title, const QString& problem);
     static QStringList rasterFilters();
     void savePicture();
@@ -147,7 +152,9 @@ private:
     MapMenu* map_menu_ = nullptr;
     SessionController* controller_ = nullptr;
     std::unique_ptr<WindowActions> actions_;
-    NoticeBar* notices_ = nullptr;
+    NoticeBar* notice_bar_ = nullptr;
+    NoticeCenter* notice_center_ = nullptr;
+    WindowNotices* notices_ = nullptr;
     DatasetPanel* datasets_ = nullptr;
     GeoreferencingPanel* georeferencing_ = nullptr;
     HapticsController* haptics_ = nullptr;
@@ -155,6 +162,7 @@ private:
     HapticsPanel* haptics_panel_ = nullptr;
     SpaceMouseController* spacemouse_ = nullptr;
     ContactSounds* sounds_ = nullptr;
+    bool is_sound_remembered_ = false; // switched on by the settings, not by the user
     WindowDocks* docks_ = nullptr;
     MainToolBar* tool_bar_ = nullptr;
     StatusReadout* readout_ = nullptr;
@@ -163,12 +171,6 @@ private:
     LightPopup* light_popup_ = nullptr;
     PictureSaver* picture_saver_ = nullptr;
     StretchControl* stretch_ = nullptr;
-    std::shared_ptr<const Dataset> noticed_; // whose notices were shown last
-    PreparationState noticed_state_ = PreparationState::None;
-    QString noticed_trouble_; // that tiles from servers are not kept
-    QString told_trouble_;    // before, or now
-    QString noticed_problem_; // of the picture
-    QString noticed_device_;  // what became of the haptic device
     GoToEntry last_place_;
     QString last_folder_;
 };

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kProgressInterval{100};
 
-// Seconds beside the minutes that preparing takes; where it takes less, nobody waits for them.
+// Seconds against the minutes that overviews take.
 DecimationLimits betterPreview()
 {
     DecimationLimits limits;
@@ -29,7 +29,7 @@ bool isPreparedAlike(const DatasetSpec& a, const DatasetSpec& b)
 struct MapPreparer::Job {
     PrepareRequest request;
     MapOpener opener;
-    JobMonitor previewing; // has no part in the minutes that are told
+    JobMonitor previewing; // not part of the progress that is reported
     JobMonitor monitor;
     std::function<void(const LoadedMap&)> tell_preview;
 
@@ -43,8 +43,8 @@ struct MapPreparer::Job {
 MapPreparer::MapPreparer(QObject* parent)
     : QObject(parent)
 {
-    // One after the other: a map that is asked for again right after it was stopped waits until
-    // the stopped attempt has let go of its files.
+    // One at a time: a map that is restarted right after it was stopped waits until the stopped
+    // attempt has closed its files.
     pool_.setMaxThreadCount(1);
     progress_timer_.setInterval(kProgressInterval);
     connect(&progress_timer_, &QTimer::timeout, this, &MapPreparer::reportProgress);
@@ -55,7 +55,7 @@ MapPreparer::~MapPreparer()
     if (job_) {
         job_->cancel();
     }
-    // Jobs post to this object: none may be left when it goes. What they posted goes with it.
+    // Jobs post to this object: none may be left when it is destroyed.
     pool_.waitForDone();
 }
 
@@ -112,7 +112,7 @@ bool MapPreparer::has(const DatasetSpec& spec) const
                        [&spec](const DatasetSpec& other) { return isPreparedAlike(other, spec); });
 }
 
-// Whatever the reason for it, somebody waits to hear that nothing goes on any more.
+// ended() follows for whatever reason nothing is in progress any more.
 void MapPreparer::startNext()
 {
     if (job_) {
@@ -167,12 +167,12 @@ Status MapPreparer::run(Job& job)
             }
         }
         if (job.monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, spec.path + ": preparing was cancelled"};
+            return Error{ErrorCode::Cancelled, spec.path + ": building overviews was canceled"};
         }
         return job.opener.prepare(spec, job.opener.resources, job.monitor);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::TooLarge,
-                     spec.path + ": needs more memory than there is; close other programs"};
+                     spec.path + ": not enough memory to build overviews; close other programs"};
     } catch (const std::exception& e) {
         return Error{ErrorCode::Unreadable, spec.path + ": " + e.what()};
     }
@@ -181,7 +181,7 @@ Status MapPreparer::run(Job& job)
 void MapPreparer::finish(const std::shared_ptr<Job>& job, const Status& outcome)
 {
     if (job != job_) {
-        return; // taken back after this was posted
+        return; // removed after this was posted
     }
     job_.reset();
     const DatasetSpec spec = job->request.spec;

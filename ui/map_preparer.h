@@ -1,4 +1,4 @@
-// Preparing maps that are too large to be held, away from the GUI thread.
+// Builds the overviews of maps that are too large for memory, away from the GUI thread.
 #pragma once
 
 #include "core/base/result.h"
@@ -19,13 +19,13 @@
 
 namespace marsview {
 
-/// Whether what is prepared for the one serves the other: they differ only in what is told of the
-/// samples, not in the samples.
+/// Whether the overviews of one serve the other: the samples are the same, whatever the overrides
+/// say about them.
 bool isPreparedAlike(const DatasetSpec& a, const DatasetSpec& b);
 
 struct PrepareRequest {
     DatasetSpec spec;
-    bool is_preview_wanted = false; // a better one than there is
+    bool is_preview_wanted = false; // a better one than is shown
 };
 
 struct PrepareProgress {
@@ -35,9 +35,9 @@ struct PrepareProgress {
     int waiting_count = 0; // of further maps
 };
 
-/// Prepares one map after the other. What is taken back or ends with the object stops at its next
-/// step and can be gone on with; nothing of it is heard of afterwards. Lives in the GUI thread;
-/// only the destructor may wait, for at most one step.
+/// Builds the overviews of one map at a time. A map that is removed, or destroyed with this object,
+/// stops at its next step and can be resumed; it emits no signal afterwards. Lives in the GUI
+/// thread; only the destructor may wait, for at most one step.
 class MapPreparer final : public QObject {
     Q_OBJECT
 
@@ -45,31 +45,31 @@ public:
     explicit MapPreparer(QObject* parent = nullptr);
     ~MapPreparer() override;
 
-    /// For maps whose preparation begins from now on.
+    /// For maps that are started from now on.
     void setOpener(const MapOpener& opener) { opener_ = opener; }
 
-    /// Nothing where the map is being prepared or waits for it.
+    /// Without effect if the map is in progress or waits already.
     void enqueue(const PrepareRequest& request);
-    /// Nothing where the map is not there.
+    /// Without effect if the map is neither in progress nor waits.
     void remove(const DatasetSpec& spec);
     void removeAll();
 
     bool isBusy() const noexcept { return job_ != nullptr; }
-    /// What is being prepared; nothing where there is none.
+    /// The map in progress, if any.
     std::optional<DatasetSpec> current() const;
-    /// What is being prepared and what waits for it.
+    /// The map in progress and those that wait.
     std::vector<DatasetSpec> all() const;
-    /// Is being prepared, or waits for it.
+    /// The map is in progress or waits.
     bool has(const DatasetSpec& spec) const;
 
 Q_SIGNALS:
     void progressed(const PrepareProgress& progress);
-    /// A better preview, while it goes on.
+    /// A better preview, while overviews are being built.
     void previewed(const LoadedMap& map);
-    // One of the following ends each, except what was taken back.
+    // One of the following ends each map, except those that were removed.
     void prepared(const DatasetSpec& spec);
     void failed(const LoadFailure& failure);
-    /// Nothing is being prepared any more.
+    /// No map is in progress any more.
     void ended();
 
 private:

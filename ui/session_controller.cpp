@@ -12,7 +12,7 @@
 namespace marsview {
 namespace {
 
-// Undone layers keep their samples in memory; nobody takes back more steps than these.
+// Undone layers keep their samples in memory.
 constexpr int kUndoStepsMax = 100;
 
 // Places at which a layer is looked for on screen, along each side.
@@ -54,6 +54,16 @@ GridPoint placeOn(const Dataset& dataset, double column_share, double row_share)
 {
     return {column_share * static_cast<double>(dataset.heightfield().columns() - 1),
             row_share * static_cast<double>(dataset.heightfield().rows() - 1)};
+}
+
+// With a layer in the picture: on top if it cannot be shown together with what is shown now.
+Session shownIn(const Session& session, LayerId id)
+{
+    Session after = withVisibility(session, id, true);
+    const std::vector<LayerState> states = placement(after);
+    return states[indexOf(after, id)] == LayerState::Shown
+               ? after
+               : activated(moved(std::move(after), id, 0), id);
 }
 
 // From where the larger side of a map fills most of a picture that is 40° high.
@@ -98,6 +108,8 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
         const QString problem = QString::fromStdString(failure.error.message);
         if (load.purpose == Load::Purpose::Complete) {
             endPreparing({.how = Ending::How::Failed, .spec = load.spec, .problem = problem});
+        } else if (load.purpose == Load::Purpose::Override) {
+            Q_EMIT overrideFailed(load.layer, problem);
         } else {
             Q_EMIT failed(problem);
         }
@@ -228,7 +240,7 @@ void SessionController::cancel()
     Q_EMIT loadingEnded();
 }
 
-// What is being loaded for a layer that is gone is of no use.
+// Drops loads for a layer that was removed.
 void SessionController::dropLoadsOf(LayerId id)
 {
     const bool was_busy = isBusy();
@@ -264,6 +276,11 @@ void SessionController::accept(const LoadedMap& map)
         const bool is_sample = load.purpose == Load::Purpose::Sample;
         const Session after = added(session_, {.dataset = dataset, .is_sample = is_sample});
         to_reveal_ = after.active;
+        for (const Layer& layer : session_.layers) {
+            if (layer.is_sample && !is_sample) {
+                replaced_sample_ = layer;
+            }
+        }
         if (is_sample && undo_stack_.count() == 0) {
             apply(after);
         } else {
@@ -300,7 +317,31 @@ void SessionController::setVisible(LayerId id, bool is_visible)
     if (const Layer* layer = layerOf(session_, id)) {
         //: Continues "Undo …"; %1 is a layer
         const QString text = is_visible ? tr("Show %1") : tr("Hide %1");
-        change(text.arg(nameOf(*layer)), withVisibility(session_, id, is_visible));
+        const QString name = nameOf(*layer);
+        const Session after =
+            is_visible ? shownIn(session_, id) : withVisibility(session_, id, false);
+        if (is_visible && shownLayers(after).front()->id == id) {
+            to_reveal_ = id;
+        }
+        change(text.arg(name), after);
+    }
+}
+
+const Layer* SessionController::replacedSample() const
+{
+    return replaced_sample_ && layerOf(session_, replaced_sample_->id) == nullptr
+               ? &*replaced_sample_
+               : nullptr;
+}
+
+void SessionController::keepSample()
+{
+    if (const Layer* sample = replacedSample()) {
+        Session after = session_;
+        after.layers.push_back(*sample);
+        after.layers.back().is_sample = false;
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Keep %1").arg(nameOf(*sample)), after);
     }
 }
 
@@ -525,10 +566,8 @@ void SessionController::goTo(LayerId id)
         return std::find(shown.begin(), shown.end(), layerOf(session_, id)) != shown.end();
     };
     if (const Layer* hidden = layerOf(session_, id); hidden != nullptr && !is_shown()) {
-        // On top and visible it is the scene.
         //: Continues "Undo …"; %1 is a layer
-        change(tr("Show %1").arg(nameOf(*hidden)),
-               activated(moved(withVisibility(session_, id, true), id, 0), id));
+        change(tr("Show %1").arg(nameOf(*hidden)), shownIn(session_, id));
     }
     const Layer* layer = layerOf(session_, id);
     const Dataset* scene = view_.map().dataset.get();

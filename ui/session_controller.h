@@ -20,7 +20,7 @@ namespace marsview {
 
 class TerrainView;
 
-/// What is loading, for people.
+/// Progress of loading, for people.
 struct LoadReport {
     QString file;          // its path
     double fraction = 0.0; // done
@@ -28,9 +28,9 @@ struct LoadReport {
     int count = 1;
 };
 
-/// How far a layer is that is shown by a preview.
+/// The state of the overviews of a layer that is shown as a preview.
 enum class PreparationState {
-    None,    // the layer is no preview, or is about to be whole
+    None,    // the layer is not a preview, or its map is about to replace it
     Waiting, // for other maps
     Running,
     Stopped, // by the user
@@ -40,18 +40,19 @@ enum class PreparationState {
 struct Preparation {
     PreparationState state = PreparationState::None;
     QString problem{}; // "FILE: WHY" of what failed
+    int ending = 0;    // a number of its own for each time that building was stopped or failed
 };
 
 /// Whether a change is a step of undo by itself, or one of many of a drag.
 enum class ChangeKind { Single, OfDrag };
 
 /// Holds the session and changes it on request; every change is undoable, except which layer is
-/// active. What has to be loaded is loaded first, one after the other in the order asked for, and
-/// becomes a change when it is there. Lives in the GUI thread; must not outlive the view.
+/// active. Files are loaded first, one at a time in the order of the requests, and become a change
+/// when they are loaded. Lives in the GUI thread; must not outlive the view.
 ///
-/// A map that is too large to be held and was not prepared before comes as a preview and is
-/// prepared meanwhile. When it is ready it takes the preview's place wherever that is, which is no
-/// change to take back; so it does in steps of undo.
+/// A map that is too large for memory and has no overviews yet is shown as a preview while they are
+/// built. The finished map replaces the preview in the session and in the steps of undo, without a
+/// step of its own.
 class SessionController final : public QObject {
     Q_OBJECT
 
@@ -59,7 +60,7 @@ public:
     explicit SessionController(TerrainView& view, QObject* parent = nullptr);
     ~SessionController() override;
 
-    /// For what is opened from now on.
+    /// For files that are opened from now on.
     void setOpener(const MapOpener& opener);
 
     const Session& session() const noexcept { return session_; }
@@ -67,29 +68,37 @@ public:
     const LoadController& loader() const noexcept { return *loader_; }
     /// Something is loading or waits for its turn.
     bool isBusy() const noexcept { return current_.has_value() || !waiting_.empty(); }
-    /// A map is being prepared while its preview is shown.
+    /// The overviews of some map are being built.
     bool isPreparing() const noexcept { return preparer_->isBusy(); }
     Preparation preparationOf(LayerId id) const;
 
     /// Each becomes a layer on top when it is loaded. May be called before the view can draw.
     void open(const QStringList& files);
-    /// As a sample, which is no change to take back and gives way to the first map opened. Nothing
-    /// where the user was faster.
+    /// As a sample: not a step of undo, and replaced by the first map that the user opens. Does
+    /// nothing if a layer is open or being opened.
     void openSample(const QString& file);
-    /// Tells the file of a layer better.
+    /// The sample that the first opened map replaced, as long as it is not back in the session;
+    /// null otherwise.
+    const Layer* replacedSample() const;
+    /// Puts the replaced sample back below the other layers, as a layer like them.
+    void keepSample();
+    /// Replaces what the file of a layer states. overrideFailed() follows if that is not
+    /// possible.
     void overrideGeoreferencing(LayerId id, const RasterOverrides& overrides);
-    /// Stops what is loading and forgets what waits.
+    /// Cancels the file that is loading and those that wait.
     void cancel();
-    /// Prepares a layer that is a preview, or goes on with it.
+    /// Builds the overviews of a layer that is a preview, or resumes that.
     void prepare(LayerId id);
-    /// Stops what is being prepared, to be gone on with another time; others that wait are next.
+    /// Stops building the current overviews, which can be resumed; maps that wait are next.
     void stopPreparing();
-    /// Stops everything, as before the end.
+    /// Stops everything, before the program ends.
     void stopAll();
 
-    // Nothing where there is no such layer, or nothing would change.
+    // Without effect if the layer does not exist or nothing would change.
     void remove(LayerId id);
     void move(LayerId id, std::size_t index);
+    /// Shown means in the picture: a layer that the view cannot show together with the present ones
+    /// moves to the top and becomes what the view shows.
     void setVisible(LayerId id, bool is_visible);
     /// A name of colorRamps(); empty for the one that suits the body.
     void setRamp(LayerId id, const QString& ramp);
@@ -117,7 +126,7 @@ public:
     void setLight(Angle azimuth, Angle altitude);
     void activate(LayerId id);
 
-    /// Flies to where all of a layer is in sight. Nothing where it is not shown.
+    /// Flies to where all of a layer is in sight, and shows it first if it is not shown.
     void goTo(LayerId id);
 
 Q_SIGNALS:
@@ -129,20 +138,22 @@ Q_SIGNALS:
     /// The user stopped it.
     void loadingCancelled();
     void preparingProgressed(const PrepareProgress& progress);
-    /// Nothing is being prepared any more.
+    /// No overviews are being built any more.
     void preparingEnded();
     /// Of some layer.
     void preparationChanged();
     void opened(const QString& file);
     /// "FILE: WHY". The session is as it was.
     void failed(const QString& problem);
+    /// Overrides of a layer cannot be used, "FILE: WHY" or "OPTION: WHY". The session is as it was.
+    void overrideFailed(LayerId id, const QString& problem);
 
 private:
     struct Load {
         /// Complete: a preview whose map has been prepared.
         enum class Purpose { Open, Sample, Override, Complete } purpose = Purpose::Open;
         DatasetSpec spec;
-        LayerId layer = LayerId::None; // whose georeferencing is told, or whose preview it is
+        LayerId layer = LayerId::None; // that is overridden, or whose preview it is
     };
     /// What became of a preview. It lives as long as some step of undo holds the preview.
     struct Successor {
@@ -154,6 +165,7 @@ private:
         enum class How { Done, Stopped, Failed } how = How::Done;
         DatasetSpec spec;
         QString problem{};
+        int number = 0; // counted from 1
     };
 
     void enqueue(Load load);
@@ -187,7 +199,9 @@ private:
     std::deque<Load> waiting_;
     int asked_count_ = 0; // since nothing was loading
     int begun_count_ = 0;
+    int ending_count_ = 0;
     LayerId to_reveal_ = LayerId::None;
+    std::optional<Layer> replaced_sample_;
     std::vector<ShownLayer> shown_;
     int drag_serial_ = 0;
     /// A percentile takes a while to find.

@@ -1,4 +1,4 @@
-// What becomes of layers that are shown by previews.
+// Layers that are shown as previews, and the maps that replace them.
 
 #include "ui/session_controller.h"
 #include "ui/terrain_view.h"
@@ -27,7 +27,8 @@ Preparation SessionController::preparationOf(LayerId id) const
     }
     return {.state = ending->how == Ending::How::Failed ? PreparationState::Failed
                                                         : PreparationState::Stopped,
-            .problem = ending->problem};
+            .problem = ending->problem,
+            .ending = ending->number};
 }
 
 void SessionController::prepare(LayerId id)
@@ -59,22 +60,22 @@ void SessionController::acceptComplete(const Load& load, const LoadedMap& map)
 {
     const Layer* layer = layerOf(session_, load.layer);
     if (layer == nullptr || !isOfSameMap(*layer->dataset, *map.dataset)) {
-        lookAfterPreviews(); // gone, or told otherwise meanwhile
+        lookAfterPreviews(); // removed or overridden in the meantime
         return;
     }
     if (map.dataset->isPreview()) {
         endPreparing({.how = Ending::How::Failed,
                       .spec = load.spec,
                       //: %1 is a file
-                      .problem = tr("%1: what was prepared of it is gone; prepare it again, or "
-                                    "choose another folder for prepared maps in the preferences")
+                      .problem = tr("%1: its overviews are gone. Build them again, or choose "
+                                    "another folder for prepared maps in the preferences")
                                      .arg(QString::fromStdString(load.spec.path))});
         return;
     }
     succeed(layer->dataset, map);
 }
 
-// In place: the same layers, looks and camera, and no step to take back.
+// In place: the same layers, looks and camera, without a step of undo.
 void SessionController::succeed(const std::shared_ptr<const Dataset>& preview, const LoadedMap& map)
 {
     std::erase_if(successors_, [](const Successor& s) { return s.preview.expired(); });
@@ -104,6 +105,7 @@ void SessionController::endPreparing(const Ending& ending)
 {
     forgetEnding(ending.spec);
     endings_.push_back(ending);
+    endings_.back().number = ++ending_count_;
     lookAfterPreviews();
     Q_EMIT preparationChanged();
 }
@@ -130,8 +132,8 @@ bool SessionController::isCompleting(LayerId id) const
     return (current_ && is_it(*current_)) || std::any_of(waiting_.begin(), waiting_.end(), is_it);
 }
 
-// Every preview in the session is on its way to be a whole map, unless that was stopped or failed;
-// none is prepared for nobody.
+// The overviews of every preview in the session are in progress or wait, unless that was stopped or
+// failed; those of other maps are not.
 void SessionController::lookAfterPreviews()
 {
     if (are_previews_left_alone_) {
@@ -142,7 +144,7 @@ void SessionController::lookAfterPreviews()
             return layer.dataset->isPreview() && isPreparedAlike(layer.dataset->spec(), spec);
         });
     };
-    // Those that wait first: none of them is to be begun.
+    // Those that wait first, so that none of them is started.
     const std::vector<DatasetSpec> prepared = preparer_->all();
     for (auto spec = prepared.rbegin(); spec != prepared.rend(); ++spec) {
         if (!is_wanted(*spec)) {

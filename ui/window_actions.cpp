@@ -1,5 +1,6 @@
 #include "ui/window_actions.h"
 
+#include "core/session/layer_groups.h"
 #include "ui/action_icons.h"
 #include "ui/icons.h"
 #include "ui/ramp_text.h"
@@ -178,6 +179,7 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeEditMenu(window, undo_stack);
     makeViewMenu(window, map);
     makeMapMenu(window);
+    makeLayerMenu(window);
     makeHapticsMenu(window);
     makeHelpMenu(window);
     setIcons(*this);
@@ -209,8 +211,9 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     cancel_loading = menu->addAction(tr("&Cancel Loading"));
     cancel_loading->setShortcut(Qt::Key_Escape);
     cancel_loading->setEnabled(false);
-    stop_preparing = menu->addAction(tr("S&top Preparing"));
-    stop_preparing->setToolTip(tr("Stop preparing a large map; it can be gone on with later"));
+    stop_preparing = menu->addAction(tr("S&top Building Overviews"));
+    stop_preparing->setToolTip(
+        tr("Stop building the overviews of a large map; it can be resumed later"));
     stop_preparing->setEnabled(false);
     menu->addSeparator();
     quit = menu->addAction(tr("&Quit"));
@@ -326,7 +329,11 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     makeStretchMenu(window, *menu);
     light = menu->addAction(tr("&Light…"));
     light->setToolTip(tr("Choose where the light comes from"));
-    menu->addSeparator();
+}
+
+void WindowActions::makeLayerMenu(QMainWindow& window)
+{
+    QMenu* menu = window.menuBar()->addMenu(tr("&Layer"));
     toggle_visibility = menu->addAction(tr("Show La&yer"));
     toggle_visibility->setCheckable(true);
     layer.go_to = menu->addAction(tr("&Go to Layer"));
@@ -340,9 +347,11 @@ void WindowActions::makeMapMenu(QMainWindow& window)
     layer.move_down->setShortcut(QKeySequence(Qt::ALT | Qt::Key_Down));
     layer.move_down->setShortcutContext(Qt::WidgetShortcut);
     menu->addSeparator();
-    layer.prepare = menu->addAction(tr("&Prepare Layer"));
-    layer.prepare->setToolTip(tr("Make of a large map what is needed to show and touch all of it"));
-    override_georeferencing = menu->addAction(tr("&Override Georeferencing…"));
+    layer.prepare = menu->addAction(tr("&Build Overviews"));
+    layer.prepare->setToolTip(tr("Build the overviews of a large map, to see and touch all of it"));
+    override_georeferencing = menu->addAction(tr("Set Body, &CRS…"));
+    override_georeferencing->setToolTip(
+        tr("Set body, CRS, elevation unit and more for a file that lacks them"));
     menu->addSeparator();
     layer.remove = menu->addAction(tr("R&emove Layer"));
     layer.remove->setIconText(tr("Remove"));
@@ -452,9 +461,9 @@ void WindowActions::showSession(const Session& session)
     }
     layer.prepare->setEnabled(false); // the window knows
     layer.go_to->setEnabled(active != nullptr);
-    layer.move_up->setEnabled(active != nullptr && index > 0);
-    layer.move_down->setEnabled(active != nullptr && index + 1 < session.layers.size());
-    toggle_visibility->setChecked(active != nullptr && active->is_visible);
+    layer.move_up->setEnabled(indexBeside(session, session.active, GroupStep::Up).has_value());
+    layer.move_down->setEnabled(indexBeside(session, session.active, GroupStep::Down).has_value());
+    toggle_visibility->setChecked(active != nullptr && states[index] == LayerState::Shown);
     ramp_group->setEnabled(active != nullptr);
     for (QAction* action : ramp_group->actions()) {
         action->setChecked(active != nullptr &&

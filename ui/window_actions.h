@@ -86,6 +86,7 @@ private:
     void makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map);
     void makeMapMenu(QMainWindow& window);
     void makeStretchMenu(QMainWindow& window, QMenu& map);
+    void makeLayerMenu(QMainWindow& window);
     void makeHapticsMenu(QMainWindow& window);
     void makeHelpMenu(QMainWindow& window);
 

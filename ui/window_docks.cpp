@@ -29,7 +29,7 @@ WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     : QObject(&window)
     , window_(window)
 {
-    makeDock(datasets_, tr("Datasets"), QStringLiteral("datasetDock"), contents.datasets);
+    makeDock(datasets_, tr("Layers"), QStringLiteral("datasetDock"), contents.datasets);
     makeDock(georeferencing_, tr("Georeferencing"), QStringLiteral("georeferencingDock"),
              contents.georeferencing);
     makeDock(haptics_, tr("Haptics"), QStringLiteral("hapticsDock"), contents.haptics);

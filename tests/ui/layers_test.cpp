@@ -218,20 +218,22 @@ TEST_F(LayersTest, ManyStepsOfTheLightAreOneStepBack)
     EXPECT_EQ(window_->view()->look(), TerrainLook{});
 }
 
-TEST_F(LayersTest, AMapOfAnotherBodyIsToldAndNotMixed)
+TEST_F(LayersTest, AMapOfAnotherBodyIsHiddenWithTheReasonInItsRow)
 {
     controller().open({maps_.mars(), maps_.moon()});
     ASSERT_TRUE(settle());
     EXPECT_EQ(shown(), layers()[0].dataset->spec().path); // the Moon, opened last
     const LayerModel& model = *window_->datasetPanel()->model();
-    EXPECT_EQ(model.index(0).data(LayerModel::ReasonRole).toString(), QString());
-    EXPECT_EQ(model.index(1).data(LayerModel::ReasonRole).toString(),
-              QStringLiteral("Not shown: other body, Mars beside Moon"));
+    const auto reason = [&model, this](std::size_t layer) {
+        return model.indexOfLayer(id(layer)).data(LayerModel::ReasonRole).toString();
+    };
+    EXPECT_EQ(reason(0), QString());
+    EXPECT_EQ(reason(1), QStringLiteral("Hidden: on Mars; the view shows the Moon"));
     // Hidden, the Moon makes way.
     controller().setVisible(id(0), false);
     ASSERT_TRUE(settle());
     EXPECT_EQ(shown(), layers()[1].dataset->spec().path);
-    EXPECT_EQ(model.index(1).data(LayerModel::ReasonRole).toString(), QString());
+    EXPECT_EQ(reason(1), QString());
     // So it does below.
     controller().setVisible(id(0), true);
     controller().move(id(1), 0);
@@ -253,7 +255,8 @@ TEST_F(LayersTest, PanelsAndStatusBarSpeakOfTheActiveLayer)
         return QString();
     };
     EXPECT_EQ(body_told(), QStringLiteral("unknown"));
-    window_->datasetPanel()->list()->setCurrentIndex(window_->datasetPanel()->model()->index(1));
+    window_->datasetPanel()->list()->setCurrentIndex(
+        window_->datasetPanel()->model()->indexOfLayer(id(1)));
     EXPECT_EQ(activeLayer(window_->session())->name, "mars.vrt");
     EXPECT_EQ(body_told(), QStringLiteral("Mars"));
     EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("mars.vrt")));

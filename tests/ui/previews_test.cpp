@@ -227,7 +227,7 @@ TEST_F(PreviewsTest, StayWhenPreparingIsStoppedUntilItGoesOn)
 {
     ASSERT_TRUE(openPreview(map()));
     EXPECT_FALSE(window_->actionSet().layer.prepare->isEnabled());
-    EXPECT_NE(notice().indexOf(QStringLiteral("preview while it is being prepared")), -1);
+    EXPECT_NE(notice().indexOf(QStringLiteral("preview while its overviews are being built")), -1);
     EXPECT_FALSE(noticeButton()->isVisible());
     window_->actionSet().stop_preparing->trigger();
     EXPECT_EQ(state(), PreparationState::Stopped);
@@ -242,7 +242,7 @@ TEST_F(PreviewsTest, StayWhenPreparingIsStoppedUntilItGoesOn)
     ASSERT_TRUE(view().stylus());
     EXPECT_TRUE(view().stylus()->is_in_contact);
     QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
-    EXPECT_NE(notice().indexOf(QStringLiteral("prepare it to see")), -1);
+    EXPECT_NE(notice().indexOf(QStringLiteral("Build its overviews to see")), -1);
     EXPECT_TRUE(noticeButton()->isVisible());
     // Nothing else begins it again.
     controller().rename(layer().id, QStringLiteral("Plain"));
@@ -279,7 +279,7 @@ TEST_F(PreviewsTest, AreTakenForFailedWhereWhatWasPreparedIsGone)
     large_.losePrepared();
     large_.finishPreparing();
     ASSERT_TRUE(waitFor([this] { return state() == PreparationState::Failed; }));
-    EXPECT_NE(notice().indexOf(QStringLiteral("is gone")), -1);
+    EXPECT_NE(notice().indexOf(QStringLiteral("its overviews are gone")), -1);
     EXPECT_TRUE(layer().dataset->isPreview());
     EXPECT_FALSE(controller().isBusy());
 }
@@ -442,8 +442,8 @@ TEST_F(PreviewsTest, SayHowFarPreparingIs)
         return status->isVisible() &&
                status->findChild<QLabel*>()->text().contains(QStringLiteral("37 %"));
     }));
-    EXPECT_TRUE(
-        status->findChild<QLabel*>()->text().startsWith(QStringLiteral("Preparing large.asc")));
+    EXPECT_TRUE(status->findChild<QLabel*>()->text().startsWith(
+        QStringLiteral("Building overviews of large.asc")));
     status->findChild<QToolButton*>(QStringLiteral("cancelLoading"))->click();
     EXPECT_FALSE(status->isVisible());
     EXPECT_EQ(state(), PreparationState::Stopped);

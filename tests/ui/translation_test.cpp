@@ -149,11 +149,13 @@ TEST_F(TranslationTest, ReachesEveryTextOfTheWindow)
     window_->georeferencingPanel()->edit();
     expectMarked(*window_);
     const LayerModel& model = *window_->datasetPanel()->model();
-    EXPECT_FALSE(model.index(1).data(LayerModel::ReasonRole).toString().isEmpty());
-    for (int row = 0; row < 3; ++row) {
+    int reasons = 0;
+    for (int row = 0; row < model.rowCount(); ++row) {
+        reasons += model.index(row).data(LayerModel::ReasonRole).toString().isEmpty() ? 0 : 1;
         const QString reason = model.index(row).data(LayerModel::ReasonRole).toString();
         EXPECT_EQ(unmarked(reason), QString()) << reason.toStdString();
     }
+    EXPECT_EQ(reasons, 2);
     EXPECT_TRUE(window_->undoStack().undoText().startsWith(QChar(0x27E6)));
 }
 

@@ -36,7 +36,7 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
     , ramps_(new QComboBox(this))
     , pages_(new QStackedLayout)
 {
-    list_->setAccessibleName(tr("Layers, the topmost first"));
+    list_->setAccessibleName(tr("Layers, topmost first"));
     list_->setObjectName(QStringLiteral("layers"));
     list_->setFrameShape(QFrame::NoFrame);
     list_->setModel(model_);
@@ -55,20 +55,21 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
         list_->addAction(action);
     }
 
-    empty_->setText(tr("No maps are open.\nDrop a DEM here or press Ctrl+O."));
+    empty_->setText(tr("No layers.\nDrop a DEM here or press %1 to open one.")
+                        .arg(actions.open->shortcut().toString(QKeySequence::NativeText)));
     empty_->setAlignment(Qt::AlignCenter);
     empty_->setWordWrap(true);
     empty_->setContentsMargins(12, 12, 12, 12);
-    empty_->setEnabled(false);
+    empty_->setForegroundRole(QPalette::PlaceholderText);
     pages_->addWidget(list_);
     pages_->addWidget(empty_);
 
-    ramps_->setAccessibleName(tr("Colour ramp of the active layer"));
+    ramps_->setAccessibleName(tr("Color ramp of the active layer"));
     ramps_->setObjectName(QStringLiteral("ramp"));
     ramps_->setIconSize({32, 12});
     ramps_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     ramps_->setMinimumContentsLength(6);
-    //: A colour ramp: the one that suits the map's body
+    //: A color ramp: the one that suits the map's body
     ramps_->addItem(tr("Automatic"), QString());
     for (const ColorRamp& ramp : colorRamps()) {
         ramps_->addItem(
@@ -77,7 +78,7 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
     }
     auto* ramp_row = new QHBoxLayout;
     ramp_row->setSpacing(8);
-    auto* ramp_label = new QLabel(tr("&Ramp"), this);
+    auto* ramp_label = new QLabel(tr("Color &ramp"), this);
     ramp_label->setBuddy(ramps_);
     ramp_row->addWidget(ramp_label);
     ramp_row->addWidget(ramps_, 1);
@@ -92,7 +93,7 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
         button->setAccessibleName(action->text().remove(QLatin1Char('&')));
         buttons->addWidget(button);
     }
-    buttons->addStretch(1); // what cannot be meant by accident stands apart
+    buttons->addStretch(1); // apart, so that it is not pressed by accident
     buttons->addWidget(makeButton(actions.remove, this));
 
     auto* foot = new QVBoxLayout;
@@ -110,7 +111,11 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
     connect(model_, &LayerModel::moveRequested, this, &DatasetPanel::moveRequested);
     connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this,
             [this](const QModelIndex& current) {
-                if (!is_filling_ && current.isValid()) {
+                if (model_->isHeader(current)) {
+                    // Home and a click may lead here; the view is in the middle of it.
+                    QMetaObject::invokeMethod(this, &DatasetPanel::showActive,
+                                              Qt::QueuedConnection);
+                } else if (!is_filling_ && current.isValid()) {
                     Q_EMIT activationRequested(model_->idAt(current));
                 }
             });
@@ -145,7 +150,7 @@ void DatasetPanel::showActive()
     if (index.isValid() && index != list_->currentIndex()) {
         list_->setCurrentIndex(index);
     }
-    list_->doItemsLayout(); // a reason not to be shown makes a row taller
+    list_->doItemsLayout(); // a reason for not being shown makes a row taller
     ramps_->setEnabled(index.isValid());
     const Layer* layer = activeLayer(model_->session());
     ramps_->setCurrentIndex(layer != nullptr ? ramps_->findData(QString::fromStdString(layer->ramp))

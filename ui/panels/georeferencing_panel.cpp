@@ -4,21 +4,21 @@
 #include "core/session/dataset.h"
 #include "ui/coordinate_text.h"
 #include "ui/panels/caption.h"
+#include "ui/panels/elided_label.h"
+#include "ui/panels/override_form.h"
+#include "ui/sentence.h"
 
-#include <QComboBox>
 #include <QFormLayout>
-#include <QGridLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QStackedWidget>
 #include <QVBoxLayout>
+#include <QVariantAnimation>
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace marsview {
 namespace {
@@ -27,24 +27,6 @@ namespace {
 QString number(double value)
 {
     return shortNumberText(value, 9);
-}
-
-// Digits enough to read the same double back, always with a point: for fields.
-QString exactNumber(double value)
-{
-    return QString::fromStdString(fmt::format("{}", value));
-}
-
-// A number as the user writes it: with a point, or as the locale has it.
-std::optional<double> parsed(const QString& text)
-{
-    bool is_number = false;
-    const double plain = QLocale::c().toDouble(text, &is_number);
-    if (is_number) {
-        return plain;
-    }
-    const double local = QLocale().toDouble(text, &is_number);
-    return is_number ? std::optional(local) : std::nullopt;
 }
 
 QString fromStd(std::string_view text)
@@ -60,6 +42,26 @@ QLabel* makeFact(QWidget* parent)
     return label;
 }
 
+QStringList overriddenNames(const RasterOverrides& overrides)
+{
+    QStringList names;
+    const auto add = [&names](bool is_set, const QString& name) {
+        if (is_set) {
+            names.append(name);
+        }
+    };
+    add(overrides.crs.has_value(), GeoreferencingPanel::tr("CRS"));
+    add(overrides.body.has_value(), GeoreferencingPanel::tr("body"));
+    add(overrides.ellipsoid.has_value(), GeoreferencingPanel::tr("radii"));
+    add(overrides.transform.has_value(), GeoreferencingPanel::tr("geotransform"));
+    add(overrides.vertical_unit.has_value(), GeoreferencingPanel::tr("elevation unit"));
+    add(overrides.scale.has_value(), GeoreferencingPanel::tr("scale"));
+    add(overrides.offset.has_value(), GeoreferencingPanel::tr("offset"));
+    add(overrides.vertical_datum.has_value(), GeoreferencingPanel::tr("vertical datum"));
+    add(overrides.nodata.has_value(), GeoreferencingPanel::tr("nodata"));
+    return names;
+}
+
 // Scrolls what is too tall; what is too wide wraps.
 QScrollArea* makeScrollArea(QWidget* parent)
 {
@@ -70,44 +72,25 @@ QScrollArea* makeScrollArea(QWidget* parent)
     return scroll;
 }
 
-// Text that is none of the numbers asked for.
-struct NotANumber {
-    QString text;
-};
-
-// Nothing where the field is left empty.
-std::optional<double> valueOf(const QLineEdit& field)
-{
-    const QString text = field.text().trimmed();
-    if (text.isEmpty()) {
-        return std::nullopt;
-    }
-    const auto value = parsed(text);
-    if (!value) {
-        throw NotANumber{text};
-    }
-    return value;
-}
-
 } // namespace
 
 GeoreferencingPanel::GeoreferencingPanel(QWidget* parent)
     : QWidget(parent)
     , pages_(new QStackedWidget(this))
 {
-    facts_page_ = makeFactsPage();
-    fields_page_ = makeFieldsPage();
+    makeFactsPage();
+    makeFormPage();
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(pages_);
     override_button_->setEnabled(false);
     fillFacts();
-    fillFields();
 }
 
-QWidget* GeoreferencingPanel::makeFactsPage()
+void GeoreferencingPanel::makeFactsPage()
 {
-    QScrollArea* scroll = makeScrollArea(pages_);
+    facts_page_ = makeScrollArea(pages_);
+    QScrollArea* scroll = facts_page_;
     auto* content = new QWidget(scroll);
     auto* layout = new QVBoxLayout(content);
     facts_ = new QFormLayout;
@@ -116,130 +99,32 @@ QWidget* GeoreferencingPanel::makeFactsPage()
     facts_->setVerticalSpacing(0);
     facts_->setRowWrapPolicy(QFormLayout::WrapAllRows);
     layout->addLayout(facts_);
-    notices_ = makeFact(content);
-    notices_->setAccessibleName(tr("Notices about the map"));
-    layout->addWidget(notices_);
-    override_button_ = new QPushButton(tr("&Override…"), content);
+    notices_ = new QVBoxLayout;
+    notices_->setContentsMargins(0, 6, 0, 0);
+    layout->addLayout(notices_);
+    override_button_ = new QPushButton(tr("Set &Body, CRS…"), content);
     override_button_->setObjectName(QStringLiteral("override"));
     override_button_->setToolTip(
-        tr("Tell the body, CRS and placement; nothing is written to the file"));
+        tr("Set what the file lacks or states wrongly; the file itself is never changed"));
     connect(override_button_, &QPushButton::clicked, this, &GeoreferencingPanel::edit);
     layout->addWidget(override_button_, 0, Qt::AlignLeft);
     layout->addStretch(1);
     scroll->setWidget(content);
     pages_->addWidget(scroll);
-    return scroll;
 }
 
-QWidget* GeoreferencingPanel::makeFieldsPage()
+void GeoreferencingPanel::makeFormPage()
 {
-    QScrollArea* scroll = makeScrollArea(pages_);
-    auto* content = new QWidget(scroll);
-    auto* layout = new QVBoxLayout(content);
-    auto* hint = makeFact(content);
-    hint->setText(tr("Empty fields stay as the file has them. Nothing is written to the file."));
-    layout->addWidget(hint);
-    // The dock is narrow: names stand over their fields, and no field asks for width.
-    auto* form = new QFormLayout;
-    form->setRowWrapPolicy(QFormLayout::WrapAllRows);
-    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    const auto make_field = [content](const QString& name, const char* object_name) {
-        auto* field = new QLineEdit(content);
-        field->setAccessibleName(name);
-        field->setObjectName(QLatin1String(object_name));
-        field->setMinimumWidth(40);
-        return field;
-    };
-    crs_ = make_field(tr("CRS"), "crs");
-    crs_->setToolTip(
-        tr("Anything that GDAL understands: EPSG:32610, IAU_2015:49910, a PROJ "
-           "string, WKT"));
-    form->addRow(tr("&CRS"), crs_);
-    body_ = new QComboBox(content);
-    body_->setAccessibleName(tr("Body"));
-    body_->setObjectName(QStringLiteral("body"));
-    body_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    body_->setMinimumContentsLength(6);
-    body_->addItem(tr("As in the file"));
-    for (const Body& body : knownBodies()) {
-        body_->addItem(fromStd(body.name), fromStd(body.name));
-    }
-    form->addRow(tr("&Body"), body_);
-    equatorial_ = make_field(tr("Equatorial radius in metres"), "equatorial");
-    polar_ = make_field(tr("Polar radius in metres"), "polar");
-    form->addRow(tr("&Equatorial radius (m)"), equatorial_);
-    form->addRow(tr("&Polar radius (m)"), polar_);
-    layout->addLayout(form);
-
-    auto* terms_label = new QLabel(tr("Geotransform, outer corner of the first pixel:"), content);
-    terms_label->setWordWrap(true);
-    layout->addWidget(terms_label);
-    auto* grid = new QGridLayout;
-    const std::array names{tr("x"), tr("x per column"), tr("x per row"),
-                           tr("y"), tr("y per column"), tr("y per row")};
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-        terms_[i] = make_field(names[i], "");
-        terms_[i]->setObjectName(QStringLiteral("term%1").arg(i));
-        auto* label = new QLabel(names[i], content);
-        label->setBuddy(terms_[i]);
-        const int column = static_cast<int>(i / 3);
-        const int row = static_cast<int>(i % 3) * 2;
-        grid->addWidget(label, row, column);
-        grid->addWidget(terms_[i], row + 1, column);
-    }
-    layout->addLayout(grid);
-
-    auto* heights = new QFormLayout;
-    heights->setRowWrapPolicy(QFormLayout::WrapAllRows);
-    heights->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    unit_ = new QComboBox(content);
-    unit_->setAccessibleName(tr("Height unit"));
-    unit_->setObjectName(QStringLiteral("unit"));
-    unit_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    unit_->setMinimumContentsLength(6);
-    unit_->addItem(tr("As in the file"));
-    for (const char* unit : {"m", "km", "ft", "US survey ft"}) {
-        unit_->addItem(QLatin1String(unit), QLatin1String(unit));
-    }
-    heights->addRow(tr("&Height unit"), unit_);
-    nodata_ = make_field(tr("Nodata value"), "nodata");
-    heights->addRow(tr("&Nodata"), nodata_);
-    layout->addLayout(heights);
-
-    problem_ = makeFact(content);
-    problem_->setAccessibleName(tr("What cannot be applied"));
-    QFont bold = problem_->font();
-    bold.setBold(true);
-    problem_->setFont(bold);
-    layout->addWidget(problem_);
-
-    auto* apply_button = new QPushButton(tr("&Apply"), content);
-    apply_button->setObjectName(QStringLiteral("apply"));
-    connect(apply_button, &QPushButton::clicked, this, &GeoreferencingPanel::apply);
-    auto* reset_button = new QPushButton(tr("&Reset to File"), content);
-    reset_button->setObjectName(QStringLiteral("reset"));
-    connect(reset_button, &QPushButton::clicked, this,
-            [this] { Q_EMIT overridesRequested(RasterOverrides{}); });
-    auto* back_button = new QPushButton(tr("Bac&k"), content);
-    back_button->setObjectName(QStringLiteral("close"));
-    connect(back_button, &QPushButton::clicked, this,
-            [this] { pages_->setCurrentWidget(facts_page_); });
-    auto* buttons = new QGridLayout;
-    buttons->addWidget(apply_button, 0, 0);
-    buttons->addWidget(back_button, 0, 1);
-    buttons->addWidget(reset_button, 1, 0, 1, 2);
-    for (QPushButton* button : {apply_button, back_button}) {
-        button->setMinimumWidth(0);
-        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    }
-    layout->addLayout(buttons);
-    layout->addStretch(1);
-    for (QLineEdit* field : content->findChildren<QLineEdit*>()) {
-        connect(field, &QLineEdit::returnPressed, this, &GeoreferencingPanel::apply);
-    }
-    scroll->setWidget(content);
-    pages_->addWidget(scroll);
-    return scroll;
+    form_page_ = makeScrollArea(pages_);
+    form_ = new OverrideForm(form_page_);
+    connect(form_, &OverrideForm::overridesRequested, this,
+            &GeoreferencingPanel::overridesRequested);
+    connect(form_, &OverrideForm::closed, this, [this] {
+        pages_->setCurrentWidget(facts_page_);
+        override_button_->setFocus();
+    });
+    form_page_->setWidget(form_);
+    pages_->addWidget(form_page_);
 }
 
 void GeoreferencingPanel::setDataset(const std::shared_ptr<const Dataset>& dataset)
@@ -247,19 +132,69 @@ void GeoreferencingPanel::setDataset(const std::shared_ptr<const Dataset>& datas
     if (dataset == dataset_) {
         return;
     }
+    // A preview that is replaced by its map closes no form.
+    const bool is_same = dataset_ && dataset && dataset_->spec() == dataset->spec();
     dataset_ = dataset;
-    pages_->setCurrentWidget(facts_page_); // what was applied shows in the facts
+    form_->setDataset(dataset);
     override_button_->setEnabled(dataset_ != nullptr);
     fillFacts();
-    fillFields();
+    if (!is_same) {
+        pages_->setCurrentWidget(facts_page_); // what was applied shows in the facts
+    }
 }
 
 void GeoreferencingPanel::edit()
 {
     if (dataset_) {
-        pages_->setCurrentWidget(fields_page_);
-        crs_->setFocus();
+        pages_->setCurrentWidget(form_page_);
+        form_->focusFirstField();
     }
+}
+
+void GeoreferencingPanel::showNotice(const QString& notice)
+{
+    pages_->setCurrentWidget(facts_page_);
+    const QString text = QStringLiteral("• ") + asSentence(notice);
+    for (int i = 0; i < notices_->count(); ++i) {
+        auto* label = qobject_cast<QLabel*>(notices_->itemAt(i)->widget());
+        if (label != nullptr && label->text() == text) {
+            label->setFocus(Qt::OtherFocusReason);
+            // Queued: a panel that was closed has no layout yet.
+            QMetaObject::invokeMethod(
+                label, [this, label] { facts_page_->ensureWidgetVisible(label); },
+                Qt::QueuedConnection);
+            flash(*label);
+        }
+    }
+}
+
+// A tint of the accent color that fades away.
+void GeoreferencingPanel::flash(QLabel& label)
+{
+    constexpr int kDuration = 1600; // ms
+    label.setAutoFillBackground(true);
+    auto* animation = new QVariantAnimation(&label);
+    animation->setDuration(kDuration);
+    animation->setStartValue(0.6);
+    animation->setEndValue(0.0);
+    connect(animation, &QVariantAnimation::valueChanged, &label, [&label, this](const QVariant& v) {
+        QPalette colors = palette();
+        QColor accent = colors.color(QPalette::Highlight);
+        accent.setAlphaF(static_cast<float>(v.toDouble()));
+        colors.setColor(QPalette::Window, accent);
+        label.setPalette(colors);
+    });
+    connect(animation, &QVariantAnimation::finished, &label, [&label] {
+        label.setAutoFillBackground(false);
+        label.setPalette(QPalette());
+    });
+    animation->start(QAbstractAnimation::DeleteWhenStopped);
+}
+
+void GeoreferencingPanel::showFailure(const QString& problem)
+{
+    edit();
+    form_->showFailure(problem);
 }
 
 void GeoreferencingPanel::setHeightUnit(HeightUnit unit)
@@ -273,23 +208,32 @@ void GeoreferencingPanel::fillFacts()
     while (facts_->rowCount() > 0) {
         facts_->removeRow(0);
     }
-    notices_->clear();
+    while (QLayoutItem* item = notices_->takeAt(0)) {
+        item->widget()->deleteLater();
+        delete item;
+    }
     if (!dataset_) {
-        notices_->setText(tr("No map is open."));
-        notices_->show();
+        addNotice(tr("No layer is open."));
         return;
     }
     addPlaceFacts(*dataset_);
     addSampleFacts(*dataset_);
-    QStringList lines;
     for (const std::string& notice : dataset_->info().notices) {
-        lines.append(QStringLiteral("• ") + QString::fromStdString(notice));
+        addNotice(QStringLiteral("• ") + asSentence(notice));
     }
-    notices_->setText(lines.join(QLatin1Char('\n')));
-    notices_->setVisible(!lines.isEmpty());
 }
 
-// A name above its value: beside it, neither has room in a narrow panel.
+void GeoreferencingPanel::addNotice(const QString& text)
+{
+    QLabel* label = makeFact(facts_page_);
+    label->setObjectName(QStringLiteral("notice"));
+    label->setText(text);
+    label->setAccessibleName(text);
+    label->setContentsMargins(4, 3, 4, 3);
+    notices_->addWidget(label);
+}
+
+// A name above its value: side by side there is no room in a narrow panel.
 void GeoreferencingPanel::addFact(const QString& name, const QString& value)
 {
     QLabel* caption = makeCaption(name, this);
@@ -300,11 +244,22 @@ void GeoreferencingPanel::addFact(const QString& name, const QString& value)
     facts_->addRow(caption, fact);
 }
 
+// A value that may be longer than the panel is wide: on one line, to be read whole in its tool tip.
+void GeoreferencingPanel::addLongFact(const QString& name, const QString& value)
+{
+    QLabel* caption = makeCaption(name, this);
+    caption->setContentsMargins(0, facts_->rowCount() == 0 ? 0 : 6, 0, 0);
+    auto* fact = new ElidedLabel(value, this);
+    fact->setAccessibleName(name);
+    facts_->addRow(caption, fact);
+}
+
 void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
 {
     const RasterInfo& info = dataset.info();
     const Georeference georeference = georeferenceOf(info); // a preview's pixels are larger
     const QString unknown = tr("unknown");
+    addLongFact(tr("File"), QString::fromStdString(dataset.spec().path));
     addFact(tr("Body"), info.body != nullptr ? fromStd(info.body->name) : unknown);
     if (info.crs && info.crs->ellipsoid()) {
         const Ellipsoid& e = *info.crs->ellipsoid();
@@ -320,6 +275,9 @@ void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
     }
     const QString crs_name = info.crs ? QString::fromStdString(info.crs->name()) : QString();
     addFact(tr("CRS"), info.crs ? (crs_name.isEmpty() ? tr("unnamed") : crs_name) : tr("none"));
+    if (info.crs) {
+        addLongFact(tr("CRS definition (WKT)"), QString::fromStdString(info.crs->wkt()));
+    }
     const GeoTransform& transform = georeference.transform();
     const bool is_geographic = info.crs && info.crs->kind() == CrsKind::Geographic;
     const QString unit =
@@ -342,7 +300,7 @@ void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
                                            metres(georeference.pixelHeightMetres()));
         pixel += QLatin1Char('\n') + (info.crs ? in_metres : tr("%1, assumed").arg(in_metres));
     }
-    addFact(tr("Pixel"), pixel);
+    addFact(tr("Pixel size"), pixel);
     const MapExtent extent = mapExtent(georeference);
     if (!is_geographic) {
         //: The range of map coordinates: x from %1 to %2, y from %3 to %4
@@ -386,121 +344,24 @@ void GeoreferencingPanel::addSampleFacts(const Dataset& dataset)
                                .arg(countText(info.columns), countText(info.rows),
                                     fromStd(sampleTypeName(info.type))));
     if (const auto& range = dataset.heightfield().range()) {
-        addFact(tr("Heights"), heightRangeText(*range, unit_of_heights_));
+        addFact(tr("Elevations"), heightRangeText(*range, unit_of_heights_));
     }
     const QString unit = QString::fromStdString(info.unit.name);
-    addFact(tr("Height unit"), info.is_unit_declared ? unit : tr("%1, assumed").arg(unit));
-    addFact(tr("Datum"), info.vertical_datum.empty() ? tr("unknown")
-                                                     : QString::fromStdString(info.vertical_datum));
+    addFact(tr("Elevation unit"), info.is_unit_declared ? unit : tr("%1, assumed").arg(unit));
+    addFact(tr("Vertical datum"), info.vertical_datum.empty()
+                                      ? tr("unknown")
+                                      : QString::fromStdString(info.vertical_datum));
+    if (info.scale != 1.0 || info.offset != 0.0) {
+        //: How elevations follow from samples: %1 is the factor, %2 what is added, %3 their unit
+        addFact(tr("Scale, offset"),
+                tr("%1, %2 %3").arg(number(info.scale), number(info.offset), unit));
+    }
     addFact(tr("Nodata"), info.nodata ? number(*info.nodata) : tr("none"));
-    addFact(tr("Driver"), QString::fromStdString(info.driver));
-    if (!dataset.spec().overrides.isEmpty()) {
-        addFact(tr("Source"), tr("overridden by you"));
+    addFact(tr("Format"), QString::fromStdString(info.driver));
+    const QStringList changed = overriddenNames(dataset.spec().overrides);
+    if (!changed.isEmpty()) {
+        addFact(tr("Set by you"), QLocale().createSeparatedList(changed));
     }
-}
-
-void GeoreferencingPanel::fillFields()
-{
-    showProblem({});
-    const RasterOverrides overrides = dataset_ ? dataset_->spec().overrides : RasterOverrides{};
-    const auto fill = [](QLineEdit* field, const std::optional<double>& value,
-                         const std::optional<double>& in_file) {
-        field->setText(value ? exactNumber(*value) : QString());
-        field->setPlaceholderText(in_file ? exactNumber(*in_file) : QString());
-    };
-    const auto choose = [](QComboBox* box, const std::optional<std::string>& value) {
-        const int index = value ? box->findData(QString::fromStdString(*value)) : 0;
-        box->setCurrentIndex(std::max(0, index));
-    };
-    crs_->setText(QString::fromStdString(overrides.crs.value_or("")));
-    crs_->setPlaceholderText(dataset_ && dataset_->fileInfo().crs
-                                 ? QString::fromStdString(dataset_->fileInfo().crs->name())
-                                 : QString());
-    choose(body_, overrides.body);
-    choose(unit_, overrides.vertical_unit);
-    const auto radius = [](const std::optional<Ellipsoid>& e, double Ellipsoid::*which) {
-        return e ? std::optional((*e).*which) : std::nullopt;
-    };
-    const std::optional<Ellipsoid> in_effect =
-        dataset_ && dataset_->info().crs ? dataset_->info().crs->ellipsoid() : std::nullopt;
-    fill(equatorial_, radius(overrides.ellipsoid, &Ellipsoid::equatorial_m),
-         radius(in_effect, &Ellipsoid::equatorial_m));
-    fill(polar_, radius(overrides.ellipsoid, &Ellipsoid::polar_m),
-         radius(in_effect, &Ellipsoid::polar_m));
-    const GeoTransform::Terms in_file =
-        dataset_ ? dataset_->fileInfo().transform.value_or(GeoTransform{}).terms()
-                 : GeoTransform{}.terms();
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-        fill(terms_[i],
-             overrides.transform ? std::optional((*overrides.transform)[i]) : std::nullopt,
-             in_file[i]);
-    }
-    fill(nodata_, overrides.nodata, dataset_ ? dataset_->fileInfo().nodata : std::nullopt);
-}
-
-// A radius left empty stays as the file has it; on a sphere, or where the file has none, one radius
-// alone makes a sphere.
-Ellipsoid GeoreferencingPanel::ellipsoidFrom(std::optional<double> equatorial_m,
-                                             std::optional<double> polar_m) const
-{
-    const double only_m = equatorial_m ? *equatorial_m : *polar_m;
-    Ellipsoid rest{.equatorial_m = only_m, .polar_m = only_m};
-    if (const std::optional<Crs>& crs = dataset_->fileInfo().crs) {
-        const std::optional<Ellipsoid> in_file = crs->ellipsoid();
-        rest = in_file && !in_file->isSphere() ? *in_file : rest;
-    }
-    return {.equatorial_m = equatorial_m.value_or(rest.equatorial_m),
-            .polar_m = polar_m.value_or(rest.polar_m)};
-}
-
-void GeoreferencingPanel::apply()
-{
-    if (!dataset_) {
-        return;
-    }
-    RasterOverrides overrides;
-    const QString crs = crs_->text().trimmed();
-    if (!crs.isEmpty()) {
-        overrides.crs = crs.toStdString();
-    }
-    if (body_->currentIndex() > 0) {
-        overrides.body = body_->currentData().toString().toStdString();
-    }
-    if (unit_->currentIndex() > 0) {
-        overrides.vertical_unit = unit_->currentData().toString().toStdString();
-    }
-    try {
-        const auto equatorial = valueOf(*equatorial_);
-        const auto polar = valueOf(*polar_);
-        if (equatorial || polar) {
-            overrides.ellipsoid = ellipsoidFrom(equatorial, polar);
-        }
-        GeoTransform::Terms terms = dataset_->fileInfo().transform.value_or(GeoTransform{}).terms();
-        bool is_any_given = false;
-        for (std::size_t i = 0; i < terms.size(); ++i) {
-            if (const auto value = valueOf(*terms_[i])) {
-                terms[i] = *value;
-                is_any_given = true;
-            }
-        }
-        if (is_any_given) {
-            overrides.transform = terms;
-        }
-        overrides.nodata = valueOf(*nodata_);
-    } catch (const NotANumber& problem) {
-        showProblem(tr("\"%1\" is not a number.").arg(problem.text));
-        return;
-    }
-    showProblem({});
-    if (overrides != dataset_->spec().overrides) {
-        Q_EMIT overridesRequested(overrides);
-    }
-}
-
-void GeoreferencingPanel::showProblem(const QString& problem)
-{
-    problem_->setText(problem);
-    problem_->setVisible(!problem.isEmpty());
 }
 
 } // namespace marsview

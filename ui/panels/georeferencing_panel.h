@@ -1,4 +1,4 @@
-// The panel that tells where a map lies, and lets the user know better.
+// The panel with the body, place and elevations of a map, and the form that sets them.
 #pragma once
 
 #include "core/raster/raster_info.h"
@@ -6,69 +6,62 @@
 
 #include <QWidget>
 
-#include <array>
 #include <memory>
-#include <optional>
 
-class QComboBox;
 class QFormLayout;
 class QLabel;
-class QLineEdit;
 class QPushButton;
+class QScrollArea;
 class QStackedWidget;
+class QVBoxLayout;
 
 namespace marsview {
 
 class Dataset;
+class OverrideForm;
 
-/// Two pages: the facts, and the fields to override them. Asks for changes; never makes any.
+/// Two pages: the facts, and the form to override them. Asks for changes; never makes any.
 class GeoreferencingPanel final : public QWidget {
     Q_OBJECT
 
 public:
     explicit GeoreferencingPanel(QWidget* parent = nullptr);
 
-    /// The map in effect; null for none. Fills both pages; what is being typed stays as long as
-    /// the map does.
+    /// The map in effect; null for none. Fills both pages; the form stays open for as long as it is
+    /// the same file with the same overrides.
     void setDataset(const std::shared_ptr<const Dataset>& dataset);
     void setHeightUnit(HeightUnit unit);
 
-    /// Switches to the fields.
+    /// Switches to the form.
     void edit();
+    /// Reveals one of the notices among the facts.
+    void showNotice(const QString& notice);
+    /// Why overrides were refused; shows the form.
+    void showFailure(const QString& problem);
 
 Q_SIGNALS:
     void overridesRequested(const RasterOverrides& overrides);
 
 private:
-    QWidget* makeFactsPage();
-    QWidget* makeFieldsPage();
+    void makeFactsPage();
+    void makeFormPage();
     void fillFacts();
     void addFact(const QString& name, const QString& value);
+    void addLongFact(const QString& name, const QString& value);
+    void addNotice(const QString& text);
+    void flash(QLabel& label);
     void addPlaceFacts(const Dataset& dataset);
     void addSampleFacts(const Dataset& dataset);
-    void fillFields();
-    Ellipsoid ellipsoidFrom(std::optional<double> equatorial_m,
-                            std::optional<double> polar_m) const;
-    void apply();
-    void showProblem(const QString& problem);
 
     std::shared_ptr<const Dataset> dataset_;
     HeightUnit unit_of_heights_ = HeightUnit::Metres;
     QStackedWidget* pages_ = nullptr;
-    QWidget* facts_page_ = nullptr;
-    QWidget* fields_page_ = nullptr;
+    QScrollArea* facts_page_ = nullptr;
+    QScrollArea* form_page_ = nullptr;
+    OverrideForm* form_ = nullptr;
     QFormLayout* facts_ = nullptr;
-    QLabel* notices_ = nullptr;
+    QVBoxLayout* notices_ = nullptr; // one label for each
     QPushButton* override_button_ = nullptr;
-
-    QLineEdit* crs_ = nullptr;
-    QComboBox* body_ = nullptr;
-    QLineEdit* equatorial_ = nullptr;
-    QLineEdit* polar_ = nullptr;
-    std::array<QLineEdit*, 6> terms_{};
-    QComboBox* unit_ = nullptr;
-    QLineEdit* nodata_ = nullptr;
-    QLabel* problem_ = nullptr;
 };
 
 } // namespace marsview

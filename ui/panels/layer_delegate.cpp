@@ -45,8 +45,19 @@ struct LayerDelegate::Places {
     QRect histogram;
     QRect ramp;
     QRect note;
+    QRect show; // the button; empty if there is none
     int height = 0;
 };
+
+namespace {
+
+QString showText()
+{
+    //: On a button in the row of a layer that the view does not show
+    return LayerDelegate::tr("Show");
+}
+
+} // namespace
 
 LayerDelegate::LayerDelegate(LayerModel& model, QObject* parent)
     : QStyledItemDelegate(parent)
@@ -80,17 +91,24 @@ LayerDelegate::Places LayerDelegate::placesOf(const QStyleOptionViewItem& option
     y += kRampHeight;
     const QString note = index.data(LayerModel::NoteRole).toString();
     if (!note.isEmpty()) {
-        y += 2;
-        const int height =
-            small.boundingRect(QRect(0, 0, width, 1000), Qt::TextWordWrap, note).height();
-        places.note = QRect(left, y, width, height);
+        y += kGap;
+        const bool has_button = !index.data(LayerModel::ReasonRole).toString().isEmpty();
+        const QSize button = has_button ? QSize(small.horizontalAdvance(showText()) + 4 * kGap,
+                                                small.height() + kGap + 2)
+                                        : QSize(0, 0);
+        const int note_width = std::max(1, width - button.width() - (has_button ? kMargin : 0));
+        const int note_height =
+            small.boundingRect(QRect(0, 0, note_width, 1000), Qt::TextWordWrap, note).height();
+        const int height = std::max(note_height, button.height());
+        places.note = QRect(left, y + (height - note_height) / 2, note_width, note_height);
+        places.show = QRect(QPoint(left + width - button.width(), y), button);
         y += height;
     }
     places.height = y + kMargin;
     const QPoint origin = option.rect.topLeft();
     const bool is_mirrored = option.direction == Qt::RightToLeft;
     for (QRect* place : {&places.check, &places.name, &places.facts, &places.histogram,
-                         &places.ramp, &places.note}) {
+                         &places.ramp, &places.note, &places.show}) {
         if (is_mirrored) {
             place->moveLeft(viewWidth(option) - place->left() - place->width());
         }
@@ -103,6 +121,9 @@ QSize LayerDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIn
 {
     QStyleOptionViewItem full = option;
     initStyleOption(&full, index);
+    if (index.data(LayerModel::IsHeaderRole).toBool()) {
+        return {120, QFontMetrics(captionFont(full.font)).height() + 2 * kMargin};
+    }
     return {120, placesOf(full, index).height};
 }
 
@@ -112,6 +133,10 @@ void LayerDelegate::paint(QPainter* painter,
 {
     QStyleOptionViewItem full = option;
     initStyleOption(&full, index);
+    if (index.data(LayerModel::IsHeaderRole).toBool()) {
+        paintHeader(*painter, full, index);
+        return;
+    }
     const Places places = placesOf(full, index);
     const QStyle* style = full.widget != nullptr ? full.widget->style() : QApplication::style();
     const bool is_shown = index.data(LayerModel::IsShownRole).toBool();
@@ -135,8 +160,13 @@ void LayerDelegate::paint(QPainter* painter,
     QStyleOptionButton check;
     check.rect = places.check;
     check.palette = palette;
-    check.state = QStyle::State_Enabled |
-                  (full.checkState == Qt::Checked ? QStyle::State_On : QStyle::State_Off);
+    // A layer that the view cannot show has a dash in a dim box: neither shown nor hidden.
+    check.state = full.checkState == Qt::PartiallyChecked ? QStyle::State_NoChange
+                  : full.checkState == Qt::Checked        ? QStyle::State_Enabled | QStyle::State_On
+                                                   : QStyle::State_Enabled | QStyle::State_Off;
+    if (full.checkState == Qt::PartiallyChecked) {
+        check.palette.setCurrentColorGroup(QPalette::Disabled);
+    }
     style->drawPrimitive(QStyle::PE_IndicatorCheckBox, &check, painter, full.widget);
 
     const QColor text =
@@ -180,12 +210,59 @@ void LayerDelegate::paint(QPainter* painter,
     painter->setPen(palette.color(QPalette::Text));
     painter->drawText(places.note, static_cast<int>(leading) | Qt::TextWordWrap,
                       index.data(LayerModel::NoteRole).toString());
+    if (!places.show.isEmpty()) {
+        paintShowButton(*painter, full, places.show);
+    }
 
     if ((full.state & QStyle::State_HasFocus) != 0) {
         painter->setPen(QPen(accent, 2));
         painter->drawRect(full.rect.adjusted(1, 1, -1, -2));
     }
     painter->restore();
+}
+
+// A heading on the color of the window, so that it separates the groups.
+void LayerDelegate::paintHeader(QPainter& painter,
+                                const QStyleOptionViewItem& option,
+                                const QModelIndex& index) const
+{
+    painter.save();
+    const QPalette& palette = option.palette;
+    painter.fillRect(option.rect, palette.color(QPalette::Window));
+    painter.setPen(mixed(palette.color(QPalette::Base), palette.color(QPalette::Text), 0.15));
+    painter.drawLine(option.rect.bottomLeft(), option.rect.bottomRight());
+    QFont font = captionFont(option.font);
+    font.setWeight(QFont::DemiBold);
+    painter.setFont(font);
+    painter.setPen(palette.color(QPalette::WindowText));
+    painter.drawText(option.rect.adjusted(kMargin, 0, -kMargin, 0),
+                     static_cast<int>(QStyle::visualAlignment(option.direction, Qt::AlignLeft) |
+                                      Qt::AlignVCenter),
+                     index.data().toString());
+    painter.restore();
+}
+
+void LayerDelegate::paintShowButton(QPainter& painter,
+                                    const QStyleOptionViewItem& option,
+                                    const QRect& place) const
+{
+    const QStyle* style = option.widget != nullptr ? option.widget->style() : QApplication::style();
+    QStyleOptionButton button;
+    button.rect = place;
+    button.palette = option.palette;
+    button.state = QStyle::State_Enabled | QStyle::State_Raised;
+    button.direction = option.direction;
+    style->drawControl(QStyle::CE_PushButtonBevel, &button, &painter, option.widget);
+    painter.setPen(option.palette.color(QPalette::ButtonText));
+    painter.drawText(place, Qt::AlignCenter, showText());
+}
+
+QRect LayerDelegate::showButtonOf(const QStyleOptionViewItem& option,
+                                  const QModelIndex& index) const
+{
+    QStyleOptionViewItem full = option;
+    initStyleOption(&full, index);
+    return index.data(LayerModel::IsHeaderRole).toBool() ? QRect() : placesOf(full, index).show;
 }
 
 void LayerDelegate::paintHistogram(QPainter& painter,
@@ -231,6 +308,9 @@ bool LayerDelegate::editorEvent(QEvent* event,
                                 const QStyleOptionViewItem& option,
                                 const QModelIndex& index)
 {
+    if (index.data(LayerModel::IsHeaderRole).toBool()) {
+        return false;
+    }
     const auto toggle = [model, &index] {
         const bool is_checked = index.data(Qt::CheckStateRole).toInt() == Qt::Checked;
         return model->setData(index, is_checked ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
@@ -242,8 +322,11 @@ bool LayerDelegate::editorEvent(QEvent* event,
         const auto* mouse = static_cast<QMouseEvent*>(event);
         QStyleOptionViewItem full = option;
         initStyleOption(&full, index);
-        const QRect target = placesOf(full, index).check.adjusted(-kGap, -kGap, kGap, kGap);
-        if (mouse->button() != Qt::LeftButton || !target.contains(mouse->position().toPoint())) {
+        const Places places = placesOf(full, index);
+        const QRect check = places.check.adjusted(-kGap, -kGap, kGap, kGap);
+        const QPoint position = mouse->position().toPoint();
+        if (mouse->button() != Qt::LeftButton ||
+            (!check.contains(position) && !places.show.contains(position))) {
             return false;
         }
         return event->type() != QEvent::MouseButtonRelease || toggle();

@@ -7,8 +7,9 @@ namespace marsview {
 
 class LayerModel;
 
-/// Checkbox and name; size and range; the histogram in the colours of the ramp; and, where a layer
-/// is not shown, why, or that it is a preview. For views of a LayerModel.
+/// Checkbox and name; size and range; the histogram in the colors of the ramp; that it is a
+/// preview, or why the view cannot show the layer, with a button that shows it. The names of bodies
+/// are headings. For views of a LayerModel.
 class LayerDelegate final : public QStyledItemDelegate {
     Q_OBJECT
 
@@ -27,9 +28,18 @@ public:
                      const QStyleOptionViewItem& option,
                      const QModelIndex& index) override;
 
+    /// Where the button that shows a layer is; empty if there is none.
+    QRect showButtonOf(const QStyleOptionViewItem& option, const QModelIndex& index) const;
+
 private:
     struct Places;
     Places placesOf(const QStyleOptionViewItem& option, const QModelIndex& index) const;
+    void paintHeader(QPainter& painter,
+                     const QStyleOptionViewItem& option,
+                     const QModelIndex& index) const;
+    void paintShowButton(QPainter& painter,
+                         const QStyleOptionViewItem& option,
+                         const QRect& place) const;
     void paintHistogram(QPainter& painter, const QRect& place, const QModelIndex& index) const;
 
     LayerModel& model_;

@@ -14,10 +14,23 @@ QString mimeType()
     return QStringLiteral("application/x-marsview-layer");
 }
 
-QString bodyName(const Dataset& dataset)
+QString bodyName(const Body& body)
 {
-    const std::string_view name = dataset.info().body->name;
-    return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+    return QString::fromUtf8(body.name.data(), static_cast<qsizetype>(body.name.size()));
+}
+
+// As it reads in a sentence.
+QString bodyInSentence(const Body& body)
+{
+    if (body.name == "Earth") {
+        //: A body, in "on the Earth" and "the view shows the Earth"
+        return LayerModel::tr("the Earth");
+    }
+    if (body.name == "Moon") {
+        //: A body, in "on the Moon" and "the view shows the Moon"
+        return LayerModel::tr("the Moon");
+    }
+    return bodyName(body);
 }
 
 bool hasSameIds(const Session& a, const Session& b)
@@ -35,24 +48,41 @@ LayerModel::LayerModel(QObject* parent)
     connect(histograms_, &HistogramMaker::made, this,
             [this](const std::shared_ptr<const Dataset>& dataset) {
                 for (int row = 0; row < rowCount(); ++row) {
-                    if (layerAt(index(row)).dataset == dataset) {
+                    if (!isHeader(index(row)) && layerAt(index(row)).dataset == dataset) {
                         Q_EMIT dataChanged(index(row), index(row));
                     }
                 }
             });
 }
 
+std::vector<LayerModel::Row> LayerModel::rowsOf(const Session& session)
+{
+    std::vector<Row> rows;
+    const std::vector<LayerGroup> groups = layerGroups(session);
+    for (const LayerGroup& group : groups) {
+        if (groups.size() > 1) {
+            rows.push_back({.is_header = true, .layer = group.layers.front()});
+        }
+        for (const std::size_t layer : group.layers) {
+            rows.push_back({.is_header = false, .layer = layer});
+        }
+    }
+    return rows;
+}
+
 void LayerModel::setSession(const Session& session)
 {
-    const bool is_same_list = hasSameIds(session, session_);
+    std::vector<Row> rows = rowsOf(session);
+    const bool is_same_list = hasSameIds(session, session_) && rows == rows_;
     if (!is_same_list) {
         beginResetModel();
     }
     session_ = session;
+    rows_ = std::move(rows);
     states_ = placement(session_);
     if (!is_same_list) {
         endResetModel();
-    } else if (!session_.layers.empty()) {
+    } else if (!rows_.empty()) {
         Q_EMIT dataChanged(index(0), index(rowCount() - 1));
     }
 }
@@ -67,13 +97,19 @@ void LayerModel::setHeightUnit(HeightUnit unit)
 
 LayerId LayerModel::idAt(const QModelIndex& index) const
 {
-    return index.isValid() ? layerAt(index).id : LayerId::None;
+    return index.isValid() && !isHeader(index) ? layerAt(index).id : LayerId::None;
+}
+
+bool LayerModel::isHeader(const QModelIndex& index) const
+{
+    return index.isValid() && rows_[static_cast<std::size_t>(index.row())].is_header;
 }
 
 QModelIndex LayerModel::indexOfLayer(LayerId id) const
 {
-    const std::size_t row = indexOf(session_, id);
-    return row < session_.layers.size() ? index(static_cast<int>(row)) : QModelIndex();
+    const Row row{.is_header = false, .layer = indexOf(session_, id)};
+    const auto hit = std::find(rows_.begin(), rows_.end(), row);
+    return hit != rows_.end() ? index(static_cast<int>(hit - rows_.begin())) : QModelIndex();
 }
 
 std::shared_ptr<const HeightHistogram> LayerModel::histogramAt(const QModelIndex& index) const
@@ -88,12 +124,17 @@ const ColorRamp& LayerModel::rampAt(const QModelIndex& index) const
 
 const Layer& LayerModel::layerAt(const QModelIndex& index) const
 {
-    return session_.layers[static_cast<std::size_t>(index.row())];
+    return session_.layers[rows_[static_cast<std::size_t>(index.row())].layer];
+}
+
+LayerState LayerModel::stateAt(const QModelIndex& index) const
+{
+    return states_[rows_[static_cast<std::size_t>(index.row())].layer];
 }
 
 int LayerModel::rowCount(const QModelIndex& parent) const
 {
-    return parent.isValid() ? 0 : static_cast<int>(session_.layers.size());
+    return parent.isValid() ? 0 : static_cast<int>(rows_.size());
 }
 
 QString LayerModel::reasonAt(const QModelIndex& index) const
@@ -104,33 +145,55 @@ QString LayerModel::reasonAt(const QModelIndex& index) const
     }
     const Layer& scene = session_.layers[static_cast<std::size_t>(shown - states_.begin())];
     const Dataset& dataset = *layerAt(index).dataset;
-    switch (states_[static_cast<std::size_t>(index.row())]) {
+    const RasterInfo& info = dataset.info();
+    switch (stateAt(index)) {
     case LayerState::Shown:
     case LayerState::Hidden:
         break;
     case LayerState::OtherBody:
-        //: Why a layer is not shown: %1 is its body, %2 the body of what is shown
-        return tr("Not shown: other body, %1 beside %2")
-            .arg(bodyName(dataset), bodyName(*scene.dataset));
+        //: Why a layer is not shown: %1 is its body, %2 the body that the view shows
+        return tr("Hidden: on %1; the view shows %2")
+            .arg(bodyInSentence(*info.body), bodyInSentence(*scene.dataset->info().body));
     case LayerState::OtherCrs:
         //: Why a layer is not shown: %1 is its coordinate system
-        return tr("Not shown: other CRS, %1")
-            .arg(QString::fromStdString(dataset.info().crs->name()));
+        return tr("Hidden: its CRS, %1, is not that of the view")
+            .arg(QString::fromStdString(info.crs->name()));
     case LayerState::UnknownPlace:
-        return dataset.info().crs
+        return info.crs
                    //: Why a layer is not shown: %1 is the topmost layer
-                   ? tr("Not shown: %1 has no CRS to place it by")
+                   ? tr("Hidden: the view shows %1, which has no CRS")
                          .arg(QString::fromStdString(scene.name))
-                   : tr("Not shown: no CRS to place it by");
+                   : tr("Hidden: no CRS, so its position in the view is unknown");
     }
     return {};
 }
 
+QVariant LayerModel::headerRowData(const QModelIndex& index, int role) const
+{
+    const Body* body = layerAt(index).dataset->info().body;
+    switch (role) {
+    case Qt::DisplayRole:
+    case Qt::AccessibleTextRole:
+        //: Above the layers without a known body
+        return body != nullptr ? bodyName(*body) : tr("Unknown body");
+    case IsHeaderRole:
+        return true;
+    case IsShownRole:
+    case IsActiveRole:
+        return false;
+    default:
+        return {};
+    }
+}
+
 QVariant LayerModel::data(const QModelIndex& index, int role) const
 {
+    if (isHeader(index)) {
+        return headerRowData(index, role);
+    }
     const Layer& layer = layerAt(index);
     const RasterInfo& info = layer.dataset->info();
-    const LayerState state = states_[static_cast<std::size_t>(index.row())];
+    const LayerState state = stateAt(index);
     const auto size = [&info] {
         //: Columns and rows of a map
         return tr("%1 × %2").arg(countText(info.columns), countText(info.rows));
@@ -143,23 +206,24 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
     case Qt::EditRole:
         return QString::fromStdString(layer.name);
     case Qt::CheckStateRole:
-        return layer.is_visible ? Qt::Checked : Qt::Unchecked;
+        return state == LayerState::Shown    ? Qt::Checked
+               : state == LayerState::Hidden ? Qt::Unchecked
+                                             : Qt::PartiallyChecked;
     case Qt::ToolTipRole: {
         const QString path = QString::fromStdString(layer.dataset->spec().path);
         const QString reason = reasonAt(index);
         //: Tool tip: %1 says why a layer is not shown, %2 is its file
-        return reason.isEmpty()
-                   ? path
-                   : tr("%1. Move it to the top to show it instead.\n%2").arg(reason, path);
+        return reason.isEmpty() ? path
+                                : tr("%1. Click Show to show it instead.\n%2").arg(reason, path);
     }
     case Qt::AccessibleTextRole: {
         const QString reason = reasonAt(index);
-        const QString visibility = !reason.isEmpty()             ? reason
+        const QString visibility = !reason.isEmpty() ? tr("%1. Press Space to show it").arg(reason)
                                    : state == LayerState::Hidden ? tr("hidden")
                                    : layer.dataset->isPreview()  ? tr("shown as a preview")
                                                                  : tr("shown");
-        //: For screen readers: name, state, columns × rows and range of heights of a layer
-        return tr("%1, %2, %3 samples, heights %4")
+        //: For screen readers: name, state, columns × rows and range of elevations of a layer
+        return tr("%1, %2, %3 samples, elevations %4")
             .arg(QString::fromStdString(layer.name), visibility, size(), range());
     }
     case SizeRole:
@@ -177,6 +241,8 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
         return state == LayerState::Shown;
     case IsActiveRole:
         return layer.id == session_.active;
+    case IsHeaderRole:
+        return false;
     default:
         return {};
     }
@@ -184,7 +250,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
 
 bool LayerModel::setData(const QModelIndex& index, const QVariant& value, int role)
 {
-    if (!index.isValid()) {
+    if (!index.isValid() || isHeader(index)) {
         return false;
     }
     if (role == Qt::CheckStateRole) {
@@ -202,6 +268,9 @@ Qt::ItemFlags LayerModel::flags(const QModelIndex& index) const
 {
     if (!index.isValid()) {
         return Qt::ItemIsDropEnabled; // between rows only: on a row would mean nothing
+    }
+    if (isHeader(index)) {
+        return Qt::ItemNeverHasChildren;
     }
     return Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable | Qt::ItemIsEditable |
            Qt::ItemIsDragEnabled | Qt::ItemNeverHasChildren;
@@ -222,23 +291,51 @@ QMimeData* LayerModel::mimeData(const QModelIndexList& indexes) const
     return data;
 }
 
+// Where a layer that is dropped above the row with that number goes in the session; the end of its
+// group for -1.
+std::optional<std::size_t> LayerModel::dropIndex(const QMimeData* data, int row) const
+{
+    if (!data->hasFormat(mimeType())) {
+        return std::nullopt;
+    }
+    const LayerId id{data->data(mimeType()).toUInt()};
+    const QModelIndex dragged = indexOfLayer(id);
+    if (!dragged.isValid()) {
+        return std::nullopt;
+    }
+    int first = dragged.row();
+    while (first > 0 && !isHeader(index(first - 1))) {
+        --first;
+    }
+    int end = dragged.row() + 1;
+    while (end < rowCount() && !isHeader(index(end))) {
+        ++end;
+    }
+    const int gap = row < 0 ? end : row;
+    if (gap < first || gap > end) {
+        return std::nullopt;
+    }
+    const int place = gap - first - (gap > dragged.row() ? 1 : 0);
+    return indexForPlace(session_, id, static_cast<std::size_t>(place));
+}
+
+bool LayerModel::canDropMimeData(
+    const QMimeData* data, Qt::DropAction action, int row, int, const QModelIndex&) const
+{
+    return action == Qt::MoveAction && dropIndex(data, row).has_value();
+}
+
 bool LayerModel::dropMimeData(
     const QMimeData* data, Qt::DropAction action, int row, int, const QModelIndex&)
 {
-    if (action != Qt::MoveAction || !data->hasFormat(mimeType())) {
+    const std::optional<std::size_t> to = dropIndex(data, row);
+    if (action != Qt::MoveAction || !to) {
         return false;
     }
-    const LayerId id{data->data(mimeType()).toUInt()};
-    const std::size_t from = indexOf(session_, id);
-    if (from == session_.layers.size()) {
-        return false;
-    }
-    const std::size_t gap =
-        row < 0 ? session_.layers.size() : static_cast<std::size_t>(row); // below the last
     // Queued: the view is in the middle of its drag, and the model is about to change.
-    const std::size_t to = gap > from ? gap - 1 : gap;
+    const LayerId id{data->data(mimeType()).toUInt()};
     QMetaObject::invokeMethod(
-        this, [this, id, to] { Q_EMIT moveRequested(id, to); }, Qt::QueuedConnection);
+        this, [this, id, to = *to] { Q_EMIT moveRequested(id, to); }, Qt::QueuedConnection);
     return true;
 }
 

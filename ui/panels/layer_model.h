@@ -1,6 +1,7 @@
-// The layers of the session as Qt's views want them.
+// The layers of the session for Qt's views.
 #pragma once
 
+#include "core/session/layer_groups.h"
 #include "core/session/session.h"
 #include "core/view/color_ramp.h"
 #include "ui/number_text.h"
@@ -12,7 +13,12 @@
 
 namespace marsview {
 
-/// One row a layer, top first. Shows a session; asks for changes and never makes any.
+/// One row for each layer, top first; with layers on several bodies they are grouped, each group
+/// below a row with the name of its body. Shows a session; asks for changes and never makes any.
+///
+/// A layer is checked if it is in the picture, unchecked if the user hides it, and partially
+/// checked if it is visible for the user but the view cannot show it together with the present
+/// layers.
 class LayerModel final : public QAbstractListModel {
     Q_OBJECT
 
@@ -20,10 +26,11 @@ public:
     enum Role {
         SizeRole = Qt::UserRole, // "8,192 × 4,096"
         RangeRole,               // "−8,201 … 21,241 m"
-        ReasonRole,              // why the layer is not shown; empty where it is, or is hidden
+        ReasonRole,              // why the view cannot show the layer; empty otherwise
         NoteRole,                // that, or else that a preview is shown
         IsShownRole,
         IsActiveRole,
+        IsHeaderRole, // the row is the name of a body
     };
 
     explicit LayerModel(QObject* parent = nullptr);
@@ -32,8 +39,12 @@ public:
     const Session& session() const noexcept { return session_; }
     void setHeightUnit(HeightUnit unit);
 
+    /// None for the name of a body.
     LayerId idAt(const QModelIndex& index) const;
+    bool isHeader(const QModelIndex& index) const;
     QModelIndex indexOfLayer(LayerId id) const;
+    // Of rows that are layers.
+
     /// Null while it is being counted.
     std::shared_ptr<const HeightHistogram> histogramAt(const QModelIndex& index) const;
     const ColorRamp& rampAt(const QModelIndex& index) const;
@@ -45,6 +56,12 @@ public:
     Qt::DropActions supportedDropActions() const override { return Qt::MoveAction; }
     QStringList mimeTypes() const override;
     QMimeData* mimeData(const QModelIndexList& indexes) const override;
+    /// Layers are moved within their group only.
+    bool canDropMimeData(const QMimeData* data,
+                         Qt::DropAction action,
+                         int row,
+                         int column,
+                         const QModelIndex& parent) const override;
     bool dropMimeData(const QMimeData* data,
                       Qt::DropAction action,
                       int row,
@@ -58,10 +75,22 @@ Q_SIGNALS:
     void moveRequested(LayerId id, std::size_t index);
 
 private:
+    // A layer, or the name of a body above its layers.
+    struct Row {
+        bool is_header = false;
+        std::size_t layer = 0; // index into the session; of a header, that of its topmost layer
+        bool operator==(const Row&) const = default;
+    };
+
+    static std::vector<Row> rowsOf(const Session& session);
     const Layer& layerAt(const QModelIndex& index) const;
+    LayerState stateAt(const QModelIndex& index) const;
     QString reasonAt(const QModelIndex& index) const;
+    QVariant headerRowData(const QModelIndex& index, int role) const;
+    std::optional<std::size_t> dropIndex(const QMimeData* data, int row) const;
 
     Session session_;
+    std::vector<Row> rows_;
     std::vector<LayerState> states_;
     HeightUnit unit_ = HeightUnit::Metres;
     HistogramMaker* histograms_ = nullptr;
