@@ -19,6 +19,7 @@ struct FoundDevice {
     /// the last time.
     std::string reason;
     bool is_reason_past = false; // it may be otherwise this time
+    std::string details{};       // what the system reported, for those who look into it
     bool isUsable() const noexcept { return reason.empty() || is_reason_past; }
     /// Whether `wanted` may open this one: its URI, with options after a comma or without, or no
     /// more than its scheme, for the first.

@@ -260,6 +260,25 @@ std::vector<FoundDevice> PluginDriver::find()
     return all;
 }
 
+fs::path PluginDriver::fileNamed(const fs::path& name) const
+{
+    std::vector<fs::path> folders{fs::path()};
+    if (!name.has_parent_path()) {
+        folders.insert(folders.begin(), options_.folders.begin(), options_.folders.end());
+    }
+    std::error_code none;
+    for (const fs::path& folder : folders) {
+        for (const char* ending : {"", kEnding}) {
+            fs::path file = folder / name;
+            file += ending;
+            if (fs::is_regular_file(file, none)) {
+                return file;
+            }
+        }
+    }
+    return {};
+}
+
 std::string PluginDriver::folderNames() const
 {
     std::vector<std::string> names;
@@ -272,20 +291,12 @@ std::string PluginDriver::folderNames() const
 Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view address)
 {
     const std::string uri = fmt::format("{}:{}", scheme(), address);
-    auto [file, id] = split(address);
-    std::error_code none;
-    if (!file.has_parent_path()) {
-        for (const fs::path& folder : options_.folders) {
-            if (fs::is_regular_file(folder / file, none)) {
-                file = folder / file;
-                break;
-            }
-        }
-    }
-    if (!fs::is_regular_file(file, none)) {
+    const auto [named, id] = split(address);
+    const fs::path file = fileNamed(named);
+    if (file.empty()) {
         return Error{ErrorCode::NotFound,
-                     fmt::format("{}: there is no such plugin; give its path, or put it into {}",
-                                 uri, folderNames())};
+                     fmt::format("{}: no such plugin; give its path, or put it into {}", uri,
+                                 folderNames())};
     }
     const Result<Library> library = load(file);
     if (!library) {

@@ -67,6 +67,9 @@ private:
                                const std::shared_ptr<const PluginLibrary>& library,
                                std::string id);
     std::vector<FoundDevice> devicesOf(const std::filesystem::path& file);
+    /// The regular file that a plugin is named by: a path, or a name in one of the folders, with or
+    /// without ".so"; empty if there is none.
+    std::filesystem::path fileNamed(const std::filesystem::path& name) const;
     std::string folderNames() const;
     Error hung(const std::filesystem::path& file, std::string_view what, std::string_view doing);
 

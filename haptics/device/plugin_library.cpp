@@ -1,6 +1,7 @@
 #include "haptics/device/plugin_library.h"
 
 #include "haptics/device/checked_device.h"
+#include "haptics/device/loader_message.h"
 #include "haptics/device/plugin_device.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ std::string shownText(const char* text)
 std::string complaintOfLoader(const std::filesystem::path& file)
 {
     const char* complaint = dlerror(); // NOLINT(concurrency-mt-unsafe): glibc's is
-    std::string text = complaint != nullptr ? complaint : "for no stated reason";
+    std::string text = complaint != nullptr ? complaint : "no reason was given";
     const std::string start = file.string() + ": ";
     return text.starts_with(start) ? text.substr(start.size()) : text;
 }
@@ -79,12 +80,12 @@ std::optional<std::string> faultOf(const MarsviewPlugin& table)
           Function{"capabilities", table.capabilities != nullptr},
           Function{"read", table.read != nullptr}, Function{"write", table.write != nullptr}}) {
         if (!function.is_there) {
-            return fmt::format("lacks the function \"{}\"; it has to be mended by its makers",
+            return fmt::format("lacks the function \"{}\"; report it to its makers",
                                function.name);
         }
     }
     if ((table.start_clock == nullptr) != (table.stop_clock == nullptr)) {
-        return "has only one of start_clock and stop_clock; it has to be mended by its makers";
+        return "has only one of start_clock and stop_clock; report it to its makers";
     }
     return std::nullopt;
 }
@@ -102,12 +103,12 @@ Result<PluginLibrary> PluginLibrary::load(const std::filesystem::path& file)
     void* library = dlopen(absolute.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (library == nullptr) {
         return refused(ErrorCode::Unreadable,
-                       fmt::format("cannot be loaded ({})", complaintOfLoader(absolute)));
+                       loaderSentence(absolute.string(), complaintOfLoader(absolute)));
     }
     using Entry = const MarsviewPlugin* (*)();
     const auto entry = reinterpret_cast<Entry>(dlsym(library, MARSVIEW_PLUGIN_SYMBOL));
     if (entry == nullptr) {
-        return refused(ErrorCode::Unsupported, "is no device plugin: it has no function " +
+        return refused(ErrorCode::Unsupported, "is not a device plugin: it has no function " +
                                                    std::string(MARSVIEW_PLUGIN_SYMBOL));
     }
     const MarsviewPlugin* theirs = entry();
@@ -161,7 +162,7 @@ Result<std::unique_ptr<HapticDevice>> PluginLibrary::open(const std::string& id,
     auto device = std::make_unique<PluginDevice>(table_, opened);
     if (const auto fault = device->describe(name_)) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: {}; its plugin has to be mended by its makers", uri, *fault)};
+                     fmt::format("{}: {}; report it to the plugin's makers", uri, *fault)};
     }
     return std::unique_ptr<HapticDevice>(std::make_unique<CheckedDevice>(std::move(device)));
 }

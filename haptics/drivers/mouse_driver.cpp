@@ -25,7 +25,7 @@ Result<std::unique_ptr<HapticDevice>> MouseDriver::open(std::string_view address
         return Error{code, fmt::format("mouse:{}: {}", address, why)};
     };
     if (!address.empty()) {
-        return refused(ErrorCode::Invalid, "nothing may stand behind the colon of a mouse");
+        return refused(ErrorCode::Invalid, "this device takes no address; write mouse:");
     }
     if (link_ == nullptr) {
         return refused(ErrorCode::NotFound, kNoWindow);

@@ -17,10 +17,11 @@ std::vector<std::string> OpenHapticsApi::defaultNames()
     return {"libHD.so.3.4", "libHD.so.3.0", "libHD.so.3", "libHD.so"};
 }
 
-Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsApi::load(const std::vector<std::string>& names)
+Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsApi::load(const std::vector<std::string>& names,
+                                                             std::string& complaint)
 {
     void* library = nullptr;
-    std::string complaint;
+    complaint.clear();
     for (const std::string& name : names) {
         library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
         if (library != nullptr) {
@@ -33,9 +34,8 @@ Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsApi::load(const std::vector<s
     }
     if (library == nullptr) {
         return Error{ErrorCode::NotFound,
-                     fmt::format("the library of OpenHaptics cannot be loaded ({}); install "
-                                 "OpenHaptics and the driver of the device from 3D Systems",
-                                 complaint)};
+                     "OpenHaptics is not installed; install OpenHaptics and the device's driver "
+                     "from 3D Systems"};
     }
     const auto api = std::make_shared<OpenHapticsApi>();
     std::string missing;
@@ -68,7 +68,7 @@ Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsApi::load(const std::vector<s
     find(api->set_scheduler_rate_, "hdSetSchedulerRate");
     if (!missing.empty()) {
         return Error{ErrorCode::Unsupported,
-                     fmt::format("the library of OpenHaptics lacks the function {}; install "
+                     fmt::format("the OpenHaptics library lacks the function {}; install "
                                  "OpenHaptics 3.0 or later",
                                  missing)};
     }

@@ -83,7 +83,9 @@ public:
 
     /// The first of these files or names that can be loaded. NotFound where there is none,
     /// Unsupported where one lacks a function.
-    static Result<std::shared_ptr<OpenHapticsApi>> load(const std::vector<std::string>& names);
+    /// `complaint` receives what the dynamic loader reported where no library could be loaded.
+    static Result<std::shared_ptr<OpenHapticsApi>> load(const std::vector<std::string>& names,
+                                                        std::string& complaint);
 
     hd::Handle (*init_device)(const char* name) = nullptr;
     void (*disable_device)(hd::Handle device) = nullptr;

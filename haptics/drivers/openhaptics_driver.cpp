@@ -75,7 +75,8 @@ OpenHapticsDriver::OpenHapticsDriver(OpenHapticsOptions options)
 Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsDriver::load()
 {
     if (api_ == nullptr) {
-        Result<std::shared_ptr<OpenHapticsApi>> api = OpenHapticsApi::load(options_.libraries);
+        Result<std::shared_ptr<OpenHapticsApi>> api =
+            OpenHapticsApi::load(options_.libraries, complaint_);
         if (!api) {
             return api;
         }
@@ -88,7 +89,8 @@ std::vector<FoundDevice> OpenHapticsDriver::find()
 {
     const std::string any = fmt::format("{}:", scheme());
     if (const auto api = load(); !api) {
-        return {{any, kFamily, api.error().message}};
+        return {
+            {.uri = any, .name = kFamily, .reason = api.error().message, .details = complaint_}};
     }
     std::vector<FoundDevice> found;
     for (const std::string& name : configuredNames(options_.config_folders)) {

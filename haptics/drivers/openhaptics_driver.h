@@ -43,6 +43,7 @@ private:
 
     OpenHapticsOptions options_;
     std::shared_ptr<OpenHapticsApi> api_;
+    std::string complaint_; // of the dynamic loader, while there is none
 };
 
 } // namespace marsview

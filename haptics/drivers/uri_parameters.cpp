@@ -20,21 +20,26 @@ Status readUriParameters(std::string_view uri,
         const auto parameter =
             std::find_if(parameters.begin(), parameters.end(),
                          [name](const UriParameter& p) { return p.name == name; });
+        if (parameter == parameters.end() && parameters.empty()) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: this device takes no address; write {}", uri,
+                                     uri.substr(0, uri.find(':') + 1))};
+        }
         if (parameter == parameters.end()) {
             std::string known;
             for (const UriParameter& p : parameters) {
                 known += known.empty() ? "" : ", ";
                 known += p.name;
             }
-            return Error{ErrorCode::Invalid,
-                         fmt::format("{}: there is no parameter \"{}\"; there are {}", uri, name,
-                                     known.empty() ? "none" : known)};
+            return Error{
+                ErrorCode::Invalid,
+                fmt::format("{}: unknown parameter \"{}\"; known ones are {}", uri, name, known)};
         }
         const auto value =
             equals == std::string_view::npos ? std::nullopt : parseNumber(word.substr(equals + 1));
         if (!value || !(*value >= parameter->minimum && *value <= parameter->maximum)) {
             return Error{ErrorCode::OutOfRange,
-                         fmt::format("{}: {} has to be a number from {} to {}", uri, name,
+                         fmt::format("{}: {} must be a number from {} to {}", uri, name,
                                      parameter->minimum, parameter->maximum)};
         }
         *parameter->value = *value;

@@ -170,12 +170,13 @@ TEST(PluginDriver, FindsPluginsByTheirNamesInTheFoldersToo)
     folder.add("is_good", "hand");
     PluginDriver driver(folder.options());
     EXPECT_TRUE(driver.open("hand.so"));
+    EXPECT_TRUE(driver.open("hand"));
+    EXPECT_TRUE(driver.open((folder.plugins() / "hand").string()));
     const auto missing = driver.open("other.so");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
-    EXPECT_THAT(missing.error().message,
-                AllOf(StartsWith("plugin:other.so: there is no such plugin"),
-                      HasSubstr(folder.plugins().string())));
+    EXPECT_THAT(missing.error().message, AllOf(StartsWith("plugin:other.so: no such plugin"),
+                                               HasSubstr(folder.plugins().string())));
 }
 
 TEST(PluginDriver, TakesPathsThatHoldAHash)
@@ -222,7 +223,7 @@ TEST(PluginDriver, SaysWhyItRefusesALibrary)
                 EndsWith("x.so: is made for version 2 of the plugin interface, and this program "
                          "has version 1; get a build of it for this one"));
     EXPECT_THAT(foundOf("lacks_symbol").reason,
-                EndsWith("x.so: is no device plugin: it has no function marsviewHapticPlugin"));
+                EndsWith("x.so: is not a device plugin: it has no function marsviewHapticPlugin"));
     EXPECT_THAT(foundOf("lacks_table").reason, EndsWith("x.so: gave no table of functions"));
     EXPECT_THAT(foundOf("lacks_read").reason, HasSubstr("x.so: lacks the function \"read\";"));
     EXPECT_THAT(foundOf("has_small_table").reason,
@@ -240,7 +241,10 @@ TEST(PluginDriver, SaysWhyItCannotLoadAFileThatIsNoLibrary)
     PluginDriver driver(folder.options());
     const FoundDevice found = only(driver);
     EXPECT_EQ(found.name, "text.so");
-    EXPECT_EQ(found.reason, file.string() + ": cannot be loaded (file too short)");
+    EXPECT_EQ(
+        found.reason,
+        file.string() +
+            ": is not a library for this computer, or is damaged; get a build for this system");
     EXPECT_EQ(driver.open(file.string()).error().message, found.reason);
     EXPECT_EQ(folder.markers(), 0U);
 }
@@ -535,8 +539,8 @@ TEST(PluginDriver, SaysWhatWentWrongTheLastTimeOfADeviceThatCanBeUsed)
          {Trouble{"fails_opening", "could not be opened: the cover is open"},
           Trouble{"hangs_opening", "did not come back from being opened"},
           Trouble{"is_empty",
-                  "states a workspace from -0.06 to -0.06 m along y; its plugin has to "
-                  "be mended by its makers"},
+                  "states a workspace from -0.06 to -0.06 m along y; report it "
+                  "to the plugin's makers"},
           Trouble{"says_nan", "its samples hold numbers that are not finite"},
           Trouble{"says_unready",
                   "its plugin says that it is not ready, but not why; look whether it wants to be "
