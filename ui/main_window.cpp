@@ -4,6 +4,7 @@
 #include "haptics/drivers/built_in_drivers.h"
 #include "ui/action_icons.h"
 #include "ui/contact_sounds.h"
+#include "ui/coordinate_field.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
 #include "ui/dialogs/keys_dialog.h"
@@ -34,6 +35,7 @@
 #include "ui/window_notices.h"
 
 #include <QActionGroup>
+#include <QClipboard>
 #include <QCloseEvent>
 #include <QDir>
 #include <QDockWidget>
@@ -41,6 +43,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
+#include <QGuiApplication>
 #include <QImage>
 #include <QKeyEvent>
 #include <QListWidget>
@@ -54,6 +57,7 @@
 #include <QStatusBar>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,11 +100,6 @@ QString overlayKey(const QAction& action)
 QString hintKey()
 {
     return QStringLiteral("hint/isDismissed");
-}
-
-QString displayKey()
-{
-    return QStringLiteral("window/coordinates");
 }
 
 } // namespace
@@ -169,6 +168,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
         restoreWindow();
         haptics_->setSettings(hapticsSettingsFrom(QSettings()));
     }
+    connectReadout();
     connectHaptics();
     connectSpaceMouse();
     connectSounds();
@@ -312,11 +312,6 @@ void MainWindow::connectPanels()
     });
     connect(picture_saver_, &PictureSaver::failed, this,
             [this](const QString& problem) { reportFailure(tr("Cannot Save Picture"), problem); });
-    connect(readout_, &StatusReadout::displayChosen, this, [this](CoordinateDisplay display) {
-        if (isRemembered()) {
-            QSettings().setValue(displayKey(), static_cast<int>(display));
-        }
-    });
 }
 
 void MainWindow::connectController()
@@ -376,7 +371,6 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::ready, this, &MainWindow::settleIfIdle, Qt::QueuedConnection);
     connect(view_, &TerrainView::unavailable, this,
             [this](const QString& reason) { reportFailure(tr("Cannot Draw"), reason); });
-    connect(view_, &TerrainView::pointerMoved, readout_, &StatusReadout::setHit);
     connect(view_, &TerrainView::toolChanged, this,
             [this](Tool tool) { actions_->showTool(tool); });
     connect(view_, &TerrainView::exaggerationChanged, tool_bar_, &MainToolBar::showExaggeration);
@@ -409,7 +403,31 @@ PlaceFacts MainWindow::factsAt(const GroundPoint& ground) const
                                     [&](const Layer& known) { return known.dataset == dataset; });
     return placeFacts(
         *dataset, layer != layers.end() ? QString::fromStdString(layer->name) : QString(),
-        ground.grid, {.display = readout_->display(), .unit = preferences_.height_unit});
+        ground.grid, {.format = preferences_.coordinates, .unit = preferences_.height_unit});
+}
+
+// Children of the window alone: the view loses the focus while the window is being destroyed.
+void MainWindow::connectReadout()
+{
+    connect(view_, &TerrainView::pointerMoved, readout_,
+            [view = view_, readout = readout_](const std::optional<RayHit>& hit) {
+                readout->setPlace(
+                    hit ? std::optional(
+                              ReadPlace{.hit = *hit, .screen_pixel_m = view->metresPerPoint(*hit)})
+                        : std::nullopt);
+            });
+    connect(readout_, &StatusReadout::focusChanged, view_, &TerrainView::setReadElsewhere);
+    connect(readout_, &StatusReadout::formatChosen, this, [this](const CoordinateFormat& format) {
+        Preferences preferences = preferences_;
+        preferences.coordinates = format;
+        setPreferences(preferences);
+    });
+    readout_->setCopyAction(actions_->copy_coordinates);
+    connect(actions_->copy_coordinates, &QAction::triggered, this, [this] { copyCoordinates(); });
+    connect(actions_->coordinate_format, &QMenu::aboutToShow, this, [this] {
+        actions_->coordinate_format->clear();
+        readout_->fillMenu(*actions_->coordinate_format);
+    });
 }
 
 void MainWindow::connectHaptics()
@@ -545,12 +563,6 @@ void MainWindow::restoreWindow()
         action->setChecked(settings.value(overlayKey(*action), true).toBool());
     }
     last_folder_ = settings.value(folderKey()).toString();
-    if (settings.contains(displayKey())) {
-        const int display = settings.value(displayKey()).toInt();
-        if (display >= 0 && display <= static_cast<int>(CoordinateDisplay::Planetographic)) {
-            readout_->setDisplay(static_cast<CoordinateDisplay>(display));
-        }
-    }
 }
 
 void MainWindow::open(const QString& file)
@@ -686,13 +698,36 @@ void MainWindow::goToCoordinate()
     if (!view_->map()) {
         return;
     }
-    auto* dialog = new GoToDialog(view_->map().dataset, last_place_, this);
+    auto* dialog = new GoToDialog(view_->map().dataset, preferences_, last_place_, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &GoToDialog::placeChosen, this, [this, dialog](GridPoint grid) {
         last_place_ = dialog->entry();
         view_->flyTo(grid, 0.0);
     });
     dialog->open();
+}
+
+void MainWindow::copyCoordinates()
+{
+    const QString text = readout_->plainPosition();
+    if (!text.isEmpty()) {
+        QGuiApplication::clipboard()->setText(text);
+        readout_->coordinateField()->showCopied();
+    }
+}
+
+void MainWindow::copyCoordinates(GridPoint grid)
+{
+    if (!view_->map()) {
+        return;
+    }
+    const Dataset& dataset = *view_->map().dataset;
+    const double height_m = dataset.heightfield().heightNow(grid);
+    QGuiApplication::clipboard()->setText(plainPositionText(
+        preferences_.coordinates, dataset, grid,
+        view_->metresPerPoint(
+            {.grid = grid, .height_m = std::isfinite(height_m) ? height_m : 0.0})));
+    readout_->coordinateField()->showCopied();
 }
 
 void MainWindow::showPreferences()
@@ -709,11 +744,13 @@ void MainWindow::setPreferences(const Preferences& preferences)
 {
     preferences_ = preferences;
     applyTheme(preferences.theme);
+    readout_->setFormat(preferences.coordinates);
     readout_->setHeightUnit(preferences.height_unit);
     datasets_->setHeightUnit(preferences.height_unit);
     georeferencing_->setHeightUnit(preferences.height_unit);
     overlays_->setHeightUnit(preferences.height_unit);
     stretch_->setHeightUnit(preferences.height_unit);
+    georeferencing_->setCoordinateFormat(preferences.coordinates);
     view_->setAntialiasing(preferences.has_antialiasing);
     view_->setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));
     view_->setContactModel(preferences.contact_model);

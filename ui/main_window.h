@@ -97,6 +97,10 @@ public:
     /// Takes effect at once; remembered when the window is.
     void setPreferences(const Preferences& preferences);
     void goToCoordinate();
+    /// Puts the position that the status bar shows on the clipboard.
+    void copyCoordinates();
+    /// The same for a place of the scene's grid.
+    void copyCoordinates(GridPoint grid);
     void showPreferences();
     void showAbout();
     void showKeys();
@@ -135,6 +139,7 @@ private:
     void makeNotices();
     void showHaptics();
     void restoreWindow();
+    void connectReadout();
     void showSession();
     void showActive();
     void showPreparation();

@@ -4,6 +4,7 @@
 #include "core/view/edge_mark.h"
 #include "core/view/scale_bar.h"
 #include "ui/overlay/compass.h"
+#include "ui/overlay/crosshair.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/hand_pointer.h"
@@ -39,6 +40,7 @@ MapOverlays::MapOverlays(TerrainView& view)
     , view_(view)
     , minimap_(new Minimap(&view))
     , compass_(new Compass(&view))
+    , crosshair_(new Crosshair(&view))
     , scale_bar_(new ScaleBarView(&view))
     , legend_(new Legend(&view))
     , force_meter_(new ForceMeter(&view))
@@ -67,6 +69,10 @@ MapOverlays::MapOverlays(TerrainView& view)
     probe_timer_.setInterval(kProbeAfter);
     connect(&probe_timer_, &QTimer::timeout, this, &MapOverlays::findSeenLayers);
     view_.installEventFilter(this); // the legend is transparent to the mouse
+    connect(&view_, &TerrainView::crosshairChanged, crosshair_, &QWidget::setVisible);
+    connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::placeCrosshair);
+    crosshair_->lower();
+    placeCrosshair();
     connect(minimap_, &Minimap::placeRequested, &view_, &TerrainView::lookAt);
     connect(&view_, &TerrainView::gestureMade, hint_, &GestureHint::markDone);
     connect(hint_, &GestureHint::dismissed, this, &MapOverlays::dismissHint);
@@ -264,6 +270,13 @@ void MapOverlays::showTouch()
     const Vec3& force_n = stylus->force_n;
     force_meter_->setForce({dot(force_n, right), dot(force_n, away), force_n.z},
                            stylus->force_n_max);
+}
+
+void MapOverlays::placeCrosshair()
+{
+    QRect place(QPoint(), crosshair_->sizeHint());
+    place.moveCenter(view_.rect().center());
+    crosshair_->setGeometry(place);
 }
 
 // An arrow to the cursor, where that cannot be seen.

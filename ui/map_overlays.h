@@ -17,6 +17,7 @@ class QImage;
 namespace marsview {
 
 class Compass;
+class Crosshair;
 class ForceMeter;
 class GestureHint;
 class HandPointer;
@@ -39,6 +40,7 @@ public:
     ScaleBarView* scaleBar() const noexcept { return scale_bar_; }
     Legend* legend() const noexcept { return legend_; }
     ForceMeter* forceMeter() const noexcept { return force_meter_; }
+    Crosshair* crosshair() const noexcept { return crosshair_; }
     HandPointer* handPointer() const noexcept { return hand_pointer_; }
 
     GestureHint* hint() const noexcept { return hint_; }
@@ -84,10 +86,12 @@ private:
     void showLegend();
     void showTouch();
     void showHand();
+    void placeCrosshair();
 
     TerrainView& view_;
     Minimap* minimap_ = nullptr;
     Compass* compass_ = nullptr;
+    Crosshair* crosshair_ = nullptr; // below all others
     ScaleBarView* scale_bar_ = nullptr;
     Legend* legend_ = nullptr;
     ForceMeter* force_meter_ = nullptr;

@@ -1,6 +1,7 @@
 #include "ui/number_text.h"
 
 #include <QCoreApplication>
+#include <QGuiApplication>
 #include <QLocale>
 
 #include <algorithm>
@@ -10,6 +11,23 @@ namespace marsview {
 namespace {
 
 constexpr double kMetresInAFoot = 0.3048;
+
+// Unicode's isolates: what is between them and PDI has a direction of its own.
+constexpr QChar kLeftToRightIsolate(0x2066);
+constexpr QChar kFirstStrongIsolate(0x2068);
+constexpr QChar kPopIsolate(0x2069);
+
+bool isLayoutRightToLeft()
+{
+    return QGuiApplication::layoutDirection() == Qt::RightToLeft;
+}
+
+bool hasRightToLeftLetters(const QString& text)
+{
+    return std::any_of(text.begin(), text.end(), [](QChar c) {
+        return c.direction() == QChar::DirR || c.direction() == QChar::DirAL;
+    });
+}
 
 } // namespace
 
@@ -26,12 +44,13 @@ QString unitSymbol(HeightUnit unit)
 QString numberText(double value, int decimals)
 {
     const double half = 0.5 * std::pow(10.0, -decimals);
-    return withMinusSigns(QLocale().toString(std::abs(value) < half ? 0.0 : value, 'f', decimals));
+    return leftToRight(
+        withMinusSigns(QLocale().toString(std::abs(value) < half ? 0.0 : value, 'f', decimals)));
 }
 
 QString shortNumberText(double value, int digits)
 {
-    return withMinusSigns(QLocale().toString(value, 'g', digits));
+    return leftToRight(withMinusSigns(QLocale().toString(value, 'g', digits)));
 }
 
 QString countText(std::size_t count)
@@ -45,8 +64,9 @@ QString heightRangeText(const HeightRange& range, HeightUnit unit)
     const double high = inUnit(range.maximum_m, unit);
     const int decimals = decimalsFor((high - low) / 10.0, 3);
     //: A range of heights; %3 is their unit
-    return QCoreApplication::translate("HeightText", "%1 … %2 %3")
-        .arg(numberText(low, decimals), numberText(high, decimals), unitSymbol(unit));
+    return leftToRight(
+        QCoreApplication::translate("HeightText", "%1 … %2 %3")
+            .arg(numberText(low, decimals), numberText(high, decimals), unitSymbol(unit)));
 }
 
 QString bytesText(std::uint64_t bytes)
@@ -87,6 +107,26 @@ int decimalsFor(double resolution, int most)
         return most;
     }
     return std::clamp(static_cast<int>(std::ceil(-std::log10(resolution / 10.0) - 1e-9)), 0, most);
+}
+
+QString leftToRight(const QString& text)
+{
+    return isLayoutRightToLeft() && !text.isEmpty() ? kLeftToRightIsolate + text + kPopIsolate
+                                                    : text;
+}
+
+QString isolated(const QString& name)
+{
+    return !name.isEmpty() && (isLayoutRightToLeft() || hasRightToLeftLetters(name))
+               ? kFirstStrongIsolate + name + kPopIsolate
+               : name;
+}
+
+QString withUnit(const QString& number, const QString& unit)
+{
+    //: A number and its unit
+    return leftToRight(
+        QCoreApplication::translate("NumberText", "%1 %2").arg(number, unit).trimmed());
 }
 
 QString withMinusSigns(QString text)

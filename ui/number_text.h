@@ -11,7 +11,7 @@
 
 namespace marsview {
 
-/// In which unit heights are told. Distances on the ground stay metric.
+/// The unit of elevations. Distances on the ground stay metric.
 enum class HeightUnit { Metres, Feet };
 
 double inUnit(double height_m, HeightUnit unit);
@@ -39,6 +39,17 @@ QString timeLeftText(std::chrono::seconds left);
 
 /// Decimals that show a tenth of `resolution`, at most `most`.
 int decimalsFor(double resolution, int most);
+
+/// Keeps `text`, a number, range or coordinate, in its order from left to right where the layout
+/// runs from right to left. Unchanged in other layouts.
+QString leftToRight(const QString& text);
+
+/// Keeps a name, as of a file or layer, apart from the direction of the sentence around it.
+/// Unchanged where both run from left to right.
+QString isolated(const QString& name);
+
+/// "21,171 m": a number that is text already, and a unit.
+QString withUnit(const QString& number, const QString& unit);
 
 /// The text with true minus signs for the hyphens before digits. Leaves other hyphens alone.
 QString withMinusSigns(QString text);

@@ -13,6 +13,7 @@ PictureTaker::PictureTaker(MainWindow& window, const QString& file, QObject* par
     , window_(window)
     , file_(file)
 {
+    window.view()->setCrosshairAllowed(false);
     // Queued: the window takes in what the event brought before its picture is taken.
     connect(&window, &MainWindow::settled, this, &PictureTaker::take, Qt::QueuedConnection);
     connect(&window, &MainWindow::openFailed, this, &PictureTaker::report);

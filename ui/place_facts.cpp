@@ -50,7 +50,8 @@ placeFacts(const Dataset& dataset, const QString& layer, GridPoint grid, const P
         return place.is_rough ? placeTr(QT_TRANSLATE_NOOP("PlaceFacts", "≈ %1")).arg(value) : value;
     };
     add(QT_TRANSLATE_NOOP("PlaceFacts", "Layer"), layer);
-    place.coordinates = coordinateText(terms.display, dataset.info(), georeference, grid);
+    place.coordinates = positionText(terms.format, dataset, grid);
+    place.plain_coordinates = plainPositionText(terms.format, dataset, grid);
     if (!place.coordinates.isEmpty()) {
         add(QT_TRANSLATE_NOOP("PlaceFacts", "Coordinates"), place.coordinates);
     }

@@ -15,16 +15,17 @@ namespace marsview {
 struct PlaceFacts {
     struct Fact {
         QString name;  // "Elevation"
-        QString value; // "21,171 m above areoid"
+        QString value; // "21,171 m (areoid)"
     };
-    std::vector<Fact> facts; // layer, coordinates, elevation, slope, aspect, sample
-    QString coordinates;     // as on the status bar
-    QString elevation;       // in the preferred unit, for other programs: "21171.4"
-    bool is_rough = false;   // finer samples are on their way; asking again requests them
+    std::vector<Fact> facts;   // layer, coordinates, elevation, slope, aspect, sample
+    QString coordinates;       // as on the status bar
+    QString plain_coordinates; // the same for other programs
+    QString elevation;         // in the preferred unit, for other programs: "21171.4"
+    bool is_rough = false;     // finer samples are on their way; asking again requests them
 };
 
 struct PlaceTerms {
-    CoordinateDisplay display = CoordinateDisplay::Map;
+    CoordinateFormat format{};
     HeightUnit unit = HeightUnit::Metres;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact/contact_model.h"
+#include "core/geo/coordinate_format.h"
 #include "core/session/open_map.h"
 #include "ui/number_text.h"
 
@@ -21,8 +22,9 @@ inline constexpr int kTileMemoryMbMin = 128;
 struct Preferences {
     Theme theme = Theme::System;
     HeightUnit height_unit = HeightUnit::Metres;
-    bool has_antialiasing = true; // where the driver does it without effort
-    int frames_per_s = 30;        // while something moves: 20, 30 or 60
+    CoordinateFormat coordinates{}; // wherever positions are read or typed
+    bool has_antialiasing = true;   // where the driver does it without effort
+    int frames_per_s = 30;          // while something moves: 20, 30 or 60
     ContactModelKind contact_model = kContactModelDefault;
     int tile_memory_mb = 0; // for tiles of large maps; 0: a quarter of memory
     QString map_folder{};   // of prepared maps; empty: the user's cache folder

@@ -21,6 +21,12 @@ void ReservedLabel::setLongest(const QString& longest)
     }
 }
 
+void ReservedLabel::setHint(const QString& hint)
+{
+    hint_ = hint;
+    elide();
+}
+
 void ReservedLabel::setWholeText(const QString& text)
 {
     whole_ = text;
@@ -51,7 +57,7 @@ void ReservedLabel::elide()
     const QString shown =
         fontMetrics().elidedText(whole_, Qt::ElideRight, std::max(0, contentsRect().width()));
     setText(shown);
-    setToolTip(shown == whole_ ? QString() : whole_);
+    setToolTip(shown == whole_ ? hint_ : whole_);
 }
 
 } // namespace marsview

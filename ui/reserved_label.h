@@ -5,16 +5,18 @@
 
 namespace marsview {
 
-/// Wants the width of a text that is as long as any that is usual, and cuts short what is longer.
-/// Gives way where there is no room.
-class ReservedLabel final : public QLabel {
+/// As wide as the longest usual text. Longer texts are elided, with the whole text as a tool tip. It
+/// shrinks where there is no room.
+class ReservedLabel : public QLabel {
     Q_OBJECT
 
 public:
     explicit ReservedLabel(const QString& longest, QWidget* parent = nullptr);
 
     void setLongest(const QString& longest);
-    /// Whole, whatever is to be seen of it.
+    /// The tool tip while nothing is elided.
+    void setHint(const QString& hint);
+    /// The text is stored whole, however much of it fits.
     void setWholeText(const QString& text);
     const QString& wholeText() const noexcept { return whole_; }
 
@@ -29,6 +31,7 @@ private:
 
     QString longest_;
     QString whole_;
+    QString hint_;
 };
 
 } // namespace marsview

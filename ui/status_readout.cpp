@@ -1,21 +1,31 @@
 #include "ui/status_readout.h"
 
 #include "core/session/dataset.h"
+#include "ui/coordinate_field.h"
+#include "ui/coordinate_menu.h"
 #include "ui/reserved_label.h"
 
-#include <QActionGroup>
+#include <QAction>
 #include <QFontMetrics>
+#include <QFrame>
 #include <QHBoxLayout>
 #include <QMenu>
 #include <QToolButton>
 
-#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace marsview {
 namespace {
 
-constexpr int kDisplayNameWidth = 150; // pixels at which a long CRS name is cut short
+constexpr int kGap = 8;            // between all parts, in pixels
+constexpr int kNameWidthMax = 150; // pixels at which a long CRS name is elided
+
+QString outsideText()
+{
+    //: In place of a coordinate: nothing of the map is pointed at
+    return StatusReadout::tr("outside the map");
+}
 
 // A place of the scene on the grid of another map in the same CRS.
 GridPoint onGridOf(const Dataset& dataset, const Dataset& scene, GridPoint grid)
@@ -31,45 +41,67 @@ GridPoint onGridOf(const Dataset& dataset, const Dataset& scene, GridPoint grid)
     return dataset.georeference().toGrid(scene.georeference().toMap(grid));
 }
 
+// A thin line between two parts of the readout.
+QWidget* makeRule(QWidget* parent)
+{
+    auto* rule = new QFrame(parent);
+    rule->setFrameShape(QFrame::VLine);
+    rule->setFrameShadow(QFrame::Plain);
+    rule->setForegroundRole(QPalette::Mid);
+    rule->setFixedHeight(parent->fontMetrics().height());
+    return rule;
+}
+
 } // namespace
 
 StatusReadout::StatusReadout(QWidget* parent)
     : QWidget(parent)
-    , coordinate_(new ReservedLabel(QStringLiteral("−00,000,000.0, −00,000,000.0 m"), this))
-    , toggle_button_(new QToolButton(this))
-    , display_button_(new QToolButton(this))
-    , display_group_(new QActionGroup(this))
-    , height_(new ReservedLabel(QStringLiteral("−00,000.0 m above areoid"), this))
+    , coordinate_(new CoordinateField(this))
+    , format_button_(new QToolButton(this))
+    , height_(new ReservedLabel({}, this))
     , detail_(new ReservedLabel(tr("detail %1 px").arg(QStringLiteral("00.0")), this))
+    , height_rule_(makeRule(this))
+    , detail_rule_(makeRule(this))
 {
-    coordinate_->setAccessibleName(tr("Position under the pointer"));
-    height_->setAccessibleName(tr("Height under the pointer"));
+    coordinate_->setAccessibleName(tr("Position under the pointer or the crosshair"));
+    coordinate_->setAccessibleDescription(tr("Ctrl+C copies it"));
+    coordinate_->setObjectName(QStringLiteral("coordinates"));
+    height_->setAccessibleName(tr("Elevation under the pointer or the crosshair"));
+    height_->setObjectName(QStringLiteral("elevation"));
     detail_->setAccessibleName(tr("Largest error of the picture"));
-    toggle_button_->setText(QStringLiteral("⇄"));
-    toggle_button_->setObjectName(QStringLiteral("toggleDisplay"));
-    toggle_button_->setAutoRaise(true);
-    toggle_button_->setAccessibleName(tr("Switch between map and geographic coordinates"));
-    toggle_button_->setToolTip(tr("Switch between map coordinates and latitude and longitude"));
-    display_button_->setAccessibleName(tr("Coordinate system of the position"));
-    display_button_->setToolTip(tr("In which terms positions are shown"));
-    display_button_->setPopupMode(QToolButton::InstantPopup);
-    display_button_->setAutoRaise(true);
-    display_button_->setMenu(new QMenu(display_button_));
+    format_button_->setObjectName(QStringLiteral("coordinateFormat"));
+    format_button_->setAccessibleName(tr("Coordinate format"));
+    format_button_->setToolTip(tr("Coordinate format"));
+    format_button_->setPopupMode(QToolButton::InstantPopup);
+    format_button_->setAutoRaise(true);
+    auto* menu = new QMenu(format_button_);
+    format_button_->setMenu(menu);
+    connect(menu, &QMenu::aboutToShow, this, [this, menu] {
+        menu->clear();
+        fillMenu(*menu);
+    });
+    coordinate_->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(coordinate_, &QWidget::customContextMenuRequested, this, [this, menu](QPoint position) {
+        if (scene_) {
+            menu->popup(coordinate_->mapToGlobal(position));
+        }
+    });
+    connect(coordinate_, &CoordinateField::copyRequested, this, [this] {
+        if (copy_action_ != nullptr) {
+            copy_action_->trigger();
+        }
+    });
+    connect(coordinate_, &CoordinateField::focusChanged, this, &StatusReadout::focusChanged);
     auto* layout = new QHBoxLayout(this);
-    layout->setContentsMargins(6, 0, 6, 0);
-    layout->setSpacing(4);
+    layout->setContentsMargins(kGap, 0, kGap, 0);
+    layout->setSpacing(kGap);
     layout->addWidget(coordinate_);
-    layout->addWidget(toggle_button_);
-    layout->addWidget(display_button_);
-    layout->addSpacing(8);
+    layout->addWidget(format_button_);
+    layout->addWidget(height_rule_);
     layout->addWidget(height_);
-    layout->addSpacing(8);
+    layout->addWidget(detail_rule_);
     layout->addWidget(detail_);
     layout->addStretch(1);
-    connect(toggle_button_, &QToolButton::clicked, this, [this] {
-        toggleDisplay();
-        Q_EMIT displayChosen(display_);
-    });
     setDatasets(nullptr, nullptr);
 }
 
@@ -77,53 +109,36 @@ void StatusReadout::setDatasets(const std::shared_ptr<const Dataset>& scene,
                                 const std::shared_ptr<const Dataset>& active)
 {
     if (scene != scene_) {
-        hit_.reset();
+        place_.reset();
     }
     scene_ = scene;
     active_ = active;
-    display_button_->setVisible(scene_ != nullptr);
-    toggle_button_->setVisible(scene_ != nullptr);
-    detail_->setVisible(scene_ != nullptr);
-    if (scene_) {
-        const auto displays = coordinateDisplays(scene_->info());
-        const bool has_wanted =
-            std::find(displays.begin(), displays.end(), wanted_) != displays.end();
-        display_ = is_display_wanted_ && has_wanted ? wanted_ : displays.front();
-        toggle_button_->setEnabled(displays.size() > 1);
-        fillMenu();
-        reserveWidths();
+    for (QWidget* part : std::initializer_list<QWidget*>{coordinate_, format_button_, height_rule_,
+                                                         height_, detail_rule_, detail_}) {
+        part->setVisible(scene_ != nullptr);
     }
+    reserveWidths();
     showDetail();
     refresh();
 }
 
-void StatusReadout::setHit(const std::optional<RayHit>& hit)
+void StatusReadout::setPlace(const std::optional<ReadPlace>& place)
 {
-    hit_ = hit;
+    place_ = place;
     refresh();
 }
 
-void StatusReadout::setDisplay(CoordinateDisplay display)
+void StatusReadout::setFormat(const CoordinateFormat& format)
 {
-    wanted_ = display;
-    is_display_wanted_ = true;
-    setDatasets(scene_, active_);
-}
-
-void StatusReadout::toggleDisplay()
-{
-    if (scene_) {
-        setDisplay(display_ == CoordinateDisplay::Map ? coordinateDisplays(scene_->info()).front()
-                                                      : CoordinateDisplay::Map);
-    }
+    format_ = format;
+    reserveWidths();
+    refresh();
 }
 
 void StatusReadout::setHeightUnit(HeightUnit unit)
 {
     unit_ = unit;
-    if (scene_) {
-        reserveWidths();
-    }
+    reserveWidths();
     refresh();
 }
 
@@ -145,7 +160,7 @@ void StatusReadout::setProblem(const QString& problem)
     showDetail();
 }
 
-// How far a preview is from its map, nobody knows yet.
+// The error of a preview is not measured yet.
 void StatusReadout::showDetail()
 {
     if (is_loading_ || has_problem_) {
@@ -178,38 +193,33 @@ QString StatusReadout::detailLabel() const
     return detail_->wholeText();
 }
 
-void StatusReadout::fillMenu()
+QString StatusReadout::plainPosition() const
 {
-    QMenu* menu = display_button_->menu();
-    menu->clear();
-    int width = 0;
-    const auto shortened = [this](const QString& name) {
-        return fontMetrics().elidedText(name, Qt::ElideMiddle, kDisplayNameWidth);
-    };
-    for (const CoordinateDisplay display : coordinateDisplays(scene_->info())) {
-        const QString name = displayName(display, scene_->info());
-        const QString text = display == CoordinateDisplay::Map
-                                 ? tr("Map: %1").arg(name)
-                                 : tr("Latitude and longitude, %1").arg(name);
-        QAction* action = menu->addAction(text);
-        action->setCheckable(true);
-        action->setChecked(display == display_);
-        display_group_->addAction(action);
-        connect(action, &QAction::triggered, this, [this, display] {
-            setDisplay(display);
-            Q_EMIT displayChosen(display);
-        });
-        width = std::max(width, fontMetrics().horizontalAdvance(shortened(name)));
-    }
-    display_button_->setText(shortened(displayName(display_, scene_->info())));
-    display_button_->setFixedWidth(width + 28); // as wide in all terms, with the arrow
+    return scene_ && place_
+               ? plainPositionText(format_, *scene_, place_->hit.grid, place_->screen_pixel_m)
+               : QString();
 }
 
-// As wide as anything that this map will show, so that nothing moves while the numbers change.
+void StatusReadout::fillMenu(QMenu& menu)
+{
+    if (!scene_) {
+        return;
+    }
+    fillCoordinateMenu(menu, format_, scene_->info(),
+                       [this](const CoordinateFormat& format) { Q_EMIT formatChosen(format); });
+    if (copy_action_ != nullptr) {
+        menu.addSeparator();
+        menu.addAction(copy_action_);
+    }
+}
+
+// As wide as the longest text on this map, so that nothing moves while numbers change.
 void StatusReadout::reserveWidths()
 {
+    if (!scene_) {
+        return;
+    }
     const QFontMetrics metrics(font());
-    QString longest = tr("pointer off the map");
     const auto keep_longer = [&metrics](QString& kept, const QString& other) {
         if (metrics.horizontalAdvance(other) > metrics.horizontalAdvance(kept)) {
             kept = other;
@@ -218,13 +228,13 @@ void StatusReadout::reserveWidths()
     const Georeference& georeference = scene_->georeference();
     const double last_column = static_cast<double>(georeference.columns() - 1);
     const double last_row = static_cast<double>(georeference.rows() - 1);
-    for (const CoordinateDisplay display : coordinateDisplays(scene_->info())) {
-        for (const GridPoint grid : {GridPoint{0.0, 0.0}, GridPoint{last_column, 0.0},
-                                     GridPoint{0.0, last_row}, GridPoint{last_column, last_row}}) {
-            keep_longer(longest, coordinateText(display, scene_->info(), georeference, grid));
-        }
+    QString longest = outsideText();
+    for (const GridPoint grid :
+         {GridPoint{0.0, 0.0}, GridPoint{last_column, 0.0}, GridPoint{0.0, last_row},
+          GridPoint{last_column, last_row}, GridPoint{last_column / 2.0, last_row / 2.0}}) {
+        keep_longer(longest, positionText(format_, *scene_, grid));
     }
-    coordinate_->setLongest(longest + QStringLiteral("00")); // digits differ in width
+    coordinate_->setLongest(longest + QStringLiteral("000")); // digits differ in number and width
     QString highest;
     for (const auto& dataset : {scene_, active_}) {
         if (dataset) {
@@ -234,6 +244,8 @@ void StatusReadout::reserveWidths()
         }
     }
     height_->setLongest(tr("≈ %1").arg(highest) + QLatin1Char('0'));
+    format_button_->setText(
+        metrics.elidedText(formatName(format_, scene_->info()), Qt::ElideMiddle, kNameWidthMax));
 }
 
 StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
@@ -248,7 +260,7 @@ StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
                                              heightfield.range().value_or(HeightRange{}), height_m,
                                              unit_)};
         if (dataset.isPreview()) {
-            height.why_rough = tr("Read from a preview; exact once the map is prepared");
+            height.why_rough = tr("Read from a preview; exact once the overviews are built");
         } else if (!is_exact) {
             height.why_rough = tr("Read from a coarser level; the samples here are being read");
         }
@@ -266,21 +278,19 @@ StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
 
 void StatusReadout::refresh()
 {
-    if (!scene_ || !hit_) {
-        //: In place of a coordinate
-        coordinate_->setWholeText(scene_ ? tr("pointer off the map") : QString());
-        coordinate_->setEnabled(false);
+    if (!scene_ || !place_) {
+        coordinate_->showText(scene_ ? outsideText() : QString(), false);
         height_->setWholeText({});
-        height_->setToolTip({});
+        height_->setHint({});
         return;
     }
-    coordinate_->setEnabled(true);
-    coordinate_->setWholeText(
-        coordinateText(display_, scene_->info(), scene_->georeference(), hit_->grid));
-    const ReadHeight height = heightAt(*hit_);
-    //: A height that is not quite sure yet
-    height_->setWholeText(height.why_rough.isEmpty() ? height.text : tr("≈ %1").arg(height.text));
-    height_->setToolTip(height.why_rough);
+    coordinate_->showText(positionText(format_, *scene_, place_->hit.grid, place_->screen_pixel_m),
+                          true);
+    const ReadHeight height = heightAt(place_->hit);
+    height_->setHint(height.why_rough);
+    height_->setWholeText(height.why_rough.isEmpty() ? height.text
+                                                     //: An elevation that is not exact yet
+                                                     : leftToRight(tr("≈ %1").arg(height.text)));
 }
 
 } // namespace marsview

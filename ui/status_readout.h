@@ -1,4 +1,4 @@
-// The status bar's account of the place under the pointer.
+// The status bar's readout: position and elevation under the pointer or the crosshair.
 #pragma once
 
 #include "core/terrain/ray_cast.h"
@@ -9,38 +9,42 @@
 #include <memory>
 #include <optional>
 
-class QActionGroup;
-class QLabel;
+class QMenu;
 class QToolButton;
 
 namespace marsview {
 
+class CoordinateField;
 class Dataset;
 class ReservedLabel;
 
-/// Shows a position, in the terms that the user picks, the height there, and how sharp the picture
-/// is. Its parts keep their width while numbers change.
+/// A position that is read, and how exactly it can be pointed at.
+struct ReadPlace {
+    RayHit hit;                  // on the scene's grid
+    double screen_pixel_m = 0.0; // metres on the terrain in one point of the screen; 0: unknown
+};
+
+/// Shows a position in the chosen format, the elevation there, and how sharp the picture is. Its
+/// parts keep their width while numbers change.
 class StatusReadout final : public QWidget {
     Q_OBJECT
 
 public:
     explicit StatusReadout(QWidget* parent = nullptr);
 
-    /// `scene` is the map that positions are on, null for none. `active` is the one whose heights
-    /// are told, where it has any; it may be the same, or null for none. Both lie in one CRS.
+    /// `scene` is the map that positions are on, null for none. `active` is the one whose
+    /// elevations are shown, where it has any; it may be the same, or null for none. Both lie in
+    /// one CRS.
     void setDatasets(const std::shared_ptr<const Dataset>& scene,
                      const std::shared_ptr<const Dataset>& active);
-    /// On the scene's grid; nothing where the pointer is off the map.
-    void setHit(const std::optional<RayHit>& hit);
-    void setDisplay(CoordinateDisplay display);
-    CoordinateDisplay display() const noexcept { return display_; }
-    /// Between map coordinates and the usual longitude and latitude. Nothing where there is but
-    /// one.
-    void toggleDisplay();
+    /// Nothing where no position of the map is pointed at.
+    void setPlace(const std::optional<ReadPlace>& place);
+    void setFormat(const CoordinateFormat& format);
+    const CoordinateFormat& format() const noexcept { return format_; }
     void setHeightUnit(HeightUnit unit);
     /// The screen-space error of the picture, in pixels.
     void setDetail(double pixels);
-    /// Whether pieces of the picture are on their way.
+    /// Whether pieces of the picture are loading.
     void setLoading(bool is_loading);
     /// Why pieces of the picture cannot be read; empty where all can.
     void setProblem(const QString& problem);
@@ -48,38 +52,46 @@ public:
     QString coordinateLabel() const;
     QString heightLabel() const;
     QString detailLabel() const;
+    CoordinateField* coordinateField() const noexcept { return coordinate_; }
+
+    /// The position for the clipboard; empty where none is shown.
+    QString plainPosition() const;
+    /// Puts the choices of the format, and `copy` below them, into an empty menu.
+    void fillMenu(QMenu& menu);
+    /// The action that copies the position: the last entry of the menu.
+    void setCopyAction(QAction* copy) { copy_action_ = copy; }
 
 Q_SIGNALS:
     /// By the user.
-    void displayChosen(CoordinateDisplay display);
+    void formatChosen(const CoordinateFormat& format);
+    /// The position is shown on behalf of the keyboard: it has the focus, or no more.
+    void focusChanged(bool has_focus);
 
 private:
-    void fillMenu();
     void reserveWidths();
     void refresh();
     void showDetail();
     struct ReadHeight {
         QString text;
-        QString why_rough{}; // empty: it is the height of the map
+        QString why_rough{}; // empty: it is the elevation of the map
     };
     ReadHeight heightAt(const RayHit& hit) const;
 
     std::shared_ptr<const Dataset> scene_;
     std::shared_ptr<const Dataset> active_;
-    std::optional<RayHit> hit_;
-    CoordinateDisplay wanted_ = CoordinateDisplay::Planetocentric; // where the map has it
-    bool is_display_wanted_ = false;                               // otherwise the map's usual one
-    CoordinateDisplay display_ = CoordinateDisplay::Map;
+    std::optional<ReadPlace> place_;
+    CoordinateFormat format_;
     HeightUnit unit_ = HeightUnit::Metres;
     double detail_px_ = 0.0;
     bool is_loading_ = false;
     bool has_problem_ = false;
-    ReservedLabel* coordinate_ = nullptr;
-    QToolButton* toggle_button_ = nullptr;
-    QToolButton* display_button_ = nullptr;
-    QActionGroup* display_group_ = nullptr;
+    CoordinateField* coordinate_ = nullptr;
+    QToolButton* format_button_ = nullptr;
     ReservedLabel* height_ = nullptr;
     ReservedLabel* detail_ = nullptr;
+    QWidget* height_rule_ = nullptr;
+    QWidget* detail_rule_ = nullptr;
+    QAction* copy_action_ = nullptr;
 };
 
 } // namespace marsview

@@ -76,8 +76,8 @@ TerrainView::TerrainView(QWidget* parent)
 {
     setAccessibleName(tr("Map"));
     setAccessibleDescription(
-        tr("The terrain in perspective; the status bar tells the position and "
-           "height under the pointer"));
+        tr("The terrain in perspective; the status bar shows the position and elevation under the "
+           "pointer, or at the crosshair in the middle while the keyboard is used"));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(160, 120);
@@ -301,6 +301,7 @@ void TerrainView::step(NavigationStep step)
     if (ground_.isEmpty()) {
         return;
     }
+    setKeyboardUsed(hasFocus());
     is_at_opening_view_ = false;
     OrbitCamera camera = onGround(navigator_.goal());
     switch (step) {
@@ -364,6 +365,7 @@ void TerrainView::steer(const CapRates& rates, double seconds)
 void TerrainView::goHome()
 {
     if (!ground_.isEmpty()) {
+        setKeyboardUsed(hasFocus());
         navigator_.moveTo(homeCamera(ground_.box(style_.exaggeration), viewport()), kFlyDuration);
     }
 }
@@ -371,6 +373,7 @@ void TerrainView::goHome()
 void TerrainView::turnNorthUp()
 {
     if (!ground_.isEmpty()) {
+        setKeyboardUsed(hasFocus());
         OrbitCamera camera = onGround(navigator_.goal());
         camera.azimuth = {};
         navigator_.moveTo(camera, kFlyDuration);

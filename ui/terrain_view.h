@@ -114,6 +114,17 @@ public:
     std::optional<RayHit> surfaceAt(QPointF position) const;
     /// The same with the map that it is on, and the place on that map's own grid.
     std::optional<GroundPoint> groundUnder(QPointF position) const;
+    /// The place that is read: under the pointer; or at the crosshair in the middle of the picture,
+    /// while the view has the focus and the pointer is not over it or a key moved the camera last.
+    /// Nothing where no surface is there.
+    std::optional<RayHit> reading() const;
+    bool isCrosshairShown() const;
+    /// Metres on the terrain in one point of the screen at a place that surfaceAt() found.
+    double metresPerPoint(const RayHit& hit) const;
+    /// Keeps the crosshair while another widget that shows the reading has the focus.
+    void setReadElsewhere(bool is_read);
+    /// False for pictures of the window: no crosshair in them.
+    void setCrosshairAllowed(bool is_allowed);
     /// A position of the topmost map's surface in widget coordinates.
     std::optional<QPointF> positionOf(GridPoint grid) const;
     /// A place of the scene in widget coordinates; nothing where it is behind the eye.
@@ -151,7 +162,7 @@ Q_SIGNALS:
     void layersChanged();
     void lookChanged();
     void pictureCompleted();
-    /// What is under the pointer changed; nothing where it is not over the surface.
+    /// reading() changed.
     void pointerMoved(const std::optional<RayHit>& hit);
     void exaggerationChanged(double exaggeration);
     /// Camera or size of the picture changed.
@@ -164,6 +175,8 @@ Q_SIGNALS:
     void problemChanged(const QString& problem);
     /// Something of shownStylus() changed.
     void stylusMoved();
+    /// isCrosshairShown() changed.
+    void crosshairChanged(bool is_shown);
     /// The key that grabs is held, or is no more.
     void grabbingChanged(bool is_grabbing);
     void toolChanged(Tool tool);
@@ -184,8 +197,11 @@ protected:
     void wheelEvent(QWheelEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void keyReleaseEvent(QKeyEvent* event) override;
+    void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
+    void childEvent(QChildEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
     void leaveEvent(QEvent* event) override;
 
 private:
@@ -221,6 +237,10 @@ private:
     bool moveByGrab(QPointF from, QPointF to);
     void setGrabbing(bool is_grabbing);
     void moveStylus();
+    std::optional<QPointF> readPosition() const;
+    void setKeyboardUsed(bool is_used);
+    void forgetPointer();
+    bool isOverOverlay(QPointF position) const;
     void reportPointer();
     void readUnderPointer();
     void beginDrag(MapAction action);
@@ -267,8 +287,12 @@ private:
     Qt::MouseButton drag_button_ = Qt::NoButton;
     bool may_be_click_ = false; // the drag has not left the place where it began
     QPointF drag_position_;
-    double grabbed_z_m_ = 0.0; // of what the drag, or the stylus, has hold of
-    std::optional<QPointF> pointer_;
+    double grabbed_z_m_ = 0.0;       // of what the drag, or the stylus, has hold of
+    std::optional<QPointF> pointer_; // over the map, and not over an overlay
+    bool is_keyboard_used_ = false;  // to navigate, since the pointer moved last
+    bool is_read_elsewhere_ = false;
+    bool is_crosshair_allowed_ = true;
+    bool was_crosshair_shown_ = false;
     bool is_pointer_over_terrain_ = false;
     StylusButtons buttons_;
     bool has_hand_moved_ = false; // since it began to press

@@ -31,12 +31,6 @@ constexpr milliseconds kWheelDuration{140};
 
 constexpr double kFlyFactor = 0.3; // of the distance, a double click
 
-// After so long without a move the pointer rests.
-constexpr milliseconds kRestInterval{120};
-
-// How often it is looked whether what is under the pointer has come.
-constexpr milliseconds kArrivalInterval{40};
-
 } // namespace
 
 void TerrainView::setTool(Tool tool)
@@ -80,6 +74,11 @@ void TerrainView::beginDrag(MapAction action)
 
 void TerrainView::mouseMoveEvent(QMouseEvent* event)
 {
+    is_keyboard_used_ = false;
+    if (drag_action_ == MapAction::None && isOverOverlay(event->position())) {
+        forgetPointer();
+        return;
+    }
     if (may_be_click_) {
         const QPointF moved = event->position() - drag_position_;
         if (moved.manhattanLength() < QApplication::startDragDistance()) {
@@ -225,14 +224,13 @@ void TerrainView::focusOutEvent(QFocusEvent* event)
 {
     QOpenGLWidget::focusOutEvent(event);
     setGrabbing(false);
+    reportPointer();
 }
 
 void TerrainView::leaveEvent(QEvent* event)
 {
     QOpenGLWidget::leaveEvent(event);
-    pointer_.reset();
-    moveStylus();
-    reportPointer();
+    forgetPointer();
 }
 
 void TerrainView::setContactModel(ContactModelKind model)
@@ -356,42 +354,6 @@ void TerrainView::showMapCursor()
                    .is_over_terrain = is_pointer_over_terrain_});
     if (cursor != std::exchange(map_cursor_, cursor)) {
         setCursor(cursorOf(cursor));
-    }
-}
-
-void TerrainView::reportPointer()
-{
-    Q_EMIT pointerMoved(pointer_ ? surfaceAt(*pointer_) : std::nullopt);
-    // A ray takes what is there. Where the pointer rests, the samples themselves are read.
-    const auto ground = pointer_ ? groundUnder(*pointer_) : std::optional<GroundPoint>();
-    if (ground && !ground_.maps()[ground->index].map.dataset->heightfield().isExact(ground->grid)) {
-        pointer_timer_.start(kRestInterval);
-    }
-}
-
-void TerrainView::readUnderPointer()
-{
-    const auto ground = pointer_ ? groundUnder(*pointer_) : std::optional<GroundPoint>();
-    if (!ground) {
-        return;
-    }
-    const Heightfield& heightfield = ground_.maps()[ground->index].map.dataset->heightfield();
-    if (!heightfield.isExact(ground->grid)) {
-        static_cast<void>(heightfield.height(ground->grid)); // asks for it
-        if (heightfield.tiles()->isLoading()) {
-            pointer_timer_.start(kArrivalInterval);
-            return;
-        }
-    }
-    // It was there, or came at once, or cannot be read.
-    if (heightfield.isExact(ground->grid)) {
-        moveStylus();
-        if (!has_hand_moved_) {
-            stylus_.pressAnew();
-            update();
-            Q_EMIT stylusMoved();
-        }
-        reportPointer();
     }
 }
 

@@ -183,7 +183,8 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeHapticsMenu(window);
     makeHelpMenu(window);
     setIcons(*this);
-    for_shown_ += {save_picture, home, north, go_to_coordinate, exaggerate_more, exaggerate_less};
+    for_shown_ += {save_picture,    home, north, go_to_coordinate, exaggerate_more, exaggerate_less,
+                   copy_coordinates};
     for_shown_ += steps;
     showSession({});
     showContactModel(kContactModelDefault);
@@ -235,6 +236,11 @@ void WindowActions::makeEditMenu(QMainWindow& window, QUndoStack& undo_stack)
     redo->setProperty(kKeyTextProperty, tr("Redo"));
     menu->addAction(redo);
     menu->addSeparator();
+    copy_coordinates = menu->addAction(tr("&Copy Coordinates"));
+    copy_coordinates->setShortcut(QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_C));
+    copy_coordinates->setStatusTip(
+        tr("Copy the position under the pointer, or under the crosshair, to the clipboard"));
+    menu->addSeparator();
     preferences = menu->addAction(tr("&Preferences…"));
     preferences->setShortcuts(QKeySequence::Preferences);
     preferences->setMenuRole(QAction::PreferencesRole);
@@ -257,6 +263,7 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     add_key(north, {Qt::Key_N});
     go_to_coordinate = menu->addAction(tr("&Go to Coordinate…"));
     go_to_coordinate->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_G));
+    coordinate_format = menu->addMenu(tr("Coordinate &Format"));
     menu->addSeparator();
     makeToolMenu(window, *menu, map);
     QMenu* move = menu->addMenu(tr("&Move"));
@@ -455,6 +462,7 @@ void WindowActions::showSession(const Session& session)
     for (QAction* action : std::as_const(for_shown_)) {
         action->setEnabled(is_any_shown);
     }
+    coordinate_format->setEnabled(is_any_shown);
     for (QAction* action :
          {layer.rename, layer.remove, toggle_visibility, override_georeferencing}) {
         action->setEnabled(active != nullptr);

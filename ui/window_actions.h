@@ -39,7 +39,9 @@ struct WindowActions {
     QAction* home = nullptr;
     QAction* north = nullptr;
     QAction* go_to_coordinate = nullptr;
-    QList<QAction*> steps; // data(): the NavigationStep
+    QAction* copy_coordinates = nullptr;
+    QMenu* coordinate_format = nullptr; // filled by the window
+    QList<QAction*> steps;              // data(): the NavigationStep
     QAction* exaggerate_more = nullptr;
     QAction* exaggerate_less = nullptr;
     QMenu* panels = nullptr;        // filled by the docks

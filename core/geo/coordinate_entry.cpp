@@ -27,29 +27,37 @@ struct Token {
 constexpr const char* kExample = "write for example 18.65 N 226.2 E";
 
 // What people and word processors put for the signs of ASCII.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kSigns{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 21> kSigns{{
     {"\u2212", "-"},  // minus
     {"\u2013", "-"},  // en dash
     {"\u00B0", "\1"}, // degree
     {"\u00BA", "\1"}, // masculine ordinal
-    {"\u2032", "'"},
-    {"\u2019", "'"},
-    {"\u2033", "\""},
-    {"\u201D", "\""},
-    {"''", "\""},
-    {"\u00A0", " "}, // no-break space
-    {"\u2009", " "}, // thin space
-    {"\u202F", " "}, // narrow no-break space
+    {"\u2032", "'"},  {"\u2019", "'"}, {"\u2033", "\""}, {"\u201D", "\""},
+    {"''", "\""},     {"\u00A0", " "}, // no-break space
+    {"\u2009", " "},                   // thin space
+    {"\u202F", " "},                   // narrow no-break space
+    {"\u200E", ""},                    // marks and isolates of the writing direction
+    {"\u200F", ""},   {"\u061C", ""},  {"\u2066", ""},   {"\u2067", ""},
+    {"\u2068", ""},   {"\u2069", ""},  {"\u066B", "."}, // Arabic decimal separator
+    {"\u060C", ","},                                    // Arabic comma
 }};
 
 std::string inAscii(std::string_view text)
 {
     std::string ascii(text);
-    for (const auto& [sign, replacement] : kSigns) {
+    const auto replace = [&ascii](std::string_view sign, std::string_view replacement) {
         for (auto at = ascii.find(sign); at != std::string::npos; at = ascii.find(sign, at)) {
             ascii.replace(at, sign.size(), replacement);
             at += replacement.size();
         }
+    };
+    for (const auto& [sign, replacement] : kSigns) {
+        replace(sign, replacement);
+    }
+    for (char digit = 0; digit < 10; ++digit) {
+        const std::string plain(1, static_cast<char>('0' + digit));
+        replace(std::string("\xD9") + static_cast<char>(0xA0 + digit), plain); // Arabic
+        replace(std::string("\xDB") + static_cast<char>(0xB0 + digit), plain); // Persian
     }
     return ascii;
 }
@@ -136,6 +144,23 @@ Result<std::vector<Token>> tokensOf(std::string_view ascii, bool has_decimal_com
         }
     }
     return tokens;
+}
+
+// Whether commas between digits are decimal commas in a text without letters: a semicolon
+// separates, or there are two such commas and something else separates. One alone may separate, as
+// in "18,226".
+bool hasDecimalCommas(std::string_view ascii)
+{
+    std::size_t commas = 0;
+    bool has_separator = false;
+    for (std::size_t at = 0; at < ascii.size(); ++at) {
+        const bool is_between_digits =
+            at > 0 && at + 1 < ascii.size() && isDigit(ascii[at - 1]) && isDigit(ascii[at + 1]);
+        commas += ascii[at] == ',' && is_between_digits ? 1U : 0U;
+        has_separator = has_separator || ascii[at] == ' ' || ascii[at] == '\t' || ascii[at] == '\1';
+    }
+    return ascii.find(';') != std::string_view::npos ||
+           (commas == 2 && has_separator && ascii.find('.') == std::string_view::npos);
 }
 
 bool has(std::span<const Token> tokens, TokenKind kind)
@@ -296,11 +321,11 @@ bool isLatitude(char letter)
 
 } // namespace
 
-Result<WrittenPlace> placeFrom(std::string_view text)
+Result<WrittenPlace> placeFrom(std::string_view text, BareLongitude bare)
 {
     const std::string ascii = inAscii(text);
     const bool has_letters = ascii.find_first_of("NSEWnsew") != std::string::npos;
-    const bool has_decimal_commas = has_letters || ascii.find(';') != std::string::npos;
+    const bool has_decimal_commas = has_letters || hasDecimalCommas(ascii);
     Result<std::vector<Token>> tokens = tokensOf(ascii, has_decimal_commas);
     if (!tokens) {
         return std::move(tokens).error();
@@ -333,16 +358,17 @@ Result<WrittenPlace> placeFrom(std::string_view text)
         return Error{ErrorCode::OutOfRange,
                      fmt::format("longitude {} is beyond 360 degrees", longitude.degrees)};
     }
+    const bool is_west =
+        longitude.letter == 'W' || (longitude.letter == 0 && bare == BareLongitude::West);
     return WrittenPlace{
         .latitude = Angle::degrees(latitude.letter == 'S' ? -latitude.degrees : latitude.degrees),
-        .longitude =
-            Angle::degrees(longitude.letter == 'W' ? -longitude.degrees : longitude.degrees)};
+        .longitude = Angle::degrees(is_west ? -longitude.degrees : longitude.degrees)};
 }
 
 Result<MapPoint> mapPointFrom(std::string_view text)
 {
     const std::string ascii = inAscii(text);
-    Result<std::vector<Token>> tokens = tokensOf(ascii, ascii.find(';') != std::string::npos);
+    Result<std::vector<Token>> tokens = tokensOf(ascii, hasDecimalCommas(ascii));
     if (!tokens) {
         return Error{ErrorCode::Invalid, "two numbers are needed, x and then y"};
     }

@@ -9,23 +9,28 @@
 
 namespace marsview {
 
-/// A place as somebody wrote it: whether the latitude is planetocentric or planetographic is for
-/// whoever asked to know.
+/// A typed position. The caller decides whether the latitude is planetocentric or planetographic.
 struct WrittenPlace {
     Angle latitude;  // in [-90°, 90°]
     Angle longitude; // east-positive, in [-360°, 360°]
 };
 
+/// The direction of a longitude that has no letter.
+enum class BareLongitude { East, West };
+
 /// Latitude and longitude in decimal degrees, degrees and minutes, or degrees, minutes and seconds:
 /// "18.65 N 226.2 E", "226.2°E, 18.65°N", "18°39′00″N 133°48′W", "18 39 00 N 133 48 00 W",
 /// "-18.65, 226.2", "18:39, 226:12". With hemisphere letters the order is free; without them the
-/// latitude comes first. Signs may be true minus signs. Decimal commas are understood where they
-/// cannot separate: with letters, or where a semicolon separates ("18,65; 226,2").
-/// Invalid where it is no such pair; OutOfRange where a part is too large. Messages are for the
+/// latitude comes first. Signs may be true minus signs; invisible marks of the writing direction
+/// are ignored. Decimal commas are understood where they cannot separate: with letters, where a
+/// semicolon separates ("18,65; 226,2"), and where both numbers have one ("18,65 226,2",
+/// "18,65, 226,2").
+/// Errors: Invalid for other text, OutOfRange for parts that are too large. Messages are for the
 /// user.
-Result<WrittenPlace> placeFrom(std::string_view text);
+Result<WrittenPlace> placeFrom(std::string_view text, BareLongitude bare = BareLongitude::East);
 
-/// Two plain numbers, x then y: "562345.5 5117890", "562345.5, 5117890", "562345,5; 5117890".
+/// Two plain numbers, x then y: "562345.5 5117890", "562345.5, 5117890", "562345,5; 5117890",
+/// "562345,5 5117890,2".
 Result<MapPoint> mapPointFrom(std::string_view text);
 
 } // namespace marsview

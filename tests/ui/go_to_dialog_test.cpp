@@ -7,6 +7,7 @@
 #include <QDialogButtonBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QLocale>
 #include <QPushButton>
 #include <QTest>
 
@@ -15,7 +16,7 @@
 namespace marsview {
 namespace {
 
-using D = CoordinateDisplay;
+using D = ReadAs;
 
 class GoToDialogTest : public testing::Test {
 protected:
@@ -32,9 +33,9 @@ TEST_F(GoToDialogTest, FindsThePlaceInEveryKindOfCoordinate)
 {
     const auto mars = load(maps_.mars()); // 10° E, 20° N, a quarter of a degree a pixel
     const auto at = [&](D display, const char* text) {
-        const auto grid = placeOnMap(*mars, display, QString::fromUtf8(text));
-        EXPECT_TRUE(grid) << text << ": " << (grid ? "" : grid.error().message);
-        return grid ? *grid : GridPoint{-1, -1};
+        const auto place = placeOnMap(*mars, {}, display, QString::fromUtf8(text));
+        EXPECT_TRUE(place) << text << ": " << (place ? "" : place.error().message);
+        return place ? place->grid : GridPoint{-1, -1};
     };
     for (const char* text :
          {"15 N 12.5 E", "15, 12.5", "12.5 E 15 N", "15, -347.5", "15°00′ N 347°30′ W"}) {
@@ -54,7 +55,7 @@ TEST_F(GoToDialogTest, TellsTheKindsOfLatitudeApart)
     const auto mars =
         load(maps_.placed("flat", "IAU_2015:49902", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
     const auto row = [&mars](D display) {
-        return placeOnMap(*mars, display, QStringLiteral("15, 12.5"))->row;
+        return placeOnMap(*mars, {}, display, QStringLiteral("15, 12.5"))->grid.row;
     };
     const double ratio = 3376.2 / 3396.19;
     const double graphic = std::atan(std::tan(Angle::degrees(15.0).radians()) / (ratio * ratio));
@@ -62,19 +63,80 @@ TEST_F(GoToDialogTest, TellsTheKindsOfLatitudeApart)
                 -(Angle::radians(graphic).degrees() - 15.0) / 0.25, 0.02);
 }
 
+TEST_F(GoToDialogTest, UnderstandsEveryFormatWhateverIsChosen)
+{
+    const auto mars = load(maps_.mars());
+    CoordinateFormat west;
+    west.longitudes = LongitudeNotation::West360;
+    const auto column = [&](const CoordinateFormat& format, D read_as, const char* text) {
+        const auto place = placeOnMap(*mars, format, read_as, QString::fromUtf8(text));
+        EXPECT_TRUE(place) << text << ": " << (place ? "" : place.error().message);
+        return place ? place->grid.column : -1.0;
+    };
+    EXPECT_NEAR(column(west, D::Planetocentric, "15, 347.5"), 9.5, 1e-6);
+    EXPECT_NEAR(column(west, D::Planetocentric, "15 N, 12.5 E"), 9.5, 1e-6);
+    EXPECT_NEAR(column({}, D::Planetocentric, "15° 00′ 00″ N, 347° 30′ 00″ W"), 9.5, 1e-6);
+    EXPECT_NEAR(column({}, D::Planetocentric, "15,0 12,5"), 9.5, 1e-6);
+    // Letters make it a latitude and a longitude even where x, y is asked for.
+    EXPECT_NEAR(column({}, D::Map, "15 N 12.5 E"), 9.5, 1e-6);
+}
+
+TEST_F(GoToDialogTest, TakesMapCoordinatesThatCannotBeDegrees)
+{
+    // UTM, 30 m, from 500 000 m east and 4 000 000 m north.
+    const auto utm = load(maps_.placed("utm", "EPSG:32611", {5e5, 30, 0, 4e6, 0, -30}));
+    QLocale::setDefault(QLocale(QLocale::English));
+    for (const char* text : {"500615 3999385", "500615, 3999385", "500,615, 3,999,385 m"}) {
+        const auto place = placeOnMap(*utm, {}, D::Planetographic, QString::fromUtf8(text));
+        ASSERT_TRUE(place) << text << ": " << place.error().message;
+        EXPECT_EQ(place->read_as, D::Map) << text;
+        EXPECT_NEAR(place->grid.column, 20.0, 1e-6) << text;
+        EXPECT_NEAR(place->grid.row, 20.0, 1e-6) << text;
+    }
+    QLocale::setDefault(QLocale(QLocale::German));
+    const auto german = placeOnMap(*utm, {}, D::Map, QStringLiteral("500.615, 3.999.385 m"));
+    ASSERT_TRUE(german) << german.error().message;
+    EXPECT_NEAR(german->grid.column, 20.0, 1e-6);
+    QLocale::setDefault(QLocale::c());
+}
+
+TEST_F(GoToDialogTest, ReadsBackWhatTheStatusBarShowsInEveryFormat)
+{
+    const auto earth =
+        load(maps_.placed("earth", "EPSG:4326", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    for (const QLocale::Language language :
+         {QLocale::English, QLocale::German, QLocale::French, QLocale::Arabic}) {
+        QLocale::setDefault(QLocale(language));
+        for (int i = 0; i < 3 * 2 * 2; ++i) {
+            CoordinateFormat format;
+            format.longitudes = static_cast<LongitudeNotation>(i % 3);
+            format.angles = static_cast<AngleNotation>(i / 3 % 2);
+            format.setLatitudesOn(bodyNamed("Earth"), static_cast<LatitudeKind>(i / 6));
+            const GridPoint grid{7.0, 11.0};
+            const QString shown = positionText(format, *earth, grid);
+            const auto place =
+                placeOnMap(*earth, format, readingsOn(earth->info(), format).front(), shown);
+            ASSERT_TRUE(place) << shown.toStdString() << ": " << place.error().message;
+            EXPECT_NEAR(place->grid.column, grid.column, 0.1) << shown.toStdString();
+            EXPECT_NEAR(place->grid.row, grid.row, 0.1) << shown.toStdString();
+        }
+    }
+    QLocale::setDefault(QLocale::c());
+}
+
 TEST_F(GoToDialogTest, SaysWhereTheMapIsWhenThePlaceIsElsewhere)
 {
     const auto mars = load(maps_.mars());
-    const auto place = placeOnMap(*mars, D::Planetocentric, QStringLiteral("-50, 12"));
+    const auto place = placeOnMap(*mars, {}, D::Planetocentric, QStringLiteral("-50, 12"));
     ASSERT_FALSE(place);
     EXPECT_NE(place.error().message.find("outside the map"), std::string::npos);
-    EXPECT_NE(place.error().message.find("20.00° N 20.00° E"), std::string::npos)
+    EXPECT_NE(place.error().message.find("12.5° N – 20.0° N, 10.0° E – 20.0° E"), std::string::npos)
         << place.error().message;
 }
 
 TEST_F(GoToDialogTest, AllowsToGoOnlyWhereItUnderstands)
 {
-    GoToDialog dialog(load(maps_.mars()), {});
+    GoToDialog dialog(load(maps_.mars()), {}, {});
     auto* field = dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"));
     auto* answer = dialog.findChild<QLabel*>(QStringLiteral("answer"));
     auto* go = dialog.findChild<QDialogButtonBox*>()->buttons().constLast();
@@ -131,16 +193,16 @@ TEST_F(GoToDialogTest, ReadsAsIsUsualOnTheBodyUnlessToldOtherwise)
     const auto kind = [](const GoToDialog& dialog) {
         return static_cast<D>(dialog.findChild<QComboBox*>()->currentData().toInt());
     };
-    const GoToDialog on_mars(mars, {});
+    const GoToDialog on_mars(mars, {}, {});
     EXPECT_EQ(kind(on_mars), D::Planetocentric);
-    const GoToDialog on_earth(earth, on_mars.entry());
+    const GoToDialog on_earth(earth, {}, on_mars.entry());
     EXPECT_EQ(kind(on_earth), D::Planetographic);
-    EXPECT_EQ(kind(GoToDialog(earth, {.display = D::Map, .text = {}})), D::Map);
+    EXPECT_EQ(kind(GoToDialog(earth, {}, {.read_as = D::Map, .text = {}})), D::Map);
 }
 
 TEST_F(GoToDialogTest, OffersMapCoordinatesOnlyWhereThereAreNoOthers)
 {
-    GoToDialog dialog(load(maps_.hill()), {});
+    GoToDialog dialog(load(maps_.hill()), {}, {});
     auto* kinds = dialog.findChild<QComboBox*>();
     EXPECT_EQ(kinds->count(), 1);
     dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"))

@@ -275,14 +275,14 @@ TEST_F(LayersTest, HeightsAreThoseOfTheActiveLayerWhereBothAreShown)
     RayHit hit;
     hit.grid = middle;
     hit.height_m = layers()[0].dataset->heightfield().height(middle);
-    readout.setHit(hit);
+    readout.setPlace(ReadPlace{.hit = hit});
     const auto told = [&readout] {
         QString text = readout.heightLabel().section(QLatin1Char(' '), 0, 0);
         return text.replace(QChar(0x2212), QLatin1Char('-')).toDouble();
     };
     EXPECT_NEAR(told(), 0.0, 1.0); // 15 · 20 − 300
     controller().activate(id(1));
-    readout.setHit(hit);
+    readout.setPlace(ReadPlace{.hit = hit});
     EXPECT_NEAR(told(), 200.0, 1.0);
 }
 

@@ -210,7 +210,8 @@ TEST_F(MainWindowTest, TakesAndUndoesToldGeoreferencing)
     ASSERT_TRUE(waitUntilSettled(*window_));
     ASSERT_NE(view().map().dataset->georeference().body(), nullptr);
     EXPECT_EQ(view().map().dataset->georeference().body()->name, "Earth");
-    EXPECT_EQ(window_->readout()->display(), CoordinateDisplay::Planetographic);
+    EXPECT_EQ(formatName(window_->readout()->format(), view().map().dataset->info()),
+              QStringLiteral("geodetic"));
 
     window_->undoStack().undo();
     ASSERT_TRUE(waitUntilSettled(*window_));

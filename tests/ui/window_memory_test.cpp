@@ -55,16 +55,20 @@ protected:
 
 TEST_F(WindowMemoryTest, BringsBackSizePanelsCoordinatesAndPreferences)
 {
+    CoordinateFormat coordinates{.system = PositionSystem::Map,
+                                 .angles = AngleNotation::DegreesMinutesSeconds,
+                                 .longitudes = LongitudeNotation::West360};
+    coordinates.setLatitudesOn(bodyNamed("Mars"), LatitudeKind::Planetographic);
+    coordinates.setLatitudesOn(nullptr, LatitudeKind::Planetographic);
     {
         const auto window = makeWindow({1100, 650});
         ASSERT_TRUE(openAndWait(*window, maps_.mars()));
         window->docks()->georeferencing()->toggleViewAction()->trigger(); // opens it, or closes
         window->docks()->georeferencing()->hide();
         window->docks()->reveal(*window->docks()->datasets());
-        window->readout()->toggleDisplay();
-        Q_EMIT window->readout()->displayChosen(window->readout()->display());
         window->setPreferences({.theme = Theme::Dark,
                                 .height_unit = HeightUnit::Feet,
+                                .coordinates = coordinates,
                                 .has_antialiasing = false,
                                 .frames_per_s = 60});
         window->close();
@@ -76,8 +80,8 @@ TEST_F(WindowMemoryTest, BringsBackSizePanelsCoordinatesAndPreferences)
     EXPECT_EQ(window->preferences().theme, Theme::Dark);
     EXPECT_EQ(window->preferences().height_unit, HeightUnit::Feet);
     EXPECT_EQ(window->preferences().frames_per_s, 60);
-    ASSERT_TRUE(openAndWait(*window, maps_.mars()));
-    EXPECT_EQ(window->readout()->display(), CoordinateDisplay::Map);
+    EXPECT_EQ(window->preferences().coordinates, coordinates);
+    EXPECT_EQ(window->readout()->format(), coordinates);
     window->setPreferences({});
 }
 

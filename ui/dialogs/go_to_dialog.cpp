@@ -9,7 +9,9 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QLocale>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -21,35 +23,77 @@
 namespace marsview {
 namespace {
 
-// How often it is looked whether a height has come.
+// The interval at which an elevation that was requested is looked for.
 constexpr std::chrono::milliseconds kArrivalInterval{50};
 
-QString kindName(CoordinateDisplay display, const RasterInfo& info)
+LatitudeKind kindOf(ReadAs read_as)
 {
-    const QString name = displayName(display, info);
-    //: How a coordinate is read: the order, then the CRS or the kind of latitude
-    return display == CoordinateDisplay::Map ? GoToDialog::tr("x, y (%1)").arg(name)
-                                             : GoToDialog::tr("Latitude, longitude (%1)").arg(name);
+    return read_as == ReadAs::Planetographic ? LatitudeKind::Planetographic
+                                             : LatitudeKind::Planetocentric;
 }
 
-QString extentText(const Dataset& dataset, CoordinateDisplay display)
+// The format with the system and the kind of latitude that a text was read in.
+CoordinateFormat asRead(CoordinateFormat format, ReadAs read_as, const RasterInfo& info)
+{
+    format.system = read_as == ReadAs::Map ? PositionSystem::Map : PositionSystem::Geographic;
+    if (read_as != ReadAs::Map) {
+        format.setLatitudesOn(info.body, kindOf(read_as));
+    }
+    return format;
+}
+
+QString readingName(ReadAs read_as, const RasterInfo& info)
+{
+    const QString name = formatName(asRead({}, read_as, info), info);
+    //: How a coordinate is read: the order, then the CRS or the kind of latitude
+    return read_as == ReadAs::Map ? GoToDialog::tr("x, y (%1)").arg(name)
+                                  : GoToDialog::tr("Latitude, longitude (%1)").arg(name);
+}
+
+QString coverText(const Dataset& dataset, const CoordinateFormat& format)
 {
     const Georeference& georeference = dataset.georeference();
-    if (display != CoordinateDisplay::Map) {
+    if (format.system == PositionSystem::Geographic) {
         if (const auto extent = geographicExtent(georeference)) {
-            const auto corner = [&](Angle longitude, Angle latitude) {
-                return geographicText({longitude, latitude}, display, dataset.info(), 2);
-            };
-            //: The corners of a map
-            return GoToDialog::tr("%1 to %2")
-                .arg(corner(extent->west, extent->south), corner(extent->east, extent->north));
+            const ExtentText text = extentText(*extent, format, dataset.info());
+            //: The extent of a map: %1 latitudes, %2 longitudes
+            return GoToDialog::tr("%1, %2").arg(text.latitudes, text.longitudes);
         }
     }
     const MapExtent extent = mapExtent(georeference);
     //: The range of map coordinates: x from %1 to %2, y from %3 to %4
-    return GoToDialog::tr("x %1 … %2, y %3 … %4")
-        .arg(shortNumberText(extent.low.x, 9), shortNumberText(extent.high.x, 9),
-             shortNumberText(extent.low.y, 9), shortNumberText(extent.high.y, 9));
+    return leftToRight(GoToDialog::tr("x %1 … %2, y %3 … %4")
+                           .arg(shortNumberText(extent.low.x, 9), shortNumberText(extent.high.x, 9),
+                                shortNumberText(extent.low.y, 9),
+                                shortNumberText(extent.high.y, 9)));
+}
+
+// Two numbers in the locale's own groups of digits, as the status bar writes them.
+std::optional<MapPoint> localMapPointFrom(const QString& text)
+{
+    static const QRegularExpression kMarks(
+        QStringLiteral("[\\x{200E}\\x{200F}\\x{2066}-\\x{2069}]"));
+    static const QRegularExpression kUnit(QStringLiteral("\\s*[°\\p{L} ]+$"));
+    static const QRegularExpression kSeparator(QStringLiteral("[;,،]\\s+"));
+    QString plain = text;
+    plain.remove(kMarks).replace(QChar(0x2212), QLatin1Char('-'));
+    const QStringList parts = plain.remove(kUnit).split(kSeparator);
+    if (parts.size() != 2) {
+        return std::nullopt;
+    }
+    bool is_x = false;
+    bool is_y = false;
+    const double x = QLocale().toDouble(parts[0].trimmed(), &is_x);
+    const double y = QLocale().toDouble(parts[1].trimmed(), &is_y);
+    return is_x && is_y ? std::optional(MapPoint{x, y}) : std::nullopt;
+}
+
+// Whether the text is a pair of map coordinates that cannot be degrees.
+bool isOnlyMapPoint(const QString& text)
+{
+    const Result<MapPoint> plain = mapPointFrom(text.toStdString());
+    const auto point = plain ? std::optional(*plain) : localMapPointFrom(text);
+    return point && (std::abs(point->x) > 360.0 || std::abs(point->y) > 360.0);
 }
 
 // The outermost half pixel has no surface; a place there means the sample beside it.
@@ -68,54 +112,101 @@ std::optional<GridPoint> onSurface(const Heightfield& heights, GridPoint grid)
 
 } // namespace
 
-Result<GridPoint> placeOnMap(const Dataset& dataset, CoordinateDisplay display, const QString& text)
+std::vector<ReadAs> readingsOn(const RasterInfo& info, const CoordinateFormat& format)
 {
+    std::vector<ReadAs> readings;
+    if (info.crs && info.crs->ellipsoid()) {
+        readings = {ReadAs::Planetocentric};
+        if (hasKindsOfLatitude(info)) {
+            readings.push_back(ReadAs::Planetographic);
+            if (format.latitudesOn(info.body) == LatitudeKind::Planetographic) {
+                std::swap(readings.front(), readings.back());
+            }
+        }
+    }
+    const bool is_map_first = systemOn(format, info) == PositionSystem::Map;
+    readings.insert(is_map_first ? readings.begin() : readings.end(), ReadAs::Map);
+    return readings;
+}
+
+Result<FoundPlace> placeOnMap(const Dataset& dataset,
+                              const CoordinateFormat& format,
+                              ReadAs read_as,
+                              const QString& text)
+{
+    const RasterInfo& info = dataset.info();
     const Georeference& georeference = dataset.georeference();
     const std::string written = text.toStdString();
+    const bool has_longitudes = info.crs && info.crs->ellipsoid();
+    static const QRegularExpression kAngleSigns(QStringLiteral("[°º′″NSEWnsew]"));
+    const BareLongitude bare = format.longitudesOn(info.body) == LongitudeNotation::West360
+                                   ? BareLongitude::West
+                                   : BareLongitude::East;
+    if (read_as == ReadAs::Map && has_longitudes && text.contains(kAngleSigns) &&
+        !localMapPointFrom(text)) {
+        read_as = format.latitudesOn(info.body) == LatitudeKind::Planetographic
+                      ? ReadAs::Planetographic
+                      : ReadAs::Planetocentric;
+    }
+    if (read_as != ReadAs::Map) {
+        const auto as_angles = placeFrom(written, bare);
+        if (!as_angles && info.crs->kind() != CrsKind::Geographic && isOnlyMapPoint(text)) {
+            read_as = ReadAs::Map;
+        }
+    }
     std::optional<GridPoint> grid;
-    if (display == CoordinateDisplay::Map) {
+    const auto on_surface = [&]() -> std::optional<GridPoint> {
+        return grid ? onSurface(dataset.heightfield(), *grid) : std::nullopt;
+    };
+    if (read_as == ReadAs::Map) {
         const Result<MapPoint> point = mapPointFrom(written);
-        if (!point) {
+        const auto local = localMapPointFrom(text);
+        if (!point && !local) {
             return point.error();
         }
-        grid = georeference.toGrid(*point);
+        grid = georeference.toGrid(point ? *point : *local);
+        // "562.345, 117.890" has points of decimals, or groups of digits.
+        if (point && local && !on_surface()) {
+            grid = georeference.toGrid(*local);
+        }
     } else {
-        const Result<WrittenPlace> place = placeFrom(written);
+        const Result<WrittenPlace> place = placeFrom(written, bare);
         if (!place) {
             return place.error();
         }
-        const Ellipsoid& ellipsoid = *dataset.info().crs->ellipsoid();
-        const Angle latitude = display == CoordinateDisplay::Planetographic
-                                   ? ellipsoid.planetocentric(place->latitude)
+        const Angle latitude = read_as == ReadAs::Planetographic
+                                   ? info.crs->ellipsoid()->planetocentric(place->latitude)
                                    : place->latitude;
         grid = georeference.toGrid(GeographicPoint{place->longitude, latitude});
     }
-    const auto on_surface = grid ? onSurface(dataset.heightfield(), *grid) : std::nullopt;
-    if (!on_surface) {
+    const auto found = on_surface();
+    if (!found) {
         return Error{ErrorCode::OutOfRange,
-                     GoToDialog::tr("This place lies outside the map, which covers %1.")
-                         .arg(extentText(dataset, display))
+                     GoToDialog::tr("This place is outside the map, which covers %1.")
+                         .arg(coverText(dataset, asRead(format, read_as, info)))
                          .toStdString()};
     }
-    return *on_surface;
+    return FoundPlace{.grid = *found, .read_as = read_as};
 }
 
 GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
+                       const Preferences& preferences,
                        const GoToEntry& last,
                        QWidget* parent)
     : QDialog(parent)
     , dataset_(std::move(dataset))
+    , preferences_(preferences)
     , field_(new QLineEdit(last.text, this))
     , kind_(new QComboBox(this))
     , answer_(new QLabel(this))
 {
     setWindowTitle(tr("Go to Coordinate"));
     kind_->setAccessibleName(tr("How the coordinate is read"));
-    for (const CoordinateDisplay display : coordinateDisplays(dataset_->info())) {
-        kind_->addItem(kindName(display, dataset_->info()), static_cast<int>(display));
+    for (const ReadAs read_as : readingsOn(dataset_->info(), preferences_.coordinates)) {
+        kind_->addItem(readingName(read_as, dataset_->info()), static_cast<int>(read_as));
     }
-    const int wanted = last.display ? kind_->findData(static_cast<int>(*last.display)) : 0;
-    kind_->setCurrentIndex(std::max(0, wanted)); // the usual one comes first
+    const int last_index = last.read_as ? kind_->findData(static_cast<int>(*last.read_as)) : 0;
+    kind_->setCurrentIndex(std::max(0, last_index)); // the format's own is first
     kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     kind_->setMinimumContentsLength(30);
     field_->setAccessibleName(tr("Coordinate"));
@@ -149,59 +240,79 @@ GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
 
 GoToEntry GoToDialog::entry() const
 {
-    return {.display = kind_->currentIndex() > 0 ? std::optional(display()) : std::nullopt,
+    return {.read_as = kind_->currentIndex() > 0 ? std::optional(readAs()) : std::nullopt,
             .text = field_->text().trimmed()};
 }
 
-CoordinateDisplay GoToDialog::display() const
+ReadAs GoToDialog::readAs() const
 {
-    return static_cast<CoordinateDisplay>(kind_->currentData().toInt());
+    return static_cast<ReadAs>(kind_->currentData().toInt());
 }
 
 void GoToDialog::check()
 {
     const GoToEntry now = entry();
-    const bool is_map = display() == CoordinateDisplay::Map;
+    const bool is_map = readAs() == ReadAs::Map;
     // Examples are the same in every language.
     field_->setPlaceholderText(is_map ? QStringLiteral("562345.5, 5117890")
                                       : QStringLiteral("18.65 N 226.2 E, 18°39′ N 133°48′ W"));
     if (now.text.isEmpty()) {
-        answer_->setText(is_map ? tr("Two numbers, x and then y.")
-                                : tr("Degrees, or degrees, minutes and seconds. Latitude comes "
-                                     "first unless letters tell otherwise."));
+        const bool is_west = preferences_.coordinates.longitudesOn(dataset_->info().body) ==
+                             LongitudeNotation::West360;
+        answer_->setText(
+            is_map    ? tr("Two numbers, x and then y.")
+            : is_west ? tr("Degrees, or degrees, minutes and seconds. Without letters, latitude "
+                           "is first and longitude is positive to the west.")
+                      : tr("Degrees, or degrees, minutes and seconds. Without letters, latitude "
+                           "is first and longitude is positive to the east."));
         go_button_->setEnabled(false);
         return;
     }
-    const Result<GridPoint> place = placeOnMap(*dataset_, display(), now.text);
+    const Result<FoundPlace> place =
+        placeOnMap(*dataset_, preferences_.coordinates, readAs(), now.text);
     go_button_->setEnabled(place.has_value());
-    if (!place) {
-        answer_->setText(asSentence(place.error().message));
-        return;
+    answer_->setText(place ? answerFor(*place) : asSentence(place.error().message));
+}
+
+// The position as it was read, then in the chosen format if that is another, then the elevation.
+QString GoToDialog::answerFor(const FoundPlace& place)
+{
+    const RasterInfo& info = dataset_->info();
+    const auto where = [&](const CoordinateFormat& format) {
+        //: %1 is a position, %2 the CRS or the kind of latitude
+        return tr("%1 (%2)").arg(positionText(format, *dataset_, place.grid),
+                                 formatName(format, info));
+    };
+    const CoordinateFormat& format = preferences_.coordinates;
+    QStringList lines{where(asRead(format, place.read_as, info))};
+    if (const QString chosen = where(format); chosen != lines.front()) {
+        lines.append(chosen);
     }
     const Heightfield& heightfield = dataset_->heightfield();
-    const bool is_there = heightfield.isExact(*place);  // before the height is read
-    const double height_m = heightfield.height(*place); // asks for what is not there yet
-    if (!is_there && (heightfield.tiles()->isLoading() || heightfield.isExact(*place))) {
+    const bool is_there = heightfield.isExact(place.grid);  // before the elevation is read
+    const double height_m = heightfield.height(place.grid); // requests what is not loaded yet
+    if (!is_there && (heightfield.tiles()->isLoading() || heightfield.isExact(place.grid))) {
         arrival_timer_.start(kArrivalInterval);
     }
+    if (!std::isfinite(height_m)) {
+        lines.append(tr("No elevation there"));
+        return lines.join(QLatin1Char('\n'));
+    }
+    const QString height = heightText(info, heightfield.range().value_or(HeightRange{}), height_m,
+                                      preferences_.height_unit);
     const bool is_exact = is_there && !dataset_->isPreview();
-    const QString where =
-        coordinateText(display(), dataset_->info(), dataset_->georeference(), *place);
-    const QString height =
-        heightText(dataset_->info(), heightfield.range().value_or(HeightRange{}), height_m);
-    //: %1 is a position, %2 the height there
-    answer_->setText(std::isfinite(height_m)
-                         //: A height that is not quite sure yet
-                         ? tr("%1, %2").arg(where, is_exact ? height : tr("≈ %1").arg(height))
-                         //: %1 is a position
-                         : tr("%1, no height there").arg(where));
+    //: An elevation that is not exact yet
+    const QString shown = is_exact ? height : leftToRight(tr("≈ %1").arg(height));
+    //: %1 is an elevation
+    lines.append(tr("Elevation %1").arg(shown));
+    return lines.join(QLatin1Char('\n'));
 }
 
 void GoToDialog::go()
 {
-    const GoToEntry now = entry();
-    if (const auto place = placeOnMap(*dataset_, display(), now.text)) {
-        Q_EMIT placeChosen(*place);
+    if (const auto place =
+            placeOnMap(*dataset_, preferences_.coordinates, readAs(), entry().text)) {
+        Q_EMIT placeChosen(place->grid);
         accept();
     }
 }

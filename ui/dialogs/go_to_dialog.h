@@ -4,12 +4,14 @@
 #include "core/base/result.h"
 #include "core/session/dataset.h"
 #include "ui/coordinate_text.h"
+#include "ui/preferences.h"
 
 #include <QDialog>
 #include <QTimer>
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 class QComboBox;
 class QLabel;
@@ -18,25 +20,42 @@ class QPushButton;
 
 namespace marsview {
 
-/// What was asked for last, to begin with the next time.
+/// How a pair of numbers without letters is read.
+enum class ReadAs { Map, Planetocentric, Planetographic };
+
+/// What a map offers, the format's own first.
+std::vector<ReadAs> readingsOn(const RasterInfo& info, const CoordinateFormat& format);
+
+/// The last entry, to start with the next time.
 struct GoToEntry {
-    /// Nothing for what is usual on the map, whichever that is: what is planetocentric on Mars must
-    /// not become geocentric on the Earth.
-    std::optional<CoordinateDisplay> display;
+    /// Nothing for the format's own: a planetocentric reading on Mars must not become a geocentric
+    /// one on the Earth.
+    std::optional<ReadAs> read_as;
     QString text;
 };
 
-/// The place on the map's grid that a text names; the error says what is wrong with it, and where
-/// the map lies if it names a place elsewhere.
-Result<GridPoint>
-placeOnMap(const Dataset& dataset, CoordinateDisplay display, const QString& text);
+struct FoundPlace {
+    GridPoint grid;
+    ReadAs read_as; // which may differ from what was asked for, where the text leaves no choice
+};
 
-/// Says while the user types how the text is understood, or what is wrong with it.
+/// The place on the map's grid that a text names. Letters N, S, E or W and degree signs make it a
+/// latitude and a longitude, numbers beyond 360 map coordinates, whatever `read_as` is. A longitude
+/// without a letter is west-positive where the format is. Errors say what is wrong with the text,
+/// or what the map covers if the place is elsewhere.
+Result<FoundPlace> placeOnMap(const Dataset& dataset,
+                              const CoordinateFormat& format,
+                              ReadAs read_as,
+                              const QString& text);
+
+/// Shows while the user types how the text is understood, or what is wrong with it.
 class GoToDialog final : public QDialog {
     Q_OBJECT
 
 public:
+    /// Of the preferences, the format of coordinates and the unit of elevations are used.
     GoToDialog(std::shared_ptr<const Dataset> dataset,
+               const Preferences& preferences,
                const GoToEntry& last,
                QWidget* parent = nullptr);
 
@@ -46,12 +65,14 @@ Q_SIGNALS:
     void placeChosen(GridPoint grid);
 
 private:
-    CoordinateDisplay display() const;
+    ReadAs readAs() const;
+    QString answerFor(const FoundPlace& place);
     void check();
     void go();
 
     std::shared_ptr<const Dataset> dataset_;
-    QTimer arrival_timer_;       // runs while the height of the place is being read
+    Preferences preferences_;
+    QTimer arrival_timer_;       // runs while the elevation of the place is loading
     QLineEdit* field_ = nullptr; // first: what is created first has the focus first
     QComboBox* kind_ = nullptr;
     QLabel* answer_ = nullptr;

@@ -203,6 +203,14 @@ void GeoreferencingPanel::setHeightUnit(HeightUnit unit)
     fillFacts();
 }
 
+void GeoreferencingPanel::setCoordinateFormat(const CoordinateFormat& format)
+{
+    if (format != coordinates_) {
+        coordinates_ = format;
+        fillFacts();
+    }
+}
+
 void GeoreferencingPanel::fillFacts()
 {
     while (facts_->rowCount() > 0) {
@@ -303,31 +311,22 @@ void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
     addFact(tr("Pixel size"), pixel);
     const MapExtent extent = mapExtent(georeference);
     if (!is_geographic) {
-        //: The range of map coordinates: x from %1 to %2, y from %3 to %4
-        addFact(tr("Extent"), tr("x %1 … %2\ny %3 … %4")
-                                  .arg(number(extent.low.x), number(extent.high.x),
-                                       number(extent.low.y), number(extent.high.y)));
+        const auto range = [](double low, double high) {
+            //: A range of map coordinates
+            return leftToRight(tr("%1 – %2").arg(number(low), number(high)));
+        };
+        //: The ranges of map coordinates
+        addFact(tr("Extent"),
+                tr("x %1\ny %2")
+                    .arg(range(extent.low.x, extent.high.x), range(extent.low.y, extent.high.y)));
     }
-    const std::vector<CoordinateDisplay> displays = coordinateDisplays(info);
     if (const auto place = geographicExtent(georeference)) {
-        // A thousandth of the shorter side, so that the noise of a projection is not told.
-        const double side = std::min((place->east - place->west).degrees(),
-                                     (place->north - place->south).degrees());
-        const int decimals = decimalsFor(side / 100.0, 7);
-        const auto longitude = [decimals](Angle angle) {
-            return numberText(angle.degrees(), decimals);
-        };
-        const auto latitude = [&](Angle angle) {
-            const bool is_graphic = displays.front() == CoordinateDisplay::Planetographic;
-            return numberText(
-                (is_graphic ? info.crs->ellipsoid()->planetographic(angle) : angle).degrees(),
-                decimals);
-        };
-        //: Longitudes from %1 to %2 and latitudes from %3 to %4; %5 is the kind of latitude
-        addFact(tr("Longitude, latitude"),
-                tr("%1° … %2° E\n%3° … %4° N %5")
-                    .arg(longitude(place->west), longitude(place->east), latitude(place->south),
-                         latitude(place->north), displayName(displays.front(), info)));
+        const ExtentText text = extentText(*place, coordinates_, info);
+        //: The kind of latitude in brackets
+        addFact(
+            tr("Latitude (%1)").arg(latitudeKindName(coordinates_.latitudesOn(info.body), info)),
+            text.latitudes);
+        addFact(tr("Longitude"), text.longitudes);
     }
     const GeoTransform::Terms& t = transform.terms();
     addFact(tr("Geotransform"), info.transform ? tr("%1, %2, %3\n%4, %5, %6")

@@ -1,6 +1,7 @@
 // The panel with the body, place and elevations of a map, and the form that sets them.
 #pragma once
 
+#include "core/geo/coordinate_format.h"
 #include "core/raster/raster_info.h"
 #include "ui/number_text.h"
 
@@ -31,6 +32,7 @@ public:
     /// the same file with the same overrides.
     void setDataset(const std::shared_ptr<const Dataset>& dataset);
     void setHeightUnit(HeightUnit unit);
+    void setCoordinateFormat(const CoordinateFormat& format);
 
     /// Switches to the form.
     void edit();
@@ -55,6 +57,7 @@ private:
 
     std::shared_ptr<const Dataset> dataset_;
     HeightUnit unit_of_heights_ = HeightUnit::Metres;
+    CoordinateFormat coordinates_;
     QStackedWidget* pages_ = nullptr;
     QScrollArea* facts_page_ = nullptr;
     QScrollArea* form_page_ = nullptr;

@@ -47,7 +47,7 @@ void MapMenu::open(QPointF position)
     };
     const auto copy = [](const QString& text) { QGuiApplication::clipboard()->setText(text); };
     add(tr("&Copy Coordinates"), "copy", !place.coordinates.isEmpty(),
-        [copy, text = place.coordinates] { copy(text); });
+        [copy, text = place.plain_coordinates] { copy(text); });
     add(tr("Copy &Elevation"), "copy", !place.elevation.isEmpty(),
         [copy, text = place.elevation] { copy(text); });
     menu_->addSeparator();

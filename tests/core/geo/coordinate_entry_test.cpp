@@ -35,6 +35,14 @@ TEST(PlaceFrom, UnderstandsTheWaysPeopleWrite)
              {"18,65 N 226,2 E", 18.65, 226.2},
              {"18,65N, 226,2E", 18.65, 226.2},
              {"18,65; 226,2", 18.65, 226.2},
+             {"18,65 226,2", 18.65, 226.2},
+             {"18,65, 226,2", 18.65, 226.2},
+             {"-18,65 -133,8", -18.65, -133.8},
+             {"18°39′36,5″ 226°12′0,5″", 18.66 + 0.5 * kSecond, 226.2 + 0.5 * kSecond},
+             {"18,226", 18.0, 226.0},                           // one comma separates
+             {"\u206618.65° N, 226.20° E\u2069", 18.65, 226.2}, // isolated for right to left
+             {"\u0661\u0668\u066B\u0666\u0665 N \u0662\u0662\u0666\u066B\u0662 E", 18.65,
+              226.2}, // Arabic digits
              {"18.65, 226.2", 18.65, 226.2},
              {"18.65 226.2", 18.65, 226.2},
              {"-18.65 -133.8", -18.65, -133.8},
@@ -57,6 +65,17 @@ TEST(PlaceFrom, UnderstandsTheWaysPeopleWrite)
         EXPECT_NEAR(place->latitude.degrees(), c.latitude_deg, 1e-12) << c.text;
         EXPECT_NEAR(place->longitude.degrees(), c.longitude_deg, 1e-12) << c.text;
     }
+}
+
+TEST(PlaceFrom, ReadsBareLongitudesInTheDirectionOfTheFormat)
+{
+    const auto longitude = [](const char* text) {
+        return placeFrom(text, BareLongitude::West)->longitude.degrees();
+    };
+    EXPECT_NEAR(longitude("18.65, 133.8"), -133.8, 1e-12);
+    EXPECT_NEAR(longitude("18.65, -133.8"), 133.8, 1e-12);
+    EXPECT_NEAR(longitude("18.65 N 133.8 E"), 133.8, 1e-12); // a letter decides
+    EXPECT_NEAR(longitude("18.65 N 133.8 W"), -133.8, 1e-12);
 }
 
 TEST(PlaceFrom, SaysWhatIsWrong)
@@ -128,8 +147,9 @@ TEST(PlaceFrom, SurvivesAnyText)
 
 TEST(MapPointFrom, TakesTwoPlainNumbers)
 {
-    for (const char* text : {"562345.5 -5117890", "562345.5, -5117890", "562345.5; -5117890",
-                             "562345,5; \u22125117890", " 562345.5\t-5117890 "}) {
+    for (const char* text :
+         {"562345.5 -5117890", "562345.5, -5117890", "562345.5; -5117890",
+          "562345,5; \u22125117890", "562345,5 -5117890,0", " 562345.5\t-5117890 "}) {
         const auto point = mapPointFrom(text);
         ASSERT_TRUE(point) << text << ": " << point.error().message;
         EXPECT_EQ(*point, (MapPoint{562345.5, -5117890.0})) << text;
