@@ -53,7 +53,7 @@ void LoadStatus::showReport(const LoadReport& report)
 {
     is_loading_ = true;
     showWhatGoesOn();
-    const QString file = QFileInfo(report.file).fileName();
+    const QString file = isolated(QFileInfo(report.file).fileName());
     QString text;
     if (report.count > 1) {
         //: %1 is a file, %2 which one it is of %3 files
@@ -79,7 +79,7 @@ void LoadStatus::showPreparing(const PrepareProgress& progress)
     const QString path = QString::fromStdString(progress.spec.path);
     // Not before it is done.
     const int percent = static_cast<int>(std::floor(progress.fraction * 100.0));
-    QString rest = tr("%1 %").arg(percent);
+    QString rest = leftToRight(tr("%1 %").arg(percent));
     if (progress.left) {
         //: The share that is done and the time left: "37 %, 4 min left"
         rest = tr("%1, %2").arg(rest, timeLeftText(*progress.left));
@@ -89,8 +89,8 @@ void LoadStatus::showPreparing(const PrepareProgress& progress)
     const QFontMetrics metrics = label_->fontMetrics();
     const int room =
         kPreparingLabelWidth - metrics.horizontalAdvance(sentence.arg(QString(), rest));
-    preparing_text_ =
-        sentence.arg(metrics.elidedText(QFileInfo(path).fileName(), Qt::ElideMiddle, room), rest);
+    preparing_text_ = sentence.arg(
+        isolated(metrics.elidedText(QFileInfo(path).fileName(), Qt::ElideMiddle, room)), rest);
     preparing_tip_ = path;
     if (progress.waiting_count > 0) {
         //: Tool tip: %1 is a file, %n the number of maps whose turn is after it

@@ -17,6 +17,7 @@
 #include "ui/main_tool_bar.h"
 #include "ui/map_overlays.h"
 #include "ui/notice_bar.h"
+#include "ui/number_text.h"
 #include "ui/notice_center.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
@@ -33,6 +34,7 @@
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
 #include "ui/window_notices.h"
+#include "ui/window_place.h"
 
 #include <QActionGroup>
 #include <QClipboard>
@@ -166,6 +168,8 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     makeNotices();
     if (isRemembered()) {
         restoreWindow();
+        place_ = new WindowPlace(*this);
+        place_->fit();
         haptics_->setSettings(hapticsSettingsFrom(QSettings()));
     }
     connectReadout();
@@ -321,7 +325,7 @@ void MainWindow::connectController()
             [this](const LoadReport& report) {
                 load_status_->showReport(report);
                 //: Shown in the middle of the window while the first map comes; %1 is a file
-                view_->setHint(tr("Opening %1…").arg(QFileInfo(report.file).fileName()));
+                view_->setHint(tr("Opening %1…").arg(isolated(QFileInfo(report.file).fileName())));
                 actions_->cancel_loading->setEnabled(true);
             });
     connect(controller_, &SessionController::loadingEnded, this, [this] {
@@ -651,8 +655,9 @@ void MainWindow::showActive()
     const QString file = dataset ? QString::fromStdString(dataset->spec().path) : QString();
     setWindowFilePath(file);
     //: Window title: %1 is a layer
-    setWindowTitle(active != nullptr ? tr("%1 — MarsView").arg(QString::fromStdString(active->name))
-                                     : tr("MarsView"));
+    setWindowTitle(active != nullptr
+                       ? tr("%1 — MarsView").arg(isolated(QString::fromStdString(active->name)))
+                       : tr("MarsView"));
     georeferencing_->setDataset(dataset);
     showPreparation();
     // Positions are on what the view shows, heights are those of the active layer if it is there.
@@ -677,7 +682,8 @@ void MainWindow::reportFailure(const QString& title, const QString& problem)
 {
     Q_EMIT openFailed(problem);
     if (options_.failures == WindowOptions::Failures::InDialogs) {
-        auto* box = new QMessageBox(QMessageBox::Warning, title, problem, QMessageBox::Ok, this);
+        auto* box =
+            new QMessageBox(QMessageBox::Warning, title, isolated(problem), QMessageBox::Ok, this);
         box->setAttribute(Qt::WA_DeleteOnClose);
         box->setTextFormat(Qt::PlainText);
         box->setWindowModality(Qt::WindowModal);

@@ -36,6 +36,7 @@ class StretchControl;
 class TerrainView;
 class WindowDocks;
 class WindowNotices;
+class WindowPlace;
 struct GroundPoint;
 struct WindowActions;
 
@@ -169,6 +170,7 @@ private:
     ContactSounds* sounds_ = nullptr;
     bool is_sound_remembered_ = false; // switched on by the settings, not by the user
     WindowDocks* docks_ = nullptr;
+    WindowPlace* place_ = nullptr; // only where the window is remembered
     MainToolBar* tool_bar_ = nullptr;
     StatusReadout* readout_ = nullptr;
     LoadStatus* load_status_ = nullptr;

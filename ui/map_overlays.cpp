@@ -72,6 +72,9 @@ MapOverlays::MapOverlays(TerrainView& view)
     connect(&view_, &TerrainView::crosshairChanged, crosshair_, &QWidget::setVisible);
     connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::placeCrosshair);
     crosshair_->lower();
+    for (QWidget* plate : std::initializer_list<QWidget*>{legend_, scale_bar_}) {
+        plate->setProperty(kHidesTerrain, true);
+    }
     placeCrosshair();
     connect(minimap_, &Minimap::placeRequested, &view_, &TerrainView::lookAt);
     connect(&view_, &TerrainView::gestureMade, hint_, &GestureHint::markDone);

@@ -1,6 +1,7 @@
 #include "ui/recent_files.h"
 
 #include "core/raster/remote_raster.h"
+#include "ui/number_text.h"
 
 #include <QCoreApplication>
 #include <QDir>
@@ -122,7 +123,7 @@ void RecentFiles::fillMenu()
     });
     const QStringList names = namesFor(ordered);
     for (auto file = ordered.begin(); file != ordered.end(); ++file) {
-        const QString name = withoutMnemonics(names[file - ordered.begin()]);
+        const QString name = isolated(withoutMnemonics(names[file - ordered.begin()]));
         QAction* action = menu_.addAction(
             //: In the list of recent files: %1 is a file that is no longer there
             file < gone ? name : tr("%1 (missing)").arg(name), this,

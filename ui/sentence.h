@@ -1,6 +1,8 @@
 // What the core says, which begins in lower case, as a sentence of the window.
 #pragma once
 
+#include "ui/number_text.h"
+
 #include <QString>
 
 #include <string>
@@ -12,7 +14,7 @@ inline QString asSentence(QString text)
     if (!text.isEmpty()) {
         text[0] = text[0].toUpper();
     }
-    return text;
+    return isolated(text); // the core writes English, whatever the layout
 }
 
 inline QString asSentence(const std::string& text)

@@ -18,7 +18,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kGap = 8;            // between all parts, in pixels
+constexpr int kPartGap = 8;        // between all parts, in pixels
 constexpr int kNameWidthMax = 150; // pixels at which a long CRS name is elided
 
 QString outsideText()
@@ -93,8 +93,8 @@ StatusReadout::StatusReadout(QWidget* parent)
     });
     connect(coordinate_, &CoordinateField::focusChanged, this, &StatusReadout::focusChanged);
     auto* layout = new QHBoxLayout(this);
-    layout->setContentsMargins(kGap, 0, kGap, 0);
-    layout->setSpacing(kGap);
+    layout->setContentsMargins(kPartGap, 0, kPartGap, 0);
+    layout->setSpacing(kPartGap);
     layout->addWidget(coordinate_);
     layout->addWidget(format_button_);
     layout->addWidget(height_rule_);

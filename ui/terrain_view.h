@@ -38,6 +38,9 @@ enum class NavigationStep {
     TiltDown,
 };
 
+/// A property of children of the view that hide the terrain, though the mouse goes through them.
+inline constexpr const char* kHidesTerrain = "hidesTerrain";
+
 /// Hosts the renderer and turns input into motions of the camera and of the stylus. Draws only when
 /// something changed: the terrain when it or the camera did, otherwise only the cursor over it.
 class TerrainView final : public QOpenGLWidget {

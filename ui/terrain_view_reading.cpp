@@ -5,6 +5,9 @@
 
 #include <QChildEvent>
 #include <QKeyEvent>
+#include <QWidget>
+
+#include <algorithm>
 
 namespace marsview {
 namespace {
@@ -81,7 +84,13 @@ void TerrainView::forgetPointer()
 
 bool TerrainView::isOverOverlay(QPointF position) const
 {
-    return childAt(position.toPoint()) != nullptr;
+    const auto children = findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
+    return std::any_of(children.begin(), children.end(), [&](const QWidget* child) {
+        const bool hides_terrain = !child->testAttribute(Qt::WA_TransparentForMouseEvents) ||
+                                   child->property(kHidesTerrain).toBool();
+        return child->isVisible() && !child->isWindow() && hides_terrain &&
+               child->geometry().contains(position.toPoint());
+    });
 }
 
 void TerrainView::childEvent(QChildEvent* event)

@@ -7,6 +7,7 @@
 #include <QGroupBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
@@ -21,6 +22,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     , height_unit_(new QComboBox(this))
     , frame_rate_(new QComboBox(this))
     , antialiasing_(new QCheckBox(tr("&Anti-aliasing"), this))
+    , coordinates_(new CoordinatesPage(this))
     , large_maps_(new LargeMapsPage(standard, this))
     , pages_(new QTabWidget(this))
 {
@@ -71,6 +73,8 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     pages_->setAccessibleName(tr("Pages of the preferences"));
     //: A page of the preferences
     pages_->addTab(general, tr("&General"));
+    //: A page of the preferences
+    pages_->addTab(coordinates_, tr("&Coordinates"));
     //: A page of the preferences: files that are kept on disk
     pages_->addTab(large_maps_, tr("&Storage"));
     auto* layout = new QVBoxLayout(this);
@@ -83,6 +87,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
         connect(box, &QComboBox::currentIndexChanged, this, tell);
     }
     connect(antialiasing_, &QCheckBox::toggled, this, tell);
+    connect(coordinates_, &CoordinatesPage::changed, this, tell);
     connect(large_maps_, &LargeMapsPage::changed, this, tell);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
@@ -99,6 +104,7 @@ void PreferencesDialog::fill(const Preferences& preferences)
         height_unit_->findData(static_cast<int>(preferences.height_unit)));
     frame_rate_->setCurrentIndex(frame_rate_->findData(preferences.frames_per_s));
     antialiasing_->setChecked(preferences.has_antialiasing);
+    coordinates_->fill(preferences.coordinates);
     large_maps_->fill(preferences);
 }
 
@@ -109,6 +115,7 @@ Preferences PreferencesDialog::preferences() const
     preferences.height_unit = static_cast<HeightUnit>(height_unit_->currentData().toInt());
     preferences.has_antialiasing = antialiasing_->isChecked();
     preferences.frames_per_s = frame_rate_->currentData().toInt();
+    preferences.coordinates = coordinates_->format();
     large_maps_->apply(preferences);
     return preferences;
 }

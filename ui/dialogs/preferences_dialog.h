@@ -1,6 +1,7 @@
 // Choosing preferences.
 #pragma once
 
+#include "ui/dialogs/coordinates_page.h"
 #include "ui/dialogs/large_maps_page.h"
 #include "ui/preferences.h"
 
@@ -37,6 +38,7 @@ private:
     QComboBox* height_unit_ = nullptr;
     QComboBox* frame_rate_ = nullptr;
     QCheckBox* antialiasing_ = nullptr;
+    CoordinatesPage* coordinates_ = nullptr;
     LargeMapsPage* large_maps_ = nullptr;
     QTabWidget* pages_ = nullptr;
 };

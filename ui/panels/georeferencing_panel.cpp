@@ -247,7 +247,9 @@ void GeoreferencingPanel::addFact(const QString& name, const QString& value)
     QLabel* caption = makeCaption(name, this);
     caption->setContentsMargins(0, facts_->rowCount() == 0 ? 0 : 6, 0, 0);
     QLabel* fact = makeFact(this);
-    fact->setText(value);
+    QStringList lines = value.split(QLatin1Char('\n'));
+    std::transform(lines.begin(), lines.end(), lines.begin(), isolated);
+    fact->setText(lines.join(QLatin1Char('\n')));
     fact->setAccessibleName(name);
     facts_->addRow(caption, fact);
 }

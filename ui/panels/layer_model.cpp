@@ -196,7 +196,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
     const LayerState state = stateAt(index);
     const auto size = [&info] {
         //: Columns and rows of a map
-        return tr("%1 × %2").arg(countText(info.columns), countText(info.rows));
+        return leftToRight(tr("%1 × %2").arg(countText(info.columns), countText(info.rows)));
     };
     const auto range = [this, &layer] {
         return heightRangeText(layer.dataset->heightfield().range().value_or(HeightRange{}), unit_);

@@ -1,0 +1,244 @@
+#include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
+#include "ui/coordinate_field.h"
+#include "ui/map_overlays.h"
+#include "ui/overlay/crosshair.h"
+#include "ui/overlay/minimap.h"
+#include "ui/panels/dataset_panel.h"
+#include "ui/status_readout.h"
+#include "ui/terrain_view.h"
+#include "ui/window_actions.h"
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QClipboard>
+#include <QEnterEvent>
+#include <QLocale>
+#include <QMenu>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace marsview {
+namespace {
+
+class StatusReadoutTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        window_ = std::make_unique<MainWindow>(testWindowOptions());
+        window_->resize(1280, 800);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there is no window manager
+    }
+
+    TerrainView& view() { return *window_->view(); }
+    StatusReadout& readout() { return *window_->readout(); }
+    bool isRead(const QString& coordinates)
+    {
+        return QTest::qWaitFor([&] { return readout().coordinateLabel() == coordinates; },
+                               kTimeout);
+    }
+    // Within the terrain, away from every overlay.
+    void pointAtTheMiddle()
+    {
+        const QPoint middle = view().rect().center();
+        QTest::mouseMove(&view(), middle - QPoint(9, 7));
+        QTest::mouseMove(&view(), middle);
+        ASSERT_TRUE(QTest::qWaitFor([&] { return !readout().heightLabel().isEmpty(); }, kTimeout));
+    }
+    void leaveTheMap()
+    {
+        QEvent leave(QEvent::Leave);
+        QApplication::sendEvent(&view(), &leave);
+    }
+    QAction* choice(const QString& text)
+    {
+        menu_.clear();
+        readout().fillMenu(menu_);
+        for (QAction* action : menu_.actions()) {
+            if (action->text() == text) {
+                return action;
+            }
+        }
+        return nullptr;
+    }
+    QString positionOfTheMiddle()
+    {
+        const auto hit = view().surfaceAt(QPointF(view().width() / 2.0, view().height() / 2.0));
+        return hit ? positionText(readout().format(), *view().map().dataset, hit->grid,
+                                  view().metresPerPoint(*hit))
+                   : QString();
+    }
+
+    TestMaps maps_;
+    std::unique_ptr<MainWindow> window_;
+    QMenu menu_;
+};
+
+TEST_F(StatusReadoutTest, ShowsNoElevationWhileThePointerIsOverAnOverlay)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    window_->datasetPanel()->setFocus(); // no crosshair
+    ASSERT_NO_FATAL_FAILURE(pointAtTheMiddle());
+    QWidget* minimap = window_->overlays()->minimap();
+    ASSERT_TRUE(minimap->isVisible());
+    QEnterEvent enter(QPointF(5, 5), QPointF(5, 5), QPointF(5, 5));
+    QApplication::sendEvent(minimap, &enter);
+    EXPECT_TRUE(readout().heightLabel().isEmpty());
+    // Moves on an overlay that takes none reach the map behind it.
+    QTest::mouseMove(&view(), minimap->geometry().center());
+    QMouseEvent move(QEvent::MouseMove, minimap->geometry().center(),
+                     view().mapToGlobal(minimap->geometry().center()), Qt::NoButton, Qt::NoButton,
+                     Qt::NoModifier);
+    QApplication::sendEvent(&view(), &move);
+    EXPECT_TRUE(readout().heightLabel().isEmpty());
+}
+
+TEST_F(StatusReadoutTest, ReadsTheMiddleOfThePictureForTheKeyboard)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    const QWidget* crosshair = window_->overlays()->crosshair();
+    view().setFocus();
+    leaveTheMap();
+    EXPECT_TRUE(view().isCrosshairShown());
+    EXPECT_TRUE(crosshair->isVisible());
+    EXPECT_EQ(crosshair->geometry().center(), view().rect().center());
+    ASSERT_FALSE(positionOfTheMiddle().isEmpty());
+    EXPECT_TRUE(isRead(positionOfTheMiddle()));
+    EXPECT_FALSE(readout().heightLabel().isEmpty());
+
+    // The pointer takes over when it moves, a navigation key takes it back.
+    ASSERT_NO_FATAL_FAILURE(pointAtTheMiddle());
+    EXPECT_FALSE(crosshair->isVisible());
+    QTest::keyClick(&view(), Qt::Key_Left);
+    EXPECT_TRUE(crosshair->isVisible());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !view().isMoving(); }, kTimeout));
+    EXPECT_TRUE(isRead(positionOfTheMiddle()));
+
+    leaveTheMap();
+    window_->datasetPanel()->setFocus();
+    EXPECT_FALSE(crosshair->isVisible());
+    EXPECT_EQ(readout().coordinateLabel(), QStringLiteral("outside the map"));
+    readout().coordinateField()->setFocus(Qt::TabFocusReason);
+    EXPECT_TRUE(crosshair->isVisible());
+}
+
+TEST_F(StatusReadoutTest, CopiesThePositionByKeysAndByAClick)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    view().setFocus();
+    leaveTheMap();
+    const QString position = positionOfTheMiddle();
+    ASSERT_TRUE(isRead(position));
+    QClipboard& clipboard = *QGuiApplication::clipboard();
+    CoordinateField& field = *readout().coordinateField();
+    const auto is_copied = [&] {
+        const bool is = clipboard.text() == position;
+        clipboard.clear();
+        return is;
+    };
+    clipboard.clear();
+    window_->actionSet().copy_coordinates->trigger();
+    EXPECT_TRUE(is_copied());
+    EXPECT_EQ(readout().coordinateLabel(), QStringLiteral("Copied"));
+    EXPECT_TRUE(isRead(position)); // again, after a moment
+    QTest::mouseClick(&field, Qt::LeftButton);
+    EXPECT_TRUE(is_copied());
+    EXPECT_TRUE(view().hasFocus());
+    field.setFocus(Qt::TabFocusReason);
+    QTest::keyClick(&field, Qt::Key_C, Qt::ControlModifier);
+    EXPECT_TRUE(is_copied());
+}
+
+TEST_F(StatusReadoutTest, CopiesMapCoordinatesThatOtherProgramsRead)
+{
+    QLocale::setDefault(QLocale(QLocale::German));
+    ASSERT_TRUE(
+        openAndWait(*window_, maps_.placed("utm", "EPSG:32611", {5e5, 30, 0, -4e6, 0, -30})));
+    CoordinateFormat format = readout().format();
+    format.system = PositionSystem::Map;
+    Q_EMIT readout().formatChosen(format);
+    EXPECT_EQ(positionText(readout().format(), *view().map().dataset, {9.5, 9.5}),
+              QStringLiteral("500.300, −4.000.300 m"));
+    window_->copyCoordinates(GridPoint{9.5, 9.5});
+    EXPECT_EQ(QGuiApplication::clipboard()->text(), QStringLiteral("500300, -4000300"));
+    QLocale::setDefault(QLocale::c());
+}
+
+TEST_F(StatusReadoutTest, KeepsTheKindOfLatitudeOfEachBody)
+{
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.placed("flat", "IAU_2015:49902", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25})));
+    QAction* graphic = choice(QStringLiteral("Planetographic"));
+    ASSERT_NE(graphic, nullptr);
+    graphic->trigger();
+    EXPECT_EQ(window_->preferences().coordinates.latitudesOn(bodyNamed("Mars")),
+              LatitudeKind::Planetographic);
+    QAction* centric = choice(QStringLiteral("Planetocentric"));
+    ASSERT_NE(centric, nullptr);
+    centric->trigger();
+
+    // 21 km lie between the kinds at 45° on the Earth.
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.placed("tile", "EPSG:4326", {10.0, 0.01, 0.0, 45.15, 0.0, -0.01})));
+    readout().setPlace(ReadPlace{.hit = {.grid = {14.5, 14.5}}});
+    EXPECT_TRUE(readout().coordinateLabel().startsWith(QStringLiteral("45.000° N")))
+        << readout().coordinateLabel().toStdString();
+    EXPECT_NE(choice(QStringLiteral("Geodetic")), nullptr);
+}
+
+TEST_F(StatusReadoutTest, KeepsItsPartsInPlaceWhileNumbersChange)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    for (const auto notation :
+         {AngleNotation::DecimalDegrees, AngleNotation::DegreesMinutesSeconds}) {
+        CoordinateFormat format;
+        format.angles = notation;
+        Q_EMIT readout().formatChosen(format);
+        QTest::qWait(0);
+        const auto places_now = [this] {
+            QList<QRect> places;
+            for (const QWidget* part :
+                 readout().findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+                places.append(part->geometry());
+            }
+            return places;
+        };
+        const QList<QRect> before = places_now();
+        for (const GridPoint grid :
+             {GridPoint{0.0, 0.0}, GridPoint{39.0, 29.0}, GridPoint{17.3, 11.1}}) {
+            readout().setPlace(ReadPlace{.hit = {.grid = grid, .height_m = -1.0}});
+            QTest::qWait(0);
+            EXPECT_EQ(places_now(), before);
+        }
+        readout().setPlace(std::nullopt);
+        QTest::qWait(0);
+        EXPECT_EQ(places_now(), before);
+    }
+}
+
+TEST_F(StatusReadoutTest, HasEvenGapsAndOneButton)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    QTest::qWait(0);
+    QList<QRect> places;
+    for (const QWidget* part :
+         readout().findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+        if (part->isVisible() && qobject_cast<const QMenu*>(part) == nullptr) {
+            places.append(part->geometry());
+        }
+    }
+    std::sort(places.begin(), places.end(),
+              [](const QRect& a, const QRect& b) { return a.left() < b.left(); });
+    ASSERT_EQ(places.size(), 6); // position, format, rule, elevation, rule, detail
+    for (qsizetype i = 1; i < places.size(); ++i) {
+        EXPECT_EQ(places[i].left() - places[i - 1].right(), places[1].left() - places[0].right());
+    }
+    EXPECT_EQ(readout().findChildren<QAbstractButton*>().size(), 1);
+}
+
+} // namespace
+} // namespace marsview
