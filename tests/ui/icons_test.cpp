@@ -65,7 +65,9 @@ TEST_F(IconsTest, ContrastWithWhatTheyAreDrawnOnInBothThemes)
     for (const Theme theme : {Theme::Light, Theme::Dark, Theme::Light}) {
         applyTheme(theme);
         const QColor ground = QApplication::palette().color(QPalette::Window);
-        for (const QIcon& icon : glyphsOfTheStyle() << pan) {
+        QList<QIcon> icons = glyphsOfTheStyle();
+        icons.append(pan);
+        for (const QIcon& icon : icons) {
             const QColor normal = inkOf(icon.pixmap(20, QIcon::Normal));
             ASSERT_GT(normal.alpha(), 200);
             EXPECT_GE(contrast(normal, ground), 7.0);

@@ -586,7 +586,7 @@ protected:
     }
     std::vector<QWidget*> parts()
     {
-        return {minimap_, legend_, compass_, scale_bar_, force_meter_, hint_};
+        return {minimap_, legend_, compass_, scale_bar_, hint_, force_meter_};
     }
     // How many are seen; fails where two overlap or one sticks out.
     int checkedCount()
@@ -655,7 +655,8 @@ TEST_F(OverlayLayoutTest, PutsThePartsIntoTheirCorners)
 {
     host_.show();
     resize(1000, 700);
-    EXPECT_EQ(checkedCount(), 5);
+    EXPECT_EQ(checkedCount(), 6);
+    EXPECT_EQ(hint_->geometry().topLeft(), QPoint(10, 10));
     EXPECT_EQ(minimap_->geometry().right(), 1000 - 10 - 1);
     EXPECT_EQ(minimap_->geometry().top(), 10);
     EXPECT_EQ(scale_bar_->geometry().bottomRight(), QPoint(989, 689));
@@ -698,7 +699,7 @@ TEST_F(OverlayLayoutTest, KeepsTheScaleLongestInASmallWindow)
     EXPECT_FALSE(scale_bar_->isHidden());
     EXPECT_TRUE(compass_->isHidden());
     resize(1000, 700);
-    EXPECT_EQ(checkedCount(), 5) << "all come back";
+    EXPECT_EQ(checkedCount(), 6) << "all come back";
 }
 
 TEST_F(OverlayLayoutTest, MovesNothingForATouch)
