@@ -941,7 +941,10 @@ Result<GridSize> RasterFile::Impl::scanStep() const
     band->GetBlockSize(&block_columns, &block_rows);
     const std::size_t sample_bytes = sampleBytes(info.type);
     if (strips || has_plain_strips) {
-        return GridSize{info.columns, rowsPerBand()};
+        // Each read begins anew at the last of some hundred places where an archive can be entered.
+        const std::size_t bytes = info.path.starts_with("/vsi") ? kBandBytesMax : kBandBytes;
+        const std::size_t row_bytes = info.columns * sample_bytes;
+        return GridSize{info.columns, std::clamp<std::size_t>(bytes / row_bytes, 1, info.rows)};
     }
     const auto columns = static_cast<std::size_t>(std::max(1, block_columns));
     const auto rows = static_cast<std::size_t>(std::max(1, block_rows));
