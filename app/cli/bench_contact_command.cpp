@@ -5,6 +5,7 @@
 #include "app/cli/long_job.h"
 #include "app/cli/machine.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/output_file.h"
 #include "app/cli/svg_plot.h"
 #include "app/cli/text_output.h"
 #include "app/cli/touch_map.h"
@@ -20,7 +21,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -213,7 +213,7 @@ void printJson(const Options& options, const Ground& ground, const ContactBenchR
                        {"reference_unfinished", result.unfinished_count},
                        {"virtual_proxy_radius_cells", options.bench.radius_cells},
                        {"rows", rows}};
-    printLine(json.dump(2, ' ', false, Json::error_handler_t::replace));
+    marsview::printJson(withSchema(json));
 }
 
 // 0.0123 in few characters: lengths of errors span fifteen decades.
@@ -394,11 +394,9 @@ Status runBenchContact(const Options& given)
         printForPeople(options, ground, *result);
     }
     if (!options.plot.empty()) {
-        std::ofstream file(options.plot, std::ios::binary);
-        file << asSvg(plotOf(options, ground, *result));
-        file.close();
-        if (!file) {
-            return Error{ErrorCode::Unreadable, fmt::format("{}: cannot be written", options.plot)};
+        if (Status written = writeOutputFile(options.plot, asSvg(plotOf(options, ground, *result)));
+            !written) {
+            return written;
         }
     }
     std::fflush(stdout); // before what is said about it
@@ -434,22 +432,25 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         "it, angle between the forces, difference of the distances to the goal. lag: how far the\n"
         "proxy still goes if the goal stands still, tried every 32nd update. minimum: share of\n"
         "updates after which no way over or off the surface leads closer to the goal.");
-    command->add_option("DEM", options->map.path, "elevation map; without one, a fractal");
+    command->add_option("DEM", options->map.path, "elevation map; without one, a fractal")
+        ->transform(mapName());
     options->map.addOverridesTo(*command);
     command->add_option("--size", options->size, "columns and rows of the fractal")
         ->capture_default_str()
-        ->check(CLI::Range(std::size_t{16}, std::size_t{65536}));
-    command->add_option("--seed", options->seed, "of the fractal")->capture_default_str();
+        ->check(wholeNumberFrom(16, 65536));
+    command->add_option("--seed", options->seed, "of the fractal")
+        ->capture_default_str()
+        ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
     command->add_option("--sample-type", options->sample_type, "of the fractal")
         ->capture_default_str()
-        ->check(CLI::IsMember({"float32", "int16"}));
+        ->check(oneOf({"float32", "int16"}));
     std::vector<std::string> names;
     for (const ContactModelKind kind : kContactModelKinds) {
         names.emplace_back(contactModelName(kind));
     }
     command->add_option("--models", options->models, "with commas between; default all")
         ->delimiter(',')
-        ->check(CLI::IsMember(names));
+        ->check(oneOf(names));
     command->add_option("--speeds", options->bench.speeds, "of the goal, cells an update")
         ->delimiter(',')
         ->capture_default_str()
@@ -460,15 +461,15 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->check(positiveNumber());
     command->add_option("--goals", options->goals, "below the surface, above it, or both")
         ->capture_default_str()
-        ->check(CLI::IsMember({"below", "above", "both"}));
+        ->check(oneOf({"below", "above", "both"}));
     command->add_option("--updates", options->bench.update_count, "of each row")
         ->capture_default_str()
-        ->check(CLI::Range(std::size_t{2}, std::size_t{10'000'000}));
+        ->check(wholeNumberFrom(2, 10'000'000));
     command
         ->add_option("--stroke", options->bench.stroke_count,
                      "updates after which the hand is put down elsewhere")
         ->capture_default_str()
-        ->check(CLI::Range(std::size_t{1}, std::size_t{10'000'000}));
+        ->check(wholeNumberFrom(1, 10'000'000));
     command
         ->add_option("--seconds", options->bench.seconds_max,
                      "for all, about; rows get fewer updates then")
@@ -477,14 +478,15 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->add_option("--repeat", options->bench.repeat_count,
                      "runs of each row, of which the best counts")
         ->capture_default_str()
-        ->check(CLI::Range(1, 1000));
+        ->check(wholeNumberFrom(1, 1000));
     command->add_option("--radius", options->bench.radius_cells, "of virtual-proxy, cells")
         ->capture_default_str()
         ->check(positiveNumber());
     command->add_option("--piece", options->bench.piece_cells, "of the ideal's motion, cells")
         ->capture_default_str()
         ->check(positiveNumber());
-    command->add_option("--plot", options->plot, "SVG file: run time against error");
+    command->add_option("--plot", options->plot, "SVG file: run time against error")
+        ->check(fileNameEndingIn(".svg"));
     command->add_flag("--json", options->is_json, "for machines");
     command->callback([options, &run] { run = [options] { return runBenchContact(*options); }; });
 }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -161,7 +162,7 @@ Status runBench(const Options& options)
                                 {"scene", stabilitySceneName(row.scene)},
                                 {"largest_n_per_m", row.largest_n_per_m}});
     }
-    printLine(json.dump(2));
+    printJson(withSchema(json));
     return Done{};
 }
 
@@ -177,8 +178,10 @@ void addBenchStabilityCommand(CLI::App& bench, CommandAction& run)
         ->check(positiveNumber());
     command->add_option("--jitter-ms", options->jitter_ms, "of the loop's period")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 0.9));
-    command->add_option("--seed", options->seed, "of the jitter")->capture_default_str();
+        ->check(numberFrom(0.0, 0.9));
+    command->add_option("--seed", options->seed, "of the jitter")
+        ->capture_default_str()
+        ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include "app/cli/machine.h"
 #include "app/cli/make_terrain.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/output_file.h"
 #include "app/cli/terrain_bench.h"
 #include "app/cli/terrain_bench_report.h"
 #include "app/cli/text_output.h"
@@ -15,7 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -28,8 +29,6 @@
 
 namespace marsview {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Of Mars at 200 m a sample.
 constexpr const char* kSizeDefault = "106694x53347";
@@ -82,9 +81,11 @@ std::optional<GridSize> gridSizeFrom(const std::string& text)
 CLI::Validator gridSize()
 {
     return {[](const std::string& text) {
-                return gridSizeFrom(text) ? std::string() : "not a size such as 4096x2048: " + text;
+                return gridSizeFrom(text)
+                           ? std::string()
+                           : fmt::format("\"{}\" is not a size; write it as 4096x2048", text);
             },
-            "COLUMNSxROWS"};
+            ""};
 }
 
 // For the processes that measure.
@@ -162,17 +163,17 @@ Status runMake(const Options& options)
     }
     const double samples = static_cast<double>(size.columns) * static_cast<double>(size.rows);
     if (options.is_json) {
-        printLine(Json{{"file", make.path},
-                       {"from", make.from},
-                       {"seed", make.seed},
-                       {"columns", size.columns},
-                       {"rows", size.rows},
-                       {"octave_count", made->octave_count},
-                       {"halving_ratio", made->halving_ratio},
-                       {"seconds", made->seconds},
-                       {"samples_per_s", samples / made->seconds},
-                       {"peak_memory_mb", static_cast<double>(made->peak_memory_bytes) / 1e6}}
-                      .dump(2, ' ', false, Json::error_handler_t::replace));
+        printJson(
+            withSchema({{"file", make.path},
+                        {"from", make.from},
+                        {"seed", make.seed},
+                        {"columns", size.columns},
+                        {"rows", size.rows},
+                        {"octave_count", made->octave_count},
+                        {"halving_ratio", made->halving_ratio},
+                        {"seconds", made->seconds},
+                        {"samples_per_s", samples / made->seconds},
+                        {"peak_memory_mb", static_cast<double>(made->peak_memory_bytes) / 1e6}}));
     } else {
         printLine(fmt::format("{}: {} × {} samples from {}, seed {}", make.path, size.columns,
                               size.rows, make.from, make.seed));
@@ -221,8 +222,9 @@ Result<BenchJson> runChild(const std::vector<std::string>& arguments)
     }
     BenchJson json = BenchJson::parse(output->out, nullptr, false);
     if (json.is_discarded()) {
-        return Error{ErrorCode::Unreadable, "what it printed is no JSON"};
+        return Error{ErrorCode::Unreadable, "its output is not JSON"};
     }
+    json.erase("schema"); // a part of a larger result
     json["process_peak_memory_mb"] = static_cast<double>(output->peak_memory_bytes) / 1e6;
     return json;
 }
@@ -264,7 +266,7 @@ Status printOne(const Options& options, const Measurement& measurement)
         return found.error();
     }
     if (options.is_json) {
-        printLine(found.value().dump(2, ' ', false, BenchJson::error_handler_t::replace));
+        printJson(withSchema(*found));
     } else {
         printLine(terrainReport(measurement.name, *found));
     }
@@ -305,17 +307,14 @@ Status runMeasurements(const Options& options, const std::filesystem::path& empt
             std::fflush(stdout);
         }
         if (found && measurement.name == std::string_view("growth") && !options.plot.empty()) {
-            std::ofstream file(options.plot);
-            file << growthPlot(*found, processorName());
-            if (!file.flush()) {
-                return Error{ErrorCode::Unreadable,
-                             fmt::format("{}: the plot cannot be written; choose another folder",
-                                         options.plot)};
+            if (Status written = writeOutputFile(options.plot, growthPlot(*found, processorName()));
+                !written) {
+                return written;
             }
         }
     }
     if (options.is_json) {
-        printLine(json.dump(2, ' ', false, BenchJson::error_handler_t::replace));
+        printJson(withSchema(json));
     }
     return Done{};
 }
@@ -361,30 +360,34 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
 {
     const auto options = std::make_shared<Options>();
     CLI::App* command = bench.add_subcommand("terrain", "Measure maps that are larger than memory");
-    command->add_option("DEM", options->bench.map.path,
-                        "elevation map, by default the one that comes with the program");
+    command
+        ->add_option("DEM", options->bench.map.path,
+                     "elevation map, by default the one that comes with the program")
+        ->transform(mapName());
     options->bench.map.addOverridesTo(*command);
     CLI::Option* make = command->add_option(
         "--make", options->make.path,
         "write a large map to this file instead: a measured one with seeded fractal detail below "
         "its resolution");
-    command->add_option("--size", options->size, "of the map that is made")
+    command->add_option("--size", options->size, "of the map that is made, columns by rows")
+        ->type_name("WxH")
         ->capture_default_str()
         ->check(gridSize())
         ->needs(make);
     command->add_option("--seed", options->bench.seed, "of the detail, and of the swipes")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
     command
         ->add_option("--from", options->make.from,
                      "the measured map, by default the one that comes with the program")
         ->needs(make);
     command->add_option("--layout", options->layout, "tiles or strips")
         ->capture_default_str()
-        ->check(CLI::IsMember({"tiles", "strips"}))
+        ->check(oneOf({"tiles", "strips"}))
         ->needs(make);
     command->add_option("--compress", options->compression, "none or deflate")
         ->capture_default_str()
-        ->check(CLI::IsMember({"none", "deflate"}))
+        ->check(oneOf({"none", "deflate"}))
         ->needs(make);
     std::vector<std::string> names{kPicture.name};
     for (const Measurement& measurement : kMeasurements) {
@@ -392,7 +395,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
     }
     command->add_option("--only", options->only, "these measurements, separated by commas")
         ->delimiter(',')
-        ->check(CLI::IsMember(names));
+        ->check(oneOf(names));
     command
         ->add_option("--folder", options->folder,
                      "where prepared maps are kept; by default a new one that is removed again")
@@ -406,18 +409,19 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->check(positiveNumber());
     command->add_option("--updates", options->bench.update_count, "of other swipes, a speed")
         ->capture_default_str()
-        ->check(CLI::Range(10, 100000000));
+        ->check(wholeNumberFrom(10, 100'000'000));
     command
         ->add_option("--held-mb", options->bench.held_mb_max,
                      "the largest part of the map that is held in memory to be compared with")
         ->capture_default_str()
-        ->check(CLI::Range(1, 1000000));
+        ->check(wholeNumberFrom(1, 1'000'000));
     command->add_option("--against", options->bench.against,
                         "a smaller map whose frames are compared with");
     command->add_option("--frames", options->bench.frame_count, "of each flight")
         ->capture_default_str()
-        ->check(CLI::Range(1, 100000));
-    command->add_option("--plot", options->plot, "draw the growth to this SVG file");
+        ->check(wholeNumberFrom(1, 100'000));
+    command->add_option("--plot", options->plot, "draw the growth to this SVG file")
+        ->check(fileNameEndingIn(".svg"));
     command->add_flag("--warm", options->bench.is_warm, "of the first picture: keep what is read");
     command->add_flag("--here", options->is_here,
                       "one measurement in this process, with what is prepared already");

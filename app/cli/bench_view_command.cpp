@@ -207,7 +207,7 @@ void printJson(const Options& options, const std::vector<ViewBenchResult>& resul
                        {"frame_count", bench.frame_count},
                        {"error_threshold_at_rest_px", bench.error_px},
                        {"maps", maps}};
-    printLine(json.dump(2, ' ', false, Json::error_handler_t::replace));
+    marsview::printJson(withSchema(json));
 }
 
 void printFlights(const ViewBenchResult& result)
@@ -377,23 +377,27 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
     const auto options = std::make_shared<Options>();
     CLI::App* command = bench.add_subcommand(
         "view", "Fly over maps and measure the time and the error of the window's pictures");
-    command->add_option("DEM", options->paths,
-                        "elevation maps, by default the one that comes with the program; the "
-                        "times of several are compared with the first's");
+    command
+        ->add_option("DEM", options->paths,
+                     "elevation maps, by default the one that comes with the program; the "
+                     "times of several are compared with the first's")
+        ->transform(mapName());
     options->map.addOverridesTo(*command);
     command->add_option("--size", options->size, "width and height in pixels")
-        ->capture_default_str();
+        ->type_name("WxH")
+        ->capture_default_str()
+        ->check(pictureSize());
     command->add_option("--target-ms", options->target_ms, "time for a frame while moving")
         ->capture_default_str()
         ->check(positiveNumber());
     command->add_option("--frames", options->bench.frame_count, "of each flight")
         ->capture_default_str()
-        ->check(CLI::Range(1, 100000));
+        ->check(wholeNumberFrom(1, 100'000));
     command
         ->add_option("--poses", options->bench.pose_count,
                      "of each flight at which the error of the picture at rest is measured")
         ->capture_default_str()
-        ->check(CLI::Range(0, 1000));
+        ->check(wholeNumberFrom(0, 1000));
     command
         ->add_option("--error-px", options->bench.error_px,
                      "how far off the surface may be at rest, in pixels")

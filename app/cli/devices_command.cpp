@@ -56,8 +56,7 @@ Status runDevices(const Options& options)
     DeviceRegistry registry(builtInDrivers());
     const std::vector<FoundDevice> devices = registry.find();
     if (options.is_json) {
-        printLine(devicesAsJson(devices, registry.schemes())
-                      .dump(-1, ' ', false, Json::error_handler_t::replace));
+        printJson(withSchema(devicesAsJson(devices, registry.schemes())), JsonLayout::OneLine);
     } else {
         printLine(devicesAsTable(devices));
     }
@@ -95,10 +94,12 @@ Json devicesAsJson(const std::vector<FoundDevice>& devices, const std::vector<st
 {
     Json list = Json::array();
     for (const FoundDevice& device : devices) {
-        list.push_back({{"uri", device.uri},
-                        {"name", device.name},
-                        {"usable", device.isUsable()},
-                        {"reason", device.reason.empty() ? Json(nullptr) : Json(device.reason)}});
+        list.push_back(
+            {{"uri", device.uri},
+             {"name", device.name},
+             {"usable", device.isUsable()},
+             {"reason", device.reason.empty() ? Json(nullptr) : Json(device.reason)},
+             {"details", device.details.empty() ? Json(nullptr) : Json(device.details)}});
     }
     return {{"devices", list}, {"schemes", schemes}};
 }

@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -17,6 +18,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -26,7 +28,8 @@ using Json = nlohmann::ordered_json;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
-    MapOptions map;
+    std::vector<std::string> paths;
+    MapOptions map; // of each
     bool is_json = false;
     bool has_statistics = true;
 };
@@ -218,15 +221,21 @@ Result<SampleStatistics> statisticsOf(OpenedMap& map, const MapOptions& options)
     return map.file.scan(job.monitor(), {map.info.nodata});
 }
 
-Status runInfo(const Options& options)
+// A raster with what --json prints of it.
+struct Description {
+    RasterInfo info;
+    Json json;
+};
+
+Result<Description> describe(const MapOptions& options, bool has_statistics)
 {
-    Result<OpenedMap> map = openMap(options.map);
+    Result<OpenedMap> map = openMap(options);
     if (!map) {
         return std::move(map).error();
     }
     std::optional<SampleStatistics> statistics;
-    if (options.has_statistics) {
-        const Result<SampleStatistics> computed = statisticsOf(*map, options.map);
+    if (has_statistics) {
+        const Result<SampleStatistics> computed = statisticsOf(*map, options);
         if (computed) {
             statistics = *computed;
             noteSuspiciousSamples(map->info, *statistics);
@@ -244,14 +253,55 @@ Status runInfo(const Options& options)
         constexpr std::string_view kNoPath = ": ";
         map->info.notices.push_back(surface.error().message.substr(kNoPath.size()));
     }
-    const Json json = describe(*map, *statistics, options.map);
-    if (options.is_json) {
-        printLine(json.dump(2, ' ', false, Json::error_handler_t::replace));
-    } else {
-        printForPeople(json, map->info);
+    Json json = withSchema(describe(*map, statistics, options));
+    return Description{std::move(map->info), std::move(json)};
+}
+
+// Every file is described; of those that fail, all but the last are reported here.
+Status runInfo(const Options& options)
+{
+    const ErrorForm form = options.is_json ? ErrorForm::Json : ErrorForm::Line;
+    Json array = Json::array();
+    std::vector<RasterInfo> infos; // of those in the array
+    Status outcome = Done{};
+    bool is_first = true;
+    for (const std::string& path : options.paths) {
+        MapOptions map = options.map;
+        map.path = path;
+        Result<Description> described = describe(map, options.has_statistics);
+        if (!described) {
+            if (!outcome) {
+                printError(outcome.error().message, 1, form);
+            }
+            outcome = std::move(described).error();
+            if (outcome.error().code == ErrorCode::Cancelled) {
+                break;
+            }
+            continue;
+        }
+        if (options.is_json) {
+            array.push_back(described->json);
+            infos.push_back(std::move(described->info));
+            continue;
+        }
+        if (!is_first) {
+            printLine("");
+        }
+        is_first = false;
+        printForPeople(described->json, described->info);
+        std::fflush(stdout); // before the notices
+        printNotices(described->info);
     }
-    printNotices(map->info);
-    return Done{};
+    if (options.is_json && options.paths.size() > 1) {
+        printJson(array);
+    } else if (!array.empty()) {
+        printJson(array.front());
+    }
+    std::fflush(stdout);
+    for (const RasterInfo& info : infos) {
+        printNotices(info);
+    }
+    return outcome;
 }
 
 } // namespace
@@ -259,9 +309,16 @@ Status runInfo(const Options& options)
 void addInfoCommand(CLI::App& app, CommandAction& run)
 {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "Say what a map is and where it lies");
-    options->map.addTo(*command);
-    command->add_flag("--json", options->is_json, "for machines");
+    CLI::App* command =
+        app.add_subcommand("info", "Describe rasters: type, placement, units, range");
+    command
+        ->add_option("DEM", options->paths,
+                     "elevation maps: files, labels, addresses, or GDAL dataset names")
+        ->required()
+        ->transform(mapName());
+    options->map.addOverridesTo(*command);
+    command->add_flag("--json", options->is_json,
+                      "print JSON: an object, or an array of objects for several files");
     command->add_flag_callback(
         "--no-statistics", [options] { options->has_statistics = false; },
         "do not read the samples: minimum, maximum and voids are unknown then");

@@ -233,8 +233,7 @@ Status runLoop(const Options& options)
         }
     }
     if (options.is_json) {
-        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        printLine(asJson(report).dump(2, ' ', false, replace));
+        printJson(withSchema(asJson(report)));
     } else {
         const std::string text = asText(report);
         std::fwrite(text.data(), 1, text.size(), stdout);
@@ -267,7 +266,7 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     }
     command->add_option("--model", options->model, "contact model")
         ->capture_default_str()
-        ->check(CLI::IsMember(names));
+        ->check(oneOf(names));
     command
         ->add_option("--radius", options->loop.radius_m,
                      "of the sphere of virtual-proxy, scene metres; default half a cell")

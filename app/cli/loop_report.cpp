@@ -71,7 +71,7 @@ std::string histogramOf(const TimeHistogram& times)
     return text;
 }
 
-// Why forces were let go and for how long, the last reason at the end.
+// Why forces were off and for how long, the last reason at the end.
 std::string letGoLine(const LoopReport& report)
 {
     std::string text;
@@ -83,9 +83,9 @@ std::string letGoLine(const LoopReport& report)
         }
     }
     if (report.last_reason == LetGoReason::None) {
-        return fmt::format("forces let go: {}\n", text.empty() ? "never" : text);
+        return fmt::format("force off: {}\n", text.empty() ? "never" : text);
     }
-    return fmt::format("forces let go: {}; last for: {}\n", text,
+    return fmt::format("force off: {}; last reason: {}\n", text,
                        letGoReasonName(report.last_reason));
 }
 

@@ -2,18 +2,26 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/text_output.h"
+#include "app/cli/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
+#include <stdexcept>
+#include <string>
 #include <string_view>
+#include <unistd.h>
+#include <vector>
 
 namespace {
 
 constexpr int kExitFailed = 1;
 constexpr int kExitUsage = 2;
+constexpr std::string_view kOutOfMemory =
+    "out of memory: close other programs, or work on a smaller part of the data";
 
 void addVersionTo(CLI::App& app)
 {
@@ -23,12 +31,44 @@ void addVersionTo(CLI::App& app)
     }
 }
 
-int run(int argc, char** argv)
+// Where no handler of main() can: an exception that leaves another thread.
+[[noreturn]] void endWithOneLine()
+{
+    std::string line = "marsview-cli: internal error: terminated; please report this\n";
+    try {
+        if (const std::exception_ptr thrown = std::current_exception()) {
+            std::rethrow_exception(thrown);
+        }
+    } catch (const std::bad_alloc&) {
+        line = std::string("marsview-cli: ") + std::string(kOutOfMemory) + "\n";
+    } catch (const std::exception& error) {
+        line = std::string("marsview-cli: internal error: ") + error.what() + "\n";
+    } catch (...) { // NOLINT(bugprone-empty-catch): the line says all that is known
+    }
+    const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
+    (void)ignored;
+    std::_Exit(kExitFailed);
+}
+
+int refuseUsage(const CLI::App& app,
+                const std::vector<std::string>& arguments,
+                const std::string& message,
+                marsview::ErrorForm form)
+{
+    marsview::printError(message, kExitUsage, form);
+    if (form == marsview::ErrorForm::Line) {
+        std::fprintf(stderr, "Run %s --help for usage.\n",
+                     marsview::commandName(app, arguments).c_str());
+    }
+    return kExitUsage;
+}
+
+int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
 {
     CLI::App app("Explore very large topographic maps from scripts", "marsview-cli");
     app.require_subcommand(1);
     const bool has_stdin =
-        std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--stdin"; });
+        std::find(arguments.begin(), arguments.end(), "--stdin") != arguments.end();
     marsview::CommandAction action;
     marsview::addInfoCommand(app, action);
     marsview::addSampleCommand(app, action, has_stdin);
@@ -44,24 +84,28 @@ int run(int argc, char** argv)
     marsview::addBenchTerrainCommand(*bench, action);
     marsview::addBenchStabilityCommand(*bench, action);
     addVersionTo(app);
+    marsview::Result<std::vector<std::string>> words =
+        marsview::normalizedArguments(app, arguments);
+    if (!words) {
+        return refuseUsage(app, arguments, words.error().message, form);
+    }
     try {
-        app.parse(argc, argv);
+        std::reverse(words->begin(), words->end()); // as CLI11 reads them
+        app.parse(*words);
     } catch (const CLI::Success& help) {
         app.exit(help);
         return EXIT_SUCCESS;
     } catch (const CLI::ParseError& error) {
-        std::fprintf(stderr, "marsview-cli: %s\nRun marsview-cli --help for what it understands.\n",
-                     error.what());
-        return kExitUsage;
+        return refuseUsage(app, arguments, marsview::usageMessage(error), form);
     }
     const marsview::Status status = action();
     if (!status) {
-        std::fprintf(stderr, "marsview-cli: %s\n",
-                     marsview::asOneLine(status.error().message).c_str());
+        std::fflush(stdout);
+        marsview::printError(status.error().message, kExitFailed, form);
         return kExitFailed;
     }
     if (std::fflush(stdout) != 0) {
-        std::fprintf(stderr, "marsview-cli: stdout: writing the result failed\n");
+        marsview::printError("stdout: writing the result failed", kExitFailed, form);
         return kExitFailed;
     }
     return EXIT_SUCCESS;
@@ -71,10 +115,20 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    std::set_terminate(endWithOneLine);
+    marsview::ErrorForm form = marsview::ErrorForm::Line;
     try {
-        return run(argc, argv);
+        const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+        if (std::find(arguments.begin(), arguments.end(), "--json") != arguments.end()) {
+            form = marsview::ErrorForm::Json;
+        }
+        return run(arguments, form);
+    } catch (const std::bad_alloc&) {
+        marsview::printError(std::string(kOutOfMemory), kExitFailed, form);
+    } catch (const std::length_error&) {
+        marsview::printError(std::string(kOutOfMemory), kExitFailed, form);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "marsview-cli: %s\n", error.what());
-        return kExitFailed;
+        marsview::printError(std::string("internal error: ") + error.what(), kExitFailed, form);
     }
+    return kExitFailed;
 }

@@ -3,6 +3,9 @@
 #include "app/cli/long_job.h"
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
+#include "core/base/nearest_word.h"
+#include "core/geo/crs.h"
+#include "core/raster/file_address.h"
 #include "core/raster/remote_raster.h"
 #include "core/session/dataset.h"
 
@@ -11,48 +14,102 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 namespace marsview {
+namespace {
+
+CLI::Validator knownBody()
+{
+    return {[](std::string& name) {
+                if (bodyNamed(name) != nullptr) {
+                    return std::string();
+                }
+                std::vector<std::string> names;
+                for (const Body& body : knownBodies()) {
+                    names.emplace_back(body.name);
+                }
+                return fmt::format("unknown body \"{}\".{}", name, didYouMean(name, names));
+            },
+            ""};
+}
+
+CLI::Validator knownUnit()
+{
+    return {[](std::string& name) {
+                return verticalUnitFrom(name)
+                           ? std::string()
+                           : fmt::format("unknown unit \"{}\"; use m, km, ft or \"US survey ft\"",
+                                         name);
+            },
+            ""};
+}
+
+CLI::Validator knownCrs()
+{
+    return {[](std::string& text) {
+                const Result<Crs> crs = Crs::fromText(text);
+                return crs ? std::string() : crs.error().message;
+            },
+            ""};
+}
+
+} // namespace
+
+CLI::Validator mapName()
+{
+    return {[](std::string& name) {
+                Result<std::string> path = localPathOf(name);
+                if (!path) {
+                    return path.error().message;
+                }
+                name = std::move(path).value();
+                return std::string();
+            },
+            ""};
+}
 
 void MapOptions::addTo(CLI::App& command)
 {
-    command.add_option("DEM", path, "elevation map: a file, a label, or a GDAL dataset name")
-        ->required();
+    command
+        .add_option("DEM", path,
+                    "elevation map: a file, a label, an address, or a GDAL dataset name")
+        ->required()
+        ->transform(mapName());
     addOverridesTo(command);
 }
 
 void MapOptions::addOverridesTo(CLI::App& command)
 {
     const std::string group = "Instead of what the file says";
-    command.add_option("--band", band, "band to read, counted from 1")->group(group);
-    command.add_option("--crs", crs, "EPSG:… or IAU_2015:… code, PROJ string or WKT")->group(group);
-    command.add_option("--body", body, "Mars, Moon, Earth, …")->group(group);
+    command.add_option("--band", band, "band to read, counted from 1")
+        ->group(group)
+        ->check(wholeNumberFrom(1, std::numeric_limits<int>::max()));
+    command.add_option("--crs", crs, "EPSG:… or IAU_2015:… code, PROJ string or WKT")
+        ->group(group)
+        ->check(knownCrs());
+    command.add_option("--body", body, "Mars, Moon, Earth, …")->group(group)->check(knownBody());
     command
         .add_option("--radii", radii_m, "equatorial and polar radius of the ellipsoid in metres")
         ->expected(1, 2)
-        ->group(group);
+        ->group(group)
+        ->check(positiveNumber());
     command
         .add_option(
             "--geotransform", geotransform,
             "x0 dx/dcolumn dx/drow y0 dy/dcolumn dy/drow, of the first pixel's outer corner")
         ->expected(6)
-        ->group(group);
+        ->group(group)
+        ->check(finiteNumber());
     command
         .add_option("--unit", vertical_unit, "unit of the elevations: m, km, ft, \"US survey ft\"")
-        ->group(group);
+        ->group(group)
+        ->check(knownUnit());
     command
         .add_option("--scale", scale,
                     "elevation = sample × scale + offset, in the unit of the elevations")
-        ->check(finiteNumber())
-        ->check(CLI::Validator(
-            [](std::string& text) {
-                double value = 1.0;
-                return CLI::detail::lexical_cast(text, value) && value == 0.0
-                           ? text + " would make every elevation the same"
-                           : std::string();
-            },
-            ""))
+        ->check(nonZeroNumber())
         ->group(group);
     command.add_option("--offset", offset, "added to the scaled samples")
         ->check(finiteNumber())
@@ -61,11 +118,13 @@ void MapOptions::addOverridesTo(CLI::App& command)
         .add_option("--vertical-datum", vertical_datum,
                     "name of the surface that elevations count from: areoid, EGM96 geoid, …")
         ->group(group);
-    command.add_option("--nodata", nodata, "raw value that means void")->group(group);
+    command.add_option("--nodata", nodata, "raw value that marks nodata")
+        ->group(group)
+        ->check(anyNumber());
     command
         .add_option("--latitude", latitude,
                     "how latitudes count: planetocentric (default; on the Earth: planetographic)")
-        ->check(CLI::IsMember({"planetocentric", "planetographic"}));
+        ->check(oneOf({"planetocentric", "planetographic"}));
 }
 
 RasterOverrides MapOptions::overrides() const

@@ -14,7 +14,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+} // namespace CLI
 
 namespace marsview {
 
@@ -45,6 +46,9 @@ struct MapOptions {
     /// How bare latitudes are meant for a map of that body (null: of no known one).
     LatitudeKind latitudeKind(const Body* of_body) const;
 };
+
+/// For every option that names a map: "file://" addresses become paths.
+CLI::Validator mapName();
 
 /// An open raster with the options applied.
 struct OpenedMap {

@@ -1,5 +1,9 @@
-// Numbers among the options of every command.
+// Checks of option values. Each refusal is half a sentence that follows the option's name.
 #pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class Validator;
@@ -9,8 +13,20 @@ namespace marsview {
 
 // CLI11 reads "nan" and "inf" as numbers, lets NaN through its ranges, and writes the bounds of
 // CLI::PositiveNumber with 300 digits.
+
+/// NaN and infinities included.
+CLI::Validator anyNumber();
 CLI::Validator finiteNumber();
 /// Finite and more than 0.
 CLI::Validator positiveNumber();
+/// Finite and not 0.
+CLI::Validator nonZeroNumber();
+/// Both ends included.
+CLI::Validator numberFrom(double low, double high);
+CLI::Validator wholeNumberFrom(std::uint64_t low, std::uint64_t high);
+/// One of these words, case-sensitive; the refusal suggests the nearest one.
+CLI::Validator oneOf(std::vector<std::string> words);
+/// A name that ends in `ending` (".png"), whatever its case.
+CLI::Validator fileNameEndingIn(std::string ending);
 
 } // namespace marsview

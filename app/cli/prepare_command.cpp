@@ -5,6 +5,7 @@
 #include "app/cli/long_job.h"
 #include "app/cli/machine.h"
 #include "app/cli/map_options.h"
+#include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "core/raster/geotiff_skeleton.h"
 #include "core/raster/map_folder.h"
@@ -160,7 +161,7 @@ Status runPrepare(const Options& options)
     json["samples_per_second"] = asJson(static_cast<double>(report->samples) / seconds);
     json["peak_memory_bytes"] = peakMemoryBytes();
     if (options.is_json) {
-        printLine(json.dump(2, ' ', false, Json::error_handler_t::replace));
+        printJson(withSchema(json));
     } else {
         print(json);
     }
@@ -185,7 +186,7 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--checkpoint", options->checkpoint_s, "seconds of work that a stop may cost")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 3600.0));
+        ->check(numberFrom(0.0, 3600.0));
     command->add_flag("--json", options->is_json, "for machines");
     command->callback([options, &run] { run = [options] { return runPrepare(*options); }; });
 }

@@ -2,14 +2,13 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/output_file.h"
 #include "app/cli/scene.h"
 #include "core/raster/output_check.h"
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -38,14 +37,6 @@ struct Options {
     std::vector<double> light_deg{315.0, 45.0};
     bool has_contours = false;
 };
-
-bool hasPngName(const std::string& path)
-{
-    std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
-    std::transform(end.begin(), end.end(), end.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return end == ".png";
-}
 
 Result<OrbitCamera> cameraFrom(const Options& options,
                                const Scene& scene,
@@ -85,11 +76,6 @@ Status runRender(const Options& options)
         !checked) {
         return checked;
     }
-    if (!hasPngName(options.output)) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: pictures are written as PNG; choose a name that ends in .png",
-                                 options.output)};
-    }
     const Result<Viewport> viewport = sizeFrom(options.size);
     if (!viewport) {
         return viewport.error();
@@ -125,6 +111,7 @@ Status runRender(const Options& options)
     if (const std::optional<Error>& problem = picture->report.problem) {
         return *problem; // part of the ground would be coarser than asked for
     }
+    const InterruptIgnored ignored;
     Status written = writePng(picture->colors, options.output);
     if (written) {
         std::fprintf(stderr, "%s: %zu triangles, 99 %% of the pixels within %.2g pixels\n",
@@ -143,9 +130,13 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     CLI::App* command =
         app.add_subcommand("render", "Draw a picture of the terrain, by default of the whole map");
     options->map.addTo(*command);
-    command->add_option("-o,--output", options->output, "PNG file to write")->required();
+    command->add_option("-o,--output", options->output, "PNG file to write")
+        ->required()
+        ->check(fileNameEndingIn(".png"));
     command->add_option("--size", options->size, "width and height in pixels")
-        ->capture_default_str();
+        ->type_name("WxH")
+        ->capture_default_str()
+        ->check(pictureSize());
     command->add_option("--look-at", options->look_at, "X,Y in the middle of the picture, map CRS")
         ->delimiter(',')
         ->expected(2)
@@ -157,8 +148,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
                      "heading of the view, degrees clockwise from north")
         ->check(finiteNumber());
     command->add_option("--tilt", options->tilt_deg, "0 looks straight down, at most 85 degrees")
-        ->check(CLI::Range(0.0, 85.0))
-        ->check(finiteNumber());
+        ->check(numberFrom(0.0, 85.0));
     command->add_option("--exaggeration", options->exaggeration, "of heights")
         ->check(positiveNumber());
     auto* error = command
@@ -169,16 +159,17 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     command->add_flag("--full", options->is_full, "draw every sample")->excludes(error);
     command->add_option("--samples", options->samples, "a pixel, against jagged edges")
         ->capture_default_str()
-        ->check(CLI::Range(1, 16));
+        ->check(wholeNumberFrom(1, 16));
     command->add_option("--shading", options->shading, "tint, hillshade or slope")
         ->capture_default_str()
-        ->check(CLI::IsMember({"tint", "hillshade", "slope"}));
+        ->check(oneOf({"tint", "hillshade", "slope"}));
     std::vector<std::string> ramps;
     for (const ColorRamp& known : colorRamps()) {
         ramps.emplace_back(known.name);
     }
-    command->add_option("--ramp", options->ramp, "colours; by default those that suit the body")
-        ->check(CLI::IsMember(ramps));
+    command
+        ->add_option("--ramp", options->ramp, "color ramp; by default the one that suits the body")
+        ->check(oneOf(ramps));
     command
         ->add_option("--light", options->light_deg,
                      "azimuth,altitude where the light comes from, degrees")

@@ -42,14 +42,14 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
         return fit.error();
     }
     const std::string count =
-        fmt::format("{} of {} goals lie beside the map", fit->beside_count, fit->goal_count);
+        fmt::format("{} of {} goals are outside the map", fit->beside_count, fit->goal_count);
     if (fit->isElsewhere()) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: {}; give the map that they were recorded on", file, count)};
     }
     std::vector<std::string> remarks;
     if (fit->beside_count > 0) {
-        remarks.push_back(count + " and are put to its edge");
+        remarks.push_back(count + " and are clamped to its edge");
     }
     if (fit->is_cut_short) {
         remarks.emplace_back(kCutShortText);

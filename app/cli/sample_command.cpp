@@ -4,6 +4,7 @@
 #include "app/cli/map_options.h"
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
+#include "core/base/bounded_text.h"
 #include "core/session/level_file_use.h"
 #include "core/terrain/surface_reader.h"
 
@@ -57,7 +58,7 @@ public:
             return std::move(height).error();
         }
         if (is_json_) {
-            printLine(asReport(position, *height).dump());
+            printJson(withSchema(asReport(position, *height)), JsonLayout::OneLine);
         } else {
             printLine(asText(*height));
         }
@@ -155,8 +156,19 @@ std::optional<Position> parsePosition(std::string line)
 Status sampleStdin(Sampler& sampler)
 {
     std::ios::sync_with_stdio(false); // so that std::cin can say whether it has more
+    constexpr std::size_t kLineBytesMax = 4096;
     std::string line;
-    for (std::size_t number = 1; std::getline(std::cin, line); ++number) {
+    for (std::size_t number = 1;; ++number) {
+        const LineOutcome outcome = readBoundedLine(std::cin, line, kLineBytesMax);
+        if (outcome == LineOutcome::End) {
+            break;
+        }
+        if (outcome == LineOutcome::TooLong) {
+            return Error{ErrorCode::TooLarge,
+                         fmt::format("--stdin: line {} is longer than {} bytes; write one position "
+                                     "a line",
+                                     number, kLineBytesMax)};
+        }
         if (line.find_first_not_of(" \t\r") == std::string::npos) {
             continue;
         }
@@ -220,9 +232,10 @@ Status runSample(const Options& options)
 void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
 {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("sample", "Print the height at a position, in metres");
+    CLI::App* command =
+        app.add_subcommand("sample", "Print the elevation at a position, in metres");
     options->map.addTo(*command);
-    CLI::Option_group* frames = command->add_option_group("Position");
+    const std::string group = "Position";
     struct FrameOption {
         const char* name;
         const char* metavar;
@@ -236,20 +249,30 @@ void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
                       PositionFrame::Pixel}}) {
         const auto set_frame = [options, frame = entry.frame] { options->frame = frame; };
         if (has_stdin) {
-            frames->add_flag_callback(entry.name, set_frame, entry.help);
+            command->add_flag_callback(entry.name, set_frame, entry.help)->group(group);
         } else {
-            frames->add_option(entry.name, options->position, entry.help)
+            command->add_option(entry.name, options->position, entry.help)
                 ->type_name(entry.metavar)
+                ->group(group)
+                ->check(finiteNumber())
                 ->each([set_frame](const std::string&) { set_frame(); });
         }
     }
-    frames->require_option(has_stdin ? 0 : 1, 1);
     command->add_flag(
         "--stdin", options->is_stdin,
         "read one position a line, print one height a line; the position options then "
         "stand without numbers (default: --map)");
     command->add_flag("--json", options->is_json, "for machines");
-    command->callback([options, &run] { run = [options] { return runSample(*options); }; });
+    command->callback([options, command, has_stdin, &run] {
+        std::size_t count = 0;
+        for (const char* name : {"--map", "--lonlat", "--pixel"}) {
+            count += command->get_option(name)->count() > 0 ? 1U : 0U;
+        }
+        if (count > 1 || (count == 0 && !has_stdin)) {
+            throw CLI::ValidationError("--map, --lonlat, --pixel", "exactly one of them is needed");
+        }
+        run = [options] { return runSample(*options); };
+    });
 }
 
 } // namespace marsview

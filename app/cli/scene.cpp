@@ -4,9 +4,11 @@
 #include "core/session/open_map.h"
 #include "core/view/color_ramp.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -102,13 +104,23 @@ Result<Viewport> sizeFrom(const std::string& text)
     const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
     if (!has_cross || height.ec != std::errc{} || height.ptr != end) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("--size: \"{}\" is no size; write it as 1280x800", text)};
+                     fmt::format("--size: \"{}\" is not a size; write it as 1280x800", text)};
     }
     if (size.width < 1 || size.height < 1 || size.width > kSideMax || size.height > kSideMax) {
         return Error{ErrorCode::OutOfRange, fmt::format("--size: {} is outside 1x1 to {}x{} pixels",
                                                         text, kSideMax, kSideMax)};
     }
     return size;
+}
+
+CLI::Validator pictureSize()
+{
+    return {[](std::string& text) {
+                constexpr std::string_view kName = "--size: "; // the parser writes it too
+                const Result<Viewport> size = sizeFrom(text);
+                return size ? std::string() : size.error().message.substr(kName.size());
+            },
+            ""};
 }
 
 } // namespace marsview

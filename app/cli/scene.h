@@ -11,6 +11,10 @@
 #include <memory>
 #include <string>
 
+namespace CLI {
+class Validator;
+}
+
 namespace marsview {
 
 /// A map ready to be drawn on this thread.
@@ -50,5 +54,7 @@ openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()
 
 /// The size that the option --size says: "1280x800".
 Result<Viewport> sizeFrom(const std::string& text);
+/// Refuses what sizeFrom() refuses.
+CLI::Validator pictureSize();
 
 } // namespace marsview

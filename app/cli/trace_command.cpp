@@ -4,6 +4,7 @@
 #include "app/cli/contact_trace.h"
 #include "app/cli/long_job.h"
 #include "app/cli/number_checks.h"
+#include "app/cli/output_file.h"
 #include "app/cli/replay_notice.h"
 #include "app/cli/text_output.h"
 #include "app/cli/trace_subject.h"
@@ -12,19 +13,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <fmt/format.h>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -42,21 +40,6 @@ struct Options {
     std::string summary;
     std::string output;
 };
-
-Status write(const std::string& path, const std::string& text)
-{
-    errno = 0;
-    std::ofstream file(path, std::ios::binary);
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.close();
-    if (!file) {
-        return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: cannot be written ({}); choose another file, in a folder "
-                                 "that is there and may be written to",
-                                 path, std::generic_category().message(errno))};
-    }
-    return Done{};
-}
 
 // What the command line says holds throughout; otherwise what a recording says.
 Result<std::vector<TraceTouch>>
@@ -200,7 +183,8 @@ std::string noticeOf(const Options& options,
         const GoalFrame frame({subject.dataset, &map}, 1.0);
         if (std::all_of(recording.goals.begin(), recording.goals.end(),
                         [&frame](const TracePoint& goal) { return frame.isClamped(goal); })) {
-            remarks.emplace_back("lies beside the map, and is put to its edge");
+            remarks.emplace_back(
+                "is outside the map, and all its goals are clamped to the map's edge");
         }
     }
     if (const auto count = differingCount(options, recording, updates); count && *count > 0) {
@@ -230,7 +214,7 @@ nlohmann::ordered_json summaryOf(const Options& options,
                                  const std::vector<TraceTouch>& touches,
                                  const std::vector<TraceUpdate>& updates)
 {
-    nlohmann::ordered_json summary = {{"file", options.map.path}};
+    nlohmann::ordered_json summary = withSchema({{"file", options.map.path}});
     summary.update(touchJson(touches.front()));
     if (touches.size() > 1) {
         nlohmann::ordered_json parts = nlohmann::ordered_json::array();
@@ -307,13 +291,14 @@ Status runTrace(const Options& options)
         asCsv(*updates, options.has_timing ? TraceTiming::Yes : TraceTiming::No);
     if (options.output.empty()) {
         std::fwrite(csv.data(), 1, csv.size(), stdout);
-    } else if (Status written = write(options.output, csv); !written) {
+    } else if (Status written = writeOutputFile(options.output, csv); !written) {
         return written;
     }
     if (!options.summary.empty()) {
         const nlohmann::ordered_json summary = summaryOf(options, *recording, *touches, *updates);
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        if (Status written = write(options.summary, summary.dump(2, ' ', false, replace) + "\n");
+        if (Status written =
+                writeOutputFile(options.summary, summary.dump(2, ' ', false, replace) + "\n");
             !written) {
             return written;
         }
@@ -352,7 +337,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
         ->add_option("--model", options->model,
                      fmt::format("contact model; default what a recording says, or else {}",
                                  contactModelName(kContactModelDefault)))
-        ->check(CLI::IsMember(names));
+        ->check(oneOf(names));
     command
         ->add_option("--radius", options->radius_m,
                      "of the sphere of virtual-proxy, scene metres; default what a recording says, "

@@ -6,12 +6,15 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <unordered_map>
 #include <utility>
 
@@ -719,6 +722,19 @@ private:
 
 Result<std::string> contentOf(const std::string& path)
 {
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(path, failure) &&
+        std::filesystem::exists(path, failure)) {
+        return Error{ErrorCode::Unsupported, fmt::format("{}: is not a regular file", path)};
+    }
+    // Reading and checking a mesh takes several times its size.
+    constexpr std::uintmax_t kBytesMax = std::uintmax_t{8} << 30U;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
+    if (!failure && bytes > kBytesMax) {
+        return Error{
+            ErrorCode::TooLarge,
+            fmt::format("{}: has {} bytes; meshes of up to {} are read", path, bytes, kBytesMax)};
+    }
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file) {
         return Error{ErrorCode::NotFound, fmt::format("{}: cannot be opened", path)};

@@ -1,5 +1,7 @@
 #include "haptics/drivers/polhem_parameters.h"
 
+#include "core/base/bounded_text.h"
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -96,9 +98,14 @@ Result<PolhemParameters> readPolhemParameters(const std::filesystem::path& file)
                                  "polhem-v1.json, which comes with the program",
                                  file.string())};
     }
-    const Json json = Json::parse(stream, nullptr, false, true);
+    const Result<std::string> text = readBoundedText(
+        stream, file.string(), {.bytes_max = 1U << 20U, .line_bytes_max = 1U << 20U});
+    if (!text) {
+        return text.error();
+    }
+    const Json json = Json::parse(*text, nullptr, false, true);
     if (!json.is_object()) {
-        return Error{ErrorCode::Invalid, fmt::format("{}: is no JSON object", file.string())};
+        return Error{ErrorCode::Invalid, fmt::format("{}: is not a JSON object", file.string())};
     }
     Reader read(json);
     PolhemParameters p;

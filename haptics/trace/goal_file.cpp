@@ -1,5 +1,6 @@
 #include "haptics/trace/goal_file.h"
 
+#include "core/base/bounded_text.h"
 #include "core/base/plain_number.h"
 #include "haptics/trace/recording_reader.h"
 #include "haptics/trace/table_words.h"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -19,6 +19,10 @@ namespace marsview {
 namespace {
 
 constexpr std::string_view kHeader = "x,y,z";
+
+// Over an hour of a recording at 1 kHz; its longest lines list the tiles that arrived in an update.
+constexpr TextBounds kGoalBounds{.bytes_max = std::size_t{1} << 30U,
+                                 .line_bytes_max = std::size_t{1} << 20U};
 
 bool isHeader(const TableWords& words)
 {
@@ -77,8 +81,10 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
         };
         if (!has_header) {
             if (!isHeader(words)) {
-                return refused(fmt::format("is \"{}\"; the first one has to be the header \"{}\"",
-                                           quotedWord(line), kHeader));
+                return Error{ErrorCode::Invalid,
+                             fmt::format("{}: not a touch recording or list of goals: line {} is "
+                                         "\"{}\", not the header \"{}\"",
+                                         name, number, quotedWord(line), kHeader)};
             }
             has_header = true;
             has_more_columns = words.size() > 3;
@@ -109,7 +115,7 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
 Result<std::string> readGoalText(const std::string& path)
 {
     if (path == "-") {
-        return std::string(std::istreambuf_iterator<char>(std::cin), {});
+        return readBoundedText(std::cin, "--goals", kGoalBounds);
     }
     errno = 0;
     std::ifstream file(path, std::ios::binary);
@@ -124,7 +130,7 @@ Result<std::string> readGoalText(const std::string& path)
                                  "a recording",
                                  path, std::generic_category().message(system_error))};
     }
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    return readBoundedText(file, path, kGoalBounds);
 }
 
 } // namespace marsview

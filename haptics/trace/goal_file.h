@@ -61,7 +61,8 @@ struct GoalRecording {
 /// "ground" and "contact,proxy_x,proxy_y,proxy_z", where the header has them.
 Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name);
 
-/// The text of a file, or of standard input where `path` is "-".
+/// The text of a file, or of standard input where `path` is "-". TooLarge above 1 GiB, or with a
+/// line above 1 MiB.
 Result<std::string> readGoalText(const std::string& path);
 
 } // namespace marsview

@@ -253,7 +253,7 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     };
     const ProgramOutput nan = run("says_nan");
     EXPECT_THAT(nan.err, AllOf(HasSubstr("was lost after 0.0 s: "), HasSubstr("not finite; ")));
-    EXPECT_THAT(nan.out, HasSubstr("; last for: device lost\n")) << "the report is printed, too";
+    EXPECT_THAT(nan.out, HasSubstr("; last reason: device lost\n")) << "the report is printed, too";
     const ProgramOutput millimetres = run("says_millimetres");
     EXPECT_THAT(millimetres.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
     const ProgramOutput lost = run("answers_nonsense");
@@ -261,7 +261,7 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     const ProgramOutput unready = run("says_unready");
     EXPECT_THAT(unready.err, HasSubstr("did not become ready within 0.6 s: its plugin says that "
                                        "it is not ready, but not why; "));
-    EXPECT_THAT(unready.out, HasSubstr("forces let go: device unready 0.600 s; last for: device "
+    EXPECT_THAT(unready.out, HasSubstr("force off: device unready 0.600 s; last reason: device "
                                        "unready\n"));
     const ProgramOutput stopped = run("fails_starting");
     EXPECT_THAT(stopped.err, HasSubstr("the loop did not start: "));
@@ -301,7 +301,7 @@ TEST(LoopCommand, EndsInOrderHoweverItIsToldTo)
             return !none && bytes > kBytesMin;
         })) << readFile(loop.printed());
         EXPECT_EQ(loop.end(signal), 0) << readFile(loop.printed());
-        EXPECT_THAT(readFile(loop.printed()), HasSubstr("forces let go: "));
+        EXPECT_THAT(readFile(loop.printed()), HasSubstr("force off: "));
         EXPECT_EQ(loop.markers(), 0U);
     }
 }
@@ -325,10 +325,10 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
     };
     const ProgramOutput none = run("1e9,0,0\n0,1e9,0\n");
     EXPECT_EQ(none.exit_status, 1);
-    EXPECT_THAT(none.err, HasSubstr(": 2 of 2 goals lie beside the map; give the map"));
+    EXPECT_THAT(none.err, HasSubstr(": 2 of 2 goals are outside the map; give the map"));
     const ProgramOutput some = run("0,0,0\n0,1e9,0\n");
     EXPECT_EQ(some.exit_status, 0) << some.err;
-    EXPECT_THAT(some.err, HasSubstr(": 1 of 2 goals lie beside the map and are put to its edge"));
+    EXPECT_THAT(some.err, HasSubstr(": 1 of 2 goals are outside the map and are clamped to its edge"));
     EXPECT_EQ(run("0,0,0\n").err, "");
 }
 

@@ -77,7 +77,7 @@ TEST(Program, NamesTheOverrideThatItCannotUse)
          {std::pair{"--crs", "EPSG:999999"}, std::pair{"--body", "Arrakis"},
           std::pair{"--unit", "cubits"}}) {
         const ProgramOutput output = runCli({"info", bundledMars(), option, value});
-        EXPECT_EQ(output.exit_status, 1);
+        EXPECT_EQ(output.exit_status, 2);
         EXPECT_NE(output.err.find(value), std::string::npos) << output.err;
     }
 }

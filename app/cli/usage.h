@@ -1,0 +1,30 @@
+// Wrong usage: what is refused before any file is opened.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class ParseError;
+} // namespace CLI
+
+namespace marsview {
+
+/// The arguments, without the program's name, in the form that the parser of `app` reads:
+/// numbers that belong together are separated, whether they were written with commas, blanks or
+/// both, and negative ones stay with their option; `--help` and `--version` count wherever they
+/// stand. Unknown commands and options, missing and superfluous values are errors that suggest the
+/// nearest name. The message has the form "<option>: <what and why>".
+Result<std::vector<std::string>> normalizedArguments(const CLI::App& app,
+                                                     const std::vector<std::string>& arguments);
+
+/// What the parser refuses, as "<option>: <what and why>".
+std::string usageMessage(const CLI::ParseError& error);
+
+/// "marsview-cli sample" for the arguments of that command, or of what comes nearest to it.
+std::string commandName(const CLI::App& app, const std::vector<std::string>& arguments);
+
+} // namespace marsview

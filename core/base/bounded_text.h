@@ -1,0 +1,28 @@
+// Reading a whole text whose length nobody vouches for.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstddef>
+#include <iosfwd>
+#include <string>
+
+namespace marsview {
+
+struct TextBounds {
+    std::size_t bytes_max;      // of the whole text
+    std::size_t line_bytes_max; // of each line, without its end
+};
+
+/// All of `in`, which `name` stands for in the messages. TooLarge as soon as a bound is exceeded,
+/// so that an endless stream ("/dev/zero", a pipe) is refused; Unreadable where reading fails.
+Result<std::string>
+readBoundedText(std::istream& in, const std::string& name, const TextBounds& bounds);
+
+enum class LineOutcome { Line, End, TooLong };
+
+/// The next line without its end, as std::getline, but of at most `bytes_max` bytes. After TooLong
+/// `line` holds the beginning.
+LineOutcome readBoundedLine(std::istream& in, std::string& line, std::size_t bytes_max);
+
+} // namespace marsview
