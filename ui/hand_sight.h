@@ -5,6 +5,8 @@
 #include "core/view/camera.h"
 #include "haptics/interaction/workspace_frame.h"
 
+#include <optional>
+
 namespace marsview {
 
 /// The frame in which a hand within `walls` reaches all of the ground that the camera sees, from
@@ -14,5 +16,15 @@ WorkspaceFrame frameForSight(const OrbitCamera& camera,
                              const SceneSurface& ground,
                              double exaggeration,
                              const WorkspaceBox& walls);
+
+/// The largest rectangle of the workspace, level and within `reach`, above which all of the terrain
+/// lies well inside the picture: a simulated hand that strokes there stays in sight. Nothing where
+/// the camera sees hardly any terrain. Terrain that hides other terrain is not considered.
+std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
+                                           const Viewport& viewport,
+                                           const SceneSurface& ground,
+                                           double exaggeration,
+                                           const WorkspaceFrame& frame,
+                                           const WorkspaceBox& reach);
 
 } // namespace marsview

@@ -3,6 +3,7 @@
 #include "core/raster/output_check.h"
 #include "haptics/drivers/polhem_driver.h"
 #include "haptics/drivers/replay_driver.h"
+#include "haptics/interaction/workspace_walls.h"
 #include "ui/hand_sight.h"
 #include "ui/haptics_text.h"
 #include "ui/sentence.h"
@@ -56,6 +57,12 @@ bool isPlayedBack(const QString& uri)
     return isReplay(uri.toStdString());
 }
 
+// Also where its readings are recorded ("record:FILE,sim:").
+bool isSimulated(const QString& uri)
+{
+    return uri.startsWith(QStringLiteral("sim:")) || uri.contains(QStringLiteral(",sim:"));
+}
+
 } // namespace
 
 HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers, QObject* parent)
@@ -95,6 +102,7 @@ HapticsController::HapticsController(TerrainView& view, DriverMaker make_drivers
 HapticsController::~HapticsController()
 {
     blockSignals(true);
+    excursion_.reset();
     close();
 }
 
@@ -192,8 +200,8 @@ void HapticsController::holdBackRemembered()
     if (!settings_.device.isEmpty()) {
         uri_ = settings_.device;
         setProblem(
-            tr("The program ended unexpectedly while %1 was connected; it is connected again "
-               "when you ask for it")
+            tr("The program ended unexpectedly while %1 was connected. Press Connect to use it "
+               "again")
                 .arg(settings_.device));
     }
 }
@@ -207,6 +215,14 @@ bool HapticsController::canBeSetAtRest() const
 {
     return connection_ == HapticsConnection::Connected &&
            uri_.startsWith(QStringLiteral("polhem:"));
+}
+
+void HapticsController::stopReplay()
+{
+    if (isReplaying()) {
+        close();
+        resumeInterrupted({});
+    }
 }
 
 void HapticsController::setAtRest()
@@ -253,6 +269,7 @@ void HapticsController::close()
 {
     finder_->cancelOpening();
     replay_fit_.reset();
+    returnCamera();
     stopRecording();
     poll_timer_.stop();
     keepTicks();
@@ -424,10 +441,9 @@ Status HapticsController::startRecording(const QString& file)
         return error;
     };
     if (!canRecord()) {
-        return refused({ErrorCode::Invalid,
-                        tr("%1: there is nothing to be recorded; connect a device and open a map")
-                            .arg(file)
-                            .toStdString()});
+        return refused(
+            {ErrorCode::Invalid,
+             tr("%1: nothing to record; connect a device and open a map").arg(file).toStdString()});
     }
     if (Status writable = checkWritable(file); !writable) {
         return refused(std::move(writable).error());
@@ -608,7 +624,21 @@ void HapticsController::takeSight()
                                          view_.exaggeration(), loop_->device().workspace)};
     loop_settings_.frame = hand_view_.frame;
     ++loop_settings_.frame_number;
+    takeStrokes();
     push();
+}
+
+// Where a simulated hand stays in the picture; where it sees no terrain it strokes on as before.
+void HapticsController::takeStrokes()
+{
+    if (!isSimulated(uri_)) {
+        return;
+    }
+    if (const auto strokes =
+            strokesInSight(view_.camera(), view_.viewport(), view_.ground(), view_.exaggeration(),
+                           hand_view_.frame, reachWithin(loop_->device().workspace))) {
+        loop_settings_.strokes = strokes;
+    }
 }
 
 // The hand has moved the map: the camera moves along, as far as it may, and where it may not the
@@ -629,6 +659,7 @@ void HapticsController::followHand(const LoopState& state)
         hand_view_.camera = camera;
         loop_settings_.frame = hand_view_.frame;
         ++loop_settings_.frame_number;
+        takeStrokes();
         push();
     }
 }
@@ -652,8 +683,21 @@ void HapticsController::keepReplayInPicture(const LoopState& state)
     const bool is_user_moving = view_.isMoving() || QGuiApplication::mouseButtons() != Qt::NoButton;
     if (isReplaying() && !is_user_moving && state.contact.is_in_contact &&
         !view_.isInPicture(state.contact.proxy)) {
+        if (!excursion_ || excursion_->sent_to != view_.cameraGoal()) {
+            excursion_ = Excursion{.before = view_.cameraGoal(), .sent_to = {}};
+        }
         view_.flyToPlace(state.contact.proxy);
+        excursion_->sent_to = view_.cameraGoal();
     }
+}
+
+// Unless somebody has moved the camera since the replay did: then they look where they want to.
+void HapticsController::returnCamera()
+{
+    if (excursion_ && excursion_->sent_to == view_.cameraGoal()) {
+        view_.flyTo(excursion_->before);
+    }
+    excursion_.reset();
 }
 
 void HapticsController::push()

@@ -81,6 +81,11 @@ public:
     HapticsConnection connection() const noexcept { return connection_; }
     /// Whether a recording is connected in place of a device.
     bool isReplaying() const;
+    /// How much of it has been played back, 0 to 1.
+    double replayedShare() const { return loop_ ? loop_->playedShare() : 0.0; }
+    /// Ends the replay. The device whose place it took is connected again, and the camera returns
+    /// as at the recording's own end. Does nothing unless isReplaying().
+    void stopReplay();
     /// Whether it is an arm that can be told where it is.
     bool canBeSetAtRest() const;
     /// Connects it anew: it is in its rest position now. Somebody stands beside it and sees that.
@@ -181,9 +186,11 @@ private:
     void setMap(std::size_t index);
     void makeMapAgain();
     void takeSight();
+    void takeStrokes();
     void followHand(const LoopState& state);
     void showHand(const LoopState& state);
     void keepReplayInPicture(const LoopState& state);
+    void returnCamera();
     void push();
     bool isMapWanted() const { return hand_map_ != nullptr; }
 
@@ -212,6 +219,12 @@ private:
     double exaggeration_ = 1.0;
     std::unique_ptr<HandMap> hand_map_; // null where nothing is shown
     LoopSettings loop_settings_;
+    // Of a replay that has moved the camera: where the camera was, and where the replay sent it.
+    struct Excursion {
+        OrbitCamera before;
+        OrbitCamera sent_to;
+    };
+    std::optional<Excursion> excursion_;
     HandView hand_view_; // that loop_settings_.frame_number is of
     bool is_following_ = false;
 

@@ -23,8 +23,7 @@ QString tr(const char* text)
 QString bodyText(const Ellipsoid& ellipsoid)
 {
     const Body* body = bodyOfRadius(ellipsoid.equatorial_m);
-    return body != nullptr ? QString::fromStdString(std::string(body->name))
-                           : tr("of no body that is known");
+    return body != nullptr ? QString::fromStdString(std::string(body->name)) : tr("unknown body");
 }
 
 } // namespace
@@ -35,29 +34,29 @@ QString letGoText(LetGoReason reason)
     case LetGoReason::None:
         return {};
     case LetGoReason::EmergencyStop:
-        return tr("No force: the emergency stop is on");
+        return tr("Force off: emergency stop");
     case LetGoReason::DeviceLost:
-        return tr("No force: the device is lost; plug it in again");
+        return tr("Force off: device lost; plug it in again");
     case LetGoReason::DeviceFinished:
-        return tr("No force: the recording has ended");
+        return tr("Force off: the recording has ended");
     case LetGoReason::DeviceUnready:
-        return tr("No force: the device is not ready; calibrate it, or release its own stop");
+        return tr("Force off: device not ready; calibrate it, or release its own emergency stop");
     case LetGoReason::DeviceStale:
-        return tr("No force: the device answers too late");
+        return tr("Force off: the device answers too late");
     case LetGoReason::DeviceNonsense:
-        return tr("No force: the device measures what cannot be");
+        return tr("Force off: implausible device reading");
     case LetGoReason::NotHeld:
-        return tr("No force: nobody holds the stylus");
+        return tr("Force off: the stylus is not held");
     case LetGoReason::MissedDeadline:
-        return tr("No force: this computer is too busy to keep time");
+        return tr("Force off: deadlines missed; this computer is too busy");
     case LetGoReason::LoopStalled:
-        return tr("The device does not answer any more; switch it off, and connect it again");
+        return tr("The device no longer answers; switch it off and connect it again");
     case LetGoReason::TerrainStale:
-        return tr("No force: the ground under the hand does not come");
+        return tr("Force off: terrain data not loaded");
     case LetGoReason::Fault:
-        return tr("No force: the program computed what is no force");
+        return tr("Force off: internal error (invalid force)");
     case LetGoReason::NoTouch:
-        return tr("No force: there is no map to touch");
+        return tr("Force off: no layer to touch");
     }
     return {};
 }
@@ -68,7 +67,7 @@ QString modeText(StylusMode mode, bool is_in_contact)
     case StylusMode::Hover:
     case StylusMode::Press:
         //: What the hand with a haptic device does
-        return is_in_contact ? tr("Touching the ground") : tr("In the air");
+        return is_in_contact ? tr("Touching the terrain") : tr("Free motion");
     case StylusMode::Pan:
         return tr("Moving the map");
     case StylusMode::Zoom:
@@ -82,16 +81,18 @@ QString realTimeText(const RealTimeGrants& grants)
     const QString scheduling = QString::fromStdString(grants.scheduling_refusal);
     const QString locking = QString::fromStdString(grants.locking_refusal);
     if (grants.hasScheduling() && grants.hasLocking()) {
-        return tr("The system granted real time and locked memory.");
+        return tr("Real-time scheduling and locked memory granted.");
     }
     if (grants.hasScheduling()) {
         //: %1 is the system's reason
-        return tr("The system granted real time, but no locked memory (%1). It still works.")
+        return tr("Real-time scheduling granted, locked memory not granted (%1). Touch works "
+                  "without it.")
             .arg(locking);
     }
     //: %1 is the system's reason
-    return tr("The system did not grant real time (%1). It still works, less steadily when the "
-              "computer is busy.")
+    return tr("Real-time scheduling not granted (%1). Touch works, less steadily while the "
+              "computer "
+              "is busy.")
         .arg(scheduling);
 }
 
@@ -102,8 +103,7 @@ QString recordedText(const QString& file, qulonglong updates, RecordingEnd end)
     //: %1 is a file, %2 a number
     return end == RecordingEnd::AsWanted
                ? tr("%1: %2 updates recorded").arg(name, count)
-               : tr("%1: %2 updates recorded; it ended as another map is touched, or none")
-                     .arg(name, count);
+               : tr("%1: %2 updates recorded; stopped: layer changed or closed").arg(name, count);
 }
 
 QString savedTicksText(const SavedTicks& saved)
@@ -119,19 +119,18 @@ QString replayText(const QString& file, const ReplayFit& fit, const TouchedGroun
     const QString name = QFileInfo(file).fileName();
     if (fit.isElsewhere()) {
         //: %1 is a file
-        return tr("%1 was recorded elsewhere: none of it lies on the map; open the one that it was "
-                  "recorded on")
+        return tr("All goals of %1 are outside the map; open the map that it was recorded on")
             .arg(name);
     }
     QStringList sentences;
     if (fit.beside_count > 0) {
         //: %1 is a file, %2 and %3 are numbers
-        sentences.append(tr("%1: %2 of %3 goals lie beside the map and are put to its edge.")
+        sentences.append(tr("%1: %2 of %3 goals are outside the map and are clamped to its edge.")
                              .arg(name, countText(fit.beside_count), countText(fit.goal_count)));
     }
     if (fit.is_cut_short) {
         //: %1 is a file
-        sentences.append(tr("%1 was cut short in its last line, which is left out.").arg(name));
+        sentences.append(tr("The last line of %1 is incomplete and is left out.").arg(name));
     }
     if (fit.other_map) {
         //: %1 is a file, %2 and %3 are numbers of samples, %4 is a planet or a moon
@@ -143,7 +142,7 @@ QString replayText(const QString& file, const ReplayFit& fit, const TouchedGroun
     if (const GoalPart* other = fit.otherThan(ground)) {
         //: %1 is a file, %2 and %4 are contact models, %3 and %5 numbers
         sentences.append(
-            tr("%1 was recorded with %2 at exaggeration %3; the map is touched with %4 at %5.")
+            tr("%1 was recorded with %2 at exaggeration %3; it is replayed with %4 at %5.")
                 .arg(name, contactModelText(other->kind), shortNumberText(other->exaggeration, 4),
                      contactModelText(ground.kind), shortNumberText(ground.exaggeration, 4)));
     }

@@ -403,6 +403,14 @@ void TerrainView::flyToPlace(const ScenePoint& place)
     navigator_.moveTo(lookingAt(place, navigator_.goal()), kFlyDuration);
 }
 
+void TerrainView::flyTo(const OrbitCamera& camera)
+{
+    if (!ground_.isEmpty()) {
+        is_at_opening_view_ = false;
+        navigator_.moveTo(camera, kFlyDuration);
+    }
+}
+
 void TerrainView::lookAt(const ScenePoint& place)
 {
     if (ground_.isEmpty()) {

@@ -79,6 +79,8 @@ public:
     void setFrameTarget(std::chrono::milliseconds target);
 
     const OrbitCamera& camera() const noexcept { return navigator_.camera(); }
+    /// Where the camera will be when it has come to rest.
+    const OrbitCamera& cameraGoal() const noexcept { return navigator_.goal(); }
     /// Of the picture, in pixels of the frame buffer.
     Viewport viewport() const;
     /// Jumps, within the limits.
@@ -109,6 +111,8 @@ public:
     void flyToPlace(const ScenePoint& place);
     /// Flies to what surfaceAt() found, and much nearer to it.
     void flyNearer(const RayHit& hit);
+    /// Flies until the camera is this one, within the limits.
+    void flyTo(const OrbitCamera& camera);
     /// Looks at a place of the scene at once, from the same side and distance.
     void lookAt(const ScenePoint& place);
 

@@ -403,25 +403,25 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
     contact_sound = menu->addAction(tr("So&und of Touch"));
     contact_sound->setCheckable(true);
     contact_sound->setStatusTip(
-        tr("Hear the ground that is touched: the force as a tone, its roughness as a hiss"));
+        tr("Hear the terrain that is touched: the force as a tone, its roughness as a hiss"));
     haptic_devices = menu->addAction(tr("&Devices…"));
-    haptic_devices->setStatusTip(tr("Connect a haptic device and set what is felt"));
+    haptic_devices->setStatusTip(tr("Connect a haptic device and set stiffness and force"));
     menu->addSeparator();
     record_touch = menu->addAction(tr("&Record Touch…"));
-    record_touch->setStatusTip(tr("Write what the hand with a device does into a file"));
+    record_touch->setStatusTip(tr("Record the motion of the device's stylus in a file"));
     record_touch->setEnabled(false);
     replay_touch = menu->addAction(tr("Re&play Touch…"));
-    replay_touch->setStatusTip(tr("Let a recording touch the map in place of a device"));
-    save_flight = menu->addAction(tr("Save &Flight Record…"));
+    replay_touch->setStatusTip(tr("Play back a recording in place of a device"));
+    save_flight = menu->addAction(tr("Save Diagnostic &Log…"));
     save_flight->setStatusTip(
-        tr("Write the device's last ten seconds into a file, to find out what happened"));
+        tr("Save the last ten seconds of the device, tick by tick, for troubleshooting"));
     save_flight->setEnabled(false);
     menu->addSeparator();
     emergency_stop = menu->addAction(tr("Emergency &Stop"));
     emergency_stop->setShortcuts(
         {QKeySequence(Qt::CTRL | Qt::Key_Period), QKeySequence(Qt::Key_Pause)});
     emergency_stop->setShortcutContext(Qt::ApplicationShortcut);
-    emergency_stop->setStatusTip(tr("Let go of everything at once"));
+    emergency_stop->setStatusTip(tr("Switch all forces off at once"));
     emergency_stop->setEnabled(false);
 }
 

@@ -68,6 +68,12 @@ public:
     /// A device that plays back a recording has no hand, but goals in map coordinates. Where this
     /// is true, `goal` is that of the last sample, and its position means nothing.
     virtual bool recordedGoal(TracePoint& /*goal*/) const noexcept { return false; }
+    /// The share of a recording that has been played back, 0 to 1. Any thread.
+    virtual double playedShare() const noexcept { return 0.0; }
+
+    /// A simulated hand strokes within this part of its workspace from the next sample on; other
+    /// devices ignore it. The ticking thread's.
+    virtual void strokeWithin(const WorkspaceBox& /*box*/) noexcept {}
 
     /// A device that owns the clock calls `tick(self, now)` once per period on its own thread from
     /// start() on, until stop() has returned; the tick reads and writes it. For a device that does

@@ -75,6 +75,8 @@ public:
     {
         return device_->recordedGoal(goal);
     }
+    double playedShare() const noexcept override { return device_->playedShare(); }
+    void strokeWithin(const WorkspaceBox& box) noexcept override { device_->strokeWithin(box); }
     bool startClock(ClockTick tick, void* self) noexcept override
     {
         return device_->startClock(tick, self);

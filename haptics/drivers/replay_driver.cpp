@@ -47,8 +47,8 @@ public:
         const auto nowhere = std::find_if_not(goals->begin(), goals->end(), isSomewhere);
         if (nowhere != goals->end()) {
             return Error{ErrorCode::Invalid,
-                         fmt::format("replay:{}: goal {} of {} is at {}, {}, {}, which is no place "
-                                     "for a hand; take it out",
+                         fmt::format("replay:{}: goal {} of {} is at {}, {}, {}, which is not a "
+                                     "position; remove it",
                                      path, nowhere - goals->begin() + 1, goals->size(), nowhere->x,
                                      nowhere->y, nowhere->z)};
         }
@@ -75,13 +75,14 @@ ReplayDevice::ReplayDevice(std::vector<TracePoint> goals, ReplayEnd end)
 
 DeviceStatus ReplayDevice::read(DeviceSample& sample) noexcept
 {
-    if (next_ == goals_.size()) {
+    std::size_t next = next_.load(std::memory_order_relaxed);
+    if (next == goals_.size()) {
         if (end_ == ReplayEnd::Finish || goals_.empty()) {
             return DeviceStatus::Finished;
         }
-        next_ = 0;
+        next = 0;
     }
-    ++next_;
+    next_.store(next + 1, std::memory_order_relaxed);
     sample = {.time = std::chrono::steady_clock::now()};
     return DeviceStatus::Fine;
 }
@@ -93,11 +94,19 @@ DeviceStatus ReplayDevice::write(const Vec3& /*force_n*/) noexcept
 
 bool ReplayDevice::recordedGoal(TracePoint& goal) const noexcept
 {
-    if (next_ == 0) {
+    const std::size_t next = next_.load(std::memory_order_relaxed);
+    if (next == 0) {
         return false;
     }
-    goal = goals_[next_ - 1];
+    goal = goals_[next - 1];
     return true;
+}
+
+double ReplayDevice::playedShare() const noexcept
+{
+    return goals_.empty() ? 1.0
+                          : static_cast<double>(next_.load(std::memory_order_relaxed)) /
+                                static_cast<double>(goals_.size());
 }
 
 bool isReplay(std::string_view uri) noexcept

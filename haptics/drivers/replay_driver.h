@@ -4,6 +4,7 @@
 #include "core/contact/goal_frame.h"
 #include "haptics/device/device_driver.h"
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -24,12 +25,13 @@ public:
     DeviceStatus read(DeviceSample& sample) noexcept override;
     DeviceStatus write(const Vec3& force_n) noexcept override;
     bool recordedGoal(TracePoint& goal) const noexcept override;
+    double playedShare() const noexcept override;
 
 private:
     DeviceCapabilities capabilities_;
     std::vector<TracePoint> goals_;
     ReplayEnd end_;
-    std::size_t next_ = 0;
+    std::atomic<std::size_t> next_{0}; // written by the ticking thread
 };
 
 /// Whether a device is a recording that is played back.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -90,6 +91,21 @@ SimDevice::SimDevice(const SimOptions& options)
     capabilities_.stiffness_n_per_m_max = options.stiffness_n_per_m_max;
     capabilities_.rate_hz = options.rate_hz;
     heading_rad_ = 2.0 * std::numbers::pi * nextRandom(random_state_);
+    strokes_ = {{kWorkspace.low.x + kInsideM, kWorkspace.low.y + kInsideM, kWorkspace.low.z},
+                {kWorkspace.high.x - kInsideM, kWorkspace.high.y - kInsideM, kWorkspace.high.z}};
+}
+
+void SimDevice::strokeWithin(const WorkspaceBox& box) noexcept
+{
+    const auto within = [](double low, double high, double low_max, double high_max) {
+        const double bounded_low = std::clamp(low, low_max, high_max);
+        return std::pair(bounded_low, std::clamp(high, bounded_low, high_max));
+    };
+    const auto [west, east] =
+        within(box.low.x, box.high.x, kWorkspace.low.x + kInsideM, kWorkspace.high.x - kInsideM);
+    const auto [south, north] =
+        within(box.low.y, box.high.y, kWorkspace.low.y + kInsideM, kWorkspace.high.y - kInsideM);
+    strokes_ = {{west, south, kWorkspace.low.z}, {east, north, kWorkspace.high.z}};
 }
 
 DeviceStatus SimDevice::read(DeviceSample& sample) noexcept
@@ -109,7 +125,7 @@ DeviceStatus SimDevice::write(const Vec3& force_n) noexcept
 }
 
 // Strokes that curve a little and turn back before the walls. The hand leans on the stylus with a
-// constant force, so that it follows the ground without knowing it.
+// constant force, so that it follows the surface.
 void SimDevice::wander() noexcept
 {
     const double dt_s = 1.0 / options_.rate_hz;
@@ -122,17 +138,25 @@ void SimDevice::wander() noexcept
     const double speed = options_.speed_m_per_s;
     Vec3 velocity{speed * std::cos(heading_rad_), speed * std::sin(heading_rad_), 0.0};
     const auto isLeaving = [](double at, double v, double low, double high) {
-        return (at < low + kInsideM && v < 0.0) || (at > high - kInsideM && v > 0.0);
+        return (at <= low && v < 0.0) || (at >= high && v > 0.0);
     };
-    if (isLeaving(aim_.x, velocity.x, kWorkspace.low.x, kWorkspace.high.x)) {
+    if (isLeaving(aim_.x, velocity.x, strokes_.low.x, strokes_.high.x)) {
         heading_rad_ = std::numbers::pi - heading_rad_;
         velocity.x = -velocity.x;
     }
-    if (isLeaving(aim_.y, velocity.y, kWorkspace.low.y, kWorkspace.high.y)) {
+    if (isLeaving(aim_.y, velocity.y, strokes_.low.y, strokes_.high.y)) {
         heading_rad_ = -heading_rad_;
         velocity.y = -velocity.y;
     }
     aim_ = aim_ + velocity * dt_s;
+    // Back to where the strokes are, faster than any stroke but no jump.
+    constexpr double kReturnMPerS = 0.5;
+    const auto returned = [dt_s](double at, double low, double high) {
+        return at + std::clamp(std::clamp(at, low, high) - at, -kReturnMPerS * dt_s,
+                               kReturnMPerS * dt_s);
+    };
+    aim_.x = returned(aim_.x, strokes_.low.x, strokes_.high.x);
+    aim_.y = returned(aim_.y, strokes_.low.y, strokes_.high.y);
     const bool is_lifting = isTimeFor(options_.lift_s, 0.1, hand_.seconds());
     const double lean_m =
         options_.hand.grip_n_per_m > 0.0 ? options_.press_n / options_.hand.grip_n_per_m : 0.0;

@@ -28,6 +28,8 @@ public:
     const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
     DeviceStatus read(DeviceSample& sample) noexcept override;
     DeviceStatus write(const Vec3& force_n) noexcept override;
+    /// A hand that is outside moves there at once, in some tenths of a second. Heights are ignored.
+    void strokeWithin(const WorkspaceBox& box) noexcept override;
 
 private:
     void wander() noexcept;
@@ -36,6 +38,7 @@ private:
     DeviceCapabilities capabilities_;
     SimulatedHand hand_;
     std::uint64_t random_state_;
+    WorkspaceBox strokes_; // turns back at these sides
     WorkspacePoint aim_{};
     double heading_rad_ = 0.0;
     double turn_rad_per_s_ = 0.0;

@@ -31,6 +31,8 @@ struct LoopSettings {
     bool is_grabbing = false; // with a key instead of the stylus' button
     bool is_stopped = false;  // emergency stop
     ModeOptions modes{};
+    /// The part of the workspace in which a simulated hand strokes; nothing: all of it.
+    std::optional<WorkspaceBox> strokes{};
 };
 
 /// How ground and walls are put together. All but Fade is there for measuring why it is there.

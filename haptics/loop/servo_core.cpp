@@ -143,7 +143,9 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
         writeForce({});
         return LoopOutcome::Stop;
     }
-    settings_.take();
+    if (settings_.take() && settings_.front().strokes) {
+        device_->strokeWithin(*settings_.front().strokes);
+    }
     if (is_brought_to_rest_.exchange(false, std::memory_order_acq_rel)) {
         forgetForce();
     }

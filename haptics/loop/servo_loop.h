@@ -66,6 +66,8 @@ public:
     /// hangs. One sentence that begins with the device's name.
     Status status() const;
     const DeviceCapabilities& device() const noexcept { return core_->device().capabilities(); }
+    /// HapticDevice::playedShare().
+    double playedShare() const noexcept { return core_->device().playedShare(); }
     /// Why the device is not as it should be, or what status() says, in one sentence; empty where
     /// nothing is known, and while ticks have stopped but may come back.
     std::string trouble() const;

@@ -473,7 +473,7 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
     };
     const QByteArray parts = ",map,part,model,radius_m,exaggeration";
     const QString other = QStringLiteral(
-        "touch.csv was recorded with God-Object at exaggeration 3; the map is touched with "
+        "touch.csv was recorded with God-Object at exaggeration 3; it is replayed with "
         "Continuous Walk (exact) at 1.");
     EXPECT_EQ(replay("500900,4000600,5000,1,1,god-object,1,3", parts), other);
     EXPECT_TRUE(haptics().isReplaying());
@@ -519,6 +519,91 @@ TEST_F(HapticsControllerTest, KeepsTheHandOfARecordingInThePicture)
     }));
     EXPECT_TRUE(haptics().isReplaying());
     EXPECT_NEAR(view().camera().distance_m, 300.0, 50.0) << "only to the side";
+}
+
+// Every proxy that is seen in a second or two of strokes.
+TEST_F(HapticsControllerTest, ASimulatedHandStrokesWithinThePicture)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.3,lift_s=0")));
+    const OrbitCamera home = view().camera();
+    struct Sight {
+        const char* name;
+        double distance_share;
+        double tilt_deg;
+        double azimuth_deg;
+        double exaggeration;
+    };
+    for (const Sight& sight :
+         {Sight{"home", 1.0, home.tilt.degrees(), 0.0, 1.0}, Sight{"oblique", 0.5, 75.0, 40.0, 1.0},
+          Sight{"near", 0.1, 60.0, 200.0, 1.0}, Sight{"from above", 0.3, 0.0, 130.0, 1.0},
+          Sight{"exaggerated", 0.6, 60.0, -50.0, 10.0}}) {
+        SCOPED_TRACE(sight.name);
+        OrbitCamera camera = home;
+        camera.distance_m *= sight.distance_share;
+        camera.tilt = Angle::degrees(sight.tilt_deg);
+        camera.azimuth = Angle::degrees(sight.azimuth_deg);
+        view().setExaggeration(sight.exaggeration);
+        view().setCamera(camera);
+        const std::uint64_t begin = state().tick;
+        constexpr std::uint64_t kReturnTicks = 700; // from where the hand was before
+        ASSERT_TRUE(waitFor([&] { return state().tick > begin + kReturnTicks; }));
+        int seen = 0;
+        int outside = 0;
+        ASSERT_TRUE(waitFor([&] {
+            const LoopState now = state();
+            if (now.contact.is_in_contact) {
+                ++seen;
+                outside += view().isInPicture(now.contact.proxy) ? 0 : 1;
+            }
+            return now.tick > begin + kReturnTicks + 2000;
+        }));
+        EXPECT_GT(seen, 10);
+        EXPECT_EQ(outside, 0) << "of " << seen;
+    }
+}
+
+TEST_F(HapticsControllerTest, TheCameraReturnsWhenAReplayEndsOrIsStopped)
+{
+    OrbitCamera camera = view().camera();
+    camera.target = {-700.0, -400.0, camera.target.z};
+    camera.distance_m = 300.0;
+    view().setCamera(camera);
+    const OrbitCamera before = view().camera();
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 60'000, "500900,4000600,0"); // out of sight
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); }));
+    EXPECT_GT(haptics().replayedShare(), 0.0);
+    EXPECT_LT(haptics().replayedShare(), 1.0);
+    haptics().stopReplay();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(haptics().problem(), QString());
+    EXPECT_TRUE(waitFor([&] { return view().camera() == before; }));
+
+    writeGoals(file, 1500, "500900,4000600,0");
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before; }));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(waitFor([&] { return view().camera() == before; }));
+}
+
+TEST_F(HapticsControllerTest, TheCameraStaysWhereTheUserMovesItDuringAReplay)
+{
+    OrbitCamera camera = view().camera();
+    camera.target = {-700.0, -400.0, camera.target.z};
+    camera.distance_m = 300.0;
+    view().setCamera(camera);
+    const OrbitCamera before = view().camera();
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 60'000, "500900,4000600,0");
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); }));
+    view().step(NavigationStep::TurnLeft);
+    ASSERT_TRUE(waitFor([&] { return !view().isMoving(); }));
+    const OrbitCamera chosen = view().camera();
+    haptics().stopReplay();
+    EXPECT_FALSE(view().isMoving());
+    EXPECT_EQ(view().camera(), chosen);
 }
 
 TEST_F(HapticsControllerTest, SaysThatARecordingIsOfAMapThatIsNotOpen)

@@ -9,6 +9,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QFile>
 #include <QLabel>
 #include <QListWidget>
 #include <QProgressBar>
@@ -74,12 +75,15 @@ TEST_F(HapticsPanelTest, ShowsForceAndTimesWhileConnected)
     EXPECT_FALSE(list().item(0)->font().bold());
     auto& force = part<QProgressBar>("force");
     EXPECT_TRUE(waitFor([&] { return force.value() > 10; }));
-    EXPECT_EQ(text("letGoReason"), QStringLiteral("Touching the ground"));
+    EXPECT_EQ(text("letGoReason"), QStringLiteral("Touching the terrain"));
     EXPECT_TRUE(waitFor([&] {
         return panel().findChild<TimePlot*>()->moments().size() > 2 && !text("times").isEmpty();
     }));
     EXPECT_TRUE(text("times").contains(QStringLiteral("µs")));
-    EXPECT_TRUE(text("realTime").contains(QStringLiteral("real time")));
+    for (const char* label : {"median ", "99.9 % ", "longest "}) {
+        EXPECT_TRUE(text("times").contains(QLatin1String(label))) << label;
+    }
+    EXPECT_TRUE(text("realTime").contains(QStringLiteral("Real-time scheduling")));
     part<QPushButton>("connectDevice").click();
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
     EXPECT_EQ(force.value(), 0);
@@ -102,6 +106,35 @@ TEST_F(HapticsPanelTest, TheStopButtonStopsAndLetsReturn)
     stop.click();
     EXPECT_FALSE(haptics().isStopped());
     EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+}
+
+TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
+{
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    QFile goals(file);
+    ASSERT_TRUE(goals.open(QIODevice::WriteOnly));
+    goals.write("x,y,z\n");
+    for (int i = 0; i < 60'000; ++i) {
+        goals.write("500900,4000600,0\n"); // below the surface
+    }
+    goals.close();
+    auto& progress = part<QProgressBar>("replayProgress");
+    auto& replay = part<QPushButton>("replay");
+    EXPECT_TRUE(progress.isHidden());
+    const QString before = replay.text();
+    haptics().connectTo(QStringLiteral("replay:") + file);
+    ASSERT_TRUE(isConnectedSoon());
+    EXPECT_TRUE(progress.isVisibleTo(&panel()));
+    EXPECT_TRUE(waitFor([&] { return progress.value() > 0; }));
+    EXPECT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    EXPECT_TRUE(waitFor([&] { return text("letGoReason") == QStringLiteral("Replaying"); }));
+    EXPECT_FALSE(part<QProgressBar>("force").format().contains(QStringLiteral("0.00")));
+    EXPECT_EQ(text("hapticStatus"), QStringLiteral("Replaying touch.csv"));
+    EXPECT_EQ(replay.text(), QStringLiteral("Stop Re&play"));
+    replay.click();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_TRUE(progress.isHidden());
+    EXPECT_EQ(replay.text(), before);
 }
 
 TEST_F(HapticsPanelTest, SlidersAreBoundedByTheDevice)

@@ -29,7 +29,7 @@ HandPointer::HandPointer(QWidget* parent)
 {
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setFocusPolicy(Qt::NoFocus);
-    setAccessibleDescription(tr("The arrow points to where the hand is"));
+    setAccessibleDescription(tr("The arrow points to the stylus"));
     resize(kSide, kSide);
     hide();
 }
@@ -58,11 +58,11 @@ void HandPointer::pointTo(QPointF middle, QPointF direction)
 QString HandPointer::spokenText() const
 {
     if (std::abs(direction_.x()) > std::abs(direction_.y())) {
-        return direction_.x() > 0.0 ? tr("The hand is to the right of the picture")
-                                    : tr("The hand is to the left of the picture");
+        return direction_.x() > 0.0 ? tr("The stylus is to the right of the picture")
+                                    : tr("The stylus is to the left of the picture");
     }
-    return direction_.y() > 0.0 ? tr("The hand is below the picture")
-                                : tr("The hand is above the picture");
+    return direction_.y() > 0.0 ? tr("The stylus is below the picture")
+                                : tr("The stylus is above the picture");
 }
 
 void HandPointer::paintEvent(QPaintEvent* /*event*/)

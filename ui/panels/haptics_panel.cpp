@@ -1,5 +1,6 @@
 #include "ui/panels/haptics_panel.h"
 
+#include "haptics/drivers/replay_driver.h"
 #include "ui/haptics_text.h"
 #include "ui/number_text.h"
 #include "ui/panels/caption.h"
@@ -32,6 +33,7 @@ namespace marsview {
 namespace {
 
 constexpr int kForceSteps = 200;   // of the meter
+constexpr int kReplaySteps = 1000; // of the progress
 constexpr int kStiffnessStep = 10; // N/m
 constexpr int kShareStep = 5;      // %
 
@@ -148,18 +150,18 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
 {
     force_ = new QProgressBar(this);
     force_->setObjectName(QStringLiteral("force"));
-    force_->setAccessibleName(tr("Force on the hand"));
+    force_->setAccessibleName(tr("Force on the stylus"));
     force_->setRange(0, kForceSteps);
     layout.addWidget(force_);
-    reason_ = makeText(this, tr("What the hand does"));
+    reason_ = makeText(this, tr("Touch state"));
     reason_->setObjectName(QStringLiteral("letGoReason"));
     // As high with two lines as with one: what is below stays where it is.
     reason_->setMinimumHeight(fontMetrics().height() * 2);
     reason_->setAlignment(Qt::AlignLeading | Qt::AlignTop);
-    rest_ = new QPushButton(tr("It Is in Its Rest Position"), this);
+    rest_ = new QPushButton(tr("Set Home Position"), this);
     rest_->setObjectName(QStringLiteral("restPosition"));
     rest_->setToolTip(
-        tr("Put the arm into its rest position first; places are counted from there"));
+        tr("Move the arm to its home position first; positions are measured from there"));
     rest_->hide();
     connect(rest_, &QPushButton::clicked, &controller_, &HapticsController::setAtRest);
     layout.addWidget(reason_);
@@ -176,7 +178,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
         layout.addLayout(makeCaptionLine(caption, value));
         layout.addWidget(slider);
     };
-    make_slider(stiffness_, stiffness_text_, tr("St&iffness"), QStringLiteral("stiffness"));
+    make_slider(stiffness_, stiffness_text_, tr("Surface st&iffness"), QStringLiteral("stiffness"));
     stiffness_->setSingleStep(1);
     stiffness_->setPageStep(5);
     connect(stiffness_, &QSlider::valueChanged, this, [this](int value) {
@@ -215,7 +217,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     layout.addWidget(models_);
     walls_ = new QCheckBox(tr("&Walls at the edges"), this);
     walls_->setObjectName(QStringLiteral("walls"));
-    walls_->setToolTip(tr("Keep the hand where the device works best"));
+    walls_->setToolTip(tr("Keep the stylus where the device works best"));
     connect(walls_, &QCheckBox::toggled, this, [this](bool has_walls) {
         if (!is_filling_) {
             HapticsSettings settings = controller_.settings();
@@ -232,24 +234,33 @@ void HapticsPanel::makeRecording(QBoxLayout& layout)
     auto* line = new QHBoxLayout;
     record_ = new QPushButton(this);
     record_->setObjectName(QStringLiteral("record"));
-    record_->setToolTip(tr("Write what the hand does on this map into a file"));
+    record_->setToolTip(tr("Record the motion of the stylus on this map in a file"));
     connect(record_, &QPushButton::clicked, this, [this] {
         controller_.isRecording() ? controller_.stopRecording() : chooseRecording();
     });
-    replay_ = new QPushButton(tr("Re&play…"), this);
+    replay_ = new QPushButton(this);
     replay_->setObjectName(QStringLiteral("replay"));
-    replay_->setToolTip(tr("Let a recording touch this map in place of a device"));
-    connect(replay_, &QPushButton::clicked, this, &HapticsPanel::chooseReplay);
+    connect(replay_, &QPushButton::clicked, this,
+            [this] { controller_.isReplaying() ? controller_.stopReplay() : chooseReplay(); });
     for (QPushButton* button : {record_, replay_}) {
         button->setMinimumWidth(0);
         button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
         line->addWidget(button);
     }
     layout.addLayout(line);
-    flight_ = new QPushButton(tr("Save F&light Record…"), this);
+    // Its room stays when it is hidden: the buttons below do not move.
+    replayed_ = new QProgressBar(this);
+    replayed_->setObjectName(QStringLiteral("replayProgress"));
+    replayed_->setAccessibleName(tr("Replayed"));
+    replayed_->setRange(0, kReplaySteps);
+    QSizePolicy policy = replayed_->sizePolicy();
+    policy.setRetainSizeWhenHidden(true);
+    replayed_->setSizePolicy(policy);
+    layout.addWidget(replayed_);
+    flight_ = new QPushButton(tr("Save Diagnostic &Log…"), this);
     flight_->setObjectName(QStringLiteral("saveFlight"));
     flight_->setToolTip(
-        tr("Write the device's last ten seconds into a file, to find out what happened"));
+        tr("Save the last ten seconds of the device, tick by tick, for troubleshooting"));
     connect(flight_, &QPushButton::clicked, this, &HapticsPanel::chooseFlightRecord);
     layout.addWidget(flight_);
     recording_ = makeText(this, tr("Recording"));
@@ -294,7 +305,11 @@ void HapticsPanel::showDevices()
             new QListWidgetItem(reason.isEmpty() ? name : name + QLatin1Char('\n') + reason, list_);
         item->setData(kUriRole, uri);
         item->setData(kUsableRole, device.isUsable());
-        item->setToolTip(uri);
+        item->setToolTip(
+            device.details.empty()
+                ? uri
+                //: %1 is a device's address, %2 what the system reported
+                : tr("%1\nDetails: %2").arg(uri, QString::fromStdString(device.details)));
         if (!device.isUsable()) {
             item->setForeground(palette().color(QPalette::PlaceholderText));
         }
@@ -379,8 +394,12 @@ void HapticsPanel::showConnection()
         break;
     case HapticsConnection::Connected: {
         if (controller_.isReplaying()) {
-            status_->setText(!controller_.problem().isEmpty() ? controller_.problem()
-                                                              : tr("A recording touches the map."));
+            const QString file =
+                QString::fromStdString(replayedFile(controller_.uri().toStdString()));
+            status_->setText(!controller_.problem().isEmpty()
+                                 ? controller_.problem()
+                                 //: %1 is a file
+                                 : tr("Replaying %1").arg(QFileInfo(file).fileName()));
             break;
         }
         const DeviceCapabilities& device = controller_.loop()->device();
@@ -411,9 +430,9 @@ void HapticsPanel::showSettings()
     stiffness_->setToolTip(controller_.loop() != nullptr
                                //: %1 is a number of newtons per metre
                                ? tr("The device is stable up to %1 N/m").arg(numberText(most, 0))
-                               : tr("How hard the ground is"));
+                               : tr("Surface stiffness"));
     share_->setValue(static_cast<int>(std::lround(settings.force_share * 100.0 / kShareStep)));
-    share_->setToolTip(tr("How much of all forces reaches the hand"));
+    share_->setToolTip(tr("Share of the computed force that the device renders"));
     share_text_->setText(tr("%1 %").arg(numberText(settings.force_share * 100.0, 0)));
     walls_->setChecked(settings.has_walls);
     const QList<QAction*> models = model_actions_.actions();
@@ -429,9 +448,10 @@ void HapticsPanel::showStopped()
     const bool is_stopped = controller_.isStopped();
     const bool is_of_use = is_stopped || controller_.canBeStopped();
     stop_->setEnabled(is_of_use);
-    stop_->setText(is_stopped ? tr("Let Forces Return") : tr("Emergency &Stop"));
-    stop_->setToolTip(is_stopped ? tr("The device may push again; forces come back gently")
-                                 : tr("Let go of everything at once (Ctrl+. or Pause, anywhere)"));
+    stop_->setText(is_stopped ? tr("Resume Forces") : tr("Emergency &Stop"));
+    stop_->setToolTip(is_stopped
+                          ? tr("Switch forces on again; they ramp up smoothly")
+                          : tr("Switch all forces off at once (Ctrl+. or Pause, in any window)"));
     // Red as such buttons are everywhere, with white text, in every palette.
     QPalette colors = palette();
     if (is_of_use && !is_stopped) {
@@ -464,16 +484,23 @@ void HapticsPanel::showState(const LoopState& state)
     force_->setValue(
         most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
                      : 0);
+    const bool is_replay = controller_.isReplaying();
     //: A force in newtons
-    force_->setFormat(tr("%1 N").arg(numberText(force_n, 2)));
+    force_->setFormat(is_replay ? tr("no force in a replay")
+                                : tr("%1 N").arg(numberText(force_n, 2)));
+    if (is_replay) {
+        replayed_->setValue(
+            static_cast<int>(std::lround(controller_.replayedShare() * kReplaySteps)));
+    }
     const std::string trouble =
         state.reason == LetGoReason::DeviceUnready ? controller_.loop()->trouble() : std::string();
     const QString reason = trouble.empty()
                                ? letGoText(state.reason)
                                //: %1 says what is wrong with the device
-                               : tr("No force: %1").arg(QString::fromStdString(trouble));
-    const QString text =
-        reason.isEmpty() ? modeText(state.mode, state.contact.is_in_contact) : reason;
+                               : tr("Force off: %1").arg(QString::fromStdString(trouble));
+    const QString text = !reason.isEmpty() ? reason
+                         : is_replay       ? tr("Replaying")
+                                           : modeText(state.mode, state.contact.is_in_contact);
     if (text != reason_->text()) {
         reason_->setText(text);
     }
@@ -488,6 +515,11 @@ void HapticsPanel::showRecording()
     record_->setText(controller_.isRecording() ? tr("S&top Recording") : tr("&Record…"));
     record_->setEnabled(controller_.isRecording() || controller_.canRecord());
     flight_->setEnabled(controller_.hasTicks());
+    const bool is_replay = controller_.isReplaying();
+    replay_->setText(is_replay ? tr("Stop Re&play") : tr("Re&play…"));
+    replay_->setToolTip(is_replay ? tr("End the replay; the camera returns to where it was")
+                                  : tr("Play back a recording on this map in place of a device"));
+    replayed_->setVisible(is_replay);
     if (controller_.isRecording()) {
         //: %1 is a file
         recording_->setText(
@@ -516,15 +548,15 @@ void HapticsPanel::chooseFlightRecord()
     // What is there now: it would be gone when a name has been found.
     std::vector<TickRecord> ticks = controller_.lastTicks();
     if (ticks.empty()) {
-        recording_->setText(tr("Nothing has happened yet that could be saved"));
+        recording_->setText(tr("Nothing to save yet"));
         return;
     }
-    auto* dialog = new QFileDialog(this, tr("Save Flight Record"), folder_);
+    auto* dialog = new QFileDialog(this, tr("Save Diagnostic Log"), folder_);
     dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setNameFilters({tr("Flight record (*.csv)")});
+    dialog->setNameFilters({tr("Diagnostic log (*.csv)")});
     dialog->setDefaultSuffix(QStringLiteral("csv"));
     const QString time = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd-HHmmss"));
-    dialog->selectFile(tr("flight") + QLatin1Char('-') + time + QStringLiteral(".csv"));
+    dialog->selectFile(tr("log") + QLatin1Char('-') + time + QStringLiteral(".csv"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this,
             [this, ticks = std::move(ticks)](const QString& file) {

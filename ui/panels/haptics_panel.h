@@ -78,6 +78,7 @@ private:
     QCheckBox* walls_ = nullptr;
     LoopTimes* times_ = nullptr;
     QPushButton* record_ = nullptr;
+    QProgressBar* replayed_ = nullptr;
     QPushButton* replay_ = nullptr;
     QPushButton* flight_ = nullptr;
     QPushButton* rest_ = nullptr; // shown for an arm that does not know where it is

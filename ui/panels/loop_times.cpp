@@ -16,8 +16,8 @@ constexpr int kIntervalMs = 250; // what an eye follows
 
 QString timesText(const TimeHistogram& times)
 {
-    //: How long something took: half of the time at most, all but a thousandth, ever
-    return LoopTimes::tr("%1 · %2 · %3")
+    //: Durations: the median, the 99.9th percentile, the longest
+    return LoopTimes::tr("median %1 · 99.9 % %2 · longest %3")
         .arg(spanText(times.quantile(0.5)), spanText(times.quantile(0.999)),
              spanText(times.maximum()));
 }
@@ -30,12 +30,12 @@ LoopTimes::LoopTimes(QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(4);
-    update_ = makeLine(*layout, tr("Update"));
-    lateness_ = makeLine(*layout, tr("Lateness"));
+    update_ = makeLine(*layout, tr("Update time"));
+    lateness_ = makeLine(*layout, tr("Late wake-up"));
     missed_ = new QLabel(this);
-    missed_->setAccessibleName(tr("Missed updates"));
+    missed_->setAccessibleName(tr("Missed deadlines"));
     real_time_ = new QLabel(this);
-    real_time_->setAccessibleName(tr("Real time"));
+    real_time_->setAccessibleName(tr("Real-time scheduling"));
     real_time_->setObjectName(QStringLiteral("realTime"));
     for (QLabel* label : {missed_, real_time_}) {
         label->setWordWrap(true);
@@ -45,19 +45,18 @@ LoopTimes::LoopTimes(QWidget* parent)
 
 LoopTimes::Line LoopTimes::makeLine(QBoxLayout& layout, const QString& name)
 {
-    const QString tip =
-        tr("Of the time since it began: the usual span, what one in a thousand takes longer than, "
-           "and the longest. The line shows the last half minute from 1 µs to 10 ms, the pale one "
-           "the longest.");
+    const QString tip = tr(
+        "Since the connection: the median, the 99.9th percentile and the longest. The plot shows "
+        "the last half minute from 1 µs to 10 ms: the median, and paler the longest.");
     const Line line{.text = new QLabel(this), .plot = new TimePlot(this)};
-    // No wider than there is room: the tip and the plot tell the rest.
-    line.text->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    line.text->setWordWrap(true);
     line.text->setFont(captionFont(line.text->font()));
     line.text->setToolTip(tip);
     line.text->setObjectName(QStringLiteral("times"));
     line.plot->setAccessibleName(name);
     line.plot->setToolTip(tip);
-    layout.addLayout(makeCaptionLine(makeCaption(name, this), line.text));
+    layout.addWidget(makeCaption(name, this));
+    layout.addWidget(line.text);
     layout.addWidget(line.plot);
     return line;
 }
@@ -87,7 +86,7 @@ void LoopTimes::showLoop(const LoopStatistics& now, const RealTimeGrants& grants
     const auto missed = static_cast<std::size_t>(now.missed_by_tick + now.missed_by_waking);
     //: %1 and %2 are numbers
     missed_->setText(
-        tr("%1 of %2 updates too late")
+        tr("%1 of %2 deadlines missed")
             .arg(countText(missed), countText(static_cast<std::size_t>(now.tick.count()))));
     missed_->show();
     real_time_->setText(realTimeText(grants));

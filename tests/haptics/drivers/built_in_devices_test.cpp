@@ -98,12 +98,40 @@ TEST(SimDevice, SwipesAsManyCellsAnUpdateAsItIsTold)
     EXPECT_NEAR(way_m / 10'000 / 1e-5, 10.0, 1.0); // less while it turns round
 }
 
+TEST(SimDevice, StrokesWithinTheRectangleThatItIsGiven)
+{
+    const auto device = opened("sim:encoder_mm=0");
+    const WorkspaceBox box{{0.02, -0.03, -0.06}, {0.05, -0.01, 0.06}};
+    device->strokeWithin(box);
+    constexpr int kReturnTicks = 500; // from the middle, which is outside
+    constexpr double kTrailM = 0.004; // that the hand is behind its aim, or swings beyond it
+    WorkspacePoint low{1.0, 1.0, 0.0};
+    WorkspacePoint high{-1.0, -1.0, 0.0};
+    for (int i = 0; i < 30'000; ++i) {
+        DeviceSample sample;
+        device->read(sample);
+        if (i < kReturnTicks) {
+            continue;
+        }
+        low = {std::min(low.x, sample.position.x), std::min(low.y, sample.position.y), 0.0};
+        high = {std::max(high.x, sample.position.x), std::max(high.y, sample.position.y), 0.0};
+    }
+    EXPECT_GT(low.x, box.low.x - kTrailM);
+    EXPECT_LT(high.x, box.high.x + kTrailM);
+    EXPECT_GT(low.y, box.low.y - kTrailM);
+    EXPECT_LT(high.y, box.high.y + kTrailM);
+    // It uses all of it.
+    EXPECT_LT(low.x, box.low.x + kTrailM);
+    EXPECT_GT(high.x, box.high.x - kTrailM);
+    EXPECT_LT(low.y, box.low.y + kTrailM);
+    EXPECT_GT(high.y, box.high.y - kTrailM);
+}
+
 TEST(SimDevice, RefusesWhatItDoesNotUnderstand)
 {
-    EXPECT_EQ(refusalOf("sim:mass=fast"),
-              "sim:mass=fast: mass has to be a number from 0.001 to 10");
+    EXPECT_EQ(refusalOf("sim:mass=fast"), "sim:mass=fast: mass must be a number from 0.001 to 10");
     EXPECT_EQ(refusalOf("sim:delay_ms=51"),
-              "sim:delay_ms=51: delay_ms has to be a number from 0 to 50");
+              "sim:delay_ms=51: delay_ms must be a number from 0 to 50");
     EXPECT_NE(refusalOf("sim:mass=nan"), "");
     EXPECT_NE(refusalOf("sim:mass"), "");
     EXPECT_NE(refusalOf("sim:swipe=3"), ""); // of what width?
