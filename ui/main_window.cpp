@@ -1,5 +1,6 @@
 #include "ui/main_window.h"
 
+#include "core/raster/file_address.h"
 #include "core/session/layer_groups.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "ui/action_icons.h"
@@ -75,8 +76,10 @@ QStringList mapsIn(const QMimeData& data)
 {
     QStringList files;
     for (const QUrl& url : data.urls()) {
-        if (url.isLocalFile()) {
-            files.append(QDir::cleanPath(url.toLocalFile())); // a folder has no slash at its end
+        if (const auto path = localPathOf(url.toString(QUrl::FullyEncoded).toStdString());
+            url.isLocalFile() && path) {
+            // A folder has no slash at its end.
+            files.append(QDir::cleanPath(QString::fromStdString(*path)));
         } else if (problemOfAddress(url.toString()).isEmpty()) {
             files.append(url.toString());
         }
@@ -479,7 +482,7 @@ void MainWindow::connectHaptics()
         statusBar()->showMessage(savedTicksText(saved), kMessageDuration);
     });
     connect(haptics_, &HapticsController::savingFailed, this, [this](const QString& problem) {
-        reportFailure(tr("Cannot Save Flight Record"), problem);
+        reportFailure(tr("Cannot Save Diagnostic Log"), problem);
     });
     connect(actions_->emergency_stop, &QAction::triggered, this,
             [this] { haptics_->setStopped(true); });

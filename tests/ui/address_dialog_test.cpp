@@ -32,13 +32,14 @@ TEST(AddressDialog, TakesAddressesOfFilesOnly)
 {
     for (const char* good :
          {"https://example.org/mars.tif", "http://127.0.0.1:8080/a/b.tif", "s3://bucket/key.tif",
-          "gs://bucket/key.tif", "https://example.org/mars.tif?token=1"}) {
+          "gs://bucket/key.tif", "https://example.org/mars.tif?token=1",
+          "file:///data/a%20b.tif", "file://localhost/data/mars.tif"}) {
         EXPECT_EQ(problemOfAddress(QString::fromLatin1(good)), QString()) << good;
     }
     for (const char* bad : {"mars.tif", "/data/mars.tif", "ftp://example.org/mars.tif", "https://",
                             "https:///mars.tif", "https://example.org", "https://example.org/",
                             "https://example.org/maps/", "https://exa mple.org/mars.tif",
-                            "/vsicurl/https://a.b/c.tif"}) {
+                            "/vsicurl/https://a.b/c.tif", "file://server/mars.tif", "file:///a%zz.tif"}) {
         EXPECT_NE(problemOfAddress(QString::fromLatin1(bad)), QString()) << bad;
     }
 }
@@ -62,6 +63,18 @@ TEST(AddressDialog, OpensWhatIsTypedAndOffersWhatWasOpened)
     ASSERT_EQ(chosen.count(), 1);
     EXPECT_EQ(chosen[0][0].toString(), QStringLiteral("https://example.org/new.tif"));
     EXPECT_FALSE(dialog.isVisible());
+}
+
+TEST(AddressDialog, OpensFileAddressesAsPaths)
+{
+    AddressDialog dialog({});
+    dialog.show();
+    auto* field = dialog.findChild<QComboBox*>(QStringLiteral("address"));
+    const QSignalSpy chosen(&dialog, &AddressDialog::addressChosen);
+    field->setEditText(QStringLiteral("file://localhost/data/a%20b.tif"));
+    QTest::keyClick(field, Qt::Key_Return);
+    ASSERT_EQ(chosen.count(), 1);
+    EXPECT_EQ(chosen[0][0].toString(), QStringLiteral("/data/a b.tif"));
 }
 
 TEST(AddressDialog, IsReachedFromTheMenuAndTellsWhyOpeningFailed)

@@ -134,5 +134,51 @@ TEST(Program, AnswersWithoutADisplay)
         2);
 }
 
+TEST(Program, NamesUnknownOptionsAndSuggestsTheNearest)
+{
+    const Outcome outcome =
+        run({QStringLiteral("--screenshto"), QStringLiteral("x.png")}, QStringLiteral("none"));
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.errors.section(u'\n', 0, 0),
+              QStringLiteral("marsview: --screenshto: unknown option. Did you mean "
+                             "\"--screenshot\"?"));
+}
+
+TEST(Program, PassesQtsOwnOptionsOnToQt)
+{
+    const TestMaps maps;
+    const QString picture = maps.path(QStringLiteral("picture.png"));
+    const Outcome outcome =
+        run({QStringLiteral("-style"), QStringLiteral("fusion"), QStringLiteral("--geometry"),
+             QStringLiteral("900x600+10+20"), QStringLiteral("-reverse"), maps.hill(),
+             QStringLiteral("--screenshot"), picture});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors.toStdString();
+    EXPECT_EQ(QImage(picture).size(), QSize(900, 600));
+    const Outcome none =
+        run({QStringLiteral("-platform"), QStringLiteral("offscreen"), maps.hill()});
+    EXPECT_EQ(none.exit_code, 1) << "there is no OpenGL on that platform";
+}
+
+TEST(Program, OpensSeveralMapsTheLastOnTop)
+{
+    const TestMaps maps;
+    const QStringList shared{QStringLiteral("--size"), QStringLiteral("900x600"),
+                             QStringLiteral("--screenshot")};
+    const auto pictureOf = [&](const QStringList& files, const char* name) {
+        const QString picture = maps.path(QString::fromLatin1(name));
+        const Outcome outcome = run(files + shared + QStringList{picture});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.errors.toStdString();
+        return QImage(picture);
+    };
+    const QString hill = maps.hill();
+    const QString moon = maps.moon();
+    // Of two bodies the topmost is shown; the list has both, so only the middle is compared.
+    const auto middle = [](const QImage& image) { return image.copy(450, 250, 150, 100); };
+    const QImage both = pictureOf({moon, QStringLiteral("file://") + hill}, "both.png");
+    EXPECT_EQ(both.size(), QSize(900, 600));
+    EXPECT_EQ(middle(both), middle(pictureOf({hill}, "hill.png")));
+    EXPECT_NE(both, pictureOf({hill}, "hill.png")) << "there are two layers";
+}
+
 } // namespace
 } // namespace marsview

@@ -1,6 +1,8 @@
 #include "ui/dialogs/address_dialog.h"
 
+#include "core/raster/file_address.h"
 #include "core/raster/remote_raster.h"
+#include "ui/sentence.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -21,13 +23,17 @@ constexpr int kWidth = 520; // pixels: most of an address can be read
 QString problemOfAddress(const QString& address)
 {
     const QUrl url(address, QUrl::StrictMode);
+    if (address.startsWith(QStringLiteral("file:/"), Qt::CaseInsensitive)) {
+        const Result<std::string> path = localPathOf(address.toStdString());
+        return path ? QString() : asSentence(path.error().message);
+    }
     if (!remoteNameFor(address.toStdString()) || !address.contains(QStringLiteral("://"))) {
-        return AddressDialog::tr("An address begins with https://, http://, s3:// or gs://.");
+        return AddressDialog::tr("An address begins with https://, http://, s3://, gs:// or file://.");
     }
     if (!url.isValid() || url.host().isEmpty()) {
         return AddressDialog::tr(
-            "This is no address: the name of the server is missing, or a "
-            "letter that addresses do not have is in it.");
+            "Not an address: the name of the server is missing, or it contains a character that "
+            "addresses cannot have.");
     }
     if (url.path().size() < 2 || url.path().endsWith(QLatin1Char('/'))) {
         return AddressDialog::tr("The address names a server or a folder; name a file there.");
@@ -94,7 +100,8 @@ void AddressDialog::choose()
 {
     const QString address = field_->currentText().trimmed();
     if (!address.isEmpty() && problemOfAddress(address).isEmpty()) {
-        Q_EMIT addressChosen(address);
+        const Result<std::string> path = localPathOf(address.toStdString());
+        Q_EMIT addressChosen(path ? QString::fromStdString(*path) : address);
         accept();
     }
 }
