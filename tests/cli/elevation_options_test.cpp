@@ -132,7 +132,7 @@ TEST(ElevationOptions, OfTheWrongFormAreUsageErrors)
     }
     const ProgramOutput zero = runCli({"info", mars, "--scale", "0"});
     EXPECT_EQ(zero.exit_status, 2);
-    EXPECT_THAT(zero.err, HasSubstr("--scale: 0 would make every elevation the same"));
+    EXPECT_THAT(zero.err, HasSubstr("--scale: 0 is not a finite number other than 0"));
 }
 
 TEST(ElevationOptions, AreTakenByEveryCommandThatOpensAMap)
