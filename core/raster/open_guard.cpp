@@ -108,6 +108,22 @@ Status checkTextHolds(GDALDataset& dataset, const std::string& path)
                              columns, bytes, bytesOf(path))};
 }
 
+// ENVI and EHdr open any file that has a header of its name next to it, as a netCDF file, which
+// GDAL leaves to its own driver.
+bool isOfAnotherDriver(const std::string& name)
+{
+    const std::optional<std::string> driver = recognisingDriverFor(name);
+    if (!driver) {
+        return false;
+    }
+    for (const char* const* plain = plainDrivers(); *plain != nullptr; ++plain) {
+        if (*driver == *plain) {
+            return false;
+        }
+    }
+    return true;
+}
+
 struct PlainAttempt {
     GDALDatasetUniquePtr dataset;
     std::optional<Error> refusal;
@@ -127,7 +143,7 @@ PlainAttempt openPlain(const std::string& name)
         if (!tiff->is_plain) {
             return attempt;
         }
-    } else if (namesOtherFormat(beginningOf(name, kLabelBytes))) {
+    } else if (namesOtherFormat(beginningOf(name, kLabelBytes)) || isOfAnotherDriver(name)) {
         return attempt;
     }
     if (hasStrangeCompanions(name)) {
