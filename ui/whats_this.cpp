@@ -52,12 +52,12 @@ void explainControls(const ExplainedControls& controls)
         "Maps that are loading or being built, with their progress and a button to stop.")));
     controls.docks->datasets()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
-        "The open maps as layers, the topmost first. Tick a layer to show it, drag it "
-        "to move it, choose its color ramp below.")));
+        "The open maps as layers, topmost first, grouped by body. Tick a layer to show it, "
+        "drag it to move it, choose its color ramp below.")));
     controls.docks->georeferencing()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
         "Where the active layer lies: body, ellipsoid, CRS, pixel size, extent and "
-        "vertical unit. Override what the file lacks or has wrong.")));
+        "elevation unit. Set Body, CRS… sets what the file lacks or states wrongly.")));
     controls.docks->haptics()->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
         "Haptic devices: connect one, set how the terrain feels, record and replay "

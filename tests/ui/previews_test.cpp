@@ -374,7 +374,7 @@ TEST_F(PreviewsTest, TellOfTheWholeMapAndThatTheyAreNone)
 {
     ASSERT_TRUE(openPreview(map()));
     const QString samples = fact(QStringLiteral("Samples"));
-    const QString pixel = fact(QStringLiteral("Pixel"));
+    const QString pixel = fact(QStringLiteral("Pixel size"));
     const QString extent = fact(QStringLiteral("Extent"));
     const QString transform = fact(QStringLiteral("Geotransform"));
     EXPECT_TRUE(samples.startsWith(QStringLiteral("620 × 410"))) << samples.toStdString();
@@ -384,7 +384,7 @@ TEST_F(PreviewsTest, TellOfTheWholeMapAndThatTheyAreNone)
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
     EXPECT_EQ(fact(QStringLiteral("Samples")), samples);
-    EXPECT_EQ(fact(QStringLiteral("Pixel")), pixel);
+    EXPECT_EQ(fact(QStringLiteral("Pixel size")), pixel);
     EXPECT_EQ(fact(QStringLiteral("Extent")), extent);
     EXPECT_EQ(fact(QStringLiteral("Geotransform")), transform);
     EXPECT_EQ(model.index(0).data(LayerModel::NoteRole).toString(), QString());
