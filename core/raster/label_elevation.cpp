@@ -305,6 +305,24 @@ bool isSameNodata(SampleType type, const std::optional<double>& a, const std::op
     });
 }
 
+// Where the samples are: ^IMAGE at any depth, or else a pointer such as ^HEIGHT_IMAGE.
+const OdlStatement* pointerIn(const OdlStatement& group)
+{
+    const OdlStatement* other = statementIn(group, "^IMAGE");
+    for (const OdlStatement& statement : group.statements) {
+        const OdlStatement* const deeper = statement.is_group ? pointerIn(statement) : nullptr;
+        if (deeper != nullptr && (other == nullptr || deeper->name == "^IMAGE")) {
+            other = deeper;
+        }
+        if (other == nullptr && statement.name.starts_with("^") &&
+            statement.name.ends_with("_IMAGE") &&
+            statement.name.find("BROWSE") == std::string::npos) {
+            other = &statement;
+        }
+    }
+    return other;
+}
+
 bool isSigned(SampleType type)
 {
     return dispatchSampleType(type, [](auto zero) { return std::is_signed_v<decltype(zero)>; });
@@ -456,16 +474,8 @@ std::string encodedImageOf(const std::string& label_path)
         return {};
     }
     const OdlStatement* const compressed = groupNamed(*root, "COMPRESSED_FILE");
-    const OdlStatement* file =
-        compressed != nullptr ? statementIn(*compressed, "FILE_NAME") : nullptr;
-    if (compressed == nullptr) {
-        file = statementIn(*root, "^IMAGE");
-        for (const OdlStatement& statement : root->statements) {
-            if (file == nullptr && statement.is_group) {
-                file = statementIn(statement, "^IMAGE");
-            }
-        }
-    }
+    const OdlStatement* const file =
+        compressed != nullptr ? statementIn(*compressed, "FILE_NAME") : pointerIn(*root);
     const std::string wanted =
         file != nullptr ? lowerCase(odlItems(file->value).front()) : std::string();
     for (const std::string& name : namesNextTo(label_path)) {

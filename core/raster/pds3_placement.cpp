@@ -55,15 +55,25 @@ void appendPointers(const OdlStatement& group, std::vector<std::string>& names)
     for (const OdlStatement& statement : group.statements) {
         if (statement.is_group) {
             appendPointers(statement, names);
-        } else if (statement.name == "^IMAGE" || statement.name == "^QUBE") {
+        } else if (statement.name.starts_with("^")) {
             names.push_back(odlItems(statement.value).front());
         }
     }
 }
 
-// Without objects of compressed files, and of the same length.
+// Without objects of compressed files, and with an image under the name that GDAL looks for.
 std::string asOfRawImage(std::string text)
 {
+    constexpr std::string_view kEnd = "_IMAGE";
+    const std::size_t pointer = text.find('^');
+    const std::size_t end = text.find_first_of(" \t\r\n=", pointer);
+    if (text.find("^IMAGE") == std::string::npos && end != std::string::npos) {
+        const std::string name = text.substr(pointer + 1, end - pointer - 1);
+        for (std::size_t at = name.ends_with(kEnd) ? text.find(name) : std::string::npos;
+             at != std::string::npos; at = text.find(name, at + 1)) {
+            text.replace(at, name.size(), "IMAGE");
+        }
+    }
     constexpr std::string_view kCompressed = "COMPRESSED_FILE";
     for (std::size_t at = text.find(kCompressed); at != std::string::npos;
          at = text.find(kCompressed, at + 1)) {

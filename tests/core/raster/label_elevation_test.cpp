@@ -270,6 +270,12 @@ TEST(Pds3Label, OfAnEncodedImageOpensThatImage)
             EXPECT_THAT(file.info().notices, Contains(HasSubstr("from the label product.lbl")));
         }
     }
+    // Under another pointer, and with the place in the file.
+    std::string other = pds3Label({.pointer = "PLAIN.JP2", .image = kRadii});
+    const std::string pointer = "^IMAGE = \"PLAIN.JP2\"";
+    other.replace(other.find(pointer), pointer.size(), "^HEIGHT_IMAGE = (\"PLAIN.JP2\", 1)");
+    RasterFile height = openOrThrow(folder.write("product.lbl", other));
+    expectElevations(height, samples, 0.5, 0.0);
     // By its data alone, which a label of the same name describes.
     std::filesystem::remove(folder.file("product.lbl"));
     folder.write("plain.lbl", pds3Label({.pointer = "plain.tif", .image = kRadii}));
