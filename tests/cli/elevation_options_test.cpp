@@ -45,7 +45,7 @@ TEST(ElevationOptions, ScaleOffsetAndUnitMakeElevationsOfSamples)
 {
     const TempFolder folder;
     const std::string path =
-        writeRaster(folder, "map.tif", "GTiff", recipeFor(600, slope()), {"TILED=YES"});
+        writeRaster(folder, "map.tif", "GTiff", recipeFor(600, slope()), {"-co", "TILED=YES"});
     const double raw = rawSamples(path, {{321, 123}}).at(0);
     EXPECT_DOUBLE_EQ(
         sampleWith(path, "321", "123", {"--scale", "0.1", "--offset", "-7", "--unit", "ft"}),
