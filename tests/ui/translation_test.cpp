@@ -99,6 +99,7 @@ protected:
             const RasterInfo& info = layer.dataset->info();
             if (info.crs) {
                 names_.append(QString::fromStdString(info.crs->name()));
+                names_.append(QString::fromStdString(info.crs->wkt()));
             }
             names_.append(QString::fromStdString(info.vertical_datum));
             for (const std::string& notice : info.notices) {
@@ -106,6 +107,7 @@ protected:
                 names_.append(QStringLiteral("• ") + sentence);
                 sentence[0] = sentence[0].toUpper();
                 names_.append(sentence);
+                names_.append(QStringLiteral("• ") + sentence);
             }
         }
     }
