@@ -314,7 +314,7 @@ void MainWindow::connectPanels()
     connect(recent_, &RecentFiles::chosen, this, &MainWindow::open);
     connect(picture_saver_, &PictureSaver::saved, this, [this](const QString& file) {
         //: In the status bar, for a few seconds; %1 is a file
-        statusBar()->showMessage(tr("Saved %1").arg(QDir::toNativeSeparators(file)),
+        statusBar()->showMessage(tr("Saved %1").arg(isolated(QDir::toNativeSeparators(file))),
                                  kMessageDuration);
     });
     connect(picture_saver_, &PictureSaver::failed, this,

@@ -3,6 +3,7 @@
 #include "core/raster/tile_disk_cache.h"
 #include "ui/haptics_controller.h"
 #include "ui/notice_center.h"
+#include "ui/number_text.h"
 #include "ui/sentence.h"
 #include "ui/session_controller.h"
 #include "ui/terrain_view.h"
@@ -19,9 +20,9 @@ QString shortName(const std::string& name)
 {
     constexpr qsizetype kLengthMax = 40;
     const QString text = QString::fromStdString(name);
-    return text.size() <= kLengthMax
-               ? text
-               : text.first(kLengthMax / 2) + QChar(0x2026) + text.last(kLengthMax / 2);
+    return isolated(text.size() <= kLengthMax
+                        ? text
+                        : text.first(kLengthMax / 2) + QChar(0x2026) + text.last(kLengthMax / 2));
 }
 
 QString idOf(LayerId layer, const QString& what)
