@@ -368,6 +368,9 @@ labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string
         path = label_path.empty() ? labelNextTo(info.path) : label_path;
         if (!path.empty()) {
             label = labelElevationIn(textOf(path), info.band, info.type);
+            if (!label) {
+                label.emplace().is_understood = false;
+            }
         }
     }
     if (label) {
@@ -378,6 +381,13 @@ labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string
 
 void applyLabel(RasterInfo& info, const LabelElevation& label)
 {
+    if (!label.is_understood) {
+        info.notices.push_back(
+            fmt::format("the label {} is damaged or describes no samples, so the samples are taken "
+                        "as elevations in {}; fetch it again, or set scale and offset",
+                        CPLGetFilename(label.path.c_str()), info.unit.name));
+        return;
+    }
     std::vector<std::string> ours;
     std::vector<std::string> theirs;
     const auto note = [&](const char* what, const std::string& label_says,

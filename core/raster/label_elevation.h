@@ -23,6 +23,7 @@ struct LabelElevation {
     std::optional<double> nodata; // raw
     std::string unit;             // as it is written
     std::optional<bool> is_signed;
+    bool is_understood = true; // false for a label without a description of samples
 };
 
 /// Of a PDS3, ISIS 2, ISIS 3 or PDS4 label in `text`, for samples of that type.

@@ -246,6 +246,17 @@ TEST(Pds3InJpeg2000, SaysWhereSignsDisagree)
     EXPECT_THAT(file.info().notices, Contains(HasSubstr("declares signed samples")));
 }
 
+TEST(Pds3InJpeg2000, SaysThatADamagedLabelIsNotApplied)
+{
+    const TempFolder folder;
+    std::string label = pds3Label({.pointer = "d.img", .compressed = "d.jp2", .image = kRadii});
+    label.resize(label.find("OBJECT = IMAGE")); // cut short
+    folder.write("d.lbl", label);
+    RasterFile file = openOrThrow(writeJpeg2000(folder, "d.jp2", someSamples()));
+    expectElevations(file, someSamples(), 1.0, 0.0);
+    EXPECT_THAT(file.info().notices, Contains(HasSubstr("the label d.lbl is damaged")));
+}
+
 // GDAL would read the bytes of the compressed file as samples.
 TEST(Pds3Label, OfAnEncodedImageOpensThatImage)
 {
