@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -141,6 +143,18 @@ TEST_F(HostileFiles, WhatLibrariesPrintIsNotShown)
     const ProgramOutput refused = info(path);
     expectOneLine(refused, path);
     EXPECT_THAT(refused.err, HasSubstr("The header is wrong. In two lines\n"));
+}
+
+// 2026-11: HDF5 made 20 000 files next to a damaged one.
+TEST_F(HostileFiles, LibrariesMakeNoFiles)
+{
+    constexpr unsigned kVersion = 1; // LANDLOCK_CREATE_RULESET_VERSION
+    if (syscall(SYS_landlock_create_ruleset, nullptr, 0, kVersion) < 1) {
+        GTEST_SKIP() << "this kernel has no Landlock";
+    }
+    const std::string path = faulty("write");
+    expectOneLine(info(path), path);
+    EXPECT_FALSE(fs::exists(path + ".made"));
 }
 
 TEST_F(HostileFiles, AnAnswerIsRememberedUntilTheFileChanges)

@@ -116,6 +116,11 @@ GDALDataset* open(GDALOpenInfo* info)
     } else if (fault == "print") {
         std::fprintf(stderr, "library: first\nlibrary: second\n");
         std::printf("library: on stdout\n");
+    } else if (fault == "write") {
+        if (std::FILE* file = std::fopen((std::string(info->pszFilename) + ".made").c_str(), "w")) {
+            std::fclose(file);
+        }
+        return nullptr;
     } else if (fault == "refuse") {
         std::fprintf(stderr, "library: I refuse\n");
         CPLError(CE_Failure, CPLE_AppDefined, "The header is wrong.\nIn two lines.");
