@@ -424,6 +424,31 @@ TEST(ScaleAndOffset, OfEveryOtherFormatAreAppliedOnce)
     }
 }
 
+TEST(VicarLabel, HasTheScaleAndOffsetOfItsTerrainModel)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
+    recipe.transform.reset();
+    const std::string written = test::readFile(test::writeRaster(folder, "v.vic", "VICAR", recipe));
+    const std::size_t label_bytes = std::stoul(written.substr(written.find('=') + 1));
+    std::string label = written.substr(0, written.find('\0'));
+    label += " PROPERTY='DTM' DTM_OFFSET=-40.0 DTM_SCALING_FACTOR=0.25 DTM_MISSING_DN=-17000 ";
+    const std::size_t record = kLabelColumns * sizeof(std::int16_t);
+    const std::size_t bytes = (label.size() / record + 1) * record;
+    const std::size_t number = label.find('=') + 1;
+    const std::string size = std::to_string(bytes);
+    label.replace(number, label.find(' ', number) - number, size);
+    label.resize(bytes, '\0');
+    RasterFile file = openOrThrow(folder.write("v.vic", label + written.substr(label_bytes)));
+    EXPECT_EQ(file.info().driver, "VICAR");
+    const std::vector<double> elevations = elevationsOf(file);
+    EXPECT_TRUE(std::isnan(elevations[0]));
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        ASSERT_DOUBLE_EQ(elevations[i], samples[i] * 0.25 - 40.0) << i;
+    }
+}
+
 TEST(Pds4Label, CountsWhenItsTiffIsOpened)
 {
     const TempFolder folder;
