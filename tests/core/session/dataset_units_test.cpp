@@ -104,6 +104,37 @@ TEST(Units, FeetThatTheFileDoesNotDeclareAreToldByTheUser)
     EXPECT_EQ((*told)->heightfield().sample(1000, 500), feet->heightfield().sample(1000, 500));
 }
 
+TEST(Units, ScaleAndOffsetOfTheUserChangeAMapWithoutReadingItAgain)
+{
+    const std::string path = (test::bundledSamples() / "mars_mola_4ppd.tif").string();
+    const auto mars = load(path);
+    ASSERT_TRUE(mars);
+    RasterOverrides overrides;
+    overrides.scale = -0.5; // the smallest sample becomes the highest
+    overrides.offset = 12.0;
+    overrides.vertical_datum = "local datum";
+    const auto changed = withOverrides(*mars, overrides);
+    ASSERT_TRUE(changed) << changed.error().message;
+    const std::vector<test::Pixel> pixels{{0, 0}, {1439, 719}, {528, 285}, {700, 333}};
+    const std::vector<double> raw = test::rawSamples(path, pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        EXPECT_DOUBLE_EQ((*changed)->heightfield().sample(pixels[i].column, pixels[i].row),
+                         raw[i] * -0.5 + 12.0);
+    }
+    EXPECT_EQ((*changed)->heightfield().range()->minimum_m, 21134.0 * -0.5 + 12.0);
+    EXPECT_EQ((*changed)->heightfield().range()->maximum_m, -8068.0 * -0.5 + 12.0);
+    EXPECT_EQ((*changed)->info().vertical_datum, "local datum");
+    EXPECT_EQ((*changed)->spec().overrides, overrides);
+    // And back.
+    const auto again = withOverrides(**changed, {});
+    ASSERT_TRUE(again);
+    EXPECT_EQ((*again)->heightfield().sample(528, 285), raw[2]);
+    overrides.scale = 0.0;
+    const auto refused = withOverrides(*mars, overrides);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refusedField(refused.error()), OverrideField::Scale) << refused.error().message;
+}
+
 TEST(Units, RadiiOfTheMoonAreHeightsAboveTheirReferenceSphere)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
