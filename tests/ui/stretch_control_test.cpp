@@ -13,10 +13,12 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QComboBox>
+#include <QHelpEvent>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QTest>
+#include <QToolTip>
 
 #include <gtest/gtest.h>
 
@@ -94,6 +96,21 @@ TEST_F(StretchTest, CutsAPercentageInPictureAndLegend)
     EXPECT_EQ(shown().minimum_m, 20.0);
     choose(StretchKind::Full);
     EXPECT_FALSE(window_->overlays()->legend()->hasHigher());
+}
+
+TEST_F(StretchTest, LegendShowsTheExtremesInATooltip)
+{
+    choose(StretchKind::Percentile);
+    TerrainView& view = *window_->view();
+    const Legend& legend = *window_->overlays()->legend();
+    const QPoint at = legend.geometry().center();
+    QHelpEvent help(QEvent::ToolTip, at, view.mapToGlobal(at));
+    QCoreApplication::sendEvent(&view, &help);
+    EXPECT_EQ(QToolTip::text(), legend.summary());
+    EXPECT_TRUE(QToolTip::text().contains(QStringLiteral("lowest 0 m")))
+        << QToolTip::text().toStdString();
+    EXPECT_TRUE(QToolTip::text().contains(QStringLiteral("highest 990 m")));
+    QToolTip::hideText();
 }
 
 TEST_F(StretchTest, ChangesTheColorsOfThePicture)
