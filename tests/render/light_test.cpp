@@ -11,7 +11,7 @@
 namespace marsview::test {
 namespace {
 
-constexpr std::size_t kSide = 257;
+constexpr std::size_t kTerrainSide = 257;
 constexpr Viewport kSize{.width = 256, .height = 256};
 
 // All of a map of cells of one metre, from straight above.
@@ -63,12 +63,12 @@ protected:
 // A mountainside that falls by 60 degrees towards the east, with ribs down the slope.
 DrawnMap ribbedSlope()
 {
-    return {floatTerrain(kSide, kSide,
+    return {floatTerrain(kTerrainSide, kTerrainSide,
                          [](std::size_t c, std::size_t r) {
                              return -std::sqrt(3.0) * static_cast<double>(c) +
                                     6.0 * std::sin(static_cast<double>(r) * 0.3);
                          }),
-            northUpFrame(kSide, kSide, 1.0)};
+            northUpFrame(kTerrainSide, kTerrainSide, 1.0)};
 }
 
 TEST_F(LightTest, SlopesThatFaceAwayFromTheLightShowTheirRelief)
@@ -89,9 +89,9 @@ TEST_F(LightTest, FacingTheLightItAloneCounts)
     // its normal.
     const double rise = std::tan(Angle::degrees(20.0).radians());
     const DrawnMap map(
-        floatTerrain(kSide, kSide,
+        floatTerrain(kTerrainSide, kTerrainSide,
                      [=](std::size_t c, std::size_t) { return -rise * static_cast<double>(c); }),
-        northUpFrame(kSide, kSide, 1.0));
+        northUpFrame(kTerrainSide, kTerrainSide, 1.0));
     const double expected =
         255.0 * kHillshadeWhite * (0.28 + 0.84 * std::cos(Angle::degrees(25.0).radians()));
     for (const int red : reds(drawn(map, ShadingMode::Hillshade, 90.0))) {
@@ -102,11 +102,11 @@ TEST_F(LightTest, FacingTheLightItAloneCounts)
 // Both sides of a roof are as steep, so only the light makes their slope colors differ.
 TEST_F(LightTest, SlopeColorsAreInTheSameLightAsTheHillshade)
 {
-    const DrawnMap map(floatTerrain(kSide, kSide,
+    const DrawnMap map(floatTerrain(kTerrainSide, kTerrainSide,
                                     [](std::size_t c, std::size_t) {
                                         return -0.4 * std::abs(static_cast<double>(c) - 128.0);
                                     }),
-                       northUpFrame(kSide, kSide, 1.0));
+                       northUpFrame(kTerrainSide, kTerrainSide, 1.0));
     const auto ratio = [&](ShadingMode mode) {
         const Picture picture = drawn(map, mode, 270.0);
         const auto green = [&](int x) {
