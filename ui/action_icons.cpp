@@ -27,6 +27,7 @@ void setIcons(const WindowActions& actions)
              std::pair{actions.home, "home"},
              std::pair{actions.north, "north"},
              std::pair{actions.go_to_coordinate, "go-to"},
+             std::pair{actions.copy_coordinates, "copy"},
              std::pair{actions.exaggerate_more, "exaggerate-more"},
              std::pair{actions.exaggerate_less, "exaggerate-less"},
              std::pair{actions.panels->menuAction(), "layers"},
@@ -70,7 +71,7 @@ void setIcons(const WindowDocks& docks)
              std::pair{docks.georeferencing(), "georeferencing"},
              std::pair{docks.haptics(), "haptics"},
          }) {
-        dock->toggleViewAction()->setIcon(lineIcon(QString::fromLatin1(name)));
+        dock->setWindowIcon(lineIcon(QString::fromLatin1(name)));
     }
 }
 

@@ -8,7 +8,7 @@ struct WindowActions;
 
 /// Gives every action and menu that has one its icon.
 void setIcons(const WindowActions& actions);
-/// The same for the menu entries of the panels.
+/// The same for the panels. Their menu entries keep their check boxes.
 void setIcons(const WindowDocks& docks);
 
 } // namespace marsview

@@ -94,11 +94,6 @@ QIcon lineIcon(const QString& name, const QColor& color)
     return iconOf(name, color);
 }
 
-bool hasLineIcon(const QString& name)
-{
-    return QFile::exists(lineFile(name));
-}
-
 QIcon programIcon()
 {
     initIcons();

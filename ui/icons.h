@@ -13,8 +13,6 @@ namespace marsview {
 QIcon lineIcon(const QString& name);
 /// The same in one color, for what lies over the map.
 QIcon lineIcon(const QString& name, const QColor& color);
-/// Whether there is a file of that name.
-bool hasLineIcon(const QString& name);
 
 /// The icon of the program, for windows and the About box.
 QIcon programIcon();

@@ -36,7 +36,7 @@ void LineStyle::drawControl(ControlElement element,
 {
     const auto* entry = qstyleoption_cast<const QStyleOptionMenuItem*>(option);
     const QStyle::State highlighted = State_Selected | State_Enabled;
-    if (element != CE_MenuItem || entry == nullptr || entry->icon.isNull() ||
+    if (element != CE_MenuItem || entry == nullptr || entry->icon.isNull() || entry->checked ||
         (entry->state & highlighted) != highlighted) {
         QProxyStyle::drawControl(element, option, painter, widget);
         return;

@@ -16,7 +16,8 @@ public:
     QIcon standardIcon(StandardPixmap which,
                        const QStyleOption* option = nullptr,
                        const QWidget* widget = nullptr) const override;
-    /// The icon of a menu entry that is highlighted has the color of its text.
+    /// The icon of a menu entry that is highlighted has the color of its text. Checked ones have a
+    /// frame of their own.
     void drawControl(ControlElement element,
                      const QStyleOption* option,
                      QPainter* painter,

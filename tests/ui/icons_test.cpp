@@ -111,7 +111,7 @@ TEST_F(IconsTest, EveryButtonOfTheToolbarAndEveryPanelHasOne)
     EXPECT_GE(count, 10);
     for (const QDockWidget* dock : {window.docks()->datasets(), window.docks()->georeferencing(),
                                     window.docks()->haptics()}) {
-        EXPECT_FALSE(dock->toggleViewAction()->icon().isNull());
+        EXPECT_NE(dock->windowIcon().cacheKey(), window.windowIcon().cacheKey());
     }
     const WindowActions& actions = window.actionSet();
     for (const QAction* action : {actions.open, actions.save_picture, actions.preferences,

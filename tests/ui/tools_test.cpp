@@ -14,14 +14,18 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolBar>
 #include <QToolButton>
 #include <QWheelEvent>
+#include <QWindow>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace marsview {
@@ -132,6 +136,28 @@ TEST_F(ToolsTest, AreChosenOnTheToolbarInTheMenuAndByKey)
             EXPECT_EQ(actionFor(info.tool)->isChecked(), info.tool == tool);
         }
     }
+}
+
+// The window gets the keys first, also while a menu is open.
+TEST_F(ToolsTest, LettersBelongToAnOpenMenu)
+{
+    const QList<QAction*> menus = window_->menuBar()->actions();
+    const auto view_menu = std::find_if(menus.begin(), menus.end(), [](const QAction* action) {
+        return action->text() == QStringLiteral("&View");
+    });
+    ASSERT_NE(view_menu, menus.end());
+    (*view_menu)->menu()->popup(window_->mapToGlobal(QPoint(50, 30)));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return QApplication::activePopupWidget() == (*view_menu)->menu(); }, kTimeout));
+    QTest::keyClick(window_->windowHandle(), Qt::Key_T);
+    EXPECT_EQ(view().tool(), Tool::Pan);
+    auto* tools = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    ASSERT_NE(tools, nullptr);
+    EXPECT_EQ(tools->title(), QStringLiteral("&Tool"));
+    tools->close();
+    (*view_menu)->menu()->close();
+    QTest::keyClick(window_->windowHandle(), Qt::Key_T);
+    EXPECT_EQ(view().tool(), Tool::Touch);
 }
 
 TEST_F(ToolsTest, TouchPressesAndTheWheelGoesDeeper)

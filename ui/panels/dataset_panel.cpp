@@ -88,7 +88,6 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
     buttons->addWidget(makeButton(actions.open, this));
     for (QAction* action : {actions.move_up, actions.move_down}) {
         QToolButton* button = makeButton(action, this);
-        button->setArrowType(action == actions.move_up ? Qt::UpArrow : Qt::DownArrow);
         button->setToolButtonStyle(Qt::ToolButtonIconOnly);
         button->setAccessibleName(action->text().remove(QLatin1Char('&')));
         buttons->addWidget(button);
