@@ -10,6 +10,7 @@
 #include <chrono>
 #include <fcntl.h>
 #include <linux/landlock.h>
+#include <malloc.h>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -228,6 +229,9 @@ int runProbe()
         return 1;
     }
     forbidWriting();
+    // Memory that a library uses before it was written to: a pointer in it is then wrong here, and
+    // not by chance in the program that opens the file next.
+    mallopt(M_PERTURB, 0xa5);
     std::set_new_handler(onOutOfMemory);
     const std::vector<std::string> names = readNames();
     ensureGdal();

@@ -145,6 +145,14 @@ TEST_F(HostileFiles, WhatLibrariesPrintIsNotShown)
     EXPECT_THAT(refused.err, HasSubstr("The header is wrong. In two lines\n"));
 }
 
+// 2026-11: HDF5 did after a file that it had opened.
+TEST_F(HostileFiles, ALibraryThatCrashesAtTheEndOfTheProgramDoesNotCount)
+{
+    const ProgramOutput output = info(faulty("crash at exit"), {"--json"});
+    EXPECT_EQ(output.exit_status, 0);
+    EXPECT_EQ(nlohmann::json::parse(output.out)["maximum"], 399.0);
+}
+
 // 2026-11: HDF5 made 20 000 files next to a damaged one.
 TEST_F(HostileFiles, LibrariesMakeNoFiles)
 {

@@ -116,6 +116,11 @@ GDALDataset* open(GDALOpenInfo* info)
     } else if (fault == "print") {
         std::fprintf(stderr, "library: first\nlibrary: second\n");
         std::printf("library: on stdout\n");
+    } else if (fault == "crash at exit") {
+        static const int once = std::atexit([] { std::abort(); }); // as libraries do
+        if (once != 0) {
+            return nullptr;
+        }
     } else if (fault == "write") {
         if (std::FILE* file = std::fopen((std::string(info->pszFilename) + ".made").c_str(), "w")) {
             std::fclose(file);
