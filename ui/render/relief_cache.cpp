@@ -6,8 +6,8 @@ namespace marsview {
 namespace {
 
 // Levels. Filters mix texels as large as a pixel's longer side on the ground, and colors blur: with
-// somewhat smaller ones, those of 99 % of the pixels are off by half as much. Pictures from one
-// level are in a hurry, and without a bias software drivers find that level faster.
+// somewhat smaller ones, those of 99 % of the pixels are off by a quarter less. Pictures in
+// motion have one level and no bias: software drivers find that level faster.
 constexpr GLfloat kSharper = -0.4F;
 
 GlTexture allocatedPage()
