@@ -57,6 +57,7 @@ NoticeBar::NoticeBar(QWidget* parent)
     const int side = style()->pixelMetric(QStyle::PM_SmallIconSize);
     icon->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(side, side));
     action_->setObjectName(QStringLiteral("noticeAction"));
+    action_->setAccessibleName(tr("Remedy")); // until a notice names its own
     action_->setPopupMode(QToolButton::InstantPopup);
     action_->setFocusPolicy(Qt::StrongFocus);
     details_->setObjectName(QStringLiteral("noticeDetails"));

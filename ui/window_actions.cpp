@@ -280,7 +280,7 @@ void WindowActions::makeViewMenu(QMainWindow& window, QWidget& map)
     add_key(exaggerate_less, {Qt::Key_Minus});
     menu->addSeparator();
     panels = menu->addMenu(tr("&Panels"));
-    full_screen = menu->addAction(tr("&Full Screen"));
+    full_screen = menu->addAction(tr("Full &Screen"));
     full_screen->setShortcut(Qt::Key_F11);
     full_screen->setCheckable(true);
 }
