@@ -25,40 +25,67 @@ MapPlan planOf(const SceneMap& map)
     return {.frame = map.frame, .columns = georeference.columns(), .rows = georeference.rows()};
 }
 
-// A mask of cells over the reach, row by row.
-constexpr int kMaskColumns = 32;
-constexpr int kMaskRows = 24;
+// Cells over the reach whose corners are probed.
+constexpr std::size_t kProbeColumns = 32;
+constexpr std::size_t kProbeRows = 24;
 // Of the picture's width and height, on each side: the hand trails its aim by some millimetres, and
 // the terrain between two probes may rise.
 constexpr double kMarginShare = 0.06;
 
-using Mask = std::array<std::array<bool, kMaskColumns + 1>, kMaskRows + 1>; // of the cells' corners
+// Whether a probe is well inside the picture, and where.
+struct Probe {
+    bool is_inside = false;
+    PixelPoint pixel;
+};
+using Probes =
+    std::array<std::array<Probe, kProbeColumns + 1>, kProbeRows + 1>; // of cells' corners
 
-struct MaskRectangle {
-    int column = 0;
-    int row = 0;
-    int columns = 0; // in cells
-    int rows = 0;
+struct CellRectangle {
+    std::size_t column = 0;
+    std::size_t row = 0;
+    std::size_t columns = 0; // in cells
+    std::size_t rows = 0;
 };
 
-// The largest rectangle of cells all of whose corners are set.
-MaskRectangle largestRectangle(const Mask& mask)
+// Pixels that a cell takes up in the picture: half the cross product of its diagonals.
+double pixelsOf(const Probes& probes, std::size_t column, std::size_t row)
 {
-    MaskRectangle best;
-    std::array<int, kMaskColumns> heights{}; // of the full cells that end in this row
-    for (int row = 0; row < kMaskRows; ++row) {
-        const auto below = static_cast<std::size_t>(row);
-        for (std::size_t column = 0; column < heights.size(); ++column) {
-            const bool is_full = mask[below][column] && mask[below][column + 1] &&
-                                 mask[below + 1][column] && mask[below + 1][column + 1];
-            heights[column] = is_full ? heights[column] + 1 : 0;
-        }
-        for (int first = 0; first < kMaskColumns; ++first) {
-            int height = kMaskRows;
-            for (int last = first; last < kMaskColumns; ++last) {
-                height = std::min(height, heights[static_cast<std::size_t>(last)]);
-                if (height * (last - first + 1) > best.columns * best.rows) {
-                    best = {first, row - height + 1, last - first + 1, height};
+    const PixelPoint a = probes[row][column].pixel;
+    const PixelPoint b = probes[row + 1][column + 1].pixel;
+    const PixelPoint c = probes[row][column + 1].pixel;
+    const PixelPoint d = probes[row + 1][column].pixel;
+    return 0.5 * std::abs((b.x - a.x) * (d.y - c.y) - (b.y - a.y) * (d.x - c.x));
+}
+
+// Of cells all of whose corners are inside, the rectangle with the most pixels: in a tilted view
+// the far terrain is wide, but small in the picture.
+CellRectangle largestRectangle(const Probes& probes)
+{
+    CellRectangle best;
+    double best_pixels = 0.0;
+    for (std::size_t first = 0; first < kProbeRows; ++first) {
+        // Of the cells from row `first` to `row` in each column; negative: one of them is outside.
+        std::array<double, kProbeColumns> pixels{};
+        for (std::size_t row = first; row < kProbeRows; ++row) {
+            for (std::size_t column = 0; column < kProbeColumns; ++column) {
+                const bool is_full = pixels[column] >= 0.0 && probes[row][column].is_inside &&
+                                     probes[row][column + 1].is_inside &&
+                                     probes[row + 1][column].is_inside &&
+                                     probes[row + 1][column + 1].is_inside;
+                pixels[column] = is_full ? pixels[column] + pixelsOf(probes, column, row) : -1.0;
+            }
+            std::size_t begin = 0;
+            double sum = 0.0;
+            for (std::size_t column = 0; column < kProbeColumns; ++column) {
+                if (pixels[column] < 0.0) {
+                    begin = column + 1;
+                    sum = 0.0;
+                    continue;
+                }
+                sum += pixels[column];
+                if (sum > best_pixels) {
+                    best_pixels = sum;
+                    best = {begin, first, column - begin + 1, row - first + 1};
                 }
             }
         }
@@ -77,26 +104,29 @@ std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
 {
     const double left = kMarginShare * viewport.width;
     const double top = kMarginShare * viewport.height;
-    const auto at = [&reach](double column, double row) {
+    const auto at = [&reach](std::size_t column, std::size_t row) {
         return WorkspacePoint{
-            reach.low.x + (reach.high.x - reach.low.x) * column / kMaskColumns,
-            reach.low.y + (reach.high.y - reach.low.y) * row / kMaskRows,
+            reach.low.x +
+                (reach.high.x - reach.low.x) * static_cast<double>(column) / kProbeColumns,
+            reach.low.y + (reach.high.y - reach.low.y) * static_cast<double>(row) / kProbeRows,
             0.0,
         };
     };
-    Mask mask{};
-    for (std::size_t row = 0; row < mask.size(); ++row) {
-        for (std::size_t column = 0; column < mask[row].size(); ++column) {
-            ScenePoint place =
-                frame.toScene(at(static_cast<double>(column), static_cast<double>(row)));
+    Probes probes{};
+    for (std::size_t row = 0; row <= kProbeRows; ++row) {
+        for (std::size_t column = 0; column <= kProbeColumns; ++column) {
+            ScenePoint place = frame.toScene(at(column, row));
             place.z = ground.height(place.x, place.y) * exaggeration;
             const auto pixel =
                 std::isfinite(place.z) ? project(camera, viewport, place) : std::nullopt;
-            mask[row][column] = pixel && pixel->x >= left && pixel->x <= viewport.width - left &&
-                                pixel->y >= top && pixel->y <= viewport.height - top;
+            if (pixel) {
+                const bool is_inside = pixel->x >= left && pixel->x <= viewport.width - left &&
+                                       pixel->y >= top && pixel->y <= viewport.height - top;
+                probes[row][column] = {is_inside, *pixel};
+            }
         }
     }
-    const MaskRectangle found = largestRectangle(mask);
+    const CellRectangle found = largestRectangle(probes);
     if (found.columns == 0) {
         return std::nullopt;
     }

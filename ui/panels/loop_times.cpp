@@ -17,9 +17,12 @@ constexpr int kIntervalMs = 250; // what an eye follows
 QString timesText(const TimeHistogram& times)
 {
     //: Durations: the median, the 99.9th percentile, the longest
-    return LoopTimes::tr("median %1 · 99.9 % %2 · longest %3")
-        .arg(spanText(times.quantile(0.5)), spanText(times.quantile(0.999)),
-             spanText(times.maximum()));
+    QString text = LoopTimes::tr("median %1 · 99.9 % %2 · longest %3")
+                       .arg(spanText(times.quantile(0.5)), spanText(times.quantile(0.999)),
+                            spanText(times.maximum()));
+    // Lines break between the three, not before a unit.
+    return text.replace(QLatin1Char(' '), QChar(QChar::Nbsp))
+        .replace(QStringLiteral("\u00a0·\u00a0"), QStringLiteral(" · "));
 }
 
 } // namespace
