@@ -142,7 +142,9 @@ void NoticeBar::showNotice(int index)
     } else {
         action_->setText(notice.actions.isEmpty() ? QString() : notice.actions.front().text);
     }
-    action_->setAccessibleName(action_->text());
+    if (!action_->text().isEmpty()) {
+        action_->setAccessibleName(action_->text());
+    }
     action_->setVisible(!notice.actions.isEmpty());
     details_->setVisible(notice.show_details != nullptr);
     const QLocale locale;
