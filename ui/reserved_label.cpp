@@ -1,5 +1,7 @@
 #include "ui/reserved_label.h"
 
+#include <QStyle>
+
 #include <algorithm>
 
 namespace marsview {
@@ -9,6 +11,9 @@ ReservedLabel::ReservedLabel(const QString& longest, QWidget* parent)
     , longest_(longest)
 {
     setTextFormat(Qt::PlainText);
+    // By the layout: a number alone has no direction, and would be put to the left in any layout.
+    setAlignment(QStyle::visualAlignment(layoutDirection(), Qt::AlignLeft) | Qt::AlignAbsolute |
+                 Qt::AlignVCenter);
     setTextInteractionFlags(Qt::TextSelectableByMouse);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
 }

