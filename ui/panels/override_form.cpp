@@ -85,6 +85,7 @@ OverrideForm::OverrideForm(QWidget* parent)
     layout->addWidget(crs_field);
     connect(crs_, &CrsField::settled, this, &OverrideForm::checkCrs);
     connect(crs_, &QLineEdit::editingFinished, this, &OverrideForm::checkCrs);
+    connect(crs_, &QLineEdit::textEdited, crs_field, [crs_field] { crs_field->setProblem({}); });
     body_ = addChoice(*layout, tr("&Body"), "body", OverrideField::Body);
     for (const Body& body : knownBodies()) {
         body_->addItem(textFrom(body.name), textFrom(body.name));
@@ -344,8 +345,6 @@ void OverrideForm::checkCrs()
         field.setHint(body != nullptr ? tr("%1, on %2").arg(name, textFrom(body->name)) : name);
     } else if (!crs_->hasFocus() || (crs_->isLoaded() && crs_->matches().isEmpty())) {
         field.setProblem(asSentence(crs.error().message));
-    } else {
-        field.setProblem({});
     }
 }
 
