@@ -487,7 +487,7 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
     haptics().setContactModel(kContactModelDefault);
     EXPECT_EQ(haptics().problem(), other);
 
-    EXPECT_TRUE(replay("0,0,0").contains(QStringLiteral("none of it lies on the map")));
+    EXPECT_TRUE(replay("0,0,0").contains(QStringLiteral("are outside the map")));
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
     // A device is back where no recording takes its place.
     for (const char* goal : {"0,0,0", "none"}) {
