@@ -39,7 +39,8 @@ void CoordinateField::showCopied()
 void CoordinateField::showNow()
 {
     const bool is_copied = copied_timer_.isActive();
-    setEnabled(is_position_ || is_copied);
+    // Not disabled: the Tab key reaches it, and the crosshair with it.
+    setForegroundRole(is_position_ || is_copied ? QPalette::WindowText : QPalette::PlaceholderText);
     setCursor(is_position_ ? Qt::PointingHandCursor : Qt::ArrowCursor);
     setHint(is_position_ ? tr("Click to copy the coordinates") : QString());
     //: In place of a position, for a moment after it was copied to the clipboard

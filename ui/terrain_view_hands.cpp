@@ -74,7 +74,7 @@ void TerrainView::beginDrag(MapAction action)
 
 void TerrainView::mouseMoveEvent(QMouseEvent* event)
 {
-    is_keyboard_used_ = false;
+    is_keyboard_used_ = is_keyboard_used_ && pointer_ == event->position(); // reported again
     if (drag_action_ == MapAction::None && isOverOverlay(event->position())) {
         forgetPointer();
         return;

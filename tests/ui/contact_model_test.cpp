@@ -205,7 +205,7 @@ TEST_F(ContactModelTest, OutlivesChoicesInThePreferencesDialog)
     window.showPreferences();
     auto* dialog = window.findChild<PreferencesDialog*>();
     ASSERT_NE(dialog, nullptr);
-    dialog->findChildren<QComboBox*>()[1]->setCurrentIndex(1);
+    dialog->findChild<QComboBox*>(QStringLiteral("elevationUnit"))->setCurrentIndex(1);
     EXPECT_EQ(window.preferences().height_unit, HeightUnit::Feet);
     EXPECT_EQ(window.preferences().contact_model, ContactModelKind::ProxyGraph);
     EXPECT_EQ(window.view()->contactModel(), ContactModelKind::ProxyGraph);

@@ -148,15 +148,17 @@ TEST_F(WindowMemoryTest, AppliesPreferencesWhileTheDialogIsOpen)
     window.actionSet().preferences->trigger();
     auto* dialog = window.findChild<PreferencesDialog*>();
     ASSERT_NE(dialog, nullptr);
-    const QList<QComboBox*> boxes = dialog->findChildren<QComboBox*>();
-    boxes[0]->setCurrentIndex(2);
+    auto* theme = dialog->findChild<QComboBox*>(QStringLiteral("theme"));
+    auto* unit = dialog->findChild<QComboBox*>(QStringLiteral("elevationUnit"));
+    ASSERT_TRUE(theme != nullptr && unit != nullptr);
+    theme->setCurrentIndex(2);
     EXPECT_EQ(window.preferences().theme, Theme::Dark);
     EXPECT_EQ(QApplication::palette().color(QPalette::Window),
               darkPalette().color(QPalette::Window));
-    boxes[1]->setCurrentIndex(1);
+    unit->setCurrentIndex(1);
     EXPECT_EQ(window.preferences().height_unit, HeightUnit::Feet);
     // Enter leaves; it takes nothing back.
-    QTest::keyClick(boxes[1], Qt::Key_Return);
+    QTest::keyClick(unit, Qt::Key_Return);
     EXPECT_EQ(window.preferences().height_unit, HeightUnit::Feet);
     EXPECT_FALSE(dialog->isVisible());
     window.setPreferences({});

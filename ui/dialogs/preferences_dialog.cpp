@@ -32,6 +32,8 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     theme_->addItem(tr("Light"), static_cast<int>(Theme::Light));
     theme_->addItem(tr("Dark"), static_cast<int>(Theme::Dark));
     theme_->setAccessibleName(tr("Theme"));
+    theme_->setObjectName(QStringLiteral("theme"));
+    height_unit_->setObjectName(QStringLiteral("elevationUnit"));
     height_unit_->addItem(tr("Meters"), static_cast<int>(HeightUnit::Metres));
     height_unit_->addItem(tr("Feet"), static_cast<int>(HeightUnit::Feet));
     height_unit_->setAccessibleName(tr("Elevation unit"));
