@@ -288,6 +288,10 @@ bool isList(std::uint16_t tag)
 std::optional<TiffPromise> tiffPromiseOf(const std::string& path)
 {
     Reader reader(path);
+    constexpr std::uint64_t kHeaderBytes = 8;
+    if (reader.bytes() < kHeaderBytes) {
+        return std::nullopt;
+    }
     const auto magic = reader.read(0, 4);
     const bool is_intel = magic[0] == 'I' && magic[1] == 'I';
     reader.is_big_endian = magic[0] == 'M' && magic[1] == 'M';

@@ -295,7 +295,7 @@ TEST_F(HostileFiles, DamagedFilesOpenOrEndInOneLine)
             const std::string path = folder_.write("map" + std::to_string(how) + "." + ending,
                                                    damaged(whole, how, random));
             SCOPED_TRACE(path);
-            const ProgramOutput output = info(path, {"--json"});
+            const ProgramOutput output = info(path);
             if (output.exit_status != 0) {
                 expectOneLine(output, path);
             }

@@ -255,7 +255,9 @@ TEST(DecimatedRead, StopsWhenCancelledAndTellsWhyReadingFailed)
     ASSERT_FALSE(cancelled);
     EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-    const auto damaged = decimated(path, {.samples_max = 5000});
+    JobMonitor unwatched;
+    const auto damaged =
+        readDecimated(*file, {}, {.samples_max = 5000, .time_max = kForever}, unwatched);
     ASSERT_FALSE(damaged);
     EXPECT_EQ(damaged.error().code, ErrorCode::Unreadable);
     EXPECT_EQ(damaged.error().message.find(path + ": "), 0U);
