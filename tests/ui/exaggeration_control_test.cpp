@@ -4,6 +4,7 @@
 #include "ui/window_actions.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QLineEdit>
 #include <QMouseEvent>
 #include <QStyle>
@@ -25,6 +26,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1500, 800);
         window_->show();
+        QApplication::setActiveWindow(window_.get()); // there is no window manager
         ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     }
 

@@ -202,7 +202,8 @@ TEST_F(LargeMapsPageTest, MemoryTakesEffectAtOnce)
     window.actionSet().preferences->trigger();
     auto* dialog = window.findChild<PreferencesDialog*>();
     ASSERT_NE(dialog, nullptr);
-    QSpinBox* memory = dialog->findChildren<QSpinBox*>().constFirst();
+    auto* memory = dialog->findChild<QSpinBox*>(QStringLiteral("tileMemory"));
+    ASSERT_NE(memory, nullptr);
     memory->setValue(200);
     EXPECT_EQ(tiles->bytesMax(), std::size_t{200} << 20);
     memory->setValue(0);

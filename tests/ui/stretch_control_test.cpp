@@ -115,8 +115,7 @@ TEST_F(StretchTest, LegendShowsTheExtremesInATooltip)
 
 TEST_F(StretchTest, ChangesTheColorsOfThePicture)
 {
-    choose(StretchKind::Full);
-    ASSERT_TRUE(waitUntilSettled(*window_));
+    choose(StretchKind::Full); // as it was: the map is too small to cut anything
     const QImage before = window_->view()->terrainPicture();
     controller().setStretch(layer().id, fixedStretch(2000.0, 3000.0));
     ASSERT_TRUE(waitUntilSettled(*window_));

@@ -68,6 +68,7 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     memory_->setSpecialValueText(tr("Automatic (%1 MB)").arg(usual));
     memory_->setGroupSeparatorShown(true);
     memory_->setKeyboardTracking(false); // not every digit on the way
+    memory_->setObjectName(QStringLiteral("tileMemory"));
     memory_->setAccessibleName(tr("Memory for tiles of large maps"));
     memory_->setToolTip(
         tr("Tiles of large maps that are shown or touched stay in memory up to this size; the "
