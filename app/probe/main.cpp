@@ -3,6 +3,7 @@
 #include "core/raster/open_probe.h"
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fcntl.h>
@@ -45,5 +46,6 @@ int main(int argc, char** argv)
     } catch (const std::exception&) {
         std::abort();
     }
+    std::fflush(stdout);
     _exit(status); // libraries may crash while they end, too
 }

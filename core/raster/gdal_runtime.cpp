@@ -92,13 +92,15 @@ std::string GdalMessages::firstFailure(const std::string& otherwise) const
     return failures_.empty() ? otherwise : failures_.front();
 }
 
-void GdalMessages::collect(CPLErr level, CPLErrorNum, const char* text)
+void GdalMessages::collect(CPLErr level, CPLErrorNum number, const char* text)
 {
     auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
     if (level == CE_Failure || level == CE_Fatal) {
         self->failures_.push_back(asOneLine(text));
     } else if (level == CE_Warning) {
         self->warnings_.push_back(asOneLine(text));
+    } else if (level == CE_Debug) {
+        CPLDefaultErrorHandler(level, number, text); // the user set CPL_DEBUG
     }
 }
 

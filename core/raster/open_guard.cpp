@@ -250,8 +250,10 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
 struct Silence {
     std::mutex mutex;
     int count = 0;
-    int kept = -1; // stderr as it was
+    std::array<int, 2> kept{-1, -1}; // stdout and stderr as they were
 };
+
+constexpr std::array<int, 2> kOutputs{STDOUT_FILENO, STDERR_FILENO};
 
 Silence& silence()
 {
@@ -291,13 +293,13 @@ Result<GuardedDataset> openFirst(const std::vector<std::string>& names)
 
 GDALDatasetUniquePtr reopen(const std::string& name, const GuardedDataset& opened)
 {
-    const QuietStderr quiet(opened.prints);
+    const QuietOutput quiet(opened.prints);
     const std::array<const char*, 2> only{opened.opening_driver.c_str(), nullptr};
     return GDALDatasetUniquePtr(
         GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, only.data()));
 }
 
-QuietStderr::QuietStderr(bool is_needed)
+QuietOutput::QuietOutput(bool is_needed)
     : is_needed_(is_needed)
 {
     if (!is_needed_) {
@@ -306,10 +308,13 @@ QuietStderr::QuietStderr(bool is_needed)
     Silence& shared = silence();
     const std::lock_guard lock(shared.mutex);
     if (shared.count++ == 0) {
-        shared.kept = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+        std::fflush(stdout); // what is the program's own
         const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-        if (shared.kept >= 0 && nowhere >= 0) {
-            dup2(nowhere, STDERR_FILENO);
+        for (std::size_t i = 0; i < kOutputs.size() && nowhere >= 0; ++i) {
+            shared.kept[i] = fcntl(kOutputs[i], F_DUPFD_CLOEXEC, 3);
+            if (shared.kept[i] >= 0) {
+                dup2(nowhere, kOutputs[i]);
+            }
         }
         if (nowhere >= 0) {
             close(nowhere);
@@ -317,17 +322,22 @@ QuietStderr::QuietStderr(bool is_needed)
     }
 }
 
-QuietStderr::~QuietStderr()
+QuietOutput::~QuietOutput()
 {
     if (!is_needed_) {
         return;
     }
     Silence& shared = silence();
     const std::lock_guard lock(shared.mutex);
-    if (--shared.count == 0 && shared.kept >= 0) {
-        dup2(shared.kept, STDERR_FILENO);
-        close(shared.kept);
-        shared.kept = -1;
+    if (--shared.count == 0) {
+        std::fflush(stdout); // what is the library's
+        for (std::size_t i = 0; i < kOutputs.size(); ++i) {
+            if (shared.kept[i] >= 0) {
+                dup2(shared.kept[i], kOutputs[i]);
+                close(shared.kept[i]);
+                shared.kept[i] = -1;
+            }
+        }
     }
 }
 

@@ -20,7 +20,7 @@ struct GuardedDataset {
     GDALDatasetUniquePtr dataset;
     std::size_t name = 0;       // of those that were asked for
     std::string opening_driver; // which may differ from the dataset's
-    bool prints = false;        // a library prints lines: read within a QuietStderr
+    bool prints = false;        // a library prints lines: read within a QuietOutput
 };
 
 /// Opens the first of the names, at least one, that GDAL opens. The error is a sentence without the
@@ -32,13 +32,13 @@ Result<GuardedDataset> openFirst(const std::vector<std::string>& names);
 /// The same raster once more, by the driver that opened it.
 GDALDatasetUniquePtr reopen(const std::string& name, const GuardedDataset& opened);
 
-/// While one lives, what is printed to stderr in this process is lost.
-class QuietStderr {
+/// While one lives, what is printed to stdout and stderr in this process is lost.
+class QuietOutput {
 public:
-    explicit QuietStderr(bool is_needed);
-    ~QuietStderr();
-    QuietStderr(const QuietStderr&) = delete;
-    QuietStderr& operator=(const QuietStderr&) = delete;
+    explicit QuietOutput(bool is_needed);
+    ~QuietOutput();
+    QuietOutput(const QuietOutput&) = delete;
+    QuietOutput& operator=(const QuietOutput&) = delete;
 
 private:
     bool is_needed_;

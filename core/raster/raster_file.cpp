@@ -477,7 +477,7 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     auto impl = std::make_unique<Impl>();
     impl->dataset = std::move(opened->dataset);
     impl->prints = opened->prints;
-    const QuietStderr quiet(impl->prints);
+    const QuietOutput quiet(impl->prints);
     if (opened->mosaic) {
         impl->info = opened->mosaic->info;
         impl->info.path = path;
@@ -785,7 +785,7 @@ Status RasterFile::Impl::readRows(GDALRasterBand& from,
         return read ? read : readFailure(read.error().message, window);
     }
     const GdalMessages messages;
-    const QuietStderr quiet(prints);
+    const QuietOutput quiet(prints);
     const CPLErr outcome =
         from.RasterIO(GF_Read, static_cast<int>(window.column), static_cast<int>(window.row),
                       static_cast<int>(window.columns), static_cast<int>(window.rows),
