@@ -182,9 +182,10 @@ TEST(ReplayDevice, SaysWhatIsWrongWithItsFile)
     EXPECT_NE(refusalOf("replay:" + folder.path().string()).find("cannot be read (Is a directory)"),
               std::string::npos);
     const std::string nan = folder.write("nan.csv", "x,y,z\n1,2,3\n4,nan,6\n");
-    EXPECT_EQ(refusalOf("replay:" + nan), "replay:" + nan +
-                                              ": goal 2 of 2 is at 4, nan, 6, which is no place "
-                                              "for a hand; take it out");
+    EXPECT_EQ(refusalOf("replay:" + nan),
+              "replay:" + nan +
+                  ": goal 2 of 2 is at 4, nan, 6, which is not a position; "
+                  "remove it");
     EXPECT_NE(refusalOf("replay:"), "");
     EXPECT_NE(refusalOf("replay:" + folder.write("goals.csv", "x,y,z\n")), "");
     const std::string bad = refusalOf("replay:" + folder.write("goals.csv", "x,y,z\n1,2\n"));
