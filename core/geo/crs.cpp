@@ -423,10 +423,10 @@ Result<Crs> Crs::fromText(const std::string& text)
     if (srs.SetFromUserInput(text.c_str(),
                              OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
         OGRERR_NONE) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("\"{}\" is no known CRS; give a code such as EPSG:32610 or "
-                                 "IAU_2015:49910, a PROJ string or WKT",
-                                 text)};
+        return Error{
+            ErrorCode::Invalid,
+            fmt::format("unknown CRS \"{}\"; enter an EPSG or IAU code, a PROJ string or WKT",
+                        text)};
     }
     return fromSpatialReference(srs);
 }

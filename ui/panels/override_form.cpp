@@ -248,6 +248,7 @@ void OverrideForm::focusFirstField()
 {
     crs_->loadCatalogue();
     crs_->setFocus();
+    crs_->selectAll(); // so that typing searches from the start
 }
 
 FormField* OverrideForm::fieldOf(const QWidget* editor) const
