@@ -1,5 +1,6 @@
 #include "core/raster/gdal_runtime.h"
 
+#include "core/raster/block_cache.h"
 #include "core/raster/gdal_drivers.h"
 
 #include <cpl_conv.h>
@@ -74,6 +75,12 @@ void ensureGdal()
             GDALSetCacheMax64(kBlockCacheBytes);
         }
     });
+}
+
+std::size_t blockCacheBytes()
+{
+    ensureGdal();
+    return static_cast<std::size_t>(GDALGetCacheMax64());
 }
 
 GdalMessages::GdalMessages()

@@ -332,18 +332,5 @@ TEST_F(HostileFiles, StatisticsOfHugeBlocksAreLeftOut)
                                       "blocks of 10000 × 10000 samples"));
 }
 
-TEST_F(HostileFiles, TheUsersBlockCacheIsKept)
-{
-    std::vector<std::int16_t> samples(std::size_t{32} * 32, 7);
-    const std::string path =
-        test::writeRaster(folder_, "map.tif", "GTiff", test::recipeFor(32, samples));
-    // GDAL says so when it takes the size from the setting.
-    environment_ = {"CPL_DEBUG=GDAL", "GDAL_CACHEMAX=77"};
-    EXPECT_THAT(info(path).err, HasSubstr("GDAL_CACHEMAX = 77 MB"));
-    const std::string settings = folder_.write("gdalrc", "[configoptions]\nGDAL_CACHEMAX=66\n");
-    environment_ = {"CPL_DEBUG=GDAL", "GDAL_CONFIG_FILE=" + settings};
-    EXPECT_THAT(info(path).err, HasSubstr("GDAL_CACHEMAX = 66 MB"));
-}
-
 } // namespace
 } // namespace marsview

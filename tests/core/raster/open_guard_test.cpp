@@ -1,5 +1,6 @@
 // Opening in a child process, as RasterFile does; what it does to bad drivers is in
 // tests/cli/hostile_files_test.cpp.
+#include "core/raster/block_cache.h"
 #include "core/raster/opening_job.h"
 #include "core/raster/raster_file.h"
 #include "tests/support/make_raster.h"
@@ -104,6 +105,21 @@ TEST_F(OpenGuardTest, ACancelEndsTheChild)
     monitor.cancel();
     opener.join();
     EXPECT_EQ(code, ErrorCode::Cancelled);
+}
+
+// Settings are read once in a process: each case has one of its own.
+TEST(BlockCacheTest, TheUsersSettingsAreKept)
+{
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const test::TempFolder folder;
+    const std::string file = folder.write("gdalrc", "[configoptions]\nGDAL_CACHEMAX=66\n");
+    const auto cache_mb = [](const char* variable, const std::string& value) {
+        setenv(variable, value.c_str(), 1); // NOLINT
+        std::exit(static_cast<int>(blockCacheBytes() >> 20));
+    };
+    EXPECT_EXIT(cache_mb("GDAL_CACHEMAX", "77"), testing::ExitedWithCode(77), "");
+    EXPECT_EXIT(cache_mb("GDAL_CONFIG_FILE", file), testing::ExitedWithCode(66), "");
+    EXPECT_EXIT(cache_mb("UNRELATED", "1"), testing::ExitedWithCode(32), "");
 }
 
 } // namespace
