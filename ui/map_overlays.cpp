@@ -262,7 +262,8 @@ void MapOverlays::showTouch()
 {
     showHand();
     const auto& stylus = view_.shownStylus();
-    if (!stylus || !stylus->is_in_contact) {
+    // A replay has no force to show.
+    if (!stylus || !stylus->is_in_contact || !(stylus->force_n_max > 0.0)) {
         force_meter_->release();
         return;
     }

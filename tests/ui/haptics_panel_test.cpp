@@ -1,4 +1,5 @@
 #include "tests/ui/hand_window.h"
+#include "ui/overlay/force_meter.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/time_plot.h"
 #include "ui/terrain_view.h"
@@ -129,6 +130,7 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     EXPECT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
     EXPECT_TRUE(waitFor([&] { return text("letGoReason") == QStringLiteral("Replaying"); }));
     EXPECT_FALSE(part<QProgressBar>("force").format().contains(QStringLiteral("0.00")));
+    EXPECT_EQ(window_->findChild<ForceMeter*>()->sizeHint(), QSize(0, 0)) << "not in use";
     EXPECT_EQ(text("hapticStatus"), QStringLiteral("Replaying touch.csv"));
     EXPECT_EQ(replay.text(), QStringLiteral("Stop Re&play"));
     replay.click();
