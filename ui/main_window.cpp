@@ -18,8 +18,8 @@
 #include "ui/main_tool_bar.h"
 #include "ui/map_overlays.h"
 #include "ui/notice_bar.h"
-#include "ui/number_text.h"
 #include "ui/notice_center.h"
+#include "ui/number_text.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
@@ -157,6 +157,9 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     actions_->panels->addSeparator();
     actions_->panels->addActions(overlays_->visibilityActions());
     setIcons(*docks_);
+    for (QMenu* menu : menuBar()->findChildren<QMenu*>()) {
+        menu->installEventFilter(this);
+    }
     explainControls({.view = view_,
                      .overlays = overlays_,
                      .readout = readout_,
@@ -841,6 +844,18 @@ void MainWindow::changeEvent(QEvent* event)
     if (event->type() == QEvent::WindowStateChange && actions_) {
         actions_->full_screen->setChecked(isFullScreen());
     }
+}
+
+// While a menu is open the map keeps the focus, and its plain letters would be taken for shortcuts
+// before the menu gets them: Alt+F, O would choose a tool instead of opening a map.
+bool MainWindow::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() == QEvent::ShortcutOverride && qobject_cast<QMenu*>(watched) != nullptr &&
+        static_cast<QKeyEvent*>(event)->modifiers() == Qt::NoModifier) {
+        event->accept();
+        return true;
+    }
+    return QMainWindow::eventFilter(watched, event);
 }
 
 // Nothing else took the key.

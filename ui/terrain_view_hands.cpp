@@ -192,17 +192,6 @@ void TerrainView::wheelEvent(QWheelEvent* event)
     Q_EMIT gestureMade(action);
 }
 
-// While a menu is open the view keeps the focus, and its plain letters would be taken for shortcuts
-// before the menu gets them: Alt+F, O would choose a tool instead of opening a map.
-bool TerrainView::event(QEvent* event)
-{
-    if (event->type() == QEvent::ShortcutOverride && QApplication::activePopupWidget() != nullptr) {
-        event->accept();
-        return true;
-    }
-    return QOpenGLWidget::event(event);
-}
-
 void TerrainView::keyPressEvent(QKeyEvent* event)
 {
     if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier) {
