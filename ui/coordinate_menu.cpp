@@ -88,8 +88,9 @@ void fillCoordinateMenu(QMenu& menu,
     CoordinateFormat map_format = format;
     map_format.system = PositionSystem::Map;
     //: %1 is the CRS
-    add(notations, menuText("Map &Coordinates: %1").arg(formatName(map_format, info)),
-        system == PositionSystem::Map, map_format);
+    const QString crs = formatName(map_format, info).replace(QLatin1Char('&'), QLatin1String("&&"));
+    add(notations, menuText("Ma&p Coordinates: %1").arg(crs), system == PositionSystem::Map,
+        map_format);
 
     //: A part of a menu
     menu.addSection(menuText("Longitude"));
