@@ -8,6 +8,7 @@
 #include "ui/coordinate_field.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
+#include "ui/dialogs/guide_window.h"
 #include "ui/dialogs/keys_dialog.h"
 #include "ui/dialogs/preferences_dialog.h"
 #include "ui/haptics_controller.h"
@@ -287,6 +288,7 @@ void MainWindow::connectActions()
     on(actions_->full_screen, [this](bool is_full) {
         setWindowState(windowState().setFlag(Qt::WindowFullScreen, is_full));
     });
+    on(actions_->guide, [this] { showGuide(); });
     on(actions_->keys, [this] { showKeys(); });
     on(actions_->about, [this] { showAbout(); });
 }
@@ -799,6 +801,16 @@ void MainWindow::showAbout()
     auto* dialog = new AboutDialog(driver, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->open();
+}
+
+void MainWindow::showGuide()
+{
+    if (guide_ == nullptr) {
+        guide_ = new GuideWindow(guidePagesIn(guideFolder()), this);
+    }
+    guide_->show();
+    guide_->raise();
+    guide_->activateWindow();
 }
 
 void MainWindow::showKeys()

@@ -20,6 +20,7 @@ namespace marsview {
 class DatasetPanel;
 class GeoreferencingPanel;
 class ContactSounds;
+class GuideWindow;
 class HapticsController;
 class HapticsPanel;
 class LightPopup;
@@ -104,6 +105,7 @@ public:
     void copyCoordinates(GridPoint grid);
     void showPreferences();
     void showAbout();
+    void showGuide();
     void showKeys();
 
 Q_SIGNALS:
@@ -179,6 +181,7 @@ private:
     LightPopup* light_popup_ = nullptr;
     PictureSaver* picture_saver_ = nullptr;
     StretchControl* stretch_ = nullptr;
+    GuideWindow* guide_ = nullptr; // once it was asked for
     GoToEntry last_place_;
     QString last_folder_;
 };

@@ -428,8 +428,10 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
 void WindowActions::makeHelpMenu(QMainWindow& window)
 {
     QMenu* menu = window.menuBar()->addMenu(tr("&Help"));
+    guide = menu->addAction(tr("User &Guide"));
+    guide->setShortcut(QKeySequence::HelpContents);
     keys = menu->addAction(tr("&Keys and Mouse"));
-    keys->setShortcut(QKeySequence::HelpContents);
+    keys->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_F1));
     whats_this = QWhatsThis::createAction(&window);
     whats_this->setText(tr("&What's This?"));
     menu->addAction(whats_this);

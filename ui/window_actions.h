@@ -70,6 +70,7 @@ struct WindowActions {
     QAction* replay_touch = nullptr;
     QAction* save_flight = nullptr;
 
+    QAction* guide = nullptr;
     QAction* keys = nullptr;
     QAction* whats_this = nullptr;
     QAction* about = nullptr;

@@ -9,7 +9,7 @@
 namespace marsview {
 
 /// The value of "schema" in everything that --json prints. It changes when a field is removed or
-/// changes its meaning; JSON.md lists the fields.
+/// changes its meaning; resources/guide/json.md lists the fields.
 constexpr int kJsonSchema = 1;
 
 /// A number for JSON, which has no NaN: null instead.

@@ -24,11 +24,11 @@ struct DocumentedFields {
     Names sometimes; // marked "only" in the page's second column
 };
 
-// The tables of app/cli/JSON.md by their headings: "| `field` | type | meaning |".
+// The tables of resources/guide/json.md by their headings: "| `field` | type | meaning |".
 std::map<std::string, DocumentedFields> documentedFields()
 {
     std::map<std::string, DocumentedFields> sections;
-    std::istringstream page(readFile(sourceRoot() / "app/cli/JSON.md"));
+    std::istringstream page(readFile(sourceRoot() / "resources/guide/json.md"));
     std::string heading;
     for (std::string line; std::getline(page, line);) {
         constexpr std::string_view kHeading = "## `";
