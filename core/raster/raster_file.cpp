@@ -23,6 +23,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -500,8 +501,10 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
         const std::string archive = archiveNameFor(path);
         const std::string notice =
             archive.empty() ? std::string() : archiveNotice(rastersInArchive(archive), info.path);
-        info.notices.push_back(notice.empty() ? fmt::format("opened through {}", info.path)
-                                              : notice);
+        info.notices.push_back(notice.empty()
+                                   ? fmt::format("opened in place of {}",
+                                                 std::filesystem::path(path).filename().string())
+                                   : notice);
     }
     info.driver = dataset.GetDriverName();
     info.band_count = dataset.GetRasterCount();

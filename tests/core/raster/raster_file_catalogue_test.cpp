@@ -360,7 +360,7 @@ TEST(Catalogue, DataAndHeadersOpenThroughTheirCompanions)
         ASSERT_TRUE(file) << asked << ": " << file.error().message;
         EXPECT_EQ(file->info().path, (test::sharedData() / opened).string());
         ASSERT_FALSE(file->info().notices.empty()) << asked;
-        EXPECT_NE(file->info().notices.front().find("opened through"), std::string::npos);
+        EXPECT_NE(file->info().notices.front().find("opened in place of"), std::string::npos);
     }
 }
 
