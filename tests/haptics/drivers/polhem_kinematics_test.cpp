@@ -189,7 +189,7 @@ TEST(PolhemParameters, SayWhichNumberIsWrong)
     EXPECT_THAT(complaint("force_n_continuous", 6.0), HasSubstr("outside [0, 5]"));
 
     EXPECT_THAT(readPolhemParameters(folder.write("x.json", "{")).error().message,
-                testing::EndsWith("x.json: is no JSON object"));
+                testing::EndsWith("x.json: is not a JSON object"));
     EXPECT_EQ(readPolhemParameters(folder.file("none.json")).error().code, ErrorCode::NotFound);
 }
 
