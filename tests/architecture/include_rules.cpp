@@ -35,11 +35,13 @@ const std::vector<Layer>& layers()
         {"ui/", {"core/", "haptics/", "ui/"}},
         {"app/cli/", {"core/", "haptics/", "ui/render/", "app/cli/"}},
         {"app/gui/", {"core/", "haptics/", "ui/", "app/gui/"}},
+        {"app/probe/", {"core/raster/", "app/probe/"}},
         {"tests/architecture/", {"tests/"}},
         {"tests/support/", {"core/", "tests/support/"}},
         {"tests/core/", {"core/", "tests/"}},
         {"tests/haptics/", {"core/", "haptics/", "tests/"}},
         {"tests/cli/", {"core/", "haptics/", "app/cli/", "tests/"}},
+        {"tests/ui/", {"core/", "haptics/", "ui/", "app/gui/", "tests/"}},
         {"tests/", {"core/", "haptics/", "ui/", "tests/"}},
     };
     return kLayers;
@@ -78,7 +80,8 @@ bool mayUseQt(std::string_view path)
 
 bool mayUseGdal(std::string_view path)
 {
-    constexpr std::array<std::string_view, 2> kFolders{"core/raster/", "core/geo/"};
+    constexpr std::array<std::string_view, 3> kFolders{"core/raster/", "core/geo/",
+                                                       "tests/support/faulty_driver/"};
     return startsWithAny(path, kFolders);
 }
 
