@@ -126,6 +126,9 @@ ExaggerationControl::ExaggerationControl(QWidget* parent)
     , box_(new ExaggerationBox(this))
     , true_scale_(new QToolButton(this))
 {
+    setWhatsThis(
+        tr("How many times elevations are exaggerated in the picture. Numbers, measurements and "
+           "files are never exaggerated. 1:1 shows the true shape."));
     //: Button: no vertical exaggeration
     true_scale_->setText(tr("1:1"));
     true_scale_->setAccessibleName(tr("True scale (1:1)"));

@@ -243,6 +243,7 @@ void HapticsController::disconnectDevice()
         HapticsSettings settings = settings_;
         settings.device.clear();
         setSettings(settings);
+        setStopped(false); // nothing is left that could push
     }
     setProblem({});
     setLooking(is_looking_);

@@ -17,6 +17,7 @@
 #include "ui/light_popup.h"
 #include "ui/load_status.h"
 #include "ui/main_tool_bar.h"
+#include "ui/map_keys.h"
 #include "ui/map_overlays.h"
 #include "ui/notice_bar.h"
 #include "ui/notice_center.h"
@@ -295,6 +296,7 @@ void MainWindow::connectActions()
 
 void MainWindow::connectPanels()
 {
+    (new MapKeys(*view_, this))->addTo(*datasets_->list());
     connect(datasets_, &DatasetPanel::activationRequested, controller_,
             &SessionController::activate);
     connect(datasets_, &DatasetPanel::visibilityRequested, controller_,

@@ -250,8 +250,8 @@ void MapOverlays::showLegend()
          .ramp = layer.ramp,
          .range = colorRangeOf(layer),
          .slopes = slopeRangeOf(layer),
-         .contour_interval_m =
-             contourInterval(look, all, metresPerPixel(view_.camera(), view_.viewport())),
+         .contour_interval_m = contourInterval(
+             look, all, metresPerPixel(view_.camera(), view_.viewport()), view_.exaggeration()),
          .unit = height_unit_,
          .all = all,
          .layer = is_named ? QString::fromStdString(known->name) : QString(),

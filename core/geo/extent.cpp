@@ -24,6 +24,12 @@ GridPoint between(GridPoint a, GridPoint b, double t)
     return {a.column + (b.column - a.column) * t, a.row + (b.row - a.row) * t};
 }
 
+GridPoint clampedToSamples(const Georeference& georeference, GridPoint grid)
+{
+    return {std::clamp(grid.column, 0.0, static_cast<double>(georeference.columns()) - 1.0),
+            std::clamp(grid.row, 0.0, static_cast<double>(georeference.rows()) - 1.0)};
+}
+
 bool isInside(const Georeference& georeference, GeographicPoint place)
 {
     const auto grid = georeference.toGrid(place);
@@ -57,9 +63,12 @@ std::optional<GeographicExtent> geographicExtent(const Georeference& georeferenc
     // Longitude as it runs on around the raster, from wherever the first corner has it.
     for (std::size_t side = 0; side < corners.size(); ++side) {
         for (int step = 0; step <= kStepsPerSide; ++step) {
-            const auto place = georeference.toGeographic(
-                between(corners[side], corners[(side + 1) % corners.size()],
-                        static_cast<double>(step) / kStepsPerSide));
+            const GridPoint edge = between(corners[side], corners[(side + 1) % corners.size()],
+                                           static_cast<double>(step) / kStepsPerSide);
+            auto place = georeference.toGeographic(edge);
+            if (!place) { // of a sample at a pole, half a pixel lies beyond it
+                place = georeference.toGeographic(clampedToSamples(georeference, edge));
+            }
             if (!place) {
                 return std::nullopt;
             }

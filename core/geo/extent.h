@@ -27,8 +27,8 @@ struct GeographicExtent {
 
 /// Of the pixels' outer edges; a pole inside the raster counts, and with it every longitude. The
 /// edges are walked in steps, so a curved one may reach further by 1e-4 of its length. Nothing
-/// where the map has no longitudes, or an edge lies outside its projection (a whole disk, for
-/// example). Asks PROJ some 260 times.
+/// where the map has no longitudes, or its outer samples lie outside its projection (a whole disk,
+/// for example). Asks PROJ some 260 times.
 std::optional<GeographicExtent> geographicExtent(const Georeference& georeference);
 
 } // namespace marsview

@@ -23,7 +23,7 @@
 namespace marsview {
 namespace {
 
-constexpr std::size_t kEntriesMax = 500;
+constexpr std::size_t kEntriesMax = 64;
 
 // What comes with rasters, and is opened through them or not at all.
 bool isCompanion(const std::string& name)
@@ -57,18 +57,42 @@ struct Candidate {
     std::vector<std::string> parts; // other files that it is read from
 };
 
-std::vector<Candidate> candidatesIn(const std::string& archive)
+// The largest files that may be rasters: opening thousands takes minutes.
+std::vector<std::string> largestFilesIn(const std::string& archive)
 {
+    struct File {
+        std::string name;
+        vsi_l_offset bytes = 0;
+    };
+    std::vector<File> files;
     const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
-    std::vector<Candidate> candidates;
-    const GdalMessages messages;
-    std::size_t opened = 0;
-    for (int i = 0; i < entries.Count() && opened < kEntriesMax; ++i) {
-        const std::string name = archive + "/" + entries[i];
+    for (int i = 0; i < entries.Count(); ++i) {
         if (isCompanion(entries[i])) {
             continue;
         }
-        ++opened;
+        File file{.name = archive + "/" + entries[i]};
+        VSIStatBufL status;
+        if (VSIStatL(file.name.c_str(), &status) == 0) {
+            file.bytes = static_cast<vsi_l_offset>(status.st_size);
+        }
+        files.push_back(std::move(file));
+    }
+    std::stable_sort(files.begin(), files.end(),
+                     [](const File& a, const File& b) { return a.bytes > b.bytes; });
+    files.resize(std::min(files.size(), kEntriesMax));
+    std::vector<std::string> names;
+    names.reserve(files.size());
+    for (File& file : files) {
+        names.push_back(std::move(file.name));
+    }
+    return names;
+}
+
+std::vector<Candidate> candidatesIn(const std::string& archive)
+{
+    std::vector<Candidate> candidates;
+    const GdalMessages messages;
+    for (const std::string& name : largestFilesIn(archive)) {
         if (!mayBeRaster(name)) {
             continue;
         }
@@ -209,8 +233,9 @@ std::string archiveNotice(const std::vector<ArchiveRaster>& rasters, const std::
             ++left_out;
         }
     }
-    return fmt::format("the archive holds {} rasters; {} is open; open another one by its name: {}",
-                       rasters.size(), opened, listOf(others, left_out));
+    return fmt::format(
+        "{} rasters were found in the archive; {} is open; open another one by its name: {}",
+        rasters.size(), opened, listOf(others, left_out));
 }
 
 } // namespace marsview

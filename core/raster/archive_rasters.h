@@ -21,8 +21,9 @@ std::string archiveNameFor(const std::string& path);
 /// The rasters with elevations in an archive, from archiveNameFor, the one to open first: samples
 /// of more than 8 bits before bytes, which are mostly pictures, masks and counts; then the larger
 /// one; then by name. Files that belong to another raster, as the data of a label, are left out,
-/// and so are color pictures unless there is nothing else. Opens up to 500 files that GDAL
-/// recognizes, each behind the guard of open_guard.h. Remembers the last few archives. Any thread.
+/// and so are color pictures unless there is nothing else. Opens the 64 largest files, if GDAL
+/// recognizes them, each behind the guard of open_guard.h. Remembers the last few archives. Any
+/// thread.
 std::vector<ArchiveRaster> rastersInArchive(const std::string& archive);
 
 /// Says which of several was opened and by which names the others are; empty for one.

@@ -55,6 +55,13 @@ bool isGlobal(const RasterInfo& info)
            (extent.north - extent.south > kLatitudesMin || std::abs(to_pole) <= pixel);
 }
 
+// Of less than a centimetre, if the grid were in metres: no elevations of a body are so fine.
+bool hasTinyPixels(const RasterInfo& info)
+{
+    constexpr double kFinePixel = 0.01;
+    return std::min(info.transform->pixelWidth(), info.transform->pixelHeight()) <= kFinePixel;
+}
+
 bool isWhole(double value)
 {
     constexpr double kTolerance = 1e-3; // files write 0.000833333
@@ -67,10 +74,9 @@ bool looksLikeDegrees(const RasterInfo& info)
 {
     const Extent extent = extentOf(info);
     const double pixel = std::min(info.transform->pixelWidth(), info.transform->pixelHeight());
-    constexpr double kFinePixel = 0.01; // of a centimetre, if these were metres
     constexpr double kSecondsADegree = 3600.0;
     const bool is_usual = isWhole(1.0 / pixel) || isWhole(pixel * kSecondsADegree);
-    const bool is_small = pixel < 1.0 && (is_usual || pixel <= kFinePixel);
+    const bool is_small = pixel < 1.0 && (is_usual || hasTinyPixels(info));
     const auto beginsAtZero = [pixel](double low, double high) {
         return std::min(std::abs(low), std::abs(high)) <= pixel;
     };
@@ -223,7 +229,8 @@ std::string projectedMisfit(const RasterInfo& info, const RasterInfo& as_read)
     const bool is_in_degrees =
         as_read.crs ? as_read.crs->kind() == CrsKind::Geographic && as_read.transform &&
                           canBeAngles(as_read, *as_read.crs->turn())
-                    : as_read.crs_suggestion && as_read.crs_suggestion->is_certain;
+                    : as_read.crs_suggestion &&
+                          (as_read.crs_suggestion->is_certain || hasTinyPixels(as_read));
     if (!is_in_degrees) {
         return {};
     }

@@ -421,6 +421,12 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
              info.nodata ? fmt::format("{}", *info.nodata) : std::string("none"));
         info.nodata = label.nodata;
     }
+    // What GDAL takes for void in the same samples of an .IMG without a constant of its own.
+    constexpr double kNull = -32768.0;
+    if (!label.nodata && info.driver.starts_with("JP2") && info.type == SampleType::Int16 &&
+        !info.nodata) {
+        info.nodata = kNull;
+    }
     if (!label.nodata && info.driver == "PDS" && info.nodata == 0.0 && !isSigned(info.type)) {
         note("nodata", "none", "0"); // for every product of unsigned samples
         info.nodata.reset();

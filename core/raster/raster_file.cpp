@@ -166,7 +166,7 @@ Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version
     }
     if (!dataset) {
         return remoteFailure(name, version, messages,
-                             "is in no raster format that GDAL recognises, or the connection "
+                             "is not a raster that GDAL can read, or the connection "
                              "broke off");
     }
     return dataset;
@@ -240,7 +240,9 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
         return first_failure.find(words) != std::string::npos;
     };
     if (says("not recognized") || first_failure.empty()) {
-        first_failure = "is in no raster format that GDAL recognises, or is damaged";
+        first_failure =
+            "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or get it "
+            "again";
     } else if (says("No such file or directory")) {
         first_failure = fmt::format(
             "names a data file that is not there; put it beside this one ({})", first_failure);

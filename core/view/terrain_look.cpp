@@ -25,13 +25,17 @@ double automaticContourInterval(const HeightRange& range, double metres_per_pixe
         std::min(relief_m / kLinesMost, kRise * kPixelsBetween * metres_per_pixel));
 }
 
-double contourInterval(const TerrainLook& look, const HeightRange& range, double metres_per_pixel)
+double contourInterval(const TerrainLook& look,
+                       const HeightRange& range,
+                       double metres_per_pixel,
+                       double exaggeration)
 {
     if (!look.has_contours) {
         return 0.0;
     }
-    return look.contour_interval_m > 0.0 ? look.contour_interval_m
-                                         : automaticContourInterval(range, metres_per_pixel);
+    return look.contour_interval_m > 0.0
+               ? look.contour_interval_m
+               : automaticContourInterval(range, metres_per_pixel / std::min(1.0, exaggeration));
 }
 
 } // namespace marsview

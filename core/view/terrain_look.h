@@ -31,7 +31,12 @@ struct TerrainLook {
 /// scale.
 double automaticContourInterval(const HeightRange& range, double metres_per_pixel);
 
-/// The interval that a look asks for: 0 without contours.
-double contourInterval(const TerrainLook& look, const HeightRange& range, double metres_per_pixel);
+/// The interval that a look asks for: 0 without contours. An `exaggeration` (> 0) below 1 makes an
+/// automatic interval as much larger: such terrain is far steeper than the lines are meant for, as
+/// a grid of degrees that is taken for metres.
+double contourInterval(const TerrainLook& look,
+                       const HeightRange& range,
+                       double metres_per_pixel,
+                       double exaggeration = 1.0);
 
 } // namespace marsview

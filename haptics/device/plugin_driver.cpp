@@ -262,10 +262,9 @@ std::vector<FoundDevice> PluginDriver::find()
 
 fs::path PluginDriver::fileNamed(const fs::path& name) const
 {
-    std::vector<fs::path> folders{fs::path()};
-    if (!name.has_parent_path()) {
-        folders.insert(folders.begin(), options_.folders.begin(), options_.folders.end());
-    }
+    // A bare name is never looked for in the current folder, where anybody may have put a file.
+    const std::vector<fs::path> folders =
+        name.has_parent_path() ? std::vector<fs::path>{fs::path()} : options_.folders;
     std::error_code none;
     for (const fs::path& folder : folders) {
         for (const char* ending : {"", kEnding}) {

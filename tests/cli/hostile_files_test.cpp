@@ -172,7 +172,7 @@ TEST_F(HostileFiles, AnAnswerIsRememberedUntilTheFileChanges)
     environment_ = {"GDAL_DRIVER_PATH=/nonexistent"}; // no driver recognises it now
     EXPECT_THAT(info(path).err, HasSubstr("the FAULTY driver of GDAL crashed"));
     faulty("crash"); // the same bytes, written again
-    EXPECT_THAT(info(path).err, HasSubstr("is in no raster format"));
+    EXPECT_THAT(info(path).err, HasSubstr("is not a raster that GDAL can read"));
 }
 
 TEST_F(HostileFiles, ATiffThatPromisesMoreBlocksThanItHoldsIsRefused)

@@ -171,7 +171,7 @@ protected:
             style.look.has_contours = true;
             const Picture lined = draw(camera, size, {}, style).colors;
             const double interval_m = contourInterval(style.look, map.field().range().value(),
-                                                      metresPerPixel(camera, size));
+                                                      metresPerPixel(camera, size), exaggeration);
             std::vector<int> step(width *
                                   height); // which interval a pixel is in; of no pixel: none
             constexpr int kNone = std::numeric_limits<int>::min();

@@ -14,6 +14,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QLabel>
+#include <QListView>
 #include <QMenu>
 #include <QMenuBar>
 #include <QSignalSpy>
@@ -136,6 +137,20 @@ TEST_F(ToolsTest, AreChosenOnTheToolbarInTheMenuAndByKey)
             EXPECT_EQ(actionFor(info.tool)->isChecked(), info.tool == tool);
         }
     }
+}
+
+// A list searches its rows by letters.
+TEST_F(ToolsTest, KeysWorkWhileTheListOfLayersHasTheFocus)
+{
+    auto* layers = window_->findChild<QListView*>(QStringLiteral("layers"));
+    ASSERT_NE(layers, nullptr);
+    layers->setFocus();
+    ASSERT_TRUE(QTest::qWaitFor([layers] { return layers->hasFocus(); }, kTimeout));
+    QTest::keyClick(layers, Qt::Key_T);
+    EXPECT_EQ(view().tool(), Tool::Touch);
+    const double before = view().exaggeration();
+    QTest::keyClick(layers, Qt::Key_Plus);
+    EXPECT_GT(view().exaggeration(), before);
 }
 
 // The window gets the keys first, also while a menu is open.

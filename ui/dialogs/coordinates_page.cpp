@@ -68,7 +68,9 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
     form->addRow(tr("&Coordinates"), notation_);
     form->addRow(tr("&Longitude"), longitudes_);
     //: In front of a body and a kind of latitude
-    form->addRow(tr("L&atitude on"), latitude_row);
+    auto* latitude_label = new QLabel(tr("L&atitude on"), this);
+    latitude_label->setBuddy(body_);
+    form->addRow(latitude_label, latitude_row);
     form->addRow(tr("Example"), example_);
     fill({});
 

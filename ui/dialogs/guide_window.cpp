@@ -12,6 +12,7 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QScreen>
 #include <QShortcut>
 #include <QSplitter>
 #include <QTextBrowser>
@@ -100,7 +101,9 @@ GuideWindow::GuideWindow(QVector<GuidePage> pages, QWidget* parent)
 {
     setWindowTitle(tr("User Guide"));
     setModal(false);
-    resize(900, 640);
+    constexpr QSize kSize{900, 640};
+    constexpr double kShareMost = 0.9; // of the screen
+    resize(kSize.boundedTo(screen()->availableSize() * kShareMost));
     search_->setPlaceholderText(tr("Search the guide"));
     search_->setAccessibleName(tr("Search the guide"));
     search_->setClearButtonEnabled(true);

@@ -144,8 +144,11 @@ void CrsField::keyPressEvent(QKeyEvent* event)
 {
     const bool is_return = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
     if (is_return && completer_->popup()->isVisible()) {
-        event->ignore(); // it chooses from the list
-        return;
+        if (completer_->popup()->currentIndex().isValid()) {
+            event->ignore(); // it chooses from the list
+            return;
+        }
+        completer_->popup()->hide(); // nothing is chosen there: what is typed counts
     }
     if (event->key() == Qt::Key_Down && !completer_->popup()->isVisible() && !text().isEmpty()) {
         search();

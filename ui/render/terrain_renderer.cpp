@@ -535,7 +535,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
 
     const HeightRange range = heightfield.range().value_or(HeightRange{});
     const double pixel_m = metresPerPixel(request.camera, request.viewport);
-    const double interval_m = contourInterval(look, range, pixel_m);
+    const double interval_m = contourInterval(look, range, pixel_m, style.exaggeration);
     if (interval_m > 0.0) {
         // Lines are counted in fives, so a multiple of five intervals may be left out.
         const double lines = std::fmod(base_m / interval_m, 5.0);

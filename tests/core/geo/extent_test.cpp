@@ -54,6 +54,17 @@ TEST(GeographicExtent, CountsAPoleInside)
     EXPECT_GT(extent->north.degrees(), -75.0);
 }
 
+// As of etopo5: samples at the poles, and half a pixel beyond.
+TEST(GeographicExtent, EndsAtThePolesWhereSamplesLieOnThem)
+{
+    const auto extent = geographicExtent(placed(360, 181, {0, 1, 0, 90.5, 0, -1}, "EPSG:4326"));
+    ASSERT_TRUE(extent);
+    EXPECT_NEAR(extent->north.degrees(), 90.0, 1e-9);
+    EXPECT_NEAR(extent->south.degrees(), -90.0, 1e-9);
+    EXPECT_NEAR(extent->west.degrees(), 0.0, 1e-9);
+    EXPECT_NEAR(extent->east.degrees(), 360.0, 1e-9);
+}
+
 TEST(GeographicExtent, RunsOnAcrossTheDateLine)
 {
     // UTM zone 1 from 200 to 600 km: both sides of 180°.

@@ -89,7 +89,7 @@ TEST(Archive, OpensTheLargestElevationsAndNamesTheOthers)
         EXPECT_EQ(file->info().path, root + "/set/dem.tif");
         EXPECT_EQ(file->info().columns, 60U);
         EXPECT_THAT(file->info().notices,
-                    Contains("the archive holds 3 rasters; " + root +
+                    Contains("3 rasters were found in the archive; " + root +
                              "/set/dem.tif is open; open another one by its name: " + root +
                              "/set/a_small.tif (10 × 10), " + root + "/set/mask.tif (90 × 90)"));
         // By that name.
@@ -108,8 +108,7 @@ TEST(Archive, OfOneRasterNeedsNoChoice)
     const std::string path = pack(folder, "one.zip", "one");
     const auto file = RasterFile::open(path);
     ASSERT_TRUE(file) << file.error().message;
-    EXPECT_THAT(file->info().notices,
-                testing::ElementsAre("opened in place of one.zip"));
+    EXPECT_THAT(file->info().notices, testing::ElementsAre("opened in place of one.zip"));
 }
 
 // A label and its data are one raster.

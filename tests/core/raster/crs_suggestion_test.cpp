@@ -154,6 +154,8 @@ TEST(CrsOverride, IsRefusedWhereItsUnitCannotBeTheGrids)
         {"beyond two turns", gridAt(700, 10, 1, 60, 20), "EPSG:4326", false},
         {"degrees on a site of metres", gridAt(0, 550, 10, 76, 55), "IAU_2015:49900", false},
         {"projection on a whole body", gridAt(0, 90, 1, 360, 180), "EPSG:32610", false},
+        {"projection on a tile of seconds", gridAt(-72, 45, 1.0 / 1200.0, 1200, 1200), "EPSG:32632",
+         false},
         {"projection on declared degrees", axes, "EPSG:32610", false},
         {"projection in place of degrees", in_degrees, "EPSG:32610", false},
         {"0 to 360", gridAt(0, 90, 1, 360, 180), "EPSG:4326", true},

@@ -189,6 +189,7 @@ TEST(Pds3InJpeg2000, HasTheElevationsAndThePlaceOfItsRawTwin)
         EXPECT_EQ(info.offset, radius_m);
         EXPECT_EQ(info.reference_radius_m, radius_m);
         EXPECT_TRUE(info.is_unit_declared);
+        EXPECT_EQ(info.nodata, twin.info().nodata);
         EXPECT_EQ(info.transform, twin.info().transform);
         ASSERT_TRUE(info.crs);
         EXPECT_EQ(info.crs->wkt(), twin.info().crs->wkt());

@@ -325,7 +325,7 @@ TEST_F(RemoteRasterTest, WhatIsWrongIsSaid)
     folder_.write("text.tif", std::string(5000, 'x'));
     EXPECT_EQ(message(server_.url("text.tif")),
               server_.url("text.tif") +
-                  ": is in no raster format that GDAL recognises, or the connection broke off");
+                  ": is not a raster that GDAL can read, or the connection broke off");
     for (const auto& [status, says] : {std::pair{404, "there is nothing at this address (404)"},
                                        std::pair{410, "there is nothing at this address (410)"},
                                        std::pair{401, "the server does not let it be read (401)"},

@@ -50,6 +50,12 @@ TEST(ContourInterval, IsTheOneAskedFor)
     EXPECT_EQ(contourInterval({.has_contours = true, .contour_interval_m = 70.0}, range, 10.0), 70);
     EXPECT_EQ(contourInterval({.has_contours = true}, range, 10.0),
               automaticContourInterval(range, 10.0));
+    // Squeezed to a hundredth, terrain has a hundredth of the lines.
+    EXPECT_EQ(contourInterval({.has_contours = true}, {.minimum_m = -9000.0, .maximum_m = 9000.0},
+                              1.0, 0.01),
+              automaticContourInterval({.minimum_m = -9000.0, .maximum_m = 9000.0}, 100.0));
+    EXPECT_EQ(contourInterval({.has_contours = true}, range, 10.0, 20.0),
+              automaticContourInterval(range, 10.0));
 }
 
 } // namespace
