@@ -178,9 +178,11 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
         "Make of a map too large to hold one that opens at once: a tiled GeoTIFF with "
         "overviews. Stopped, it goes on where it was when it is started again");
     options->map.addTo(*command);
-    command->add_option("-o,--output", options->output,
-                        "GeoTIFF to write; by default one in the folder of prepared maps, or none "
-                        "where DEM is tiled and has overviews already");
+    command
+        ->add_option("-o,--output", options->output,
+                     "GeoTIFF to write; by default one in the folder of prepared maps, or none "
+                     "where DEM is tiled and has overviews already")
+        ->check(fileNameEndingIn(".tif") | fileNameEndingIn(".tiff"));
     command->add_flag("--wait", options->is_waiting,
                       "where another program prepares the same file, wait for it");
     command

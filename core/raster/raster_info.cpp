@@ -321,6 +321,13 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
                                  : refusal(OverrideField::Transform, "CRS " + misfit);
         }
     }
+    if (overrides.crs && info.crs && info.crs->kind() != CrsKind::Geographic && as_read &&
+        as_read->crs_suggestion && !overrides.transform) {
+        info.notices.push_back(fmt::format(
+            "the grid looks like longitude and latitude in degrees ({}); check that the "
+            "CRS \"{}\" is meant",
+            as_read->crs_suggestion->reason, info.crs->name()));
+    }
     deduceHeightReference(info);
     if (overrides.vertical_datum) {
         info.vertical_datum = *overrides.vertical_datum;

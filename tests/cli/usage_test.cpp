@@ -83,6 +83,7 @@ TEST(Usage, RefusesValuesOfTheWrongFormOrOutsideTheirRange)
         {with(render, {"--size", "99999x10"}), "--size"},
         {{"render", bundledMars(), "-o", "x.gif"}, "--output"},
         {{"render", bundledMars(), "-o", ".png"}, "--output"},
+        {{"prepare", bundledMars(), "-o", "x.gif"}, "--output"},
         {with(render, {"--tilt", "200"}), "--tilt"},
         {with(render, {"--tilt", "nan"}), "--tilt"},
         {with(render, {"--azimuth", "inf"}), "--azimuth"},

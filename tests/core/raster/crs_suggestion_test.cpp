@@ -179,6 +179,16 @@ TEST(CrsOverride, IsRefusedWhereItsUnitCannotBeTheGrids)
     }
 }
 
+TEST(CrsOverride, OfAProjectionOnAGridThatOnlyLooksLikeDegreesIsReported)
+{
+    RasterOverrides overrides;
+    overrides.crs = "EPSG:32632";
+    const auto info = withOverrides(gridAt(5, 60, 0.25, 120, 80), overrides);
+    ASSERT_TRUE(info) << info.error().message;
+    EXPECT_THAT(info->notices,
+                testing::Contains(testing::HasSubstr("looks like longitude and latitude")));
+}
+
 TEST(CrsOverride, IsAcceptedWithAGeotransformOfItsUnit)
 {
     RasterInfo in_degrees = gridAt(0, 90, 0.25, 1440, 720);
