@@ -486,7 +486,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->capture_default_str()
         ->check(positiveNumber());
     command->add_option("--plot", options->plot, "SVG file: run time against error")
-        ->check(fileNameEndingIn(".svg"));
+        ->check(fileNameEndingIn({".svg"}));
     command->add_flag("--json", options->is_json, "for machines");
     command->callback([options, &run] { run = [options] { return runBenchContact(*options); }; });
 }

@@ -421,7 +421,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->capture_default_str()
         ->check(wholeNumberFrom(1, 100'000));
     command->add_option("--plot", options->plot, "draw the growth to this SVG file")
-        ->check(fileNameEndingIn(".svg"));
+        ->check(fileNameEndingIn({".svg"}));
     command->add_flag("--warm", options->bench.is_warm, "of the first picture: keep what is read");
     command->add_flag("--here", options->is_here,
                       "one measurement in this process, with what is prepared already");

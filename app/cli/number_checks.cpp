@@ -98,15 +98,19 @@ CLI::Validator oneOf(std::vector<std::string> words)
             description};
 }
 
-CLI::Validator fileNameEndingIn(std::string ending)
+CLI::Validator fileNameEndingIn(std::vector<std::string> endings)
 {
-    return {[ending = std::move(ending)](std::string& text) {
-                return text.size() > ending.size() && lowered(text).ends_with(ending)
+    return {[endings = std::move(endings)](std::string& text) {
+                return std::any_of(endings.begin(), endings.end(),
+                                   [&text](const std::string& ending) {
+                                       return text.size() > ending.size() &&
+                                              lowered(text).ends_with(ending);
+                                   })
                            ? std::string()
                            : fmt::format(
                                  "\"{}\" does not end in {}; other formats are not "
                                  "written",
-                                 text, ending);
+                                 text, fmt::join(endings, " or "));
             },
             ""};
 }

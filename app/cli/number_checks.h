@@ -26,7 +26,7 @@ CLI::Validator numberFrom(double low, double high);
 CLI::Validator wholeNumberFrom(std::uint64_t low, std::uint64_t high);
 /// One of these words, case-sensitive; the refusal suggests the nearest one.
 CLI::Validator oneOf(std::vector<std::string> words);
-/// A name that ends in `ending` (".png"), whatever its case.
-CLI::Validator fileNameEndingIn(std::string ending);
+/// A name that ends in one of these (".png"), whatever its case.
+CLI::Validator fileNameEndingIn(std::vector<std::string> endings);
 
 } // namespace marsview

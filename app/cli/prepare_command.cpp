@@ -182,7 +182,7 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
         ->add_option("-o,--output", options->output,
                      "GeoTIFF to write; by default one in the folder of prepared maps, or none "
                      "where DEM is tiled and has overviews already")
-        ->check(fileNameEndingIn(".tif") | fileNameEndingIn(".tiff"));
+        ->check(fileNameEndingIn({".tif", ".tiff"}));
     command->add_flag("--wait", options->is_waiting,
                       "where another program prepares the same file, wait for it");
     command

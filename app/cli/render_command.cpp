@@ -132,7 +132,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     options->map.addTo(*command);
     command->add_option("-o,--output", options->output, "PNG file to write")
         ->required()
-        ->check(fileNameEndingIn(".png"));
+        ->check(fileNameEndingIn({".png"}));
     command->add_option("--size", options->size, "width and height in pixels")
         ->type_name("WxH")
         ->capture_default_str()

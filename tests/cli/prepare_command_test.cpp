@@ -241,7 +241,7 @@ TEST(PrepareCommand, OverwritesNothingButPreparedMaps)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
-    const std::string own = folder.write("notes.txt", "weeks of work\n");
+    const std::string own = folder.write("notes.tif", "weeks of work\n");
     const std::string raster = writeRaster(folder, "own.tif", "GTiff",
                                            recipeFor<std::int16_t>(3, {1, 2, 3, 4, 5, 6, 7, 8, 9}));
     for (const std::string& there : {own, raster}) {
