@@ -1,4 +1,4 @@
-// Reading a whole text whose length nobody vouches for.
+// Reading a whole text up to a maximum length.
 #pragma once
 
 #include "core/base/result.h"

@@ -242,7 +242,7 @@ int runProbe()
             send(answer);
             return 0;
         }
-        // The companion of a bare data file is the one that can tell what is wrong.
+        // For a bare data file, the message of its companion (the label) names the cause.
         if (first_failure.empty() || (i > 0 && !failure.empty())) {
             first_failure = failure;
         }

@@ -946,7 +946,7 @@ Result<GridSize> RasterFile::Impl::scanStep() const
     band->GetBlockSize(&block_columns, &block_rows);
     const std::size_t sample_bytes = sampleBytes(info.type);
     if (strips || has_plain_strips) {
-        // Each read begins anew at the last of some hundred places where an archive can be entered.
+        // Each read starts at the last of some hundred places where an archive can be entered.
         const std::size_t bytes = info.path.starts_with("/vsi") ? kBandBytesMax : kBandBytes;
         const std::size_t row_bytes = info.columns * sample_bytes;
         return GridSize{info.columns, std::clamp<std::size_t>(bytes / row_bytes, 1, info.rows)};

@@ -57,7 +57,7 @@ struct RasterInfo {
     std::optional<Crs> crs;
     const Body* body = nullptr; // of the CRS, or told by the user; null where unknown
     AxisHints axis_hints;       // what the file says of its axes and its body without a CRS
-    /// Where there is no CRS, but the grid looks like one in degrees.
+    /// Of a grid without a CRS that looks like one in degrees.
     std::optional<CrsSuggestion> crs_suggestion;
 
     /// What was noticed, assumed or corrected; whole sentences for the user.

@@ -142,7 +142,7 @@ TEST_F(ExaggerationTest, ADragOfTheSliderIsOneStep)
     EXPECT_DOUBLE_EQ(view().exaggeration(), once);
     steps().undo();
     EXPECT_DOUBLE_EQ(view().exaggeration(), 1.0);
-    // To and fro is no step.
+    // A drag back to the start is not a step.
     const QPoint begin = handle();
     QTest::mousePress(&slider(), Qt::LeftButton, {}, begin);
     for (const int by : {15, 0}) {
