@@ -1,6 +1,6 @@
 #include "ui/window_notices.h"
 
-#include "core/raster/tile_disk_cache.h"
+#include "core/tiles/tile_disk_cache.h"
 #include "ui/haptics_controller.h"
 #include "ui/notice_center.h"
 #include "ui/number_text.h"

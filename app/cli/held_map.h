@@ -5,9 +5,9 @@
 #include "core/base/job_monitor.h"
 #include "core/geo/scene_frame.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/tile_source.h"
 #include "core/terrain/filled_heightfield.h"
 #include "core/terrain/tile_heights.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstddef>
 #include <memory>

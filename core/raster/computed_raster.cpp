@@ -3,7 +3,7 @@
 #include "core/base/check.h"
 #include "core/base/parallel.h"
 #include "core/raster/gdal_runtime.h"
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <cpl_string.h>
 #include <gdal_priv.h>

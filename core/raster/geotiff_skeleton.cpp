@@ -5,7 +5,7 @@
 #include "core/raster/gdal_types.h"
 #include "core/raster/overview_builder.h"
 #include "core/raster/tiff_tiles.h"
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

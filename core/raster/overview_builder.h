@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/raster/sample_grid.h"
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <cstddef>
 #include <cstdint>

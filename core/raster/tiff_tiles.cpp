@@ -1,7 +1,7 @@
 #include "core/raster/tiff_tiles.h"
 
 #include "core/base/parallel.h"
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <algorithm>
 #include <atomic>

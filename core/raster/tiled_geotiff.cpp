@@ -12,8 +12,8 @@
 #include "core/raster/source_identity.h"
 #include "core/raster/source_stamp.h"
 #include "core/raster/tiff_tiles.h"
-#include "core/raster/tile.h"
 #include "core/raster/tile_encoding.h"
+#include "core/tiles/tile.h"
 
 #include <cpl_string.h>
 #include <gdal_priv.h>

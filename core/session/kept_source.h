@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/raster/map_folder.h"
-#include "core/raster/tile_source.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstdint>
 #include <memory>

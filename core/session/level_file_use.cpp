@@ -1,8 +1,8 @@
 #include "core/session/level_file_use.h"
 
-#include "core/raster/geotiff_tile_source.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
+#include "core/tiles/geotiff_tile_source.h"
 
 #include <fmt/format.h>
 #include <utility>

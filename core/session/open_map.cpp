@@ -3,13 +3,10 @@
 #include "core/base/check.h"
 #include "core/base/environment.h"
 #include "core/base/plain_number.h"
-#include "core/raster/geotiff_tile_source.h"
 #include "core/raster/map_folder.h"
-#include "core/raster/mean_samples_source.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
-#include "core/raster/tile_disk_cache.h"
 #include "core/raster/tiled_geotiff.h"
 #include "core/session/kept_source.h"
 #include "core/session/level_file_use.h"
@@ -17,6 +14,9 @@
 #include "core/terrain/estimated_levels.h"
 #include "core/terrain/level_file.h"
 #include "core/terrain/map_tile_source.h"
+#include "core/tiles/geotiff_tile_source.h"
+#include "core/tiles/mean_samples_source.h"
+#include "core/tiles/tile_disk_cache.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -3,11 +3,11 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/raster/tile_cache.h"
-#include "core/raster/tile_disk_cache.h"
 #include "core/session/dataset.h"
 #include "core/session/loaded_map.h"
 #include "core/session/notices_once.h"
+#include "core/tiles/tile_cache.h"
+#include "core/tiles/tile_disk_cache.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -3,7 +3,6 @@
 #include "core/base/file_lock.h"
 #include "core/raster/disk_room.h"
 #include "core/raster/geotiff_skeleton.h"
-#include "core/raster/geotiff_tile_source.h"
 #include "core/raster/map_folder.h"
 #include "core/raster/overview_builder.h"
 #include "core/raster/raster_file.h"
@@ -12,6 +11,7 @@
 #include "core/raster/source_stamp.h"
 #include "core/terrain/level_file.h"
 #include "core/terrain/map_damage.h"
+#include "core/tiles/geotiff_tile_source.h"
 
 #include <algorithm>
 #include <chrono>

@@ -5,8 +5,8 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/raster/raster_info.h"
-#include "core/raster/tile_source.h"
 #include "core/terrain/level_file.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstddef>
 

@@ -3,11 +3,11 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/raster/tile_source.h"
 #include "core/terrain/checkpoint_file.h"
 #include "core/terrain/detail_errors.h"
 #include "core/terrain/level_file_writer.h"
 #include "core/terrain/level_survey.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstddef>
 #include <cstdint>

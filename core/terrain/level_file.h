@@ -10,10 +10,10 @@
 #include "core/base/result.h"
 #include "core/raster/raster_info.h"
 #include "core/raster/source_identity.h"
-#include "core/raster/tile.h"
-#include "core/raster/tile_cache.h"
-#include "core/raster/tile_checksums.h"
 #include "core/terrain/surface_analysis.h"
+#include "core/tiles/tile.h"
+#include "core/tiles/tile_cache.h"
+#include "core/tiles/tile_checksums.h"
 
 #include <chrono>
 #include <cstddef>

@@ -42,10 +42,10 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/tile.h"
 #include "core/terrain/block_grid.h"
 #include "core/terrain/level_file.h"
 #include "core/terrain/packing.h"
+#include "core/tiles/tile.h"
 
 #include <array>
 #include <cstddef>

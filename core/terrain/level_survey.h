@@ -3,13 +3,13 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/raster/tile_checksums.h"
-#include "core/raster/tile_source.h"
 #include "core/terrain/block_means.h"
 #include "core/terrain/checkpoint_file.h"
 #include "core/terrain/level_file_writer.h"
 #include "core/terrain/raw_ranges.h"
 #include "core/terrain/void_fills.h"
+#include "core/tiles/tile_checksums.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,8 +3,8 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/raster/geotiff_tile_source.h"
 #include "core/terrain/level_file.h"
+#include "core/tiles/geotiff_tile_source.h"
 
 #include <cstdint>
 #include <optional>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/raster/raster_info.h"
-#include "core/raster/tile_source.h"
 #include "core/terrain/level_file.h"
+#include "core/tiles/tile_source.h"
 
 #include <memory>
 #include <optional>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/raster/sample_grid.h"
-#include "core/raster/tile.h"
 #include "core/terrain/checkpoint_file.h"
+#include "core/tiles/tile.h"
 
 #include <cstddef>
 #include <map>

@@ -1,9 +1,9 @@
 // The heights that a node of the quadtree is drawn with.
 #pragma once
 
-#include "core/raster/tile.h"
 #include "core/terrain/detail_errors.h"
 #include "core/terrain/drawn_surface.h"
+#include "core/tiles/tile.h"
 
 #include <cstddef>
 #include <span>

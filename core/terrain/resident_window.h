@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/geo/frames.h"
-#include "core/raster/tile.h"
 #include "core/terrain/tile_heights.h"
+#include "core/tiles/tile.h"
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "core/geo/georeference.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/raster_info.h"
-#include "core/raster/tile_source.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstddef>
 #include <memory>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/raster/raster_info.h"
-#include "core/raster/tile.h"
 #include "core/terrain/heightfield.h"
 #include "core/terrain/level_file.h"
+#include "core/tiles/tile.h"
 
 #include <cstddef>
 #include <cstdint>

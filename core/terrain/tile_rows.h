@@ -3,7 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/raster/tile_source.h"
+#include "core/tiles/tile_source.h"
 
 #include <chrono>
 #include <cstddef>

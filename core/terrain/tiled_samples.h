@@ -3,7 +3,7 @@
 
 #include "core/base/result.h"
 #include "core/raster/raster_info.h"
-#include "core/raster/tile_cache.h"
+#include "core/tiles/tile_cache.h"
 
 #include <array>
 #include <cstddef>

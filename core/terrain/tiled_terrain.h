@@ -2,8 +2,8 @@
 // to the heights that are not.
 #pragma once
 
-#include "core/raster/tile.h"
 #include "core/terrain/tile_heights.h"
+#include "core/tiles/tile.h"
 
 #include <array>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/tile_cache.h"
 #include "core/terrain/tiled_terrain.h"
+#include "core/tiles/tile_cache.h"
 
 #include <array>
 #include <cstddef>

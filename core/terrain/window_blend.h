@@ -1,7 +1,7 @@
 // How tiles that arrive under the hand are made felt: not at once, but at a bounded rate.
 #pragma once
 
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <array>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/tile_cache.h"
 #include "core/terrain/resident_window.h"
+#include "core/tiles/tile_cache.h"
 #include "haptics/loop/window_exchange.h"
 #include "haptics/loop/window_plan.h"
 

@@ -1,8 +1,8 @@
 // Which tiles the hand will want, by where it goes and how fast tiles can be had.
 #pragma once
 
-#include "core/raster/tile.h"
 #include "core/terrain/resident_window.h"
+#include "core/tiles/tile.h"
 #include "haptics/loop/hand_motion.h"
 
 #include <cstddef>

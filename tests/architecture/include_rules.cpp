@@ -20,8 +20,10 @@ const std::vector<Layer>& layers()
     static const std::vector<Layer> kLayers{
         {"core/base/", {"core/base/"}},
         {"core/geo/", {"core/base/", "core/geo/"}},
-        {"core/raster/", {"core/base/", "core/geo/", "core/raster/"}},
-        {"core/terrain/", {"core/base/", "core/geo/", "core/raster/", "core/terrain/"}},
+        {"core/raster/", {"core/base/", "core/geo/", "core/raster/", "core/tiles/tile.h"}},
+        {"core/tiles/", {"core/base/", "core/geo/", "core/raster/", "core/tiles/"}},
+        {"core/terrain/",
+         {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/"}},
         {"core/mesh/", {"core/base/", "core/geo/frames.h", "core/mesh/"}},
         {"core/contact/",
          {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/mesh/",

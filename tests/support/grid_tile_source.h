@@ -1,8 +1,8 @@
 // Tiles of a map that is held in memory: the truth for everything that reads tiles.
 #pragma once
 
-#include "core/raster/tile_source.h"
 #include "core/terrain/filled_heightfield.h"
+#include "core/tiles/tile_source.h"
 
 #include <atomic>
 #include <cstdint>

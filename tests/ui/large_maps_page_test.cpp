@@ -1,5 +1,5 @@
 #include "core/raster/map_folder.h"
-#include "core/raster/tile_disk_cache.h"
+#include "core/tiles/tile_disk_cache.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/temp_folder.h"

@@ -1,7 +1,7 @@
 // The page of the preferences that is about maps too large to be held.
 #pragma once
 
-#include "core/raster/tile_disk_cache.h"
+#include "core/tiles/tile_disk_cache.h"
 #include "ui/detached_jobs.h"
 #include "ui/preferences.h"
 

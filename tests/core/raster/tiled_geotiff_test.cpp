@@ -1,12 +1,12 @@
 // The tiled copy against its source, by GDAL's tools and by brute force.
 #include "core/base/file_lock.h"
 #include "core/raster/geotiff_skeleton.h"
-#include "core/raster/geotiff_tile_source.h"
 #include "core/raster/overview_builder.h"
 #include "core/raster/prepare_journal.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/source_identity.h"
 #include "core/raster/tiled_geotiff.h"
+#include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"

@@ -1,5 +1,5 @@
-#include "core/raster/tile_cache.h"
 #include "core/terrain/fractal_heights.h"
+#include "core/tiles/tile_cache.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/random.h"

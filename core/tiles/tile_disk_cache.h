@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/tile_source.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstddef>
 #include <cstdint>

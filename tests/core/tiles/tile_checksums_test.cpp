@@ -1,4 +1,4 @@
-#include "core/raster/tile_checksums.h"
+#include "core/tiles/tile_checksums.h"
 #include "tests/support/make_terrain.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/raster/mean_samples_source.h"
+#include "core/tiles/mean_samples_source.h"
 
 #include "core/base/check.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/raster/raster_file.h"
-#include "core/raster/tile_checksums.h"
-#include "core/raster/tile_source.h"
+#include "core/tiles/tile_checksums.h"
+#include "core/tiles/tile_source.h"
 
 #include <memory>
 #include <string>

@@ -1,4 +1,4 @@
-#include "core/raster/tile_checksums.h"
+#include "core/tiles/tile_checksums.h"
 
 #include "core/base/check.h"
 

@@ -6,7 +6,7 @@
 // Samples are stored as differences from the one to their left, as whole numbers of their size:
 // terrain then compresses to about half of what it does without.
 
-#include "core/raster/tile_file.h"
+#include "core/tiles/tile_file.h"
 
 #include <bit>
 #include <cstdint>

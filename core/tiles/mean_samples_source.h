@@ -1,7 +1,7 @@
 // Coarser samples of a raster that nobody has prepared, from its overviews.
 #pragma once
 
-#include "core/raster/tile_source.h"
+#include "core/tiles/tile_source.h"
 
 #include <memory>
 

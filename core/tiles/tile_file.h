@@ -1,7 +1,7 @@
 // One tile as a file.
 #pragma once
 
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <cstddef>
 #include <optional>

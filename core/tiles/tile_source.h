@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <memory>
 #include <string>

@@ -1,4 +1,4 @@
-#include "core/raster/mean_samples_source.h"
+#include "core/tiles/mean_samples_source.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/nan.h"

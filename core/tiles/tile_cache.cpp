@@ -1,4 +1,4 @@
-#include "core/raster/tile_cache.h"
+#include "core/tiles/tile_cache.h"
 
 #include "core/base/check.h"
 

@@ -3,7 +3,7 @@
 
 #include "core/raster/grid_window.h"
 #include "core/raster/sample_grid.h"
-#include "core/raster/tile.h"
+#include "core/tiles/tile.h"
 
 #include <cstddef>
 #include <cstdint>

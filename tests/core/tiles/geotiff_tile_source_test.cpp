@@ -1,6 +1,6 @@
 // Tiles of a prepared map that was damaged.
-#include "core/raster/geotiff_tile_source.h"
 #include "core/raster/tiled_geotiff.h"
+#include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/temp_folder.h"

@@ -1,6 +1,6 @@
-#include "core/raster/tile_disk_cache.h"
+#include "core/tiles/tile_disk_cache.h"
 
-#include "core/raster/tile_file.h"
+#include "core/tiles/tile_file.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "core/raster/geotiff_tile_source.h"
+#include "core/tiles/geotiff_tile_source.h"
 
 #include "core/base/check.h"
 #include "core/raster/remote_raster.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/tile.h"
-#include "core/raster/tile_source.h"
+#include "core/tiles/tile.h"
+#include "core/tiles/tile_source.h"
 
 #include <cstddef>
 #include <cstdint>
