@@ -7,8 +7,8 @@
 #include "app/cli/map_options.h"
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
-#include "core/raster/geotiff_skeleton.h"
-#include "core/raster/map_folder.h"
+#include "core/prepare/geotiff_skeleton.h"
+#include "core/prepare/map_folder.h"
 #include "core/session/prepare_map.h"
 #include "core/terrain/level_file.h"
 

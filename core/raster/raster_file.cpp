@@ -1,10 +1,10 @@
 #include "core/raster/raster_file.h"
 
+#include "core/prepare/geotiff_skeleton.h"
 #include "core/raster/archive_rasters.h"
 #include "core/raster/axis_hints.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
-#include "core/raster/geotiff_skeleton.h"
 #include "core/raster/label_elevation.h"
 #include "core/raster/large_blocks.h"
 #include "core/raster/mosaic.h"

@@ -1,16 +1,16 @@
 #include "core/session/prepare_map.h"
 
 #include "core/base/file_lock.h"
-#include "core/raster/disk_room.h"
-#include "core/raster/geotiff_skeleton.h"
-#include "core/raster/map_folder.h"
-#include "core/raster/overview_builder.h"
+#include "core/prepare/disk_room.h"
+#include "core/prepare/geotiff_skeleton.h"
+#include "core/prepare/map_damage.h"
+#include "core/prepare/map_folder.h"
+#include "core/prepare/overview_builder.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
 #include "core/raster/source_stamp.h"
 #include "core/terrain/level_file.h"
-#include "core/terrain/map_damage.h"
 #include "core/tiles/geotiff_tile_source.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/raster/tiled_geotiff.h"
+#include "core/prepare/tiled_geotiff.h"
 #include "core/session/dataset.h"
 
 #include <chrono>

@@ -1,7 +1,7 @@
 // Measuring what drawing with fewer samples is off by, piece by piece.
 #pragma once
 
-#include "core/terrain/checkpoint_file.h"
+#include "core/prepare/checkpoint_file.h"
 #include "core/terrain/detail_errors.h"
 
 #include <cstddef>

@@ -20,10 +20,16 @@ const std::vector<Layer>& layers()
     static const std::vector<Layer> kLayers{
         {"core/base/", {"core/base/"}},
         {"core/geo/", {"core/base/", "core/geo/"}},
-        {"core/raster/", {"core/base/", "core/geo/", "core/raster/", "core/tiles/tile.h"}},
+        {"core/raster/",
+         {"core/base/", "core/geo/", "core/raster/", "core/tiles/tile.h",
+          "core/prepare/geotiff_skeleton.h"}},
         {"core/tiles/", {"core/base/", "core/geo/", "core/raster/", "core/tiles/"}},
         {"core/terrain/",
-         {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/"}},
+         {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/",
+          "core/prepare/checkpoint_file.h"}},
+        {"core/prepare/",
+         {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/",
+          "core/prepare/"}},
         {"core/mesh/", {"core/base/", "core/geo/frames.h", "core/mesh/"}},
         {"core/contact/",
          {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/mesh/",
@@ -82,7 +88,7 @@ bool mayUseQt(std::string_view path)
 
 bool mayUseGdal(std::string_view path)
 {
-    constexpr std::array<std::string_view, 3> kFolders{"core/raster/", "core/geo/",
+    constexpr std::array<std::string_view, 4> kFolders{"core/raster/", "core/geo/", "core/prepare/",
                                                        "tests/support/faulty_driver/"};
     return startsWithAny(path, kFolders);
 }
@@ -140,7 +146,7 @@ std::optional<std::string> violation(std::string_view path, std::string_view inc
         return refused("Qt belongs to ui (without ui/render) and app/gui");
     }
     if (isGdal(header) && !mayUseGdal(path)) {
-        return refused("GDAL belongs to core/raster and core/geo");
+        return refused("GDAL belongs to core/geo, core/raster and core/prepare");
     }
     if (header.starts_with("hidapi") && !path.starts_with("haptics/drivers/") &&
         !path.starts_with("tests/haptics/drivers/")) {

@@ -1,4 +1,4 @@
-#include "core/raster/map_folder.h"
+#include "core/prepare/map_folder.h"
 #include "core/tiles/tile_disk_cache.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"

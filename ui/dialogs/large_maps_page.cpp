@@ -1,6 +1,6 @@
 #include "ui/dialogs/large_maps_page.h"
 
-#include "core/raster/map_folder.h"
+#include "core/prepare/map_folder.h"
 #include "core/raster/raster_file.h"
 #include "ui/number_text.h"
 

@@ -1,6 +1,6 @@
 // Rasters in large blocks: the same samples as by GDAL's tools, without holding a block.
+#include "core/prepare/tiled_geotiff.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/tiled_geotiff.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
 #include "tests/support/temp_folder.h"

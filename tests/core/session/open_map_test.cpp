@@ -1,4 +1,4 @@
-#include "core/raster/map_folder.h"
+#include "core/prepare/map_folder.h"
 #include "core/session/open_map.h"
 #include "core/session/prepare_map.h"
 #include "core/terrain/level_file.h"

@@ -1,5 +1,5 @@
 // Tiles of a prepared map that was damaged.
-#include "core/raster/tiled_geotiff.h"
+#include "core/prepare/tiled_geotiff.h"
 #include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/make_terrain.h"

@@ -1,7 +1,7 @@
-#include "core/raster/map_folder.h"
+#include "core/prepare/map_folder.h"
 
 #include "core/base/environment.h"
-#include "core/raster/geotiff_skeleton.h"
+#include "core/prepare/geotiff_skeleton.h"
 
 #include <algorithm>
 #include <cctype>

@@ -3,11 +3,11 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/prepare/checkpoint_file.h"
+#include "core/prepare/level_file_writer.h"
+#include "core/prepare/void_fills.h"
 #include "core/terrain/block_means.h"
-#include "core/terrain/checkpoint_file.h"
-#include "core/terrain/level_file_writer.h"
 #include "core/terrain/raw_ranges.h"
-#include "core/terrain/void_fills.h"
 #include "core/tiles/tile_checksums.h"
 #include "core/tiles/tile_source.h"
 

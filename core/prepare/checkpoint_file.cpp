@@ -1,4 +1,4 @@
-#include "core/terrain/checkpoint_file.h"
+#include "core/prepare/checkpoint_file.h"
 
 #include "core/base/durable_file.h"
 #include "core/raster/file_bytes.h"

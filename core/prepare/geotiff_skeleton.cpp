@@ -1,10 +1,10 @@
-#include "core/raster/geotiff_skeleton.h"
+#include "core/prepare/geotiff_skeleton.h"
 
 #include "core/base/check.h"
+#include "core/prepare/overview_builder.h"
+#include "core/prepare/tiff_tiles.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
-#include "core/raster/overview_builder.h"
-#include "core/raster/tiff_tiles.h"
 #include "core/tiles/tile.h"
 
 #include <cpl_conv.h>

@@ -1,4 +1,4 @@
-#include "core/raster/tiff_tiles.h"
+#include "core/prepare/tiff_tiles.h"
 
 #include "core/base/parallel.h"
 #include "core/tiles/tile.h"

@@ -1,4 +1,4 @@
-#include "core/session/kept_source.h"
+#include "core/prepare/kept_source.h"
 
 #include "core/terrain/level_file.h"
 

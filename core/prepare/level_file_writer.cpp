@@ -1,4 +1,4 @@
-#include "core/terrain/level_file_writer.h"
+#include "core/prepare/level_file_writer.h"
 
 #include "core/base/durable_file.h"
 #include "core/base/parallel.h"

@@ -1,8 +1,8 @@
 // Gathering the samples of coarser levels from tiles of the finest.
 #pragma once
 
+#include "core/prepare/checkpoint_file.h"
 #include "core/raster/sample_grid.h"
-#include "core/terrain/checkpoint_file.h"
 #include "core/tiles/tile.h"
 
 #include <cstddef>

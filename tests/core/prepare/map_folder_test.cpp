@@ -1,5 +1,5 @@
-#include "core/raster/map_folder.h"
-#include "core/raster/tiled_geotiff.h"
+#include "core/prepare/map_folder.h"
+#include "core/prepare/tiled_geotiff.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/temp_folder.h"
 

@@ -1,4 +1,4 @@
-#include "core/terrain/nested_levels.h"
+#include "core/prepare/nested_levels.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "core/terrain/build_checkpoints.h"
+#include "core/prepare/build_checkpoints.h"
 
 #include <algorithm>
 #include <cstdio>

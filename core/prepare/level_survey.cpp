@@ -1,8 +1,8 @@
-#include "core/terrain/level_survey.h"
+#include "core/prepare/level_survey.h"
 
+#include "core/prepare/nested_levels.h"
+#include "core/prepare/tile_rows.h"
 #include "core/terrain/detail_measure.h"
-#include "core/terrain/nested_levels.h"
-#include "core/terrain/tile_rows.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/prepare/checkpoint_file.h"
 #include "core/terrain/block_means.h"
-#include "core/terrain/checkpoint_file.h"
 #include "core/terrain/tile_fill.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-#include "core/raster/prepare_journal.h"
+#include "core/prepare/prepare_journal.h"
 
-#include "core/raster/tiff_tiles.h"
+#include "core/prepare/tiff_tiles.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -3,10 +3,10 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/terrain/checkpoint_file.h"
+#include "core/prepare/checkpoint_file.h"
+#include "core/prepare/level_file_writer.h"
+#include "core/prepare/level_survey.h"
 #include "core/terrain/detail_errors.h"
-#include "core/terrain/level_file_writer.h"
-#include "core/terrain/level_survey.h"
 #include "core/tiles/tile_source.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "core/terrain/tile_rows.h"
+#include "core/prepare/tile_rows.h"
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"

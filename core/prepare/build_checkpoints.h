@@ -3,9 +3,9 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/terrain/checkpoint_file.h"
-#include "core/terrain/level_file_writer.h"
-#include "core/terrain/tile_rows.h"
+#include "core/prepare/checkpoint_file.h"
+#include "core/prepare/level_file_writer.h"
+#include "core/prepare/tile_rows.h"
 
 #include <chrono>
 #include <cstdint>

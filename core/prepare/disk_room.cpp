@@ -1,4 +1,4 @@
-#include "core/raster/disk_room.h"
+#include "core/prepare/disk_room.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/raster/overview_builder.h"
+#include "core/prepare/overview_builder.h"
 
 #include "core/base/check.h"
 #include "core/raster/nodata.h"

@@ -1,4 +1,4 @@
-#include "core/raster/tile_encoding.h"
+#include "core/prepare/tile_encoding.h"
 
 #include "core/base/check.h"
 

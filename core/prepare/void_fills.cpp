@@ -1,4 +1,4 @@
-#include "core/terrain/void_fills.h"
+#include "core/prepare/void_fills.h"
 
 #include "core/base/durable_file.h"
 #include "core/terrain/packing.h"

@@ -1,7 +1,7 @@
-#include "core/terrain/map_damage.h"
+#include "core/prepare/map_damage.h"
 
 #include "core/base/check.h"
-#include "core/terrain/tile_rows.h"
+#include "core/prepare/tile_rows.h"
 
 #include <atomic>
 #include <limits>

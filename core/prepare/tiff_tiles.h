@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/tile_encoding.h"
+#include "core/prepare/tile_encoding.h"
 
 #include <cstddef>
 #include <cstdint>

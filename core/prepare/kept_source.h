@@ -1,7 +1,7 @@
 // Tiles of a map that lies in the folder of prepared maps.
 #pragma once
 
-#include "core/raster/map_folder.h"
+#include "core/prepare/map_folder.h"
 #include "core/tiles/tile_source.h"
 
 #include <cstdint>
