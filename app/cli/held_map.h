@@ -4,9 +4,9 @@
 #include "app/cli/map_options.h"
 #include "core/base/job_monitor.h"
 #include "core/geo/scene_frame.h"
+#include "core/levels/tile_heights.h"
 #include "core/raster/raster_file.h"
 #include "core/terrain/filled_heightfield.h"
-#include "core/terrain/tile_heights.h"
 #include "core/tiles/tile_source.h"
 
 #include <cstddef>

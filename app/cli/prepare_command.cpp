@@ -7,10 +7,10 @@
 #include "app/cli/map_options.h"
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
+#include "core/levels/level_file.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/map_folder.h"
 #include "core/session/prepare_map.h"
-#include "core/terrain/level_file.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>

@@ -5,7 +5,7 @@
 #include "app/cli/number_checks.h"
 #include "app/cli/text_output.h"
 #include "core/base/bounded_text.h"
-#include "core/session/level_file_use.h"
+#include "core/levels/level_file_use.h"
 #include "core/terrain/surface_reader.h"
 
 #include <CLI/CLI.hpp>

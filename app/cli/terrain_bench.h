@@ -4,9 +4,9 @@
 
 #include "app/cli/map_options.h"
 #include "core/base/result.h"
+#include "core/levels/tile_heights.h"
 #include "core/session/loaded_map.h"
 #include "core/session/open_map.h"
-#include "core/terrain/tile_heights.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "app/cli/terrain_bench.h"
 #include "app/cli/tick_clock.h"
 #include "core/contact/contact_model.h"
-#include "core/terrain/waiting_terrain.h"
+#include "core/levels/waiting_terrain.h"
 
 #include <algorithm>
 #include <array>

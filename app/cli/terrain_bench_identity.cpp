@@ -3,7 +3,7 @@
 #include "app/cli/swipe_path.h"
 #include "app/cli/terrain_bench.h"
 #include "core/contact/contact_model.h"
-#include "core/terrain/waiting_terrain.h"
+#include "core/levels/waiting_terrain.h"
 
 #include <cmath>
 #include <cstring>

@@ -7,8 +7,8 @@
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
 #include "core/geo/scene_frame.h"
+#include "core/levels/waiting_terrain.h"
 #include "core/session/dataset.h"
-#include "core/terrain/waiting_terrain.h"
 #include "haptics/trace/goal_file.h"
 #include "haptics/trace/recorded_ground.h"
 

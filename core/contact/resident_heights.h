@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/contact/heightfield_surface.h"
-#include "core/terrain/tiled_terrain.h"
+#include "core/levels/tiled_terrain.h"
 
 #include <array>
 #include <cstddef>

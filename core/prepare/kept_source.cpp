@@ -1,6 +1,6 @@
 #include "core/prepare/kept_source.h"
 
-#include "core/terrain/level_file.h"
+#include "core/levels/level_file.h"
 
 #include <filesystem>
 #include <system_error>

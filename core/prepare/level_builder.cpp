@@ -4,12 +4,12 @@
 // with every level, tile by tile, the tile to the right being read ahead for its first column.
 
 #include "core/base/check.h"
+#include "core/levels/level_file.h"
 #include "core/prepare/build_checkpoints.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/level_errors.h"
 #include "core/prepare/level_file_writer.h"
 #include "core/prepare/level_survey.h"
-#include "core/terrain/level_file.h"
 
 #include <algorithm>
 #include <cstdio>

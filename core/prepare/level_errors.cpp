@@ -1,10 +1,10 @@
 #include "core/prepare/level_errors.h"
 
+#include "core/levels/level_file.h"
 #include "core/prepare/nested_levels.h"
 #include "core/prepare/tile_rows.h"
 #include "core/terrain/detail_measure.h"
 #include "core/terrain/fill_range.h"
-#include "core/terrain/level_file.h"
 #include "core/terrain/sample_rows.h"
 
 #include <algorithm>

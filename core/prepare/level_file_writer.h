@@ -3,7 +3,7 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
-#include "core/terrain/level_file_format.h"
+#include "core/levels/level_file_format.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "core/prepare/void_fills.h"
 
 #include "core/base/durable_file.h"
-#include "core/terrain/packing.h"
+#include "core/levels/packing.h"
 
 #include <algorithm>
 #include <cerrno>

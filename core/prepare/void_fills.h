@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/levels/tile_fill.h"
 #include "core/prepare/checkpoint_file.h"
 #include "core/terrain/block_means.h"
-#include "core/terrain/tile_fill.h"
 
 #include <cstddef>
 #include <cstdint>

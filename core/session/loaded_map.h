@@ -1,9 +1,9 @@
 // A map with everything that showing and touching it needs.
 #pragma once
 
+#include "core/levels/level_file.h"
 #include "core/session/dataset.h"
 #include "core/terrain/filled_heightfield.h"
-#include "core/terrain/level_file.h"
 #include "core/terrain/relief_tile.h"
 #include "core/terrain/surface_analysis.h"
 #include "core/view/slope_range.h"

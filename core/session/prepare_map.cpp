@@ -1,6 +1,7 @@
 #include "core/session/prepare_map.h"
 
 #include "core/base/file_lock.h"
+#include "core/levels/level_file.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/map_damage.h"
@@ -10,7 +11,6 @@
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
 #include "core/raster/source_stamp.h"
-#include "core/terrain/level_file.h"
 #include "core/tiles/geotiff_tile_source.h"
 
 #include <algorithm>

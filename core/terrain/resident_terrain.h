@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/geo/frames.h"
+#include "core/levels/tiled_terrain.h"
 #include "core/terrain/resident_window.h"
-#include "core/terrain/tiled_terrain.h"
 #include "core/terrain/window_blend.h"
 
 #include <array>

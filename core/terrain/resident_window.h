@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geo/frames.h"
-#include "core/terrain/tile_heights.h"
+#include "core/levels/tile_heights.h"
 #include "core/tiles/tile.h"
 
 #include <array>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/levels/tile_heights.h"
 #include "core/terrain/resident_terrain.h"
-#include "core/terrain/tile_heights.h"
 #include "core/tiles/tile_cache.h"
 #include "haptics/loop/ground_record.h"
 

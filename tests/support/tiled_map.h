@@ -1,9 +1,9 @@
 // A map that is held in memory and read in tiles, to hold one against the other.
 #pragma once
 
+#include "core/levels/tile_heights.h"
 #include "core/terrain/filled_heightfield.h"
 #include "core/terrain/resident_window.h"
-#include "core/terrain/tile_heights.h"
 #include "tests/support/grid_tile_source.h"
 
 #include <cstddef>

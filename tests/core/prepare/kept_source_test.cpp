@@ -1,5 +1,5 @@
+#include "core/levels/level_file.h"
 #include "core/prepare/kept_source.h"
-#include "core/terrain/level_file.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>

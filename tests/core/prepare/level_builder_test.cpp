@@ -1,5 +1,5 @@
 // Building level files where something goes wrong.
-#include "core/terrain/level_file.h"
+#include "core/levels/level_file.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/nan.h"

@@ -1,6 +1,6 @@
+#include "core/levels/waiting_terrain.h"
 #include "core/terrain/resident_terrain.h"
 #include "core/terrain/touch_terrain.h"
-#include "core/terrain/waiting_terrain.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/random.h"

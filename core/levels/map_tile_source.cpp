@@ -1,4 +1,4 @@
-#include "core/terrain/map_tile_source.h"
+#include "core/levels/map_tile_source.h"
 
 #include "core/base/check.h"
 

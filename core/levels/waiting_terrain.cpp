@@ -1,4 +1,4 @@
-#include "core/terrain/waiting_terrain.h"
+#include "core/levels/waiting_terrain.h"
 
 #include "core/base/check.h"
 

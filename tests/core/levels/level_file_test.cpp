@@ -1,6 +1,6 @@
+#include "core/levels/level_file.h"
 #include "core/raster/raster_file.h"
 #include "core/terrain/filled_heightfield.h"
-#include "core/terrain/level_file.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/nan.h"

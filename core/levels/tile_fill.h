@@ -1,7 +1,7 @@
 // What the void samples of a tile are filled with.
 #pragma once
 
-#include "core/terrain/level_file_format.h"
+#include "core/levels/level_file_format.h"
 
 #include <cstddef>
 #include <span>

@@ -1,8 +1,8 @@
 // The tiles of a large map: from the raster itself, and what it lacks from its level file.
 #pragma once
 
+#include "core/levels/level_file.h"
 #include "core/raster/raster_info.h"
-#include "core/terrain/level_file.h"
 #include "core/tiles/tile_source.h"
 
 #include <memory>

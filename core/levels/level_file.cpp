@@ -1,12 +1,12 @@
-#include "core/terrain/level_file.h"
+#include "core/levels/level_file.h"
 
 #include "core/base/parallel.h"
+#include "core/levels/level_file_format.h"
+#include "core/levels/tile_fill.h"
 #include "core/raster/file_bytes.h"
 #include "core/terrain/fill_range.h"
 #include "core/terrain/filled_heightfield.h"
-#include "core/terrain/level_file_format.h"
 #include "core/terrain/raw_ranges.h"
-#include "core/terrain/tile_fill.h"
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@
 // are read, where E(1) is small, middling and large, and what they have for e(1), e(2) and e(3) in
 // units of E(1) there goes for all nodes; the levels between lie on a power law.
 
-#include "core/terrain/estimated_levels.h"
+#include "core/levels/estimated_levels.h"
 
 #include "core/base/check.h"
 #include "core/terrain/drawn_surface.h"

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/levels/level_file.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/raster_info.h"
-#include "core/terrain/level_file.h"
 #include "core/tiles/tile_source.h"
 
 #include <memory>

@@ -1,4 +1,4 @@
-#include "core/terrain/level_file_format.h"
+#include "core/levels/level_file_format.h"
 
 #include "core/terrain/detail_errors.h"
 #include "core/terrain/raw_ranges.h"

@@ -1,4 +1,4 @@
-#include "core/terrain/tile_fill.h"
+#include "core/levels/tile_fill.h"
 
 namespace marsview {
 

@@ -22,7 +22,7 @@
 // [offset, bytes, CRC-32]. Numbers that JSON cannot write are strings: "nan", "inf", "-inf".
 //
 // A plane is an array of numbers, in chunks of whole rows, about 1 MiB before packing
-// (core/terrain/packing.h). There are, in this order:
+// (core/levels/packing.h). There are, in this order:
 //
 //   ranges           RawRanges: smallest and largest raw value by turns
 //   errors 1, 2, …   DetailErrors of the nodes of each level, float metres
@@ -42,9 +42,9 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/levels/level_file.h"
+#include "core/levels/packing.h"
 #include "core/terrain/block_grid.h"
-#include "core/terrain/level_file.h"
-#include "core/terrain/packing.h"
 #include "core/tiles/tile.h"
 
 #include <array>

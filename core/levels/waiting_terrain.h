@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/terrain/tiled_terrain.h"
+#include "core/levels/tiled_terrain.h"
 #include "core/tiles/tile_cache.h"
 
 #include <array>

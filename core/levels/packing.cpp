@@ -1,4 +1,4 @@
-#include "core/terrain/packing.h"
+#include "core/levels/packing.h"
 
 #include "core/base/check.h"
 #include "core/base/raw_array.h"

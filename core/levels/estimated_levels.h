@@ -4,8 +4,8 @@
 
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
+#include "core/levels/level_file.h"
 #include "core/raster/raster_info.h"
-#include "core/terrain/level_file.h"
 #include "core/tiles/tile_source.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // to the heights that are not.
 #pragma once
 
-#include "core/terrain/tile_heights.h"
+#include "core/levels/tile_heights.h"
 #include "core/tiles/tile.h"
 
 #include <array>

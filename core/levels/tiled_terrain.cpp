@@ -1,4 +1,4 @@
-#include "core/terrain/tiled_terrain.h"
+#include "core/levels/tiled_terrain.h"
 
 #include "core/base/check.h"
 #include "core/terrain/touch_terrain.h"

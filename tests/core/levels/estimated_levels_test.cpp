@@ -1,4 +1,4 @@
-#include "core/terrain/estimated_levels.h"
+#include "core/levels/estimated_levels.h"
 #include "core/terrain/surface_analysis.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"

@@ -1,4 +1,4 @@
-#include "core/session/level_file_use.h"
+#include "core/levels/level_file_use.h"
 
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"

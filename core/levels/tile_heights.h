@@ -1,9 +1,9 @@
 // Heights from the samples of tiles, with voids filled: those of FilledHeightfield to the bit.
 #pragma once
 
+#include "core/levels/level_file.h"
 #include "core/raster/raster_info.h"
 #include "core/terrain/heightfield.h"
-#include "core/terrain/level_file.h"
 #include "core/tiles/tile.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "core/terrain/tile_heights.h"
+#include "core/levels/tile_heights.h"
 
 #include "core/base/check.h"
 
