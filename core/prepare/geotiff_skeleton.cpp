@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/prepare/overview_builder.h"
 #include "core/prepare/tiff_tiles.h"
+#include "core/raster/exact_crs.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
 #include "core/tiles/tile.h"
@@ -24,10 +25,8 @@
 namespace marsview {
 namespace {
 
-constexpr const char* kDomain = "MARSVIEW";
 constexpr const char* kKey = "MADE_FROM";
 constexpr const char* kSource = "SOURCE";
-constexpr const char* kCrs = "CRS";
 
 // Older readers know no differences of 64-bit whole numbers.
 const char* predictorFor(SampleType type)
@@ -106,37 +105,12 @@ bool describe(GDALDataset& dataset, const RasterInfo& info, const GeoTiffOrigin&
     if (!info.vertical_datum.empty() && !info.reference_radius_m) {
         expect(dataset.SetMetadataItem("VERTICAL_DATUM", info.vertical_datum.c_str()));
     }
-    expect(dataset.SetMetadataItem(kKey, origin.key.c_str(), kDomain));
-    expect(dataset.SetMetadataItem(kSource, origin.source.c_str(), kDomain));
+    expect(dataset.SetMetadataItem(kKey, origin.key.c_str(), kOwnMetadataDomain));
+    expect(dataset.SetMetadataItem(kSource, origin.source.c_str(), kOwnMetadataDomain));
     return is_written;
 }
 
-// GeoTIFF has keys for what is usual on the Earth, and forgets the rest without a word.
-bool keepCrs(GDALDataset& dataset, const RasterInfo& info)
-{
-    if (!info.crs) {
-        return true;
-    }
-    if (const OGRSpatialReference* reference = dataset.GetSpatialRef()) {
-        const Result<Crs> kept = Crs::fromSpatialReference(*reference);
-        if (kept && kept->wkt() == info.crs->wkt()) {
-            return true;
-        }
-    }
-    return dataset.SetMetadataItem(kCrs, info.crs->wkt().c_str(), kDomain) == CE_None;
-}
-
 } // namespace
-
-std::optional<Crs> exactCrsOf(GDALDataset& dataset)
-{
-    const char* wkt = dataset.GetMetadataItem(kCrs, kDomain);
-    if (wkt == nullptr) {
-        return std::nullopt;
-    }
-    Result<Crs> crs = Crs::fromText(wkt);
-    return crs ? std::optional<Crs>(std::move(crs).value()) : std::nullopt;
-}
 
 Status
 writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoTiffOrigin& origin)
@@ -192,7 +166,7 @@ writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoT
                                         open_options.List()));
         return dataset != nullptr;
     };
-    if (!reopen() || !keepCrs(*dataset, info) ||
+    if (!reopen() || !keepExactCrs(*dataset, info.crs) ||
         (!factors.empty() &&
          dataset->BuildOverviews("NONE", static_cast<int>(factors.size()), factors.data(), 0,
                                  nullptr, GDALDummyProgress, nullptr) != CE_None)) {
@@ -215,7 +189,7 @@ GeoTiffOrigin readGeoTiffOrigin(const std::string& path)
     const GdalMessages messages;
     const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
     const auto item = [&dataset](const char* name) {
-        const char* text = dataset ? dataset->GetMetadataItem(name, kDomain) : nullptr;
+        const char* text = dataset ? dataset->GetMetadataItem(name, kOwnMetadataDomain) : nullptr;
         return std::string(text != nullptr ? text : "");
     };
     return {item(kKey), item(kSource)};

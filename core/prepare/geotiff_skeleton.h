@@ -4,10 +4,7 @@
 #include "core/base/result.h"
 #include "core/raster/raster_info.h"
 
-#include <optional>
 #include <string>
-
-class GDALDataset;
 
 namespace marsview {
 
@@ -22,10 +19,6 @@ struct GeoTiffOrigin {
 /// and all overviews. No tile is there yet. Replaces what was at `path`.
 Status
 writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoTiffOrigin& origin);
-
-/// The CRS of such a file where GeoTIFF's own keys cannot say it, as west-positive longitudes or
-/// planetocentric latitudes on an ellipsoid; nothing for other files.
-std::optional<Crs> exactCrsOf(GDALDataset& dataset);
 
 /// Empty for files that did not begin as a skeleton, and where there is none.
 GeoTiffOrigin readGeoTiffOrigin(const std::string& path);

@@ -100,7 +100,9 @@ public:
 
     void save(CheckpointWriter& to) const
     {
-        measure_->save(to);
+        for (const DetailErrors::NodeLevel& level : measure_->errors()) {
+            to.putArray(level.errors_m);
+        }
         to.putArray(fills_m_);
         coarse_fills_.save(to);
         to.putArray(tile_fills_.index());
@@ -113,8 +115,13 @@ public:
         std::vector<std::uint64_t> tile_fills;
         std::vector<std::uint64_t> coarse_fills;
         std::uint64_t done = 0;
-        if (!measure_->restore(from) || !from.getArray(fills_m_) || !coarse_fills_.restore(from) ||
-            !from.getAny(tile_fills) || !from.getAny(coarse_fills) || !from.get(done)) {
+        for (DetailErrors::NodeLevel& level : measure_->errors()) {
+            if (!from.getArray(level.errors_m)) {
+                return false;
+            }
+        }
+        if (!from.getArray(fills_m_) || !coarse_fills_.restore(from) || !from.getAny(tile_fills) ||
+            !from.getAny(coarse_fills) || !from.get(done)) {
             return false;
         }
         done_ = done;

@@ -1,8 +1,8 @@
 #include "core/raster/raster_file.h"
 
-#include "core/prepare/geotiff_skeleton.h"
 #include "core/raster/archive_rasters.h"
 #include "core/raster/axis_hints.h"
+#include "core/raster/exact_crs.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/label_elevation.h"

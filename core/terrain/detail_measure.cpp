@@ -264,23 +264,6 @@ void DetailMeasure::include(std::size_t node_row,
     }
 }
 
-void DetailMeasure::save(CheckpointWriter& to) const
-{
-    for (const DetailErrors::NodeLevel& level : errors_) {
-        to.putArray(level.errors_m);
-    }
-}
-
-bool DetailMeasure::restore(CheckpointReader& from)
-{
-    for (DetailErrors::NodeLevel& level : errors_) {
-        if (!from.getArray(level.errors_m)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 DetailErrors DetailMeasure::finish() &&
 {
     return DetailErrors::from(std::move(errors_));

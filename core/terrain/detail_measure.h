@@ -1,7 +1,6 @@
 // Measuring what drawing with fewer samples is off by, piece by piece.
 #pragma once
 
-#include "core/prepare/checkpoint_file.h"
 #include "core/terrain/detail_errors.h"
 
 #include <cstddef>
@@ -54,9 +53,10 @@ public:
     /// Once every part was measured.
     DetailErrors finish() &&;
 
-    /// What was measured so far. While nobody measures.
-    void save(CheckpointWriter& to) const;
-    bool restore(CheckpointReader& from);
+    /// What was measured so far, for checkpoints: measuring continues from values that are written
+    /// back. Not while a worker measures.
+    const DetailErrors::NodeErrors& errors() const noexcept { return errors_; }
+    DetailErrors::NodeErrors& errors() noexcept { return errors_; }
 
 private:
     void include(std::size_t node_row,

@@ -1,0 +1,23 @@
+// The exact CRS of a GeoTIFF, in metadata of this program's own.
+#pragma once
+
+#include "core/geo/crs.h"
+
+#include <optional>
+
+class GDALDataset;
+
+namespace marsview {
+
+/// The metadata domain of everything that this program writes into a GeoTIFF.
+inline constexpr const char* kOwnMetadataDomain = "MARSVIEW";
+
+/// The CRS that keepExactCrs() wrote; nothing for other files.
+std::optional<Crs> exactCrsOf(GDALDataset& dataset);
+
+/// Writes `crs` into the metadata if GeoTIFF's own keys cannot express it, for example
+/// west-positive longitudes or planetocentric latitudes on an ellipsoid. The dataset has been
+/// reopened since its CRS was set. False if GDAL fails.
+bool keepExactCrs(GDALDataset& dataset, const std::optional<Crs>& crs);
+
+} // namespace marsview
