@@ -10,7 +10,7 @@
 #include "core/levels/level_file.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/map_folder.h"
-#include "core/session/prepare_map.h"
+#include "core/prepare/prepare_map.h"
 
 #include <CLI/CLI.hpp>
 #include <chrono>

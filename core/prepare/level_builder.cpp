@@ -3,8 +3,9 @@
 // 64th row, which are the vertices of levels coarser than a block. The second compares every sample
 // with every level, tile by tile, the tile to the right being read ahead for its first column.
 
+#include "core/prepare/level_builder.h"
+
 #include "core/base/check.h"
-#include "core/levels/level_file.h"
 #include "core/prepare/build_checkpoints.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/level_errors.h"

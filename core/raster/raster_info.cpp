@@ -336,4 +336,14 @@ Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrid
     return info;
 }
 
+Status checkIsSurface(const std::string& path, const RasterInfo& info)
+{
+    if (info.columns >= 2 && info.rows >= 2) {
+        return Done{};
+    }
+    return Error{ErrorCode::Invalid,
+                 fmt::format("{}: {} × {} samples make no surface; at least 2 × 2 are needed", path,
+                             info.columns, info.rows)};
+}
+
 } // namespace marsview

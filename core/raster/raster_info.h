@@ -119,4 +119,7 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
 /// datum accordingly. Called whenever scale, unit, CRS or body changed.
 void deduceHeightReference(RasterInfo& info);
 
+/// Refuses, with `path` in the sentence, what has fewer than 2 × 2 samples.
+Status checkIsSurface(const std::string& path, const RasterInfo& info);
+
 } // namespace marsview

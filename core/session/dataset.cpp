@@ -125,16 +125,6 @@ Result<std::shared_ptr<const Dataset>> withOverrides(const Dataset& dataset,
                                                       std::move(heightfield), dataset.kind_));
 }
 
-Status checkIsSurface(const std::string& path, const RasterInfo& info)
-{
-    if (info.columns >= 2 && info.rows >= 2) {
-        return Done{};
-    }
-    return Error{ErrorCode::Invalid,
-                 fmt::format("{}: {} × {} samples make no surface; at least 2 × 2 are needed", path,
-                             info.columns, info.rows)};
-}
-
 std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts)
 {
     RasterInfo info = parts.info;

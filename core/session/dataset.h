@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/geo/georeference.h"
+#include "core/raster/dataset_spec.h"
 #include "core/raster/raster_info.h"
 #include "core/terrain/heightfield.h"
 
@@ -12,14 +13,6 @@
 #include <string>
 
 namespace marsview {
-
-/// What the user asked for: enough to load the same map again.
-struct DatasetSpec {
-    std::string path;
-    int band = 1;
-    RasterOverrides overrides{};
-    bool operator==(const DatasetSpec&) const = default;
-};
 
 /// What a map in tiles is made of.
 struct TiledDatasetParts {
@@ -105,9 +98,6 @@ Result<std::shared_ptr<const Dataset>> loadDataset(const DatasetSpec& spec,
                                                    JobMonitor& monitor,
                                                    std::size_t memory_bytes_max,
                                                    const std::vector<std::string>& notices = {});
-
-/// Refuses, with `path` in the sentence, what has fewer than 2 × 2 samples.
-Status checkIsSurface(const std::string& path, const RasterInfo& info);
 
 /// A map whose samples come in tiles.
 std::shared_ptr<const Dataset> tiledDataset(const TiledDatasetParts& parts);

@@ -1,7 +1,7 @@
 // Maps that the program prepares itself, in folders and from files that may be against it.
 
 #include "core/levels/level_file.h"
-#include "core/session/prepare_map.h"
+#include "core/prepare/prepare_map.h"
 #include "tests/support/make_raster.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"

@@ -1,5 +1,6 @@
 // Level files that were cut, overwritten, forged, or made for something else.
 #include "core/levels/level_file.h"
+#include "core/prepare/level_builder.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/nan.h"

@@ -1,4 +1,5 @@
 #include "core/levels/level_file.h"
+#include "core/prepare/level_builder.h"
 #include "core/raster/raster_file.h"
 #include "core/terrain/filled_heightfield.h"
 #include "tests/support/grid_tile_source.h"

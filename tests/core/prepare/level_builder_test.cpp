@@ -1,5 +1,6 @@
 // Building level files where something goes wrong.
 #include "core/levels/level_file.h"
+#include "core/prepare/level_builder.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/nan.h"

@@ -4,7 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/prepare/tiled_geotiff.h"
-#include "core/session/dataset.h"
+#include "core/raster/dataset_spec.h"
 
 #include <chrono>
 #include <cstdint>

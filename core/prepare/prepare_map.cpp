@@ -1,9 +1,10 @@
-#include "core/session/prepare_map.h"
+#include "core/prepare/prepare_map.h"
 
 #include "core/base/file_lock.h"
 #include "core/levels/level_file.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
+#include "core/prepare/level_builder.h"
 #include "core/prepare/map_damage.h"
 #include "core/prepare/map_folder.h"
 #include "core/prepare/overview_builder.h"
