@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/session/scene_surface.h"
-#include "haptics/loop/servo_map.h"
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/servo_map.h"
+#include "haptics/terrain/window_feeder.h"
 
 #include <cstdint>
 #include <memory>

@@ -4,8 +4,8 @@
 #include "app/cli/touch_map.h"
 #include "core/contact/contact_model.h"
 #include "core/view/scene_box.h"
-#include "haptics/loop/servo_map.h"
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/servo_map.h"
+#include "haptics/terrain/window_feeder.h"
 
 #include <memory>
 #include <optional>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/loop/servo_loop.h"
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/window_feeder.h"
 
 #include <array>
 #include <cstdint>

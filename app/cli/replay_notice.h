@@ -3,7 +3,7 @@
 
 #include "app/cli/loop_map.h"
 #include "core/base/result.h"
-#include "haptics/loop/ground_record.h"
+#include "haptics/terrain/ground_record.h"
 
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 
 #include "app/cli/swipe_path.h"
 #include "core/contact/contact_model.h"
-#include "haptics/loop/servo_terrain.h"
+#include "haptics/terrain/servo_terrain.h"
 
 #include <algorithm>
 #include <atomic>

@@ -3,8 +3,8 @@
 
 #include "core/contact/contact_model.h"
 #include "core/session/scene_surface.h"
-#include "haptics/interaction/map_touch.h"
 #include "haptics/interaction/mouse_stylus.h"
+#include "haptics/terrain/map_touch.h"
 
 #include <memory>
 #include <optional>

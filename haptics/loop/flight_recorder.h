@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/loop/loop_state.h"
-#include "haptics/loop/page_lock.h"
+#include "haptics/sync/page_lock.h"
 #include "haptics/sync/seq_lock.h"
 
 #include <atomic>

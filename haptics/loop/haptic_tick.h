@@ -6,7 +6,7 @@
 #include "haptics/interaction/workspace_walls.h"
 #include "haptics/loop/passivity_observer.h"
 #include "haptics/loop/safety_limiter.h"
-#include "haptics/loop/servo_map.h"
+#include "haptics/terrain/servo_map.h"
 
 #include <array>
 #include <chrono>

@@ -1,9 +1,9 @@
 #include "haptics/loop/real_time_thread.h"
 
 #include "core/base/check.h"
-#include "haptics/loop/page_lock.h"
 #include "haptics/loop/realtime_kit.h"
 #include "haptics/loop/thread_faults.h"
+#include "haptics/sync/page_lock.h"
 
 #include <cstddef>
 #include <cstring>

@@ -3,7 +3,7 @@
 
 #include "haptics/loop/leavable_thread.h"
 #include "haptics/loop/loop_statistics.h"
-#include "haptics/loop/page_lock.h"
+#include "haptics/sync/page_lock.h"
 #include "haptics/sync/seq_lock.h"
 
 #include <atomic>

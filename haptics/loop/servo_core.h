@@ -3,7 +3,6 @@
 
 #include "haptics/device/haptic_device.h"
 #include "haptics/loop/flight_recorder.h"
-#include "haptics/loop/ground_log.h"
 #include "haptics/loop/haptic_tick.h"
 #include "haptics/loop/loop_state.h"
 #include "haptics/loop/loop_statistics.h"
@@ -11,6 +10,7 @@
 #include "haptics/sync/seq_lock.h"
 #include "haptics/sync/spsc_queue.h"
 #include "haptics/sync/triple_buffer.h"
+#include "haptics/terrain/ground_log.h"
 
 #include <atomic>
 #include <chrono>

@@ -4,7 +4,7 @@
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
-#include "haptics/loop/ground_record.h"
+#include "haptics/terrain/ground_record.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The ground of a recording, as its column "ground" has it.
 #pragma once
 
-#include "haptics/loop/ground_record.h"
+#include "haptics/terrain/ground_record.h"
 
 #include <optional>
 #include <string>

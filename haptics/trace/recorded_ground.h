@@ -3,9 +3,9 @@
 
 #include "core/base/result.h"
 #include "core/levels/tile_heights.h"
-#include "core/terrain/resident_terrain.h"
 #include "core/tiles/tile_cache.h"
-#include "haptics/loop/ground_record.h"
+#include "haptics/terrain/ground_record.h"
+#include "haptics/terrain/resident_terrain.h"
 
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
 // The columns that a recording has besides its goals.
 #pragma once
 
-#include "haptics/loop/ground_record.h"
+#include "haptics/terrain/ground_record.h"
 #include "haptics/trace/goal_file.h"
 #include "haptics/trace/table_words.h"
 

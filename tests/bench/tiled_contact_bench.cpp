@@ -5,10 +5,10 @@
 // Of the two, times can only be compared within a run:
 // --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "core/contact/contact_model.h"
-#include "core/terrain/resident_terrain.h"
+#include "haptics/terrain/resident_terrain.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
-#include "tests/support/tiled_map.h"
 
 #include <benchmark/benchmark.h>
 

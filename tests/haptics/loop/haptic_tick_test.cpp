@@ -1,9 +1,9 @@
 #include "haptics/loop/haptic_tick.h"
 #include "haptics/loop/rt_scope.h"
 #include "tests/haptics/loop/tick_fixture.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/nan.h"
 #include "tests/support/random.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

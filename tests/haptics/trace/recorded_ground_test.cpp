@@ -1,10 +1,10 @@
-#include "haptics/loop/ground_log.h"
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/ground_log.h"
+#include "haptics/terrain/window_feeder.h"
 #include "haptics/trace/recorded_ground.h"
 #include "tests/haptics/loop/tick_fixture.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/random.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 #include "core/contact/resident_heights.h"
 #include "haptics/drivers/replay_driver.h"
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/window_feeder.h"
 #include "haptics/trace/goal_file.h"
 #include "haptics/trace/recorded_ground.h"
 #include "haptics/trace/session_recorder.h"
 #include "tests/haptics/loop/loop_fixture.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/temp_folder.h"
-#include "tests/support/tiled_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include "core/levels/tile_heights.h"
 #include "core/terrain/filled_heightfield.h"
-#include "core/terrain/resident_window.h"
+#include "haptics/terrain/resident_window.h"
 #include "tests/support/grid_tile_source.h"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/window_feeder.h"
 
 #include "core/base/check.h"
-#include "core/terrain/window_blend.h"
-#include "haptics/loop/page_lock.h"
+#include "haptics/sync/page_lock.h"
+#include "haptics/terrain/window_blend.h"
 
 #include <algorithm>
 #include <iterator>

@@ -3,8 +3,8 @@
 
 #include "core/geo/frames.h"
 #include "core/levels/tiled_terrain.h"
-#include "core/terrain/resident_window.h"
-#include "core/terrain/window_blend.h"
+#include "haptics/terrain/resident_window.h"
+#include "haptics/terrain/window_blend.h"
 
 #include <array>
 #include <cstddef>

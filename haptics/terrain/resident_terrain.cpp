@@ -1,4 +1,4 @@
-#include "core/terrain/resident_terrain.h"
+#include "haptics/terrain/resident_terrain.h"
 
 #include "core/base/check.h"
 

@@ -1,4 +1,4 @@
-#include "haptics/loop/window_plan.h"
+#include "haptics/terrain/window_plan.h"
 
 #include <algorithm>
 #include <cmath>

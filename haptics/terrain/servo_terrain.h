@@ -1,8 +1,8 @@
 // A map larger than memory on the servo thread.
 #pragma once
 
-#include "core/terrain/resident_terrain.h"
-#include "haptics/loop/window_exchange.h"
+#include "haptics/terrain/resident_terrain.h"
+#include "haptics/terrain/window_exchange.h"
 
 #include <chrono>
 #include <cstdint>

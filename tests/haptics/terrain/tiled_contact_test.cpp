@@ -5,15 +5,15 @@
 #include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
 #include "core/levels/waiting_terrain.h"
-#include "core/terrain/resident_terrain.h"
+#include "haptics/terrain/resident_terrain.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/core/contact/stress_goals.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "haptics/loop/servo_terrain.h"
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/servo_terrain.h"
+#include "haptics/terrain/window_feeder.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/random.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

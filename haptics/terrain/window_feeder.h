@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/terrain/resident_window.h"
 #include "core/tiles/tile_cache.h"
-#include "haptics/loop/window_exchange.h"
-#include "haptics/loop/window_plan.h"
+#include "haptics/terrain/resident_window.h"
+#include "haptics/terrain/window_exchange.h"
+#include "haptics/terrain/window_plan.h"
 
 #include <chrono>
 #include <condition_variable>

@@ -4,7 +4,7 @@
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
 #include "core/terrain/filled_heightfield.h"
-#include "haptics/loop/servo_terrain.h"
+#include "haptics/terrain/servo_terrain.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,10 +1,10 @@
 #include "core/levels/waiting_terrain.h"
-#include "core/terrain/resident_terrain.h"
 #include "core/terrain/touch_terrain.h"
+#include "haptics/terrain/resident_terrain.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/random.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptics/loop/ground_log.h"
+#include "haptics/terrain/ground_log.h"
 
 namespace marsview {
 

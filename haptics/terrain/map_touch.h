@@ -4,8 +4,8 @@
 
 #include "core/contact/contact_model.h"
 #include "core/session/scene_surface.h"
-#include "core/terrain/resident_terrain.h"
-#include "haptics/loop/window_feeder.h"
+#include "haptics/terrain/resident_terrain.h"
+#include "haptics/terrain/window_feeder.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,9 +1,9 @@
 // What a recording is told of the ground below the hand.
 #pragma once
 
-#include "haptics/loop/ground_record.h"
-#include "haptics/loop/servo_map.h"
 #include "haptics/sync/spsc_queue.h"
+#include "haptics/terrain/ground_record.h"
+#include "haptics/terrain/servo_map.h"
 
 #include <array>
 #include <cstddef>

@@ -1,11 +1,11 @@
-#include "core/terrain/resident_terrain.h"
-#include "core/terrain/resident_window.h"
+#include "haptics/terrain/resident_terrain.h"
+#include "haptics/terrain/resident_window.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
 #include "tests/support/nan.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Replaces operator new of this test program, and of no other, to count what is allocated.
 #include "core/contact/contact_model.h"
-#include "core/terrain/resident_terrain.h"
+#include "haptics/terrain/resident_terrain.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/core/mesh/mesh_shapes.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Notation. Sample i of level k is sample min(i · 2^k, count - 1) of the map, along either axis, so
 // that the last cell of a level is narrower than the others where 2^k does not divide count - 1.
-#include "core/terrain/resident_window.h"
+#include "haptics/terrain/resident_window.h"
 
 #include "core/base/check.h"
 #include "core/terrain/triangulation.h"

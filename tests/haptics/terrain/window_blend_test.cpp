@@ -1,7 +1,7 @@
-#include "core/terrain/resident_window.h"
-#include "core/terrain/window_blend.h"
+#include "haptics/terrain/resident_window.h"
+#include "haptics/terrain/window_blend.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/random.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptics/loop/servo_map.h"
+#include "haptics/terrain/servo_map.h"
 
 #include "core/contact/resident_heights.h"
 

@@ -1,4 +1,4 @@
-#include "tests/support/tiled_map.h"
+#include "tests/haptics/terrain/tiled_map.h"
 
 #include "tests/support/make_terrain.h"
 

@@ -1,4 +1,4 @@
-#include "core/terrain/window_blend.h"
+#include "haptics/terrain/window_blend.h"
 
 #include <algorithm>
 #include <limits>

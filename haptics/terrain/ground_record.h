@@ -3,8 +3,8 @@
 
 #include "core/geo/body.h"
 #include "core/geo/scene_frame.h"
-#include "core/terrain/resident_window.h"
 #include "core/tiles/tile.h"
+#include "haptics/terrain/resident_window.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Which tiles the hand will want, by where it goes and how fast tiles can be had.
 #pragma once
 
-#include "core/terrain/resident_window.h"
 #include "core/tiles/tile.h"
-#include "haptics/loop/hand_motion.h"
+#include "haptics/terrain/hand_motion.h"
+#include "haptics/terrain/resident_window.h"
 
 #include <cstddef>
 #include <vector>

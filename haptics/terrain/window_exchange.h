@@ -1,10 +1,10 @@
 // What the servo thread and the one that feeds its window tell each other.
 #pragma once
 
-#include "core/terrain/resident_window.h"
-#include "haptics/loop/hand_motion.h"
 #include "haptics/sync/seq_lock.h"
 #include "haptics/sync/triple_buffer.h"
+#include "haptics/terrain/hand_motion.h"
+#include "haptics/terrain/resident_window.h"
 
 #include <atomic>
 #include <cstdint>

@@ -1,6 +1,6 @@
-#include "haptics/loop/window_plan.h"
+#include "haptics/terrain/window_plan.h"
+#include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/random.h"
-#include "tests/support/tiled_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "haptics/interaction/map_touch.h"
+#include "haptics/terrain/map_touch.h"
 
 #include "core/contact/resident_heights.h"
 

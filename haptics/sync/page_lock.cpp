@@ -1,4 +1,4 @@
-#include "haptics/loop/page_lock.h"
+#include "haptics/sync/page_lock.h"
 
 #include <array>
 #include <cerrno>
