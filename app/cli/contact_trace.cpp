@@ -1,6 +1,6 @@
 #include "app/cli/contact_trace.h"
 
-#include "app/cli/quantile.h"
+#include "app/console/quantile.h"
 #include "core/base/plain_number.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "app/cli/devices_command.h"
 
 #include "app/cli/commands.h"
-#include "app/cli/text_output.h"
+#include "app/console/text_output.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/device/load_marker.h"
 #include "haptics/drivers/built_in_drivers.h"

@@ -1,9 +1,9 @@
 // marsview-cli info: what a raster is, where it lies and what its heights mean.
 
 #include "app/cli/commands.h"
-#include "app/cli/long_job.h"
-#include "app/cli/map_options.h"
-#include "app/cli/text_output.h"
+#include "app/console/long_job.h"
+#include "app/console/map_options.h"
+#include "app/console/text_output.h"
 #include "core/raster/remote_raster.h"
 #include "core/session/open_map.h"
 

@@ -1,13 +1,13 @@
 // marsview-cli loop: the real servo thread on a device, and how punctual it was.
 
 #include "app/cli/commands.h"
-#include "app/cli/long_job.h"
 #include "app/cli/loop_map.h"
 #include "app/cli/loop_outcome.h"
 #include "app/cli/loop_report.h"
-#include "app/cli/number_checks.h"
 #include "app/cli/replay_notice.h"
-#include "app/cli/text_output.h"
+#include "app/console/long_job.h"
+#include "app/console/number_checks.h"
+#include "app/console/text_output.h"
 #include "core/raster/output_check.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"

@@ -1,7 +1,7 @@
 // A map for a servo loop: in memory, or in tiles with the thread that brings them.
 #pragma once
 
-#include "app/cli/touch_map.h"
+#include "app/console/touch_map.h"
 #include "core/contact/contact_model.h"
 #include "core/view/scene_box.h"
 #include "haptics/terrain/servo_map.h"

@@ -1,8 +1,8 @@
 // marsview-cli: the command line for scripts and benchmarks. No display and no Qt needed.
 
 #include "app/cli/commands.h"
-#include "app/cli/text_output.h"
-#include "app/cli/usage.h"
+#include "app/console/text_output.h"
+#include "app/console/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -2,11 +2,11 @@
 // touched piece by piece.
 
 #include "app/cli/commands.h"
-#include "app/cli/long_job.h"
-#include "app/cli/machine.h"
-#include "app/cli/map_options.h"
-#include "app/cli/number_checks.h"
-#include "app/cli/text_output.h"
+#include "app/console/long_job.h"
+#include "app/console/machine.h"
+#include "app/console/map_options.h"
+#include "app/console/number_checks.h"
+#include "app/console/text_output.h"
 #include "core/levels/level_file.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/map_folder.h"

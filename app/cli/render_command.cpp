@@ -1,9 +1,9 @@
 // marsview-cli render: one picture of the terrain, without a window.
 
 #include "app/cli/commands.h"
-#include "app/cli/number_checks.h"
-#include "app/cli/output_file.h"
-#include "app/cli/scene.h"
+#include "app/console/number_checks.h"
+#include "app/console/output_file.h"
+#include "app/console/scene.h"
 #include "core/raster/output_check.h"
 #include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"

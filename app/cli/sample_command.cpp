@@ -1,9 +1,9 @@
 // marsview-cli sample: heights of the surface at single positions.
 
 #include "app/cli/commands.h"
-#include "app/cli/map_options.h"
-#include "app/cli/number_checks.h"
-#include "app/cli/text_output.h"
+#include "app/console/map_options.h"
+#include "app/console/number_checks.h"
+#include "app/console/text_output.h"
 #include "core/base/bounded_text.h"
 #include "core/levels/level_file_use.h"
 #include "core/terrain/surface_reader.h"

@@ -2,12 +2,12 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/contact_trace.h"
-#include "app/cli/long_job.h"
-#include "app/cli/number_checks.h"
-#include "app/cli/output_file.h"
 #include "app/cli/replay_notice.h"
-#include "app/cli/text_output.h"
 #include "app/cli/trace_subject.h"
+#include "app/console/long_job.h"
+#include "app/console/number_checks.h"
+#include "app/console/output_file.h"
+#include "app/console/text_output.h"
 #include "core/raster/output_check.h"
 #include "haptics/trace/goal_file.h"
 

@@ -1,6 +1,6 @@
 #include "app/cli/trace_subject.h"
 
-#include "app/cli/touch_map.h"
+#include "app/console/touch_map.h"
 #include "core/contact/resident_heights.h"
 #include "core/mesh/mesh_file.h"
 #include "haptics/trace/replay_check.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cli/contact_trace.h"
-#include "app/cli/map_options.h"
+#include "app/console/map_options.h"
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"

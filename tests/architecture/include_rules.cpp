@@ -20,9 +20,7 @@ const std::vector<Layer>& layers()
     static const std::vector<Layer> kLayers{
         {"core/base/", {"core/base/"}},
         {"core/geo/", {"core/base/", "core/geo/"}},
-        {"core/raster/",
-         {"core/base/", "core/geo/", "core/raster/", "core/tiles/tile.h",
-          "core/prepare/geotiff_skeleton.h"}},
+        {"core/raster/", {"core/base/", "core/geo/", "core/raster/"}},
         {"core/tiles/", {"core/base/", "core/geo/", "core/raster/", "core/tiles/"}},
         {"core/terrain/",
          {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/"}},
@@ -43,14 +41,20 @@ const std::vector<Layer>& layers()
         {"haptics/", {"core/", "haptics/"}},
         {"ui/render/", {"core/", "ui/render/"}},
         {"ui/", {"core/", "haptics/", "ui/"}},
-        {"app/cli/", {"core/", "haptics/", "ui/render/", "app/cli/"}},
+        {"app/console/", {"core/", "haptics/", "ui/render/", "app/console/"}},
+        {"app/bench/reference/", {"core/", "app/bench/reference/"}},
+        {"app/bench/",
+         {"core/", "haptics/", "ui/render/", "app/console/", "app/bench/", "app/cli/commands.h"}},
+        {"app/cli/", {"core/", "haptics/", "ui/render/", "app/console/", "app/bench/", "app/cli/"}},
         {"app/gui/", {"core/", "haptics/", "ui/", "app/gui/"}},
         {"app/probe/", {"core/raster/", "app/probe/"}},
         {"tests/architecture/", {"tests/"}},
-        {"tests/support/", {"core/", "tests/support/"}},
-        {"tests/core/", {"core/", "tests/"}},
+        {"tests/support/", {"core/", "app/bench/reference/", "tests/support/"}},
+        {"tests/core/", {"core/", "app/bench/reference/", "tests/"}},
         {"tests/haptics/", {"core/", "haptics/", "tests/"}},
-        {"tests/cli/", {"core/", "haptics/", "app/cli/", "tests/"}},
+        {"tests/cli/", {"core/", "haptics/", "app/console/", "app/cli/", "tests/"}},
+        {"tests/bench/", {"core/", "haptics/", "app/bench/", "tests/"}},
+        {"tests/render/", {"core/", "ui/render/", "app/bench/reference/", "tests/"}},
         {"tests/ui/", {"core/", "haptics/", "ui/", "app/gui/", "tests/"}},
         {"tests/", {"core/", "haptics/", "ui/", "tests/"}},
     };
@@ -90,7 +94,8 @@ bool mayUseQt(std::string_view path)
 
 bool mayUseGdal(std::string_view path)
 {
-    constexpr std::array<std::string_view, 4> kFolders{"core/raster/", "core/geo/", "core/prepare/",
+    constexpr std::array<std::string_view, 5> kFolders{"core/raster/", "core/geo/", "core/prepare/",
+                                                       "app/bench/reference/computed_raster.",
                                                        "tests/support/faulty_driver/"};
     return startsWithAny(path, kFolders);
 }

@@ -1,4 +1,4 @@
-#include "app/cli/long_job.h"
+#include "app/console/long_job.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // What pictures with less detail show, against the surface and the picture with all of it.
 
+#include "app/bench/reference/color_error.h"
+#include "app/bench/reference/picture_error.h"
 #include "core/session/loaded_map.h"
 #include "core/terrain/ray_cast.h"
-#include "core/view/color_error.h"
 #include "core/view/navigation.h"
-#include "core/view/picture_error.h"
 #include "tests/render/render_fixture.h"
 #include "tests/support/shared_data.h"
 

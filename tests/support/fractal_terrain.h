@@ -1,7 +1,7 @@
 // Terrain made of noise for tests.
 #pragma once
 
-#include "core/terrain/fractal_heights.h"
+#include "app/bench/reference/fractal_heights.h"
 
 namespace marsview::test {
 

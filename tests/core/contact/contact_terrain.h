@@ -1,8 +1,8 @@
 // Terrain to touch, and the truth about touching it that no contact model had a hand in.
 #pragma once
 
+#include "app/bench/reference/local_minimum.h"
 #include "core/contact/heightfield_surface.h"
-#include "core/contact/local_minimum.h"
 #include "tests/support/random.h"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
+#include "app/bench/reference/fractal_heights.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/raster_path.h"
 #include "core/raster/remote_raster.h"
-#include "core/terrain/fractal_heights.h"
 #include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/http_server.h"
 #include "tests/support/make_raster.h"

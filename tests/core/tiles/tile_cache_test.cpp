@@ -1,4 +1,4 @@
-#include "core/terrain/fractal_heights.h"
+#include "app/bench/reference/fractal_heights.h"
 #include "core/tiles/tile_cache.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"

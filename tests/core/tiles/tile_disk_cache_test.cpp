@@ -1,5 +1,5 @@
+#include "app/bench/reference/fractal_heights.h"
 #include "core/raster/raster_file.h"
-#include "core/terrain/fractal_heights.h"
 #include "core/tiles/geotiff_tile_source.h"
 #include "core/tiles/tile_disk_cache.h"
 #include "core/tiles/tile_file.h"

@@ -1,0 +1,189 @@
+// marsview-cli bench stability: the largest stiffness at which a simulated hand comes to rest.
+
+#include "app/bench/stability_case.h"
+#include "app/cli/commands.h"
+#include "app/console/long_job.h"
+#include "app/console/number_checks.h"
+#include "app/console/text_output.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array kDelaysS{0.0, 1e-3, 2e-3, 3e-3};
+
+struct Options {
+    double most_n_per_m = 4000.0;
+    double jitter_ms = 0.2;
+    std::uint64_t seed = 1;
+    bool is_json = false;
+};
+
+// A way of putting forces together, for which a table is made.
+struct Variant {
+    const char* name;
+    ForceMixing mixing;
+    bool is_passivity_kept;
+};
+
+constexpr std::array kVariants{
+    Variant{"fade", ForceMixing::Fade, true},
+    Variant{"fade, without passivity control", ForceMixing::Fade, false},
+    Variant{"naive sum", ForceMixing::NaiveSum, true},
+    Variant{"naive sum, without passivity control", ForceMixing::NaiveSum, false},
+};
+
+struct Row {
+    const Variant* variant;
+    ContactModelKind model;
+    StabilityScene scene;
+    std::array<double, kDelaysS.size()> largest_n_per_m{};
+};
+
+std::string cell(double n_per_m, double most)
+{
+    return n_per_m * 1.1 > most ? fmt::format("≥ {:.0f}", n_per_m) : fmt::format("{:.0f}", n_per_m);
+}
+
+// A model's worst over all scenes that there are of a variant.
+std::vector<Row> worstOf(const std::vector<Row>& rows, const Variant& variant)
+{
+    std::vector<Row> worst;
+    for (const Row& row : rows) {
+        if (row.variant != &variant) {
+            continue;
+        }
+        if (worst.empty() || worst.back().model != row.model) {
+            worst.push_back(row);
+            continue;
+        }
+        for (std::size_t d = 0; d < kDelaysS.size(); ++d) {
+            worst.back().largest_n_per_m[d] =
+                std::min(worst.back().largest_n_per_m[d], row.largest_n_per_m[d]);
+        }
+    }
+    return worst;
+}
+
+std::string line(std::string_view name, const Row& row, const Options& options)
+{
+    std::string text = fmt::format("| {} |", name);
+    for (const double largest : row.largest_n_per_m) {
+        text += fmt::format(" {} |", cell(largest, options.most_n_per_m));
+    }
+    return text + '\n';
+}
+
+constexpr const char* kDelayColumns = " | 0 ms | 1 ms | 2 ms | 3 ms |\n|---|---|---|---|---|\n";
+
+std::string tableOf(const std::vector<Row>& rows, const Options& options)
+{
+    std::string text;
+    for (const Variant& variant : kVariants) {
+        const bool is_fade = variant.mixing == ForceMixing::Fade;
+        text +=
+            fmt::format("\n{}{}, the largest stable stiffness in N/m:\n\n| model{}", variant.name,
+                        is_fade ? ", the worst of all scenes" : ", wall corner", kDelayColumns);
+        for (const Row& row : worstOf(rows, variant)) {
+            text += line(contactModelName(row.model), row, options);
+        }
+        if (!is_fade) {
+            continue;
+        }
+        text += fmt::format("\n| {}, {}{}", contactModelName(kContactModelDefault), variant.name,
+                            kDelayColumns);
+        for (const Row& row : rows) {
+            if (row.variant == &variant && row.model == kContactModelDefault) {
+                text += line(stabilitySceneName(row.scene), row, options);
+            }
+        }
+    }
+    return text;
+}
+
+Status runBench(const Options& options)
+{
+    std::vector<Row> rows;
+    for (const Variant& variant : kVariants) {
+        for (const ContactModelKind model : kContactModelKinds) {
+            for (const StabilityScene scene : kStabilityScenes) {
+                // The mixing makes a difference at walls alone.
+                if (variant.mixing == ForceMixing::Fade || scene == StabilityScene::WallCorner) {
+                    rows.push_back({.variant = &variant, .model = model, .scene = scene});
+                }
+            }
+        }
+    }
+    LongJob job("measuring");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        job.monitor().report(static_cast<double>(i) / static_cast<double>(rows.size()));
+        if (job.monitor().isCancelled()) {
+            return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+        }
+        Row& row = rows[i];
+        for (std::size_t d = 0; d < kDelaysS.size(); ++d) {
+            row.largest_n_per_m[d] =
+                largestStable(row.scene,
+                              {.model = row.model,
+                               .delay_s = kDelaysS[d],
+                               .jitter_s = options.jitter_ms * 1e-3,
+                               .mixing = row.variant->mixing,
+                               .is_passivity_kept = row.variant->is_passivity_kept,
+                               .seed = options.seed},
+                              options.most_n_per_m);
+        }
+    }
+    if (!options.is_json) {
+        printLine(tableOf(rows, options));
+        return Done{};
+    }
+    Json json = {{"stated_n_per_m", kStatedStiffnessNPerM},
+                 {"most_n_per_m", options.most_n_per_m},
+                 {"jitter_ms", options.jitter_ms},
+                 {"seed", options.seed},
+                 {"delays_s", kDelaysS}};
+    for (const Row& row : rows) {
+        json["rows"].push_back({{"mixing", row.variant->name},
+                                {"model", contactModelName(row.model)},
+                                {"scene", stabilitySceneName(row.scene)},
+                                {"largest_n_per_m", row.largest_n_per_m}});
+    }
+    printJson(withSchema(json));
+    return Done{};
+}
+
+} // namespace
+
+void addBenchStabilityCommand(CLI::App& bench, CommandAction& run)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench.add_subcommand(
+        "stability", "Press a simulated hand on what is hard to render, ever stiffer");
+    command->add_option("--most", options->most_n_per_m, "stiffness in N/m at which to stop")
+        ->capture_default_str()
+        ->check(positiveNumber());
+    command->add_option("--jitter-ms", options->jitter_ms, "of the loop's period")
+        ->capture_default_str()
+        ->check(numberFrom(0.0, 0.9));
+    command->add_option("--seed", options->seed, "of the jitter")
+        ->capture_default_str()
+        ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
+    command->add_flag("--json", options->is_json, "print JSON");
+    command->callback([options, &run] { run = [options] { return runBench(*options); }; });
+}
+
+} // namespace marsview

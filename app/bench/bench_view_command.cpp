@@ -1,0 +1,422 @@
+// marsview-cli bench view: how fast and how exact the pictures of the window are.
+
+#include "app/bench/view_bench.h"
+#include "app/cli/commands.h"
+#include "app/console/machine.h"
+#include "app/console/number_checks.h"
+#include "app/console/quantile.h"
+#include "app/console/text_output.h"
+#include "core/session/sample_map.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Columns of the course of the error threshold in the table for people.
+constexpr std::size_t kCourseColumns = 12;
+
+struct Options {
+    std::vector<std::string> paths;
+    MapOptions map;
+    std::string size = "1280x800";
+    double target_ms = 33.0;
+    ViewBenchOptions bench;
+    bool is_json = false;
+};
+
+double megabytes(std::size_t bytes)
+{
+    return static_cast<double>(bytes) / 1e6;
+}
+
+// What is said of the frames of a flight.
+struct FrameSummary {
+    double median_ms = 0.0;
+    double p95_ms = 0.0;
+    double max_ms = 0.0;
+    double processor_mean_ms = 0.0;
+    double triangles_median = 0.0;
+    double error_median_px = 0.0;
+    double error_max_px = 0.0;
+    double scale_min = 1.0;
+    std::size_t plan_changes = 0;
+    std::size_t incomplete_count = 0;
+};
+
+FrameSummary summaryOf(const std::vector<FlownFrame>& frames)
+{
+    std::vector<double> wall_ms;
+    std::vector<double> triangles;
+    std::vector<double> errors_px;
+    FrameSummary summary;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const FlownFrame& frame = frames[i];
+        wall_ms.push_back(frame.wall.count());
+        triangles.push_back(static_cast<double>(frame.triangle_count));
+        errors_px.push_back(frame.plan.error_px);
+        summary.processor_mean_ms += frame.processor.count() / static_cast<double>(frames.size());
+        summary.scale_min = std::min(summary.scale_min, frame.plan.scale);
+        summary.incomplete_count += frame.is_complete ? 0U : 1U;
+        summary.plan_changes += i > 0 && frame.plan != frames[i - 1].plan ? 1U : 0U;
+    }
+    summary.median_ms = quantile(wall_ms, 0.5);
+    summary.p95_ms = quantile(wall_ms, 0.95);
+    summary.max_ms = quantile(wall_ms, 1.0);
+    summary.triangles_median = quantile(triangles, 0.5);
+    summary.error_median_px = quantile(errors_px, 0.5);
+    summary.error_max_px = quantile(errors_px, 1.0);
+    return summary;
+}
+
+// Of all frames of all flights.
+double medianMilliseconds(const ViewBenchResult& result)
+{
+    std::vector<double> wall_ms;
+    for (const FlightResult& flight : result.flights) {
+        for (const FlownFrame& frame : flight.frames) {
+            wall_ms.push_back(frame.wall.count());
+        }
+    }
+    return quantile(wall_ms, 0.5);
+}
+
+double growth(const ViewBenchResult& result, const ViewBenchResult& first)
+{
+    return medianMilliseconds(result) / medianMilliseconds(first);
+}
+
+Json asJson(const OrbitCamera& camera)
+{
+    return {{"target_m", {camera.target.x, camera.target.y, camera.target.z}},
+            {"distance_m", camera.distance_m},
+            {"azimuth_deg", camera.azimuth.degrees()},
+            {"tilt_deg", camera.tilt.degrees()}};
+}
+
+Json asJson(const RestingPose& pose)
+{
+    Json difference = nullptr;
+    if (pose.difference) {
+        difference = {{"full_triangle_count", pose.difference->full_triangle_count},
+                      {"mean_color_difference_levels", pose.difference->mean_levels},
+                      {"p99_color_difference_levels", pose.difference->p99_levels},
+                      {"max_color_difference_levels", pose.difference->max_levels},
+                      {"share_visibly_different", pose.difference->share_visible}};
+    }
+    return {{"camera", asJson(pose.camera)},
+            {"triangle_count", pose.triangle_count},
+            {"error_bound_px", pose.error_bound_px},
+            {"pixel_count", pose.error.pixel_count},
+            {"share_within_threshold", pose.error.share_within},
+            {"error_mean_px", pose.error.mean_px},
+            {"error_p99_px", pose.error.p99_px},
+            {"error_max_px", pose.error.max_px},
+            {"against_every_sample", difference}};
+}
+
+Json asJson(const FlightResult& flight)
+{
+    const FrameSummary summary = summaryOf(flight.frames);
+    Json frames = Json::array();
+    for (const FlownFrame& frame : flight.frames) {
+        frames.push_back({{"frame_ms", frame.wall.count()},
+                          {"processor_ms", frame.processor.count()},
+                          {"triangle_count", frame.triangle_count},
+                          {"error_threshold_px", frame.plan.error_px},
+                          {"scale", frame.plan.scale},
+                          {"is_complete", frame.is_complete}});
+    }
+    Json poses = Json::array();
+    for (const RestingPose& pose : flight.poses) {
+        poses.push_back(asJson(pose));
+    }
+    return {{"name", flightName(flight.flight)},
+            {"frame_median_ms", summary.median_ms},
+            {"frame_p95_ms", summary.p95_ms},
+            {"frame_max_ms", summary.max_ms},
+            {"processor_mean_ms", summary.processor_mean_ms},
+            {"triangle_count_median", summary.triangles_median},
+            {"error_threshold_median_px", summary.error_median_px},
+            {"error_threshold_max_px", summary.error_max_px},
+            {"scale_min", summary.scale_min},
+            {"plan_change_count", summary.plan_changes},
+            {"incomplete_frame_count", summary.incomplete_count},
+            {"sharp_after_ms", flight.sharp_after.count()},
+            {"smooth_after_ms", flight.smooth_after.count()},
+            {"sharp_triangle_count", flight.sharp_triangle_count},
+            {"frames", frames},
+            {"resting_poses", poses}};
+}
+
+Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
+{
+    Json flights = Json::array();
+    for (const FlightResult& flight : result.flights) {
+        flights.push_back(asJson(flight));
+    }
+    Json colors = Json::array();
+    for (const ColorResult& color : result.colors) {
+        Json poses = Json::array();
+        for (const ColorError& pose : color.poses) {
+            poses.push_back({{"pixel_count", pose.pixel_count},
+                             {"mean_levels", pose.mean_levels},
+                             {"p99_levels", pose.p99_levels},
+                             {"max_levels", pose.max_levels}});
+        }
+        colors.push_back({{"exaggeration", color.exaggeration}, {"poses", poses}});
+    }
+    return {{"file", result.path},
+            {"columns", result.columns},
+            {"rows", result.rows},
+            {"triangle_count", result.triangle_count},
+            {"exaggeration", result.exaggeration},
+            {"first_picture_ms", result.first_picture.count()},
+            {"sharp_picture_ms", result.sharp_picture.count()},
+            {"peak_memory_loaded_mb", megabytes(result.peak_memory_loaded_bytes)},
+            {"peak_memory_flown_mb", megabytes(result.peak_memory_flown_bytes)},
+            {"frame_median_ms", medianMilliseconds(result)},
+            {"frame_median_against_first_map", growth(result, first)},
+            {"colors_at_rest", colors},
+            {"flights", flights}};
+}
+
+void printJson(const Options& options, const std::vector<ViewBenchResult>& results)
+{
+    const ViewBenchOptions& bench = options.bench;
+    Json maps = Json::array();
+    for (const ViewBenchResult& result : results) {
+        maps.push_back(asJson(result, results.front()));
+    }
+    const Json json = {{"processor", processorName()},
+                       {"core_count", std::thread::hardware_concurrency()},
+                       {"graphics_driver", results.front().driver},
+                       {"width_px", bench.viewport.width},
+                       {"height_px", bench.viewport.height},
+                       {"target_ms", options.target_ms},
+                       {"frame_count", bench.frame_count},
+                       {"error_threshold_at_rest_px", bench.error_px},
+                       {"maps", maps}};
+    marsview::printJson(withSchema(json));
+}
+
+void printFlights(const ViewBenchResult& result)
+{
+    printLine(fmt::format("{:<7}{:>8}{:>8}{:>8}{:>8}{:>11}{:>8}{:>8}{:>8}{:>9}{:>10}", "flight",
+                          "median", "p95", "max", "cpu", "triangles", "error", "worst", "scale",
+                          "sharp", "smooth"));
+    printLine(fmt::format("{:<7}{:>8}{:>8}{:>8}{:>8}{:>11}{:>8}{:>8}{:>8}{:>9}{:>10}", "", "ms",
+                          "ms", "ms", "ms", "median", "px", "px", "least", "ms", "ms"));
+    for (const FlightResult& flight : result.flights) {
+        const FrameSummary summary = summaryOf(flight.frames);
+        printLine(
+            fmt::format("{:<7}{:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>11.0f}{:>8.1f}{:>8.1f}{:>8.2f}{:>"
+                        "9.0f}{:>10.0f}",
+                        flightName(flight.flight), summary.median_ms, summary.p95_ms,
+                        summary.max_ms, summary.processor_mean_ms, summary.triangles_median,
+                        summary.error_median_px, summary.error_max_px, summary.scale_min,
+                        flight.sharp_after.count(), flight.smooth_after.count()));
+    }
+}
+
+// The error threshold at moments of each flight.
+void printCourses(const ViewBenchResult& result)
+{
+    printLine("\nerror threshold in px, from start to end of each flight");
+    for (const FlightResult& flight : result.flights) {
+        std::string line = fmt::format("{:<7}", flightName(flight.flight));
+        const std::size_t columns = std::min(kCourseColumns, flight.frames.size());
+        for (std::size_t i = 0; i < columns; ++i) {
+            line += fmt::format("{:>6.1f}",
+                                flight.frames[i * flight.frames.size() / columns].plan.error_px);
+        }
+        printLine(line);
+    }
+}
+
+void printPoses(const ViewBenchResult& result, double error_px)
+{
+    printLine(fmt::format("\nat rest, threshold {} px", asText(error_px)));
+    printLine(fmt::format("{:<7}{:>11}{:>11}{:>9}{:>9}{:>9}{:>9}  {}", "flight", "triangles",
+                          "within", "mean px", "p99 px", "max px", "bound",
+                          "color against every sample"));
+    for (const FlightResult& flight : result.flights) {
+        for (const RestingPose& pose : flight.poses) {
+            const std::string difference =
+                pose.difference
+                    ? fmt::format("mean {:.2f}, p99 {}, max {} of 255; {:.2f} % visible",
+                                  pose.difference->mean_levels, pose.difference->p99_levels,
+                                  pose.difference->max_levels,
+                                  100.0 * pose.difference->share_visible)
+                    : std::string("left out");
+            printLine(fmt::format("{:<7}{:>11}{:>9.3f} %{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}  {}",
+                                  flightName(flight.flight), pose.triangle_count,
+                                  100.0 * pose.error.share_within, pose.error.mean_px,
+                                  pose.error.p99_px, pose.error.max_px, pose.error_bound_px,
+                                  difference));
+        }
+    }
+}
+
+// Of all poses of an exaggeration: medians and the largest.
+void printColors(const ViewBenchResult& result)
+{
+    if (result.colors.empty()) {
+        return;
+    }
+    printLine("\ncolors at rest against those of the surface at full resolution, levels of 255");
+    printLine(fmt::format("{:<13}{:>9}{:>13}{:>14}{:>14}", "exaggeration", "mean", "p99 median",
+                          "p99 largest", "max largest"));
+    for (const ColorResult& colors : result.colors) {
+        std::vector<double> p99;
+        double mean = 0.0;
+        double most = 0.0;
+        for (const ColorError& pose : colors.poses) {
+            p99.push_back(pose.p99_levels);
+            mean += pose.mean_levels / static_cast<double>(colors.poses.size());
+            most = std::max(most, pose.max_levels);
+        }
+        if (p99.empty()) {
+            continue;
+        }
+        std::sort(p99.begin(), p99.end());
+        printLine(fmt::format("{:<13}{:>9.2f}{:>13.1f}{:>14.1f}{:>14.1f}",
+                              asText(colors.exaggeration), mean, p99[p99.size() / 2], p99.back(),
+                              most));
+    }
+}
+
+void printForPeople(const Options& options, const std::vector<ViewBenchResult>& results)
+{
+    const ViewBenchOptions& bench = options.bench;
+    printLine(fmt::format("{}, {} cores; {}", processorName(), std::thread::hardware_concurrency(),
+                          results.front().driver));
+    printLine(fmt::format("{} × {} pixels, {} ms a frame, {} frames a flight", bench.viewport.width,
+                          bench.viewport.height, asText(options.target_ms), bench.frame_count));
+    for (const ViewBenchResult& result : results) {
+        printLine(fmt::format("\n{}", result.path));
+        printLine(fmt::format("{} × {} samples, {} triangles, exaggeration {}", result.columns,
+                              result.rows, result.triangle_count, asText(result.exaggeration)));
+        printLine(fmt::format(
+            "first picture after {:.0f} ms, sharp after {:.0f} ms; peak memory {:.0f} MB, {:.0f} "
+            "MB "
+            "after the flights\n",
+            result.first_picture.count(), result.sharp_picture.count(),
+            megabytes(result.peak_memory_loaded_bytes), megabytes(result.peak_memory_flown_bytes)));
+        printFlights(result);
+        printCourses(result);
+        printPoses(result, bench.error_px);
+        printColors(result);
+    }
+    if (results.size() > 1) {
+        printLine("\ngrowth of the median frame against the first map");
+        for (const ViewBenchResult& result : results) {
+            printLine(fmt::format("{:>12} triangles {:>8.1f} ms {:>6.2f}", result.triangle_count,
+                                  medianMilliseconds(result), growth(result, results.front())));
+        }
+    }
+}
+
+Status runBenchView(const Options& given)
+{
+    Options options = given;
+    const Result<Viewport> viewport = sizeFrom(options.size);
+    if (!viewport) {
+        return viewport.error();
+    }
+    options.bench.viewport = *viewport;
+    options.bench.target = Milliseconds(options.target_ms);
+    if (options.paths.empty()) {
+        const std::filesystem::path sample = sampleMapFor(programFolder());
+        if (sample.empty()) {
+            return Error{ErrorCode::NotFound,
+                         "DEM: the map that comes with the program is not there; name another"};
+        }
+        options.paths.push_back(sample.string());
+    }
+    std::vector<ViewBenchResult> results;
+    for (const std::string& path : options.paths) {
+        options.map.path = path;
+        Result<ViewBenchResult> result = benchView(options.map, options.bench);
+        if (!result) {
+            return std::move(result).error();
+        }
+        results.push_back(std::move(result).value());
+    }
+    if (options.is_json) {
+        printJson(options, results);
+    } else {
+        printForPeople(options, results);
+    }
+    std::fflush(stdout); // before what is said about it
+    for (const ViewBenchResult& result : results) {
+        if (!options.bench.is_full && result.triangle_count > kFullTrianglesMax) {
+            std::fprintf(stderr,
+                         "marsview-cli: %s: pictures of every sample are left out above %zu "
+                         "triangles; --full draws them\n",
+                         asOneLine(result.path).c_str(), kFullTrianglesMax);
+        }
+    }
+    return Done{};
+}
+
+} // namespace
+
+void addBenchViewCommand(CLI::App& bench, CommandAction& run)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = bench.add_subcommand(
+        "view", "Fly over maps and measure the time and the error of the window's pictures");
+    command
+        ->add_option("DEM", options->paths,
+                     "elevation maps, by default the one that comes with the program; the "
+                     "times of several are compared with the first's")
+        ->transform(mapName());
+    options->map.addOverridesTo(*command);
+    command->add_option("--size", options->size, "width and height in pixels")
+        ->type_name("WxH")
+        ->capture_default_str()
+        ->check(pictureSize());
+    command->add_option("--target-ms", options->target_ms, "time for a frame while moving")
+        ->capture_default_str()
+        ->check(positiveNumber());
+    command->add_option("--frames", options->bench.frame_count, "of each flight")
+        ->capture_default_str()
+        ->check(wholeNumberFrom(1, 100'000));
+    command
+        ->add_option("--poses", options->bench.pose_count,
+                     "of each flight at which the error of the picture at rest is measured")
+        ->capture_default_str()
+        ->check(wholeNumberFrom(0, 1000));
+    command
+        ->add_option("--error-px", options->bench.error_px,
+                     "how far off the surface may be at rest, in pixels")
+        ->capture_default_str()
+        ->check(positiveNumber());
+    command
+        ->add_option("--exaggeration", options->bench.exaggeration,
+                     "of heights, by default what suits each map")
+        ->check(positiveNumber());
+    command
+        ->add_option("--color-exaggerations", options->bench.color_exaggerations,
+                     "at which the colors of pictures at rest are measured")
+        ->capture_default_str()
+        ->delimiter(',')
+        ->check(positiveNumber());
+    command->add_flag("--full", options->bench.is_full,
+                      "compare with pictures of every sample even of large maps");
+    command->add_flag("--json", options->is_json, "for machines, with every frame");
+    command->callback([options, &run] { run = [options] { return runBenchView(*options); }; });
+}
+
+} // namespace marsview

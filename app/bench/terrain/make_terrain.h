@@ -1,0 +1,34 @@
+// Making a very large map that looks like a real one, for measuring.
+#pragma once
+
+#include "app/bench/reference/computed_raster.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace marsview {
+
+struct MakeTerrainOptions {
+    std::string path;
+    std::string from; // the measured map that it is made from
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::uint64_t seed = 1;
+    RasterBlocks blocks = RasterBlocks::Tiles;
+    RasterCompression compression = RasterCompression::None;
+};
+
+struct MadeTerrain {
+    std::size_t octave_count = 0;
+    double halving_ratio = 0.0; // DetailedHeights::halvingRatio
+    double seconds = 0.0;
+    std::size_t peak_memory_bytes = 0;
+};
+
+/// Reads the measured map whole and writes the larger one over the same extent, with progress. The
+/// same samples from the same options on every machine. Refuses maps with voids and those of fewer
+/// than 4 × 4 samples.
+Result<MadeTerrain> makeTerrain(const MakeTerrainOptions& options);
+
+} // namespace marsview

@@ -1,0 +1,62 @@
+// A hand that swipes across a map in tiles at the servo's rate.
+#pragma once
+
+#include "app/bench/terrain/terrain_bench.h"
+#include "core/base/job_monitor.h"
+#include "haptics/loop/real_time_thread.h"
+#include "haptics/terrain/window_feeder.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace marsview {
+
+struct TileSwipeOptions {
+    double speed_cells = 1.0; // an update
+    double seconds = 60.0;    // at a thousand updates each
+    std::uint64_t seed = 1;
+};
+
+/// Counts of turns, those before the counted ones left out.
+struct SwipeCounts {
+    static constexpr std::size_t kLevels = 32;
+
+    std::uint64_t in_contact = 0;
+    std::uint64_t cut_short = 0;
+    std::uint64_t turns_with_misses = 0;
+    std::uint64_t samples_missed = 0;                    // read where full resolution was not there
+    std::array<std::uint64_t, kLevels> turns_at_level{}; // by the coarsest level felt
+};
+
+struct TileSwipeResult {
+    SwipeCounts counts;
+    LoopStatistics loop;
+    RealTimeGrants grants;
+    WindowFeederStatistics feeder;
+    std::uint64_t tiles_loaded = 0; // by whoever counts them
+    std::uint64_t tiles_failed = 0;
+};
+
+/// Begins at once, on threads of its own.
+class TileSwipe {
+public:
+    /// Waits for the tile of the coarsest level.
+    static Result<TileSwipe> begin(const TouchedTiles& tiles, const TileSwipeOptions& options);
+
+    TileSwipe(TileSwipe&&) noexcept;
+    TileSwipe& operator=(TileSwipe&&) noexcept;
+    ~TileSwipe();
+
+    /// Until its time is over, or it is cancelled.
+    TileSwipeResult finish(JobMonitor& monitor);
+    /// At once.
+    TileSwipeResult stop();
+
+private:
+    struct Impl;
+    explicit TileSwipe(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace marsview

@@ -1,0 +1,343 @@
+#include "app/bench/view_bench.h"
+
+#include "app/console/long_job.h"
+#include "app/console/machine.h"
+#include "core/base/check.h"
+#include "ui/render/frame_buffer.h"
+#include "ui/render/governed_picture.h"
+#include "ui/render/offscreen_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <condition_variable>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A difference that the eye sees between neighbouring areas, of 255.
+constexpr int kVisibleLevels = 8;
+
+// Of the pixels at which colors are measured: every fourth.
+constexpr std::size_t kColorStride = 2;
+
+// The renderer's word from its threads that shading has come. It may outlive the bench.
+class News {
+public:
+    void tell()
+    {
+        {
+            const std::lock_guard lock(mutex_);
+            has_news_ = true;
+        }
+        has_come_.notify_all();
+    }
+    // Waits until something was told since the last call, or the time is over.
+    void waitUntil(Clock::time_point end)
+    {
+        std::unique_lock lock(mutex_);
+        has_come_.wait_until(lock, end, [this] { return has_news_; });
+        has_news_ = false;
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable has_come_;
+    bool has_news_ = false;
+};
+
+ColorDifference differenceOf(const Picture& a, const Picture& b)
+{
+    MARSVIEW_CHECK(a.rgb.size() == b.rgb.size());
+    ColorDifference difference;
+    double sum = 0.0;
+    std::size_t visible = 0;
+    std::array<std::size_t, 256> counts{};
+    for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
+        int most = 0;
+        for (std::size_t channel = i; channel < i + 3; ++channel) {
+            const int levels = std::abs(int{a.rgb[channel]} - int{b.rgb[channel]});
+            sum += levels;
+            ++counts[static_cast<std::size_t>(levels)];
+            most = std::max(most, levels);
+        }
+        visible += most > kVisibleLevels ? 1U : 0U;
+    }
+    const auto values = static_cast<double>(a.rgb.size());
+    difference.mean_levels = sum / values;
+    difference.share_visible = 3.0 * static_cast<double>(visible) / values;
+    double below = 0.0;
+    for (std::size_t levels = 0; levels < counts.size(); ++levels) {
+        difference.p99_levels += below < 0.99 * values && levels > 0 ? 1 : 0;
+        below += static_cast<double>(counts[levels]);
+        difference.max_levels =
+            counts[levels] > 0 ? static_cast<int>(levels) : difference.max_levels;
+    }
+    return difference;
+}
+
+// Draws one map as ui/terrain_view.cpp does.
+class Bench {
+public:
+    Bench(const Scene& scene,
+          double exaggeration,
+          const ViewBenchOptions& options,
+          News& news,
+          JobMonitor& monitor)
+        : scene_(scene)
+        , exaggeration_(exaggeration)
+        , options_(options)
+        , news_(news)
+        , monitor_(monitor)
+        , buffer_(options.viewport)
+        , picture_(*scene.renderer)
+        , ground_{.box = scene.box(exaggeration),
+                  .pixel_m = std::min(scene.map.dataset->georeference().pixelWidthMetres(),
+                                      scene.map.dataset->georeference().pixelHeightMetres()),
+                  .height = [this](double east_m, double north_m) {
+                      return scene_.ground(east_m, north_m, exaggeration_);
+                  }}
+    {
+        picture_.setTarget(options.target);
+        style_.exaggeration = exaggeration;
+    }
+    Bench(const Bench&) = delete;
+    Bench& operator=(const Bench&) = delete;
+
+    bool canDraw() const { return buffer_.isComplete(); }
+
+    OrbitCamera camera(Flight flight, double t) const
+    {
+        return scene_.bounded(cameraOn(flight, t, ground_, options_.viewport), exaggeration_);
+    }
+
+    DrawReport paint(const OrbitCamera& camera, PictureStage stage)
+    {
+        const DrawReport report = picture_.paint({.camera = camera,
+                                                  .viewport = options_.viewport,
+                                                  .stage = stage,
+                                                  .is_touching = false,
+                                                  .is_kept = true},
+                                                 style_, buffer_.id());
+        scene_.renderer->presentDepth(buffer_.id(), cursorArea());
+        glFinish();
+        return report;
+    }
+
+    // Draws until all shading is there, as often as the window would.
+    DrawReport paintWhole(const OrbitCamera& camera, PictureStage stage)
+    {
+        DrawReport report = paint(camera, stage);
+        Clock::time_point last = Clock::now();
+        while (!report.is_complete && !monitor_.isCancelled()) {
+            while (scene_.renderer->isLoading() && Clock::now() < last + kNewsInterval) {
+                news_.waitUntil(last + kNewsInterval);
+            }
+            report = paint(camera, stage);
+            last = Clock::now();
+        }
+        return report;
+    }
+
+    FlightResult fly(Flight flight)
+    {
+        FlightResult result;
+        result.flight = flight;
+        OrbitCamera last;
+        for (int i = 0; i < options_.frame_count && !monitor_.isCancelled(); ++i) {
+            const Clock::time_point begin = Clock::now();
+            const Milliseconds processor_begin = processorTime();
+            last = camera(flight, momentOf(i));
+            const DrawReport report = paint(last, PictureStage::Moving);
+            result.frames.push_back({.wall = Clock::now() - begin,
+                                     .processor = processorTime() - processor_begin,
+                                     .triangle_count = report.triangle_count,
+                                     .plan = picture_.plan(),
+                                     .is_complete = report.is_complete});
+        }
+        const Clock::time_point stop = Clock::now();
+        std::this_thread::sleep_until(stop + kStillAfter);
+        result.sharp_triangle_count = paintWhole(last, PictureStage::Sharp).triangle_count;
+        result.sharp_after = Clock::now() - stop;
+        paintWhole(last, PictureStage::Smooth);
+        result.smooth_after = Clock::now() - stop;
+        return result;
+    }
+
+    Result<RestingPose> rest(const OrbitCamera& camera)
+    {
+        DrawRequest request{.camera = camera, .viewport = options_.viewport};
+        request.detail = {.error_px = options_.error_px, .texel_px = 1.0};
+        const Result<OffscreenPicture> picture =
+            drawOffscreen(*scene_.renderer, request, style_, DepthUse::Yes);
+        if (!picture) {
+            return picture.error();
+        }
+        const Heightfield& heightfield = scene_.map.dataset->heightfield();
+        const SceneFrame& frame = scene_.map.dataset->georeference().sceneFrame();
+        RestingPose pose{.camera = camera,
+                         .triangle_count = picture->report.triangle_count,
+                         .error_bound_px = picture->report.error_px,
+                         .error = measurePictureError({heightfield, frame, exaggeration_}, camera,
+                                                      options_.viewport, picture->depths_m,
+                                                      options_.error_px),
+                         .difference = std::nullopt};
+        const std::size_t all = scene_.map.dataset->info().triangleCount();
+        if (options_.is_full || all <= kFullTrianglesMax) {
+            request.detail.has_every_sample = true;
+            const Result<OffscreenPicture> full =
+                drawOffscreen(*scene_.renderer, request, style_, DepthUse::No);
+            if (!full) {
+                return full.error();
+            }
+            pose.difference = differenceOf(picture->colors, full->colors);
+            pose.difference->full_triangle_count = full->report.triangle_count;
+        }
+        return pose;
+    }
+
+    Result<ColorError> colors(const OrbitCamera& camera)
+    {
+        DrawRequest request{.camera = camera, .viewport = options_.viewport};
+        request.detail = {.error_px = options_.error_px, .texel_px = 1.0};
+        DrawStyle style = style_;
+        const Result<OffscreenPicture> tint =
+            drawOffscreen(*scene_.renderer, request, style, DepthUse::Yes);
+        style.look.mode = ShadingMode::Hillshade;
+        const Result<OffscreenPicture> light =
+            drawOffscreen(*scene_.renderer, request, style, DepthUse::No);
+        if (!tint || !light) {
+            return tint ? light.error() : tint.error();
+        }
+        return measureColorError(
+            {.drawn = {scene_.map.dataset->heightfield(),
+                       scene_.map.dataset->georeference().sceneFrame(), exaggeration_},
+             .bounds = scene_.map.analysis->bounds,
+             .ramp = scene_.ramp(),
+             .range = tintedRange(scene_.ramp(), scene_.map.tint_range)},
+            camera, options_.viewport,
+            {.tint = tint->colors.rgb, .light = light->colors.rgb, .depths_m = tint->depths_m},
+            kColorStride);
+    }
+
+private:
+    // As large as that of a cursor in the middle of the picture.
+    PixelArea cursorArea() const
+    {
+        constexpr int kSide = 64;
+        const Viewport& size = options_.viewport;
+        return {.left = std::max(0, (size.width - kSide) / 2),
+                .bottom = std::max(0, (size.height - kSide) / 2),
+                .width = std::min(kSide, size.width),
+                .height = std::min(kSide, size.height)};
+    }
+
+    double momentOf(int frame) const
+    {
+        return options_.frame_count > 1 ? frame / (options_.frame_count - 1.0) : 0.0;
+    }
+
+    const Scene& scene_;
+    double exaggeration_;
+    const ViewBenchOptions& options_;
+    News& news_;
+    JobMonitor& monitor_;
+    FrameBuffer buffer_; // as that of the window
+    GovernedPicture picture_;
+    FlightGround ground_;
+    DrawStyle style_;
+};
+
+} // namespace
+
+Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions& options)
+{
+    forgetPeakMemory();
+    const Clock::time_point begin = Clock::now();
+    const auto news = std::make_shared<News>();
+    Result<Scene> scene = openScene(map, nullptr, [news] { news->tell(); });
+    if (!scene) {
+        return std::move(scene).error();
+    }
+    scene->exaggeration = options.exaggeration.value_or(scene->exaggeration);
+    const RasterInfo& info = scene->map.dataset->info();
+    LongJob job("flying");
+    Bench bench(*scene, scene->exaggeration, options, *news, job.monitor());
+    if (!bench.canDraw()) {
+        return Error{ErrorCode::OutOfRange,
+                     fmt::format("{} × {} pixels: this driver has no frame buffer of that size",
+                                 options.viewport.width, options.viewport.height)};
+    }
+    ViewBenchResult result;
+    result.path = map.path;
+    result.driver = scene->renderer->driver();
+    result.columns = info.columns;
+    result.rows = info.rows;
+    result.triangle_count = info.triangleCount();
+    result.exaggeration = scene->exaggeration;
+    const OrbitCamera opening = bench.camera(Flight::Orbit, 0.0);
+    bench.paint(opening, PictureStage::Moving);
+    result.first_picture = Clock::now() - begin;
+    bench.paintWhole(opening, PictureStage::Sharp);
+    result.sharp_picture = Clock::now() - begin;
+    result.peak_memory_loaded_bytes = peakMemoryBytes();
+    const std::size_t step_count =
+        kFlights.size() + kFlights.size() * static_cast<std::size_t>(options.pose_count) *
+                              (1 + options.color_exaggerations.size());
+    std::size_t step = 0;
+    const auto go_on = [&] {
+        job.monitor().report(static_cast<double>(++step) / static_cast<double>(step_count));
+        return !job.monitor().isCancelled();
+    };
+    const Error cancelled{ErrorCode::Cancelled,
+                          fmt::format("{}: measuring was cancelled", map.path)};
+    for (const Flight flight : kFlights) {
+        result.flights.push_back(bench.fly(flight));
+        if (!go_on()) {
+            return cancelled;
+        }
+    }
+    result.peak_memory_flown_bytes = peakMemoryBytes();
+    const auto pose_moment = [&](int pose) { return (pose + 0.5) / options.pose_count; };
+    // Last, as these pictures are no part of what the window draws.
+    for (FlightResult& flight : result.flights) {
+        for (int i = 0; i < options.pose_count; ++i) {
+            Result<RestingPose> pose = bench.rest(bench.camera(flight.flight, pose_moment(i)));
+            if (!pose) {
+                return std::move(pose).error();
+            }
+            flight.poses.push_back(*pose);
+            if (!go_on()) {
+                return cancelled;
+            }
+        }
+    }
+    for (const double exaggeration : options.color_exaggerations) {
+        Bench other(*scene, exaggeration, options, *news, job.monitor());
+        ColorResult& colors = result.colors.emplace_back();
+        colors.exaggeration = exaggeration;
+        for (const Flight flight : kFlights) {
+            for (int i = 0; i < options.pose_count; ++i) {
+                const Result<ColorError> error = other.colors(other.camera(flight, pose_moment(i)));
+                if (!error) {
+                    return error.error();
+                }
+                colors.poses.push_back(*error);
+                if (!go_on()) {
+                    return cancelled;
+                }
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace marsview

@@ -1,0 +1,94 @@
+// How fast and how exact the window's pictures are: flights over a map, without a window.
+#pragma once
+
+#include "app/bench/reference/color_error.h"
+#include "app/bench/reference/flight.h"
+#include "app/bench/reference/picture_error.h"
+#include "app/console/scene.h"
+#include "core/base/job_monitor.h"
+#include "core/view/frame_governor.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace marsview {
+
+struct ViewBenchOptions {
+    Viewport viewport{1280, 800};
+    Milliseconds target{33.0};
+    int frame_count = 120;              // of a flight
+    int pose_count = 5;                 // of a flight, at which the error is measured
+    double error_px = 1.0;              // at rest
+    std::optional<double> exaggeration; // by default what suits each map
+    std::vector<double> color_exaggerations{0.5, 1.0, 2.0, 10.0}; // at which colors are measured
+    bool is_full = false; // compare with pictures of every sample however many there are
+};
+
+/// A frame of a flight.
+struct FlownFrame {
+    Milliseconds wall{0.0};
+    Milliseconds processor{0.0}; // of all threads; counts in steps of the system's
+    std::size_t triangle_count = 0;
+    FramePlan plan;
+    bool is_complete = true; // shading of its detail included
+};
+
+/// A picture in which every sample is drawn, against the one at rest.
+struct ColorDifference {
+    double mean_levels = 0.0; // of 255, over all pixels and channels
+    int p99_levels = 0;
+    int max_levels = 0;
+    double share_visible = 0.0; // of pixels of which a channel is off by more than 8 levels
+    std::size_t full_triangle_count = 0;
+};
+
+/// A picture at rest.
+struct RestingPose {
+    OrbitCamera camera;
+    std::size_t triangle_count = 0;
+    double error_bound_px = 0.0; // promised
+    PictureError error;          // measured
+    std::optional<ColorDifference> difference;
+};
+
+/// The colors of pictures at rest at one exaggeration, against those of the surface.
+struct ColorResult {
+    double exaggeration = 1.0;
+    std::vector<ColorError> poses; // those of all flights
+};
+
+struct FlightResult {
+    Flight flight = Flight::Orbit;
+    std::vector<FlownFrame> frames;
+    /// Since the last frame in motion, the wait for stillness included.
+    Milliseconds sharp_after{0.0};
+    Milliseconds smooth_after{0.0};
+    std::size_t sharp_triangle_count = 0;
+    std::vector<RestingPose> poses;
+};
+
+struct ViewBenchResult {
+    std::string path;
+    std::string driver;
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::size_t triangle_count = 0;
+    double exaggeration = 1.0;
+    Milliseconds first_picture{0.0}; // since the file was opened
+    Milliseconds sharp_picture{0.0};
+    std::size_t peak_memory_loaded_bytes = 0;
+    std::size_t peak_memory_flown_bytes = 0;
+    std::vector<FlightResult> flights;
+    std::vector<ColorResult> colors;
+};
+
+/// More triangles than this are not drawn one and all unless asked for.
+inline constexpr std::size_t kFullTrianglesMax = 20'000'000;
+
+/// Opens the map, flies all flights as the window would draw them, and measures pictures at rest
+/// along them. Takes seconds to minutes.
+Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions& options);
+
+} // namespace marsview

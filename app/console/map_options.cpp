@@ -1,0 +1,235 @@
+#include "app/console/map_options.h"
+
+#include "app/console/long_job.h"
+#include "app/console/number_checks.h"
+#include "app/console/text_output.h"
+#include "core/base/nearest_word.h"
+#include "core/geo/crs.h"
+#include "core/raster/file_address.h"
+#include "core/raster/remote_raster.h"
+#include "core/session/dataset.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+#include <iterator>
+#include <limits>
+#include <optional>
+
+namespace marsview {
+namespace {
+
+CLI::Validator knownBody()
+{
+    return {[](std::string& name) {
+                if (bodyNamed(name) != nullptr) {
+                    return std::string();
+                }
+                std::vector<std::string> names;
+                for (const Body& body : knownBodies()) {
+                    names.emplace_back(body.name);
+                }
+                return fmt::format("unknown body \"{}\".{}", name, didYouMean(name, names));
+            },
+            ""};
+}
+
+CLI::Validator knownUnit()
+{
+    return {[](std::string& name) {
+                return verticalUnitFrom(name)
+                           ? std::string()
+                           : fmt::format("unknown unit \"{}\"; use m, km, ft or \"US survey ft\"",
+                                         name);
+            },
+            ""};
+}
+
+CLI::Validator knownCrs()
+{
+    return {[](std::string& text) {
+                const Result<Crs> crs = Crs::fromText(text);
+                return crs ? std::string() : crs.error().message;
+            },
+            ""};
+}
+
+} // namespace
+
+CLI::Validator mapName()
+{
+    return {[](std::string& name) {
+                Result<std::string> path = localPathOf(name);
+                if (!path) {
+                    return path.error().message;
+                }
+                name = std::move(path).value();
+                return std::string();
+            },
+            ""};
+}
+
+void MapOptions::addTo(CLI::App& command)
+{
+    command
+        .add_option("DEM", path,
+                    "elevation map: a file, a label, an address, or a GDAL dataset name")
+        ->required()
+        ->transform(mapName());
+    addOverridesTo(command);
+}
+
+void MapOptions::addOverridesTo(CLI::App& command)
+{
+    const std::string group = "Instead of what the file says";
+    command.add_option("--band", band, "band to read, counted from 1")
+        ->group(group)
+        ->check(wholeNumberFrom(1, std::numeric_limits<int>::max()));
+    command.add_option("--crs", crs, "EPSG:… or IAU_2015:… code, PROJ string or WKT")
+        ->group(group)
+        ->check(knownCrs());
+    command.add_option("--body", body, "Mars, Moon, Earth, …")->group(group)->check(knownBody());
+    command
+        .add_option("--radii", radii_m, "equatorial and polar radius of the ellipsoid in metres")
+        ->expected(1, 2)
+        ->group(group)
+        ->check(positiveNumber());
+    command
+        .add_option(
+            "--geotransform", geotransform,
+            "x0 dx/dcolumn dx/drow y0 dy/dcolumn dy/drow, of the first pixel's outer corner")
+        ->expected(6)
+        ->group(group)
+        ->check(finiteNumber());
+    command
+        .add_option("--unit", vertical_unit, "unit of the elevations: m, km, ft, \"US survey ft\"")
+        ->group(group)
+        ->check(knownUnit());
+    command
+        .add_option("--scale", scale,
+                    "elevation = sample × scale + offset, in the unit of the elevations")
+        ->check(nonZeroNumber())
+        ->group(group);
+    command.add_option("--offset", offset, "added to the scaled samples")
+        ->check(finiteNumber())
+        ->group(group);
+    command
+        .add_option("--vertical-datum", vertical_datum,
+                    "name of the surface that elevations count from: areoid, EGM96 geoid, …")
+        ->group(group);
+    command.add_option("--nodata", nodata, "raw value that marks nodata")
+        ->group(group)
+        ->check(anyNumber());
+    command
+        .add_option("--latitude", latitude,
+                    "how latitudes count: planetocentric (default; on the Earth: planetographic)")
+        ->check(oneOf({"planetocentric", "planetographic"}));
+}
+
+RasterOverrides MapOptions::overrides() const
+{
+    RasterOverrides overrides;
+    const auto given = [](const std::string& text) {
+        return text.empty() ? std::nullopt : std::optional<std::string>(text);
+    };
+    overrides.crs = given(crs);
+    overrides.body = given(body);
+    overrides.vertical_unit = given(vertical_unit);
+    overrides.scale = scale;
+    overrides.offset = offset;
+    overrides.vertical_datum = given(vertical_datum);
+    overrides.nodata = nodata;
+    if (!radii_m.empty()) {
+        overrides.ellipsoid = Ellipsoid{radii_m.front(), radii_m.back()};
+    }
+    if (!geotransform.empty()) {
+        GeoTransform::Terms terms{};
+        std::copy(geotransform.begin(), geotransform.end(), terms.begin());
+        overrides.transform = terms;
+    }
+    return overrides;
+}
+
+DatasetSpec MapOptions::spec() const
+{
+    return {.path = path, .band = band, .overrides = overrides()};
+}
+
+std::vector<std::string> MapOptions::overrideArguments() const
+{
+    std::vector<std::string> words;
+    const auto add = [&words](const char* name, const std::string& value) {
+        if (!value.empty()) {
+            words.insert(words.end(), {name, value});
+        }
+    };
+    const auto add_all = [&words](const char* name, const std::vector<double>& values) {
+        if (!values.empty()) {
+            words.emplace_back(name);
+            std::transform(values.begin(), values.end(), std::back_inserter(words), asText);
+        }
+    };
+    add("--band", std::to_string(band));
+    add("--crs", crs);
+    add("--body", body);
+    add_all("--radii", radii_m);
+    add_all("--geotransform", geotransform);
+    add("--unit", vertical_unit);
+    add("--scale", scale ? asText(*scale) : std::string());
+    add("--offset", offset ? asText(*offset) : std::string());
+    add("--vertical-datum", vertical_datum);
+    add("--nodata", nodata ? asText(*nodata) : std::string());
+    add("--latitude", latitude);
+    return words;
+}
+
+bool MapOptions::hasOverrides() const
+{
+    return band != 1 || !crs.empty() || !body.empty() || !radii_m.empty() ||
+           !geotransform.empty() || !vertical_unit.empty() || scale || offset ||
+           !vertical_datum.empty() || nodata || !latitude.empty();
+}
+
+LatitudeKind MapOptions::latitudeKind(const Body* of_body) const
+{
+    if (latitude == "planetographic") {
+        return LatitudeKind::Planetographic;
+    }
+    if (latitude == "planetocentric" || of_body == nullptr) {
+        return LatitudeKind::Planetocentric;
+    }
+    return of_body->latitude;
+}
+
+Result<OpenedMap> openMap(const MapOptions& options)
+{
+    std::optional<LongJob> job;
+    if (!LongJob::isRunning()) {
+        job.emplace("opening");
+    }
+    Result<RasterFile> file = RasterFile::open(options.path, options.band);
+    if (!file) {
+        return std::move(file).error();
+    }
+    Result<RasterInfo> info = withOverrides(file->info(), options.overrides());
+    if (!info) {
+        return Error{info.error().code, fmt::format("{}: {}", options.path, info.error().message)};
+    }
+    if (info->crs_suggestion) { // here it is set by an option
+        std::replace(info->notices.begin(), info->notices.end(), noticeOf(*info->crs_suggestion),
+                     optionNoticeOf(*info->crs_suggestion));
+    }
+    Georeference georeference = georeferenceOf(*info);
+    return OpenedMap{std::move(file).value(), std::move(info).value(), std::move(georeference)};
+}
+
+void printNotices(const RasterInfo& info)
+{
+    for (const std::string& notice : info.notices) {
+        std::fprintf(stderr, "marsview-cli: %s\n",
+                     asOneLine(addressOf(info.path) + ": " + notice).c_str());
+    }
+}
+
+} // namespace marsview

@@ -1,0 +1,99 @@
+#include "app/bench/reference/flight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+constexpr Viewport kViewport{1280, 800};
+constexpr int kSteps = 480;
+
+FlightGround hills()
+{
+    return {
+        .box = {{-1e6, -5e5, -3e3}, {1e6, 5e5, 3e3}},
+        .pixel_m = 250.0,
+        .height = [](double x, double y) { return 3e3 * std::sin(x / 4e4) * std::cos(y / 3e4); }};
+}
+
+OrbitCamera step(Flight flight, int i)
+{
+    return cameraOn(flight, static_cast<double>(i) / kSteps, hills(), kViewport);
+}
+
+// Pixels that a sample in the middle of the picture is wide, seen face on.
+double samplePixels(const OrbitCamera& camera)
+{
+    return hills().pixel_m * kViewport.height /
+           (2.0 * camera.distance_m * std::tan(camera.field_of_view.radians() / 2.0));
+}
+
+} // namespace
+
+TEST(Flight, MovesWithoutJumps)
+{
+    for (const Flight flight : kFlights) {
+        for (int i = 1; i <= kSteps; ++i) {
+            const OrbitCamera before = step(flight, i - 1);
+            const OrbitCamera after = step(flight, i);
+            EXPECT_LT(length(eyeOf(after) - eyeOf(before)), 0.1 * after.distance_m)
+                << flightName(flight) << " " << i;
+        }
+    }
+}
+
+TEST(Flight, OrbitsTheWholeMapOnce)
+{
+    const OrbitCamera home = homeCamera(hills().box, kViewport);
+    double turned_deg = 0.0;
+    for (int i = 1; i <= kSteps; ++i) {
+        const OrbitCamera camera = step(Flight::Orbit, i);
+        turned_deg += std::remainder(
+            camera.azimuth.degrees() - step(Flight::Orbit, i - 1).azimuth.degrees(), 360.0);
+        EXPECT_EQ(camera.target, home.target);
+        EXPECT_EQ(camera.distance_m, home.distance_m);
+    }
+    EXPECT_NEAR(turned_deg, 360.0, 1e-6);
+}
+
+TEST(Flight, DivesFromTheWholeMapToSingleSamplesAndPartlyBack)
+{
+    const OrbitCamera home = homeCamera(hills().box, kViewport);
+    EXPECT_NEAR(step(Flight::Dive, 0).distance_m, home.distance_m, 1e-6 * home.distance_m);
+    double nearest_px = 0.0;
+    for (int i = 0; i <= kSteps; ++i) {
+        nearest_px = std::max(nearest_px, samplePixels(step(Flight::Dive, i)));
+    }
+    EXPECT_NEAR(nearest_px, 16.0, 0.1);
+    const double last_px = samplePixels(step(Flight::Dive, kSteps));
+    EXPECT_LT(last_px, 0.5 * nearest_px);
+    EXPECT_GT(last_px, 2.0 * samplePixels(home));
+}
+
+TEST(Flight, SweepsOverTheGroundWithSamplesOfAFewPixels)
+{
+    for (int i = 0; i <= kSteps; ++i) {
+        const OrbitCamera camera = step(Flight::Sweep, i);
+        EXPECT_NEAR(samplePixels(camera), 3.0, 1e-6);
+        EXPECT_NEAR(camera.tilt.degrees(), 70.0, 1e-9);
+        EXPECT_NEAR(camera.target.z, hills().height(camera.target.x, camera.target.y), 1e-6);
+        EXPECT_LT(std::abs(camera.target.x), hills().box.maximum.x);
+        EXPECT_LT(std::abs(camera.target.y), hills().box.maximum.y);
+    }
+    EXPECT_GT(length(step(Flight::Sweep, kSteps).target - step(Flight::Sweep, 0).target),
+              3.0 * step(Flight::Sweep, 0).distance_m);
+}
+
+TEST(Flight, FliesOverVoidsAtTheMapsMiddleHeight)
+{
+    FlightGround nothing = hills();
+    nothing.height = [](double, double) { return std::nan(""); };
+    for (const Flight flight : kFlights) {
+        const OrbitCamera camera = cameraOn(flight, 0.6, nothing, kViewport);
+        EXPECT_TRUE(std::isfinite(camera.target.z)) << flightName(flight);
+    }
+}
+
+} // namespace marsview
