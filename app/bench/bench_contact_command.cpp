@@ -1,9 +1,9 @@
 // marsview-cli bench contact: run time against error for every contact model.
 
+#include "app/bench/bench_commands.h"
 #include "app/bench/contact_bench.h"
 #include "app/bench/reference/fractal_heights.h"
 #include "app/bench/svg_plot.h"
-#include "app/cli/commands.h"
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
 #include "app/console/number_checks.h"

@@ -1,7 +1,7 @@
 // marsview-cli bench stability: the largest stiffness at which a simulated hand comes to rest.
 
+#include "app/bench/bench_commands.h"
 #include "app/bench/stability_case.h"
-#include "app/cli/commands.h"
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"

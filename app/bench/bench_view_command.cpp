@@ -1,7 +1,7 @@
 // marsview-cli bench view: how fast and how exact the pictures of the window are.
 
+#include "app/bench/bench_commands.h"
 #include "app/bench/view_bench.h"
-#include "app/cli/commands.h"
 #include "app/console/machine.h"
 #include "app/console/number_checks.h"
 #include "app/console/quantile.h"

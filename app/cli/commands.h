@@ -1,9 +1,7 @@
 // The commands of marsview-cli. Each adds itself to the parser and sets `run` when it is chosen.
 #pragma once
 
-#include "core/base/result.h"
-
-#include <functional>
+#include "app/console/command_action.h"
 
 namespace CLI {
 class App;
@@ -11,14 +9,6 @@ class App;
 
 namespace marsview {
 
-/// What the chosen command does once the arguments are parsed.
-using CommandAction = std::function<Status()>;
-
-/// `bench` is the group of commands that measure.
-void addBenchContactCommand(CLI::App& bench, CommandAction& run);
-void addBenchStabilityCommand(CLI::App& bench, CommandAction& run);
-void addBenchTerrainCommand(CLI::App& bench, CommandAction& run);
-void addBenchViewCommand(CLI::App& bench, CommandAction& run);
 void addDevicesCommand(CLI::App& app, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
 void addLoopCommand(CLI::App& app, CommandAction& run);

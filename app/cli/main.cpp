@@ -1,5 +1,6 @@
 // marsview-cli: the command line for scripts and benchmarks. No display and no Qt needed.
 
+#include "app/bench/bench_commands.h"
 #include "app/cli/commands.h"
 #include "app/console/text_output.h"
 #include "app/console/usage.h"
