@@ -131,4 +131,9 @@ std::optional<std::string> leftOutDriverFor(const std::string& name)
     return std::nullopt;
 }
 
+std::string gdalVersion()
+{
+    return GDALVersionInfo("RELEASE_NAME");
+}
+
 } // namespace marsview

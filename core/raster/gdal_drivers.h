@@ -1,5 +1,4 @@
-// Which of GDAL's drivers this program uses, and how far each is trusted. Used inside core/raster
-// only.
+// Which of GDAL's drivers this program uses, and how far each is trusted.
 #pragma once
 
 #include <optional>
@@ -20,5 +19,8 @@ std::optional<std::string> recognisingDriverFor(const std::string& name);
 
 /// The name of the driver that was left out, where it recognises the file; for a sentence.
 std::optional<std::string> leftOutDriverFor(const std::string& name);
+
+/// The version of GDAL in use, "3.6.2".
+std::string gdalVersion();
 
 } // namespace marsview

@@ -1014,9 +1014,4 @@ void allowLargeBlockCache()
     }
 }
 
-std::string gdalVersion()
-{
-    return GDALVersionInfo("RELEASE_NAME");
-}
-
 } // namespace marsview

@@ -28,9 +28,9 @@ public:
     /// archives (archive_rasters.h), folders of adjoining rasters (mosaic.h), GDAL's connection
     /// strings. Scale, offset, unit and nodata are those of the product's label where there is one
     /// (label_elevation.h). Refuses pictures (colour, indexed), complex numbers and what is
-    /// absurdly large. `band` counts from 1. What is not a plain file is opened in a child process first, within
-    /// limits of time and memory (open_guard.h); the thread's OpeningJob cancels that. A file that
-    /// cannot hold what its header promises is refused.
+    /// absurdly large. `band` counts from 1. What is not a plain file is opened in a child process
+    /// first, within limits of time and memory (open_guard.h); the thread's OpeningJob cancels
+    /// that. A file that cannot hold what its header promises is refused.
     ///
     /// Error messages begin with the path.
     static Result<RasterFile> open(const std::string& path, int band = 1);
@@ -88,8 +88,5 @@ std::size_t defaultMemoryBudget();
 /// GDAL_CACHEMAX: for reads that come back to blocks in any order. Otherwise it holds 32 MB. Before
 /// the first raster is opened or after.
 void allowLargeBlockCache();
-
-/// The version of GDAL in use, "3.6.2".
-std::string gdalVersion();
 
 } // namespace marsview

@@ -1,9 +1,9 @@
 #include "core/raster/source_identity.h"
 
+#include "core/raster/file_stamp.h"
 #include "core/raster/gdal_runtime.h"
 #include "core/raster/remote_raster.h"
 #include "core/raster/source_files.h"
-#include "core/raster/source_stamp.h"
 
 #include <cpl_vsi.h>
 

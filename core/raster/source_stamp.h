@@ -19,13 +19,6 @@ struct SourceStamp {
 /// To be taken before the first byte is read. Reads no samples. Any thread.
 SourceStamp stampOf(const std::string& path);
 
-/// The file on a disk: itself, or the archive where the name is one of GDAL's for something within
-/// it ("/vsizip/maps/mars.zip/mars.tif"). Empty where there is none.
-std::string fileHolding(const std::string& name);
-
-/// The text of SourceStamp for these files; those that are not on a disk are left out.
-std::string stampTextOf(const std::vector<std::string>& files);
-
 /// Whether the same files still are as they were then.
 bool isUntouched(const SourceStamp& then);
 

@@ -1,7 +1,7 @@
 #include "core/raster/text_grid_promise.h"
 
+#include "core/raster/file_stamp.h"
 #include "core/raster/opening_job.h"
-#include "core/raster/source_stamp.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "ui/dialogs/about_dialog.h"
 
-#include "core/raster/raster_file.h"
+#include "core/raster/gdal_drivers.h"
 #include "ui/icons.h"
 
 #include <QCoreApplication>
@@ -46,7 +46,8 @@ AboutDialog::AboutDialog(const QString& graphics, QWidget* parent)
     layout->setSpacing(12);
     auto* icon = new QLabel(this);
     icon->setObjectName(QStringLiteral("programIcon"));
-    icon->setPixmap(programIcon().pixmap(QSize(kAboutIconSide, kAboutIconSide), devicePixelRatioF()));
+    icon->setPixmap(
+        programIcon().pixmap(QSize(kAboutIconSide, kAboutIconSide), devicePixelRatioF()));
     icon->setAccessibleName(tr("Icon of the program"));
     auto* name = new QVBoxLayout;
     name->setSpacing(4);
