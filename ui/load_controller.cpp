@@ -1,7 +1,7 @@
 #include "ui/load_controller.h"
 
 #include "core/base/job_monitor.h"
-#include "core/raster/opening_job.h"
+#include "core/files/opening_job.h"
 
 #include <chrono>
 #include <exception>

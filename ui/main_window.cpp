@@ -1,6 +1,6 @@
 #include "ui/main_window.h"
 
-#include "core/raster/file_address.h"
+#include "core/files/file_address.h"
 #include "core/session/layer_groups.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "ui/action_icons.h"

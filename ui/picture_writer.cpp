@@ -1,6 +1,6 @@
 #include "ui/picture_writer.h"
 
-#include "core/raster/picture_file.h"
+#include "core/files/picture_file.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>

@@ -1,6 +1,6 @@
 #include "ui/recent_files.h"
 
-#include "core/raster/remote_raster.h"
+#include "core/files/remote_raster.h"
 #include "ui/number_text.h"
 
 #include <QCoreApplication>

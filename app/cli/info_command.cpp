@@ -4,7 +4,7 @@
 #include "app/console/long_job.h"
 #include "app/console/map_options.h"
 #include "app/console/text_output.h"
-#include "core/raster/remote_raster.h"
+#include "core/files/remote_raster.h"
 #include "core/session/open_map.h"
 
 #include <CLI/CLI.hpp>

@@ -4,8 +4,8 @@
 #include "app/console/number_checks.h"
 #include "app/console/output_file.h"
 #include "app/console/scene.h"
+#include "core/files/picture_file.h"
 #include "core/raster/output_check.h"
-#include "core/raster/picture_file.h"
 #include "ui/render/offscreen_picture.h"
 
 #include <CLI/CLI.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
-#include "core/raster/opening_job.h"
+#include "core/files/opening_job.h"
 
 #include <chrono>
 #include <string>

@@ -4,9 +4,9 @@
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "core/base/nearest_word.h"
+#include "core/files/file_address.h"
+#include "core/files/remote_raster.h"
 #include "core/geo/crs.h"
-#include "core/raster/file_address.h"
-#include "core/raster/remote_raster.h"
 #include "core/session/dataset.h"
 
 #include <CLI/CLI.hpp>

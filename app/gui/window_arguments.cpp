@@ -1,7 +1,7 @@
 #include "app/gui/window_arguments.h"
 
 #include "core/base/nearest_word.h"
-#include "core/raster/file_address.h"
+#include "core/files/file_address.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // marsview-probe: opens a raster for marsview and marsview-cli, which read it only where this one
 // survives. Not meant to be run by people.
-#include "core/raster/open_probe.h"
+#include "core/files/open_probe.h"
 
 #include <csignal>
 #include <cstdio>

@@ -1,9 +1,9 @@
 #include "core/levels/level_file.h"
 
 #include "core/base/parallel.h"
+#include "core/files/file_bytes.h"
 #include "core/levels/level_file_format.h"
 #include "core/levels/tile_fill.h"
-#include "core/raster/file_bytes.h"
 #include "core/terrain/fill_range.h"
 #include "core/terrain/filled_heightfield.h"
 #include "core/terrain/raw_ranges.h"

@@ -1,6 +1,6 @@
 #include "core/levels/level_file_use.h"
 
-#include "core/raster/remote_raster.h"
+#include "core/files/remote_raster.h"
 #include "core/raster/source_identity.h"
 #include "core/tiles/geotiff_tile_source.h"
 

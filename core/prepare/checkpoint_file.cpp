@@ -1,8 +1,8 @@
 #include "core/prepare/checkpoint_file.h"
 
 #include "core/base/durable_file.h"
+#include "core/files/file_bytes.h"
 #include "core/levels/level_file_format.h"
-#include "core/raster/file_bytes.h"
 
 #include <algorithm>
 #include <cstring>

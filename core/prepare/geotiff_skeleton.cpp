@@ -1,10 +1,10 @@
 #include "core/prepare/geotiff_skeleton.h"
 
 #include "core/base/check.h"
+#include "core/files/exact_crs.h"
+#include "core/files/gdal_runtime.h"
 #include "core/prepare/overview_builder.h"
 #include "core/prepare/tiff_tiles.h"
-#include "core/raster/exact_crs.h"
-#include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
 #include "core/tiles/tile.h"
 

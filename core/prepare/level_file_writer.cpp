@@ -2,7 +2,7 @@
 
 #include "core/base/durable_file.h"
 #include "core/base/parallel.h"
-#include "core/raster/file_bytes.h"
+#include "core/files/file_bytes.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "core/prepare/prepare_map.h"
 
 #include "core/base/file_lock.h"
+#include "core/files/remote_raster.h"
 #include "core/levels/level_file.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
@@ -9,7 +10,6 @@
 #include "core/prepare/map_folder.h"
 #include "core/prepare/overview_builder.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/remote_raster.h"
 #include "core/raster/source_identity.h"
 #include "core/raster/source_stamp.h"
 #include "core/tiles/geotiff_tile_source.h"

@@ -1,6 +1,6 @@
 #include "core/raster/axis_hints.h"
 
-#include "core/raster/raster_path.h"
+#include "core/files/raster_path.h"
 
 #include <cpl_string.h>
 #include <gdal_priv.h>

@@ -1,9 +1,9 @@
 #include "core/raster/label_elevation.h"
 
 #include "core/base/plain_number.h"
+#include "core/files/raster_path.h"
 #include "core/raster/nodata.h"
 #include "core/raster/odl_label.h"
-#include "core/raster/raster_path.h"
 
 #include <cpl_conv.h>
 #include <cpl_minixml.h>

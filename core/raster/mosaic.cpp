@@ -1,12 +1,12 @@
 #include "core/raster/mosaic.h"
 
 #include "core/base/parallel.h"
-#include "core/raster/gdal_drivers.h"
+#include "core/files/gdal_drivers.h"
+#include "core/files/opening_job.h"
+#include "core/files/raster_path.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/mosaic_grid.h"
-#include "core/raster/opening_job.h"
 #include "core/raster/raster_file.h"
-#include "core/raster/raster_path.h"
 
 #include <cpl_minixml.h>
 #include <ogr_spatialref.h>

@@ -1,7 +1,7 @@
 #include "core/raster/pds3_placement.h"
 
 #include "core/base/check.h"
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
 #include "core/raster/odl_label.h"
 
 #include <cpl_conv.h>

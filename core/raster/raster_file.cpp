@@ -1,19 +1,19 @@
 #include "core/raster/raster_file.h"
 
-#include "core/raster/archive_rasters.h"
+#include "core/files/archive_rasters.h"
+#include "core/files/exact_crs.h"
+#include "core/files/gdal_runtime.h"
+#include "core/files/open_guard.h"
+#include "core/files/opening_job.h"
+#include "core/files/raster_path.h"
+#include "core/files/remote_raster.h"
 #include "core/raster/axis_hints.h"
-#include "core/raster/exact_crs.h"
-#include "core/raster/gdal_runtime.h"
 #include "core/raster/gdal_types.h"
 #include "core/raster/label_elevation.h"
 #include "core/raster/large_blocks.h"
 #include "core/raster/mosaic.h"
 #include "core/raster/netcdf_extent.h"
-#include "core/raster/open_guard.h"
-#include "core/raster/opening_job.h"
 #include "core/raster/pds3_placement.h"
-#include "core/raster/raster_path.h"
-#include "core/raster/remote_raster.h"
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>

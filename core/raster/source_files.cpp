@@ -1,9 +1,9 @@
 #include "core/raster/source_files.h"
 
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
+#include "core/files/open_guard.h"
+#include "core/files/raster_path.h"
 #include "core/raster/mosaic.h"
-#include "core/raster/open_guard.h"
-#include "core/raster/raster_path.h"
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>

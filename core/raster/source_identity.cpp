@@ -1,8 +1,8 @@
 #include "core/raster/source_identity.h"
 
-#include "core/raster/file_stamp.h"
-#include "core/raster/gdal_runtime.h"
-#include "core/raster/remote_raster.h"
+#include "core/files/file_stamp.h"
+#include "core/files/gdal_runtime.h"
+#include "core/files/remote_raster.h"
 #include "core/raster/source_files.h"
 
 #include <cpl_vsi.h>

@@ -1,7 +1,7 @@
 #include "core/raster/source_stamp.h"
 
-#include "core/raster/file_stamp.h"
-#include "core/raster/remote_raster.h"
+#include "core/files/file_stamp.h"
+#include "core/files/remote_raster.h"
 #include "core/raster/source_files.h"
 
 namespace marsview {

@@ -1,7 +1,7 @@
 #include "core/tiles/geotiff_tile_source.h"
 
 #include "core/base/check.h"
-#include "core/raster/remote_raster.h"
+#include "core/files/remote_raster.h"
 
 #include <algorithm>
 #include <cstring>

@@ -20,16 +20,17 @@ const std::vector<Layer>& layers()
     static const std::vector<Layer> kLayers{
         {"core/base/", {"core/base/"}},
         {"core/geo/", {"core/base/", "core/geo/"}},
-        {"core/raster/", {"core/base/", "core/geo/", "core/raster/"}},
-        {"core/tiles/", {"core/base/", "core/geo/", "core/raster/", "core/tiles/"}},
+        {"core/files/", {"core/base/", "core/geo/", "core/files/"}},
+        {"core/raster/", {"core/base/", "core/geo/", "core/files/", "core/raster/"}},
+        {"core/tiles/", {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/tiles/"}},
         {"core/terrain/",
          {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/"}},
         {"core/levels/",
-         {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/",
+         {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/tiles/", "core/terrain/",
           "core/levels/"}},
         {"core/prepare/",
-         {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/", "core/levels/",
-          "core/prepare/"}},
+         {"core/base/", "core/geo/", "core/files/", "core/raster/", "core/tiles/", "core/terrain/",
+          "core/levels/", "core/prepare/"}},
         {"core/mesh/", {"core/base/", "core/geo/frames.h", "core/mesh/"}},
         {"core/contact/",
          {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/levels/", "core/mesh/",
@@ -46,7 +47,7 @@ const std::vector<Layer>& layers()
         {"app/bench/", {"core/", "haptics/", "ui/render/", "app/console/", "app/bench/"}},
         {"app/cli/", {"core/", "haptics/", "ui/render/", "app/console/", "app/bench/", "app/cli/"}},
         {"app/gui/", {"core/", "haptics/", "ui/", "app/gui/"}},
-        {"app/probe/", {"core/raster/", "app/probe/"}},
+        {"app/probe/", {"core/files/", "app/probe/"}},
         {"tests/architecture/", {"tests/"}},
         {"tests/support/", {"core/", "app/bench/reference/", "tests/support/"}},
         {"tests/core/", {"core/", "app/bench/reference/", "tests/"}},
@@ -93,7 +94,10 @@ bool mayUseQt(std::string_view path)
 
 bool mayUseGdal(std::string_view path)
 {
-    constexpr std::array<std::string_view, 5> kFolders{"core/raster/", "core/geo/", "core/prepare/",
+    constexpr std::array<std::string_view, 6> kFolders{"core/geo/",
+                                                       "core/files/",
+                                                       "core/raster/",
+                                                       "core/prepare/",
                                                        "app/bench/reference/computed_raster.",
                                                        "tests/support/faulty_driver/"};
     return startsWithAny(path, kFolders);
@@ -152,7 +156,7 @@ std::optional<std::string> violation(std::string_view path, std::string_view inc
         return refused("Qt belongs to ui (without ui/render) and app/gui");
     }
     if (isGdal(header) && !mayUseGdal(path)) {
-        return refused("GDAL belongs to core/geo, core/raster and core/prepare");
+        return refused("GDAL belongs to core/geo, core/files, core/raster and core/prepare");
     }
     if (header.starts_with("hidapi") && !path.starts_with("haptics/drivers/") &&
         !path.starts_with("tests/haptics/drivers/")) {

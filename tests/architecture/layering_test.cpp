@@ -133,7 +133,7 @@ TEST(IncludeRules, WhatTheArchitectureAllowsIsAllowed)
         {"ui/widgets/map_view.cpp", "<QOpenGLWidget>"},
         {"app/gui/main.cpp", "ui/widgets/map_view.h"},
         {"app/cli/main.cpp", "ui/render/scene.h"},
-        {"app/probe/main.cpp", "core/raster/open_probe.h"},
+        {"app/probe/main.cpp", "core/files/open_probe.h"},
         {"tests/ui/window_arguments_test.cpp", "app/gui/window_arguments.h"},
         {"tests/support/faulty_driver/faulty_driver.cpp", "<gdal_priv.h>"},
         {"tests/core/raster/x_test.cpp", "tests/support/random.h"},

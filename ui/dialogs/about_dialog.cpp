@@ -1,6 +1,6 @@
 #include "ui/dialogs/about_dialog.h"
 
-#include "core/raster/gdal_drivers.h"
+#include "core/files/gdal_drivers.h"
 #include "ui/icons.h"
 
 #include <QCoreApplication>

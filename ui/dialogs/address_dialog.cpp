@@ -1,7 +1,7 @@
 #include "ui/dialogs/address_dialog.h"
 
-#include "core/raster/file_address.h"
-#include "core/raster/remote_raster.h"
+#include "core/files/file_address.h"
+#include "core/files/remote_raster.h"
 #include "ui/sentence.h"
 
 #include <QComboBox>

@@ -1,7 +1,7 @@
 // Pictures for files and measurements, drawn without a window.
 #pragma once
 
-#include "core/raster/picture_file.h"
+#include "core/files/picture_file.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
 #include "core/tiles/tile.h"
 
 #include <cpl_string.h>

@@ -1,7 +1,7 @@
 #include "app/bench/terrain/terrain_bench.h"
 #include "app/bench/terrain/terrain_stage.h"
 #include "app/console/long_job.h"
-#include "core/raster/network_statistics.h"
+#include "core/files/network_statistics.h"
 #include "core/raster/source_identity.h"
 
 #include <cmath>

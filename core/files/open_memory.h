@@ -1,7 +1,7 @@
 // What is remembered of files that were opened in a child process. Used inside core/raster only.
 #pragma once
 
-#include "core/raster/open_probe.h"
+#include "core/files/open_probe.h"
 
 #include <optional>
 #include <string>

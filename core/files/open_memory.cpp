@@ -1,8 +1,8 @@
-#include "core/raster/open_memory.h"
+#include "core/files/open_memory.h"
 
 #include "core/base/environment.h"
-#include "core/raster/file_stamp.h"
-#include "core/raster/gdal_drivers.h"
+#include "core/files/file_stamp.h"
+#include "core/files/gdal_drivers.h"
 
 #include <algorithm>
 #include <array>

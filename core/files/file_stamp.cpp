@@ -1,4 +1,4 @@
-#include "core/raster/file_stamp.h"
+#include "core/files/file_stamp.h"
 
 #include <cstdint>
 #include <fmt/format.h>

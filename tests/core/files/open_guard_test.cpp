@@ -1,7 +1,7 @@
 // Opening in a child process, as RasterFile does; what it does to bad drivers is in
 // tests/cli/hostile_files_test.cpp.
-#include "core/raster/block_cache.h"
-#include "core/raster/opening_job.h"
+#include "core/files/block_cache.h"
+#include "core/files/opening_job.h"
 #include "core/raster/raster_file.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/temp_folder.h"

@@ -1,4 +1,4 @@
-#include "core/raster/raster_path.h"
+#include "core/files/raster_path.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/raster/archive_rasters.h"
+#include "core/files/archive_rasters.h"
 #include "core/raster/raster_file.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/run_program.h"

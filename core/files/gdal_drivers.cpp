@@ -1,4 +1,4 @@
-#include "core/raster/gdal_drivers.h"
+#include "core/files/gdal_drivers.h"
 
 #include <gdal_priv.h>
 

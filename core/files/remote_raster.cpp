@@ -1,4 +1,4 @@
-#include "core/raster/remote_raster.h"
+#include "core/files/remote_raster.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

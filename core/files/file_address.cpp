@@ -1,4 +1,4 @@
-#include "core/raster/file_address.h"
+#include "core/files/file_address.h"
 
 #include <algorithm>
 #include <cctype>

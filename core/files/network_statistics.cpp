@@ -1,6 +1,6 @@
-#include "core/raster/network_statistics.h"
+#include "core/files/network_statistics.h"
 
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>

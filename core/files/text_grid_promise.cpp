@@ -1,7 +1,7 @@
-#include "core/raster/text_grid_promise.h"
+#include "core/files/text_grid_promise.h"
 
-#include "core/raster/file_stamp.h"
-#include "core/raster/opening_job.h"
+#include "core/files/file_stamp.h"
+#include "core/files/opening_job.h"
 
 #include <algorithm>
 #include <array>

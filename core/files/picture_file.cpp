@@ -1,7 +1,7 @@
-#include "core/raster/picture_file.h"
+#include "core/files/picture_file.h"
 
 #include "core/base/check.h"
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
 
 #include <cpl_string.h>
 #include <gdal_priv.h>

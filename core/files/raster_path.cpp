@@ -1,7 +1,7 @@
-#include "core/raster/raster_path.h"
+#include "core/files/raster_path.h"
 
-#include "core/raster/archive_rasters.h"
-#include "core/raster/remote_raster.h"
+#include "core/files/archive_rasters.h"
+#include "core/files/remote_raster.h"
 
 #include <cpl_vsi.h>
 

@@ -1,7 +1,7 @@
 // Notation as in TIFF 6.0 and BigTIFF: a file is a chain of directories (IFDs), a directory a list
 // of entries (tag, type, count, value or the place of the values). The lists StripOffsets and
 // StripByteCounts, or TileOffsets and TileByteCounts, have an entry for each block.
-#include "core/raster/tiff_promise.h"
+#include "core/files/tiff_promise.h"
 
 #include <algorithm>
 #include <array>

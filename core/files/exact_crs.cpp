@@ -1,4 +1,4 @@
-#include "core/raster/exact_crs.h"
+#include "core/files/exact_crs.h"
 
 #include <gdal_priv.h>
 

@@ -1,4 +1,4 @@
-#include "core/raster/open_probe.h"
+#include "core/files/open_probe.h"
 
 #include "core/base/child_program.h"
 #include "core/base/environment.h"

@@ -1,4 +1,4 @@
-#include "core/raster/tiff_promise.h"
+#include "core/files/tiff_promise.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"

@@ -1,6 +1,6 @@
-#include "core/raster/file_bytes.h"
+#include "core/files/file_bytes.h"
 
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
 
 #include <cpl_vsi.h>
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,6 @@
-#include "core/raster/gdal_runtime.h"
-#include "core/raster/open_probe.h"
-#include "core/raster/remote_raster.h"
+#include "core/files/gdal_runtime.h"
+#include "core/files/open_probe.h"
+#include "core/files/remote_raster.h"
 
 #include <cpl_string.h>
 #include <gdal_priv.h>

@@ -1,7 +1,7 @@
-#include "core/raster/gdal_runtime.h"
+#include "core/files/gdal_runtime.h"
 
-#include "core/raster/block_cache.h"
-#include "core/raster/gdal_drivers.h"
+#include "core/files/block_cache.h"
+#include "core/files/gdal_drivers.h"
 
 #include <cpl_conv.h>
 #include <gdal_priv.h>

@@ -1,12 +1,12 @@
-#include "core/raster/open_guard.h"
+#include "core/files/open_guard.h"
 
-#include "core/raster/gdal_drivers.h"
-#include "core/raster/gdal_runtime.h"
-#include "core/raster/open_memory.h"
-#include "core/raster/open_probe.h"
-#include "core/raster/opening_job.h"
-#include "core/raster/text_grid_promise.h"
-#include "core/raster/tiff_promise.h"
+#include "core/files/gdal_drivers.h"
+#include "core/files/gdal_runtime.h"
+#include "core/files/open_memory.h"
+#include "core/files/open_probe.h"
+#include "core/files/opening_job.h"
+#include "core/files/text_grid_promise.h"
+#include "core/files/tiff_promise.h"
 
 #include <algorithm>
 #include <array>
