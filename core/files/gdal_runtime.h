@@ -1,4 +1,4 @@
-// GDAL's process-wide set-up and its error reports. Used inside core/raster only.
+// GDAL's process-wide set-up and its error reports.
 #pragma once
 
 #include <cpl_error.h>

@@ -1,4 +1,4 @@
-// The one door through which GDAL is let at files. Used inside core/raster only.
+// The one door through which GDAL is let at files.
 //
 // A plain file (plainDrivers(), on a disk, naming no other files) is opened in this process, after
 // checks of our own. Anything else is opened by a child process first (open_probe.h), unless that

@@ -1,7 +1,7 @@
 // Opening a raster in a child process, to find out whether GDAL survives it.
 //
 // Drivers of GDAL hand files to libraries that abort, overflow the stack, never end or take all
-// memory on some of them. Such an end is the child's alone. Used inside core/raster and by
+// memory on some of them. Such an end is the child's alone. Used inside core/files and by
 // app/probe.
 #pragma once
 

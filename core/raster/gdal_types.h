@@ -1,4 +1,4 @@
-// Our sample types and GDAL's. Used inside core/raster only.
+// Our sample types and GDAL's.
 #pragma once
 
 #include "core/base/result.h"
