@@ -1,5 +1,6 @@
 #include "core/levels/level_file.h"
 
+#include "core/base/deflate.h"
 #include "core/base/parallel.h"
 #include "core/files/file_bytes.h"
 #include "core/levels/level_file_format.h"
@@ -191,7 +192,7 @@ Status LevelFile::Impl::readTail()
     tail.bytes = std::move(bytes).value();
     const auto json =
         std::span<const std::byte>(tail.bytes).subspan(preamble.header_offset - tail.offset);
-    if (checksum(json) != preamble.header_checksum) {
+    if (crc32Of(json) != preamble.header_checksum) {
         return damaged(path(), "is damaged in its header");
     }
     auto read_header = readHeader(json, file.size(), path());
@@ -287,7 +288,7 @@ Status LevelFile::Impl::unpackPlanes(const Region& region, const std::vector<Wan
                                           ? std::span<const std::byte>(region.bytes)
                                                 .subspan(part.offset - region.offset, part.bytes)
                                           : std::span<const std::byte>{};
-            if (checksum(packed_bytes) != part.checksum ||
+            if (crc32Of(packed_bytes) != part.checksum ||
                 !unpack(packed_bytes, job.plane->chunkShape(job.chunk), job.values)) {
                 failed = job.plane;
             }
@@ -302,7 +303,7 @@ Status LevelFile::Impl::unpackPlanes(const Region& region, const std::vector<Wan
 Result<RawArray<std::byte>> LevelFile::Impl::readPart(const FilePart& part, const TileId& id) const
 {
     auto bytes = file.read(part.offset, part.bytes);
-    if (bytes && checksum(*bytes) != part.checksum) {
+    if (bytes && crc32Of(*bytes) != part.checksum) {
         return damaged(path(), fmt::format("is damaged in the tile at column {}, row {} of level "
                                            "{}",
                                            id.column, id.row, id.level));
@@ -475,7 +476,7 @@ Status LevelFile::check(const JobMonitor& monitor) const
             if (!bytes) {
                 return bytes.error();
             }
-            if (checksum(*bytes) != part.checksum) {
+            if (crc32Of(*bytes) != part.checksum) {
                 return damaged(impl_->path(), "is damaged in a tile");
             }
         }

@@ -1,5 +1,6 @@
 #include "core/levels/level_file_format.h"
 
+#include "core/base/deflate.h"
 #include "core/terrain/detail_errors.h"
 #include "core/terrain/raw_ranges.h"
 
@@ -78,8 +79,8 @@ SampleType sampleTypeFrom(const std::string& name)
     throw std::invalid_argument("a sample type is " + name);
 }
 
-// JSON's integers may be negative or fractions; sizes may not.
-std::uint64_t sizeFrom(const json& value, std::uint64_t maximum)
+// JSON's numbers may be negative or fractions; sizes may not.
+std::uint64_t wholeNumberFrom(const json& value, std::uint64_t maximum)
 {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > maximum) {
         throw std::invalid_argument("a size is " + value.dump());
@@ -110,11 +111,11 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
         header.key.nodata = numberFrom(root.at("nodata"));
     }
     const json& layout = root.at("layout");
-    header.layout = {.columns = sizeFrom(layout.at("columns"), kSideMax),
-                     .rows = sizeFrom(layout.at("rows"), kSideMax),
+    header.layout = {.columns = wholeNumberFrom(layout.at("columns"), kSideMax),
+                     .rows = wholeNumberFrom(layout.at("rows"), kSideMax),
                      .type = sampleTypeFrom(layout.at("type").get<std::string>()),
                      .has_voids = layout.at("has_voids").get<bool>(),
-                     .mean_levels = sizeFrom(layout.at("mean_levels"), 40)};
+                     .mean_levels = wholeNumberFrom(layout.at("mean_levels"), 40)};
     if (header.layout.columns < 2 || header.layout.rows < 2) {
         throw std::invalid_argument("there are less than 2 × 2 samples");
     }
@@ -123,18 +124,18 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
     header.statistics.raw_maximum = numberFrom(statistics.at("raw_maximum"));
     header.statistics.sample_count = header.layout.columns * header.layout.rows;
     header.statistics.void_count =
-        sizeFrom(statistics.at("void_count"), header.statistics.sample_count);
+        wholeNumberFrom(statistics.at("void_count"), header.statistics.sample_count);
     const json& scale = root.at("scale");
     header.scale = {.gain = numberFrom(scale.at("gain")),
                     .offset_m = numberFrom(scale.at("offset_m"))};
-    header.block_samples = sizeFrom(root.at("block_samples"), kSideMax);
+    header.block_samples = wholeNumberFrom(root.at("block_samples"), kSideMax);
     if (header.block_samples < BlockMeans::kBlock || !std::has_single_bit(header.block_samples)) {
         throw std::invalid_argument("the size of a block is no power of two");
     }
     const std::uint64_t tiles = header.layout.tileColumns(TileKind::Samples, 0) *
                                 header.layout.tileRows(TileKind::Samples, 0);
-    header.fill_tiles = sizeFrom(root.at("fill_tiles"), tiles);
-    header.coarse_tiles = sizeFrom(root.at("coarse_tiles"), keptTileCount(header.layout));
+    header.fill_tiles = wholeNumberFrom(root.at("fill_tiles"), tiles);
+    header.coarse_tiles = wholeNumberFrom(root.at("coarse_tiles"), keptTileCount(header.layout));
     header.planes = planesOf(header);
     const json& planes = root.at("planes");
     if (planes.size() != header.planes.size()) {
@@ -147,9 +148,9 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
             throw std::invalid_argument("the array \"" + plane.name + "\" is not as it should be");
         }
         for (const json& chunk : chunks) {
-            const FilePart part{.offset = sizeFrom(chunk.at(0), file_bytes),
-                                .bytes = sizeFrom(chunk.at(1), file_bytes),
-                                .checksum = static_cast<std::uint32_t>(sizeFrom(
+            const FilePart part{.offset = wholeNumberFrom(chunk.at(0), file_bytes),
+                                .bytes = wholeNumberFrom(chunk.at(1), file_bytes),
+                                .checksum = static_cast<std::uint32_t>(wholeNumberFrom(
                                     chunk.at(2), std::numeric_limits<std::uint32_t>::max()))};
             // What is to be allocated is bounded by what is there.
             const std::size_t raw_bytes = plane.chunkShape(plane.chunks.size()).bytes();
@@ -180,7 +181,7 @@ std::array<std::byte, kPreambleBytes> writtenPreamble(const LevelFilePreamble& p
     put(bytes, 24, preamble.planes_offset);
     put(bytes, 32, preamble.tail_offset);
     put(bytes, 40, preamble.header_offset);
-    put(bytes, 60, checksum(std::span<const std::byte>(bytes).first(60)));
+    put(bytes, 60, crc32Of(std::span<const std::byte>(bytes).first(60)));
     return bytes;
 }
 
@@ -197,7 +198,7 @@ readPreamble(std::span<const std::byte> bytes, std::uint64_t file_bytes, const s
         return damaged(path, fmt::format("is of version {}, and this program reads version {}",
                                          get<std::uint32_t>(bytes, 8), kLevelFileVersion));
     }
-    if (get<std::uint32_t>(bytes, 60) != checksum(bytes.first(60))) {
+    if (get<std::uint32_t>(bytes, 60) != crc32Of(bytes.first(60))) {
         return damaged(path, "is damaged at its beginning");
     }
     const LevelFilePreamble preamble{.header_checksum = get<std::uint32_t>(bytes, 12),

@@ -1,12 +1,12 @@
 #include "core/levels/packing.h"
 
 #include "core/base/check.h"
+#include "core/base/deflate.h"
 #include "core/base/raw_array.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <libdeflate.h>
 #include <memory>
 #include <type_traits>
 
@@ -18,14 +18,6 @@ constexpr std::byte kDeflated{1};
 
 // Beyond, deflating takes twice as long for 2 % on elevation.
 constexpr int kEffort = 5;
-
-struct FreeDeflate {
-    void operator()(libdeflate_compressor* deflate) const { libdeflate_free_compressor(deflate); }
-    void operator()(libdeflate_decompressor* inflate) const
-    {
-        libdeflate_free_decompressor(inflate);
-    }
-};
 
 template <typename F>
 void dispatchUnsigned(std::size_t bytes, F&& function)
@@ -193,21 +185,12 @@ packed(const PackShape& shape, std::span<const std::byte> array, std::span<const
         difference<decltype(zero)>(shape, array.data(), plain.data());
     });
     std::copy(rest.begin(), rest.end(), plain.begin() + static_cast<std::ptrdiff_t>(array.size()));
-    const std::unique_ptr<libdeflate_compressor, FreeDeflate> deflate(
-        libdeflate_alloc_compressor(kEffort));
-    MARSVIEW_CHECK(deflate != nullptr);
-    std::vector<std::byte> bytes(1 + libdeflate_zlib_compress_bound(deflate.get(), plain.size()));
-    const std::size_t size = libdeflate_zlib_compress(deflate.get(), plain.data(), plain.size(),
-                                                      bytes.data() + 1, bytes.size() - 1);
-    MARSVIEW_CHECK(size > 0);
-    if (size >= plain.size()) {
-        bytes.resize(1 + plain.size());
-        bytes[0] = kStored;
-        std::copy(plain.begin(), plain.end(), bytes.begin() + 1);
-    } else {
-        bytes.resize(1 + size);
-        bytes[0] = kDeflated;
-    }
+    const std::vector<std::byte> stream = deflated(plain, kEffort);
+    const bool is_shorter = stream.size() < plain.size();
+    const std::vector<std::byte>& content = is_shorter ? stream : plain;
+    std::vector<std::byte> bytes(1 + content.size());
+    bytes[0] = is_shorter ? kDeflated : kStored;
+    std::copy(content.begin(), content.end(), bytes.begin() + 1);
     return bytes;
 }
 
@@ -221,23 +204,15 @@ bool unpack(std::span<const std::byte> bytes,
         return false;
     }
     const std::span<const std::byte> content = bytes.subspan(1);
-    RawArray<std::byte> inflated;
+    RawArray<std::byte> unpacked;
     const std::size_t plain_bytes = array.size() + rest.size();
     const std::byte* plain = content.data();
     if (bytes[0] == kDeflated) {
-        inflated = RawArray<std::byte>(plain_bytes);
-        const std::unique_ptr<libdeflate_decompressor, FreeDeflate> inflate(
-            libdeflate_alloc_decompressor());
-        MARSVIEW_CHECK(inflate != nullptr);
-        std::size_t used = 0;
-        std::size_t size = 0;
-        if (libdeflate_zlib_decompress_ex(inflate.get(), content.data(), content.size(),
-                                          inflated.data(), plain_bytes, &used,
-                                          &size) != LIBDEFLATE_SUCCESS ||
-            size != plain_bytes || used != content.size()) {
+        unpacked = RawArray<std::byte>(plain_bytes);
+        if (!inflate(content, std::span(unpacked.data(), plain_bytes))) {
             return false;
         }
-        plain = inflated.data();
+        plain = unpacked.data();
     } else if (bytes[0] != kStored || content.size() != plain_bytes) {
         return false;
     }
@@ -245,11 +220,6 @@ bool unpack(std::span<const std::byte> bytes,
                      [&](auto zero) { sum<decltype(zero)>(shape, plain, array.data()); });
     std::copy_n(plain + array.size(), rest.size(), rest.begin());
     return true;
-}
-
-std::uint32_t checksum(std::span<const std::byte> bytes)
-{
-    return libdeflate_crc32(0, bytes.data(), bytes.size());
 }
 
 } // namespace marsview

@@ -33,7 +33,4 @@ bool unpack(std::span<const std::byte> bytes,
             std::span<std::byte> array,
             std::span<std::byte> rest = {});
 
-/// CRC-32, as zlib's.
-std::uint32_t checksum(std::span<const std::byte> bytes);
-
 } // namespace marsview

@@ -1,5 +1,6 @@
 #include "core/prepare/checkpoint_file.h"
 
+#include "core/base/deflate.h"
 #include "core/base/durable_file.h"
 #include "core/files/file_bytes.h"
 #include "core/levels/level_file_format.h"
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <libdeflate.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -38,10 +38,7 @@ CheckpointWriter::~CheckpointWriter()
 
 void CheckpointWriter::putBytes(std::span<const std::byte> bytes)
 {
-    if (bytes.empty()) {
-        return; // nothing has no address, by which libdeflate knows to begin anew
-    }
-    checksum_ = libdeflate_crc32(checksum_, bytes.data(), bytes.size());
+    checksum_ = crc32Of(bytes, checksum_);
     has_failed_ =
         has_failed_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size();
 }
@@ -80,7 +77,7 @@ std::optional<CheckpointReader> CheckpointReader::open(const std::string& path)
     reader.bytes_ = std::move(bytes).value();
     reader.end_ = reader.bytes_.size() - sizeof(checksum);
     std::memcpy(&checksum, reader.bytes_.data() + reader.end_, sizeof(checksum));
-    if (libdeflate_crc32(0, reader.bytes_.data(), reader.end_) != checksum) {
+    if (crc32Of(std::span(reader.bytes_.data(), reader.end_)) != checksum) {
         return std::nullopt;
     }
     return reader;

@@ -1,5 +1,6 @@
 #include "core/prepare/level_file_writer.h"
 
+#include "core/base/deflate.h"
 #include "core/base/durable_file.h"
 #include "core/base/parallel.h"
 #include "core/files/file_bytes.h"
@@ -9,7 +10,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fmt/format.h>
-#include <libdeflate.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -133,7 +133,7 @@ bool LevelFileWriter::hasWhatWasWritten() const
         if (!bytes) {
             return false;
         }
-        checksum = libdeflate_crc32(checksum, bytes->data(), bytes->size());
+        checksum = crc32Of(*bytes, checksum);
     }
     return checksum == written_.checksum;
 }
@@ -146,17 +146,16 @@ std::optional<LevelFileWriter::Written> LevelFileWriter::flush()
 
 Result<FilePart> LevelFileWriter::append(std::span<const std::byte> bytes)
 {
-    const FilePart part{.offset = 0, .bytes = bytes.size(), .checksum = checksum(bytes)};
+    const FilePart part{.offset = 0, .bytes = bytes.size(), .checksum = crc32Of(bytes)};
     const std::lock_guard lock(mutex_);
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
         return failed("cannot be written");
     }
     FilePart placed = part;
     placed.offset = written_.bytes;
-    // The preamble comes first, and is written once more at the end. Nothing has no address, by
-    // which libdeflate knows to begin anew.
-    if (written_.bytes > 0 && !bytes.empty()) {
-        written_.checksum = libdeflate_crc32(written_.checksum, bytes.data(), bytes.size());
+    // The preamble comes first, and is written once more at the end.
+    if (written_.bytes > 0) {
+        written_.checksum = crc32Of(bytes, written_.checksum);
     }
     written_.bytes += bytes.size();
     return placed;

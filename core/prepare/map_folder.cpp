@@ -1,5 +1,6 @@
 #include "core/prepare/map_folder.h"
 
+#include "core/base/deflate.h"
 #include "core/base/environment.h"
 #include "core/prepare/geotiff_skeleton.h"
 
@@ -11,11 +12,11 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
+#include <span>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <utility>
-#include <zlib.h>
 
 namespace marsview {
 namespace {
@@ -140,7 +141,7 @@ MapFolder::pathFor(const SourceIdentity& source, int band, const std::string& se
     // The whole identity: two maps may have the same samples at the places that the digest knows.
     const std::string all = fmt::format("{} {} {} {} {}", source.bytes, source.modified_s,
                                         source.digest, band, settings);
-    const auto checksum = crc32_z(0, reinterpret_cast<const Bytef*>(all.data()), all.size());
+    const std::uint32_t checksum = crc32Of(std::as_bytes(std::span(all)));
     return (folder_ / fmt::format("{}-{}{:08x}{}", readableName(source.path), source.digest,
                                   checksum, kMapEnding))
         .string();

@@ -1,5 +1,6 @@
 #include "core/prepare/prepare_journal.h"
 
+#include "core/base/deflate.h"
 #include "core/prepare/tiff_tiles.h"
 
 #include <cerrno>
@@ -9,9 +10,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <system_error>
 #include <unistd.h>
-#include <zlib.h>
 
 namespace marsview {
 namespace {
@@ -22,7 +23,7 @@ constexpr std::size_t kChecksumBytes = 4;
 
 std::uint32_t checksumOf(const std::vector<std::uint8_t>& bytes, std::size_t count)
 {
-    return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), count));
+    return crc32Of(std::as_bytes(std::span(bytes).first(count)));
 }
 
 int writeWhole(const std::string& path, const std::vector<std::uint8_t>& bytes)

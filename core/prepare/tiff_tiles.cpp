@@ -1,5 +1,6 @@
 #include "core/prepare/tiff_tiles.h"
 
+#include "core/base/deflate.h"
 #include "core/base/parallel.h"
 #include "core/tiles/tile.h"
 
@@ -13,7 +14,6 @@
 #include <sys/stat.h>
 #include <tiffio.h>
 #include <unistd.h>
-#include <zlib.h>
 
 namespace marsview {
 namespace {
@@ -202,8 +202,8 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
     const int descriptor = TIFFFileno(file);
     std::atomic<bool> are_whole = true;
     parallelRanges(tiles, kTilesPerRange, [&](std::size_t begin, std::size_t end) {
-        std::vector<Bytef> encoded;
-        std::vector<Bytef> decoded(decoded_bytes);
+        std::vector<std::byte> encoded;
+        std::vector<std::byte> decoded(decoded_bytes);
         for (std::size_t tile = begin; tile < end && are_whole; ++tile) {
             const auto index = static_cast<std::uint32_t>(tile);
             const std::uint64_t bytes = TIFFGetStrileByteCount(file, index);
@@ -215,11 +215,8 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
             encoded.resize(bytes);
             const ssize_t got = pread(descriptor, encoded.data(), encoded.size(),
                                       static_cast<off_t>(TIFFGetStrileOffset(file, index)));
-            uLongf inflated = decoded.size();
             // Unlike the library's own reading it looks at the checksum at the end.
-            if (got != static_cast<ssize_t>(encoded.size()) ||
-                uncompress(decoded.data(), &inflated, encoded.data(), encoded.size()) != Z_OK ||
-                inflated != decoded.size()) {
+            if (got != static_cast<ssize_t>(encoded.size()) || !inflate(encoded, decoded)) {
                 are_whole = false;
             }
         }

@@ -1,12 +1,12 @@
 #include "core/prepare/tile_encoding.h"
 
 #include "core/base/check.h"
+#include "core/base/deflate.h"
 
 #include <cpl_conv.h>
 
 #include <bit>
 #include <cstring>
-#include <zlib.h>
 
 namespace marsview {
 namespace {
@@ -83,7 +83,7 @@ std::vector<std::byte> encodeTile(std::span<std::byte> tile,
         break;
     }
     // GDAL deflates with libdeflate where it was built with it, three times as fast as zlib.
-    std::vector<std::byte> encoded(compressBound(static_cast<uLong>(tile.size())) + 64);
+    std::vector<std::byte> encoded(deflatedBytesMax(tile.size()) + 64);
     std::size_t bytes = 0;
     if (CPLZLibDeflate(tile.data(), tile.size(), kDeflateLevel, encoded.data(), encoded.size(),
                        &bytes) == nullptr) {

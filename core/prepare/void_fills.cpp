@@ -1,5 +1,6 @@
 #include "core/prepare/void_fills.h"
 
+#include "core/base/deflate.h"
 #include "core/base/durable_file.h"
 #include "core/levels/packing.h"
 
@@ -25,7 +26,7 @@ Error failed(const std::string& name, const char* what)
 
 std::uint64_t rowChecksum(std::span<const float> heights_m)
 {
-    return std::uint64_t{checksum(std::as_bytes(heights_m))} + 1;
+    return std::uint64_t{crc32Of(std::as_bytes(heights_m))} + 1;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "core/raster/source_identity.h"
 
+#include "core/base/deflate.h"
 #include "core/files/file_stamp.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/remote_raster.h"
@@ -14,10 +15,10 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
-#include <zlib.h>
 
 namespace marsview {
 namespace {
@@ -43,9 +44,9 @@ class Digest {
 public:
     void add(const void* data, std::size_t size)
     {
-        const auto* bytes = static_cast<const Bytef*>(data);
-        crc_ = crc32_z(crc_, bytes, size);
-        adler_ = adler32_z(adler_, bytes, size);
+        const std::span bytes(static_cast<const std::byte*>(data), size);
+        crc_ = crc32Of(bytes, crc_);
+        adler_ = adler32Of(bytes, adler_);
     }
     void add(std::uint64_t number)
     {
@@ -59,8 +60,8 @@ public:
     std::string text() const { return fmt::format("{:08x}{:08x}", crc_, adler_); }
 
 private:
-    uLong crc_ = crc32_z(0, nullptr, 0);
-    uLong adler_ = adler32_z(0, nullptr, 0);
+    std::uint32_t crc_ = crc32Of({});
+    std::uint32_t adler_ = adler32Of({});
 };
 
 bool isRemote(const std::string& path)

@@ -1,8 +1,7 @@
 #include "core/tiles/tile_checksums.h"
 
 #include "core/base/check.h"
-
-#include <libdeflate.h>
+#include "core/base/deflate.h"
 
 namespace marsview {
 namespace {
@@ -57,8 +56,8 @@ std::uint32_t sampleChecksum(const SampleGrid& samples, const GridWindow& part)
         for (std::size_t row = part.row; row < part.row + part.rows; ++row) {
             const auto whole = std::as_bytes(std::span(values.row(row)));
             const std::size_t sample = sizeof(values(0, 0));
-            checksum = libdeflate_crc32(checksum, whole.data() + part.column * sample,
-                                        part.columns * sample);
+            checksum =
+                crc32Of(whole.subspan(part.column * sample, part.columns * sample), checksum);
         }
         return checksum;
     });

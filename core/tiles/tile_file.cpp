@@ -8,13 +8,14 @@
 
 #include "core/tiles/tile_file.h"
 
+#include "core/base/deflate.h"
+
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <new>
 #include <type_traits>
 #include <utility>
-#include <zlib.h>
 
 namespace marsview {
 namespace {
@@ -37,13 +38,14 @@ struct Header {
 static_assert(std::has_unique_object_representations_v<Header>, "no padding to leave undefined");
 
 constexpr std::size_t kChecksumEnd = offsetof(Header, checksum) + sizeof(Header::checksum);
+// The fastest: others cost several times as much and save a tenth.
+constexpr int kEffort = 1;
 constexpr std::uint8_t kHasVoids = 1;
 constexpr std::uint8_t kHasFills = 2;
 
 std::uint32_t checksumOf(std::span<const std::byte> file)
 {
-    return static_cast<std::uint32_t>(crc32_z(
-        0, reinterpret_cast<const Bytef*>(file.data() + kChecksumEnd), file.size() - kChecksumEnd));
+    return crc32Of(file.subspan(kChecksumEnd));
 }
 
 // Calls `function` with an unsigned number of the size of a sample.
@@ -167,16 +169,10 @@ std::vector<std::byte> encodeTileFile(const Tile& tile, const std::string& key)
                                              (tile.filled_m.empty() ? 0 : kHasFills));
     try {
         const std::vector<std::byte> plain = plainParts(tile, header, sizesOf(header, grid.type()));
-        uLongf packed_bytes = compressBound(plain.size());
-        std::vector<std::byte> file(sizeof header + key.size() + packed_bytes);
+        const std::vector<std::byte> stream = deflated(plain, kEffort);
+        std::vector<std::byte> file(sizeof header + key.size() + stream.size());
         std::memcpy(file.data() + sizeof header, key.data(), key.size());
-        // The fastest level: better ones cost several times as much and save a tenth.
-        if (compress2(reinterpret_cast<Bytef*>(file.data() + sizeof header + key.size()),
-                      &packed_bytes, reinterpret_cast<const Bytef*>(plain.data()), plain.size(),
-                      Z_BEST_SPEED) != Z_OK) {
-            return {};
-        }
-        file.resize(sizeof header + key.size() + packed_bytes);
+        std::memcpy(file.data() + sizeof header + key.size(), stream.data(), stream.size());
         std::memcpy(file.data(), &header, sizeof header);
         header.checksum = checksumOf(file);
         std::memcpy(file.data(), &header, sizeof header);
@@ -213,11 +209,7 @@ DecodedTileFile decodeTileFile(std::span<const std::byte> file,
     const Sizes sizes = sizesOf(header, layout.type);
     try {
         std::vector<std::byte> plain(sizes.all());
-        uLongf plain_bytes = plain.size();
-        const std::span<const std::byte> packed = file.subspan(sizeof header + key.size());
-        if (uncompress(reinterpret_cast<Bytef*>(plain.data()), &plain_bytes,
-                       reinterpret_cast<const Bytef*>(packed.data()), packed.size()) != Z_OK ||
-            plain_bytes != plain.size()) {
+        if (!inflate(file.subspan(sizeof header + key.size()), plain)) {
             return {};
         }
         std::optional<Tile> tile = tileFrom(plain, id, header, layout.type, sizes);
