@@ -1,6 +1,5 @@
 #include "ui/hand_map.h"
 
-#include <cmath>
 #include <utility>
 
 namespace marsview {
@@ -11,12 +10,6 @@ std::uint64_t nextMapId()
 {
     static std::uint64_t last = 0;
     return ++last;
-}
-
-double meanCellSideM(const SceneFrame& frame)
-{
-    return 0.5 * (std::hypot(frame.east_per_column, frame.north_per_column) +
-                  std::hypot(frame.east_per_row, frame.north_per_row));
 }
 
 } // namespace
@@ -44,7 +37,7 @@ std::shared_ptr<ServoMap> HandMap::make(ContactModelKind kind, double exaggerati
     const auto& dataset = map_.map.dataset;
     const GoalFrame frame({dataset, &dataset->georeference()}, map_.frame, exaggeration);
     const ServoMapOptions options{
-        .kind = kind, .contact = {.radius_m = 0.5 * meanCellSideM(map_.frame)}, .map_id = map_id_};
+        .kind = kind, .contact = {.radius_m = 0.5 * map_.frame.meanCellSideM()}, .map_id = map_id_};
     if (map_.map.filled) {
         return makeServoMap(frame, map_.map.filled, options);
     }

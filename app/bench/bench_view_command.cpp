@@ -330,7 +330,7 @@ void printForPeople(const Options& options, const std::vector<ViewBenchResult>& 
 Status runBenchView(const Options& given)
 {
     Options options = given;
-    const Result<Viewport> viewport = sizeFrom(options.size);
+    const Result<Viewport> viewport = viewportFrom(options.size);
     if (!viewport) {
         return viewport.error();
     }

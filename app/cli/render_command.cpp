@@ -76,7 +76,7 @@ Status runRender(const Options& options)
         !checked) {
         return checked;
     }
-    const Result<Viewport> viewport = sizeFrom(options.size);
+    const Result<Viewport> viewport = viewportFrom(options.size);
     if (!viewport) {
         return viewport.error();
     }

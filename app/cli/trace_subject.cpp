@@ -67,16 +67,9 @@ bool isMesh(const std::string& path)
 Result<TraceSubject>
 meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
 {
-    Result<TriangleSoup> soup = readTriangles(options.path, monitor);
-    if (!soup) {
-        return std::move(soup).error();
-    }
-    for (ScenePoint& vertex : soup.value().vertices) {
-        vertex.z *= exaggeration;
-    }
-    const auto mesh = TriangleMesh::build(std::move(soup).value(), monitor);
+    const auto mesh = loadMesh(options.path, exaggeration, monitor);
     if (!mesh) {
-        return Error{mesh.error().code, fmt::format("{}: {}", options.path, mesh.error().message)};
+        return mesh.error();
     }
     const MeshSurface surface(mesh.value());
     TraceSubject subject;

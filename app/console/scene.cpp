@@ -95,7 +95,7 @@ openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()
     return scene;
 }
 
-Result<Viewport> sizeFrom(const std::string& text)
+Result<Viewport> viewportFrom(const std::string& text)
 {
     Viewport size;
     const char* const end = text.data() + text.size();
@@ -117,7 +117,7 @@ CLI::Validator pictureSize()
 {
     return {[](std::string& text) {
                 constexpr std::string_view kName = "--size: "; // the parser writes it too
-                const Result<Viewport> size = sizeFrom(text);
+                const Result<Viewport> size = viewportFrom(text);
                 return size ? std::string() : size.error().message.substr(kName.size());
             },
             ""};

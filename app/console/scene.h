@@ -53,8 +53,8 @@ Result<Scene>
 openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify = {});
 
 /// The size that the option --size says: "1280x800".
-Result<Viewport> sizeFrom(const std::string& text);
-/// Refuses what sizeFrom() refuses.
+Result<Viewport> viewportFrom(const std::string& text);
+/// Refuses what viewportFrom() refuses.
 CLI::Validator pictureSize();
 
 } // namespace marsview

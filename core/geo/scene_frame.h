@@ -32,6 +32,13 @@ struct SceneFrame {
                std::abs(area_m2) >= kAreaM2Min;
     }
 
+    /// The mean length in metres of a step to the next column and of one to the next row.
+    double meanCellSideM() const noexcept
+    {
+        return 0.5 * (std::hypot(east_per_column, north_per_column) +
+                      std::hypot(east_per_row, north_per_row));
+    }
+
     constexpr ScenePoint toScene(GridPoint grid, double scene_height_m) const noexcept
     {
         const double c = grid.column - origin.column;

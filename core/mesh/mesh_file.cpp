@@ -784,12 +784,16 @@ Result<TriangleSoup> readTriangles(const std::string& path, JobMonitor& monitor)
                              : StlReader(path, *content, monitor).read();
 }
 
-Result<std::shared_ptr<const TriangleMesh>> loadMesh(const std::string& path, JobMonitor& monitor)
+Result<std::shared_ptr<const TriangleMesh>>
+loadMesh(const std::string& path, double exaggeration, JobMonitor& monitor)
 {
     monitor.beginStage(0.0, 0.3);
     auto soup = readTriangles(path, monitor);
     if (!soup) {
         return std::move(soup).error();
+    }
+    for (ScenePoint& vertex : soup->vertices) {
+        vertex.z *= exaggeration;
     }
     monitor.beginStage(0.3, 1.0);
     auto mesh = TriangleMesh::build(std::move(*soup), monitor);

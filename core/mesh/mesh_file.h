@@ -22,7 +22,8 @@ namespace marsview {
 /// file, the line or byte, and what was found there.
 Result<TriangleSoup> readTriangles(const std::string& path, JobMonitor& monitor);
 
-/// Reads and checks: a mesh that can be touched, or why not.
-Result<std::shared_ptr<const TriangleMesh>> loadMesh(const std::string& path, JobMonitor& monitor);
+/// Reads, multiplies z by the exaggeration and checks: a mesh that can be touched, or why not.
+Result<std::shared_ptr<const TriangleMesh>>
+loadMesh(const std::string& path, double exaggeration, JobMonitor& monitor);
 
 } // namespace marsview

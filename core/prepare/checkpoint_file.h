@@ -90,8 +90,6 @@ public:
     }
     std::optional<SampleGrid> getGrid(SampleType type, std::size_t columns, std::size_t rows);
 
-    bool isAtEnd() const noexcept { return !has_failed_ && left() == 0; }
-
 private:
     CheckpointReader() = default;
 

@@ -152,10 +152,7 @@ double TileCursor::heightFrom(std::size_t level, std::size_t column, std::size_t
     double height = kNan;
     for (std::size_t k = level; k <= top_level_; ++k) {
         if (interpolated(k, column, row, height)) {
-            if (k > level) {
-                is_exact_ = false;
-                coarsest_used_ = std::max(coarsest_used_, k);
-            }
+            is_exact_ = is_exact_ && k == level;
             return height;
         }
         if (access_ == TileAccess::Wait) {

@@ -65,8 +65,6 @@ public:
     }
     /// True as long as every sample came from its own tile.
     bool isExact() const noexcept { return is_exact_; }
-    /// The coarsest level that had to stand in for one asked for.
-    std::size_t coarsestUsed() const noexcept { return coarsest_used_; }
 
 private:
     static constexpr std::size_t kSlots = 16;
@@ -87,7 +85,6 @@ private:
     TileAccess access_;
     std::size_t top_level_;
     bool is_exact_ = true;
-    std::size_t coarsest_used_ = 0;
     std::array<Slot, kSlots> slots_;
 };
 

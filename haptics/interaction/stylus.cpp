@@ -6,15 +6,6 @@
 #include <utility>
 
 namespace marsview {
-namespace {
-
-double meanCellSideM(const SceneFrame& frame)
-{
-    return 0.5 * (std::hypot(frame.east_per_column, frame.north_per_column) +
-                  std::hypot(frame.east_per_row, frame.north_per_row));
-}
-
-} // namespace
 
 void Stylus::setGround(const SceneSurface& ground, double exaggeration)
 {
@@ -133,7 +124,7 @@ std::unique_ptr<MapContactModel> Stylus::makeModel()
     if (!touch_) {
         touch_ = std::make_unique<MapTouch>(map);
     }
-    return touch_->makeModel(kind_, exaggeration_, {.radius_m = 0.5 * meanCellSideM(map.frame)});
+    return touch_->makeModel(kind_, exaggeration_, {.radius_m = 0.5 * map.frame.meanCellSideM()});
 }
 
 ScenePoint Stylus::aimedGround() const
@@ -180,7 +171,7 @@ void Stylus::holdAbove(const ScenePoint& ground)
     constexpr int kHalvings = 40;
     const auto place = [&](double up_m) { return model_->place(ground + Vec3{0.0, 0.0, up_m}); };
     double touching_m = 0.0;
-    double free_m = meanCellSideM(ground_.maps()[at_.index].frame);
+    double free_m = ground_.maps()[at_.index].frame.meanCellSideM();
     for (int i = 0; i < kDoublings && place(free_m).is_in_contact; ++i) {
         touching_m = free_m;
         free_m *= 2.0;

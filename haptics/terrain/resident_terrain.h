@@ -61,7 +61,6 @@ public:
     const WindowBlend& blend() const noexcept { return blend_; }
     const WindowMisses& misses() const noexcept { return misses_; }
     void resetMisses() noexcept { misses_ = {}; }
-    double rateMetresPerSecond() const noexcept { return rate_m_per_s_; }
     /// > 0; the scale from scene to workspace decides what can be felt.
     void setRate(double rate_m_per_s) noexcept { rate_m_per_s_ = rate_m_per_s; }
 

@@ -44,6 +44,16 @@ TEST(SceneFrame, TheCentreOfTheRasterIsTheOrigin)
     EXPECT_EQ(reference.sceneFrame().toScene({5.0, 3.0}, 8.0), (ScenePoint{0.0, 0.0, 8.0}));
 }
 
+TEST(SceneFrame, TheMeanCellSideIsThatOfColumnsAndRows)
+{
+    const SceneFrame frame{.origin = {},
+                           .east_per_column = 3.0,
+                           .east_per_row = 0.0,
+                           .north_per_column = 4.0,
+                           .north_per_row = -7.0};
+    EXPECT_EQ(frame.meanCellSideM(), 6.0); // of 5 and 7
+}
+
 TEST(SceneFrame, AProjectedRasterCountsItsLinearUnit)
 {
     // EPSG:2853 counts metres; EPSG:2924 is the same zone in US survey feet.

@@ -165,7 +165,7 @@ TEST_F(MeshFile, EveryFormatGivesTheTriangles)
         ASSERT_TRUE(soup) << soup.error().message;
         expectSame(*soup, truth, tolerance);
         JobMonitor monitor;
-        const auto mesh = loadMesh(write(name, content), monitor);
+        const auto mesh = loadMesh(write(name, content), 1.0, monitor);
         ASSERT_TRUE(mesh) << mesh.error().message;
         EXPECT_EQ((*mesh)->faceCount(), truth.faces.size());
         EXPECT_EQ(monitor.fraction(), 1.0);
@@ -295,11 +295,22 @@ TEST_F(MeshFile, FaultsOfTheMeshNameTheFile)
 {
     JobMonitor monitor;
     const std::string path = write("a.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const auto mesh = loadMesh(path, monitor);
+    const auto mesh = loadMesh(path, 1.0, monitor);
     ASSERT_FALSE(mesh);
     EXPECT_EQ(mesh.error().message, path +
                                         ": the mesh cannot be touched: 1 coordinate that is not "
                                         "a number within 1e12 m (vertex 1, 0, 0, nan)");
+}
+
+TEST_F(MeshFile, IsExaggeratedInZAlone)
+{
+    JobMonitor monitor;
+    const std::string path = write("a.obj", "v 0 0 1\nv 1 0 -2\nv 0 1 0\nf 1 2 3\n");
+    const auto mesh = loadMesh(path, 2.5, monitor);
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ((*mesh)->vertex(0).z, 2.5);
+    EXPECT_EQ((*mesh)->vertex(1).x, 1.0);
+    EXPECT_EQ((*mesh)->vertex(1).z, -5.0);
 }
 
 TEST_F(MeshFile, CanBeCancelled)
@@ -337,7 +348,7 @@ TEST_F(MeshFile, DamageIsToldOrReadButNeverCrashes)
                 damaged[at] = static_cast<char>(random.bits());
             }
             JobMonitor monitor;
-            const auto mesh = loadMesh(write(name, damaged), monitor);
+            const auto mesh = loadMesh(write(name, damaged), 1.0, monitor);
             if (mesh) {
                 ++read_well;
             } else {
