@@ -3,7 +3,6 @@
 #include "core/base/check.h"
 #include "core/base/file_lock.h"
 #include "core/base/parallel.h"
-#include "core/files/gdal_runtime.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/overview_builder.h"
@@ -14,9 +13,6 @@
 #include "core/raster/source_identity.h"
 #include "core/raster/source_stamp.h"
 #include "core/tiles/tile.h"
-
-#include <cpl_string.h>
-#include <gdal_priv.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,9 +32,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kTileSideMax = 1024;
-constexpr std::size_t kTopSideMax = 512; // of the coarsest overview that a usable file has
 
 // What is being read while the rows before are written takes at most this, together.
 constexpr std::size_t kWindowBytes = std::size_t{230} << 20;
@@ -623,66 +616,6 @@ Status publish(const TiledGeoTiffJob& job, const Preparation& preparation)
 }
 
 } // namespace
-
-Result<TiledLayoutInfo> tiledLayoutOf(const std::string& path, int band)
-{
-    Result<RasterFile> file = RasterFile::open(path, band);
-    if (!file) {
-        return std::move(file).error();
-    }
-    const RasterInfo& info = file->info();
-    TiledLayoutInfo layout;
-    const auto refuse = [&layout](std::string why) {
-        layout.why_not = std::move(why);
-        return layout;
-    };
-    if (info.driver != "GTiff") {
-        return refuse(fmt::format("is of the format {}", info.driver));
-    }
-    const GdalMessages messages;
-    const GDALDatasetUniquePtr dataset(GDALDataset::Open(info.path.c_str(), GDAL_OF_RASTER));
-    if (!dataset) {
-        return refuse(messages.firstFailure("cannot be opened twice"));
-    }
-    GDALRasterBand& raster = *dataset->GetRasterBand(band);
-    int block_columns = 0;
-    int block_rows = 0;
-    raster.GetBlockSize(&block_columns, &block_rows);
-    layout.tile_side = static_cast<std::size_t>(block_columns);
-    if (block_columns != block_rows || layout.tile_side > kTileSideMax) {
-        return refuse(
-            fmt::format("has blocks of {} x {} instead of tiles", block_columns, block_rows));
-    }
-    for (int i = 0; i < raster.GetOverviewCount(); ++i) {
-        GDALRasterBand* overview = raster.GetOverview(i);
-        if (overview == nullptr) {
-            break;
-        }
-        const auto columns = static_cast<std::size_t>(overview->GetXSize());
-        const auto rows = static_cast<std::size_t>(overview->GetYSize());
-        const std::size_t level = layout.overviews.size() + 1;
-        const auto is_near = [level](std::size_t size, std::size_t of) {
-            return size == TileLayout::samplesAlong(TileKind::Means, level, of) ||
-                   size == of >> level;
-        };
-        if (!is_near(columns, info.columns) || !is_near(rows, info.rows)) {
-            break;
-        }
-        layout.overviews.push_back({columns, rows});
-    }
-    const std::size_t top_columns =
-        layout.overviews.empty() ? info.columns : layout.overviews.back().columns;
-    const std::size_t top_rows =
-        layout.overviews.empty() ? info.rows : layout.overviews.back().rows;
-    if (std::max(top_columns, top_rows) > kTopSideMax) {
-        return refuse(layout.overviews.empty()
-                          ? "has no overviews by 2, 4, 8, …"
-                          : fmt::format("has overviews by 2, 4, … only down to {} x {}",
-                                        top_columns, top_rows));
-    }
-    layout.is_usable = true;
-    return layout;
-}
 
 std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info)
 {

@@ -14,24 +14,6 @@
 
 namespace marsview {
 
-/// Whether a raster can be used in place.
-struct TiledLayoutInfo {
-    /// It is a GeoTIFF in square tiles of at most 1024, and has overviews by 2, 4, 8, … until one
-    /// is at most 512 pixels a side.
-    bool is_usable = false;
-    std::string why_not; // for people, where it is not: "has strips instead of tiles"
-    std::size_t tile_side = 0;
-    struct Overview {
-        std::size_t columns = 0;
-        std::size_t rows = 0;
-    };
-    /// By 2, 4, 8, …, without a gap. Sizes are rounded up; some programs (COG) round down.
-    std::vector<Overview> overviews;
-};
-
-/// Errors as RasterFile::open has them.
-Result<TiledLayoutInfo> tiledLayoutOf(const std::string& path, int band = 1);
-
 struct TiledGeoTiffJob {
     std::string source; // any name that RasterFile opens
     int band = 1;

@@ -64,6 +64,32 @@ protected:
 
 } // namespace
 
+TEST_F(PrepareMap, UsesTiledRastersWithOverviewsInPlace)
+{
+    const test::RasterRecipe recipe =
+        test::recipeFor(1300, std::vector<std::int16_t>(std::size_t{1300} * 1100, 7));
+    const auto is_used_in_place = [](const std::string& path) {
+        const Result<bool> is_used = canBeUsedInPlace({.path = path});
+        EXPECT_TRUE(is_used) << is_used.error().message;
+        return is_used && *is_used;
+    };
+    const auto write = [&](const char* name, const char* driver, std::vector<std::string> options) {
+        return test::writeRaster(folder_, name, driver, recipe, options);
+    };
+    EXPECT_FALSE(is_used_in_place(write("strips.tif", "GTiff", {})));
+    EXPECT_FALSE(is_used_in_place(write("map.asc", "AAIGrid", {})));
+    EXPECT_TRUE(is_used_in_place(write("cog.tif", "COG", {})));
+
+    const std::string tiled = write("tiled.tif", "GTiff", {"-co", "TILED=YES"});
+    EXPECT_FALSE(is_used_in_place(tiled)); // no picture of all of it is cheap
+    test::runTool({"gdaladdo", "-q", "-r", "average", tiled, "2"});
+    EXPECT_TRUE(is_used_in_place(tiled));
+
+    const std::string sparse = write("sparse.tif", "GTiff", {"-co", "TILED=YES"});
+    test::runTool({"gdaladdo", "-q", "-r", "average", sparse, "8"});
+    EXPECT_FALSE(is_used_in_place(sparse)); // the levels between are missing
+}
+
 TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
 {
     source("map");

@@ -213,11 +213,11 @@ TEST_P(TiledCopyOf, IsTheSameMapToTheBit)
     ASSERT_TRUE(opened);
     EXPECT_EQ(samplesOf(path), samplesOf(opened->info().path));
     EXPECT_EQ(test::maskOf(path), test::maskOf(opened->info().path));
-    Result<TiledLayoutInfo> layout = tiledLayoutOf(path);
-    ASSERT_TRUE(layout);
-    EXPECT_TRUE(layout->is_usable) << layout->why_not;
-    EXPECT_EQ(layout->tile_side, 256U);
-    EXPECT_EQ(layout->overviews.size(), overviewCount(opened->info().columns, opened->info().rows));
+    const nlohmann::json info = test::gdalInfo(path);
+    const nlohmann::json& band = test::firstBand(info);
+    EXPECT_EQ(band.at("block"), nlohmann::json::array({256, 256}));
+    EXPECT_EQ(band.value("overviews", nlohmann::json::array()).size(),
+              overviewCount(opened->info().columns, opened->info().rows));
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue,
@@ -885,35 +885,6 @@ TEST(TiledLayout, NestedLevelsEndWithTheRastersLastSamples)
             }
         }
     }
-}
-
-TEST(TiledLayout, TellsWhatCanBeUsedInPlace)
-{
-    const test::TempFolder folder;
-    const test::RasterRecipe recipe =
-        test::recipeFor<std::int16_t>(1300, randomMap<std::int16_t>(1300, 1100, 0.0, 99.0).samples);
-    const auto layoutOf = [](const std::string& path) {
-        Result<TiledLayoutInfo> layout = tiledLayoutOf(path);
-        EXPECT_TRUE(layout) << layout.error().message;
-        return layout ? *layout : TiledLayoutInfo{};
-    };
-    const std::string strips = test::writeRaster(folder, "strips.tif", "GTiff", recipe);
-    EXPECT_THAT(layoutOf(strips).why_not, HasSubstr("instead of tiles"));
-    const std::string tiled =
-        test::writeRaster(folder, "tiled.tif", "GTiff", recipe, {"-co", "TILED=YES"});
-    EXPECT_THAT(layoutOf(tiled).why_not, HasSubstr("no overviews"));
-    test::runTool({"gdaladdo", "-q", "-r", "average", tiled, "2"});
-    EXPECT_THAT(layoutOf(tiled).why_not, HasSubstr("only down to 650 x 550"));
-    test::runTool({"gdaladdo", "-q", "-r", "average", tiled, "4"});
-    EXPECT_TRUE(layoutOf(tiled).is_usable);
-    EXPECT_EQ(layoutOf(tiled).overviews.size(), 2U);
-    const std::string sparse =
-        test::writeRaster(folder, "sparse.tif", "GTiff", recipe, {"-co", "TILED=YES"});
-    test::runTool({"gdaladdo", "-q", "-r", "average", sparse, "8"});
-    EXPECT_FALSE(layoutOf(sparse).is_usable);
-    EXPECT_TRUE(layoutOf(test::writeRaster(folder, "cog.tif", "COG", recipe)).is_usable);
-    const std::string ascii = test::writeRaster(folder, "map.asc", "AAIGrid", recipe);
-    EXPECT_THAT(layoutOf(ascii).why_not, HasSubstr("format AAIGrid"));
 }
 
 } // namespace
