@@ -339,8 +339,7 @@ Status runBenchView(const Options& given)
     if (options.paths.empty()) {
         const std::filesystem::path sample = sampleMapFor(programFolder());
         if (sample.empty()) {
-            return Error{ErrorCode::NotFound,
-                         "DEM: the map that comes with the program is not there; name another"};
+            return Error{ErrorCode::NotFound, "DEM: the bundled map is missing; name another"};
         }
         options.paths.push_back(sample.string());
     }

@@ -100,6 +100,7 @@ Json describe(const OpenedMap& map,
     if (info.nodata && std::isnan(*info.nodata)) {
         json["nodata"] = "nan";
     }
+    json["other_nodata"] = info.other_nodata;
     json["has_mask"] = info.has_mask_band;
     json["void_count"] = statistics ? Json(statistics->void_count) : Json(nullptr);
     json["minimum"] = asJson(low);
@@ -171,6 +172,9 @@ void printForPeople(const Json& json, const RasterInfo& info)
     print("rows", field("rows"));
     print("sample type", field("sample_type"));
     print("nodata", json["nodata"].is_null() ? "none" : field("nodata"));
+    if (!info.other_nodata.empty()) {
+        print("other nodata", field("other_nodata"));
+    }
     print("voids", field("void_count"));
     const std::string missing = json["void_count"].is_null() ? "unknown" : "none";
     print("minimum", json["minimum"].is_null() ? missing : field("minimum") + " m");

@@ -8,6 +8,7 @@
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
+#include "core/base/nearest_word.h"
 #include "core/raster/output_check.h"
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
@@ -22,6 +23,7 @@
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -96,6 +98,27 @@ frameFor(const Options& options, const LoopMap& map, const DeviceCapabilities& d
         frame.scene_per_metre = *options.across_cells * map.cell_m / (reach.high.x - reach.low.x);
     }
     return frame;
+}
+
+// A URI of a driver that is there. Whether the device is, only opening it tells.
+CLI::Validator knownDevice()
+{
+    return {[](std::string& uri) {
+                const std::vector<std::string> schemes = DeviceRegistry(builtInDrivers()).schemes();
+                const std::size_t colon = uri.find(':');
+                const std::string scheme = uri.substr(0, colon);
+                const bool is_known =
+                    std::find(schemes.begin(), schemes.end(), scheme) != schemes.end();
+                if (is_known && colon != std::string::npos) {
+                    return std::string();
+                }
+                return is_known ? fmt::format("\"{}\" has no colon; write \"{}:\"", uri, uri)
+                                : fmt::format(
+                                      "unknown device \"{}\"; a device is written "
+                                      "SCHEME:ADDRESS, where SCHEME is one of {}.{}",
+                                      uri, fmt::join(schemes, ", "), didYouMean(scheme, schemes));
+            },
+            ""};
 }
 
 // A simulated hand that swipes counts in cells; only the frame tells how wide these are for it.
@@ -256,7 +279,8 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--device", options->device,
                      "its URI: null:, sim:swipe=10,delay_ms=1, replay:GOALS.csv, …")
-        ->required();
+        ->required()
+        ->check(knownDevice());
     command->add_option("--seconds", options->seconds, "how long, unless the device ends first")
         ->capture_default_str()
         ->check(positiveNumber());

@@ -7,8 +7,7 @@
 namespace marsview {
 namespace {
 
-constexpr std::string_view kWhatToDo =
-    "connect it again; where that does not help, its driver has to be mended";
+constexpr std::string_view kWhatToDo = "connect it again; if that does not help, update its driver";
 
 std::uint64_t& of(std::array<std::uint64_t, kLetGoReasonCount>& ticks, LetGoReason reason)
 {
@@ -69,9 +68,8 @@ Status LoopWatch::verdict(const std::string& uri) const
                                                        : trouble_;
     };
     if (state_.tick == 0) {
-        return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: the loop did not start: {}", uri,
-                                 said("the device did not call it even once"))};
+        return Error{ErrorCode::Unreadable, fmt::format("{}: the loop did not start: {}", uri,
+                                                        said("the device never called it"))};
     }
     const bool is_finished = last_reason_ == LetGoReason::DeviceFinished;
     const bool is_cut_short = has_ended_ && !is_finished && state_.tick < ticks_max_;
@@ -81,15 +79,14 @@ Status LoopWatch::verdict(const std::string& uri) const
                                  said("the device stopped answering"))};
     }
     if (state_.is_finished && !is_finished) {
-        return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: was lost after {:.1f} s: {}", uri, ran_s,
-                                 said("the device does not say why"))};
+        return Error{ErrorCode::Unreadable, fmt::format("{}: was lost after {:.1f} s: {}", uri,
+                                                        ran_s, said("the device gives no reason"))};
     }
     if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceUnready)] >=
         std::min(state_.tick, ticks_max_)) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: did not become ready within {:.1f} s: {}", uri, ran_s,
-                                 said("the device does not say why"))};
+                                 said("the device gives no reason"))};
     }
     if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceStale)] >=
         std::min(state_.tick, ticks_max_)) {

@@ -84,7 +84,7 @@ Result<Work> workFor(const Options& options)
         bytesOf(LevelFile::pathFor(options.output)) == 0 &&
         readGeoTiffOrigin(options.output).key.empty()) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: is there already and is no prepared map; name another file, "
+                     fmt::format("{}: already exists and is not a prepared map; name another file, "
                                  "or remove it",
                                  options.output)};
     }

@@ -26,7 +26,7 @@ std::string otherMapText(const GroundPart& recorded)
     const Body* body = bodyOfRadius(recorded.ellipsoid.equatorial_m);
     return fmt::format("was recorded on another map, one of {} × {} samples of {}",
                        recorded.columns, recorded.rows,
-                       body != nullptr ? body->name : "no body that is known");
+                       body != nullptr ? body->name : "an unknown body");
 }
 
 Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
@@ -61,10 +61,9 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
     const double exaggeration = touched.frame.exaggeration();
     if (const GoalPart* other = fit->otherThan(
             {.kind = touched.kind, .radius_m = touched.radius_m, .exaggeration = exaggeration})) {
-        remarks.push_back(
-            fmt::format("was recorded with {}, which is not what touches the map now ({})",
-                        asText(other->kind, other->radius_m, other->exaggeration),
-                        asText(touched.kind, touched.radius_m, exaggeration)));
+        remarks.push_back(fmt::format("was recorded with {}, but the contact model is now {}",
+                                      asText(other->kind, other->radius_m, other->exaggeration),
+                                      asText(touched.kind, touched.radius_m, exaggeration)));
     }
     return remarks.empty() ? std::string()
                            : fmt::format("{}: {}", file, fmt::join(remarks, "; it "));

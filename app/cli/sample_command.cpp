@@ -204,11 +204,10 @@ Status runSample(const Options& options)
     }
     const bool has_lonlat = map->info.crs && map->info.crs->kind() != CrsKind::Local;
     if (options.frame == PositionFrame::LonLat && !has_lonlat) {
-        return Error{
-            ErrorCode::Invalid,
-            fmt::format("{}: has no CRS, so longitude and latitude mean nothing on it; say "
-                        "which with --crs or --body",
-                        options.map.path)};
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: has no CRS, so it has no longitude and latitude; set "
+                                 "one with --crs or --body",
+                                 options.map.path)};
     }
     Result<VouchedTiles> vouched = vouchedTiles(map->file, map->info);
     if (!vouched) {

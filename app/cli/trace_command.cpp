@@ -234,9 +234,9 @@ nlohmann::ordered_json summaryOf(const Options& options,
 Result<TraceSubject> openMesh(const Options& options, JobMonitor& monitor)
 {
     if (options.map.hasOverrides()) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: a mesh has no CRS, body, band or unit to be told otherwise",
-                                 options.map.path)};
+        return Error{
+            ErrorCode::Invalid,
+            fmt::format("{}: a mesh has no CRS, body, band or unit to override", options.map.path)};
     }
     if (options.model == contactModelName(ContactModelKind::VirtualProxy) && !options.radius_m) {
         return Error{ErrorCode::Invalid,
@@ -327,7 +327,8 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
         ->add_option("--goals", options->goals,
                      "CSV with the header x,y,z: map coordinates in the raster's CRS and a height "
                      "in metres, not exaggerated; - for standard input")
-        ->required();
+        ->required()
+        ->transform(mapName());
     std::vector<std::string> names;
     names.reserve(kContactModelKinds.size());
     for (const ContactModelKind kind : kContactModelKinds) {

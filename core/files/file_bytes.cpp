@@ -55,7 +55,8 @@ Result<FileBytes> FileBytes::open(const std::string& path)
     }
     auto* file = static_cast<VSILFILE*>(bytes.file_.get());
     if (VSIFSeekL(file, 0, SEEK_END) != 0) {
-        return Error{ErrorCode::Unreadable, fmt::format("{}: its length cannot be told", path)};
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: cannot determine the file size", path)};
     }
     bytes.size_ = VSIFTellL(file);
     bytes.has_exact_ranges_ = VSIHasOptimizedReadMultiRange(path.c_str()) != 0;

@@ -2,7 +2,10 @@
 
 #include <gdal_priv.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string_view>
 #include <vector>
 
 namespace marsview {
@@ -82,6 +85,9 @@ constexpr std::array<const char*, 15> kPlain{
     "GTiff", "SRTMHGT", "DTED", "USGSDEM", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
     "ISIS3", "ISIS2",   "PDS",  "PDS4",    "VICAR",   "GSBG",           nullptr};
 
+// Beside kPlain. HDF4, HDF5, netCDF, GRIB, FITS and others have crashed on damaged files.
+constexpr std::array kWellTested{"VRT", "HFA", "JP2OpenJPEG", "PNG", "JPEG", "COG"};
+
 std::vector<GDALDriver*>& leftOut()
 {
     static std::vector<GDALDriver*> drivers; // live as long as the program
@@ -106,6 +112,13 @@ const char* const* plainDrivers()
     return kPlain.data();
 }
 
+bool isWellTested(const std::string& driver)
+{
+    const auto is_it = [&driver](const char* name) { return name != nullptr && driver == name; };
+    return std::any_of(kPlain.begin(), kPlain.end(), is_it) ||
+           std::any_of(kWellTested.begin(), kWellTested.end(), is_it);
+}
+
 std::optional<std::string> recognisingDriverFor(const std::string& name)
 {
     GDALDriverManager& manager = *GetGDALDriverManager();
@@ -122,6 +135,12 @@ std::optional<std::string> recognisingDriverFor(const std::string& name)
 std::optional<std::string> leftOutDriverFor(const std::string& name)
 {
     GDALOpenInfo header(name.c_str(), GA_ReadOnly);
+    constexpr std::string_view kSgi = "\x01\xDA"; // whose driver only recognises what it opens
+    if (std::string_view(reinterpret_cast<const char*>(header.pabyHeader),
+                         static_cast<std::size_t>(header.nHeaderBytes))
+            .starts_with(kSgi)) {
+        return "SGI";
+    }
     for (const GDALDriver* driver : leftOut()) {
         if (driver->pfnIdentify != nullptr && header.nHeaderBytes > 0 &&
             driver->pfnIdentify(&header) == TRUE) {

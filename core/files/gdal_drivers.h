@@ -14,6 +14,11 @@ void leaveOutDrivers();
 /// they open files in this process. What any other driver opens is tried in a child process first.
 const char* const* plainDrivers();
 
+/// Whether damaged files of that format have been read in numbers without a crash: plain drivers,
+/// and common formats with libraries that are tested against damaged files. Files of others are
+/// read in the child process for longer.
+bool isWellTested(const std::string& driver);
+
 /// The name of a driver that recognises the file by its beginning, without opening it.
 std::optional<std::string> recognisingDriverFor(const std::string& name);
 

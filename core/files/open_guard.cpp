@@ -5,8 +5,11 @@
 #include "core/files/open_memory.h"
 #include "core/files/open_probe.h"
 #include "core/files/opening_job.h"
+#include "core/files/raster_path.h"
 #include "core/files/text_grid_promise.h"
 #include "core/files/tiff_promise.h"
+
+#include <cpl_conv.h>
 
 #include <algorithm>
 #include <array>
@@ -294,6 +297,11 @@ Result<GuardedDataset> openFirst(const std::vector<std::string>& names)
 GDALDatasetUniquePtr reopen(const std::string& name, const GuardedDataset& opened)
 {
     const QuietOutput quiet(opened.prints);
+    // Threads that take turns in an archive unpack it from its beginning at every turn.
+    std::optional<CPLConfigOptionSetter> one_thread;
+    if (isInArchive(name)) {
+        one_thread.emplace("GDAL_NUM_THREADS", "1", false);
+    }
     const std::array<const char*, 2> only{opened.opening_driver.c_str(), nullptr};
     return GDALDatasetUniquePtr(
         GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, only.data()));

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 // Another number where drivers, limits or what is read of a file change.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 // Of the folder: a few hundred bytes each.
 constexpr std::size_t kFilesMax = 4096;

@@ -1,3 +1,4 @@
+#include "core/files/gdal_drivers.h"
 #include "core/files/gdal_runtime.h"
 #include "core/files/open_probe.h"
 #include "core/files/remote_raster.h"
@@ -28,6 +29,9 @@ using Clock = std::chrono::steady_clock;
 
 // Long enough for all samples of a small file, short enough not to be noticed with a large one.
 constexpr std::chrono::milliseconds kReadingTime{20};
+
+// Of drivers that are not well tested: for all samples of files of moderate size, once.
+constexpr std::chrono::milliseconds kLongReadingTime{2000};
 
 // Larger blocks are left to the reader of the samples, who bounds them.
 constexpr double kBlockBytesMax = 256e6;
@@ -175,7 +179,8 @@ std::vector<std::string> use(GDALDataset& dataset)
     }
     std::array<double, 6> terms{};
     dataset.GetGeoTransform(terms.data());
-    const Clock::time_point end = Clock::now() + kReadingTime;
+    const Clock::time_point end =
+        Clock::now() + (isWellTested(dataset.GetDriverName()) ? kReadingTime : kLongReadingTime);
     for (int i = 1; i <= std::min(dataset.GetRasterCount(), 8) && Clock::now() < end; ++i) {
         GDALRasterBand& band = *dataset.GetRasterBand(i);
         int has_value = 0;

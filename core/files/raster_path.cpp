@@ -68,6 +68,13 @@ bool isFolder(const std::string& path)
     return VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode);
 }
 
+bool isInArchive(const std::string& name)
+{
+    constexpr std::array<std::string_view, 3> kArchives{"/vsizip/", "/vsitar/", "/vsigzip/"};
+    return std::any_of(kArchives.begin(), kArchives.end(),
+                       [&name](std::string_view archive) { return name.starts_with(archive); });
+}
+
 std::string lowerCase(std::string text)
 {
     std::transform(text.begin(), text.end(), text.begin(),

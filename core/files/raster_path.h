@@ -18,6 +18,9 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path);
 
 bool isFolder(const std::string& path);
 
+/// Whether GDAL reads what has that name out of an archive, by unpacking it.
+bool isInArchive(const std::string& name);
+
 /// Of ASCII letters: for extensions, which are written in either case.
 std::string lowerCase(std::string text);
 

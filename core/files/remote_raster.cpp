@@ -69,12 +69,12 @@ Error statusFailure(const std::string& remote_name, int status)
     case 404:
     case 410:
         return {ErrorCode::NotFound,
-                fmt::format("{}: there is nothing at this address ({}); check how it is spelt",
+                fmt::format("{}: nothing was found at this address ({}); check its spelling",
                             address, status)};
     case 401:
     case 403:
         return {ErrorCode::Unreadable,
-                fmt::format("{}: the server does not let it be read ({}); it may want a login, or "
+                fmt::format("{}: the server denies access ({}); it may require a login, or "
                             "the address may have expired",
                             address, status)};
     case 408:
@@ -83,8 +83,9 @@ Error statusFailure(const std::string& remote_name, int status)
     case 502:
     case 503:
     case 504:
-        return {ErrorCode::Unreadable,
-                fmt::format("{}: the server is in trouble ({}); try again later", address, status)};
+        return {
+            ErrorCode::Unreadable,
+            fmt::format("{}: the server reports an error ({}); try again later", address, status)};
     default:
         return {ErrorCode::Unreadable,
                 fmt::format("{}: the server answers {} instead of the file", address, status)};
@@ -110,10 +111,11 @@ Error reasonOfSilence(const std::string& remote_name)
         }
     }
     if (text.find("AWS_NO_SIGN_REQUEST") != std::string::npos) {
-        return {ErrorCode::Unreadable,
-                fmt::format("{}: the bucket wants a login and none is set up; for a public one set "
-                            "AWS_NO_SIGN_REQUEST=YES in the environment",
-                            addressOf(remote_name))};
+        return {
+            ErrorCode::Unreadable,
+            fmt::format("{}: the bucket requires a login and none is set up; for a public one set "
+                        "AWS_NO_SIGN_REQUEST=YES in the environment",
+                        addressOf(remote_name))};
     }
     constexpr std::string_view curl = "CURL error: ";
     if (text.starts_with(curl)) {
@@ -282,7 +284,7 @@ Error remoteFailure(const std::string& remote_name,
     dropKept(remote_name);
     if (says(messages, "Range downloading not supported")) {
         return {ErrorCode::Unsupported,
-                fmt::format("{}: the server gives out whole files only (it ignores range "
+                fmt::format("{}: the server sends whole files only (it ignores range "
                             "requests); download the file and open it from disk",
                             address)};
     }
@@ -304,8 +306,8 @@ Error remoteFailure(const std::string& remote_name,
 Error notCloudOptimised(const std::string& remote_name, const std::string& why)
 {
     return {ErrorCode::Unsupported,
-            fmt::format("{}: is no cloud-optimised GeoTIFF: {}; download it, or have it converted "
-                        "where it lies (gdal_translate -of COG)",
+            fmt::format("{}: is not a cloud-optimized GeoTIFF: {}; download it, or convert it "
+                        "on the server (gdal_translate -of COG)",
                         addressOf(remote_name), why)};
 }
 

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <system_error>
 
 namespace marsview {
 namespace {
@@ -52,22 +56,65 @@ constexpr std::array kSpellings{
     Spelling{"fathoms", "fathom", 1.8288},
 };
 
-} // namespace
-
-std::optional<VerticalUnit> verticalUnitFrom(std::string_view text)
+std::string_view withoutLeading(std::string_view text, std::string_view characters)
 {
+    text.remove_prefix(std::min(text.find_first_not_of(characters), text.size()));
+    return text;
+}
+
+// A unit without a factor. Digits and operators make another unit of it: m/s, m^2, 10**3 m.
+std::optional<VerticalUnit> plainUnitFrom(std::string_view text)
+{
+    if (text.find_first_of("0123456789*/^") != std::string_view::npos) {
+        return std::nullopt;
+    }
     std::string letters;
     for (const char c : text) {
         if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
             letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
         }
     }
-    const auto hit = std::find_if(kSpellings.begin(), kSpellings.end(),
-                                  [&](const Spelling& s) { return s.text == letters; });
+    const auto* const hit = std::find_if(kSpellings.begin(), kSpellings.end(),
+                                         [&](const Spelling& s) { return s.text == letters; });
     if (hit == kSpellings.end()) {
         return std::nullopt;
     }
     return VerticalUnit{std::string(hit->name), hit->metres};
+}
+
+// 1000 m is 1 km; other multiples keep their factor as a name.
+VerticalUnit multipleOf(const VerticalUnit& unit, double factor)
+{
+    const double metres = factor * unit.metres;
+    const auto* const known = std::find_if(kSpellings.begin(), kSpellings.end(),
+                                           [&](const Spelling& s) { return s.metres == metres; });
+    return known != kSpellings.end()
+               ? VerticalUnit{std::string(known->name), metres}
+               : VerticalUnit{fmt::format("{} {}", factor, unit.name), metres};
+}
+
+} // namespace
+
+std::optional<VerticalUnit> verticalUnitFrom(std::string_view text)
+{
+    constexpr std::string_view kSpace = " \t\r\n";
+    text = withoutLeading(text, kSpace);
+    double factor = 1.0;
+    const auto number = std::from_chars(text.data(), text.data() + text.size(), factor);
+    if (number.ec != std::errc{}) {
+        return plainUnitFrom(text);
+    }
+    std::string_view rest(number.ptr,
+                          text.size() - static_cast<std::size_t>(number.ptr - text.data()));
+    rest = withoutLeading(rest, kSpace);
+    if (rest.starts_with('*')) {
+        rest = withoutLeading(rest.substr(1), kSpace);
+    }
+    const std::optional<VerticalUnit> unit = plainUnitFrom(rest);
+    if (!unit || !std::isfinite(factor) || factor <= 0.0) {
+        return std::nullopt;
+    }
+    return multipleOf(*unit, factor);
 }
 
 } // namespace marsview

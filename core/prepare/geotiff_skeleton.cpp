@@ -154,7 +154,7 @@ writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoT
                                                 static_cast<int>(info.rows), 1,
                                                 gdalTypeOf(info.type), options.List()));
     if (!dataset || !describe(*dataset, info, origin) ||
-        (info.has_mask_band && dataset->CreateMaskBand(GMF_PER_DATASET) != CE_None)) {
+        (info.needsVoidMask() && dataset->CreateMaskBand(GMF_PER_DATASET) != CE_None)) {
         return refusal();
     }
     // Opened anew, GDAL reads the CRS as other programs will.

@@ -34,7 +34,7 @@ Error folderError(const fs::path& folder, const std::string& why)
 {
     return {ErrorCode::Unreadable,
             fmt::format("{}: prepared maps cannot be kept there ({}); set MARSVIEW_CACHE_DIR to a "
-                        "folder that may be written to",
+                        "folder that is writable",
                         folder.string(), why)};
 }
 
@@ -244,7 +244,7 @@ Status MapFolder::remove(const std::string& name) const
     const auto map = files_by_map.find(name);
     if (map == files_by_map.end()) {
         return Error{ErrorCode::NotFound,
-                     fmt::format("{}: there is no prepared map \"{}\"", folder_.string(), name)};
+                     fmt::format("{}: no prepared map is named \"{}\"", folder_.string(), name)};
     }
     const std::string path = (folder_ / name).string();
     const std::optional<RemovalLocks> locks = lockForRemoval(path);

@@ -44,7 +44,7 @@ std::uint64_t levelBytesFor(const RasterInfo& info)
     return levelFileBytesMax({.columns = info.columns,
                               .rows = info.rows,
                               .type = info.type,
-                              .has_voids = info.has_mask_band || info.nodata.has_value() ||
+                              .has_voids = info.needsVoidMask() || info.nodata.has_value() ||
                                            info.type == SampleType::Float32 ||
                                            info.type == SampleType::Float64,
                               .mean_levels = overviewCount(info.columns, info.rows)});
@@ -305,11 +305,11 @@ Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesyst
     if (!identity) {
         return identity.error();
     }
-    // What decides about the content beside the source itself.
-    const std::optional<double> nodata =
-        spec.overrides.nodata ? spec.overrides.nodata : file->info().nodata;
-    return MapFolder::at(folder).pathFor(
-        *identity, spec.band, nodata ? fmt::format("nodata {}", *nodata) : std::string());
+    RasterInfo info = file->info();
+    if (spec.overrides.nodata) {
+        info.nodata = spec.overrides.nodata;
+    }
+    return MapFolder::at(folder).pathFor(*identity, spec.band, info.voidSettings());
 }
 
 Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor)

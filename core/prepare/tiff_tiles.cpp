@@ -89,7 +89,7 @@ struct TiffTiles::Impl {
     Error failure() const
     {
         return writeError(path, complaint->system_error,
-                          complaint->text.empty() ? "is no tiled GeoTIFF of the expected kind"
+                          complaint->text.empty() ? "is not a tiled GeoTIFF of the expected kind"
                                                   : complaint->text);
     }
 };
@@ -177,7 +177,7 @@ Result<std::uint64_t> TiffTiles::fileBytes() const
 {
     struct stat status {};
     if (fstat(TIFFFileno(impl_->handles.front().get()), &status) != 0) {
-        return writeError(impl_->path, errno, "cannot be asked for its size");
+        return writeError(impl_->path, errno, "cannot determine its size");
     }
     return static_cast<std::uint64_t>(status.st_size);
 }
@@ -257,14 +257,14 @@ Error writeError(const std::string& path, int system_error, const std::string& o
                 fmt::format("{}: the disk is full; free some space and start again", path)};
     case EFBIG:
         return {ErrorCode::TooLarge,
-                fmt::format("{}: has become the largest file that may be written here; choose "
+                fmt::format("{}: has reached the largest file size that is allowed here; choose "
                             "another folder",
                             path)};
     case EACCES:
     case EPERM:
     case EROFS:
         return {ErrorCode::Unreadable,
-                fmt::format("{}: may not be written there ({}); choose another folder", path,
+                fmt::format("{}: cannot be written there ({}); choose another folder", path,
                             std::strerror(system_error))}; // NOLINT(concurrency-mt-unsafe)
     case 0:
         return {ErrorCode::Unreadable, fmt::format("{}: {}", path, otherwise)};

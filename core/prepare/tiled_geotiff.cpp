@@ -63,8 +63,9 @@ std::string keyOf(const RasterInfo& info, const SourceIdentity& source)
         "unit {} {}; datum {}; radius {}; transform {} {}; CRS {}",
         kFormVersion, source.digest, source.bytes, source.modified_s, info.band, info.columns,
         info.rows, sampleTypeName(info.type),
-        info.nodata ? fmt::format("{}", *info.nodata) : "none", info.has_mask_band, info.scale,
-        info.offset, info.is_unit_declared, info.unit.name, info.vertical_datum,
+        info.nodata ? fmt::format("{}", *info.nodata) : "none",
+        info.has_mask_band ? "true" : fmt::format("{}", fmt::join(info.other_nodata, " ")),
+        info.scale, info.offset, info.is_unit_declared, info.unit.name, info.vertical_datum,
         info.reference_radius_m.has_value(), info.transform.has_value(), fmt::join(terms, " "),
         info.crs ? info.crs->wkt() : "none");
 }
@@ -78,7 +79,7 @@ struct Windows {
 Windows windowsFor(const RasterFile& source, const RasterInfo& info)
 {
     const std::size_t row_bytes =
-        info.columns * (sampleBytes(info.type) + (info.has_mask_band ? 1 : 0));
+        info.columns * (sampleBytes(info.type) + (info.needsVoidMask() ? 1 : 0));
     const std::size_t block_rows =
         source.hasCheapRows()
             ? kTileSide
@@ -213,7 +214,7 @@ Preparation::Preparation(const TiledGeoTiffJob& job,
     , source_stamp_(std::move(source_stamp))
     , report_(report)
     , part_path_(job.path + ".part")
-    , overviews_(info.columns, info.rows, info.type, info.nodata, info.has_mask_band)
+    , overviews_(info.columns, info.rows, info.type, info.nodata, info.needsVoidMask())
 {}
 
 void Preparation::discard() const
@@ -230,7 +231,7 @@ bool Preparation::findPages()
     const std::size_t levels = overviews_.levelCount() + 1;
     constexpr std::size_t kNone = ~std::size_t{0};
     pages_.assign(levels, kNone);
-    mask_pages_.assign(info_.has_mask_band ? levels : 0, kNone);
+    mask_pages_.assign(info_.needsVoidMask() ? levels : 0, kNone);
     const std::vector<TiffPage>& pages = tiles_->pages();
     for (std::size_t i = 0; i < pages.size(); ++i) {
         for (std::size_t level = 0; level < levels; ++level) {
@@ -303,18 +304,18 @@ Status Preparation::begin()
     std::error_code ignored;
     const bool was_begun = fs::exists(part_path_, ignored) && fs::exists(journalPath(), ignored);
     if (was_begun && tryResume()) {
-        report_.notes.push_back(
-            fmt::format("{}: goes on behind row {} of {}, where it was stopped", job_.path,
-                        std::min(tile_rows_done_ * kTileSide, info_.rows), info_.rows));
+        report_.notes.push_back(fmt::format("{}: resumed after row {} of {}", job_.path,
+                                            std::min(tile_rows_done_ * kTileSide, info_.rows),
+                                            info_.rows));
     } else {
         tiles_.reset();
         tile_rows_done_ = 0;
         discard();
         if (was_begun) {
-            report_.notes.push_back(
-                fmt::format("{}: what a stopped attempt left is damaged or of another source or "
-                            "other settings; begun again",
-                            part_path_));
+            report_.notes.push_back(fmt::format(
+                "{}: the unfinished file is damaged, or was made from another source or with "
+                "other settings; restarted",
+                part_path_));
         }
         if (Status laid_out = writeGeoTiffSkeleton(part_path_, info_, {key_, source_path_});
             !laid_out) {
@@ -326,7 +327,7 @@ Status Preparation::begin()
         }
         tiles_ = std::move(tiles).value();
         if (!findPages()) {
-            return writeError(part_path_, 0, "was not laid out as asked for");
+            return writeError(part_path_, 0, "was not created with the requested layout");
         }
     }
     next_checkpoint_ = Clock::now() + job_.checkpoint_interval;
@@ -338,7 +339,7 @@ Status Preparation::append(std::size_t page, std::size_t tile_row, EncodedTiles&
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (tiles[i].empty()) {
             return Error{ErrorCode::TooLarge,
-                         fmt::format("{}: no memory is left to compress its tiles", part_path_)};
+                         fmt::format("{}: not enough memory to compress its tiles", part_path_)};
         }
         if (Status written = tiles_->append(page, tile_row * tiles.size() + i, tiles[i]);
             !written) {
@@ -355,7 +356,7 @@ Status Preparation::copyTileRow(const SampleGrid& grid, std::size_t grid_row, st
     const std::size_t count = tilesAlong(info_.columns);
     const std::size_t sample_bytes = sampleBytes(info_.type);
     EncodedTiles tiles(count);
-    EncodedTiles masks(info_.has_mask_band ? count : 0);
+    EncodedTiles masks(info_.needsVoidMask() ? count : 0);
     const TiffPage& page = tiles_->pages()[pages_[0]];
     const std::byte* const rows = grid.visit([&](auto samples) {
         return reinterpret_cast<const std::byte*>(samples.row(grid_row).data());
@@ -389,7 +390,7 @@ Status Preparation::writeLevelRows(std::size_t level,
     const std::size_t count = tilesAlong(rows.columns);
     const std::size_t sample_bytes = sampleBytes(info_.type);
     EncodedTiles tiles(count);
-    EncodedTiles masks(info_.has_mask_band ? count : 0);
+    EncodedTiles masks(info_.needsVoidMask() ? count : 0);
     const TiffPage& page = tiles_->pages()[pages_[level]];
     parallelRanges(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -620,7 +621,7 @@ Status publish(const TiledGeoTiffJob& job, const Preparation& preparation)
 std::uint64_t tiledGeoTiffBytesMax(const RasterInfo& info)
 {
     const double sample_bytes =
-        static_cast<double>(sampleBytes(info.type)) + (info.has_mask_band ? 0.125 : 0.0);
+        static_cast<double>(sampleBytes(info.type)) + (info.needsVoidMask() ? 0.125 : 0.0);
     return static_cast<std::uint64_t>(kBytesPerRawByte * sample_bytes *
                                       static_cast<double>(info.columns) *
                                       static_cast<double>(info.rows));
@@ -658,8 +659,9 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
         readGeoTiffOrigin(job.path).key == key) {
         preparation.discard(); // as after a kill in the moment of publishing
         report.is_there = true;
-        report.notes.push_back(fmt::format("{}: is made from this source already{}", job.path,
-                                           has_waited ? ", by another program meanwhile" : ""));
+        report.notes.push_back(
+            fmt::format("{}: is up to date with its source{}", job.path,
+                        has_waited ? ", as another program has just made it" : ""));
         report.bytes = fs::file_size(job.path, failure);
         monitor.report(1.0);
         return report;
@@ -679,10 +681,9 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
             preparation.discard();
         }
         if (copied.error().code == ErrorCode::Cancelled) {
-            return Error{
-                ErrorCode::Cancelled,
-                fmt::format("{}: preparing was cancelled{}", job.path,
-                            is_kept ? "; it goes on from there when it is started again" : "")};
+            return Error{ErrorCode::Cancelled,
+                         fmt::format("{}: preparing was cancelled{}", job.path,
+                                     is_kept ? "; prepare it again to resume" : "")};
         }
         return std::move(copied).error();
     }
@@ -691,8 +692,9 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
         preparation.discard();
         return Error{
             ErrorCode::Invalid,
-            fmt::format("{}: changed while it was read; start again when nobody writes to it",
-                        job.source)};
+            fmt::format(
+                "{}: changed while it was being read; start again when no program writes to it",
+                job.source)};
     }
     if (Status published = publish(job, preparation); !published) {
         return std::move(published).error();

@@ -1,7 +1,9 @@
 #include "core/raster/label_elevation.h"
 
 #include "core/base/plain_number.h"
+#include "core/files/gdal_runtime.h"
 #include "core/files/raster_path.h"
+#include "core/files/remote_raster.h"
 #include "core/raster/nodata.h"
 #include "core/raster/odl_label.h"
 
@@ -19,6 +21,7 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -29,11 +32,10 @@ namespace {
 
 constexpr std::size_t kLabelBytesMax = std::size_t{1} << 20;
 
-bool isAtServer(const std::string& path)
+// A connection of a database or a service, which has no files next to it.
+bool isConnection(const std::string& path)
 {
-    return path.find("/vsicurl") != std::string::npos || path.find("/vsis3") != std::string::npos ||
-           path.find("/vsigs") != std::string::npos || path.find("/vsiaz") != std::string::npos ||
-           path.find("://") != std::string::npos;
+    return !remoteNameFor(path) && path.find("://") != std::string::npos;
 }
 
 // 16#FF7FFFFB# are the bits of the sample, whatever its type.
@@ -101,15 +103,61 @@ std::optional<double> numberIn(const OdlStatement& group, std::string_view name,
 
 struct Names {
     std::string_view scale, offset, unit;
-    std::array<std::string_view, 6> nodata; // the first that is there counts
+    std::span<const std::string_view> nodata; // the first that is there is the nodata value
 };
-constexpr Names kImageNames{"SCALING_FACTOR",
-                            "OFFSET",
-                            "UNIT",
-                            {"MISSING_CONSTANT", "MISSING", "NULL_CONSTANT", "CORE_NULL",
-                             "INVALID_CONSTANT", "UNKNOWN_CONSTANT"}};
-constexpr Names kQubeNames{"CORE_MULTIPLIER", "CORE_BASE", "CORE_UNIT", {"CORE_NULL"}};
-constexpr Names kIsis3Names{"MULTIPLIER", "BASE", "", {}};
+constexpr std::array<std::string_view, 15> kConstants{"MISSING_CONSTANT",
+                                                      "MISSING",
+                                                      "NULL_CONSTANT",
+                                                      "CORE_NULL",
+                                                      "INVALID_CONSTANT",
+                                                      "UNKNOWN_CONSTANT",
+                                                      "NOT_APPLICABLE_CONSTANT",
+                                                      "CORE_LOW_REPR_SATURATION",
+                                                      "CORE_LOW_INSTR_SATURATION",
+                                                      "CORE_HIGH_INSTR_SATURATION",
+                                                      "CORE_HIGH_REPR_SATURATION",
+                                                      "LOW_REPR_SATURATION",
+                                                      "LOW_INSTR_SATURATION",
+                                                      "HIGH_INSTR_SATURATION",
+                                                      "HIGH_REPR_SATURATION"};
+constexpr Names kImageNames{"SCALING_FACTOR", "OFFSET", "UNIT", kConstants};
+constexpr Names kQubeNames{"CORE_MULTIPLIER", "CORE_BASE", "CORE_UNIT", kConstants};
+constexpr Names kIsis3Names{"MULTIPLIER", "BASE", "", {}}; // GDAL's mask has its special values
+
+// Of several bands, a sequence in parentheses has an item each. Otherwise every item counts.
+std::vector<std::string>
+constantsIn(const OdlStatement& group, const OdlStatement& statement, int band)
+{
+    std::vector<std::string> items = odlItems(statement.value);
+    const std::optional<std::string> bands = itemIn(group, "BANDS", 1);
+    const bool is_per_band = statement.value.starts_with('(') && items.size() > 1 && bands &&
+                             numberFrom(*bands) == static_cast<double>(items.size()) &&
+                             static_cast<std::size_t>(band) <= items.size();
+    return is_per_band ? std::vector{items[static_cast<std::size_t>(band - 1)]} : items;
+}
+
+std::vector<double> nodataIn(const OdlStatement& group,
+                             std::span<const std::string_view> names,
+                             int band,
+                             SampleType type)
+{
+    std::vector<double> values;
+    for (const std::string_view name : names) {
+        for (const OdlStatement& statement : group.statements) {
+            if (statement.is_group || statement.name != name) {
+                continue;
+            }
+            for (const std::string& item : constantsIn(group, statement, band)) {
+                std::optional<double> value = basedNumber(item, type);
+                value = value ? value : numberFrom(item);
+                if (value && std::find(values.begin(), values.end(), *value) == values.end()) {
+                    values.push_back(*value);
+                }
+            }
+        }
+    }
+    return values;
+}
 
 LabelElevation elevationIn(const OdlStatement& group, const Names& names, int band, SampleType type)
 {
@@ -118,14 +166,7 @@ LabelElevation elevationIn(const OdlStatement& group, const Names& names, int ba
     label.offset = numberIn(group, names.offset, band);
     const std::string unit = itemIn(group, names.unit, band).value_or("");
     label.unit = unit == "N/A" || unit == "NULL" || unit == "UNK" ? "" : unit;
-    for (const std::string_view name : names.nodata) {
-        const std::optional<std::string> item =
-            name.empty() ? std::nullopt : itemIn(group, name, band);
-        if (item && !label.nodata) {
-            label.nodata = basedNumber(*item, type);
-            label.nodata = label.nodata ? label.nodata : numberFrom(*item);
-        }
-    }
+    label.nodata = nodataIn(group, names.nodata, band, type);
     const std::string samples = itemIn(group, "SAMPLE_TYPE", band).value_or("");
     if (samples.find("INTEGER") != std::string::npos) {
         label.is_signed = samples.find("UNSIGNED") == std::string::npos;
@@ -217,7 +258,16 @@ std::optional<LabelElevation> pds4Elevation(const std::string& text)
     label.scale = numberAt("Element_Array.scaling_factor");
     label.offset = numberAt("Element_Array.value_offset");
     label.unit = textAt("Element_Array.unit").value_or("");
-    label.nodata = numberAt("Special_Constants.missing_constant");
+    for (const char* name : {"missing_constant", "invalid_constant", "unknown_constant",
+                             "not_applicable_constant", "error_constant", "saturated_constant",
+                             "high_instrument_saturation", "high_representation_saturation",
+                             "low_instrument_saturation", "low_representation_saturation"}) {
+        const auto value = numberAt((std::string("Special_Constants.") + name).c_str());
+        if (value &&
+            std::find(label.nodata.begin(), label.nodata.end(), *value) == label.nodata.end()) {
+            label.nodata.push_back(*value);
+        }
+    }
     return label;
 }
 
@@ -244,6 +294,30 @@ std::string besideOf(const std::string& path, const std::string& name)
     return folder.empty() ? name : folder + "/" + name;
 }
 
+bool isThere(const std::string& path)
+{
+    const GdalMessages ignored; // of a server that has no such file
+    VSIStatBufL status{};
+    return VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
+}
+
+// Of those names that are there, in the letter case of the data file's own extension: each costs a
+// request.
+std::vector<std::string> remoteLabelNamesOf(const std::string& path)
+{
+    const std::string stem = CPLGetBasename(path.c_str());
+    const std::string extension = CPLGetExtension(path.c_str());
+    const bool is_upper = !extension.empty() && extension != lowerCase(extension);
+    std::vector<std::string> names{stem + (is_upper ? ".LBL" : ".lbl")};
+    if (isJpeg2000Name(path)) {
+        names.push_back(stem + (is_upper ? "_JP2.LBL" : "_jp2.lbl"));
+    }
+    names.push_back(stem + ".xml");
+    std::erase_if(names,
+                  [&path](const std::string& name) { return !isThere(besideOf(path, name)); });
+    return names;
+}
+
 // Of those names that are there: folders may hold thousands of TIFFs, so none is listed for each.
 std::vector<std::string> usualLabelNamesOf(const std::string& path)
 {
@@ -252,13 +326,20 @@ std::vector<std::string> usualLabelNamesOf(const std::string& path)
     std::vector<std::string> names;
     for (const char* extension : {".lbl", ".LBL", ".Lbl", ".xml", ".XML"}) {
         for (const std::string& name : {stem + extension, file + extension}) {
-            VSIStatBufL status{};
-            if (VSIStatL(besideOf(path, name).c_str(), &status) == 0) {
+            if (isThere(besideOf(path, name))) {
                 names.push_back(name);
             }
         }
     }
     return names;
+}
+
+std::vector<std::string> labelNamesOf(const std::string& path)
+{
+    if (remoteNameFor(path)) {
+        return remoteLabelNamesOf(path);
+    }
+    return isJpeg2000Name(path) ? namesNextTo(path) : usualLabelNamesOf(path);
 }
 
 bool isXml(const std::string& text)
@@ -305,6 +386,37 @@ bool isSameNodata(SampleType type, const std::optional<double>& a, const std::op
     });
 }
 
+bool canBeSample(SampleType type, double value)
+{
+    return dispatchSampleType(type,
+                              [value](auto zero) { return Nodata<decltype(zero)>(value).exists; });
+}
+
+// What GDAL reads stays the nodata value where the label has it, too.
+void applyNodata(RasterInfo& info, const std::vector<double>& constants)
+{
+    const auto is_known = [&info](double value) {
+        return isSameNodata(info.type, value, info.nodata);
+    };
+    if (!constants.empty() && std::none_of(constants.begin(), constants.end(), is_known)) {
+        info.nodata = constants.front();
+    }
+    for (const double value : constants) {
+        if (!is_known(value) && canBeSample(info.type, value)) {
+            info.other_nodata.push_back(value);
+        }
+    }
+}
+
+std::string numbersAsText(const std::vector<double>& numbers)
+{
+    std::string text;
+    for (const double number : numbers) {
+        text += (text.empty() ? "" : " ") + fmt::format("{}", number);
+    }
+    return text;
+}
+
 // Where the samples are: ^IMAGE at any depth, or else a pointer such as ^HEIGHT_IMAGE.
 const OdlStatement* pointerIn(const OdlStatement& group)
 {
@@ -349,9 +461,6 @@ bool isJpeg2000Name(const std::string& path)
 std::optional<LabelElevation>
 labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path)
 {
-    if (isAtServer(info.path)) {
-        return std::nullopt;
-    }
     std::string path;
     std::optional<LabelElevation> label;
     if (info.driver == "PDS" || info.driver == "ISIS2" || info.driver == "ISIS3") {
@@ -365,7 +474,7 @@ labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string
         char** const xml = dataset.GetMetadata("xml:PDS4");
         label = xml != nullptr && xml[0] != nullptr ? pds4Elevation(xml[0]) : std::nullopt;
     } else if (info.driver == "GTiff" || info.driver.starts_with("JP2")) {
-        path = label_path.empty() ? labelNextTo(info.path) : label_path;
+        path = label_path;
         if (!path.empty()) {
             label = labelElevationIn(textOf(path), info.band, info.type);
             if (!label) {
@@ -399,7 +508,12 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
     const auto isOther = [](const std::optional<double>& declared, double applied) {
         return declared && std::abs(*declared - applied) > 1e-12 * std::abs(applied);
     };
-    if (label.scale && *label.scale != 0.0 && isOther(label.scale, info.scale)) {
+    if (label.scale == 0.0) {
+        info.notices.push_back(fmt::format(
+            "the label {} gives the scale 0, which would make all elevations equal; {} is used "
+            "instead; set the scale that the product's documentation gives (--scale)",
+            CPLGetFilename(label.path.c_str()), info.scale));
+    } else if (isOther(label.scale, info.scale)) {
         note("scale", fmt::format("{}", *label.scale), fmt::format("{}", info.scale));
         info.scale = *label.scale;
     }
@@ -416,18 +530,20 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
         info.unit = *unit;
         info.is_unit_declared = true;
     }
-    if (label.nodata && !isSameNodata(info.type, label.nodata, info.nodata)) {
-        note("nodata", fmt::format("{}", *label.nodata),
-             info.nodata ? fmt::format("{}", *info.nodata) : std::string("none"));
-        info.nodata = label.nodata;
+    const std::optional<double> nodata_before = info.nodata;
+    applyNodata(info, label.nodata);
+    if (!isSameNodata(info.type, nodata_before, info.nodata) || !info.other_nodata.empty()) {
+        note("nodata", numbersAsText(label.nodata),
+             nodata_before ? fmt::format("{}", *nodata_before) : std::string("none"));
     }
     // What GDAL takes for void in the same samples of an .IMG without a constant of its own.
     constexpr double kNull = -32768.0;
-    if (!label.nodata && info.driver.starts_with("JP2") && info.type == SampleType::Int16 &&
+    if (label.nodata.empty() && info.driver.starts_with("JP2") && info.type == SampleType::Int16 &&
         !info.nodata) {
         info.nodata = kNull;
     }
-    if (!label.nodata && info.driver == "PDS" && info.nodata == 0.0 && !isSigned(info.type)) {
+    if (label.nodata.empty() && info.driver == "PDS" && info.nodata == 0.0 &&
+        !isSigned(info.type)) {
         note("nodata", "none", "0"); // for every product of unsigned samples
         info.nodata.reset();
     }
@@ -449,16 +565,42 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
     }
 }
 
+std::optional<std::string> noticeOfUnusedScale(GDALDataset& dataset, const RasterInfo& info)
+{
+    const CPLStringList files(info.driver == "ISIS3" ? dataset.GetFileList() : nullptr);
+    for (int i = 1; i < files.Count(); ++i) {
+        const GdalMessages ignored;
+        const std::array<const char*, 2> tiff{"GTiff", nullptr};
+        const GDALDatasetUniquePtr image(GDALDataset::Open(files[i], GDAL_OF_RASTER, tiff.data()));
+        GDALRasterBand* const band = image ? image->GetRasterBand(info.band) : nullptr;
+        if (band == nullptr) {
+            continue;
+        }
+        int has_scale = 0;
+        int has_offset = 0;
+        const double scale = band->GetScale(&has_scale);
+        const double offset = band->GetOffset(&has_offset);
+        if ((has_scale != 0 && scale != info.scale) || (has_offset != 0 && offset != info.offset)) {
+            return fmt::format(
+                "the label {} gives scale {}, offset {}, but {} has scale {}, offset "
+                "{} of its own; those of the label are used; set scale and offset "
+                "if they are wrong",
+                CPLGetFilename(files[0]), info.scale, info.offset, CPLGetFilename(files[i]),
+                has_scale != 0 ? scale : 1.0, has_offset != 0 ? offset : 0.0);
+        }
+    }
+    return std::nullopt;
+}
+
 std::string labelNextTo(const std::string& data_path)
 {
-    if (isAtServer(data_path) || data_path.empty()) {
+    if (isConnection(data_path) || data_path.empty()) {
         return {};
     }
     const std::string data_name = lowerCase(CPLGetFilename(data_path.c_str()));
     const std::string stem = lowerCase(CPLGetBasename(data_path.c_str()));
     std::string of_same_name;
-    for (const std::string& name :
-         isJpeg2000Name(data_name) ? namesNextTo(data_path) : usualLabelNamesOf(data_path)) {
+    for (const std::string& name : labelNamesOf(data_path)) {
         const std::string lower = lowerCase(name);
         const bool is_candidate = lower == stem + ".lbl" || lower == stem + ".xml" ||
                                   lower == stem + "_jp2.lbl" || lower == data_name + ".lbl" ||
@@ -469,7 +611,8 @@ std::string labelNextTo(const std::string& data_path)
         const std::string path = besideOf(data_path, name);
         const std::string text = lowerCase(textOf(path));
         const bool is_label = isXml(text) ? text.find("<product_observational") != std::string::npos
-                                          : text.find("pds_version_id") != std::string::npos;
+                                          : text.find("pds_version_id") != std::string::npos ||
+                                                text.find("isiscube") != std::string::npos;
         if (is_label && hasFileName(text, data_name)) {
             return path;
         }
@@ -485,7 +628,7 @@ std::string labelNextTo(const std::string& data_path)
 std::string encodedImageOf(const std::string& label_path)
 {
     const std::optional<OdlStatement> root =
-        isAtServer(label_path) ? std::nullopt : readOdlLabel(label_path);
+        isConnection(label_path) ? std::nullopt : readOdlLabel(label_path);
     if (!root) {
         return {};
     }

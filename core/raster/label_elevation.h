@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 class GDALDataset;
 
@@ -20,8 +21,8 @@ struct LabelElevation {
     std::string path;            // of the label
     std::optional<double> scale; // value = raw × scale + offset, in `unit`
     std::optional<double> offset;
-    std::optional<double> nodata; // raw
-    std::string unit;             // as it is written
+    std::vector<double> nodata; // raw: all special constants
+    std::string unit;           // as it is written
     std::optional<bool> is_signed;
     bool is_understood = true; // false for a label without a description of samples
 };
@@ -29,20 +30,25 @@ struct LabelElevation {
 /// Of a PDS3, ISIS 2, ISIS 3 or PDS4 label in `text`, for samples of that type.
 std::optional<LabelElevation> labelElevationIn(const std::string& text, int band, SampleType type);
 
-/// Of the label that `dataset` was opened through, or, for a TIFF or JPEG2000, of the label next to
-/// it (`labelNextTo`), or of `label_path` where that is known. Nothing for other formats, and at a
-/// server. `info` has driver, path, band and type.
+/// Of the label that `dataset` was opened through, or, for a TIFF or JPEG2000, of the label at
+/// `label_path`, which may be empty. Nothing for other formats. `info` has driver, path, band and
+/// type.
 std::optional<LabelElevation>
-labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path = {});
+labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path);
 
 /// Puts what the label says in place of what GDAL says, which `info` has, with one notice that
 /// names what differs.
 void applyLabel(RasterInfo& info, const LabelElevation& label);
 
+/// Where the TIFF with the samples of an ISIS 3 label has another scale or offset of its own, which
+/// is not applied: a sentence. `info` is after applyLabel.
+std::optional<std::string> noticeOfUnusedScale(GDALDataset& dataset, const RasterInfo& info);
+
 bool isJpeg2000Name(const std::string& path);
 
-/// The PDS3 or PDS4 label that describes a data file in the same folder or archive: one that names
-/// it, or else, for a JPEG2000, one of the same name. Empty where there is none, and at a server.
+/// The PDS3, PDS4 or ISIS 3 label that describes a data file in the same folder or archive: one
+/// that names it, or else, for a JPEG2000, one of the same name. At a server only names in the
+/// letter case of the data file's own are tried, with one request each. Empty where there is none.
 std::string labelNextTo(const std::string& data_path);
 
 /// Of a PDS3 label: the TIFF or JPEG2000 with the samples, in whatever case it is named. GDAL 3.6

@@ -157,7 +157,7 @@ Result<Parts> openParts(const std::string& folder, const Listing& listing, int b
         if (endings.contains(lowerCase(fs::path(path).extension().string()))) {
             return Error{
                 ErrorCode::Unreadable,
-                fmt::format("{}: one of its files cannot be part of a map ({}); mend it or "
+                fmt::format("{}: one of its files cannot be part of a mosaic ({}); repair it or "
                             "move it elsewhere",
                             folder, opened[i].failure)};
         }
@@ -193,11 +193,11 @@ std::string mismatch(const RasterInfo& part, const RasterInfo& first, const std:
                            sampleTypeName(first.type));
     }
     if (part.elevationScale() != first.elevationScale() || part.unit != first.unit) {
-        return fmt::format("counts heights in another unit or from another level than {}",
+        return fmt::format("has elevations in another unit or above another datum than {}",
                            first_name);
     }
     if (!part.transform) {
-        return "says nothing of where it lies";
+        return "has no georeferencing";
     }
     return {};
 }
@@ -229,7 +229,7 @@ double lowestOf(SampleType type)
 
 bool hasVoids(const Part& part)
 {
-    return part.info.nodata.has_value() || part.info.has_mask_band;
+    return part.info.nodata.has_value() || part.info.needsVoidMask();
 }
 
 // Sets the type and nodata value of the whole.
@@ -243,6 +243,11 @@ Status chooseVoids(const std::vector<Part>& parts, bool has_gaps, RasterInfo& wh
     });
     whole.nodata = first;
     whole.has_mask_band = false;
+    std::set<double> others;
+    for (const Part& part : parts) {
+        others.insert(part.info.other_nodata.begin(), part.info.other_nodata.end());
+    }
+    whole.other_nodata.assign(others.begin(), others.end());
     const bool is_wide = whole.type == SampleType::Int64 || whole.type == SampleType::UInt64;
     if (all_alike && (first || !has_gaps)) {
         whole.type = is_wide && first ? SampleType::Float64 : whole.type;
@@ -250,7 +255,7 @@ Status chooseVoids(const std::vector<Part>& parts, bool has_gaps, RasterInfo& wh
     }
     if (whole.type == SampleType::Int8) {
         return Error{ErrorCode::Unsupported,
-                     fmt::format("their {} samples have no value left for voids; convert them to "
+                     fmt::format("their {} samples have no value left for nodata; convert them to "
                                  "another type",
                                  sampleTypeName(whole.type))};
     }
@@ -346,9 +351,9 @@ void noteParts(const Parts& opened, double covered, RasterInfo& whole)
     if (parts.size() > 1) {
         notices.push_back(
             covered < 1.0
-                ? fmt::format("{} rasters as one map; they cover {:.3g} % of its rectangle",
+                ? fmt::format("a mosaic of {} rasters, which cover {:.3g} % of its rectangle",
                               parts.size(), std::min(100.0 * covered, 99.9))
-                : fmt::format("{} rasters as one map", parts.size()));
+                : fmt::format("a mosaic of {} rasters", parts.size()));
     }
     if (!opened.left_out.empty()) {
         const std::size_t more = opened.left_out.size() - 1;
@@ -376,7 +381,7 @@ makeMosaic(const std::string& folder, const Listing& listing, int band)
     const std::vector<Part>& parts = opened->parts;
     const auto refuse = [&folder](const std::string& why) {
         return Error{ErrorCode::Unsupported,
-                     fmt::format("{}: its rasters are not parts of one map: {}", folder, why)};
+                     fmt::format("{}: its rasters do not form a mosaic: {}", folder, why)};
     };
     const RasterInfo& first = parts.front().info;
     std::vector<MosaicPart> grids;
@@ -394,7 +399,7 @@ makeMosaic(const std::string& folder, const Listing& listing, int band)
     }
     if (grid->covered < kCoveredMin) {
         return refuse(
-            fmt::format("they lie apart and cover {:.1g} % of the rectangle around them; "
+            fmt::format("they are far apart and cover {:.1g} % of the rectangle around them; "
                         "open them one by one",
                         100.0 * grid->covered));
     }

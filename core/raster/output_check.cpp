@@ -56,15 +56,16 @@ Status checkOutputs(const FilesInUse& files)
         if (isIn(map_files, path)) {
             return Error{
                 ErrorCode::Invalid,
-                fmt::format("{}: is a map, or a part of one; write into another file", path)};
+                fmt::format("{}: is an input raster or a part of one; choose another output file",
+                            path)};
         }
         if (isIn(files.read, path)) {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: is what is read; write into another file", path)};
+                         fmt::format("{}: is an input file; choose another output file", path)};
         }
         if (isIn(written, path)) {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: would be written twice; give two files", path)};
+                         fmt::format("{}: is given for two outputs; choose two files", path)};
         }
         written.push_back(path);
     }

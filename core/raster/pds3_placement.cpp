@@ -1,13 +1,16 @@
 #include "core/raster/pds3_placement.h"
 
 #include "core/base/check.h"
+#include "core/base/plain_number.h"
 #include "core/files/gdal_runtime.h"
+#include "core/geo/vertical.h"
 #include "core/raster/odl_label.h"
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cctype>
 #include <cmath>
@@ -105,7 +108,74 @@ std::string labelText(const std::string& path)
     return text;
 }
 
+struct RadiusText {
+    std::size_t begin = 0; // of the number
+    std::size_t end = 0;   // behind the number and its unit
+    double value = 0.0;
+    std::string unit; // empty where there is none
+};
+
+// The number behind "A_AXIS_RADIUS =", which `at` is the place of.
+std::optional<RadiusText> radiusAt(const std::string& label, std::size_t at)
+{
+    constexpr std::string_view kSpace = " \t\r\n\"";
+    RadiusText radius;
+    const std::size_t equals = label.find_first_not_of(kSpace, at);
+    if (equals == std::string::npos || label[equals] != '=') {
+        return std::nullopt;
+    }
+    radius.begin = label.find_first_not_of(kSpace, equals + 1);
+    radius.end = std::min(label.find_first_of(" \t\r\n\"<", radius.begin), label.size());
+    if (radius.begin >= radius.end) {
+        return std::nullopt;
+    }
+    const auto value = parseNumber(label.substr(radius.begin, radius.end - radius.begin));
+    const std::size_t unit = label.find_first_not_of(kSpace, radius.end);
+    const std::size_t unit_end = label.find('>', unit);
+    if (unit != std::string::npos && label[unit] == '<' && unit_end != std::string::npos) {
+        radius.unit = label.substr(unit + 1, unit_end - unit - 1);
+        radius.end = unit_end + 1;
+    }
+    radius.value = value.value_or(0.0);
+    return value ? std::optional(radius) : std::nullopt;
+}
+
+double metresOf(const RadiusText& radius)
+{
+    constexpr double kKilometre = 1e3;
+    constexpr double kLargestKm = 1e5; // Jupiter has 71 492
+    if (const auto unit = verticalUnitFrom(radius.unit)) {
+        return radius.value * unit->metres;
+    }
+    return radius.unit.empty() && radius.value > kLargestKm ? radius.value
+                                                            : radius.value * kKilometre;
+}
+
 } // namespace
+
+std::string withRadiiInKilometres(const std::string& label)
+{
+    std::string text = label;
+    for (const char* name : {"A_AXIS_RADIUS", "B_AXIS_RADIUS", "C_AXIS_RADIUS"}) {
+        const std::size_t length = std::string_view(name).size();
+        for (std::size_t at = text.find(name); at != std::string::npos;
+             at = text.find(name, at + length)) {
+            const std::optional<RadiusText> radius = radiusAt(text, at + length);
+            const double kilometres = radius ? metresOf(*radius) / 1e3 : 0.0;
+            if (radius && kilometres != radius->value) {
+                text.replace(radius->begin, radius->end - radius->begin,
+                             fmt::format("{} <KM>", kilometres));
+            }
+        }
+    }
+    return text;
+}
+
+bool hasRadiiInOtherUnits(const std::string& label_path)
+{
+    const std::string text = labelText(label_path);
+    return withRadiiInKilometres(text) != text;
+}
 
 std::shared_ptr<GDALDataset> openPds3Placement(const std::string& label_path)
 {
@@ -122,7 +192,7 @@ std::shared_ptr<GDALDataset> openPds3Placement(const std::string& label_path)
         writeMemoryFile(folder + "/" + CPLGetFilename(name.c_str()), " ");
     }
     const std::string label = folder + "/marsview_placement.lbl";
-    writeMemoryFile(label, asOfRawImage(text));
+    writeMemoryFile(label, asOfRawImage(withRadiiInKilometres(text)));
     const GdalMessages messages;
     const char* const drivers[] = {"PDS", nullptr};
     std::shared_ptr<GDALDataset> dataset(GDALDataset::Open(label.c_str(), GDAL_OF_RASTER, drivers),

@@ -15,6 +15,7 @@
 #include "core/raster/netcdf_extent.h"
 #include "core/raster/pds3_placement.h"
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
@@ -76,6 +77,21 @@ bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
     default:
         return false;
     }
+}
+
+// Some formats have a picture of the elevations in the bands before them.
+std::string refusalOfPicture(GDALDataset& dataset, int band)
+{
+    for (int i = 1; i <= dataset.GetRasterCount(); ++i) {
+        GDALRasterBand& other = *dataset.GetRasterBand(i);
+        if (!isPicture(dataset, other) && other.GetColorInterpretation() != GCI_AlphaBand) {
+            return fmt::format(
+                "band {} is a part of a color picture; open band {} (--band {}), "
+                "which is not",
+                band, i, i);
+        }
+    }
+    return "is a color picture, not an elevation map";
 }
 
 struct OpenedDataset {
@@ -241,11 +257,11 @@ Result<OpenedDataset> openDataset(const std::string& path, int band)
     };
     if (says("not recognized") || first_failure.empty()) {
         first_failure =
-            "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or get it "
+            "is not a raster that GDAL can read, or is damaged; convert it to GeoTIFF or fetch it "
             "again";
     } else if (says("No such file or directory")) {
         first_failure = fmt::format(
-            "names a data file that is not there; put it beside this one ({})", first_failure);
+            "names a data file that is missing; put it next to this file ({})", first_failure);
     }
     return Error{ErrorCode::Unsupported, fmt::format("{}: {}", path, first_failure)};
 }
@@ -297,6 +313,9 @@ void readVertical(GDALDataset& dataset,
     }
     if (label) {
         applyLabel(info, *label);
+        if (auto notice = noticeOfUnusedScale(dataset, info)) {
+            info.notices.push_back(*std::move(notice));
+        }
         unit = unit.empty() ? label->unit : unit;
     }
     if (!info.is_unit_declared && !unit.empty()) {
@@ -326,19 +345,47 @@ bool isPlaced(GDALDataset& dataset)
     return dataset.GetGeoTransform(terms.data()) == CE_None;
 }
 
-// The label of a TIFF or JPEG2000, where that places it: a TIFF's own placement goes first.
+// The label of a product, or empty.
+std::string
+labelPathOf(GDALDataset& dataset, const RasterInfo& info, const std::string& known_label)
+{
+    if (info.driver == "PDS") {
+        const CPLStringList files(dataset.GetFileList());
+        return files.Count() > 0 ? files[0] : info.path;
+    }
+    const bool may_have_label = info.driver == "GTiff" || info.driver.starts_with("JP2");
+    return known_label.empty() && may_have_label ? labelNextTo(info.path) : known_label;
+}
+
+// The label of a TIFF or JPEG2000, where that places it, or of raw samples whose radii GDAL reads
+// wrong. A TIFF's own placement goes first, and so does a CRS that only the raster has.
 std::shared_ptr<GDALDataset>
 placementOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path)
 {
-    const bool is_tiff = info.driver == "GTiff";
-    if ((is_tiff && isPlaced(dataset)) || (!is_tiff && !info.driver.starts_with("JP2"))) {
+    if (label_path.empty() || (info.driver == "GTiff" && isPlaced(dataset)) ||
+        (info.driver == "PDS" && !hasRadiiInOtherUnits(label_path))) {
         return nullptr;
     }
-    const std::string path = label_path.empty() ? labelNextTo(info.path) : label_path;
-    std::shared_ptr<GDALDataset> label = path.empty() ? nullptr : openPds3Placement(path);
+    std::shared_ptr<GDALDataset> label = openPds3Placement(label_path);
     const bool is_of_same_size = label && label->GetRasterXSize() == dataset.GetRasterXSize() &&
                                  label->GetRasterYSize() == dataset.GetRasterYSize();
-    return is_of_same_size && isPlaced(*label) ? label : nullptr;
+    const bool is_placed =
+        is_of_same_size && isPlaced(*label) &&
+        (label->GetSpatialRef() != nullptr || dataset.GetSpatialRef() == nullptr);
+    return is_placed ? label : nullptr;
+}
+
+// Where GDAL reads the radii of a PDS3 label in another unit than the label gives.
+std::string noticeOfRadii(GDALDataset& dataset, GDALDataset& placed, const std::string& label_path)
+{
+    const OGRSpatialReference* const wrong = dataset.GetSpatialRef();
+    const OGRSpatialReference* const right = placed.GetSpatialRef();
+    if (wrong == nullptr || right == nullptr || wrong->GetSemiMajor() == right->GetSemiMajor()) {
+        return {};
+    }
+    return fmt::format("from the label {}: radius {} m (GDAL reads {} m)",
+                       CPLGetFilename(label_path.c_str()), right->GetSemiMajor(),
+                       wrong->GetSemiMajor());
 }
 
 void readPlacement(GDALDataset& dataset, const nlohmann::json& pds3, RasterInfo& info)
@@ -455,6 +502,8 @@ struct RasterFile::Impl {
     Error readFailure(const std::string& why, const GridWindow& window) const;
     std::size_t rowsPerBand() const;
     Result<GridSize> scanStep() const;
+    bool isStored(const GridWindow& window) const;
+    Result<SampleStatistics> scanUnstored(const GridWindow& window, const VoidRule& voids) const;
     std::optional<double> findTypicalSample();
 };
 
@@ -521,7 +570,7 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     if (band < 1 || band > info.band_count) {
         return refuse(
             ErrorCode::OutOfRange,
-            fmt::format("has bands 1 to {}, but band {} was asked for", info.band_count, band));
+            fmt::format("has bands 1 to {}, but band {} was requested", info.band_count, band));
     }
     info.band = band;
     impl->band = dataset.GetRasterBand(band);
@@ -535,12 +584,12 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
     const std::optional<SampleType> type = sampleTypeOf(*impl->band);
     if (!type) {
         return refuse(ErrorCode::Unsupported,
-                      fmt::format("holds {} numbers; elevations are real",
+                      fmt::format("holds {} samples, but elevations are real numbers",
                                   GDALGetDataTypeName(impl->band->GetRasterDataType())));
     }
     info.type = *type;
     if (isPicture(dataset, *impl->band)) {
-        return refuse(ErrorCode::Unsupported, "is a colour picture, not an elevation map");
+        return refuse(ErrorCode::Unsupported, refusalOfPicture(dataset, band));
     }
     if (info.band_count > 1) {
         info.notices.push_back(fmt::format("band {} of {} is read", band, info.band_count));
@@ -553,17 +602,26 @@ Result<RasterFile> RasterFile::open(const std::string& path, int band)
         }
     }
     const GdalMessages messages;
-    const std::shared_ptr<GDALDataset> label_placement =
-        impl->remote ? nullptr : placementOf(dataset, info, opened->label);
+    std::optional<CPLConfigOptionSetter> no_listing; // of the folder at the server
+    if (impl->remote) {
+        no_listing.emplace("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR", false);
+    }
+    const std::string label_path = labelPathOf(dataset, info, opened->label);
+    const std::shared_ptr<GDALDataset> label_placement = placementOf(dataset, info, label_path);
     GDALDataset& placed = label_placement ? *label_placement : dataset;
     const nlohmann::json pds3 = jsonDomain(placed, "json:PDS");
     impl->netcdf = netcdfExtentOf(dataset, info.driver);
     readNodata(*impl->band, info);
     readPlacement(placed, pds3, info);
+    if (info.driver == "PDS" && label_placement) {
+        if (std::string notice = noticeOfRadii(dataset, placed, label_path); !notice.empty()) {
+            info.notices.push_back(std::move(notice));
+        }
+    }
     if (!info.crs) {
         info.axis_hints = axisHintsOf(dataset, path);
     }
-    readVertical(dataset, *impl->band, pds3, labelElevationOf(dataset, info, opened->label), info);
+    readVertical(dataset, *impl->band, pds3, labelElevationOf(dataset, info, label_path), info);
     if (Status complete = impl->checkExtent({0, 0, info.columns, info.rows}); !complete) {
         return std::move(complete).error();
     }
@@ -623,6 +681,7 @@ std::optional<double> RasterFile::Impl::findTypicalSample()
         if (!readRows(*band, *grid, window, 0)) {
             return std::nullopt; // reading the samples proper will tell
         }
+        grid->markValues(info.other_nodata, 0, 1);
         const SampleStatistics statistics = grid->applyRule({info.nodata}, 0, 1);
         if (statistics.hasSamples()) {
             return statistics.raw_maximum;
@@ -725,7 +784,7 @@ Status RasterFile::Impl::renew()
             return remoteFailure(info.path, *remote, none, "the connection broke off; try again");
         }
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: has become another raster since it was opened; open it again",
+                     fmt::format("{}: has changed since it was opened; open it again",
                                  addressOf(info.path))};
     }
     dataset = std::move(fresh);
@@ -746,7 +805,7 @@ Status RasterFile::Impl::checkExtent(const GridWindow& window) const
 {
     const auto cut_short = [&](std::int64_t present, std::int64_t promised) {
         return readFailure(fmt::format("it is cut short, {} of the {} bytes that its header "
-                                       "promises are there; fetch it again",
+                                       "promises are present; fetch it again",
                                        present, promised),
                            window);
     };
@@ -756,7 +815,10 @@ Status RasterFile::Impl::checkExtent(const GridWindow& window) const
         return cut_short(static_cast<std::int64_t>(status.st_size), netcdf->bytes);
     }
     GDALDataset::RawBinaryLayout layout;
-    if (!dataset->GetRawBinaryLayout(layout) ||
+    // A TIFF without bytes for its first block is sparse: it need not be as long as its samples.
+    const bool is_sparse =
+        info.driver == "GTiff" && band->GetMetadataItem("BLOCK_OFFSET_0_0", "TIFF") == nullptr;
+    if (is_sparse || !dataset->GetRawBinaryLayout(layout) ||
         VSIStatL(layout.osRawFilename.c_str(), &status) != 0) {
         return Done{};
     }
@@ -807,6 +869,7 @@ Status RasterFile::Impl::markMasked(GDALRasterBand& from,
                                     const GridWindow& window,
                                     std::size_t grid_row) const
 {
+    grid.markValues(info.other_nodata, grid_row, window.rows);
     if (!info.has_mask_band) {
         return Done{};
     }
@@ -969,6 +1032,34 @@ Result<GridSize> RasterFile::Impl::scanStep() const
     return GridSize{step_columns, std::min(info.rows, down * rows)};
 }
 
+// Whether a file has bytes for any sample of a window: sparse files leave out blocks, of which all
+// samples are alike.
+bool RasterFile::Impl::isStored(const GridWindow& window) const
+{
+    if (info.has_mask_band || remote) {
+        return true;
+    }
+    const GdalMessages ignored;
+    const int status =
+        band->GetDataCoverageStatus(static_cast<int>(window.column), static_cast<int>(window.row),
+                                    static_cast<int>(window.columns), static_cast<int>(window.rows),
+                                    GDAL_DATA_COVERAGE_STATUS_DATA);
+    return status != GDAL_DATA_COVERAGE_STATUS_EMPTY;
+}
+
+Result<SampleStatistics> RasterFile::Impl::scanUnstored(const GridWindow& window,
+                                                        const VoidRule& voids) const
+{
+    const Result<LoadedSamples> one = readFrom(*band, {window.column, window.row, 1, 1}, voids);
+    if (!one) {
+        return one.error();
+    }
+    SampleStatistics statistics = one->statistics;
+    statistics.sample_count *= window.columns * window.rows;
+    statistics.void_count *= window.columns * window.rows;
+    return statistics;
+}
+
 Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& voids)
 {
     const RasterInfo& info = impl_->info;
@@ -984,8 +1075,17 @@ Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& v
                 return Error{ErrorCode::Cancelled,
                              fmt::format("{}: reading was cancelled", addressOf(info.path))};
             }
-            Result<LoadedSamples> loaded = readWindow(
-                {column, row, std::min(step->columns, info.columns - column), rows}, voids);
+            const GridWindow window{column, row, std::min(step->columns, info.columns - column),
+                                    rows};
+            if (!impl_->is_spoilt && !impl_->isStored(window)) {
+                const Result<SampleStatistics> part = impl_->scanUnstored(window, voids);
+                if (!part) {
+                    return part.error();
+                }
+                statistics.merge(*part);
+                continue;
+            }
+            Result<LoadedSamples> loaded = readWindow(window, voids);
             if (!loaded) {
                 return std::move(loaded).error();
             }

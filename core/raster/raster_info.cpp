@@ -182,6 +182,11 @@ Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
     }
     const Ellipsoid ellipsoid = overrides.ellipsoid ? *overrides.ellipsoid : body->ellipsoid;
     const bool is_other_ellipsoid = overrides.ellipsoid || body != info.body;
+    if (!info.crs && overrides.ellipsoid && !fitsInDegrees(info)) {
+        return refusal(OverrideField::Radii,
+                       "the raster has no CRS that they could be the radii of, and its grid cannot "
+                       "be in degrees; set the CRS, too");
+    }
     if (info.crs && is_other_ellipsoid) {
         Result<Crs> crs = info.crs->onEllipsoid(ellipsoid, body != nullptr ? std::string(body->name)
                                                                            : "unnamed body");
@@ -190,10 +195,15 @@ Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
                            crs.error().message, crs.error().code);
         }
         info.crs = std::move(crs).value();
-    } else if (!info.crs && body != nullptr && fitsInDegrees(info)) {
-        info.crs = Crs::geographic(*body, ellipsoid);
-        info.notices.push_back(
-            fmt::format("no CRS in the file: its extent is read as degrees on {}", body->name));
+    } else if (!info.crs && fitsInDegrees(info)) {
+        const Body unnamed{.name = "a body of these radii",
+                           .ellipsoid = ellipsoid,
+                           .latitude = LatitudeKind::Planetocentric,
+                           .longitude = LongitudeRange{}};
+        const Body& of_degrees = body != nullptr ? *body : unnamed;
+        info.crs = Crs::geographic(of_degrees, ellipsoid);
+        info.notices.push_back(fmt::format(
+            "no CRS in the file: its extent is read as degrees on {}", of_degrees.name));
     }
     info.body = body;
     return Done{};
@@ -204,6 +214,15 @@ Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
 ElevationScale RasterInfo::elevationScale() const noexcept
 {
     return {scale * unit.metres, offset * unit.metres - reference_radius_m.value_or(0.0)};
+}
+
+std::string RasterInfo::voidSettings() const
+{
+    std::string settings = nodata ? fmt::format("nodata {}", *nodata) : std::string();
+    for (const double value : other_nodata) {
+        settings += fmt::format(", {}", value);
+    }
+    return settings;
 }
 
 std::uint64_t RasterInfo::triangleCount() const noexcept
@@ -238,7 +257,7 @@ void deduceHeightReference(RasterInfo& info)
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
 {
     if (!statistics.hasSamples()) {
-        info.notices.push_back(fmt::format("holds no elevations: all of its {} samples are void",
+        info.notices.push_back(fmt::format("holds no elevations: all of its {} samples are nodata",
                                            statistics.sample_count));
         return;
     }
@@ -260,8 +279,8 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
     }
     if (!info.nodata && is_usual_mark) {
         info.notices.push_back(
-            fmt::format("the lowest sample is {}, which often marks voids, but the file declares "
-                        "no nodata value; if it marks voids, set it as nodata",
+            fmt::format("the lowest sample is {}, which often marks nodata, but the file declares "
+                        "no nodata value; if it does, set it as nodata",
                         statistics.raw_minimum));
     }
 }

@@ -40,7 +40,9 @@ struct RasterInfo {
     int band_count = 1;
     SampleType type = SampleType::Int16;
     std::optional<double> nodata; // raw
-    bool has_mask_band = false;   // voids are also told by a mask beside the samples
+    /// Further raw values that mark nodata: special constants of the product's label.
+    std::vector<double> other_nodata;
+    bool has_mask_band = false; // voids are also told by a mask beside the samples
 
     double scale = 1.0; // value = raw × scale + offset, in `unit`
     double offset = 0.0;
@@ -64,6 +66,11 @@ struct RasterInfo {
     std::vector<std::string> notices;
 
     ElevationScale elevationScale() const noexcept;
+    /// Whether the nodata value does not mark all voids.
+    bool needsVoidMask() const noexcept { return has_mask_band || !other_nodata.empty(); }
+    /// What decides which samples are void, for keys of what is made from them; empty where
+    /// nothing is declared.
+    std::string voidSettings() const;
     /// Number of triangles of the surface, two a cell.
     std::uint64_t triangleCount() const noexcept;
 };

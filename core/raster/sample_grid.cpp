@@ -81,8 +81,8 @@ Result<SampleGrid> SampleGrid::create(SampleType type, std::size_t columns, std:
     }
     if (!grid.samples_) {
         return Error{ErrorCode::TooLarge,
-                     fmt::format("{} × {} samples of {} bytes are more than memory can be had for",
-                                 columns, rows, sampleBytes(type))};
+                     fmt::format("{} × {} samples of {} bytes do not fit in memory", columns, rows,
+                                 sampleBytes(type))};
     }
     // A stroke of the hand crosses a row, and so a page of memory, with every cell: with large
     // pages the processor finds them sooner, which makes a fast stroke's update a twentieth faster.
@@ -101,6 +101,26 @@ void SampleGrid::markVoid(std::size_t column, std::size_t row)
         voids_.assign(words_per_row_ * rows_, 0);
     }
     voids_[row * words_per_row_ + column / 64] |= std::uint64_t{1} << (column % 64);
+}
+
+void SampleGrid::markValues(const std::vector<double>& raw, std::size_t first, std::size_t count)
+{
+    MARSVIEW_CHECK(first + count <= rows_);
+    dispatchSampleType(type_, [&](auto zero) {
+        using T = decltype(zero);
+        for (const double value : raw) {
+            const Nodata<T> mark(value);
+            if (!mark.exists) {
+                continue;
+            }
+            const T* samples = reinterpret_cast<const T*>(samples_.get()) + first * columns_;
+            for (std::size_t i = 0; i < count * columns_; ++i) {
+                if (samples[i] == mark.value) {
+                    markVoid(i % columns_, first + i / columns_);
+                }
+            }
+        }
+    });
 }
 
 SampleStatistics SampleGrid::applyRule(const VoidRule& rule, std::size_t first, std::size_t count)

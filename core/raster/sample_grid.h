@@ -83,6 +83,8 @@ public:
     }
 
     void markVoid(std::size_t column, std::size_t row);
+    /// Marks the samples of rows [first, first + count) that have one of these raw values.
+    void markValues(const std::vector<double>& raw, std::size_t first, std::size_t count);
     /// Marks the samples of rows [first, first + count) that `rule` calls void, and returns what
     /// these rows hold. Samples already marked stay void.
     SampleStatistics applyRule(const VoidRule& rule, std::size_t first, std::size_t count);

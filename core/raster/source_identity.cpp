@@ -145,12 +145,12 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
     }
     if (files.empty()) {
         const bool may_be_there = stat_error != 0 && stat_error != ENOENT;
-        return Error{may_be_there ? ErrorCode::Unreadable : ErrorCode::NotFound,
-                     fmt::format("{}: {}", path,
-                                 may_be_there
-                                     ? std::strerror(stat_error) // NOLINT(concurrency-mt-unsafe)
-                                     : "there is no such file, or none that its content could be "
-                                       "told apart by")};
+        return Error{
+            may_be_there ? ErrorCode::Unreadable : ErrorCode::NotFound,
+            fmt::format("{}: {}", path,
+                        may_be_there
+                            ? std::strerror(stat_error) // NOLINT(concurrency-mt-unsafe)
+                            : "there is no such file, or it has no content to identify it by")};
     }
     SourceIdentity identity;
     std::error_code ignored;

@@ -182,9 +182,8 @@ Status TiffStrips::read(std::size_t first_row, std::size_t row_count, std::byte*
     Impl& of = *impl_;
     MARSVIEW_CHECK(first_row + row_count <= of.layout.rows);
     if (!of.file && !of.open()) {
-        return Error{ErrorCode::Unreadable, of.complaint.empty()
-                                                ? "it has become another file since it was opened"
-                                                : of.complaint};
+        return Error{ErrorCode::Unreadable,
+                     of.complaint.empty() ? "it has changed since it was opened" : of.complaint};
     }
     const std::size_t strip_begin = first_row / of.strip_rows * of.strip_rows;
     of.skipped.resize(of.row_bytes);

@@ -58,8 +58,9 @@ double Dataset::height(GeographicPoint geographic) const
 
 Error noHeights(const std::string& path, const SampleStatistics& statistics)
 {
-    return {ErrorCode::Invalid, fmt::format("{}: holds no height, all of its {} samples are void",
-                                            path, statistics.sample_count)};
+    return {ErrorCode::Invalid,
+            fmt::format("{}: holds no elevations: all of its {} samples are nodata", path,
+                        statistics.sample_count)};
 }
 
 Result<std::shared_ptr<const Dataset>> loadDataset(const DatasetSpec& spec,

@@ -3,6 +3,7 @@
 #include "core/base/check.h"
 #include "core/base/environment.h"
 #include "core/base/plain_number.h"
+#include "core/files/raster_path.h"
 #include "core/files/remote_raster.h"
 #include "core/levels/estimated_levels.h"
 #include "core/levels/level_file.h"
@@ -60,12 +61,6 @@ Result<Described> describe(const DatasetSpec& spec)
     return Described{std::move(*file), std::move(file_info), std::move(*info)};
 }
 
-// What decides about the content of a prepared map beside the source itself.
-std::string settingsOf(const RasterInfo& info)
-{
-    return info.nodata ? fmt::format("nodata {}", *info.nodata) : std::string();
-}
-
 // A prepared copy has one band.
 int bandOf(const DatasetSpec& spec, const std::string& raster_path, const RasterInfo& info)
 {
@@ -82,7 +77,7 @@ std::size_t megabytesFrom(const char* variable, std::size_t otherwise, NoticesOn
     }
     if (!text.empty()) {
         notices.add(
-            fmt::format("{}=\"{}\" in the environment is no number of megabytes from 0 to "
+            fmt::format("{}=\"{}\" in the environment is not a number of megabytes from 0 to "
                         "{:.0f}; {} are used",
                         variable, text, kMost, otherwise >> 20));
     }
@@ -126,7 +121,7 @@ std::shared_ptr<const TileSource> keptOnDisk(std::shared_ptr<const TileSource> s
     const ElevationScale scale = info.elevationScale();
     const std::string key =
         fmt::format("{}\n{}\nband {}\n{}\ngain {} offset {}\n{}", info.path, info.remote_version,
-                    info.band, settingsOf(info), scale.gain, scale.offset_m, what);
+                    info.band, info.voidSettings(), scale.gain, scale.offset_m, what);
     return cachedOnDisk(std::move(source), resources.fetched_tiles, key);
 }
 
@@ -232,6 +227,15 @@ bool isDamaged(const std::string& kept_path, const MapResources& resources)
     return MapFolder::at(resources.folder).damage(kept_path).has_value();
 }
 
+// An archive may unpack to a thousand times its size, so a large map in one is prepared on disk
+// rather than held in memory.
+std::uint64_t heldBytesMax(const std::string& raster_path, const MapResources& resources)
+{
+    constexpr std::uint64_t kUnpackedMax = std::uint64_t{1} << 30;
+    const std::uint64_t held_max = resources.held_bytes_max;
+    return isInArchive(raster_path) ? std::min(held_max, kUnpackedMax) : held_max;
+}
+
 Result<OpenPlan> planFor(const DatasetSpec& spec, const MapResources& resources)
 {
     Result<Described> map = describe(spec);
@@ -239,8 +243,8 @@ Result<OpenPlan> planFor(const DatasetSpec& spec, const MapResources& resources)
         return std::move(map).error();
     }
     const bool is_remote = remoteNameFor(spec.path).has_value();
-    const bool fits = map->bytes() <= resources.held_bytes_max;
     const std::string& raster_path = map->file_info.path;
+    const bool fits = map->bytes() <= heldBytesMax(raster_path, resources);
     std::vector<std::string> notices;
     const auto in_place = GeotiffTileSource::of(map->file, map->voids());
     if (in_place) {

@@ -217,7 +217,7 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
     layout = {.columns = info.columns,
               .rows = info.rows,
               .type = info.type,
-              .has_voids = info.has_mask_band || voids.nodata.has_value() ||
+              .has_voids = info.needsVoidMask() || voids.nodata.has_value() ||
                            info.type == SampleType::Float32 || info.type == SampleType::Float64,
               .mean_levels = 0,
               .is_remote = remoteNameFor(info.path).has_value()};
@@ -263,8 +263,7 @@ Result<std::unique_ptr<TileReader>> GeotiffTileSource::open() const
     if (info.columns != raster_.layout.columns || info.rows != raster_.layout.rows ||
         info.type != raster_.layout.type || info.remote_version != raster_.remote_version) {
         return Error{ErrorCode::Invalid,
-                     raster_.name +
-                         ": has become another raster since it was opened; open it again"};
+                     raster_.name + ": has changed since it was opened; open it again"};
     }
     return std::unique_ptr<TileReader>(std::make_unique<Reader>(std::move(*file), raster_));
 }

@@ -242,7 +242,7 @@ struct TileCache::Impl {
         } catch (const std::bad_alloc&) {
             reader.reset();
             return Error{ErrorCode::TooLarge,
-                         source.name() + ": there is no memory left for a piece of it"};
+                         source.name() + ": not enough memory for a tile of it"};
         } catch (const std::exception& exception) {
             reader.reset();
             return Error{ErrorCode::Unreadable, source.name() + ": " + exception.what()};

@@ -218,7 +218,7 @@ void TileDiskCache::Impl::refuse(int error)
     const std::lock_guard lock(settings_mutex);
     if (!trouble) {
         trouble = fmt::format(
-            "{}: what is fetched cannot be kept here ({}), and will be fetched "
+            "{}: fetched tiles cannot be kept here ({}) and will be fetched "
             "again; make room, or choose another folder",
             options_now.folder, std::generic_category().message(error));
     }

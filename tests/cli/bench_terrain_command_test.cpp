@@ -150,7 +150,8 @@ TEST(BenchTerrainCommand, MeasuresEachOnItsOwn)
     }
 
     // Not by address.
-    EXPECT_THAT(bench["remote"]["left_out"].get<std::string>(), testing::HasSubstr("no address"));
+    EXPECT_THAT(bench["remote"]["left_out"].get<std::string>(),
+                testing::HasSubstr("not an address"));
     EXPECT_FALSE(bench.contains("frames"));
 }
 

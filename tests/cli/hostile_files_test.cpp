@@ -105,7 +105,8 @@ protected:
 
 TEST_F(HostileFiles, ACrashIsOneLineThatNamesTheDriverAndTheFile)
 {
-    for (const char* fault : {"crash", "overflow", "crash while reading", "crash while closing"}) {
+    for (const char* fault : {"crash", "overflow", "crash while reading",
+                              "crash while reading slowly", "crash while closing"}) {
         SCOPED_TRACE(fault);
         const std::string path = faulty(fault);
         const ProgramOutput output = info(path);

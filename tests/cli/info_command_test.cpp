@@ -126,22 +126,23 @@ TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
         return output.err;
     };
     EXPECT_EQ(failure(), "marsview-cli: " + address +
-                             ": there is nothing at this address (404); check how it is spelt\n");
+                             ": nothing was found at this address (404); check its spelling\n");
     server.failNext(100, 403);
     EXPECT_EQ(failure(), "marsview-cli: " + address +
-                             ": the server does not let it be read (403); it may want a login, or "
+                             ": the server denies access (403); it may require a login, or "
                              "the address may have expired\n");
     server.failNext(100, 500);
-    EXPECT_EQ(failure(),
-              "marsview-cli: " + address + ": the server is in trouble (500); try again later\n");
+    EXPECT_EQ(failure(), "marsview-cli: " + address +
+                             ": the server reports an error (500); try again later\n");
 }
 
 TEST(InfoCommand, TellsOfNumbersInTheEnvironmentThatAreNone)
 {
     const ProgramOutput output = runCliWith({"MARSVIEW_HELD_MB=abc"}, {"info", bundledMars()});
     EXPECT_EQ(output.exit_status, 0);
-    EXPECT_THAT(output.err, testing::HasSubstr("MARSVIEW_HELD_MB=\"abc\" in the environment is no "
-                                               "number of megabytes"));
+    EXPECT_THAT(output.err,
+                testing::HasSubstr("MARSVIEW_HELD_MB=\"abc\" in the environment is not a "
+                                   "number of megabytes"));
 }
 
 TEST(InfoCommand, TellsFeetFromMetres)

@@ -328,7 +328,8 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
     EXPECT_THAT(none.err, HasSubstr(": 2 of 2 goals are outside the map; give the map"));
     const ProgramOutput some = run("0,0,0\n0,1e9,0\n");
     EXPECT_EQ(some.exit_status, 0) << some.err;
-    EXPECT_THAT(some.err, HasSubstr(": 1 of 2 goals are outside the map and are clamped to its edge"));
+    EXPECT_THAT(some.err,
+                HasSubstr(": 1 of 2 goals are outside the map and are clamped to its edge"));
     EXPECT_EQ(run("0,0,0\n").err, "");
 }
 
@@ -339,7 +340,7 @@ TEST(LoopCommand, DoesNotRecordOverWhatItReplays)
     const ProgramOutput output =
         runCli({"loop", bundledMars(), "--device", "replay:" + goals + "#loop", "--record", goals});
     EXPECT_EQ(output.exit_status, 1);
-    EXPECT_THAT(output.err, HasSubstr("is what is read; write into another file"));
+    EXPECT_THAT(output.err, HasSubstr("is an input file; choose another output file"));
     EXPECT_EQ(readFile(goals), "x,y,z\n0,0,0\n");
     // Nor over its map, in whatever way.
     const std::string map = folder.file("map.tif");
@@ -353,7 +354,8 @@ TEST(LoopCommand, DoesNotRecordOverWhatItReplays)
         arguments.insert(arguments.end(), more.begin(), more.end());
         const ProgramOutput refused = runCli(arguments);
         EXPECT_EQ(refused.exit_status, 1) << more.back();
-        EXPECT_THAT(refused.err, HasSubstr("is a map, or a part of one; write into another file"));
+        EXPECT_THAT(refused.err,
+                    HasSubstr("is an input raster or a part of one; choose another output file"));
         EXPECT_TRUE(readFile(map) == before) << more.back();
     }
 }
@@ -370,9 +372,8 @@ TEST(LoopCommand, SaysThatARecordingWasTouchedInAnotherWay)
     EXPECT_EQ(run("2").err, "");
     const ProgramOutput other = run("3");
     EXPECT_EQ(other.exit_status, 0);
-    EXPECT_THAT(other.err, HasSubstr(": was recorded with god-object at exaggeration 2, which is "
-                                     "not what touches the map now (god-object at exaggeration "
-                                     "3)"));
+    EXPECT_THAT(other.err, HasSubstr(": was recorded with god-object at exaggeration 2, but the "
+                                     "contact model is now god-object at exaggeration 3"));
 }
 
 TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)
@@ -416,10 +417,13 @@ TEST(LoopCommand, SaysWhichDeviceItCannotOpenAndWhy)
         return output.err;
     };
     EXPECT_NE(refusal("sim:wings=2").find("marsview-cli: sim:wings=2: "), std::string::npos);
-    EXPECT_NE(refusal("harp:").find("harp"), std::string::npos);
     EXPECT_NE(refusal("replay:/nowhere.csv").find("cannot be read"), std::string::npos);
     EXPECT_NE(refusal("record:x.csv").find("needs a file"), std::string::npos);
     EXPECT_EQ(runCli({"loop", bundledMars()}).exit_status, 2);
+    const ProgramOutput unknown = runCli({"loop", bundledMars(), "--device", "repaly:x.csv"});
+    EXPECT_EQ(unknown.exit_status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("unknown device \"repaly:x.csv\""));
+    EXPECT_THAT(unknown.err, HasSubstr("Did you mean \"replay\"?"));
     EXPECT_EQ(runCli({"loop", bundledMars(), "--device", "null:", "--seconds", "-1"}).exit_status,
               2);
 }

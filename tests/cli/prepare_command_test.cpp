@@ -137,7 +137,7 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
     ASSERT_TRUE(fs::exists(journal));
     const ProgramOutput last = runCli({"prepare", source, "-o", path, "--checkpoint", kOften});
     ASSERT_EQ(last.exit_status, 0) << last.err;
-    EXPECT_THAT(last.err, HasSubstr("goes on behind row"));
+    EXPECT_THAT(last.err, HasSubstr("resumed after row"));
     EXPECT_EQ(checksumsOf(path), expected);
     // Little is left behind of what was written and not noted.
     EXPECT_LT(static_cast<double>(fs::file_size(path)),
@@ -162,12 +162,12 @@ TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
     program.signal(SIGINT);
     EXPECT_EQ(program.wait(), 1) << readFile(messages);
     EXPECT_EQ(readFile(messages),
-              fmt::format("marsview-cli: {}: preparing was cancelled; it goes on "
-                          "from there when it is started again\n",
+              fmt::format("marsview-cli: {}: preparing was cancelled; prepare it "
+                          "again to resume\n",
                           path));
     const ProgramOutput second = runCli({"prepare", source, "-o", path});
     EXPECT_EQ(second.exit_status, 0);
-    EXPECT_THAT(second.err, HasSubstr("goes on behind row"));
+    EXPECT_THAT(second.err, HasSubstr("resumed after row"));
     EXPECT_EQ(firstBand(checksumsOf(path))["checksum"], firstBand(checksumsOf(source))["checksum"]);
 }
 
@@ -185,13 +185,13 @@ TEST(PrepareCommand, SaysThatThereIsNoRoomAndGoesOnWhenThereIs)
                  blocks, MARSVIEW_CLI, source, path)});
         EXPECT_EQ(output.exit_status, 1);
         EXPECT_THAT(output.err, testing::StartsWith("marsview-cli: " + path));
-        EXPECT_THAT(output.err, HasSubstr("largest file that may be written"));
+        EXPECT_THAT(output.err, HasSubstr("largest file size that is allowed"));
         EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
         EXPECT_FALSE(fs::exists(path));
         EXPECT_EQ(fs::exists(path + ".part"), is_resumed);
         const ProgramOutput later = runCli({"prepare", source, "-o", path});
         EXPECT_EQ(later.exit_status, 0) << later.err;
-        EXPECT_EQ(later.err.find("goes on behind row") != std::string::npos, is_resumed)
+        EXPECT_EQ(later.err.find("resumed after row") != std::string::npos, is_resumed)
             << later.err;
         EXPECT_EQ(firstBand(checksumsOf(path))["checksum"],
                   firstBand(checksumsOf(source))["checksum"]);
@@ -248,7 +248,7 @@ TEST(PrepareCommand, OverwritesNothingButPreparedMaps)
         const std::string before = readFile(there);
         const ProgramOutput output = runCli({"prepare", source, "-o", there});
         EXPECT_EQ(output.exit_status, 1);
-        EXPECT_THAT(output.err, HasSubstr(there + ": is there already and is no prepared map"));
+        EXPECT_THAT(output.err, HasSubstr(there + ": already exists and is not a prepared map"));
         EXPECT_TRUE(readFile(there) == before);
     }
     // An empty one, as mktemp makes, and one that it made itself.

@@ -105,6 +105,9 @@ TEST(Usage, RefusesValuesOfTheWrongFormOrOutsideTheirRange)
         {with(trace, {"--exaggeration", "1e"}), "--exaggeration"},
         {{"trace", bundledMars()}, "--goals"},
         {with(loop, {"--seconds", "-1"}), "--seconds"},
+        {{"loop", bundledMars(), "--device", "foo"}, "--device"},
+        {{"loop", bundledMars(), "--device", "foo:"}, "--device"},
+        {{"loop", bundledMars(), "--device", "null"}, "--device"},
         {with(loop, {"--stiffness", "soft"}), "--stiffness"},
         {with(loop, {"--across", "0"}), "--across"},
         {{"loop", bundledMars()}, "--device"},
@@ -234,6 +237,14 @@ TEST(Usage, OpensFileAddresses)
                   runCli({"sample", path, "--pixel", "3,4"}).out);
         EXPECT_EQ(cliInfo(address)["file"], path);
     }
+    folder.write("goals a.csv", "x,y,z\n226.2,18.65,30000\n");
+    const auto traced = [](const std::string& goals) {
+        const test::ProgramOutput output = runCli({"trace", bundledMars(), "--goals", goals});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        return output.out;
+    };
+    EXPECT_EQ(traced("file://" + folder.path().string() + "/goals%20a.csv"),
+              traced(folder.file("goals a.csv")));
 }
 
 TEST(Usage, EndsWithOneLineOnInputsThatNeverEnd)
@@ -340,9 +351,9 @@ TEST(Usage, LeavesNoUnfinishedOutputBehindAfterControlC)
     const fs::path map = folder.path() / "out" / "made.tif";
     fs::create_directories(map.parent_path());
     const std::string printed = folder.file("printed");
-    RunningProgram program({MARSVIEW_CLI, "bench", "terrain", "--make", map.string(), "--size",
-                            "20000x20000"},
-                           printed);
+    RunningProgram program(
+        {MARSVIEW_CLI, "bench", "terrain", "--make", map.string(), "--size", "20000x20000"},
+        printed);
     const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (!fs::exists(map.string() + ".part") && std::chrono::steady_clock::now() < until) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

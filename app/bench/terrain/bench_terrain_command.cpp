@@ -106,7 +106,7 @@ public:
         std::filesystem::create_directories(parent, error);
         std::string name = (parent / "bench-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr) {
-            error_ = fmt::format("{}: no folder can be made there; set MARSVIEW_CACHE_DIR",
+            error_ = fmt::format("{}: cannot create a folder there; set MARSVIEW_CACHE_DIR",
                                  parent.string());
             return;
         }
@@ -134,8 +134,7 @@ Result<std::string> bundledMap()
 {
     const std::filesystem::path sample = sampleMapFor(programFolder());
     if (sample.empty()) {
-        return Error{ErrorCode::NotFound,
-                     "DEM: the map that comes with the program is not there; name another"};
+        return Error{ErrorCode::NotFound, "DEM: the bundled map is missing; name another"};
     }
     return sample.string();
 }

@@ -91,7 +91,7 @@ Result<ChildOutput> runSelf(const std::vector<std::string>& arguments)
     Pipe err;
     if (!out.isOpen() || !err.isOpen()) {
         return Error{ErrorCode::Unreadable,
-                     fmt::format("no pipe to be had ({})", std::strerror(errno))}; // NOLINT
+                     fmt::format("cannot create a pipe ({})", std::strerror(errno))}; // NOLINT
     }
     std::vector<std::string> words{"marsview-cli"};
     words.insert(words.end(), arguments.begin(), arguments.end());

@@ -33,8 +33,9 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options)
 {
     if (options.map.path.find("://") == std::string::npos &&
         !options.map.path.starts_with("/vsi")) {
-        return Error{ErrorCode::Unsupported,
-                     fmt::format("{}: no address; name a map by its address", options.map.path)};
+        return Error{
+            ErrorCode::Unsupported,
+            fmt::format("{}: not an address; name a map by its address", options.map.path)};
     }
     countNetworkUse();
     Result<std::unique_ptr<TerrainStage>> stage = TerrainStage::create({1280, 800});

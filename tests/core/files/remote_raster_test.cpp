@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -33,6 +34,9 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr std::size_t kSide = 2048;
+
+// Labels that are looked for next to a TIFF, with a request each, and not found.
+constexpr std::uint64_t kLabelNames = 2;
 
 std::vector<std::int16_t> mapSamples(std::uint64_t seed)
 {
@@ -157,9 +161,9 @@ TEST_F(RemoteRasterTest, OpeningAndOneTileReadAShareOfTheFile)
     std::cout << "open: " << at_open.requests << " requests, " << at_open.body_bytes
               << " bytes; with one tile: " << counts.requests << " requests, " << counts.body_bytes
               << " of " << bytes << " bytes\n";
-    EXPECT_LE(at_open.requests, 2U);
+    EXPECT_LE(at_open.requests, 2U + kLabelNames);
     EXPECT_LE(at_open.body_bytes, bytes / 100);
-    EXPECT_LE(counts.requests, 3U);
+    EXPECT_LE(counts.requests, 3U + kLabelNames);
     EXPECT_LE(counts.body_bytes, bytes * 3 / 100);
 }
 
@@ -176,11 +180,54 @@ TEST_F(RemoteRasterTest, TheDescriptionIsThatOfTheFile)
     EXPECT_EQ(local.info().remote_version, "");
 }
 
-TEST_F(RemoteRasterTest, NothingBesideTheFileIsAskedFor)
+TEST_F(RemoteRasterTest, OnlyLabelsAreLookedForNextToTheFile)
 {
-    opened(server_.url("map.tif"));
+    for (int i = 0; i < 3; ++i) {
+        opened(server_.url("map.tif"));
+    }
+    std::vector<std::string> others;
     for (const test::HttpRequest& request : server_.requests()) {
-        EXPECT_EQ(request.target, "/map.tif");
+        if (request.target != "/map.tif") {
+            others.push_back(request.method + " " + request.target);
+        }
+    }
+    EXPECT_THAT(others, testing::ElementsAre("HEAD /map.lbl", "HEAD /map.xml"));
+}
+
+// As on disk, where tests/core/raster/label_elevation_test.cpp compares them with their text.
+TEST_F(RemoteRasterTest, TheLabelNextToTheFileIsApplied)
+{
+    test::RasterRecipe recipe = test::recipeFor(4, std::vector<std::int16_t>(16, 100));
+    recipe.transform.reset();
+    const std::string image =
+        " OBJECT = IMAGE\n  LINES = 4\n  LINE_SAMPLES = 4\n"
+        "  SAMPLE_TYPE = LSB_INTEGER\n  SAMPLE_BITS = 16\n"
+        "  SCALING_FACTOR = 0.5\n  OFFSET = -7\n  UNIT = METER\n"
+        " END_OBJECT = IMAGE\nEND\n";
+    const auto label_of = [&image](const std::string& data) {
+        return "PDS_VERSION_ID = PDS3\n^IMAGE = \"" + data + "\"\n" + image;
+    };
+    for (const auto& [data, label, format] : std::vector<std::array<const char*, 3>>{
+             {"raw.tif", "raw.lbl", "GTiff"},
+             {"CASE.TIF", "CASE.LBL", "GTiff"},
+             {"code.jp2", "code.lbl", "JP2OpenJPEG"},
+             {"twin.jp2", "twin_jp2.lbl", "JP2OpenJPEG"},
+         }) {
+        SCOPED_TRACE(data);
+        test::writeRaster(
+            folder_, data, format, recipe,
+            std::string(format) == "GTiff"
+                ? std::vector<std::string>{}
+                : std::vector<std::string>{"-co", "QUALITY=100", "-co", "REVERSIBLE=YES"});
+        folder_.write(label, label_of(data));
+        RasterFile file = opened(server_.url(data));
+        EXPECT_EQ(file.info().elevationScale().height(100.0), 43.0);
+        EXPECT_TRUE(file.info().is_unit_declared);
+        EXPECT_THAT(file.info().notices,
+                    testing::Contains(HasSubstr(std::string("from the label ") + label)));
+        const auto samples = file.readWindow({0, 0, 4, 4}, {});
+        ASSERT_TRUE(samples) << samples.error().message;
+        EXPECT_EQ(samples->grid.raw(3, 3), 100.0);
     }
 }
 
@@ -218,7 +265,7 @@ TEST_F(RemoteRasterTest, AConnectionThatIsCutWhileOpeningIsTriedAgain)
         const Result<RasterFile> file = RasterFile::open(server_.url(name), 1);
         ASSERT_TRUE(file) << file.error().message;
         EXPECT_EQ(file->info().columns, kSide);
-        EXPECT_EQ(server_.counts().failures, 1U);
+        EXPECT_EQ(server_.counts().failures, 1U + kLabelNames);
         server_.resetCounts();
     }
 }
@@ -321,17 +368,17 @@ TEST_F(RemoteRasterTest, WhatIsWrongIsSaid)
     };
     EXPECT_EQ(message(server_.url("absent.tif")),
               server_.url("absent.tif") +
-                  ": there is nothing at this address (404); check how it is spelt");
+                  ": nothing was found at this address (404); check its spelling");
     folder_.write("text.tif", std::string(5000, 'x'));
     EXPECT_EQ(message(server_.url("text.tif")),
               server_.url("text.tif") +
                   ": is not a raster that GDAL can read, or the connection broke off");
-    for (const auto& [status, says] : {std::pair{404, "there is nothing at this address (404)"},
-                                       std::pair{410, "there is nothing at this address (410)"},
-                                       std::pair{401, "the server does not let it be read (401)"},
-                                       std::pair{403, "the server does not let it be read (403)"},
-                                       std::pair{500, "the server is in trouble (500)"},
-                                       std::pair{503, "the server is in trouble (503)"}}) {
+    for (const auto& [status, says] : {std::pair{404, "nothing was found at this address (404)"},
+                                       std::pair{410, "nothing was found at this address (410)"},
+                                       std::pair{401, "the server denies access (401)"},
+                                       std::pair{403, "the server denies access (403)"},
+                                       std::pair{500, "the server reports an error (500)"},
+                                       std::pair{503, "the server reports an error (503)"}}) {
         server_.failNext(100, status);
         EXPECT_THAT(message(server_.url("map.tif")),
                     StartsWith(server_.url("map.tif") + ": " + says));
@@ -364,7 +411,7 @@ TEST_F(RemoteRasterTest, BucketsAreReadByTheirNames)
     const auto absent = RasterFile::open("s3://bucket/absent.tif");
     ASSERT_FALSE(absent);
     EXPECT_EQ(absent.error().code, ErrorCode::NotFound);
-    EXPECT_THAT(absent.error().message, StartsWith("s3://bucket/absent.tif: there is nothing at"));
+    EXPECT_THAT(absent.error().message, StartsWith("s3://bucket/absent.tif: nothing was found at"));
 }
 
 TEST_F(RemoteRasterTest, AServerThatGoesAwayAndComesBackIsReadOn)
@@ -388,7 +435,7 @@ TEST_F(RemoteRasterTest, AServerWithoutRangesIsNotDownloadedFrom)
     const auto tile = file.readWindow(tileAt(6, 6), {});
     ASSERT_FALSE(tile);
     const std::string sentence =
-        ": the server gives out whole files only (it ignores range "
+        ": the server sends whole files only (it ignores range "
         "requests); download the file and open it from disk";
     EXPECT_EQ(tile.error().message, server_.url("map.tif") + sentence);
     fs::copy_file(original("other.tif"), folder_.file("second.tif"));
@@ -409,7 +456,7 @@ TEST_F(RemoteRasterTest, WhatCannotBeReadInPiecesIsRefused)
         const auto source = GeotiffTileSource::of(file, {});
         ASSERT_FALSE(source);
         EXPECT_THAT(source.error().message,
-                    StartsWith(server_.url(name) + ": is no cloud-optimised GeoTIFF: " + why));
+                    StartsWith(server_.url(name) + ": is not a cloud-optimized GeoTIFF: " + why));
         EXPECT_THAT(source.error().message, EndsWith("(gdal_translate -of COG)"));
     }
 }

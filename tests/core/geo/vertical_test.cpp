@@ -32,6 +32,12 @@ TEST(VerticalUnit, SpellingsOfRasterFilesAreUnderstood)
         {"dm", "dm", 0.1},
         {"yard", "yd", 0.9144},
         {"fathom", "fathom", 1.8288},
+        {"1000*METER", "km", 1000.0},
+        {"1000 * METERS", "km", 1000.0},
+        {"0.1 m", "dm", 0.1},
+        {"1E-2*METER", "cm", 0.01},
+        {"0.5*METER", "0.5 m", 0.5},
+        {"10 ft", "10 ft", 3.048},
     };
     for (const auto& row : table) {
         const auto unit = verticalUnitFrom(row.text);
@@ -43,7 +49,7 @@ TEST(VerticalUnit, SpellingsOfRasterFilesAreUnderstood)
 
 TEST(VerticalUnit, NamesAreUnderstoodAgain)
 {
-    for (const char* text : {"m", "ft", "ftUS", "km", "cm", "dm", "yd", "fathom"}) {
+    for (const char* text : {"m", "ft", "ftUS", "km", "cm", "dm", "yd", "fathom", "0.5*m"}) {
         const auto unit = verticalUnitFrom(text);
         ASSERT_TRUE(unit) << text;
         EXPECT_EQ(verticalUnitFrom(unit->name), unit) << text;
@@ -52,7 +58,9 @@ TEST(VerticalUnit, NamesAreUnderstoodAgain)
 
 TEST(VerticalUnit, WhatIsNoLengthIsNotGuessedAt)
 {
-    for (const char* text : {"", " ", "degree", "K", "dBZ", "unknown", "m/s", "mm", "mile", "1"}) {
+    for (const char* text :
+         {"", " ", "degree", "K", "dBZ", "unknown", "m/s", "mm", "mile", "1", "0*METER", "-1*METER",
+          "nan*m", "10**3 m", "1/1000 m", "m^2", "m*10"}) {
         EXPECT_FALSE(verticalUnitFrom(text)) << text;
     }
 }

@@ -534,13 +534,13 @@ TEST(TiledGeoTiff, GoesOnWhereItWasCancelled)
         ASSERT_FALSE(stopped);
         EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);
         EXPECT_THAT(stopped.error().message, StartsWith(job.path));
-        EXPECT_THAT(stopped.error().message, HasSubstr("goes on"));
+        EXPECT_THAT(stopped.error().message, HasSubstr("prepare it again to resume"));
         EXPECT_FALSE(fs::exists(job.path));
     }
     const TiledGeoTiffReport report = prepare(job);
     EXPECT_LT(report.samples_read, report.samples);
     ASSERT_EQ(report.notes.size(), 1U);
-    EXPECT_THAT(report.notes[0], HasSubstr("goes on behind row"));
+    EXPECT_THAT(report.notes[0], HasSubstr("resumed after row"));
     EXPECT_EQ(checksumsOf(job.path), checksumsOf(whole.path));
     // What had been written behind the last checkpoint is written again in its place.
     EXPECT_TRUE(test::readFile(job.path) == test::readFile(whole.path));
@@ -589,7 +589,7 @@ TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
         damage();
         const TiledGeoTiffReport report = prepare(job);
         ASSERT_EQ(report.notes.size(), 1U);
-        EXPECT_THAT(report.notes[0], HasSubstr("begun again"));
+        EXPECT_THAT(report.notes[0], HasSubstr("restarted"));
         EXPECT_EQ(report.samples_read, report.samples);
         if (!job.overrides.nodata) {
             nlohmann::json found = checksumsOf(job.path);
@@ -631,7 +631,7 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
         folder.write("copy.tif.part.journal", journal);
         const TiledGeoTiffReport report = prepare(job);
         ASSERT_EQ(report.notes.size(), 1U);
-        const bool is_begun_again = report.notes[0].ends_with("begun again");
+        const bool is_begun_again = report.notes[0].ends_with("restarted");
         unused += is_begun_again ? 0U : 1U;
         EXPECT_TRUE(samplesOf(job.path) == truth) << "byte " << at;
         EXPECT_TRUE(isWholeTiledGeoTiff(job.path));
@@ -656,7 +656,7 @@ TEST(TiledGeoTiff, PublishesNothingWhereTheSourceChangesMeanwhile)
     });
     const Result<TiledGeoTiffReport> report = writeTiledGeoTiff(job, monitor);
     ASSERT_FALSE(report);
-    EXPECT_THAT(report.error().message, StartsWith(source + ": changed while it was read"));
+    EXPECT_THAT(report.error().message, StartsWith(source + ": changed while it was being read"));
     EXPECT_FALSE(fs::exists(job.path));
     expectNothingLeftBeside(job.path);
 }
@@ -692,7 +692,7 @@ TEST(TiledGeoTiff, PublishesNothingWhereTheSourceIsOverwrittenWithinItsSecond)
     const Result<TiledGeoTiffReport> report = writeTiledGeoTiff(job, monitor);
     writer.join();
     ASSERT_FALSE(report);
-    EXPECT_THAT(report.error().message, StartsWith(source + ": changed while it was read"));
+    EXPECT_THAT(report.error().message, StartsWith(source + ": changed while it was being read"));
     EXPECT_FALSE(fs::exists(job.path));
     expectNothingLeftBeside(job.path);
     prepare(job);
@@ -711,7 +711,7 @@ TEST(TiledGeoTiff, BeginsAgainWhereTheSourceWasOverwrittenWithinItsSecondMeanwhi
     overwriteWithinTheSecond(source, raw);
     const TiledGeoTiffReport report = prepare(job);
     ASSERT_EQ(report.notes.size(), 1U);
-    EXPECT_THAT(report.notes[0], HasSubstr("begun again"));
+    EXPECT_THAT(report.notes[0], HasSubstr("restarted"));
     EXPECT_EQ(report.samples_read, report.samples);
     EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
 }
@@ -730,7 +730,7 @@ TEST(TiledGeoTiff, GoesOnFromAJournalThatHasNoStamp)
     ASSERT_TRUE(writeJournal(path, *journal));
     const TiledGeoTiffReport report = prepare(job);
     ASSERT_EQ(report.notes.size(), 1U);
-    EXPECT_THAT(report.notes[0], HasSubstr("goes on behind row"));
+    EXPECT_THAT(report.notes[0], HasSubstr("resumed after row"));
     EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
 }
 
@@ -826,7 +826,7 @@ TEST(TiledGeoTiff, DoesNothingTwice)
     EXPECT_EQ(again.samples_read, 0U);
     EXPECT_EQ(again.bytes, before.size());
     ASSERT_EQ(again.notes.size(), 1U);
-    EXPECT_THAT(again.notes[0], HasSubstr("already"));
+    EXPECT_THAT(again.notes[0], HasSubstr("is up to date with its source"));
     EXPECT_EQ(test::readFile(job.path), before);
     expectNothingLeftBeside(job.path);
     job.overrides.nodata = 4.0;

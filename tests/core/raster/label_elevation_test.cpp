@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -469,6 +470,207 @@ TEST(Pds4Label, CountsWhenItsTiffIsOpened)
         EXPECT_TRUE(std::isnan(elevations[0])); // -17000
         for (std::size_t i = 1; i < samples.size(); ++i) {
             ASSERT_NEAR(elevations[i], (samples[i] * 0.25 - 40.0) * 0.3048, 1e-9) << i;
+        }
+    }
+}
+
+// GDAL 3.6 takes them for kilometres.
+TEST(Pds3Label, GivesItsRadiiInItsOwnUnit)
+{
+    const TempFolder folder;
+    folder.write("r.img", bytesOf(someSamples()));
+    writeJpeg2000(folder, "r.jp2", someSamples());
+    const std::string label = pds3Label({.pointer = "r.img", .image = kRadii});
+    const RasterFile kilometres = openOrThrow(folder.write("km.lbl", label));
+    for (const char* radius : {"1737400 <m>", "1737400.0 <METERS>", "1.7374E6<M>", "1737400",
+                               "1737.4 <KILOMETER>", "1737.4"}) {
+        SCOPED_TRACE(radius);
+        std::string changed = label;
+        for (std::size_t at = 0; (at = changed.find("1737.4 <km>")) != std::string::npos;) {
+            changed.replace(at, std::string_view("1737.4 <km>").size(), radius);
+        }
+        const std::string path = folder.write("r.lbl", changed);
+        for (const std::string& name : {path, folder.file("r.jp2")}) {
+            const RasterFile file = openOrThrow(name);
+            ASSERT_TRUE(file.info().crs);
+            EXPECT_EQ(file.info().crs->ellipsoid()->equatorial_m, 1737400.0);
+            EXPECT_EQ(file.info().crs->wkt(), kilometres.info().crs->wkt());
+            EXPECT_EQ(file.info().transform, kilometres.info().transform);
+            ASSERT_NE(file.info().body, nullptr);
+            EXPECT_EQ(file.info().body->name, "Moon");
+        }
+        const bool is_other_unit = std::string_view(radius).find("1737.4") != 0;
+        const bool has_notice = testing::Matches(
+            Contains(HasSubstr("from the label r.lbl: radius 1737400 m (GDAL reads ")))(
+            openOrThrow(path).info().notices);
+        EXPECT_EQ(has_notice, is_other_unit);
+    }
+}
+
+// As samples × 0 would be.
+TEST(Pds3Label, DoesNotMakeAllElevationsEqual)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    folder.write("z.img", bytesOf(samples));
+    writeJpeg2000(folder, "z.jp2", samples);
+    const std::string label =
+        folder.write("z.lbl", pds3Label({.pointer = "z.img", .image = "  SCALING_FACTOR = 0.0\n"}));
+    for (const std::string& name : {label, folder.file("z.jp2")}) {
+        RasterFile file = openOrThrow(name);
+        expectElevations(file, samples, 1.0, 0.0);
+        EXPECT_THAT(file.info().notices,
+                    Contains(AllOf(HasSubstr("z.lbl gives the scale 0"), HasSubstr("--scale"))));
+    }
+}
+
+TEST(Pds4Label, DoesNotMakeAllElevationsEqual)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
+    recipe.band_xml = "<Scale>0.25</Scale>";
+    std::string label = test::readFile(test::writeRaster(folder, "z.xml", "PDS4", recipe));
+    const std::string scale = "<scaling_factor>0.25<";
+    ASSERT_NE(label.find(scale), std::string::npos);
+    label.replace(label.find(scale), scale.size(), "<scaling_factor>0<");
+    RasterFile file = openOrThrow(folder.write("z.xml", label));
+    expectElevations(file, samples, 1.0, 0.0);
+    EXPECT_THAT(file.info().notices, Contains(HasSubstr("z.xml gives the scale 0")));
+}
+
+TEST(Pds3Label, AllItsSpecialConstantsAreVoid)
+{
+    const TempFolder folder;
+    std::vector<std::int16_t> samples = someSamples();
+    samples[5] = -32000;
+    samples[6] = -32001;
+    samples[7] = -32002;
+    samples[8] = 32003;
+    folder.write("v.img", bytesOf(samples));
+    writeJpeg2000(folder, "v.jp2", samples);
+    for (const char* image :
+         {"  MISSING_CONSTANT = -32000\n  INVALID_CONSTANT = -32001\n"
+          "  NOT_APPLICABLE_CONSTANT = -32002\n  CORE_HIGH_REPR_SATURATION = 32003\n",
+          "  CORE_NULL = -32000\n  CORE_NULL = -32001\n  CORE_NULL = -32002\n"
+          "  CORE_NULL = 32003\n",
+          "  MISSING_CONSTANT = {-32000, -32001, 16#82FE#, 32003}\n",
+          "  MISSING_CONSTANT = (-32000, -32001)\n  UNKNOWN_CONSTANT = (-32002, 32003)\n"}) {
+        SCOPED_TRACE(image);
+        const std::string label =
+            folder.write("v.lbl", pds3Label({.pointer = "v.img", .image = image}));
+        for (const std::string& name : {label, folder.file("v.jp2")}) {
+            RasterFile file = openOrThrow(name);
+            const std::vector<double> elevations = elevationsOf(file);
+            for (std::size_t i = 0; i < 12; ++i) {
+                EXPECT_EQ(std::isnan(elevations[i]), i >= 5 && i <= 8) << i;
+            }
+            // A window and the statistics agree.
+            const auto window = file.readWindow({5, 0, 4, 1}, {file.info().nodata});
+            ASSERT_TRUE(window);
+            EXPECT_EQ(window->statistics.void_count, 4U);
+            JobMonitor monitor;
+            const auto all = file.scan(monitor, {file.info().nodata});
+            ASSERT_TRUE(all);
+            EXPECT_EQ(all->raw_minimum, *std::min_element(samples.begin(), samples.begin() + 5));
+            EXPECT_THAT(file.info().notices, Contains(HasSubstr("nodata -32000 -32001")));
+        }
+    }
+}
+
+// A sequence has an item for each band.
+TEST(Pds3Label, HasTheConstantsOfEachBand)
+{
+    const std::string label =
+        "PDS_VERSION_ID = PDS3\nOBJECT = IMAGE\n BANDS = 2\n"
+        " MISSING_CONSTANT = (-1, -2)\nEND_OBJECT = IMAGE\nEND\n";
+    EXPECT_EQ(labelElevationIn(label, 1, SampleType::Int16)->nodata, std::vector{-1.0});
+    EXPECT_EQ(labelElevationIn(label, 2, SampleType::Int16)->nodata, std::vector{-2.0});
+}
+
+TEST(Pds4Label, AllSpecialConstantsOfItsTiffAreVoid)
+{
+    const TempFolder folder;
+    std::vector<std::int16_t> samples = someSamples();
+    samples[5] = -32000;
+    samples[6] = -32001;
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
+    recipe.band_xml = "<NoDataValue>-32000</NoDataValue>";
+    std::string label = test::readFile(
+        test::writeRaster(folder, "c.xml", "PDS4", recipe, {"-co", "IMAGE_FORMAT=GEOTIFF"}));
+    const std::string end = "</missing_constant>";
+    ASSERT_NE(label.find(end), std::string::npos);
+    label.insert(label.find(end) + end.size(), "<invalid_constant>-32001</invalid_constant>");
+    folder.write("c.xml", label);
+    for (const char* name : {"c.xml", "c.tif"}) {
+        SCOPED_TRACE(name);
+        RasterFile file = openOrThrow(folder.file(name));
+        const std::vector<double> elevations = elevationsOf(file);
+        EXPECT_FALSE(std::isnan(elevations[4]));
+        EXPECT_TRUE(std::isnan(elevations[5]));
+        EXPECT_TRUE(std::isnan(elevations[6]));
+    }
+}
+
+// The scale of the TIFF with its samples is not applied on top of the label's, or in its place.
+TEST(Isis3Label, OfATiffIsAppliedOnce)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
+    recipe.srs = "EPSG:32611";
+    recipe.transform = {5e5, 30.0, 0.0, 4e6, 0.0, -30.0};
+    recipe.band_xml = "<Scale>0.25</Scale><Offset>-40</Offset>";
+    const std::string label = test::writeRaster(
+        folder, "core.lbl", "ISIS3", recipe,
+        {"-co", "DATA_LOCATION=GEOTIFF", "-co", "GEOTIFF_OPTIONS=COMPRESS=DEFLATE"});
+    const std::string data = folder.file("core.tif");
+    for (const std::string& name : {label, data}) {
+        SCOPED_TRACE(name);
+        RasterFile file = openOrThrow(name);
+        expectElevations(file, samples, 0.25, -40.0);
+        EXPECT_THAT(file.info().notices, testing::Not(Contains(HasSubstr("of its own"))));
+    }
+    // With a scale of its own in the TIFF.
+    std::filesystem::rename(data, folder.file("plain.tif"));
+    test::runTool({"gdal_translate", "-q", "-co", "COMPRESS=DEFLATE", "-a_scale", "0.5",
+                   "-a_offset", "7", folder.file("plain.tif"), data});
+    for (const std::string& name : {label, data}) {
+        SCOPED_TRACE(name);
+        RasterFile file = openOrThrow(name);
+        expectElevations(file, samples, 0.25, -40.0);
+        EXPECT_THAT(file.info().notices,
+                    Contains(AllOf(HasSubstr("core.lbl"), HasSubstr("scale 0.5, offset 7"))));
+    }
+}
+
+// Its size and elevations are the label's, and where it lies only the raster says.
+TEST(Pds3Label, WithoutPlacementKeepsThatOfTheRaster)
+{
+    const TempFolder folder;
+    const std::vector<std::int16_t> samples = someSamples();
+    test::RasterRecipe recipe = test::recipeFor(kLabelColumns, samples);
+    recipe.srs = "EPSG:32611";
+    recipe.transform = {5e5, 30.0, 0.0, 4e6, 0.0, -30.0};
+    const std::string data = test::writeRaster(folder, "p.jp2", "JP2OpenJPEG", recipe,
+                                               {"-co", "QUALITY=100", "-co", "REVERSIBLE=YES"});
+    const std::string whole =
+        pds3Label({.pointer = "p.img", .image = "  SCALING_FACTOR = 0.5\n", .is_nested = false});
+    std::string without_pointer = whole;
+    const std::string pointer = " ^IMAGE = \"p.img\"\n";
+    without_pointer.erase(without_pointer.find(pointer), pointer.size());
+    std::string without_projection = whole;
+    const std::string projection(kProjection);
+    without_projection.erase(without_projection.find(projection), projection.size());
+    for (const std::string& label : {without_pointer, without_projection}) {
+        SCOPED_TRACE(label);
+        folder.write("p.lbl", label);
+        RasterFile file = openOrThrow(data);
+        expectElevations(file, samples, 0.5, 0.0);
+        ASSERT_TRUE(file.info().crs);
+        if (label == without_projection) {
+            EXPECT_EQ(file.info().transform->terms(), *recipe.transform);
+            EXPECT_EQ(file.info().crs->name(), "WGS 84 / UTM zone 11N");
         }
     }
 }

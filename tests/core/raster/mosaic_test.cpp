@@ -166,7 +166,7 @@ TYPED_TEST(MosaicOf, HasVoidsWhereNoPartIsAndWhereTheirsAre)
     RasterFile file = this->opened();
     EXPECT_EQ(file.info().nodata, 99.0);
     EXPECT_THAT(file.info().notices,
-                testing::Contains(StartsWith("3 rasters as one map; they cover 66.1 %")));
+                testing::Contains(StartsWith("a mosaic of 3 rasters, which cover 66.1 %")));
     const LoadedSamples loaded = this->read(file);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         ASSERT_EQ(loaded.grid.isVoid(i % kColumns, i / kColumns), is_void[i]) << i;
@@ -187,7 +187,7 @@ TYPED_TEST(MosaicOf, FindsAVoidForGapsWhereEverySampleIsAHeight)
     this->cut(test::recipeFor(kColumns, samples), "a.tif", {0, 0, 20, kRows});
     this->cut(test::recipeFor(kColumns, samples), "b.tif", {30, 0, 31, kRows});
     if (std::is_same_v<T, std::int8_t>) {
-        EXPECT_THAT(this->refusal(), HasSubstr("Int8 samples have no value left for voids"));
+        EXPECT_THAT(this->refusal(), HasSubstr("Int8 samples have no value left for nodata"));
         return;
     }
     RasterFile file = this->opened();
@@ -317,7 +317,7 @@ TEST_F(MosaicTest, OfOneRasterIsThatRaster)
     cut(test::recipeFor(kColumns, samples<float>()), "only.tif", {0, 0, kColumns, kRows});
     const RasterFile file = opened();
     EXPECT_EQ(file.info().columns, kColumns);
-    EXPECT_THAT(file.info().notices, testing::Not(testing::Contains(HasSubstr("as one map"))));
+    EXPECT_THAT(file.info().notices, testing::Not(testing::Contains(HasSubstr("mosaic"))));
 }
 
 TEST_F(MosaicTest, NoticesEveryChangeOfItsFolder)
@@ -356,7 +356,7 @@ TEST_F(MosaicTest, SaysWhatDoesNotFit)
         cut(map, "b.tif", window, std::move(options));
         std::string message = refusal();
         fs::remove(part("b.tif"));
-        EXPECT_THAT(message, StartsWith(parts() + ": its rasters are not parts of one map: "));
+        EXPECT_THAT(message, StartsWith(parts() + ": its rasters do not form a mosaic: "));
         return message;
     };
     const GridWindow east{30, 0, 31, kRows};
@@ -365,12 +365,12 @@ TEST_F(MosaicTest, SaysWhatDoesNotFit)
     EXPECT_THAT(refused_with(east, {"-a_srs", "EPSG:32611"}),
                 EndsWith("b.tif has the CRS WGS 84 / UTM zone 11N, a.tif has none"));
     EXPECT_THAT(refused_with(east, {"-a_scale", "0.5"}),
-                HasSubstr("b.tif counts heights in another unit"));
+                HasSubstr("b.tif has elevations in another unit"));
     EXPECT_THAT(refused_with(east, {"-tr", "2", "2"}), HasSubstr("b.tif has pixels of 2 × -2"));
     EXPECT_THAT(refused_with(east, {"-a_ullr", "1030.5", "2000", "1061.5", "1953"}),
                 HasSubstr("b.tif lies -0.5 columns"));
     EXPECT_THAT(refused_with(east, {"-a_ullr", "9000", "9000", "9031", "8953"}),
-                HasSubstr("lie apart and cover"));
+                HasSubstr("are far apart and cover"));
 }
 
 TEST_F(MosaicTest, LeavesNoHoleWhereAPartIsDamaged)
@@ -386,8 +386,9 @@ TEST_F(MosaicTest, LeavesNoHoleWhereAPartIsDamaged)
     EXPECT_THAT(read.error().message,
                 AllOf(StartsWith(parts() + ": reading rows 0 to 46 failed: " + cut_short)));
     folder_.write("parts/b.flt", "");
-    EXPECT_THAT(refusal(), AllOf(StartsWith(parts() + ": one of its files cannot be part of a map"),
-                                 HasSubstr("b.flt"), HasSubstr("empty")));
+    EXPECT_THAT(refusal(),
+                AllOf(StartsWith(parts() + ": one of its files cannot be part of a mosaic"),
+                      HasSubstr("b.flt"), HasSubstr("empty")));
 }
 
 TEST_F(MosaicTest, SaysWhichPartIsGone)

@@ -32,11 +32,13 @@ TEST(OutputCheck, RefusesWhatIsReadByWhateverName)
     EXPECT_EQ(check({folder.write("old.csv", "")}), "");
     EXPECT_EQ(check({"/dev/null", "/dev/null"}), "");
     for (const char* name : {"map.tif", "link.tif", "hard.tif", "./map.tif"}) {
-        EXPECT_THAT(check({folder.file(name)}), HasSubstr("is a map, or a part of one")) << name;
+        EXPECT_THAT(check({folder.file(name)}), HasSubstr("is an input raster or a part of one"))
+            << name;
     }
-    EXPECT_THAT(check({goals}), HasSubstr("goals.csv: is what is read; write into another file"));
+    EXPECT_THAT(check({goals}),
+                HasSubstr("goals.csv: is an input file; choose another output file"));
     EXPECT_THAT(check({folder.file("new.csv"), folder.file("./new.csv")}),
-                HasSubstr("would be written twice; give two files"));
+                HasSubstr("is given for two outputs; choose two files"));
 }
 
 TEST(OutputCheck, KnowsThePartsOfAMap)
@@ -48,7 +50,7 @@ TEST(OutputCheck, KnowsThePartsOfAMap)
     runTool({"gdalbuildvrt", "-q", whole, part});
     const Status status = checkOutputs({.maps = {whole}, .read = {}, .written = {part}});
     ASSERT_FALSE(status);
-    EXPECT_THAT(status.error().message, HasSubstr("part.tif: is a map, or a part of one"));
+    EXPECT_THAT(status.error().message, HasSubstr("part.tif: is an input raster or a part of one"));
 }
 
 } // namespace

@@ -290,6 +290,52 @@ TEST(RasterFile, NodataOf64BitIntegersIsKept)
     EXPECT_EQ(loaded.statistics.raw_minimum, 5.0);
 }
 
+// Read block by block, its 10 billion samples would take minutes.
+TEST(RasterFile, BlocksThatAreNotStoredAreCountedWithoutBeingRead)
+{
+    const TempFolder folder;
+    for (const bool has_nodata : {false, true}) {
+        SCOPED_TRACE(has_nodata);
+        const std::string path = folder.file("sparse.tif");
+        std::vector<std::string> command{"gdal_create", "-q",        "-of",    "GTiff",
+                                         "-outsize",    "100000",    "100000", "-ot",
+                                         "Int16",       "-a_ullr",   "0",      "100000",
+                                         "100000",      "0",         "-co",    "SPARSE_OK=TRUE",
+                                         "-co",         "TILED=YES", "-co",    "BIGTIFF=YES"};
+        if (has_nodata) {
+            command.insert(command.end(), {"-a_nodata", "-5"});
+        }
+        command.push_back(path);
+        test::runTool(command);
+        RasterRecipe recipe = recipeFor<std::int16_t>(3, {7, 8, 9, 10, 11, 12});
+        recipe.transform = {70000.0, 1.0, 0.0, 30000.0, 0.0, -1.0};
+        test::runTool({"gdalwarp", "-q", writeVrt(folder, "patch", recipe), path});
+        auto file = RasterFile::open(path);
+        ASSERT_TRUE(file) << file.error().message;
+        JobMonitor monitor;
+        const auto statistics = file->scan(monitor, {file->info().nodata});
+        ASSERT_TRUE(statistics) << statistics.error().message;
+        EXPECT_EQ(statistics->sample_count, 10'000'000'000U);
+        EXPECT_EQ(statistics->void_count, has_nodata ? 9'999'999'994U : 0U);
+        EXPECT_EQ(statistics->raw_minimum, has_nodata ? 7.0 : 0.0);
+        EXPECT_EQ(statistics->raw_maximum, 12.0);
+    }
+}
+
+// Without bytes for its strips it is shorter than its samples, and whole.
+TEST(RasterFile, ASparseTiffOfStripsIsNotCutShort)
+{
+    const TempFolder folder;
+    const std::string path = folder.file("sparse.tif");
+    test::runTool({"gdal_create", "-q", "-of", "GTiff", "-outsize", "3000", "2000", "-ot", "Int16",
+                   "-co", "SPARSE_OK=TRUE", path});
+    auto file = RasterFile::open(path);
+    ASSERT_TRUE(file) << file.error().message;
+    const auto window = file->readWindow({10, 1990, 5, 10}, {});
+    ASSERT_TRUE(window) << window.error().message;
+    EXPECT_EQ(window->statistics.raw_maximum, 0.0);
+}
+
 TEST(RasterFile, NaNAndInfinityAreVoidWhateverTheFileSays)
 {
     const TempFolder folder;

@@ -7,6 +7,7 @@
 #include "tests/support/run_program.h"
 #include "tests/support/shared_data.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -174,6 +175,31 @@ TEST(Refusal, PicturesAndComplexNumbers)
         expectRefused(writeRaster(folder, "complex.tif", "GTiff", bytes, {"-ot", type}),
                       ErrorCode::Unsupported);
     }
+}
+
+// Vertical Mapper's grids have a picture of the elevations before them.
+TEST(Refusal, APictureNamesTheBandThatIsNone)
+{
+    const TempFolder folder;
+    const std::string path = writeRaster(folder, "grid.grd", "NWT_GRD",
+                                         recipeFor<float>(3, {1, 2, 3, 4, 5, 6, 7, 8, 9}));
+    const auto refused = RasterFile::open(path);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                testing::HasSubstr("band 1 is a part of a color picture; open band 4 (--band 4)"));
+    const auto opened = RasterFile::open(path, 4);
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_EQ(opened->info().type, SampleType::Float32);
+}
+
+TEST(Refusal, SgiPicturesAreNamed)
+{
+    const TempFolder folder;
+    const auto refused = RasterFile::open(folder.write(
+        "picture.rgb", std::string("\x01\xDA\x00\x01\x00\x02", 6) + std::string(600, '\0')));
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                testing::HasSubstr("is of the format SGI, which is not read as elevations"));
 }
 
 TEST(Refusal, OnlyVoids)

@@ -146,6 +146,38 @@ TEST(Overrides, ABodyGivesItsEllipsoid)
     EXPECT_EQ(info->crs->body()->name, "Moon");
 }
 
+TEST(Overrides, RadiiOfNoKnownBodyMakeDegreesOfABareGlobalGrid)
+{
+    RasterInfo bare;
+    bare.columns = 360;
+    bare.rows = 180;
+    bare.transform = *GeoTransform::fromTerms({0, 1, 0, 90, 0, -1});
+    RasterOverrides overrides;
+    overrides.ellipsoid = Ellipsoid{123456.0, 120000.0};
+    const auto info = withOverrides(bare, overrides);
+    ASSERT_TRUE(info) << info.error().message;
+    ASSERT_TRUE(info->crs);
+    EXPECT_EQ(info->crs->kind(), CrsKind::Geographic);
+    EXPECT_NEAR(info->crs->ellipsoid()->equatorial_m, 123456.0, 1e-6);
+    EXPECT_NEAR(info->crs->ellipsoid()->polar_m, 120000.0, 1e-6);
+    EXPECT_EQ(info->body, nullptr);
+}
+
+// Without a CRS, radii would change nothing.
+TEST(Overrides, RadiiAreRefusedWhereTheGridIsNotInDegrees)
+{
+    RasterInfo bare;
+    bare.columns = 360;
+    bare.rows = 180;
+    bare.transform = *GeoTransform::fromTerms({1000, 100, 0, 2000, 0, -100});
+    RasterOverrides overrides;
+    overrides.ellipsoid = Ellipsoid{123456.0, 120000.0};
+    const auto info = withOverrides(bare, overrides);
+    ASSERT_FALSE(info);
+    EXPECT_TRUE(info.error().message.starts_with("radii: the raster has no CRS"));
+    EXPECT_EQ(refusedField(info.error()), OverrideField::Radii);
+}
+
 TEST(Overrides, ABodyMakesDegreesOfABareGlobalGrid)
 {
     RasterInfo bare;

@@ -351,6 +351,27 @@ TEST_F(OpenMap, HoldsAMapWhereThereIsNoFolderForPreparedOnes)
     EXPECT_EQ(plan->store, MapStore::Held);
 }
 
+// A small archive may unpack to more than memory.
+TEST_F(OpenMap, HoldsNoLargeMapOfAnArchive)
+{
+    const std::string path = folder_.file("large.tif");
+    test::runTool({"gdal_create", "-q", "-of", "GTiff", "-outsize", "30000", "20000", "-ot",
+                   "Int16", "-co", "SPARSE_OK=TRUE", "-co", "TILED=YES", path});
+    test::runTool({"python3", "-c",
+                   "import sys,zipfile\n"
+                   "zipfile.ZipFile(sys.argv[1], 'w', zipfile.ZIP_DEFLATED)"
+                   ".write(sys.argv[2], 'large.tif')",
+                   folder_.file("large.zip"), path});
+    MapResources resources;
+    resources.held_bytes_max = std::size_t{1} << 40;
+    const Result<OpenPlan> file = planOpening({.path = path}, resources);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->store, MapStore::Held);
+    const Result<OpenPlan> packed = planOpening({.path = folder_.file("large.zip")}, resources);
+    ASSERT_TRUE(packed) << packed.error().message;
+    EXPECT_EQ(packed->store, MapStore::Unprepared);
+}
+
 TEST_F(OpenMap, RefusesWhatIsNoSurfaceBeforePreparingIt)
 {
     for (const std::size_t columns : {1U, 600U}) {

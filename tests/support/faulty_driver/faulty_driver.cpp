@@ -2,11 +2,13 @@
 // do. Its files hold "FAULTY" and, after a blank, which fault.
 #include <gdal_priv.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 
 namespace {
 
@@ -57,6 +59,12 @@ private:
     {
         if (fault_ == "crash while reading" && row == 15) {
             std::abort();
+        }
+        if (fault_ == "crash while reading slowly") {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            if (row == 15) {
+                std::abort();
+            }
         }
         if (fault_ == "print") {
             std::fprintf(stderr, "library: row %d\n", row);
