@@ -73,6 +73,11 @@ std::optional<SampleType> sampleTypeOf(GDALRasterBand& band)
 
 Status checkMapSize(std::size_t columns, std::size_t rows)
 {
+    if (columns == 0 || rows == 0) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("is damaged: its header says {} × {} samples; fetch it again",
+                                 columns, rows)};
+    }
     if (columns > kSideMax || rows > kSideMax || std::uint64_t{columns} * rows > kSamplesMax) {
         return Error{ErrorCode::TooLarge,
                      fmt::format("{} × {} samples cannot be a map; at most {} a side and {} in all "

@@ -19,7 +19,7 @@ GDALDataType gdalTypeOf(SampleType type);
 /// Nothing for complex numbers.
 std::optional<SampleType> sampleTypeOf(GDALRasterBand& band);
 
-/// TooLarge, without a path in the message, where no map has so many samples.
+/// TooLarge, without a path in the message, where no map has so many samples; Unreadable for none.
 Status checkMapSize(std::size_t columns, std::size_t rows);
 
 } // namespace marsview

@@ -192,6 +192,25 @@ TEST(Refusal, APictureNamesTheBandThatIsNone)
     EXPECT_EQ(opened->info().type, SampleType::Float32);
 }
 
+// 2026-11: a damaged FITS file of this size ended the program with a division by 0.
+TEST(Refusal, RastersWithoutSamples)
+{
+    std::string header;
+    for (std::string card : {"SIMPLE  =                    T", "BITPIX  =                   16",
+                             "NAXIS   =                    2", "NAXIS1  =                    0",
+                             "NAXIS2  =                   64", "END"}) {
+        card.resize(80, ' ');
+        header += card;
+    }
+    header.resize(2880, ' ');
+    const TempFolder folder;
+    const std::string path = folder.write("empty.fits", header);
+    const auto refused = RasterFile::open(path);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              path + ": is damaged: its header says 0 × 64 samples; fetch it again");
+}
+
 TEST(Refusal, SgiPicturesAreNamed)
 {
     const TempFolder folder;
