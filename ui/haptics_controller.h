@@ -9,6 +9,7 @@
 #include "ui/device_finder.h"
 #include "ui/hand_map.h"
 #include "ui/haptics_settings.h"
+#include "ui/recording_report.h"
 
 #include <QObject>
 #include <QString>
@@ -27,16 +28,6 @@ namespace marsview {
 class TerrainView;
 
 enum class HapticsConnection { None, Opening, Connected };
-
-/// Why a recording came to its end: a file holds what was touched of one map.
-enum class RecordingEnd { AsWanted, WithItsMap };
-
-/// A flight record that has been written.
-struct SavedTicks {
-    QString file;
-    std::size_t count = 0;
-    double seconds = 0.0; // that they cover, without pauses between them
-};
 
 /// Connects one device at a time and lets it touch what the view shows: the device reaches what is
 /// in sight, and a hand that pulls, zooms or turns the map moves the view's camera. The servo loop
@@ -192,7 +183,6 @@ private:
     void keepReplayInPicture(const LoopState& state);
     void returnCamera();
     void push();
-    bool isMapWanted() const { return hand_map_ != nullptr; }
 
     TerrainView& view_;
     std::function<std::vector<std::string>()> maps_in_use_;

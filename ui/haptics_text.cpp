@@ -2,9 +2,9 @@
 
 #include "core/geo/body.h"
 #include "haptics/trace/replay_check.h"
-#include "ui/haptics_controller.h"
+#include "ui/contact_model_text.h"
 #include "ui/number_text.h"
-#include "ui/window_actions.h"
+#include "ui/recording_report.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>

@@ -2,6 +2,7 @@
 
 #include "core/session/layer_groups.h"
 #include "ui/action_icons.h"
+#include "ui/contact_model_text.h"
 #include "ui/icons.h"
 #include "ui/ramp_text.h"
 #include "ui/terrain_view.h"
@@ -99,63 +100,6 @@ constexpr std::array kStretchActions{
         //: A color stretch: minimum and maximum are typed
         QT_TRANSLATE_NOOP("WindowActions", "&Minimum and Maximum…"),
         QT_TRANSLATE_NOOP("WindowActions", "Enter the values at the ends of the color ramp")},
-};
-
-struct ContactModelAction {
-    ContactModelKind model;
-    const char* text;
-    const char* tip;
-};
-
-constexpr std::array kContactModelActions{
-    ContactModelAction{
-        ContactModelKind::ContinuousWalk,
-        //: A contact model: how the touching point (the proxy) follows the hand over the ground
-        QT_TRANSLATE_NOOP("WindowActions", "&Continuous Walk (exact)"),
-        //: What a contact model does and what it costs, in the status bar
-        QT_TRANSLATE_NOOP("WindowActions",
-                          "Takes every point of the hand's way in turn, so that even fast strokes "
-                          "end where slow ones would; each costs a little more time")},
-    ContactModelAction{
-        ContactModelKind::SurfaceWalk,
-        //: A contact model: how the touching point (the proxy) follows the hand over the ground
-        QT_TRANSLATE_NOOP("WindowActions", "&Surface Walk"),
-        //: What a contact model does and what it costs, in the status bar
-        QT_TRANSLATE_NOOP("WindowActions",
-                          "Slides downhill across faces, edges and corners of the ground; quick, "
-                          "but a fast stroke may end in a neighbouring dip")},
-    ContactModelAction{
-        ContactModelKind::ProxyGraph,
-        //: A contact model, with the year of its paper
-        QT_TRANSLATE_NOOP("WindowActions", "&Proxy Graph (2003)"),
-        //: What a contact model does and what it costs, in the status bar
-        QT_TRANSLATE_NOOP("WindowActions",
-                          "Goes along edges from corner to corner, as the paper does; quick, but "
-                          "a fast stroke ends in a neighbouring dip more often")},
-    ContactModelAction{
-        ContactModelKind::GodObject,
-        //: A contact model, by the name that the literature gave it
-        QT_TRANSLATE_NOOP("WindowActions", "&God-Object"),
-        //: What a contact model does and what it costs, in the status bar
-        QT_TRANSLATE_NOOP("WindowActions",
-                          "Stops at each face that it hits until the hand moves again; simple, "
-                          "but it may stick or float for a moment")},
-    ContactModelAction{
-        ContactModelKind::GodObjectRelease,
-        //: A contact model: a god-object that lets go of constraints
-        QT_TRANSLATE_NOOP("WindowActions", "God-Object, Constraints &Released"),
-        //: What a contact model does and what it costs, in the status bar
-        QT_TRANSLATE_NOOP("WindowActions",
-                          "A god-object that lets go of faces as soon as they no longer hold it; "
-                          "it does not stick, but searches for every face that it comes to")},
-    ContactModelAction{
-        ContactModelKind::VirtualProxy,
-        //: A contact model: a sphere touches the ground in place of a point
-        QT_TRANSLATE_NOOP("WindowActions", "&Virtual Proxy (sphere)"),
-        //: What a contact model does and what it costs, in the status bar
-        QT_TRANSLATE_NOOP("WindowActions",
-                          "Touches with a sphere as wide as a cell of the map; it rounds off sharp "
-                          "ridges, but does not reach into narrow dips")},
 };
 
 StretchKind shownStretch(const Layer& layer, ShadingMode mode)
@@ -393,7 +337,7 @@ void WindowActions::makeHapticsMenu(QMainWindow& window)
     contact_models->menuAction()->setStatusTip(
         tr("How the point that touches the ground follows the hand"));
     contact_model_group = new QActionGroup(&window);
-    for (const ContactModelAction& entry : kContactModelActions) {
+    for (const ContactModelWords& entry : contactModelWords()) {
         QAction* action = contact_models->addAction(tr(entry.text));
         action->setCheckable(true);
         action->setData(static_cast<int>(entry.model));
@@ -493,17 +437,6 @@ void WindowActions::showSession(const Session& session)
         action->setChecked(action->data().toInt() == static_cast<int>(session.look.mode));
     }
     contours->setChecked(session.look.has_contours);
-}
-
-QString contactModelText(ContactModelKind kind)
-{
-    const auto action =
-        std::find_if(kContactModelActions.begin(), kContactModelActions.end(),
-                     [kind](const ContactModelAction& known) { return known.model == kind; });
-    QString text = action != kContactModelActions.end()
-                       ? QCoreApplication::translate("WindowActions", action->text)
-                       : QString();
-    return text.remove(QLatin1Char('&'));
 }
 
 } // namespace marsview

@@ -99,7 +99,4 @@ private:
 /// A property of actions whose texts change: what the list of keys calls them.
 inline constexpr const char* kKeyTextProperty = "keyText";
 
-/// What the menu calls a contact model.
-QString contactModelText(ContactModelKind kind);
-
 } // namespace marsview
