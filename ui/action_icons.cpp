@@ -1,6 +1,6 @@
 #include "ui/action_icons.h"
 
-#include "ui/icons.h"
+#include "ui/widgets/icons.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
 

@@ -1,7 +1,7 @@
 #include "ui/load_status.h"
 
-#include "ui/number_text.h"
-#include "ui/session_controller.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/text/number_text.h"
 
 #include <QFileInfo>
 #include <QHBoxLayout>

@@ -1,6 +1,6 @@
 #include "ui/main_tool_bar.h"
 
-#include "ui/exaggeration_control.h"
+#include "ui/widgets/exaggeration_control.h"
 #include "ui/window_actions.h"
 
 #include <QAction>

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "haptics/sound/sound_player.h"
-#include "ui/connection_mark.h"
-#include "ui/device_finder.h"
+#include "ui/controllers/connection_mark.h"
+#include "ui/controllers/device_finder.h"
+#include "ui/controllers/preferences.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/controllers/spacemouse_controller.h"
 #include "ui/dialogs/go_to_dialog.h"
-#include "ui/place_facts.h"
-#include "ui/preferences.h"
-#include "ui/session_controller.h"
-#include "ui/spacemouse_controller.h"
+#include "ui/text/place_facts.h"
 
 #include <QMainWindow>
 

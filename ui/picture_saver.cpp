@@ -1,8 +1,8 @@
 #include "ui/picture_saver.h"
 
-#include "ui/map_overlays.h"
-#include "ui/picture_writer.h"
-#include "ui/terrain_view.h"
+#include "ui/canvas/picture_writer.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/overlay/map_overlays.h"
 
 #include <QDir>
 #include <QFileDialog>

@@ -1,7 +1,7 @@
 #include "ui/picture_taker.h"
 
+#include "ui/canvas/terrain_view.h"
 #include "ui/main_window.h"
-#include "ui/terrain_view.h"
 
 #include <QImageWriter>
 #include <QPixmap>

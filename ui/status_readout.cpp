@@ -1,9 +1,9 @@
 #include "ui/status_readout.h"
 
 #include "core/session/dataset.h"
-#include "ui/coordinate_field.h"
-#include "ui/coordinate_menu.h"
-#include "ui/reserved_label.h"
+#include "ui/widgets/coordinate_field.h"
+#include "ui/widgets/coordinate_menu.h"
+#include "ui/widgets/reserved_label.h"
 
 #include <QAction>
 #include <QFontMetrics>

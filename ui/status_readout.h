@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/terrain/ray_cast.h"
-#include "ui/coordinate_text.h"
+#include "ui/text/coordinate_text.h"
 
 #include <QWidget>
 

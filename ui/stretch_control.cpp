@@ -1,8 +1,8 @@
 #include "ui/stretch_control.h"
 
+#include "ui/controllers/histogram_maker.h"
+#include "ui/controllers/session_controller.h"
 #include "ui/dialogs/stretch_dialog.h"
-#include "ui/panels/histogram_maker.h"
-#include "ui/session_controller.h"
 #include "ui/window_actions.h"
 
 #include <QAction>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/view/color_stretch.h"
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QObject>
 

@@ -1,6 +1,6 @@
 #include "ui/theme.h"
 
-#include "ui/line_style.h"
+#include "ui/widgets/line_style.h"
 
 #include <QApplication>
 #include <QStyle>

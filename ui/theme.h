@@ -1,7 +1,7 @@
 // Light and dark.
 #pragma once
 
-#include "ui/preferences.h"
+#include "ui/controllers/preferences.h"
 
 #include <QPalette>
 

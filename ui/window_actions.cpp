@@ -2,10 +2,10 @@
 
 #include "core/session/layer_groups.h"
 #include "ui/action_icons.h"
-#include "ui/contact_model_text.h"
-#include "ui/icons.h"
-#include "ui/ramp_text.h"
-#include "ui/terrain_view.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/text/contact_model_text.h"
+#include "ui/text/ramp_text.h"
+#include "ui/widgets/icons.h"
 
 #include <QActionGroup>
 #include <QCoreApplication>

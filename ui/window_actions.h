@@ -3,8 +3,8 @@
 
 #include "core/contact/contact_model.h"
 #include "core/view/terrain_look.h"
+#include "ui/canvas/tool.h"
 #include "ui/panels/dataset_panel.h"
-#include "ui/tools/tool.h"
 
 #include <QList>
 #include <QString>

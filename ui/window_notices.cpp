@@ -1,12 +1,12 @@
 #include "ui/window_notices.h"
 
 #include "core/tiles/tile_disk_cache.h"
-#include "ui/haptics_controller.h"
-#include "ui/notice_center.h"
-#include "ui/number_text.h"
-#include "ui/sentence.h"
-#include "ui/session_controller.h"
-#include "ui/terrain_view.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/haptics_controller.h"
+#include "ui/controllers/session_controller.h"
+#include "ui/text/number_text.h"
+#include "ui/text/sentence.h"
+#include "ui/widgets/notice_center.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 // device, with the buttons that go with it.
 #pragma once
 
-#include "ui/notice.h"
+#include "ui/widgets/notice.h"
 
 #include <QObject>
 

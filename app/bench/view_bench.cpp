@@ -84,7 +84,7 @@ ColorDifference differenceOf(const Picture& a, const Picture& b)
     return difference;
 }
 
-// Draws one map as ui/terrain_view.cpp does.
+// Draws one map as ui/canvas/terrain_view.cpp does.
 class Bench {
 public:
     Bench(const Scene& scene,

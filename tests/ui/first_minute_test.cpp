@@ -2,12 +2,12 @@
 
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
-#include "ui/dialogs/keys_dialog.h"
-#include "ui/map_overlays.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/keys_dialog.h"
 #include "ui/overlay/gesture_hint.h"
 #include "ui/overlay/legend.h"
+#include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
-#include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
 #include <QAction>

@@ -4,7 +4,7 @@
 #include "tests/ui/test_device.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
-#include "ui/haptics_controller.h"
+#include "ui/controllers/haptics_controller.h"
 #include "ui/main_window.h"
 
 #include <QApplication>

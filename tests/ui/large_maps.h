@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/support/grid_tile_source.h"
-#include "ui/map_opener.h"
+#include "ui/controllers/map_opener.h"
 
 #include <condition_variable>
 #include <map>

@@ -1,11 +1,11 @@
 // Layers from the outside: opening, order, undo.
 
 #include "tests/ui/test_map.h"
+#include "ui/canvas/terrain_view.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
 #include "ui/status_readout.h"
-#include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
 #include <QActionGroup>

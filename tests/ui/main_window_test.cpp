@@ -1,10 +1,10 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/recent_files.h"
 #include "ui/main_window.h"
 #include "ui/panels/georeferencing_panel.h"
-#include "ui/recent_files.h"
 #include "ui/status_readout.h"
-#include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
 #include <QAbstractItemModel>

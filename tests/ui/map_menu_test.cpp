@@ -3,9 +3,9 @@
 #include "core/terrain/surface_slope.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
+#include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/place_dialog.h"
-#include "ui/terrain_view.h"
-#include "ui/tools/map_menu.h"
+#include "ui/map_menu.h"
 
 #include <QApplication>
 #include <QClipboard>

@@ -1,10 +1,10 @@
 // Saving pictures: sizes, formats, contents, folders.
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
-#include "ui/map_overlays.h"
+#include "ui/canvas/picture_writer.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/overlay/map_overlays.h"
 #include "ui/picture_saver.h"
-#include "ui/picture_writer.h"
-#include "ui/terrain_view.h"
 #include "ui/window_actions.h"
 
 #include <QAction>

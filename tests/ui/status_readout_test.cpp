@@ -1,12 +1,12 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
-#include "ui/coordinate_field.h"
-#include "ui/map_overlays.h"
+#include "ui/canvas/terrain_view.h"
 #include "ui/overlay/crosshair.h"
+#include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
 #include "ui/panels/dataset_panel.h"
 #include "ui/status_readout.h"
-#include "ui/terrain_view.h"
+#include "ui/widgets/coordinate_field.h"
 #include "ui/window_actions.h"
 
 #include <QAbstractButton>

@@ -1,13 +1,13 @@
 // The color stretch from the outside: menu, dialog, picture, undo.
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
+#include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/stretch_dialog.h"
-#include "ui/elevation_box.h"
-#include "ui/map_overlays.h"
+#include "ui/dialogs/stretch_plot.h"
 #include "ui/overlay/legend.h"
+#include "ui/overlay/map_overlays.h"
 #include "ui/stretch_control.h"
-#include "ui/stretch_plot.h"
-#include "ui/terrain_view.h"
+#include "ui/widgets/elevation_box.h"
 #include "ui/window_actions.h"
 
 #include <QAction>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
-#include "ui/device_finder.h"
+#include "ui/controllers/device_finder.h"
 
 #include <atomic>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "tests/support/make_raster.h"
 #include "tests/ui/timeout.h"
-#include "ui/terrain_view.h"
+#include "ui/canvas/terrain_view.h"
 
 #include <QFile>
 #include <QTest>

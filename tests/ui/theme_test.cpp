@@ -1,5 +1,5 @@
 #include "tests/ui/color_contrast.h"
-#include "ui/preferences.h"
+#include "ui/controllers/preferences.h"
 #include "ui/theme.h"
 
 #include <QApplication>

@@ -1,10 +1,10 @@
 // What one window leaves for the next.
 
 #include "tests/ui/test_map.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/recent_files.h"
 #include "ui/dialogs/preferences_dialog.h"
-#include "ui/recent_files.h"
 #include "ui/status_readout.h"
-#include "ui/terrain_view.h"
 #include "ui/theme.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"

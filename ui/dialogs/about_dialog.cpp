@@ -1,7 +1,7 @@
 #include "ui/dialogs/about_dialog.h"
 
 #include "core/files/gdal_drivers.h"
-#include "ui/icons.h"
+#include "ui/widgets/icons.h"
 
 #include <QCoreApplication>
 #include <QDialogButtonBox>

@@ -2,7 +2,7 @@
 
 #include "core/files/file_address.h"
 #include "core/files/remote_raster.h"
-#include "ui/sentence.h"
+#include "ui/text/sentence.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>

@@ -1,7 +1,7 @@
 #include "ui/dialogs/coordinates_page.h"
 
-#include "ui/coordinate_menu.h"
-#include "ui/coordinate_text.h"
+#include "ui/text/coordinate_text.h"
+#include "ui/widgets/coordinate_menu.h"
 
 #include <QComboBox>
 #include <QFormLayout>

@@ -2,7 +2,7 @@
 
 #include "core/geo/coordinate_entry.h"
 #include "core/geo/extent.h"
-#include "ui/sentence.h"
+#include "ui/text/sentence.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>

@@ -3,8 +3,8 @@
 
 #include "core/base/result.h"
 #include "core/session/dataset.h"
-#include "ui/coordinate_text.h"
-#include "ui/preferences.h"
+#include "ui/controllers/preferences.h"
+#include "ui/text/coordinate_text.h"
 
 #include <QDialog>
 #include <QTimer>

@@ -2,7 +2,7 @@
 
 #include "core/prepare/map_folder.h"
 #include "core/raster/raster_file.h"
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QDateTime>
 #include <QDesktopServices>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/tiles/tile_disk_cache.h"
-#include "ui/detached_jobs.h"
-#include "ui/preferences.h"
+#include "ui/controllers/detached_jobs.h"
+#include "ui/controllers/preferences.h"
 
 #include <QWidget>
 

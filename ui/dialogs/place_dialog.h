@@ -1,7 +1,7 @@
 // The card with the facts of a place.
 #pragma once
 
-#include "ui/place_facts.h"
+#include "ui/text/place_facts.h"
 
 #include <QDialog>
 #include <QTimer>

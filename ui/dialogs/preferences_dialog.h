@@ -1,9 +1,9 @@
 // Choosing preferences.
 #pragma once
 
+#include "ui/controllers/preferences.h"
 #include "ui/dialogs/coordinates_page.h"
 #include "ui/dialogs/large_maps_page.h"
-#include "ui/preferences.h"
 
 #include <QDialog>
 

@@ -1,6 +1,6 @@
 #include "ui/dialogs/save_picture_dialog.h"
 
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QCheckBox>
 #include <QComboBox>

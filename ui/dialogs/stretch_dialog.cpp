@@ -1,8 +1,8 @@
 #include "ui/dialogs/stretch_dialog.h"
 
 #include "core/view/round_numbers.h"
-#include "ui/elevation_box.h"
-#include "ui/stretch_plot.h"
+#include "ui/dialogs/stretch_plot.h"
+#include "ui/widgets/elevation_box.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>

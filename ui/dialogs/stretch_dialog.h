@@ -5,7 +5,7 @@
 #include "core/view/color_ramp.h"
 #include "core/view/color_stretch.h"
 #include "core/view/slope_range.h"
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QDialog>
 #include <QString>

@@ -1,7 +1,7 @@
 #include "ui/overlay/compass.h"
 
 #include "ui/overlay/overlay_text.h"
-#include "ui/overlay/plate.h"
+#include "ui/widgets/plate.h"
 
 #include <QFontMetrics>
 #include <QPainter>

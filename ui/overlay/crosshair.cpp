@@ -1,6 +1,6 @@
 #include "ui/overlay/crosshair.h"
 
-#include "ui/overlay/plate.h"
+#include "ui/widgets/plate.h"
 
 #include <QPainterPath>
 

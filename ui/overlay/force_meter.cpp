@@ -2,7 +2,7 @@
 
 #include "core/view/round_numbers.h"
 #include "ui/overlay/overlay_text.h"
-#include "ui/overlay/plate.h"
+#include "ui/widgets/plate.h"
 
 #include <QFontMetrics>
 #include <QPainter>

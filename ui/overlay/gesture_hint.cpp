@@ -1,7 +1,7 @@
 #include "ui/overlay/gesture_hint.h"
 
-#include "ui/icons.h"
-#include "ui/overlay/plate.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/plate.h"
 
 #include <QGridLayout>
 #include <QLabel>

@@ -1,7 +1,7 @@
 // The hint of the first minute: how to move over the map, and an invitation to touch it.
 #pragma once
 
-#include "ui/tools/gestures.h"
+#include "ui/canvas/gestures.h"
 
 #include <QWidget>
 

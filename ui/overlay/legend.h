@@ -5,7 +5,7 @@
 #include "core/view/round_numbers.h"
 #include "core/view/slope_range.h"
 #include "core/view/terrain_look.h"
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QImage>
 #include <QWidget>

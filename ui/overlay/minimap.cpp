@@ -1,6 +1,6 @@
 #include "ui/overlay/minimap.h"
 
-#include "ui/overlay/plate.h"
+#include "ui/widgets/plate.h"
 
 #include <QKeyEvent>
 #include <QLocale>

@@ -1,7 +1,7 @@
 #include "ui/overlay/overlay_text.h"
 
 #include "core/view/round_numbers.h"
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QCoreApplication>
 #include <QLocale>

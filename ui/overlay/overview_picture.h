@@ -3,7 +3,7 @@
 
 #include "core/session/scene_surface.h"
 #include "core/view/terrain_look.h"
-#include "ui/shown_layer.h"
+#include "ui/canvas/shown_layer.h"
 
 #include <QImage>
 

@@ -2,7 +2,7 @@
 
 #include "ui/panels/layer_delegate.h"
 #include "ui/panels/layer_model.h"
-#include "ui/ramp_text.h"
+#include "ui/text/ramp_text.h"
 
 #include <QAction>
 #include <QComboBox>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/session/session.h"
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QWidget>
 

@@ -2,11 +2,11 @@
 
 #include "core/geo/extent.h"
 #include "core/session/dataset.h"
-#include "ui/coordinate_text.h"
-#include "ui/panels/caption.h"
-#include "ui/panels/elided_label.h"
 #include "ui/panels/override_form.h"
-#include "ui/sentence.h"
+#include "ui/text/coordinate_text.h"
+#include "ui/text/sentence.h"
+#include "ui/widgets/caption.h"
+#include "ui/widgets/elided_label.h"
 
 #include <QFormLayout>
 #include <QLabel>

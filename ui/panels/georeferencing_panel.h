@@ -3,7 +3,7 @@
 
 #include "core/geo/coordinate_format.h"
 #include "core/raster/raster_info.h"
-#include "ui/number_text.h"
+#include "ui/text/number_text.h"
 
 #include <QWidget>
 

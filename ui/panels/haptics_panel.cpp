@@ -1,11 +1,11 @@
 #include "ui/panels/haptics_panel.h"
 
 #include "haptics/drivers/replay_driver.h"
-#include "ui/haptics_text.h"
-#include "ui/number_text.h"
-#include "ui/panels/caption.h"
 #include "ui/panels/loop_times.h"
-#include "ui/sentence.h"
+#include "ui/text/haptics_text.h"
+#include "ui/text/number_text.h"
+#include "ui/text/sentence.h"
+#include "ui/widgets/caption.h"
 
 #include <QAction>
 #include <QActionGroup>

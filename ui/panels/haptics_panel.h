@@ -1,7 +1,7 @@
 // The panel for touching with a device.
 #pragma once
 
-#include "ui/haptics_controller.h"
+#include "ui/controllers/haptics_controller.h"
 
 #include <QWidget>
 

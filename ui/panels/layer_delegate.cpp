@@ -1,8 +1,8 @@
 #include "ui/panels/layer_delegate.h"
 
-#include "ui/panels/caption.h"
 #include "ui/panels/layer_model.h"
-#include "ui/ramp_text.h"
+#include "ui/text/ramp_text.h"
+#include "ui/widgets/caption.h"
 
 #include <QAbstractItemView>
 #include <QApplication>

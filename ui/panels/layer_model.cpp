@@ -1,6 +1,6 @@
 #include "ui/panels/layer_model.h"
 
-#include "ui/session_controller.h"
+#include "ui/controllers/session_controller.h"
 
 #include <QMimeData>
 

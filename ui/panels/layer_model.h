@@ -4,8 +4,8 @@
 #include "core/session/layer_groups.h"
 #include "core/session/session.h"
 #include "core/view/color_ramp.h"
-#include "ui/number_text.h"
-#include "ui/panels/histogram_maker.h"
+#include "ui/controllers/histogram_maker.h"
+#include "ui/text/number_text.h"
 
 #include <QAbstractListModel>
 

@@ -1,9 +1,9 @@
 #include "ui/panels/loop_times.h"
 
-#include "ui/haptics_text.h"
-#include "ui/number_text.h"
-#include "ui/panels/caption.h"
 #include "ui/panels/time_plot.h"
+#include "ui/text/haptics_text.h"
+#include "ui/text/number_text.h"
+#include "ui/widgets/caption.h"
 
 #include <QHBoxLayout>
 #include <QLabel>

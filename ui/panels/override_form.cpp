@@ -2,8 +2,8 @@
 
 #include "core/session/dataset.h"
 #include "ui/panels/crs_field.h"
-#include "ui/panels/form_field.h"
-#include "ui/sentence.h"
+#include "ui/text/sentence.h"
+#include "ui/widgets/form_field.h"
 
 #include <QComboBox>
 #include <QGridLayout>

@@ -1,0 +1,200 @@
+// The flight record in a real window: of a device that works, and of one that is gone.
+#include "haptics/trace/session_recorder.h"
+#include "tests/ui/hand_window.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/panels/haptics_panel.h"
+#include "ui/widgets/notice_bar.h"
+#include "ui/window_actions.h"
+
+#include <QFile>
+#include <QFileDialog>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QStatusBar>
+#include <QTest>
+#include <QToolButton>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace marsview {
+namespace {
+
+// Of the columns of session_recorder.h.
+constexpr qsizetype kTime = 3;
+constexpr qsizetype kTick = 4;
+constexpr qsizetype kForceZ = 11;
+constexpr qsizetype kReason = 13;
+constexpr qsizetype kMap = 14;
+
+QByteArray lost()
+{
+    return QByteArray::fromStdString(std::string(letGoReasonName(LetGoReason::DeviceLost)));
+}
+
+class FlightRecordTest : public HandWindowTest {
+protected:
+    void SetUp() override
+    {
+        makeWindow(kWithPanels);
+        ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    }
+
+    QAction& action() { return *window_->actionSet().save_flight; }
+    QPushButton& button()
+    {
+        return *window_->hapticsPanel()->findChild<QPushButton*>(QStringLiteral("saveFlight"));
+    }
+    QString panelText()
+    {
+        return window_->hapticsPanel()->findChild<QLabel*>(QStringLiteral("recording"))->text();
+    }
+    bool touch()
+    {
+        haptics().connectTo(QStringLiteral("hand:"));
+        hand_->moveTo({0.0, 0.0, -0.055});
+        return waitFor([&] { return hand_->force_n > 0.5; }) &&
+               waitFor([&] { return haptics().loop()->state().tick > 300; });
+    }
+    bool lose()
+    {
+        hand_->is_lost = true;
+        hand_->is_there = false;
+        return waitFor([&] { return haptics().connection() == HapticsConnection::None; });
+    }
+    QFileDialog* dialog() { return window_->findChild<QFileDialog*>(); }
+    // What the dialog that is open saves, without the header.
+    QList<QList<QByteArray>> saved(const QString& name)
+    {
+        const QString file = maps_.path(name);
+        QSignalSpy spy(&haptics(), &HapticsController::ticksSaved);
+        Q_EMIT dialog()->fileSelected(file);
+        delete dialog();
+        EXPECT_TRUE(waitFor([&] { return spy.count() == 1; }));
+        QFile text(file);
+        EXPECT_TRUE(text.open(QIODevice::ReadOnly));
+        const QList<QByteArray> lines = text.readAll().trimmed().split('\n');
+        EXPECT_EQ(lines[0].toStdString(),
+                  std::string(kSessionColumns) + ",hand_x,hand_y,hand_z,tick_us");
+        QList<QList<QByteArray>> rows;
+        for (const QByteArray& line : lines.sliced(1)) {
+            rows.append(line.split(','));
+        }
+        return rows;
+    }
+};
+
+TEST_F(FlightRecordTest, IsOfWhatHappenedBeforeItWasAskedFor)
+{
+    EXPECT_FALSE(action().isEnabled());
+    EXPECT_FALSE(button().isEnabled());
+    ASSERT_TRUE(touch());
+    ASSERT_TRUE(action().isEnabled());
+    EXPECT_TRUE(button().isEnabled());
+    const std::uint64_t before = haptics().loop()->state().tick;
+    action().trigger();
+    // A busy machine takes a while to open the dialog.
+    const std::uint64_t asked = haptics().loop()->state().tick;
+    ASSERT_NE(dialog(), nullptr);
+    // The loop goes on while somebody looks for a name.
+    ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > asked + 300; }));
+    const auto rows = saved(QStringLiteral("flight.csv"));
+    ASSERT_GT(rows.size(), 200);
+    EXPECT_LE(rows.back()[kTick].toULongLong(), asked);
+    EXPECT_GT(rows.back()[kTick].toULongLong() + 100, before);
+    // The last moments, not one tick: opening a dialog may stop the loop long enough to let go.
+    EXPECT_TRUE(std::any_of(rows.end() - 200, rows.end(), [](const QList<QByteArray>& row) {
+        return row[kForceZ].toDouble() > 0.5;
+    }));
+    const QString told = QStringLiteral("flight.csv: %1 ticks of %2 s")
+                             .arg(rows.size())
+                             .arg(rows.back()[kTime].toDouble(), 0, 'f', 1);
+    EXPECT_EQ(window_->statusBar()->currentMessage(), told);
+    EXPECT_EQ(panelText(), told);
+    EXPECT_TRUE(haptics().loop()->isRunning());
+}
+
+TEST_F(FlightRecordTest, IsThereWhenTheDeviceIsGone)
+{
+    ASSERT_TRUE(touch());
+    ASSERT_TRUE(lose());
+    EXPECT_TRUE(action().isEnabled());
+    EXPECT_TRUE(button().isEnabled());
+    // Beside the word that it was lost.
+    const QList<QToolButton*> buttons =
+        window_->findChild<NoticeBar*>()->findChildren<QToolButton*>();
+    const QString text = action().text().remove(QLatin1Char('&'));
+    const auto offered = std::find_if(buttons.begin(), buttons.end(), [&](const QToolButton* one) {
+        return one->isVisible() && one->text() == text;
+    });
+    ASSERT_NE(offered, buttons.end());
+    (*offered)->click();
+    ASSERT_NE(dialog(), nullptr);
+    const auto rows = saved(QStringLiteral("lost.csv"));
+    ASSERT_GT(rows.size(), 200);
+    EXPECT_EQ(rows.back()[kReason], lost());
+    EXPECT_NE(rows.front()[kReason], rows.back()[kReason]);
+    EXPECT_NE(haptics().notice(), QString()) << "it goes on saying so";
+}
+
+TEST_F(FlightRecordTest, HasTheLossAlsoWhenTheDeviceIsBack)
+{
+    ASSERT_TRUE(touch());
+    ASSERT_TRUE(lose());
+    hand_->is_lost = false;
+    haptics().findDevices();
+    ASSERT_TRUE(waitFor([&] { return !haptics().isFinding(); }));
+    hand_->is_there = true;
+    ASSERT_TRUE(waitFor(
+        [&] { return haptics().loop() != nullptr && haptics().loop()->state().tick > 300; }));
+    button().click();
+    ASSERT_NE(dialog(), nullptr);
+    const auto rows = saved(QStringLiteral("back.csv"));
+    int losses = 0;
+    for (const auto& row : rows) {
+        losses += row[kReason] == lost() ? 1 : 0;
+    }
+    EXPECT_GT(losses, 0);
+    EXPECT_NE(rows.back()[kReason], lost());
+    // And not of a device that somebody has put away.
+    haptics().disconnectDevice();
+    ASSERT_TRUE(touch());
+    for (const TickRecord& tick : haptics().lastTicks()) {
+        ASSERT_NE(tick.reason, LetGoReason::DeviceLost);
+    }
+}
+
+TEST_F(FlightRecordTest, GoesOnWithAnotherMap)
+{
+    ASSERT_TRUE(touch());
+    window_->controller().remove(window_->session().active);
+    ASSERT_FALSE(haptics().loop()->isRunning());
+    EXPECT_TRUE(action().isEnabled());
+    ASSERT_TRUE(openAndWait(*window_, maps_.ring()));
+    ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > 300; }));
+    action().trigger();
+    ASSERT_NE(dialog(), nullptr);
+    const auto rows = saved(QStringLiteral("two.csv"));
+    EXPECT_NE(rows.front()[kMap], rows.back()[kMap]);
+    EXPECT_GT(rows.back()[kTick].toULongLong(), 200U);
+}
+
+TEST_F(FlightRecordTest, SaysWhyItCannotBeWritten)
+{
+    ASSERT_TRUE(touch());
+    action().trigger();
+    ASSERT_NE(dialog(), nullptr);
+    QSignalSpy failed(window_.get(), &MainWindow::openFailed);
+    Q_EMIT dialog()->fileSelected(QStringLiteral("/no/such/folder/flight.csv"));
+    ASSERT_TRUE(waitFor([&] { return failed.count() == 1; }));
+    const QString problem = failed[0][0].toString();
+    EXPECT_TRUE(problem.startsWith(QStringLiteral("/no/such/folder/flight.csv: cannot be written")))
+        << problem.toStdString();
+    EXPECT_EQ(panelText(), problem);
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,847 @@
+// Devices in a real window: what they touch, what they move, and how they end.
+#include "core/contact/contact_model.h"
+#include "core/view/color_ramp.h"
+#include "haptics/trace/goal_file.h"
+#include "tests/support/map_maker.h"
+#include "tests/ui/hand_window.h"
+#include "tests/ui/large_maps.h"
+#include "tests/ui/timeout.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/overlay/force_meter.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/window_actions.h"
+
+#include <QFile>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <set>
+
+namespace marsview {
+namespace {
+
+// Lines of the same goal, and what a recording tells of it.
+void writeGoals(const QString& file,
+                int count,
+                const QByteArray& goal,
+                const QByteArray& columns = {})
+{
+    QFile text(file);
+    ASSERT_TRUE(text.open(QIODevice::WriteOnly | QIODevice::Truncate));
+    text.write("x,y,z" + columns + '\n');
+    for (int i = 0; i < count; ++i) {
+        text.write(goal + '\n');
+    }
+}
+
+QByteArray contentOf(const QString& file)
+{
+    QFile content(file);
+    EXPECT_TRUE(content.open(QIODevice::ReadOnly));
+    return content.readAll();
+}
+
+class HapticsControllerTest : public HandWindowTest {
+protected:
+    void SetUp() override
+    {
+        makeWindow(kSmall);
+        ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    }
+    void TearDown() override
+    {
+        hand_->is_held_up = false;
+        window_.reset();
+        EXPECT_EQ(hand_->open_count, 0);
+        EXPECT_EQ(hand_->force_n, 0.0);
+    }
+
+    // Down until the ground is felt.
+    bool pressDown()
+    {
+        hand_->moveTo({0.0, 0.0, -0.055});
+        return waitFor([&] { return hand_->force_n > 0.5; });
+    }
+
+    bool record(const QString& file)
+    {
+        QSignalSpy recorded(&haptics(), &HapticsController::recorded);
+        if (!haptics().startRecording(file)) {
+            return false;
+        }
+        const std::uint64_t until = state().counts.in_contact + 600;
+        const bool is_long_enough = waitFor([&] { return state().counts.in_contact > until; });
+        haptics().stopRecording();
+        EXPECT_EQ(state().counts.not_recorded, 0U);
+        return is_long_enough && recorded.count() == 1 && recorded[0][1].toULongLong() > 500;
+    }
+    // As a batch does it: the goals alone, to a model that nothing has touched.
+    void expectSameProxies(const QString& file)
+    {
+        const SceneMap& map = view().ground().maps().front();
+        const auto& dataset = map.map.dataset;
+        const double exaggeration = view().exaggeration();
+        const GoalFrame frame({dataset, &dataset->georeference()}, map.frame, exaggeration);
+        const auto model = makeContactModel(
+            kContactModelDefault, {map.map.filled, map.frame, exaggeration}, {.radius_m = 1.0});
+        QFile text(file);
+        ASSERT_TRUE(text.open(QIODevice::ReadOnly));
+        const QList<QByteArray> lines = text.readAll().trimmed().split('\n');
+        ASSERT_GT(lines.size(), 500);
+        ASSERT_TRUE(lines[0].trimmed().toStdString().starts_with(kSessionColumns));
+        int contacts = 0;
+        for (int i = 1; i < lines.size(); ++i) {
+            const QList<QByteArray> cells = lines[i].split(',');
+            const TracePoint goal{cells[0].toDouble(), cells[1].toDouble(), cells[2].toDouble()};
+            const ContactState at = model->update(frame.toScene(goal));
+            const TracePoint proxy = at.is_in_contact ? frame.fromScene(at.proxy) : goal;
+            ASSERT_EQ(cells[5].toInt() != 0, at.is_in_contact) << "line " << i;
+            ASSERT_EQ(cells[6].toDouble(), proxy.x) << "line " << i;
+            ASSERT_EQ(cells[7].toDouble(), proxy.y) << "line " << i;
+            ASSERT_EQ(cells[8].toDouble(), proxy.z) << "line " << i;
+            contacts += at.is_in_contact ? 1 : 0;
+        }
+        EXPECT_GT(contacts, 300);
+    }
+};
+
+TEST_F(HapticsControllerTest, ASimulatedHandMovesTheStylusAndFillsTheMeter)
+{
+    EXPECT_FALSE(view().shownStylus());
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    std::set<double> places;
+    EXPECT_TRUE(waitFor([&] {
+        const auto& pose = view().shownStylus();
+        if (pose && pose->is_in_contact && length(pose->force_n) > 0.1) {
+            places.insert(pose->proxy.x);
+        }
+        return places.size() > 5;
+    }));
+    EXPECT_TRUE(window_->overlays()->forceMeter()->isInUse());
+    EXPECT_GT(state().counts.in_contact, 0U);
+    haptics().disconnectDevice();
+    EXPECT_FALSE(view().shownStylus());
+    EXPECT_FALSE(window_->overlays()->forceMeter()->isInUse());
+    EXPECT_EQ(haptics().loop(), nullptr);
+}
+
+TEST_F(HapticsControllerTest, TheProxyRestsOnTheGroundThatIsShown)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    const LoopState now = state();
+    ASSERT_TRUE(now.contact.is_in_contact);
+    const ScenePoint proxy = now.contact.proxy;
+    EXPECT_NEAR(proxy.z, view().ground().height(proxy.x, proxy.y) * view().exaggeration(), 1e-3);
+    EXPECT_LT(now.goal.z, proxy.z);
+}
+
+TEST_F(HapticsControllerTest, TheHandReachesWhatIsSeen)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(waitFor([&] { return state().tick > 10; }));
+    const auto spread = [&] {
+        const WorkspaceFrame frame = state().frame;
+        return frame.scene_per_metre;
+    };
+    const double before = spread();
+    OrbitCamera camera = view().camera();
+    camera.distance_m /= 4.0;
+    camera.azimuth = Angle::degrees(90.0);
+    view().setCamera(camera);
+    EXPECT_TRUE(waitFor([&] { return spread() < 0.6 * before; }));
+    // Away from the user is the heading of the view: east.
+    const Vec3 away = state().frame.differenceToScene({0.0, 1.0, 0.0});
+    EXPECT_NEAR(away.y / away.x, 0.0, 1e-9);
+    EXPECT_GT(away.x, 0.0);
+}
+
+TEST_F(HapticsControllerTest, PullingTheMapMovesTheCamera)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    OrbitCamera near = view().camera();
+    near.distance_m /= 3.0;
+    view().setCamera(near);
+    ASSERT_TRUE(pressDown());
+    hand_->buttons = 1;
+    ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Pan; }));
+    const OrbitCamera before = view().camera();
+    const WorkspaceFrame frame = state().frame;
+    hand_->moveTo({0.02, 0.0, -0.055});
+    ASSERT_TRUE(waitFor([&] { return length(view().camera().target - before.target) > 10.0; }));
+    hand_->buttons = 0;
+    ASSERT_TRUE(waitFor([&] { return state().mode != StylusMode::Pan; }));
+    // The map has gone to the right with the hand, so that what is seen lies further left.
+    const Vec3 moved = frame.differenceToWorkspace(view().camera().target - before.target);
+    EXPECT_LT(moved.x, 0.0);
+    EXPECT_LT(std::abs(moved.y), 0.2 * std::abs(moved.x));
+    EXPECT_NEAR(view().camera().distance_m, before.distance_m, 0.05 * before.distance_m);
+}
+
+TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    OrbitCamera near = view().camera();
+    near.distance_m /= 2.0;
+    view().setCamera(near);
+    hand_->moveTo({0.0, 0.0, 0.05});
+    ASSERT_TRUE(waitFor([&] { return state().hand.z > 0.049; }));
+    ASSERT_FALSE(state().contact.is_in_contact);
+    hand_->buttons = 1;
+    ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Zoom; }));
+    const double before = view().camera().distance_m;
+    const double scale = state().frame.scene_per_metre;
+    hand_->moveTo({0.0, 0.0, 0.02});
+    ASSERT_TRUE(waitFor([&] {
+        return std::abs(std::log(view().camera().distance_m / before)) > 0.1 &&
+               std::abs(state().hand.z - 0.02) < 1e-3;
+    }));
+    hand_->buttons = 0;
+    ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Hover; }));
+    EXPECT_TRUE(waitFor([&] { // the view is some frames behind
+        const double wanted = state().frame.scene_per_metre / scale;
+        return std::abs(view().camera().distance_m / before - wanted) < 0.02;
+    })) << view().camera().distance_m / before
+        << " instead of " << state().frame.scene_per_metre / scale;
+}
+
+TEST_F(HapticsControllerTest, ADeviceThatCannotBeOpenedSaysWhy)
+{
+    haptics().connectTo(QStringLiteral("gone:locked"));
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("may not be opened")));
+    EXPECT_EQ(haptics().settings().device, QString());
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    EXPECT_EQ(haptics().problem(), QString());
+}
+
+TEST_F(HapticsControllerTest, OpeningHoldsNothingUpAndCanBeCancelled)
+{
+    hand_->is_held_up = true;
+    haptics().connectTo(QStringLiteral("hand:"));
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
+    OrbitCamera camera = view().camera();
+    camera.distance_m *= 0.5;
+    view().setCamera(camera); // the window goes on
+    haptics().disconnectDevice();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    hand_->is_held_up = false;
+    // What comes late is closed, and never connected.
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    EXPECT_TRUE(waitFor([&] { return hand_->open_count == 0; }));
+    EXPECT_EQ(haptics().uri(), QStringLiteral("sim:"));
+}
+
+TEST_F(HapticsControllerTest, ALostDeviceIsToldAndEverythingElseGoesOn)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    hand_->is_lost = true;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("Test hand")));
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("The plug was pulled")));
+    EXPECT_EQ(hand_->open_count, 0);
+    EXPECT_FALSE(view().shownStylus());
+    EXPECT_TRUE(openAndWait(*window_, maps_.ring()));
+}
+
+TEST_F(HapticsControllerTest, ALostDeviceThatIsThereAgainIsConnectedAnew)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(waitFor([&] { return state().tick > 10; }));
+    hand_->is_lost = true;
+    hand_->is_there = false;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    const auto look = [&] {
+        haptics().findDevices();
+        return waitFor([&] { return !haptics().isFinding(); });
+    };
+    ASSERT_TRUE(look());
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    // The panel is not to be seen, and it is looked for all the same.
+    hand_->is_lost = false;
+    hand_->is_there = true;
+    constexpr int kPatienceMs = 20'000; // it is looked for every few seconds
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return haptics().connection() == HapticsConnection::Connected; }, kPatienceMs));
+}
+
+TEST_F(HapticsControllerTest, AnotherMapIsTouchedInPlaceOfTheFirst)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.write(QStringLiteral("flat.asc"), {}, [](int, int) { return 40.0; })));
+    EXPECT_TRUE(waitFor([&] {
+        const LoopState now = state();
+        const ScenePoint at = now.contact.proxy;
+        return now.contact.is_in_contact && std::abs(at.z - 40.0 * view().exaggeration()) < 1e-6 &&
+               hand_->force_n > 0.1;
+    }));
+    window_->controller().remove(window_->session().active);
+    window_->controller().remove(window_->session().active);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+    EXPECT_FALSE(haptics().loop()->isRunning());
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Connected);
+}
+
+TEST_F(HapticsControllerTest, TheHandGoesFromTheUpperMapOntoTheLowerAndBack)
+{
+    const auto placed = [&](const char* name, const std::array<double, 6>& transform) {
+        return maps_.placed(name, "IAU_2015:49900", transform);
+    };
+    ASSERT_TRUE(openAndWait(*window_, placed("lower", {10, 0.25, 0, 40, 0, -0.25})));
+    ASSERT_TRUE(openAndWait(*window_, placed("upper", {14, 0.05, 0, 37, 0, -0.05})));
+    ASSERT_EQ(view().ground().maps().size(), 2U);
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    // In the air: what is below the hand is chosen there as well.
+    const auto comes_to_lie_over = [&](std::size_t index, const WorkspacePoint& at) {
+        hand_->moveTo(at);
+        return waitFor([&] {
+            const LoopState now = state();
+            const ScenePoint hand = now.frame.toScene(now.hand);
+            return length(now.hand - at) < 1e-9 && view().ground().mapAt(hand.x, hand.y) == index &&
+                   length(now.goal - hand) < 1e-6; // its own map's border does not hold it back
+        });
+    };
+    const auto over = [&](const ScenePoint& place) {
+        WorkspacePoint at = state().frame.toWorkspace(place);
+        at.z = 0.05;
+        return at;
+    };
+    OrbitCamera camera = view().camera();
+    camera.target = {};
+    camera.distance_m = 800'000.0;
+    view().setCamera(camera);
+    ASSERT_TRUE(waitFor([&] {
+        return length(over({0.0, 0.0, 0.0}) - WorkspacePoint{0.0, 0.0, 0.05}) < 0.03;
+    }));
+    EXPECT_TRUE(comes_to_lie_over(0, over({0.0, 0.0, 0.0})));
+    EXPECT_TRUE(comes_to_lie_over(1, over({-120'000.0, 30'000.0, 0.0})));
+    EXPECT_TRUE(comes_to_lie_over(0, over({10'000.0, 10'000.0, 0.0})));
+}
+
+TEST_F(HapticsControllerTest, ExaggerationIsFelt)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    view().setExaggeration(view().exaggeration() * 2.0);
+    EXPECT_TRUE(waitFor([&] {
+        const LoopState now = state();
+        const ScenePoint at = now.contact.proxy;
+        return now.contact.is_in_contact && hand_->force_n > 0.1 &&
+               std::abs(at.z - view().ground().height(at.x, at.y) * view().exaggeration()) < 1e-3;
+    }));
+}
+
+TEST_F(HapticsControllerTest, TheEmergencyStopLetsGoFromAnywhere)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    QTest::keyClick(window_->menuWidget(), Qt::Key_Period, Qt::ControlModifier);
+    EXPECT_TRUE(haptics().isStopped());
+    ASSERT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+    EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
+    // Pressed again, it stays.
+    QTest::keyClick(&view(), Qt::Key_Pause);
+    EXPECT_TRUE(haptics().isStopped());
+    QTest::qWait(100);
+    EXPECT_EQ(hand_->force_n, 0.0);
+    haptics().setStopped(false);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+}
+
+TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
+{
+    hand_->is_held_up = true;
+    hand_->moveTo({0.0, 0.0, -0.055});
+    haptics().connectTo(QStringLiteral("hand:"));
+    ASSERT_EQ(haptics().connection(), HapticsConnection::Opening);
+    QTest::keyClick(&view(), Qt::Key_Pause);
+    EXPECT_TRUE(haptics().isStopped());
+    hand_->is_held_up = false;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
+    ASSERT_TRUE(waitFor([&] { return state().tick > 300; })); // and forces have come by then
+    EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
+    EXPECT_EQ(hand_->force_n, 0.0);
+    haptics().setStopped(false);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+}
+
+TEST_F(HapticsControllerTest, AReplayThatEndsWhileStoppedIsNotLost)
+{
+    const QString file = maps_.path(QStringLiteral("short.csv"));
+    {
+        QFile text(file);
+        ASSERT_TRUE(text.open(QIODevice::WriteOnly));
+        text.write("x,y,z\n");
+        for (int i = 0; i < 400; ++i) {
+            text.write("500900,4000600,5000\n");
+        }
+    }
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    haptics().setStopped(true);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+    EXPECT_FALSE(haptics().isLost());
+    EXPECT_FALSE(haptics().canBeStopped()); // nothing is waited for
+    haptics().setStopped(false);
+}
+
+TEST_F(HapticsControllerTest, SaysThatARecordingCannotBegin)
+{
+    QSignalSpy failed(&haptics(), &HapticsController::recordingFailed);
+    EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(waitFor([&] { return haptics().canRecord(); }));
+    EXPECT_FALSE(haptics().startRecording(QStringLiteral("/nowhere/touch.csv")));
+    ASSERT_EQ(failed.count(), 2);
+    EXPECT_TRUE(failed[1][0].toString().startsWith(QStringLiteral("/nowhere/touch.csv: ")));
+    EXPECT_FALSE(haptics().isRecording());
+}
+
+TEST_F(HapticsControllerTest, StiffnessAndScaleAreFelt)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    HapticsSettings settings = haptics().settings();
+    settings.stiffness_n_per_m = 1e6;
+    haptics().setSettings(settings);
+    EXPECT_EQ(haptics().stiffnessMax(), 400.0);
+    EXPECT_TRUE(waitFor([&] { return state().stiffness_n_per_m > 300.0; }));
+    EXPECT_LE(state().stiffness_n_per_m, 400.0);
+    settings.force_share = 0.0;
+    haptics().setSettings(settings);
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+}
+
+TEST_F(HapticsControllerTest, TheSpaceBarGrabsForTheDevice)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(pressDown());
+    view().setFocus();
+    QTest::keyPress(&view(), Qt::Key_Space);
+    EXPECT_TRUE(waitFor([&] { return state().mode == StylusMode::Pan; }));
+    EXPECT_EQ(view().shownStylus()->is_in_contact, true);
+    QTest::keyRelease(&view(), Qt::Key_Space);
+    EXPECT_TRUE(waitFor([&] { return state().mode != StylusMode::Pan; }));
+}
+
+TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.2,lift_s=1")));
+    ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    for (int i = 0; i < 2; ++i) { // the second knows nothing of the first
+        ASSERT_TRUE(record(file));
+        expectSameProxies(file);
+    }
+
+    // And the program: the same hand without one, and after it the device again.
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    EXPECT_TRUE(haptics().isReplaying());
+    EXPECT_TRUE(
+        waitFor([&] { return view().shownStylus() && view().shownStylus()->is_in_contact; }));
+    EXPECT_EQ(haptics().problem(), QString());
+    ASSERT_TRUE(waitFor([&] { return !haptics().isReplaying() && haptics().loop() != nullptr; }));
+    EXPECT_EQ(haptics().uri(), QStringLiteral("sim:speed=0.2,lift_s=1"));
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
+    // Not where it is ended by hand; nor is the device forgotten then.
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    haptics().disconnectDevice();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
+}
+
+TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
+{
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    const auto replay = [&](const QByteArray& goal, const QByteArray& columns = {}) {
+        writeGoals(file, 3000, goal, columns);
+        haptics().connectTo(QStringLiteral("replay:") + file);
+        EXPECT_EQ(haptics().problem(), QString());
+        EXPECT_TRUE(waitFor([&] { return !haptics().problem().isEmpty(); }));
+        return haptics().problem();
+    };
+    const QByteArray parts = ",map,part,model,radius_m,exaggeration";
+    const QString other = QStringLiteral(
+        "touch.csv was recorded with God-Object at exaggeration 3; it is replayed with "
+        "Continuous Walk (exact) at 1.");
+    EXPECT_EQ(replay("500900,4000600,5000,1,1,god-object,1,3", parts), other);
+    EXPECT_TRUE(haptics().isReplaying());
+    EXPECT_EQ(haptics().notice(), other);
+    // It follows what touches the map.
+    haptics().setContactModel(ContactModelKind::GodObject);
+    EXPECT_TRUE(haptics().problem().contains(QStringLiteral("with God-Object at 1.")));
+    view().setExaggeration(3.0);
+    EXPECT_EQ(haptics().problem(), QString());
+    view().setExaggeration(1.0);
+    haptics().setContactModel(kContactModelDefault);
+    EXPECT_EQ(haptics().problem(), other);
+
+    EXPECT_TRUE(replay("0,0,0").contains(QStringLiteral("are outside the map")));
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    // A device is back where no recording takes its place.
+    for (const char* goal : {"0,0,0", "none"}) {
+        ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+        const QString problem = replay(goal);
+        EXPECT_TRUE(problem.contains(QStringLiteral("touch.csv"))) << problem.toStdString();
+        EXPECT_TRUE(waitFor([&] {
+            return haptics().loop() != nullptr && haptics().uri() == QStringLiteral("hand:");
+        })) << goal;
+        EXPECT_EQ(haptics().problem(), problem) << "still to be read";
+        haptics().disconnectDevice();
+    }
+}
+
+TEST_F(HapticsControllerTest, KeepsTheHandOfARecordingInThePicture)
+{
+    OrbitCamera camera = view().camera();
+    camera.target = {-700.0, -400.0, camera.target.z};
+    camera.distance_m = 300.0;
+    view().setCamera(camera);
+    const ScenePoint summit{0.0, 0.0, 0.0};
+    ASSERT_FALSE(view().isInPicture(summit));
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 3000, "500900,4000600,0"); // deep below the map's middle
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    EXPECT_TRUE(waitFor([&] {
+        return !view().isMoving() && view().shownStylus() &&
+               view().isInPicture(view().shownStylus()->proxy);
+    }));
+    EXPECT_TRUE(haptics().isReplaying());
+    EXPECT_NEAR(view().camera().distance_m, 300.0, 50.0) << "only to the side";
+}
+
+// Every proxy that is seen in a second or two of strokes.
+TEST_F(HapticsControllerTest, ASimulatedHandStrokesWithinThePicture)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.3,lift_s=0")));
+    const OrbitCamera home = view().camera();
+    struct Sight {
+        const char* name;
+        double distance_share;
+        double tilt_deg;
+        double azimuth_deg;
+        double exaggeration;
+    };
+    for (const Sight& sight :
+         {Sight{"home", 1.0, home.tilt.degrees(), 0.0, 1.0}, Sight{"oblique", 0.5, 75.0, 40.0, 1.0},
+          Sight{"near", 0.1, 60.0, 200.0, 1.0}, Sight{"from above", 0.3, 0.0, 130.0, 1.0},
+          Sight{"exaggerated", 0.6, 60.0, -50.0, 10.0}}) {
+        SCOPED_TRACE(sight.name);
+        OrbitCamera camera = home;
+        camera.distance_m *= sight.distance_share;
+        camera.tilt = Angle::degrees(sight.tilt_deg);
+        camera.azimuth = Angle::degrees(sight.azimuth_deg);
+        view().setExaggeration(sight.exaggeration);
+        view().setCamera(camera);
+        const std::uint64_t begin = state().tick;
+        constexpr std::uint64_t kReturnTicks = 700; // from where the hand was before
+        ASSERT_TRUE(waitFor([&] { return state().tick > begin + kReturnTicks; }));
+        int seen = 0;
+        int outside = 0;
+        ASSERT_TRUE(waitFor([&] {
+            const LoopState now = state();
+            if (now.contact.is_in_contact) {
+                ++seen;
+                outside += view().isInPicture(now.contact.proxy) ? 0 : 1;
+            }
+            return now.tick > begin + kReturnTicks + 2000;
+        }));
+        EXPECT_GT(seen, 10);
+        EXPECT_EQ(outside, 0) << "of " << seen;
+    }
+}
+
+TEST_F(HapticsControllerTest, TheCameraReturnsWhenAReplayEndsOrIsStopped)
+{
+    OrbitCamera camera = view().camera();
+    camera.target = {-700.0, -400.0, camera.target.z};
+    camera.distance_m = 300.0;
+    view().setCamera(camera);
+    const OrbitCamera before = view().camera();
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 60'000, "500900,4000600,0"); // out of sight
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); }));
+    EXPECT_GT(haptics().replayedShare(), 0.0);
+    EXPECT_LT(haptics().replayedShare(), 1.0);
+    haptics().stopReplay();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(haptics().problem(), QString());
+    EXPECT_TRUE(waitFor([&] { return view().camera() == before; }));
+
+    writeGoals(file, 1500, "500900,4000600,0");
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before; }));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(waitFor([&] { return view().camera() == before; }));
+}
+
+TEST_F(HapticsControllerTest, TheCameraStaysWhereTheUserMovesItDuringAReplay)
+{
+    OrbitCamera camera = view().camera();
+    camera.target = {-700.0, -400.0, camera.target.z};
+    camera.distance_m = 300.0;
+    view().setCamera(camera);
+    const OrbitCamera before = view().camera();
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 60'000, "500900,4000600,0");
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); }));
+    view().step(NavigationStep::TurnLeft);
+    ASSERT_TRUE(waitFor([&] { return !view().isMoving(); }));
+    const OrbitCamera chosen = view().camera();
+    haptics().stopReplay();
+    EXPECT_FALSE(view().isMoving());
+    EXPECT_EQ(view().camera(), chosen);
+}
+
+TEST_F(HapticsControllerTest, SaysThatARecordingIsOfAMapThatIsNotOpen)
+{
+    const QString mars = maps_.mars();
+    ASSERT_TRUE(openAndWait(*window_, mars));
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.2,lift_s=1")));
+    ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    ASSERT_TRUE(record(file));
+    haptics().disconnectDevice();
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return view().shownStylus().has_value(); }));
+    EXPECT_EQ(haptics().problem(), QString());
+    haptics().disconnectDevice();
+
+    window_->controller().remove(activeLayer(window_->session())->id);
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon())); // of the same extent
+    haptics().connectTo(QStringLiteral("replay:") + file);
+    EXPECT_TRUE(waitFor([&] { return !haptics().problem().isEmpty(); }));
+    const std::string problem = haptics().problem().toStdString();
+    const std::string expected =
+        "touch.csv was recorded on a map that is not open: 40 × 30 samples, Mars.";
+    EXPECT_EQ(problem.substr(0, expected.size()), expected) << problem;
+}
+
+TEST_F(HapticsControllerTest, ARecordingOfALowerMapIsReplayed)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    ASSERT_TRUE(openAndWait(
+        *window_, maps_.placed("small", "IAU_2015:49900", {10.0, 0.05, 0.0, 20.0, 0.0, -0.05})));
+    ASSERT_EQ(view().ground().maps().size(), 2U);
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 1000, "16,15,5000"); // beside what lies on top
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+}
+
+// Also where it was unplugged meanwhile.
+TEST_F(HapticsControllerTest, ADeviceThatIsGoneAfterAReplayIsConnectedWhenItIsThere)
+{
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 1000, "500900,4000600,5000");
+    for (const bool is_lost_before : {true, false}) {
+        ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+        hand_->is_there = false;
+        if (is_lost_before) {
+            hand_->is_lost = true;
+            ASSERT_TRUE(waitFor([&] { return haptics().isLost(); }));
+        }
+        ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+        ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+        hand_->is_lost = false;
+        hand_->is_there = true;
+        EXPECT_TRUE(waitFor([&] { return haptics().loop() != nullptr; })) << is_lost_before;
+        EXPECT_EQ(haptics().uri(), QStringLiteral("hand:"));
+        haptics().disconnectDevice();
+    }
+}
+
+TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
+{
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("a.csv"))));
+    EXPECT_TRUE(haptics().isRecording());
+    haptics().setContactModel(ContactModelKind::GodObject);
+    view().setExaggeration(2.0 * view().exaggeration());
+    EXPECT_TRUE(haptics().isRecording()) << "it is the same map";
+    QSignalSpy recorded(&haptics(), &HapticsController::recorded);
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill(QStringLiteral("other.asc"))));
+    EXPECT_FALSE(haptics().isRecording());
+    ASSERT_EQ(recorded.count(), 1);
+    EXPECT_EQ(recorded[0][2].value<RecordingEnd>(), RecordingEnd::WithItsMap);
+    const Status refused = haptics().startRecording(QStringLiteral("/no/such/folder/a.csv"));
+    EXPECT_FALSE(refused);
+    EXPECT_FALSE(haptics().isRecording());
+    const QString map = maps_.path(QStringLiteral("other.asc"));
+    const QByteArray before = contentOf(map);
+    EXPECT_FALSE(haptics().startRecording(map)) << "onto the map itself";
+    EXPECT_FALSE(haptics().startRecording(maps_.path(QStringLiteral("hill.asc"))))
+        << "onto one below it, of which nothing is seen";
+    haptics().saveTicks(haptics().lastTicks(), map);
+    EXPECT_EQ(contentOf(map), before);
+    EXPECT_TRUE(haptics().loop()->isRunning()); // it is felt all the same
+}
+
+TEST_F(HapticsControllerTest, NothingRunsWhileNothingIsConnected)
+{
+    EXPECT_EQ(haptics().loop(), nullptr);
+    QSignalSpy polled(&haptics(), &HapticsController::polled);
+    QTest::qWait(200);
+    EXPECT_EQ(polled.count(), 0);
+    EXPECT_FALSE(haptics().isFinding());
+}
+
+TEST_F(HapticsControllerTest, SettingsAndDeviceAreRemembered)
+{
+    QSettings().remove(QStringLiteral("haptics"));
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
+    HapticsSettings settings;
+    settings.stiffness_n_per_m = 120.0;
+    settings.force_share = 0.5;
+    settings.has_walls = false;
+    haptics().setSettings(settings);
+    ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
+    window_->close();
+    EXPECT_EQ(hand_->open_count, 0);
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
+    settings.device = QStringLiteral("hand:");
+    EXPECT_EQ(haptics().settings(), settings);
+    EXPECT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
+    haptics().disconnectDevice();
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, 120.0);
+    QSettings().remove(QStringLiteral("haptics"));
+}
+
+TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
+{
+    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:"));
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
+    EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_NE(haptics().problem(), QString()); // for who looks into the panel
+    EXPECT_EQ(haptics().notice(), QString());
+    EXPECT_EQ(haptics().settings().device, QStringLiteral("gone:"));
+    haptics().connectTo(QStringLiteral("gone:"));
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_NE(haptics().notice(), QString());
+    QSettings().remove(QStringLiteral("haptics"));
+}
+
+TEST_F(HapticsControllerTest, ARememberedDeviceThatIsThereAndRefusesIsToldOf)
+{
+    QSettings().setValue(QStringLiteral("haptics/device"), QStringLiteral("gone:locked"));
+    makeWindow(kSmall, WindowOptions::Geometry::Remembered);
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(haptics().notice().contains(QStringLiteral("may not be opened")));
+    QSettings().remove(QStringLiteral("haptics"));
+}
+
+TEST_F(HapticsControllerTest, SettingsThatMakeNoSenseAreDefaults)
+{
+    QSettings settings;
+    settings.setValue(QStringLiteral("haptics/stiffness"), QStringLiteral("hard"));
+    settings.setValue(QStringLiteral("haptics/forceShare"), 7.0);
+    const HapticsSettings read = hapticsSettingsFrom(settings);
+    EXPECT_EQ(read.stiffness_n_per_m, HapticsSettings{}.stiffness_n_per_m);
+    EXPECT_EQ(read.force_share, 1.0);
+    settings.remove(QStringLiteral("haptics"));
+}
+
+// A map in tiles in a view, and the same held in memory.
+class HapticsControllerOfTiles : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        const DatasetSpec spec{.path = maps_.waves().toStdString()};
+        whole_ = SceneSurface({test::loadedMap(spec.path)});
+        const MapOpener opener = large_.opener();
+        JobMonitor monitor;
+        const auto tiled = opener.open(spec, {}, opener.resources, monitor);
+        ASSERT_TRUE(tiled) << tiled.error().message;
+        ASSERT_TRUE(tiled->dataset->heightfield().isTiled());
+        view_ = std::make_unique<TerrainView>();
+        view_->resize(500, 400);
+        haptics_ = std::make_unique<HapticsController>(*view_, testDrivers(hand_));
+        view_->show();
+        ASSERT_TRUE(QTest::qWaitFor([&] { return view_->isReady(); }, kTimeout));
+        view_->setLayers({{.map = *tiled, .ramp = colorRampNamed("grey")}});
+    }
+    void TearDown() override
+    {
+        large_.holdAllTiles(false);
+        haptics_.reset();
+        view_.reset();
+    }
+
+    // Pressed into the ground there, with no more than so much between the proxy and the ground at
+    // full resolution.
+    bool touches(const WorkspacePoint& at, double tolerance_m)
+    {
+        if (haptics_->loop() == nullptr) {
+            return false;
+        }
+        const LoopState now = haptics_->loop()->state();
+        const ScenePoint proxy = now.contact.proxy;
+        return now.contact.is_in_contact && length(now.hand - at) < 1e-9 && hand_->force_n > 0.1 &&
+               std::abs(proxy.z - whole_.height(proxy.x, proxy.y) * view_->exaggeration()) <
+                   tolerance_m;
+    }
+    bool comesToTouch(const WorkspacePoint& at, double tolerance_m)
+    {
+        hand_->moveTo(at);
+        return QTest::qWaitFor([&] { return touches(at, tolerance_m); }, kTimeout);
+    }
+
+    static constexpr double kExactM = 1e-3;
+
+    TestMaps maps_;
+    LargeMaps large_;
+    SceneSurface whole_;
+    std::shared_ptr<TestHand> hand_ = std::make_shared<TestHand>();
+    std::unique_ptr<TerrainView> view_;
+    std::unique_ptr<HapticsController> haptics_;
+};
+
+TEST_F(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
+{
+    haptics_->connectTo(QStringLiteral("hand:"));
+    EXPECT_TRUE(comesToTouch({0.0, 0.0, -0.055}, kExactM));
+    EXPECT_TRUE(comesToTouch({-0.04, 0.02, -0.055}, kExactM));
+}
+
+// A disk that gives nothing when the hand comes, the coarsest tile no more than others.
+TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
+{
+    ASSERT_TRUE(QTest::qWaitFor([&] { return view_->isPictureComplete(); }, kTimeout));
+    large_.holdAllTiles(true);
+    large_.forgetTiles();
+    const int reads = large_.guiReadCount();
+    haptics_->connectTo(QStringLiteral("hand:"));
+    const WorkspacePoint below{0.01, 0.0, -0.055};
+    EXPECT_TRUE(comesToTouch(below, HUGE_VAL));
+    EXPECT_FALSE(touches(below, kExactM)) << "what is held back makes a difference";
+    // The mouse likewise.
+    view_->setTool(Tool::Touch);
+    QTest::mousePress(view_.get(), Qt::LeftButton, {}, view_->rect().center());
+    ASSERT_TRUE(view_->stylus());
+    EXPECT_TRUE(view_->stylus()->is_in_contact);
+    QTest::mouseRelease(view_.get(), Qt::LeftButton, {}, view_->rect().center());
+    EXPECT_EQ(large_.guiReadCount(), reads) << "the window's thread read a tile";
+    // And what comes is felt where it belongs.
+    large_.holdAllTiles(false);
+    EXPECT_TRUE(comesToTouch(below, kExactM));
+}
+
+} // namespace
+} // namespace marsview

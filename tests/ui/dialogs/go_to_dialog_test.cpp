@@ -1,0 +1,216 @@
+#include "tests/ui/test_map.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/dialogs/go_to_dialog.h"
+#include "ui/window_actions.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QLocale>
+#include <QPushButton>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+using D = ReadAs;
+
+class GoToDialogTest : public testing::Test {
+protected:
+    std::shared_ptr<const Dataset> load(const QString& file)
+    {
+        JobMonitor monitor;
+        return *loadDataset({.path = file.toStdString()}, monitor, std::size_t{1} << 24);
+    }
+
+    TestMaps maps_;
+};
+
+TEST_F(GoToDialogTest, FindsThePlaceInEveryKindOfCoordinate)
+{
+    const auto mars = load(maps_.mars()); // 10° E, 20° N, a quarter of a degree a pixel
+    const auto at = [&](D display, const char* text) {
+        const auto place = placeOnMap(*mars, {}, display, QString::fromUtf8(text));
+        EXPECT_TRUE(place) << text << ": " << (place ? "" : place.error().message);
+        return place ? place->grid : GridPoint{-1, -1};
+    };
+    for (const char* text :
+         {"15 N 12.5 E", "15, 12.5", "12.5 E 15 N", "15, -347.5", "15°00′ N 347°30′ W"}) {
+        const GridPoint grid = at(D::Planetocentric, text);
+        EXPECT_NEAR(grid.column, 9.5, 1e-9) << text;
+        EXPECT_NEAR(grid.row, 19.5, 1e-6) << text;
+    }
+    const GridPoint map = at(D::Map, "12.5, 15");
+    EXPECT_NEAR(map.column, 9.5, 1e-9);
+    // The outer half pixel belongs to the map.
+    EXPECT_EQ(at(D::Map, "10.0, 20.0"), (GridPoint{0.0, 0.0}));
+}
+
+TEST_F(GoToDialogTest, TellsTheKindsOfLatitudeApart)
+{
+    // On the flattened Mars they differ by 0.17° at 15°: two thirds of a pixel.
+    const auto mars =
+        load(maps_.placed("flat", "IAU_2015:49902", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    const auto row = [&mars](D display) {
+        return placeOnMap(*mars, {}, display, QStringLiteral("15, 12.5"))->grid.row;
+    };
+    const double ratio = 3376.2 / 3396.19;
+    const double graphic = std::atan(std::tan(Angle::degrees(15.0).radians()) / (ratio * ratio));
+    EXPECT_NEAR(row(D::Planetocentric) - row(D::Planetographic),
+                -(Angle::radians(graphic).degrees() - 15.0) / 0.25, 0.02);
+}
+
+TEST_F(GoToDialogTest, UnderstandsEveryFormatWhateverIsChosen)
+{
+    const auto mars = load(maps_.mars());
+    CoordinateFormat west;
+    west.longitudes = LongitudeNotation::West360;
+    const auto column = [&](const CoordinateFormat& format, D read_as, const char* text) {
+        const auto place = placeOnMap(*mars, format, read_as, QString::fromUtf8(text));
+        EXPECT_TRUE(place) << text << ": " << (place ? "" : place.error().message);
+        return place ? place->grid.column : -1.0;
+    };
+    EXPECT_NEAR(column(west, D::Planetocentric, "15, 347.5"), 9.5, 1e-6);
+    EXPECT_NEAR(column(west, D::Planetocentric, "15 N, 12.5 E"), 9.5, 1e-6);
+    EXPECT_NEAR(column({}, D::Planetocentric, "15° 00′ 00″ N, 347° 30′ 00″ W"), 9.5, 1e-6);
+    EXPECT_NEAR(column({}, D::Planetocentric, "15,0 12,5"), 9.5, 1e-6);
+    // Letters make it a latitude and a longitude even where x, y is asked for.
+    EXPECT_NEAR(column({}, D::Map, "15 N 12.5 E"), 9.5, 1e-6);
+}
+
+TEST_F(GoToDialogTest, TakesMapCoordinatesThatCannotBeDegrees)
+{
+    // UTM, 30 m, from 500 000 m east and 4 000 000 m north.
+    const auto utm = load(maps_.placed("utm", "EPSG:32611", {5e5, 30, 0, 4e6, 0, -30}));
+    QLocale::setDefault(QLocale(QLocale::English));
+    for (const char* text : {"500615 3999385", "500615, 3999385", "500,615, 3,999,385 m"}) {
+        const auto place = placeOnMap(*utm, {}, D::Planetographic, QString::fromUtf8(text));
+        ASSERT_TRUE(place) << text << ": " << place.error().message;
+        EXPECT_EQ(place->read_as, D::Map) << text;
+        EXPECT_NEAR(place->grid.column, 20.0, 1e-6) << text;
+        EXPECT_NEAR(place->grid.row, 20.0, 1e-6) << text;
+    }
+    QLocale::setDefault(QLocale(QLocale::German));
+    const auto german = placeOnMap(*utm, {}, D::Map, QStringLiteral("500.615, 3.999.385 m"));
+    ASSERT_TRUE(german) << german.error().message;
+    EXPECT_NEAR(german->grid.column, 20.0, 1e-6);
+    QLocale::setDefault(QLocale::c());
+}
+
+TEST_F(GoToDialogTest, ReadsBackWhatTheStatusBarShowsInEveryFormat)
+{
+    const auto earth =
+        load(maps_.placed("earth", "EPSG:4326", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    for (const QLocale::Language language :
+         {QLocale::English, QLocale::German, QLocale::French, QLocale::Arabic}) {
+        QLocale::setDefault(QLocale(language));
+        for (int i = 0; i < 3 * 2 * 2; ++i) {
+            CoordinateFormat format;
+            format.longitudes = static_cast<LongitudeNotation>(i % 3);
+            format.angles = static_cast<AngleNotation>(i / 3 % 2);
+            format.setLatitudesOn(bodyNamed("Earth"), static_cast<LatitudeKind>(i / 6));
+            const GridPoint grid{7.0, 11.0};
+            const QString shown = positionText(format, *earth, grid);
+            const auto place =
+                placeOnMap(*earth, format, readingsOn(earth->info(), format).front(), shown);
+            ASSERT_TRUE(place) << shown.toStdString() << ": " << place.error().message;
+            EXPECT_NEAR(place->grid.column, grid.column, 0.1) << shown.toStdString();
+            EXPECT_NEAR(place->grid.row, grid.row, 0.1) << shown.toStdString();
+        }
+    }
+    QLocale::setDefault(QLocale::c());
+}
+
+TEST_F(GoToDialogTest, SaysWhereTheMapIsWhenThePlaceIsElsewhere)
+{
+    const auto mars = load(maps_.mars());
+    const auto place = placeOnMap(*mars, {}, D::Planetocentric, QStringLiteral("-50, 12"));
+    ASSERT_FALSE(place);
+    EXPECT_NE(place.error().message.find("outside the map"), std::string::npos);
+    EXPECT_NE(place.error().message.find("12.5° N – 20.0° N, 10.0° E – 20.0° E"), std::string::npos)
+        << place.error().message;
+}
+
+TEST_F(GoToDialogTest, AllowsToGoOnlyWhereItUnderstands)
+{
+    GoToDialog dialog(load(maps_.mars()), {}, {});
+    auto* field = dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"));
+    auto* answer = dialog.findChild<QLabel*>(QStringLiteral("answer"));
+    auto* go = dialog.findChild<QDialogButtonBox*>()->buttons().constLast();
+    for (QAbstractButton* button : dialog.findChild<QDialogButtonBox*>()->buttons()) {
+        if (dialog.findChild<QDialogButtonBox*>()->buttonRole(button) ==
+            QDialogButtonBox::AcceptRole) {
+            go = button;
+        }
+    }
+    EXPECT_FALSE(go->isEnabled());
+    field->setText(QStringLiteral("15 N"));
+    EXPECT_FALSE(go->isEnabled());
+    EXPECT_TRUE(answer->text().contains(QStringLiteral("latitude and a longitude")));
+    field->setText(QStringLiteral("15 N 12.5 E"));
+    EXPECT_TRUE(go->isEnabled());
+    EXPECT_TRUE(answer->text().startsWith(QStringLiteral("15.0")));
+    EXPECT_TRUE(answer->text().contains(QStringLiteral(" m")));
+}
+
+TEST_F(GoToDialogTest, FliesThereAndRemembersWhatWasAsked)
+{
+    MainWindow window(testWindowOptions());
+    window.resize(1280, 800);
+    window.show();
+    ASSERT_TRUE(openAndWait(window, maps_.mars()));
+    for (int round = 0; round < 2; ++round) {
+        window.actionSet().go_to_coordinate->trigger();
+        auto* dialog = window.findChild<GoToDialog*>();
+        ASSERT_NE(dialog, nullptr);
+        auto* field = dialog->findChild<QLineEdit*>(QStringLiteral("coordinate"));
+        if (round == 0) {
+            field->setText(QStringLiteral("17 N 13 E"));
+            QTest::keyClick(field, Qt::Key_Return);
+            ASSERT_TRUE(QTest::qWaitFor([&] { return window.view()->isPictureComplete(); }, 10000));
+            const OrbitCamera& camera = window.view()->camera();
+            const GridPoint target =
+                window.view()->map().dataset->georeference().sceneFrame().toGrid(camera.target);
+            EXPECT_NEAR(target.column, 11.5, 0.01);
+            EXPECT_NEAR(target.row, 11.5, 0.01);
+            ASSERT_TRUE(
+                QTest::qWaitFor([&] { return window.findChild<GoToDialog*>() == nullptr; }, 5000));
+        } else {
+            EXPECT_EQ(field->text(), QStringLiteral("17 N 13 E"));
+        }
+    }
+}
+
+TEST_F(GoToDialogTest, ReadsAsIsUsualOnTheBodyUnlessToldOtherwise)
+{
+    const auto mars =
+        load(maps_.placed("flat", "IAU_2015:49902", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    const auto earth =
+        load(maps_.placed("earth", "EPSG:4326", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
+    const auto kind = [](const GoToDialog& dialog) {
+        return static_cast<D>(dialog.findChild<QComboBox*>()->currentData().toInt());
+    };
+    const GoToDialog on_mars(mars, {}, {});
+    EXPECT_EQ(kind(on_mars), D::Planetocentric);
+    const GoToDialog on_earth(earth, {}, on_mars.entry());
+    EXPECT_EQ(kind(on_earth), D::Planetographic);
+    EXPECT_EQ(kind(GoToDialog(earth, {}, {.read_as = D::Map, .text = {}})), D::Map);
+}
+
+TEST_F(GoToDialogTest, OffersMapCoordinatesOnlyWhereThereAreNoOthers)
+{
+    GoToDialog dialog(load(maps_.hill()), {}, {});
+    auto* kinds = dialog.findChild<QComboBox*>();
+    EXPECT_EQ(kinds->count(), 1);
+    dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"))
+        ->setText(QStringLiteral("500600, 4000600"));
+    EXPECT_TRUE(dialog.findChild<QLabel*>(QStringLiteral("answer"))
+                    ->text()
+                    .startsWith(QStringLiteral("500600")));
+}
+
+} // namespace
+} // namespace marsview

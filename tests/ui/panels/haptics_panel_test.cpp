@@ -1,0 +1,204 @@
+#include "tests/ui/hand_window.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/overlay/force_meter.h"
+#include "ui/panels/haptics_panel.h"
+#include "ui/panels/time_plot.h"
+#include "ui/window_actions.h"
+#include "ui/window_docks.h"
+
+#include <QActionGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QFile>
+#include <QLabel>
+#include <QListWidget>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSlider>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+class HapticsPanelTest : public HandWindowTest {
+protected:
+    void SetUp() override
+    {
+        makeWindow(kWithPanels);
+        ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+        window_->actionSet().haptic_devices->trigger();
+        ASSERT_TRUE(waitFor([&] { return list().count() == 3; }));
+    }
+
+    HapticsPanel& panel() { return *window_->hapticsPanel(); }
+    QListWidget& list() { return *panel().list(); }
+    template <typename T>
+    T& part(const char* name)
+    {
+        return *panel().findChild<T*>(QLatin1String(name));
+    }
+    QString text(const char* name) { return part<QLabel>(name).text(); }
+    bool connectByKeys(int row)
+    {
+        list().setFocus();
+        list().setCurrentRow(row);
+        QTest::keyClick(&list(), Qt::Key_Return);
+        return waitFor([&] { return haptics().connection() == HapticsConnection::Connected; });
+    }
+};
+
+TEST_F(HapticsPanelTest, ListsDevicesWithTheReasonWhyNot)
+{
+    EXPECT_TRUE(window_->docks()->haptics()->isVisible());
+    EXPECT_TRUE(list().hasFocus());
+    EXPECT_EQ(list().item(0)->text(), QStringLiteral("Test hand"));
+    EXPECT_TRUE(list().item(2)->text().startsWith(QStringLiteral("Arm\nMay not be opened")));
+    EXPECT_EQ(list().item(1)->text(), QStringLiteral("Simulated hand"));
+    auto& connect = part<QPushButton>("connectDevice");
+    EXPECT_TRUE(connect.isEnabled());
+    list().setCurrentRow(2);
+    EXPECT_FALSE(connect.isEnabled());
+    QTest::keyClick(&list(), Qt::Key_Return);
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    // The two lines of the last have room.
+    const QRect one = list().visualItemRect(list().item(0));
+    EXPECT_GE(list().visualItemRect(list().item(2)).height(), 2 * one.height() - 8);
+}
+
+TEST_F(HapticsPanelTest, ShowsForceAndTimesWhileConnected)
+{
+    ASSERT_TRUE(connectByKeys(1));
+    EXPECT_TRUE(text("hapticStatus").startsWith(QStringLiteral("Simulated hand")));
+    EXPECT_TRUE(list().item(1)->font().bold());
+    EXPECT_FALSE(list().item(0)->font().bold());
+    auto& force = part<QProgressBar>("force");
+    EXPECT_TRUE(waitFor([&] { return force.value() > 10; }));
+    EXPECT_EQ(text("letGoReason"), QStringLiteral("Touching the terrain"));
+    EXPECT_TRUE(waitFor([&] {
+        return panel().findChild<TimePlot*>()->moments().size() > 2 && !text("times").isEmpty();
+    }));
+    EXPECT_TRUE(text("times").contains(QStringLiteral("µs")));
+    for (const char* label : {"median", "99.9", "longest"}) {
+        EXPECT_TRUE(text("times").contains(QLatin1String(label))) << label;
+    }
+    EXPECT_TRUE(text("realTime").contains(QStringLiteral("Real-time scheduling")));
+    part<QPushButton>("connectDevice").click();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_EQ(force.value(), 0);
+    EXPECT_EQ(panel().findChild<TimePlot*>()->moments().size(), 0U);
+}
+
+TEST_F(HapticsPanelTest, TheStopButtonStopsAndLetsReturn)
+{
+    ASSERT_TRUE(connectByKeys(0));
+    hand_->moveTo({0.0, 0.0, -0.055});
+    ASSERT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+    auto& stop = part<QPushButton>("emergencyStop");
+    const QString before = stop.text();
+    stop.setFocus();
+    QTest::keyClick(&stop, Qt::Key_Space);
+    EXPECT_TRUE(haptics().isStopped());
+    EXPECT_NE(stop.text(), before);
+    ASSERT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
+    EXPECT_TRUE(waitFor([&] { return text("letGoReason").contains(QStringLiteral("emergency")); }));
+    stop.click();
+    EXPECT_FALSE(haptics().isStopped());
+    EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
+}
+
+TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
+{
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    QFile goals(file);
+    ASSERT_TRUE(goals.open(QIODevice::WriteOnly));
+    goals.write("x,y,z\n");
+    for (int i = 0; i < 60'000; ++i) {
+        goals.write("500900,4000600,0\n"); // below the surface
+    }
+    goals.close();
+    auto& progress = part<QProgressBar>("replayProgress");
+    auto& replay = part<QPushButton>("replay");
+    EXPECT_TRUE(progress.isHidden());
+    const QString before = replay.text();
+    haptics().connectTo(QStringLiteral("replay:") + file);
+    ASSERT_TRUE(isConnectedSoon());
+    EXPECT_TRUE(progress.isVisibleTo(&panel()));
+    EXPECT_TRUE(waitFor([&] { return progress.value() > 0; }));
+    EXPECT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    EXPECT_TRUE(waitFor([&] { return text("letGoReason") == QStringLiteral("Replaying"); }));
+    EXPECT_FALSE(part<QProgressBar>("force").format().contains(QStringLiteral("0.00")));
+    EXPECT_EQ(window_->findChild<ForceMeter*>()->sizeHint(), QSize(0, 0)) << "not in use";
+    EXPECT_EQ(text("hapticStatus"), QStringLiteral("Replaying touch.csv"));
+    EXPECT_EQ(replay.text(), QStringLiteral("Stop Re&play"));
+    replay.click();
+    EXPECT_EQ(haptics().connection(), HapticsConnection::None);
+    EXPECT_TRUE(progress.isHidden());
+    EXPECT_EQ(replay.text(), before);
+}
+
+TEST_F(HapticsPanelTest, SlidersAreBoundedByTheDevice)
+{
+    auto& stiffness = part<QSlider>("stiffness");
+    stiffness.setValue(stiffness.maximum());
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax);
+    ASSERT_TRUE(connectByKeys(0));
+    EXPECT_EQ(stiffness.value(), stiffness.maximum());
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax); // as it was wanted
+    stiffness.setFocus();
+    QTest::keyClick(&stiffness, Qt::Key_Left);
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, 390.0);
+    part<QSlider>("forceScale").setValue(10);
+    EXPECT_EQ(haptics().settings().force_share, 0.5);
+    part<QCheckBox>("walls").click();
+    EXPECT_FALSE(haptics().settings().has_walls);
+}
+
+TEST_F(HapticsPanelTest, TheModelIsThatOfTheMenu)
+{
+    auto& models = part<QComboBox>("contactModel");
+    models.setFocus();
+    QTest::keyClick(&models, Qt::Key_Down);
+    const ContactModelKind chosen = window_->preferences().contact_model;
+    EXPECT_NE(chosen, kContactModelDefault);
+    EXPECT_EQ(window_->view()->contactModel(), chosen);
+    window_->actionSet().contact_model_group->actions().front()->trigger();
+    EXPECT_EQ(models.currentIndex(), 0);
+}
+
+TEST_F(HapticsPanelTest, SaysWhyADeviceWasLost)
+{
+    ASSERT_TRUE(connectByKeys(0));
+    hand_->is_lost = true;
+    ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_TRUE(text("hapticStatus").contains(QStringLiteral("The plug was pulled")));
+}
+
+TEST_F(HapticsPanelTest, RecordsOnlyWhatIsTouched)
+{
+    EXPECT_FALSE(part<QPushButton>("record").isEnabled());
+    ASSERT_TRUE(connectByKeys(0));
+    EXPECT_TRUE(part<QPushButton>("record").isEnabled());
+    ASSERT_TRUE(haptics().startRecording(maps_.path(QStringLiteral("touch.csv"))));
+    EXPECT_EQ(text("recording"), QStringLiteral("Recording into touch.csv"));
+    ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > 100; }));
+    part<QPushButton>("record").click();
+    EXPECT_FALSE(haptics().isRecording());
+    EXPECT_TRUE(text("recording").contains(QStringLiteral("updates recorded")));
+}
+
+TEST_F(HapticsPanelTest, LooksForDevicesOnlyWhileItIsOpenAndNothingIsConnected)
+{
+    hand_->is_there = false;
+    EXPECT_TRUE(waitFor([&] { return list().count() == 2; })); // found to be gone by itself
+    ASSERT_TRUE(connectByKeys(0));
+    hand_->is_there = true;
+    QTest::qWait(200);
+    EXPECT_FALSE(haptics().isFinding());
+    EXPECT_EQ(list().count(), 2);
+}
+
+} // namespace
+} // namespace marsview

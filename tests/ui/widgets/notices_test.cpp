@@ -1,0 +1,281 @@
+// Notices: which are on the bar, what their buttons do, and that closed ones stay closed.
+
+#include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/contact_sounds.h"
+#include "ui/panels/georeferencing_panel.h"
+#include "ui/widgets/notice_bar.h"
+#include "ui/widgets/notice_center.h"
+#include "ui/window_actions.h"
+#include "ui/window_docks.h"
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QLabel>
+#include <QMenu>
+#include <QScrollArea>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolButton>
+
+#include <gtest/gtest.h>
+
+namespace marsview {
+namespace {
+
+QString textOn(const NoticeBar& bar)
+{
+    return bar.isHidden() ? QString()
+                          : bar.findChild<QLabel*>(QStringLiteral("noticeText"))->text();
+}
+
+QToolButton* noticeButton(const NoticeBar& bar, const char* name)
+{
+    return bar.findChild<QToolButton*>(QLatin1String(name));
+}
+
+Notice noticeNamed(const QString& id)
+{
+    return {.id = id, .text = id};
+}
+
+class NoticeCenterTest : public testing::Test {
+protected:
+    NoticeBar bar_;
+    NoticeCenter center_{bar_};
+};
+
+TEST_F(NoticeCenterTest, ShowsTheMostUrgentFirstAndTheOthersOneByOne)
+{
+    center_.setNotices(NoticeSource::Layer,
+                       {noticeNamed(QStringLiteral("a")), noticeNamed(QStringLiteral("b"))});
+    EXPECT_EQ(textOn(bar_), QStringLiteral("a"));
+    EXPECT_EQ(noticeButton(bar_, "noticeNext")->text(), QStringLiteral("1 of 2 ›"));
+    noticeButton(bar_, "noticeNext")->click();
+    EXPECT_EQ(textOn(bar_), QStringLiteral("b"));
+    noticeButton(bar_, "noticeNext")->click();
+    EXPECT_EQ(textOn(bar_), QStringLiteral("a"));
+    center_.setNotices(NoticeSource::Device, {noticeNamed(QStringLiteral("d"))});
+    EXPECT_EQ(textOn(bar_), QStringLiteral("d"));
+    center_.setNotices(NoticeSource::Device, {});
+    center_.setNotices(NoticeSource::Layer, {noticeNamed(QStringLiteral("a"))});
+    EXPECT_EQ(textOn(bar_), QStringLiteral("a"));
+    EXPECT_TRUE(noticeButton(bar_, "noticeNext")->isHidden());
+}
+
+TEST_F(NoticeCenterTest, KeepsWhatWasClosedClosedWhileOtherLayersComeAndGo)
+{
+    const QList<Notice> of_layer{noticeNamed(QStringLiteral("a"))};
+    center_.setNotices(NoticeSource::Layer, of_layer);
+    noticeButton(bar_, "noticeClose")->click();
+    EXPECT_TRUE(bar_.isHidden());
+    center_.setNotices(NoticeSource::Layer, {});
+    center_.setNotices(NoticeSource::Layer, of_layer);
+    EXPECT_TRUE(bar_.isHidden());
+    center_.setNotices(NoticeSource::Layer,
+                       {noticeNamed(QStringLiteral("a")), noticeNamed(QStringLiteral("new"))});
+    EXPECT_EQ(textOn(bar_), QStringLiteral("new"));
+}
+
+TEST_F(NoticeCenterTest, ReportsTheNextEmergencyStopAfterOneWasClosed)
+{
+    const QList<Notice> stopped{noticeNamed(QStringLiteral("stopped"))};
+    center_.setNotices(NoticeSource::Device, stopped);
+    noticeButton(bar_, "noticeClose")->click();
+    center_.setNotices(NoticeSource::Device, stopped);
+    EXPECT_TRUE(bar_.isHidden());
+    center_.setNotices(NoticeSource::Device, {});
+    center_.setNotices(NoticeSource::Device, stopped);
+    EXPECT_EQ(textOn(bar_), QStringLiteral("stopped"));
+}
+
+TEST_F(NoticeCenterTest, RunsTheActionOfTheNoticeThatIsShown)
+{
+    QStringList done;
+    const auto action = [&done](const QString& name) {
+        return NoticeAction{name, [&done, name] { done.append(name); }};
+    };
+    Notice one = noticeNamed(QStringLiteral("one"));
+    one.actions = {action(QStringLiteral("Try Again"))};
+    Notice several = noticeNamed(QStringLiteral("several"));
+    several.actions = {action(QStringLiteral("Mars")), action(QStringLiteral("Moon"))};
+    several.menu_text = QStringLiteral("Set CRS");
+    several.show_details = [&done] { done.append(QStringLiteral("details")); };
+    center_.setNotices(NoticeSource::Layer, {one, several});
+    QToolButton* button = noticeButton(bar_, "noticeAction");
+    EXPECT_EQ(button->text(), QStringLiteral("Try Again"));
+    EXPECT_TRUE(noticeButton(bar_, "noticeDetails")->isHidden()); // it would show nothing
+    button->click();
+    EXPECT_EQ(done, QStringList{QStringLiteral("Try Again")});
+    noticeButton(bar_, "noticeNext")->click();
+    EXPECT_EQ(button->text(), QStringLiteral("Set CRS"));
+    ASSERT_NE(button->menu(), nullptr);
+    button->menu()->actions().at(1)->trigger();
+    noticeButton(bar_, "noticeDetails")->click();
+    EXPECT_EQ(done.mid(1), (QStringList{QStringLiteral("Moon"), QStringLiteral("details")}));
+}
+
+TEST_F(NoticeCenterTest, ClosesATimedNoticeByItself)
+{
+    Notice notice = noticeNamed(QStringLiteral("brief"));
+    notice.duration_ms = 1;
+    center_.setNotices(NoticeSource::Sample, {notice});
+    EXPECT_TRUE(QTest::qWaitFor([this] { return bar_.isHidden(); }, kTimeout));
+    center_.setNotices(NoticeSource::Sample, {notice});
+    EXPECT_TRUE(bar_.isHidden());
+}
+
+class NoticesTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        window_ = std::make_unique<MainWindow>(testWindowOptions());
+        window_->resize(1280, 500);
+        window_->show();
+        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        ASSERT_TRUE(waitUntilSettled(*window_));
+    }
+    NoticeBar& bar() { return *window_->findChild<NoticeBar*>(); }
+    QString shown() { return textOn(bar()); }
+
+    TestMaps maps_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(NoticesTest, StayClosedAfterUndoAndWhenLayersChange)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    ASSERT_TRUE(shown().contains(QStringLiteral("CRS"))) << shown().toStdString();
+    noticeButton(bar(), "noticeClose")->click();
+    EXPECT_EQ(shown(), QString());
+    const LayerId hill = window_->session().active;
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    window_->controller().activate(hill);
+    EXPECT_EQ(shown(), QString());
+    window_->controller().rename(hill, QStringLiteral("Hill"));
+    window_->undoStack().undo();
+    EXPECT_EQ(shown(), QString());
+    window_->controller().remove(hill);
+    window_->undoStack().undo();
+    window_->controller().activate(hill);
+    EXPECT_EQ(shown(), QString());
+    // The same file opened again is reported again.
+    window_->controller().remove(hill);
+    ASSERT_TRUE(openAndWait(*window_, maps_.path(QStringLiteral("hill.asc"))));
+    EXPECT_NE(shown(), QString());
+}
+
+TEST_F(NoticesTest, DetailsRevealsTheNoticeAmongTheFacts)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    GeoreferencingPanel& panel = *window_->georeferencingPanel();
+    const auto fact = [&panel, this]() -> const QLabel* {
+        for (const QLabel* label : panel.findChildren<QLabel*>(QStringLiteral("notice"))) {
+            if (shown().endsWith(label->text().mid(3))) {
+                return label;
+            }
+        }
+        return nullptr;
+    };
+    ASSERT_NE(fact(), nullptr);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return fact()->visibleRegion().isEmpty(); }, kTimeout))
+        << "the panel shows everything; make the window lower";
+    QTest::mouseClick(noticeButton(bar(), "noticeDetails"), Qt::LeftButton);
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] {
+            return fact()->visibleRegion().boundingRect().height() == fact()->height() &&
+                   fact()->hasFocus();
+        },
+        kTimeout));
+    // So it does with the panel closed, and by the keyboard.
+    window_->docks()->georeferencing()->close();
+    noticeButton(bar(), "noticeDetails")->setFocus();
+    QTest::keyClick(noticeButton(bar(), "noticeDetails"), Qt::Key_Space);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return fact()->hasFocus(); }, kTimeout));
+}
+
+TEST_F(NoticesTest, TheReplacedSampleCanBeKept)
+{
+    window_->openSample(maps_.mars("sample"));
+    ASSERT_TRUE(waitUntilSettled(*window_));
+    const LayerId sample = window_->session().active;
+    ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
+    EXPECT_EQ(shown(), QStringLiteral("The sample map of Mars was closed to show your file"));
+    QToolButton* keep = noticeButton(bar(), "noticeAction");
+    EXPECT_EQ(keep->text(), QStringLiteral("Keep Mars"));
+    QTest::mouseClick(keep, Qt::LeftButton);
+    ASSERT_EQ(window_->session().layers.size(), 2U);
+    EXPECT_EQ(window_->session().layers[1].id, sample);
+    EXPECT_FALSE(window_->session().layers[1].is_sample);
+    EXPECT_FALSE(shown().contains(QStringLiteral("sample")));
+    // Further maps do not close it, and keeping it is a step that can be undone.
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars("other")));
+    EXPECT_EQ(window_->session().layers.size(), 3U);
+    window_->undoStack().undo();
+    window_->undoStack().undo();
+    EXPECT_EQ(window_->session().layers.size(), 1U);
+    window_->undoStack().undo();
+    EXPECT_EQ(window_->session().layers.at(0).id, sample);
+    EXPECT_TRUE(window_->session().layers.at(0).is_sample);
+    EXPECT_FALSE(shown().contains(QStringLiteral("sample")));
+}
+
+class SoundMemoryTest : public testing::Test {
+protected:
+    void SetUp() override { QSettings().clear(); }
+    void TearDown() override { QSettings().clear(); }
+    static bool remembered()
+    {
+        return QSettings().value(QStringLiteral("haptics/sound"), false).toBool();
+    }
+    static WindowOptions remembering()
+    {
+        return {.geometry = WindowOptions::Geometry::Remembered,
+                .failures = WindowOptions::Failures::BySignalOnly};
+    }
+};
+
+TEST_F(SoundMemoryTest, IsNotOnAtTheNextStartIfItFailed)
+{
+    WindowOptions options = remembering();
+    options.open_sound = []() -> Result<SoundPlayer> {
+        return Error{ErrorCode::NotFound, "sound: no output device"};
+    };
+    MainWindow window(options);
+    const QSignalSpy failures(&window, &MainWindow::openFailed);
+    QAction* action = window.actionSet().contact_sound;
+    action->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return failures.count() == 1; }, kTimeout));
+    EXPECT_FALSE(action->isChecked());
+    EXPECT_FALSE(remembered());
+}
+
+TEST_F(SoundMemoryTest, FailsSilentlyAtTheStartAndIsForgotten)
+{
+    QSettings().setValue(QStringLiteral("haptics/sound"), true);
+    WindowOptions options = remembering();
+    options.open_sound = []() -> Result<SoundPlayer> {
+        return Error{ErrorCode::NotFound, "sound: no output device"};
+    };
+    MainWindow window(options);
+    const QSignalSpy failures(&window, &MainWindow::openFailed);
+    ASSERT_TRUE(QTest::qWaitFor([] { return !remembered(); }, kTimeout));
+    EXPECT_FALSE(window.actionSet().contact_sound->isChecked());
+    EXPECT_EQ(failures.count(), 0);
+}
+
+TEST_F(SoundMemoryTest, IsOnAtTheNextStartIfItPlayed)
+{
+    WindowOptions options = remembering();
+    options.open_sound = [] { return SoundPlayer::openLoopback(); };
+    MainWindow window(options);
+    window.actionSet().contact_sound->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([] { return remembered(); }, kTimeout));
+    window.actionSet().contact_sound->trigger();
+    EXPECT_FALSE(remembered());
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,26 @@
+// The shape of the pointer over the map.
+#pragma once
+
+#include "haptics/interaction/mouse_stylus.h"
+#include "ui/canvas/gestures.h"
+
+#include <QCursor>
+
+namespace marsview {
+
+enum class MapCursor { Arrow, OpenHand, ClosedHand, Cross, Rotate, Zoom };
+
+/// What the pointer is doing.
+struct PointerState {
+    Tool tool = Tool::Pan;
+    MapAction drag = MapAction::None;      // that is under way
+    StylusMode stylus = StylusMode::Hover; // Pan and Zoom while the space bar grabs
+    bool is_over_terrain = false;
+};
+
+/// During a drag what that does; otherwise what the tool would do; an arrow where there is nothing.
+MapCursor mapCursor(const PointerState& state);
+
+QCursor cursorOf(MapCursor cursor);
+
+} // namespace marsview

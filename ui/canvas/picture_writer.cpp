@@ -1,0 +1,73 @@
+#include "ui/canvas/picture_writer.h"
+
+#include "core/files/picture_file.h"
+
+#include <QCoreApplication>
+#include <QFileInfo>
+#include <QImageWriter>
+#include <QSaveFile>
+
+#include <algorithm>
+#include <cstring>
+
+namespace marsview {
+namespace {
+
+constexpr int kJpegQuality = 92;
+
+Status writeAsTiff(const QImage& image, const QString& file)
+{
+    const QImage rgb = image.convertToFormat(QImage::Format_RGB888);
+    Picture picture{.width = rgb.width(), .height = rgb.height(), .rgb = {}};
+    const auto line = static_cast<std::size_t>(rgb.width()) * 3;
+    picture.rgb.resize(line * static_cast<std::size_t>(rgb.height()));
+    for (int y = 0; y < rgb.height(); ++y) {
+        std::memcpy(picture.rgb.data() + line * static_cast<std::size_t>(y), rgb.constScanLine(y),
+                    line);
+    }
+    return writeTiff(picture, file.toStdString());
+}
+
+} // namespace
+
+Status writePictureFile(const QImage& picture, const QString& file)
+{
+    const QString ending = QFileInfo(file).suffix().toLower();
+    if (ending == QLatin1String("tif") || ending == QLatin1String("tiff")) {
+        return writeAsTiff(picture, file);
+    }
+    const bool is_jpeg = ending == QLatin1String("jpg") || ending == QLatin1String("jpeg");
+    if (!is_jpeg && ending != QLatin1String("png")) {
+        return Error{ErrorCode::Unsupported,
+                     //: %1 is a file
+                     QCoreApplication::translate(
+                         "PictureWriter",
+                         "%1: unknown picture format; choose a name that ends in .png, .jpg or "
+                         ".tif")
+                         .arg(file)
+                         .toStdString()};
+    }
+    QSaveFile out(file);
+    const auto refusal = [&](const QString& why) {
+        return Error{
+            ErrorCode::Unreadable,
+            //: %1 is a file, %2 the reason
+            QCoreApplication::translate("PictureWriter",
+                                        "%1: cannot write the picture (%2); choose another folder")
+                .arg(file, why)
+                .toStdString()};
+    };
+    if (!out.open(QIODevice::WriteOnly)) {
+        return refusal(out.errorString());
+    }
+    QImageWriter writer(&out, is_jpeg ? "jpeg" : "png");
+    if (is_jpeg) {
+        writer.setQuality(kJpegQuality);
+    }
+    if (!writer.write(picture)) {
+        return refusal(writer.errorString());
+    }
+    return out.commit() ? Status(Done{}) : Status(refusal(out.errorString()));
+}
+
+} // namespace marsview

@@ -1,0 +1,56 @@
+// Finding and opening haptic devices away from the GUI thread.
+#pragma once
+
+#include "haptics/device/device_driver.h"
+#include "ui/controllers/detached_jobs.h"
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace marsview {
+
+/// Makes the drivers that devices are looked for with. Called once, on another thread.
+using DriverMaker = std::function<std::vector<std::unique_ptr<DeviceDriver>>()>;
+
+/// Looking at buses and opening devices may take seconds, or never end: both happen on threads of
+/// their own, one after the other. Lives in the GUI thread, which never waits for them; where one
+/// hangs while the finder goes it is left alone.
+class DeviceFinder final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit DeviceFinder(DriverMaker make_drivers, QObject* parent = nullptr);
+    ~DeviceFinder() override;
+
+    /// found() follows. Nothing where that is under way.
+    void find();
+    bool isFinding() const noexcept { return is_finding_; }
+    /// opened() or refused() follows, unless cancelled or another one is opened meanwhile.
+    void open(const QString& uri);
+    /// What is being opened is closed as soon as it is there.
+    void cancelOpening() { ++opening_; }
+
+    /// The device that opened() told of; null where it was taken.
+    std::unique_ptr<HapticDevice> takeOpened() { return std::move(opened_); }
+
+Q_SIGNALS:
+    void found(const std::vector<FoundDevice>& devices);
+    void opened();
+    /// "URI: WHY", and whether that is because there is no such device at present.
+    void refused(const QString& problem, bool is_absent);
+
+private:
+    struct Drivers;
+
+    std::shared_ptr<Drivers> drivers_;
+    std::unique_ptr<HapticDevice> opened_;
+    bool is_finding_ = false;
+    int opening_ = 0; // which of the openings counts
+    DetachedJobs jobs_;
+};
+
+} // namespace marsview

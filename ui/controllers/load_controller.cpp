@@ -1,0 +1,138 @@
+#include "ui/controllers/load_controller.h"
+
+#include "core/base/job_monitor.h"
+#include "core/files/opening_job.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr std::chrono::milliseconds kProgressInterval{33};
+
+// A job that was cancelled inside a slow network read must not hold up the next one.
+constexpr int kThreadCountMax = 4;
+
+} // namespace
+
+struct LoadController::Job {
+    LoadRequest request;
+    MapOpener opener;
+    JobMonitor monitor;
+};
+
+LoadController::LoadController(QObject* parent)
+    : QObject(parent)
+{
+    pool_.setMaxThreadCount(kThreadCountMax);
+    progress_timer_.setInterval(kProgressInterval);
+    connect(&progress_timer_, &QTimer::timeout, this, &LoadController::reportProgress);
+}
+
+LoadController::~LoadController()
+{
+    if (job_) {
+        job_->monitor.cancel();
+    }
+    // Jobs post to this object: none may be left when it goes. What they posted goes with it.
+    pool_.waitForDone();
+}
+
+void LoadController::start(const LoadRequest& request)
+{
+    abandon();
+    job_ = std::make_shared<Job>();
+    job_->request = request;
+    job_->opener = opener_;
+    Q_EMIT started(request.spec);
+    progress_timer_.start();
+    reportProgress();
+    pool_.start([this, job = job_] {
+        Result<LoadedMap> outcome = run(*job);
+        QMetaObject::invokeMethod(
+            this, [this, job, outcome = std::move(outcome)] { finish(job, outcome); },
+            Qt::QueuedConnection);
+    });
+}
+
+void LoadController::cancel()
+{
+    if (!job_) {
+        return;
+    }
+    const DatasetSpec spec = job_->request.spec;
+    abandon();
+    Q_EMIT cancelled(spec);
+}
+
+void LoadController::abandon()
+{
+    if (job_) {
+        job_->monitor.cancel();
+        job_.reset();
+        progress_timer_.stop();
+    }
+}
+
+Result<LoadedMap> LoadController::run(Job& job)
+{
+    const LoadRequest& request = job.request;
+    const MapOpener& opener = job.opener;
+    const OpeningJob opening(&job.monitor);
+    try {
+        if (request.loaded) {
+            auto dataset = withOverrides(*request.loaded, request.spec.overrides);
+            if (dataset) {
+                return prepareMap(std::move(dataset).value(), job.monitor);
+            }
+            if (dataset.error().code != ErrorCode::Unsupported) {
+                return std::move(dataset).error();
+            }
+        }
+        for (;;) {
+            const Result<OpenPlan> plan = opener.plan(request.spec, opener.resources);
+            if (!plan) {
+                return plan.error();
+            }
+            if (plan->store == MapStore::Unprepared) {
+                return opener.preview(request.spec, {}, job.monitor);
+            }
+            Result<LoadedMap> map = opener.open(request.spec, *plan, opener.resources, job.monitor);
+            // What is damaged is made again. It ends, as nothing can be removed twice.
+            if (map || !isDamageToPrepared(*plan, map.error()) ||
+                !discardPrepared(*plan, opener.resources)) {
+                return map;
+            }
+        }
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::TooLarge, request.spec.path +
+                                              ": needs more memory than there is; close other "
+                                              "programs or open a smaller map"};
+    } catch (const std::exception& e) {
+        return Error{ErrorCode::Unreadable, request.spec.path + ": " + e.what()};
+    }
+}
+
+void LoadController::finish(const std::shared_ptr<Job>& job, const Result<LoadedMap>& outcome)
+{
+    if (job != job_) {
+        return; // cancelled, or another load was started, after this one was posted
+    }
+    reportProgress();
+    job_.reset();
+    progress_timer_.stop();
+    if (outcome) {
+        Q_EMIT succeeded(*outcome);
+    } else {
+        Q_EMIT failed({.spec = job->request.spec, .error = outcome.error()});
+    }
+}
+
+void LoadController::reportProgress()
+{
+    Q_EMIT progressed(job_->monitor.fraction());
+}
+
+} // namespace marsview

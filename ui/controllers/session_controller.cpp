@@ -1,0 +1,582 @@
+#include "ui/controllers/session_controller.h"
+
+#include "core/session/range_in_picture.h"
+#include "core/view/exaggeration.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/text/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// Undone layers keep their samples in memory.
+constexpr int kUndoStepsMax = 100;
+
+// Places at which a layer is looked for on screen, along each side.
+constexpr int kProbesPerSide = 5;
+
+QString nameOf(const Layer& layer)
+{
+    return QString::fromStdString(layer.name);
+}
+
+bool isSame(const std::vector<ShownLayer>& a, const std::vector<ShownLayer>& b)
+{
+    return std::equal(
+        a.begin(), a.end(), b.begin(), b.end(), [](const ShownLayer& x, const ShownLayer& y) {
+            const HeightRange a_range = colorRangeOf(x);
+            const HeightRange b_range = colorRangeOf(y);
+            return x.map.dataset == y.map.dataset && x.ramp == y.ramp &&
+                   marsview::slopeRangeOf(x) == marsview::slopeRangeOf(y) &&
+                   a_range.minimum_m == b_range.minimum_m && a_range.maximum_m == b_range.maximum_m;
+        });
+}
+
+// A place of `layer` on the grid of the scene, which lies in the same CRS.
+std::optional<GridPoint> onGridOf(const Dataset& scene, const Dataset& layer, GridPoint grid)
+{
+    if (&scene == &layer) {
+        return grid;
+    }
+    const Georeference& from = layer.georeference();
+    if (const auto place = from.toGeographic(grid)) {
+        if (const auto there = scene.georeference().toGrid(*place)) {
+            return there;
+        }
+    }
+    return scene.georeference().toGrid(from.toMap(grid));
+}
+
+GridPoint placeOn(const Dataset& dataset, double column_share, double row_share)
+{
+    return {column_share * static_cast<double>(dataset.heightfield().columns() - 1),
+            row_share * static_cast<double>(dataset.heightfield().rows() - 1)};
+}
+
+// With a layer in the picture: on top if it cannot be shown together with what is shown now.
+Session shownIn(const Session& session, LayerId id)
+{
+    Session after = withVisibility(session, id, true);
+    const std::vector<LayerState> states = placement(after);
+    return states[indexOf(after, id)] == LayerState::Shown
+               ? after
+               : activated(moved(std::move(after), id, 0), id);
+}
+
+// From where the larger side of a map fills most of a picture that is 40° high.
+double distanceToSee(const Dataset& dataset)
+{
+    const Georeference& georeference = dataset.georeference();
+    const double side_m =
+        std::max(static_cast<double>(georeference.columns()) * georeference.pixelWidthMetres(),
+                 static_cast<double>(georeference.rows()) * georeference.pixelHeightMetres());
+    return 1.2 * side_m / (2.0 * std::tan(Angle::degrees(20.0).radians()));
+}
+
+} // namespace
+
+const ColorRamp& rampOf(const Layer& layer)
+{
+    const ColorRamp* ramp = colorRampNamed(layer.ramp);
+    const Body* body = layer.dataset->info().body;
+    return ramp != nullptr ? *ramp
+                           : defaultColorRamp(body != nullptr ? body->name : std::string_view{});
+}
+
+SessionController::SessionController(TerrainView& view, QObject* parent)
+    : QObject(parent)
+    , view_(view)
+    , loader_(new LoadController(this))
+    , preparer_(new MapPreparer(this))
+{
+    undo_stack_.setUndoLimit(kUndoStepsMax);
+    connect(&view_, &TerrainView::mapShown, this, &SessionController::revealWhatCame);
+    connect(loader_, &LoadController::progressed, this, [this](double fraction) {
+        if (current_) {
+            Q_EMIT loadProgressed({.file = QString::fromStdString(current_->spec.path),
+                                   .fraction = fraction,
+                                   .position = begun_count_,
+                                   .count = asked_count_});
+        }
+    });
+    connect(loader_, &LoadController::succeeded, this, &SessionController::accept);
+    connect(loader_, &LoadController::failed, this, [this](const LoadFailure& failure) {
+        const Load load = *std::exchange(current_, std::nullopt);
+        const QString problem = QString::fromStdString(failure.error.message);
+        if (load.purpose == Load::Purpose::Complete) {
+            endPreparing({.how = Ending::How::Failed, .spec = load.spec, .problem = problem});
+        } else if (load.purpose == Load::Purpose::Override) {
+            Q_EMIT overrideFailed(load.layer, problem);
+        } else {
+            Q_EMIT failed(problem);
+        }
+        endLoad();
+    });
+    connect(preparer_, &MapPreparer::progressed, this, &SessionController::preparingProgressed);
+    connect(preparer_, &MapPreparer::ended, this, &SessionController::preparingEnded);
+    connect(preparer_, &MapPreparer::previewed, this, [this](const LoadedMap& map) {
+        std::vector<std::shared_ptr<const Dataset>> rough;
+        for (const Layer& layer : session_.layers) {
+            if (layer.dataset->kind() == DatasetKind::RoughPreview &&
+                isOfSameMap(*layer.dataset, *map.dataset)) {
+                rough.push_back(layer.dataset);
+            }
+        }
+        for (const auto& dataset : rough) {
+            succeed(dataset, map);
+        }
+    });
+    connect(preparer_, &MapPreparer::prepared, this, [this](const DatasetSpec& spec) {
+        endPreparing({.how = Ending::How::Done, .spec = spec});
+    });
+    connect(preparer_, &MapPreparer::failed, this, [this](const LoadFailure& failure) {
+        endPreparing({.how = Ending::How::Failed,
+                      .spec = failure.spec,
+                      .problem = QString::fromStdString(failure.error.message)});
+    });
+}
+
+void SessionController::setOpener(const MapOpener& opener)
+{
+    loader_->setOpener(opener);
+    preparer_->setOpener(opener);
+}
+
+SessionController::~SessionController()
+{
+    are_previews_left_alone_ = true;
+}
+
+void SessionController::open(const QStringList& files)
+{
+    if (files.isEmpty()) {
+        return;
+    }
+    are_previews_left_alone_ = false;
+    // The sample is for people who have nothing of their own to look at.
+    std::erase_if(waiting_, [](const Load& load) { return load.purpose == Load::Purpose::Sample; });
+    if (current_ && current_->purpose == Load::Purpose::Sample) {
+        current_.reset();
+        loader_->cancel();
+    }
+    for (const QString& file : files) {
+        enqueue({.purpose = Load::Purpose::Open, .spec = {.path = file.toStdString()}});
+    }
+    startNext();
+}
+
+void SessionController::openSample(const QString& file)
+{
+    if (session_.layers.empty() && !isBusy()) {
+        enqueue({.purpose = Load::Purpose::Sample, .spec = {.path = file.toStdString()}});
+        startNext();
+    }
+}
+
+void SessionController::overrideGeoreferencing(LayerId id, const RasterOverrides& overrides)
+{
+    const Layer* layer = layerOf(session_, id);
+    if (layer == nullptr) {
+        return;
+    }
+    Load load{.purpose = Load::Purpose::Override, .spec = layer->dataset->spec(), .layer = id};
+    load.spec.overrides = overrides;
+    enqueue(std::move(load));
+    startNext();
+}
+
+void SessionController::enqueue(Load load)
+{
+    if (!isBusy()) {
+        asked_count_ = 0;
+        begun_count_ = 0;
+    }
+    ++asked_count_;
+    waiting_.push_back(std::move(load));
+}
+
+void SessionController::startNext()
+{
+    if (current_ || waiting_.empty()) {
+        return;
+    }
+    current_ = std::move(waiting_.front());
+    waiting_.pop_front();
+    ++begun_count_;
+    const Layer* layer = layerOf(session_, current_->layer);
+    const bool is_known = layer != nullptr && current_->purpose == Load::Purpose::Override;
+    loader_->start({.spec = current_->spec, .loaded = is_known ? layer->dataset : nullptr});
+}
+
+void SessionController::endLoad()
+{
+    startNext();
+    if (!isBusy()) {
+        Q_EMIT loadingEnded();
+    }
+}
+
+void SessionController::cancel()
+{
+    if (!isBusy()) {
+        return;
+    }
+    std::vector<Load> dropped(waiting_.begin(), waiting_.end());
+    if (current_) {
+        dropped.push_back(*current_);
+    }
+    waiting_.clear();
+    current_.reset();
+    loader_->cancel();
+    for (const Load& load : dropped) {
+        if (load.purpose == Load::Purpose::Complete) {
+            endPreparing({.how = Ending::How::Stopped, .spec = load.spec});
+        }
+    }
+    Q_EMIT loadingCancelled();
+    Q_EMIT loadingEnded();
+}
+
+// Drops loads for a layer that was removed.
+void SessionController::dropLoadsOf(LayerId id)
+{
+    const bool was_busy = isBusy();
+    std::erase_if(waiting_, [id](const Load& load) { return load.layer == id; });
+    if (current_ && current_->layer == id) {
+        current_.reset();
+        loader_->cancel();
+    }
+    if (was_busy) {
+        endLoad();
+    }
+}
+
+void SessionController::accept(const LoadedMap& map)
+{
+    const Load load = *std::exchange(current_, std::nullopt);
+    if (load.purpose == Load::Purpose::Complete) {
+        acceptComplete(load, map);
+        endLoad();
+        return;
+    }
+    const auto dataset = maps_.keep(map);
+    if (dataset->isPreview()) {
+        forgetEnding(load.spec); // whatever became of it before, it is wanted now
+    }
+    if (load.purpose == Load::Purpose::Override) {
+        if (const Layer* layer = layerOf(session_, load.layer)) {
+            //: Continues "Undo …"; %1 is a layer
+            change(tr("Georeferencing of %1").arg(nameOf(*layer)),
+                   withDataset(session_, load.layer, dataset));
+        }
+    } else {
+        const bool is_sample = load.purpose == Load::Purpose::Sample;
+        const Session after = added(session_, {.dataset = dataset, .is_sample = is_sample});
+        to_reveal_ = after.active;
+        for (const Layer& layer : session_.layers) {
+            if (layer.is_sample && !is_sample) {
+                replaced_sample_ = layer;
+            }
+        }
+        if (is_sample && undo_stack_.count() == 0) {
+            apply(after);
+        } else {
+            //: Continues "Undo …"; %1 is a layer
+            change(tr("Open %1").arg(nameOf(after.layers.front())), after);
+        }
+        if (!is_sample) {
+            Q_EMIT opened(QString::fromStdString(load.spec.path));
+        }
+    }
+    endLoad();
+}
+
+void SessionController::remove(LayerId id)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        const QString text = tr("Remove %1").arg(nameOf(*layer));
+        change(text, removed(session_, id));
+        dropLoadsOf(id);
+    }
+}
+
+void SessionController::move(LayerId id, std::size_t index)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Move %1").arg(nameOf(*layer)), activated(moved(session_, id, index), id));
+    }
+}
+
+void SessionController::setVisible(LayerId id, bool is_visible)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        const QString text = is_visible ? tr("Show %1") : tr("Hide %1");
+        const QString name = nameOf(*layer);
+        const Session after =
+            is_visible ? shownIn(session_, id) : withVisibility(session_, id, false);
+        if (is_visible && shownLayers(after).front()->id == id) {
+            to_reveal_ = id;
+        }
+        change(text.arg(name), after);
+    }
+}
+
+const Layer* SessionController::replacedSample() const
+{
+    return replaced_sample_ && layerOf(session_, replaced_sample_->id) == nullptr
+               ? &*replaced_sample_
+               : nullptr;
+}
+
+void SessionController::keepSample()
+{
+    if (const Layer* sample = replacedSample()) {
+        Session after = session_;
+        after.layers.push_back(*sample);
+        after.layers.back().is_sample = false;
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Keep %1").arg(nameOf(*sample)), after);
+    }
+}
+
+void SessionController::setRamp(LayerId id, const QString& ramp)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Color Ramp of %1").arg(nameOf(*layer)),
+               withRamp(session_, id, ramp.toStdString()));
+    }
+}
+
+void SessionController::rename(LayerId id, const QString& name)
+{
+    const QString trimmed = name.trimmed();
+    const Layer* layer = layerOf(session_, id);
+    if (layer != nullptr && !trimmed.isEmpty()) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Rename %1").arg(nameOf(*layer)), withName(session_, id, trimmed.toStdString()));
+    }
+}
+
+void SessionController::setShading(ShadingMode mode)
+{
+    TerrainLook look = session_.look;
+    look.mode = mode;
+    //: Continues "Undo …"
+    change(tr("Shading"), withLook(session_, look));
+}
+
+void SessionController::setContours(bool has_contours)
+{
+    TerrainLook look = session_.look;
+    look.has_contours = has_contours;
+    //: Continues "Undo …"
+    change(tr("Contours"), withLook(session_, look));
+}
+
+void SessionController::setLight(Angle azimuth, Angle altitude)
+{
+    TerrainLook look = session_.look;
+    look.light_azimuth = azimuth;
+    look.light_altitude = altitude;
+    //: Continues "Undo …"
+    change(tr("Light"), withLook(session_, look),
+           {.kind = SessionRun::Kind::Light, .serial = drag_serial_});
+}
+
+void SessionController::setStretch(LayerId id, const ColorStretch& stretch, ChangeKind kind)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Color Stretch of %1").arg(nameOf(*layer)), withStretch(session_, id, stretch),
+               kind == ChangeKind::OfDrag
+                   ? SessionRun{.kind = SessionRun::Kind::Stretch, .serial = drag_serial_}
+                   : SessionRun{});
+    }
+}
+
+void SessionController::setSlopeRange(LayerId id, const std::optional<SlopeRange>& range)
+{
+    if (const Layer* layer = layerOf(session_, id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Slope Colors of %1").arg(nameOf(*layer)), withSlopeRange(session_, id, range));
+    }
+}
+
+SlopeRange SessionController::slopeRangeOf(const Layer& layer) const
+{
+    return layer.slope_range.value_or(maps_.find(layer.dataset).slope_range);
+}
+
+void SessionController::stretchToView(LayerId id)
+{
+    const Layer* layer = layerOf(session_, id);
+    if (layer == nullptr) {
+        return;
+    }
+    const SceneSurface& ground = view_.ground();
+    const auto ranges =
+        rangesInPicture(ground, view_.camera(), view_.viewport(), view_.exaggeration());
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        if (ground.maps()[i].map.dataset.get() == layer->dataset.get() && ranges[i] &&
+            isStretchRange(ranges[i]->minimum_m, ranges[i]->maximum_m)) {
+            //: Continues "Undo …"; %1 is a layer
+            change(tr("Stretch of %1 to Current View").arg(nameOf(*layer)),
+                   withStretch(session_, id,
+                               fixedStretch(ranges[i]->minimum_m, ranges[i]->maximum_m)));
+            return;
+        }
+    }
+}
+
+HeightRange SessionController::stretchedRangeOf(const Layer& layer) const
+{
+    std::erase_if(known_ranges_, [](const KnownRange& known) { return known.dataset.expired(); });
+    const auto known =
+        std::find_if(known_ranges_.begin(), known_ranges_.end(), [&layer](const KnownRange& range) {
+            return range.dataset.lock() == layer.dataset && range.stretch == layer.stretch;
+        });
+    if (known != known_ranges_.end()) {
+        return known->range;
+    }
+    const LoadedMap map = maps_.find(layer.dataset);
+    if (!map) {
+        return layer.dataset->heightfield().range().value_or(HeightRange{});
+    }
+    const HeightRange range =
+        stretchedRange(layer.stretch, {.heights = layer.dataset->heightfield(),
+                                       .means = map.analysis->means,
+                                       .automatic = map.tint_range});
+    if (layer.stretch.kind == StretchKind::Percentile) {
+        known_ranges_.push_back(
+            {.dataset = layer.dataset, .stretch = layer.stretch, .range = range});
+    }
+    return range;
+}
+
+void SessionController::setExaggeration(double exaggeration, ChangeKind kind)
+{
+    const std::vector<const Layer*> shown = shownLayers(session_);
+    if (shown.empty() || !(exaggeration > 0.0)) {
+        return;
+    }
+    const ExaggerationRange range =
+        exaggerationRange(suitableExaggeration(*shown.front()->dataset));
+    const double bounded = std::clamp(exaggeration, range.least, range.most);
+    const SessionRun run =
+        kind == ChangeKind::OfDrag
+            ? SessionRun{.kind = SessionRun::Kind::Exaggeration, .serial = drag_serial_}
+            : SessionRun{};
+    //: Continues "Undo …"; %1 is a factor
+    change(tr("Exaggeration ×%1").arg(shortNumberText(bounded, 3)),
+           withExaggeration(session_, bounded), run);
+}
+
+void SessionController::stepExaggeration(int steps)
+{
+    setExaggeration(steppedExaggeration(exaggerationOf(session_), steps));
+}
+
+void SessionController::endDrag()
+{
+    ++drag_serial_;
+}
+
+void SessionController::activate(LayerId id)
+{
+    if (id != session_.active) {
+        apply(activated(session_, id));
+    }
+}
+
+void SessionController::change(const QString& text, const Session& after, SessionRun run)
+{
+    if (after == session_) {
+        return;
+    }
+    undo_stack_.push(new SessionCommand(
+        text, session_, after, [this](const Session& session) { apply(session); }, run));
+}
+
+void SessionController::apply(const Session& session)
+{
+    // Steps of undo know of other active layers; ids given since then stay given.
+    const std::uint32_t next_id = std::max(session_.next_id, session.next_id);
+    session_ = session;
+    session_.next_id = next_id;
+    for (Layer& layer : session_.layers) {
+        layer.dataset = latest(layer.dataset);
+    }
+    show();
+    Q_EMIT sessionChanged();
+    lookAfterPreviews();
+}
+
+void SessionController::show()
+{
+    std::vector<ShownLayer> shown;
+    for (const Layer* layer : shownLayers(session_)) {
+        shown.push_back({.map = maps_.find(layer->dataset),
+                         .ramp = &rampOf(*layer),
+                         .color_range = stretchedRangeOf(*layer),
+                         .slope_range = layer->slope_range});
+    }
+    if (!isSame(shown, shown_)) {
+        shown_ = std::move(shown);
+        view_.setLayers(shown_, exaggerationOf(session_));
+    } else if (!shown_.empty()) {
+        view_.setExaggeration(exaggerationOf(session_));
+    }
+    if (view_.look() != session_.look) {
+        view_.setLook(session_.look);
+    }
+}
+
+void SessionController::revealWhatCame()
+{
+    const Layer* layer = layerOf(session_, to_reveal_);
+    const Dataset* scene = view_.map().dataset.get();
+    if (layer == nullptr || scene != layer->dataset.get()) {
+        return;
+    }
+    to_reveal_ = LayerId::None;
+    for (int row = 0; row < kProbesPerSide; ++row) {
+        for (int column = 0; column < kProbesPerSide; ++column) {
+            const auto position =
+                view_.positionOf(placeOn(*scene, static_cast<double>(column) / (kProbesPerSide - 1),
+                                         static_cast<double>(row) / (kProbesPerSide - 1)));
+            if (position && QRectF(view_.rect()).contains(*position)) {
+                return;
+            }
+        }
+    }
+    goTo(layer->id);
+}
+
+void SessionController::goTo(LayerId id)
+{
+    const auto is_shown = [&] {
+        const auto shown = shownLayers(session_);
+        return std::find(shown.begin(), shown.end(), layerOf(session_, id)) != shown.end();
+    };
+    if (const Layer* hidden = layerOf(session_, id); hidden != nullptr && !is_shown()) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Show %1").arg(nameOf(*hidden)), shownIn(session_, id));
+    }
+    const Layer* layer = layerOf(session_, id);
+    const Dataset* scene = view_.map().dataset.get();
+    if (layer == nullptr || scene == nullptr || !is_shown()) {
+        return;
+    }
+    if (const auto centre = onGridOf(*scene, *layer->dataset, placeOn(*layer->dataset, 0.5, 0.5))) {
+        view_.flyTo(*centre, distanceToSee(*layer->dataset));
+    }
+}
+
+} // namespace marsview

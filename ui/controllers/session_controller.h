@@ -1,0 +1,219 @@
+// The session of the window: the only bridge between layers, loading, undo and the view.
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/canvas/shown_layer.h"
+#include "ui/controllers/load_controller.h"
+#include "ui/controllers/loaded_map_store.h"
+#include "ui/controllers/map_preparer.h"
+#include "ui/controllers/session_command.h"
+
+#include <QObject>
+#include <QString>
+#include <QUndoStack>
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace marsview {
+
+class TerrainView;
+
+/// Progress of loading, for people.
+struct LoadReport {
+    QString file;          // its path
+    double fraction = 0.0; // done
+    int position = 1;      // of those asked for together, counted from 1
+    int count = 1;
+};
+
+/// The state of the overviews of a layer that is shown as a preview.
+enum class PreparationState {
+    None,    // the layer is not a preview, or its map is about to replace it
+    Waiting, // for other maps
+    Running,
+    Stopped, // by the user
+    Failed,
+};
+
+struct Preparation {
+    PreparationState state = PreparationState::None;
+    QString problem{}; // "FILE: WHY" of what failed
+    int ending = 0;    // a number of its own for each time that building was stopped or failed
+};
+
+/// Whether a change is a step of undo by itself, or one of many of a drag.
+enum class ChangeKind { Single, OfDrag };
+
+/// Holds the session and changes it on request; every change is undoable, except which layer is
+/// active. Files are loaded first, one at a time in the order of the requests, and become a change
+/// when they are loaded. Lives in the GUI thread; must not outlive the view.
+///
+/// A map that is too large for memory and has no overviews yet is shown as a preview while they are
+/// built. The finished map replaces the preview in the session and in the steps of undo, without a
+/// step of its own.
+class SessionController final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit SessionController(TerrainView& view, QObject* parent = nullptr);
+    ~SessionController() override;
+
+    /// For files that are opened from now on.
+    void setOpener(const MapOpener& opener);
+
+    const Session& session() const noexcept { return session_; }
+    QUndoStack& undoStack() noexcept { return undo_stack_; }
+    const LoadController& loader() const noexcept { return *loader_; }
+    /// Something is loading or waits for its turn.
+    bool isBusy() const noexcept { return current_.has_value() || !waiting_.empty(); }
+    /// The overviews of some map are being built.
+    bool isPreparing() const noexcept { return preparer_->isBusy(); }
+    Preparation preparationOf(LayerId id) const;
+
+    /// Each becomes a layer on top when it is loaded. May be called before the view can draw.
+    void open(const QStringList& files);
+    /// As a sample: not a step of undo, and replaced by the first map that the user opens. Does
+    /// nothing if a layer is open or being opened.
+    void openSample(const QString& file);
+    /// The sample that the first opened map replaced, as long as it is not back in the session;
+    /// null otherwise.
+    const Layer* replacedSample() const;
+    /// Puts the replaced sample back below the other layers, as a layer like them.
+    void keepSample();
+    /// Replaces what the file of a layer states. overrideFailed() follows if that is not
+    /// possible.
+    void overrideGeoreferencing(LayerId id, const RasterOverrides& overrides);
+    /// Cancels the file that is loading and those that wait.
+    void cancel();
+    /// Builds the overviews of a layer that is a preview, or resumes that.
+    void prepare(LayerId id);
+    /// Stops building the current overviews, which can be resumed; maps that wait are next.
+    void stopPreparing();
+    /// Stops everything, before the program ends.
+    void stopAll();
+
+    // Without effect if the layer does not exist or nothing would change.
+    void remove(LayerId id);
+    void move(LayerId id, std::size_t index);
+    /// Shown means in the picture: a layer that the view cannot show together with the present ones
+    /// moves to the top and becomes what the view shows.
+    void setVisible(LayerId id, bool is_visible);
+    /// A name of colorRamps(); empty for the one that suits the body.
+    void setRamp(LayerId id, const QString& ramp);
+    /// Over which elevations the layer's ramp is spread.
+    void setStretch(LayerId id, const ColorStretch& stretch, ChangeKind kind = ChangeKind::Single);
+    /// Over which slopes it is spread; nothing for the slopes that suit the map.
+    void setSlopeRange(LayerId id, const std::optional<SlopeRange>& range);
+    /// Over which slopes it is spread now.
+    SlopeRange slopeRangeOf(const Layer& layer) const;
+    /// From the lowest to the highest elevation of the layer in the picture. Nothing where the
+    /// picture shows none of it, or a single elevation.
+    void stretchToView(LayerId id);
+    /// The elevations that a layer's stretch comes to, without the symmetry of diverging ramps.
+    HeightRange stretchedRangeOf(const Layer& layer) const;
+    void rename(LayerId id, const QString& name);
+    /// Of the picture, bounded to exaggerationRange() of the topmost layer in it. Nothing where all
+    /// layers are hidden.
+    void setExaggeration(double exaggeration, ChangeKind kind = ChangeKind::Single);
+    /// The next round number above, or below for steps < 0.
+    void stepExaggeration(int steps);
+    /// What is dragged next is a step of undo of its own.
+    void endDrag();
+    void setShading(ShadingMode mode);
+    void setContours(bool has_contours);
+    void setLight(Angle azimuth, Angle altitude);
+    void activate(LayerId id);
+
+    /// Flies to where all of a layer is in sight, and shows it first if it is not shown.
+    void goTo(LayerId id);
+
+Q_SIGNALS:
+    /// Layers, their looks or which one is active.
+    void sessionChanged();
+    void loadProgressed(const LoadReport& report);
+    /// Nothing is loading any more.
+    void loadingEnded();
+    /// The user stopped it.
+    void loadingCancelled();
+    void preparingProgressed(const PrepareProgress& progress);
+    /// No overviews are being built any more.
+    void preparingEnded();
+    /// Of some layer.
+    void preparationChanged();
+    void opened(const QString& file);
+    /// "FILE: WHY". The session is as it was.
+    void failed(const QString& problem);
+    /// Overrides of a layer cannot be used, "FILE: WHY" or "OPTION: WHY". The session is as it was.
+    void overrideFailed(LayerId id, const QString& problem);
+
+private:
+    struct Load {
+        /// Complete: a preview whose map has been prepared.
+        enum class Purpose { Open, Sample, Override, Complete } purpose = Purpose::Open;
+        DatasetSpec spec;
+        LayerId layer = LayerId::None; // that is overridden, or whose preview it is
+    };
+    /// What became of a preview. It lives as long as some step of undo holds the preview.
+    struct Successor {
+        std::weak_ptr<const Dataset> preview;
+        std::shared_ptr<const Dataset> map; // may itself be a preview, a better one
+    };
+    /// How preparing ended, for maps of which the session or its undo steps may hold a preview.
+    struct Ending {
+        enum class How { Done, Stopped, Failed } how = How::Done;
+        DatasetSpec spec;
+        QString problem{};
+        int number = 0; // counted from 1
+    };
+
+    void enqueue(Load load);
+    void startNext();
+    void dropLoadsOf(LayerId id);
+    void accept(const LoadedMap& map);
+    void endLoad();
+    void acceptComplete(const Load& load, const LoadedMap& map);
+    void succeed(const std::shared_ptr<const Dataset>& preview, const LoadedMap& map);
+    std::shared_ptr<const Dataset> latest(std::shared_ptr<const Dataset> dataset) const;
+    void endPreparing(const Ending& ending);
+    const Ending* endingOf(const DatasetSpec& spec) const;
+    void forgetEnding(const DatasetSpec& spec);
+    void lookAfterPreviews();
+    bool isCompleting(LayerId id) const;
+    void change(const QString& text, const Session& after, SessionRun run = {});
+    void apply(const Session& session);
+    void show();
+    void revealWhatCame();
+
+    TerrainView& view_;
+    LoadController* loader_ = nullptr;
+    MapPreparer* preparer_ = nullptr;
+    std::vector<Successor> successors_;
+    std::vector<Ending> endings_;
+    bool are_previews_left_alone_ = false; // everything is about to end
+    LoadedMapStore maps_;
+    Session session_;
+    QUndoStack undo_stack_;
+    std::optional<Load> current_;
+    std::deque<Load> waiting_;
+    int asked_count_ = 0; // since nothing was loading
+    int begun_count_ = 0;
+    int ending_count_ = 0;
+    LayerId to_reveal_ = LayerId::None;
+    std::optional<Layer> replaced_sample_;
+    std::vector<ShownLayer> shown_;
+    int drag_serial_ = 0;
+    /// A percentile takes a while to find.
+    struct KnownRange {
+        std::weak_ptr<const Dataset> dataset;
+        ColorStretch stretch;
+        HeightRange range;
+    };
+    mutable std::vector<KnownRange> known_ranges_;
+};
+
+/// The ramp that a layer is drawn with.
+const ColorRamp& rampOf(const Layer& layer);
+
+} // namespace marsview

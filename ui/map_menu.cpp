@@ -1,0 +1,86 @@
+#include "ui/map_menu.h"
+
+#include "ui/canvas/terrain_view.h"
+#include "ui/dialogs/place_dialog.h"
+#include "ui/widgets/icons.h"
+
+#include <QClipboard>
+#include <QGuiApplication>
+#include <QMenu>
+
+#include <memory>
+#include <utility>
+
+namespace marsview {
+
+MapMenu::MapMenu(TerrainView& view, Reader read)
+    : QObject(&view)
+    , view_(view)
+    , read_(std::move(read))
+{
+    connect(&view, &TerrainView::menuRequested, this, &MapMenu::open);
+}
+
+QMenu* MapMenu::menu() const
+{
+    return menu_;
+}
+
+PlaceDialog* MapMenu::card() const
+{
+    return card_;
+}
+
+void MapMenu::open(QPointF position)
+{
+    delete menu_.data();
+    menu_ = new QMenu(&view_);
+    menu_->setAttribute(Qt::WA_DeleteOnClose);
+    menu_->setAccessibleName(tr("Place on the map"));
+    const std::optional<GroundPoint> ground = view_.groundUnder(position);
+    const auto hit = view_.surfaceAt(position);
+    const PlaceFacts place = ground ? read_(*ground) : PlaceFacts{};
+    const auto add = [&](const QString& text, const char* icon, bool is_possible, auto action) {
+        QAction* entry = menu_->addAction(lineIcon(QString::fromLatin1(icon)), text);
+        entry->setEnabled(is_possible);
+        connect(entry, &QAction::triggered, this, action);
+    };
+    const auto copy = [](const QString& text) { QGuiApplication::clipboard()->setText(text); };
+    add(tr("&Copy Coordinates"), "copy", !place.coordinates.isEmpty(),
+        [copy, text = place.plain_coordinates] { copy(text); });
+    add(tr("Copy &Elevation"), "copy", !place.elevation.isEmpty(),
+        [copy, text = place.elevation] { copy(text); });
+    menu_->addSeparator();
+    add(tr("&Fly Here"), "fly", hit.has_value(), [this, hit] { view_.flyNearer(*hit); });
+    add(tr("Ce&nter Here"), "center", hit.has_value(),
+        [this, hit] { view_.flyTo(hit->grid, 0.0); });
+    menu_->addSeparator();
+    const QPoint at = view_.mapToGlobal(position).toPoint();
+    add(tr("&What Is Here…"), "identify", ground.has_value(),
+        [this, ground, at] { showCard(*ground, at); });
+    menu_->popup(at);
+}
+
+void MapMenu::showCard(const GroundPoint& ground, QPoint at)
+{
+    delete card_.data();
+    // The map of the place may go while the card is open.
+    const std::weak_ptr<const Dataset> dataset = view_.ground().maps()[ground.index].map.dataset;
+    const auto last = std::make_shared<PlaceFacts>(read_(ground));
+    card_ = new PlaceDialog(
+        [this, dataset, ground, last] {
+            const auto& maps = view_.ground().maps();
+            if (ground.index < maps.size() && maps[ground.index].map.dataset == dataset.lock()) {
+                *last = read_(ground);
+            } else {
+                last->is_rough = false; // nothing finer will arrive
+            }
+            return *last;
+        },
+        view_.window());
+    card_->setAttribute(Qt::WA_DeleteOnClose);
+    card_->QWidget::show();
+    card_->move(at + QPoint(12, 12));
+}
+
+} // namespace marsview

@@ -1,0 +1,43 @@
+// The context menu of the map.
+#pragma once
+
+#include "core/session/scene_surface.h"
+#include "ui/text/place_facts.h"
+
+#include <QObject>
+#include <QPointer>
+
+#include <functional>
+
+class QMenu;
+
+namespace marsview {
+
+class PlaceDialog;
+class TerrainView;
+
+/// Opens where the view asks for it, and acts on the place that was clicked. A child of the view.
+class MapMenu final : public QObject {
+    Q_OBJECT
+
+public:
+    /// Facts of a place of the terrain; asked while the menu or a card is open.
+    using Reader = std::function<PlaceFacts(const GroundPoint&)>;
+
+    MapMenu(TerrainView& view, Reader read);
+
+    /// The menu and the card that are open; null for none.
+    QMenu* menu() const;
+    PlaceDialog* card() const;
+
+private:
+    void open(QPointF position);
+    void showCard(const GroundPoint& ground, QPoint at);
+
+    TerrainView& view_;
+    Reader read_;
+    QPointer<QMenu> menu_;
+    QPointer<PlaceDialog> card_;
+};
+
+} // namespace marsview

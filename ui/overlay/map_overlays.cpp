@@ -1,0 +1,303 @@
+#include "ui/overlay/map_overlays.h"
+
+#include "core/session/range_in_picture.h"
+#include "core/view/edge_mark.h"
+#include "core/view/scale_bar.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/overlay/compass.h"
+#include "ui/overlay/crosshair.h"
+#include "ui/overlay/force_meter.h"
+#include "ui/overlay/gesture_hint.h"
+#include "ui/overlay/hand_pointer.h"
+#include "ui/overlay/legend.h"
+#include "ui/overlay/minimap.h"
+#include "ui/overlay/overlay_layout.h"
+#include "ui/overlay/overview_picture.h"
+#include "ui/overlay/scale_bar_view.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QHelpEvent>
+#include <QImage>
+#include <QPainter>
+#include <QToolTip>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+// Which layers the picture shows is looked for when it has been still for so long, with few rays.
+constexpr std::chrono::milliseconds kProbeAfter{150};
+constexpr PictureProbes kProbes{.columns = 24, .rows = 16};
+
+} // namespace
+
+MapOverlays::MapOverlays(TerrainView& view)
+    : QObject(&view)
+    , view_(view)
+    , minimap_(new Minimap(&view))
+    , compass_(new Compass(&view))
+    , crosshair_(new Crosshair(&view))
+    , scale_bar_(new ScaleBarView(&view))
+    , legend_(new Legend(&view))
+    , force_meter_(new ForceMeter(&view))
+    , hand_pointer_(new HandPointer(&view))
+    , hint_(new GestureHint(&view))
+    , layout_(new OverlayLayout(&view,
+                                {.minimap = minimap_,
+                                 .legend = legend_,
+                                 .compass = compass_,
+                                 .scale_bar = scale_bar_,
+                                 .force_meter = force_meter_,
+                                 .hint = hint_}))
+{
+    makeAction(tr("&Overview Map"), QStringLiteral("minimap"), {minimap_});
+    makeAction(tr("&Legend"), QStringLiteral("legend"), {legend_});
+    makeAction(tr("&Compass and Scale Bar"), QStringLiteral("compass"), {compass_, scale_bar_});
+    for (QWidget* part : std::initializer_list<QWidget*>{minimap_, compass_, scale_bar_, legend_}) {
+        part->setCursor(Qt::ArrowCursor); // not the tool's
+    }
+    connect(&view_, &TerrainView::layersChanged, this, &MapOverlays::showMap);
+    connect(&view_, &TerrainView::lookChanged, this, &MapOverlays::showMap);
+    connect(&view_, &TerrainView::exaggerationChanged, this, &MapOverlays::showMap);
+    connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::showSight);
+    connect(&view_, &TerrainView::stylusMoved, this, &MapOverlays::showTouch);
+    probe_timer_.setSingleShot(true);
+    probe_timer_.setInterval(kProbeAfter);
+    connect(&probe_timer_, &QTimer::timeout, this, &MapOverlays::findSeenLayers);
+    view_.installEventFilter(this); // the legend is transparent to the mouse
+    connect(&view_, &TerrainView::crosshairChanged, crosshair_, &QWidget::setVisible);
+    connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::placeCrosshair);
+    crosshair_->lower();
+    for (QWidget* plate : std::initializer_list<QWidget*>{legend_, scale_bar_}) {
+        plate->setProperty(kHidesTerrain, true);
+    }
+    placeCrosshair();
+    connect(minimap_, &Minimap::placeRequested, &view_, &TerrainView::lookAt);
+    connect(&view_, &TerrainView::gestureMade, hint_, &GestureHint::markDone);
+    connect(hint_, &GestureHint::dismissed, this, &MapOverlays::dismissHint);
+    layout_->setWanted(hint_, false);
+    connect(compass_, &Compass::northRequested, &view_, &TerrainView::turnNorthUp);
+    showMap();
+}
+
+void MapOverlays::offerHint()
+{
+    is_hint_offered_ = true;
+    showMap();
+}
+
+void MapOverlays::dismissHint()
+{
+    if (is_hint_offered_) {
+        is_hint_offered_ = false;
+        if (hint_->isAncestorOf(QApplication::focusWidget())) {
+            view_.setFocus();
+        }
+        layout_->setWanted(hint_, false);
+        Q_EMIT hintDismissed();
+    }
+}
+
+void MapOverlays::makeAction(const QString& text, const QString& name, const QList<QWidget*>& parts)
+{
+    auto* action = new QAction(text, this);
+    action->setObjectName(name);
+    action->setCheckable(true);
+    action->setChecked(true);
+    connect(action, &QAction::toggled, this, [this, parts](bool is_wanted) {
+        for (QWidget* part : parts) {
+            layout_->setWanted(part, is_wanted);
+        }
+    });
+    actions_.append(action);
+}
+
+void MapOverlays::paintOver(QImage& picture, const PictureParts& parts) const
+{
+    // The view's angle is vertical: what is as high shows the same metres per pixel.
+    const double scale = static_cast<double>(picture.height()) / view_.height();
+    const int more_width = qRound(picture.width() / scale) - view_.width();
+    picture.setDevicePixelRatio(scale);
+    QPainter painter(&picture);
+    const auto paint = [&](QWidget* part, bool is_wanted) {
+        if (is_wanted && part->isVisible()) {
+            const bool is_at_right = part->geometry().center().x() > view_.width() / 2;
+            part->render(&painter, part->pos() + QPoint(is_at_right ? more_width : 0, 0), QRegion(),
+                         QWidget::DrawChildren);
+        }
+    };
+    paint(legend_, parts.has_legend);
+    paint(compass_, parts.has_scale);
+    paint(scale_bar_, parts.has_scale);
+    painter.end();
+    picture.setDevicePixelRatio(1.0);
+}
+
+void MapOverlays::setCovered(int height)
+{
+    covered_height_ = height;
+    layout_->setCovered(height);
+    showHand();
+}
+
+void MapOverlays::showMap()
+{
+    layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());
+    layout_->setWanted(hint_, bool(view_.map()) && is_hint_offered_);
+    if (!view_.map()) {
+        minimap_->clear();
+        scale_bar_->clear();
+        legend_->setContent({});
+        return;
+    }
+    const OverviewPicture overview =
+        overviewPicture(view_.shownLayers(), view_.ground(), view_.look(), view_.exaggeration());
+    minimap_->setMap(overview.image, overview.frame, overview.columns, overview.rows);
+    seen_.clear();
+    showSight();
+}
+
+void MapOverlays::showSight()
+{
+    showHand();
+    if (!view_.map()) {
+        return;
+    }
+    minimap_->setCamera(view_.camera(), view_.viewport());
+    compass_->setCamera(view_.camera());
+    scale_bar_->setCamera(view_.camera(), view_.viewport());
+    if (view_.shownLayers().size() > 1) {
+        probe_timer_.start();
+    }
+    showLegend();
+}
+
+void MapOverlays::setSession(const Session& session)
+{
+    session_ = session;
+    showLegend();
+}
+
+void MapOverlays::setHeightUnit(HeightUnit unit)
+{
+    height_unit_ = unit;
+    showLegend();
+}
+
+bool MapOverlays::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() == QEvent::ToolTip && watched == &view_ && legend_->isVisible()) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        if (legend_->geometry().contains(help->pos())) {
+            QToolTip::showText(help->globalPos(), legend_->summary(), &view_, legend_->geometry());
+            return true;
+        }
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+void MapOverlays::findSeenLayers()
+{
+    seen_.clear();
+    for (const auto& range : rangesInPicture(view_.ground(), view_.camera(), view_.viewport(),
+                                             view_.exaggeration(), kProbes)) {
+        seen_.push_back(range.has_value());
+    }
+    showLegend();
+}
+
+// The active layer where the picture shows it, otherwise the topmost layer that it shows.
+std::size_t MapOverlays::explainedLayer() const
+{
+    const std::vector<ShownLayer>& shown = view_.shownLayers();
+    const auto is_seen = [this, &shown](std::size_t index) {
+        return seen_.size() != shown.size() || seen_[index];
+    };
+    const Layer* active = activeLayer(session_);
+    std::size_t topmost = 0;
+    for (std::size_t i = shown.size(); i > 0; --i) {
+        if (is_seen(i - 1)) {
+            topmost = i - 1;
+            if (active != nullptr && shown[i - 1].map.dataset.get() == active->dataset.get()) {
+                return i - 1;
+            }
+        }
+    }
+    return topmost;
+}
+
+void MapOverlays::showLegend()
+{
+    if (!view_.map()) {
+        legend_->setContent({});
+        return;
+    }
+    const std::vector<ShownLayer>& shown = view_.shownLayers();
+    const ShownLayer& layer = shown[explainedLayer()];
+    const TerrainLook& look = view_.look();
+    const auto known =
+        std::find_if(session_.layers.begin(), session_.layers.end(), [&layer](const Layer& l) {
+            return l.dataset.get() == layer.map.dataset.get();
+        });
+    const bool is_named = shown.size() > 1 && known != session_.layers.end();
+    const HeightRange all = layer.map.dataset->heightfield().range().value_or(HeightRange{});
+    legend_->setContent(
+        {.mode = look.mode,
+         .ramp = layer.ramp,
+         .range = colorRangeOf(layer),
+         .slopes = slopeRangeOf(layer),
+         .contour_interval_m = contourInterval(
+             look, all, metresPerPixel(view_.camera(), view_.viewport()), view_.exaggeration()),
+         .unit = height_unit_,
+         .all = all,
+         .layer = is_named ? QString::fromStdString(known->name) : QString(),
+         .datum = QString::fromStdString(layer.map.dataset->info().vertical_datum)});
+}
+
+void MapOverlays::showTouch()
+{
+    showHand();
+    const auto& stylus = view_.shownStylus();
+    // A replay has no force to show.
+    if (!stylus || !stylus->is_in_contact || !(stylus->force_n_max > 0.0)) {
+        force_meter_->release();
+        return;
+    }
+    // As the hand has it: to the right and away along the heading of the view.
+    const double azimuth = view_.camera().azimuth.radians();
+    const Vec3 right{std::cos(azimuth), -std::sin(azimuth), 0.0};
+    const Vec3 away{std::sin(azimuth), std::cos(azimuth), 0.0};
+    const Vec3& force_n = stylus->force_n;
+    force_meter_->setForce({dot(force_n, right), dot(force_n, away), force_n.z},
+                           stylus->force_n_max);
+}
+
+void MapOverlays::placeCrosshair()
+{
+    QRect place(QPoint(), crosshair_->sizeHint());
+    place.moveCenter(view_.rect().center());
+    crosshair_->setGeometry(place);
+}
+
+// An arrow to the cursor, where that cannot be seen.
+void MapOverlays::showHand()
+{
+    const auto& stylus = view_.shownStylus();
+    const double scale = view_.devicePixelRatioF();
+    const auto mark = stylus ? edgeMark(view_.camera(), stylus->proxy,
+                                        {.viewport = view_.viewport(),
+                                         .inset_px = HandPointer::kInset * scale,
+                                         .covered_px = covered_height_ * scale})
+                             : std::nullopt;
+    if (mark) {
+        hand_pointer_->pointTo(QPointF(mark->at.x, mark->at.y) / scale, {mark->right, mark->down});
+    } else {
+        hand_pointer_->release();
+    }
+}
+
+} // namespace marsview

@@ -1,0 +1,110 @@
+// What lies over the map, kept true to it.
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/text/number_text.h"
+
+#include <QList>
+#include <QObject>
+#include <QTimer>
+
+#include <cstddef>
+#include <vector>
+
+class QAction;
+class QImage;
+
+namespace marsview {
+
+class Compass;
+class Crosshair;
+class ForceMeter;
+class GestureHint;
+class HandPointer;
+class Legend;
+class Minimap;
+class OverlayLayout;
+class ScaleBarView;
+class TerrainView;
+
+/// Makes the overlays of a view, tells them what it shows, and takes their requests to it. A child
+/// of the view.
+class MapOverlays final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit MapOverlays(TerrainView& view);
+
+    Minimap* minimap() const noexcept { return minimap_; }
+    Compass* compass() const noexcept { return compass_; }
+    ScaleBarView* scaleBar() const noexcept { return scale_bar_; }
+    Legend* legend() const noexcept { return legend_; }
+    ForceMeter* forceMeter() const noexcept { return force_meter_; }
+    Crosshair* crosshair() const noexcept { return crosshair_; }
+    HandPointer* handPointer() const noexcept { return hand_pointer_; }
+
+    GestureHint* hint() const noexcept { return hint_; }
+
+    /// Shows the gestures to a newcomer, from the first map on, until they are dismissed.
+    void offerHint();
+    bool isHintOffered() const noexcept { return is_hint_offered_; }
+    void dismissHint();
+
+    /// Which overlays a picture gets, as far as they are shown in the view.
+    struct PictureParts {
+        bool has_legend = true;
+        bool has_scale = true; // compass and scale bar
+    };
+    /// Puts overlays into a picture of the view of any size: as large as in the view where it is as
+    /// high, and at the same distance from their corners.
+    void paintOver(QImage& picture, const PictureParts& parts) const;
+
+    /// Names of layers, and which one is active. After the view shows them.
+    void setSession(const Session& session);
+    void setHeightUnit(HeightUnit unit);
+
+    /// So much of the view's upper edge is covered by something else.
+    void setCovered(int height);
+
+    /// Checkable actions that show and hide the overlays which people may not want; each has an
+    /// object name to be remembered by.
+    const QList<QAction*>& visibilityActions() const noexcept { return actions_; }
+
+Q_SIGNALS:
+    /// By the user.
+    void hintDismissed();
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void findSeenLayers();
+    std::size_t explainedLayer() const;
+    void makeAction(const QString& text, const QString& name, const QList<QWidget*>& parts);
+    void showMap();
+    void showSight();
+    void showLegend();
+    void showTouch();
+    void showHand();
+    void placeCrosshair();
+
+    TerrainView& view_;
+    Minimap* minimap_ = nullptr;
+    Compass* compass_ = nullptr;
+    Crosshair* crosshair_ = nullptr; // below all others
+    ScaleBarView* scale_bar_ = nullptr;
+    Legend* legend_ = nullptr;
+    ForceMeter* force_meter_ = nullptr;
+    HandPointer* hand_pointer_ = nullptr; // over all of them
+    GestureHint* hint_ = nullptr;
+    OverlayLayout* layout_ = nullptr;
+    bool is_hint_offered_ = false;
+    Session session_;
+    HeightUnit height_unit_ = HeightUnit::Metres;
+    std::vector<bool> seen_; // which of the view's layers, top first; empty: not known yet
+    QTimer probe_timer_;
+    int covered_height_ = 0;
+    QList<QAction*> actions_;
+};
+
+} // namespace marsview

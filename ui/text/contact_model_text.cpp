@@ -1,0 +1,78 @@
+#include "ui/text/contact_model_text.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+#include <array>
+
+namespace marsview {
+namespace {
+
+constexpr std::array kWords{
+    ContactModelWords{
+        ContactModelKind::ContinuousWalk,
+        //: A contact model: how the touching point (the proxy) follows the hand over the ground
+        QT_TRANSLATE_NOOP("WindowActions", "&Continuous Walk (exact)"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Takes every point of the hand's way in turn, so that even fast strokes "
+                          "end where slow ones would; each costs a little more time")},
+    ContactModelWords{
+        ContactModelKind::SurfaceWalk,
+        //: A contact model: how the touching point (the proxy) follows the hand over the ground
+        QT_TRANSLATE_NOOP("WindowActions", "&Surface Walk"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Slides downhill across faces, edges and corners of the ground; quick, "
+                          "but a fast stroke may end in a neighbouring dip")},
+    ContactModelWords{
+        ContactModelKind::ProxyGraph,
+        //: A contact model, with the year of its paper
+        QT_TRANSLATE_NOOP("WindowActions", "&Proxy Graph (2003)"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Goes along edges from corner to corner, as the paper does; quick, but "
+                          "a fast stroke ends in a neighbouring dip more often")},
+    ContactModelWords{
+        ContactModelKind::GodObject,
+        //: A contact model, by the name that the literature gave it
+        QT_TRANSLATE_NOOP("WindowActions", "&God-Object"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Stops at each face that it hits until the hand moves again; simple, "
+                          "but it may stick or float for a moment")},
+    ContactModelWords{
+        ContactModelKind::GodObjectRelease,
+        //: A contact model: a god-object that lets go of constraints
+        QT_TRANSLATE_NOOP("WindowActions", "God-Object, Constraints &Released"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "A god-object that lets go of faces as soon as they no longer hold it; "
+                          "it does not stick, but searches for every face that it comes to")},
+    ContactModelWords{
+        ContactModelKind::VirtualProxy,
+        //: A contact model: a sphere touches the ground in place of a point
+        QT_TRANSLATE_NOOP("WindowActions", "&Virtual Proxy (sphere)"),
+        //: What a contact model does and what it costs, in the status bar
+        QT_TRANSLATE_NOOP("WindowActions",
+                          "Touches with a sphere as wide as a cell of the map; it rounds off sharp "
+                          "ridges, but does not reach into narrow dips")},
+};
+
+} // namespace
+
+std::span<const ContactModelWords> contactModelWords()
+{
+    return kWords;
+}
+
+QString contactModelText(ContactModelKind kind)
+{
+    const auto words = std::find_if(kWords.begin(), kWords.end(),
+                                    [kind](const auto& known) { return known.model == kind; });
+    QString text = words != kWords.end() ? QCoreApplication::translate("WindowActions", words->text)
+                                         : QString();
+    return text.remove(QLatin1Char('&'));
+}
+
+} // namespace marsview

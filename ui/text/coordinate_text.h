@@ -1,0 +1,75 @@
+// Positions and elevations as people read and type them, in the format that they chose once
+// (Preferences::coordinates).
+#pragma once
+
+#include "core/geo/coordinate_format.h"
+#include "core/geo/extent.h"
+#include "core/geo/georeference.h"
+#include "core/raster/raster_info.h"
+#include "core/terrain/heightfield.h"
+#include "ui/text/number_text.h"
+
+#include <QString>
+
+namespace marsview {
+
+class Dataset;
+
+/// The system that `format` has on a map: map coordinates where there are no longitudes.
+PositionSystem systemOn(const CoordinateFormat& format, const RasterInfo& info);
+
+/// Whether planetocentric and planetographic latitudes differ there: not on a sphere, nor without a
+/// body.
+bool hasKindsOfLatitude(const RasterInfo& info);
+
+/// "planetocentric", or on the Earth "geocentric".
+QString latitudeKindName(LatitudeKind kind, const RasterInfo& info);
+
+/// What positions are counted in, in a few words: the kind of latitude, or the CRS.
+QString formatName(const CoordinateFormat& format, const RasterInfo& info);
+
+/// "18.65° N, 226.20° E", "18° 39′ 00″ N, 133° 48′ 00″ W", or "562,345, 5,117,890 m". Resolves a
+/// tenth of a sample, or of a pixel on screen where that is larger (`screen_pixel_m` metres; 0 for
+/// none). Empty where the position has no such coordinates.
+QString positionText(const CoordinateFormat& format,
+                     const RasterInfo& info,
+                     const Georeference& georeference,
+                     GridPoint grid,
+                     double screen_pixel_m = 0.0);
+QString positionText(const CoordinateFormat& format,
+                     const Dataset& dataset,
+                     GridPoint grid,
+                     double screen_pixel_m = 0.0);
+
+/// The same for the clipboard, which other programs read: with a decimal point and "-" in every
+/// locale, without groups of digits, units or marks of the writing direction.
+QString plainPositionText(const CoordinateFormat& format,
+                          const Dataset& dataset,
+                          GridPoint grid,
+                          double screen_pixel_m = 0.0);
+
+/// A position with so many digits as the format's notation has them (AngleParts::digits). The map
+/// has an ellipsoid.
+QString geographicText(const GeographicPoint& point,
+                       const CoordinateFormat& format,
+                       const RasterInfo& info,
+                       int digits);
+
+/// "72° W – 71° W" and "18° S – 17° S".
+struct ExtentText {
+    QString longitudes;
+    QString latitudes;
+};
+
+/// With digits for a hundredth of the shorter side, so that the noise of a projection is not shown,
+/// and without zeros at the end of all of them. The map has an ellipsoid.
+ExtentText
+extentText(const GeographicExtent& extent, const CoordinateFormat& format, const RasterInfo& info);
+
+/// "21,171 m (areoid)". Resolves about a thousandth of the map's relief.
+QString heightText(const RasterInfo& info,
+                   const HeightRange& range,
+                   double height_m,
+                   HeightUnit unit = HeightUnit::Metres);
+
+} // namespace marsview

@@ -1,0 +1,62 @@
+#include "ui/widgets/elevation_box.h"
+
+#include "ui/text/number_text.h"
+
+namespace marsview {
+namespace {
+
+constexpr double kElevationMax = 1e8; // metres or feet: more than the radius of any body here
+
+} // namespace
+
+ElevationBox::ElevationBox(QWidget* parent)
+    : QDoubleSpinBox(parent)
+{
+    setElevationRange();
+    setKeyboardTracking(false); // not every digit on the way
+    setCorrectionMode(QAbstractSpinBox::CorrectToNearestValue);
+}
+
+void ElevationBox::setElevationRange()
+{
+    setRange(-kElevationMax, kElevationMax);
+}
+
+QString ElevationBox::digitsOf(QString text) const
+{
+    if (text.endsWith(suffix())) {
+        text.chop(suffix().size());
+    }
+    text.replace(QChar(0x2212), locale().negativeSign());
+    text.replace(QLatin1Char('-'), locale().negativeSign());
+    return text.trimmed().remove(locale().groupSeparator());
+}
+
+QString ElevationBox::textFromValue(double value) const
+{
+    return numberText(value, decimals());
+}
+
+double ElevationBox::valueFromText(const QString& text) const
+{
+    bool is_number = false;
+    const double value = locale().toDouble(digitsOf(text), &is_number);
+    return is_number ? value : this->value();
+}
+
+QValidator::State ElevationBox::validate(QString& text, int& /*position*/) const
+{
+    const QString digits = digitsOf(text);
+    if (digits.isEmpty() || digits == locale().negativeSign()) {
+        return QValidator::Intermediate;
+    }
+    bool is_number = false;
+    const double value = locale().toDouble(digits, &is_number);
+    if (!is_number) {
+        return QValidator::Invalid;
+    }
+    return value >= minimum() && value <= maximum() ? QValidator::Acceptable
+                                                    : QValidator::Intermediate;
+}
+
+} // namespace marsview
