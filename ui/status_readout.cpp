@@ -27,20 +27,6 @@ QString outsideText()
     return StatusReadout::tr("outside the map");
 }
 
-// A place of the scene on the grid of another map in the same CRS.
-GridPoint onGridOf(const Dataset& dataset, const Dataset& scene, GridPoint grid)
-{
-    if (&dataset == &scene) {
-        return grid;
-    }
-    if (const auto place = scene.georeference().toGeographic(grid)) {
-        if (const auto there = dataset.georeference().toGrid(*place)) {
-            return *there; // the right turn of longitude
-        }
-    }
-    return dataset.georeference().toGrid(scene.georeference().toMap(grid));
-}
-
 // A thin line between two parts of the readout.
 QWidget* makeRule(QWidget* parent)
 {
@@ -267,7 +253,7 @@ StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
         return height;
     };
     if (active_ && active_ != scene_) {
-        const GridPoint grid = onGridOf(*active_, *scene_, hit.grid);
+        const GridPoint grid = active_->georeference().toGrid(hit.grid, scene_->georeference());
         const double height_m = active_->heightfield().heightNow(grid);
         if (std::isfinite(height_m)) {
             return read(*active_, grid, height_m);

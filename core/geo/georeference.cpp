@@ -125,6 +125,19 @@ std::optional<GridPoint> Georeference::toGrid(GeographicPoint geographic) const
     return toGrid(*map);
 }
 
+GridPoint Georeference::toGrid(GridPoint grid, const Georeference& other) const
+{
+    if (&other == this) {
+        return grid;
+    }
+    if (const auto place = other.toGeographic(grid)) {
+        if (const auto there = toGrid(*place)) {
+            return *there; // in the right turn of longitude
+        }
+    }
+    return toGrid(other.toMap(grid));
+}
+
 double Georeference::pixelWidthMetres() const noexcept
 {
     return std::hypot(scene_frame_.east_per_column, scene_frame_.north_per_column);

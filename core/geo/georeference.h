@@ -41,6 +41,8 @@ public:
     /// The turn of longitude is chosen so that the position lies on the raster, or else nearest to
     /// its centre.
     std::optional<GridPoint> toGrid(GeographicPoint geographic) const;
+    /// The place of `grid`, a position on the grid of `other`, which is in the same CRS.
+    GridPoint toGrid(GridPoint grid, const Georeference& other) const;
 
     /// True where the columns go once around the body, so that the last column's eastern neighbour
     /// is the first.

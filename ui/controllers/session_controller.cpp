@@ -35,21 +35,6 @@ bool isSame(const std::vector<ShownLayer>& a, const std::vector<ShownLayer>& b)
         });
 }
 
-// A place of `layer` on the grid of the scene, which lies in the same CRS.
-std::optional<GridPoint> onGridOf(const Dataset& scene, const Dataset& layer, GridPoint grid)
-{
-    if (&scene == &layer) {
-        return grid;
-    }
-    const Georeference& from = layer.georeference();
-    if (const auto place = from.toGeographic(grid)) {
-        if (const auto there = scene.georeference().toGrid(*place)) {
-            return there;
-        }
-    }
-    return scene.georeference().toGrid(from.toMap(grid));
-}
-
 GridPoint placeOn(const Dataset& dataset, double column_share, double row_share)
 {
     return {column_share * static_cast<double>(dataset.heightfield().columns() - 1),
@@ -574,9 +559,10 @@ void SessionController::goTo(LayerId id)
     if (layer == nullptr || scene == nullptr || !is_shown()) {
         return;
     }
-    if (const auto centre = onGridOf(*scene, *layer->dataset, placeOn(*layer->dataset, 0.5, 0.5))) {
-        view_.flyTo(*centre, distanceToSee(*layer->dataset));
-    }
+    const Dataset& dataset = *layer->dataset;
+    const GridPoint centre =
+        scene->georeference().toGrid(placeOn(dataset, 0.5, 0.5), dataset.georeference());
+    view_.flyTo(centre, distanceToSee(dataset));
 }
 
 } // namespace marsview

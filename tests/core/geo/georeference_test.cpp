@@ -242,5 +242,25 @@ TEST(Georeference, WithoutACrsThereIsNoLongitude)
     EXPECT_EQ(reference.toMap({0.0, 0.0}), (MapPoint{0.5, -0.5}));
 }
 
+TEST(Georeference, APlaceOfAnotherGridIsFoundInTheRightTurnOfLongitude)
+{
+    const Georeference west = placed(200, 100, {-185, 0.05, 0, 10, 0, -0.05}, "EPSG:4326");
+    const Georeference east = placed(400, 200, {175, 0.025, 0, 10, 0, -0.025}, "EPSG:4326");
+    // 180° W, 8.975° N: the same meridian as 180° E.
+    const GridPoint there = east.toGrid(GridPoint{99.5, 20.0}, west);
+    EXPECT_NEAR(there.column, (180.0 - 175.0) / 0.025 - 0.5, 1e-9);
+    EXPECT_NEAR(there.row, (10.0 - 8.975) / 0.025 - 0.5, 1e-9);
+    EXPECT_EQ(east.toGrid(GridPoint{-3.0, 7.25}, east), (GridPoint{-3.0, 7.25}));
+}
+
+TEST(Georeference, APlaceOfAnotherGridWithoutACrsIsFoundByItsCoordinates)
+{
+    const Georeference coarse(10, 10, *GeoTransform::fromTerms({100, 2, 0, 50, 0, -2}),
+                              std::nullopt);
+    const Georeference fine(40, 40, *GeoTransform::fromTerms({90, 1, 0, 60, 0, -1}), std::nullopt);
+    // The centre of sample (3, 4) is at x = 107, y = 41.
+    EXPECT_EQ(fine.toGrid(GridPoint{3.0, 4.0}, coarse), (GridPoint{16.5, 18.5}));
+}
+
 } // namespace
 } // namespace marsview
