@@ -86,7 +86,7 @@ std::vector<FolderCycle> folderCycles(std::span<const Include> includes)
         if (reported.contains(folder)) {
             continue;
         }
-        FolderCycle cycle{.folders = shortestCycle(graph, folder)};
+        FolderCycle cycle{.folders = shortestCycle(graph, folder), .includes = {}};
         if (cycle.folders.empty()) {
             continue;
         }
