@@ -410,14 +410,13 @@ void MainWindow::connectHint()
 
 PlaceFacts MainWindow::factsAt(const GroundPoint& ground) const
 {
-    const std::shared_ptr<const Dataset>& dataset =
-        view_->ground().maps()[ground.index].map.dataset;
+    const std::shared_ptr<const Map>& map = view_->ground().maps()[ground.index].map;
     const auto& layers = session().layers;
     const auto layer = std::find_if(layers.begin(), layers.end(),
-                                    [&](const Layer& known) { return known.dataset == dataset; });
-    return placeFacts(
-        *dataset, layer != layers.end() ? QString::fromStdString(layer->name) : QString(),
-        ground.grid, {.format = preferences_.coordinates, .unit = preferences_.height_unit});
+                                    [&](const Layer& known) { return known.map == map; });
+    return placeFacts(*map, layer != layers.end() ? QString::fromStdString(layer->name) : QString(),
+                      ground.grid,
+                      {.format = preferences_.coordinates, .unit = preferences_.height_unit});
 }
 
 // Children of the window alone: the view loses the focus while the window is being destroyed.
@@ -449,7 +448,7 @@ void MainWindow::connectHaptics()
     haptics_->setMapsInUse([this] {
         std::vector<std::string> paths;
         for (const Layer& layer : session().layers) {
-            paths.push_back(layer.dataset->spec().path);
+            paths.push_back(layer.map->spec().path);
         }
         return paths;
     });
@@ -649,7 +648,7 @@ void MainWindow::showSession()
     tool_bar_->setExaggerationEnabled(!shown.empty());
     if (!shown.empty()) {
         tool_bar_->setExaggerationRange(
-            exaggerationRange(suitableExaggeration(*shown.front()->dataset)));
+            exaggerationRange(suitableExaggeration(*shown.front()->map)));
         tool_bar_->showExaggeration(exaggerationOf(session()));
     }
     overlays_->setSession(session());
@@ -661,23 +660,23 @@ void MainWindow::showSession()
 void MainWindow::showActive()
 {
     const Layer* active = activeLayer(session());
-    const auto dataset = active != nullptr ? active->dataset : nullptr;
-    const QString file = dataset ? QString::fromStdString(dataset->spec().path) : QString();
+    const auto map = active != nullptr ? active->map : nullptr;
+    const QString file = map ? QString::fromStdString(map->spec().path) : QString();
     setWindowFilePath(file);
     //: Window title: %1 is a layer
     setWindowTitle(active != nullptr
                        ? tr("%1 — MarsView").arg(isolated(QString::fromStdString(active->name)))
                        : tr("MarsView"));
-    georeferencing_->setDataset(dataset);
+    georeferencing_->setMap(map);
     showPreparation();
     // Positions are on what the view shows, heights are those of the active layer if it is there.
     const std::vector<const Layer*> shown = shownLayers(session());
     const bool is_shown = std::find(shown.begin(), shown.end(), active) != shown.end();
-    const auto& scene = view_->map().dataset;
+    const auto& scene = view_->map();
     const bool is_scene_current = std::any_of(
-        shown.begin(), shown.end(), [&](const Layer* layer) { return layer->dataset == scene; });
-    readout_->setDatasets(shown.empty() ? nullptr : scene,
-                          is_shown && is_scene_current ? dataset : nullptr);
+        shown.begin(), shown.end(), [&](const Layer* layer) { return layer->map == scene; });
+    readout_->setMaps(shown.empty() ? nullptr : scene,
+                      is_shown && is_scene_current ? map : nullptr);
 }
 
 void MainWindow::showPreparation()
@@ -714,7 +713,7 @@ void MainWindow::goToCoordinate()
     if (!view_->map()) {
         return;
     }
-    auto* dialog = new GoToDialog(view_->map().dataset, preferences_, last_place_, this);
+    auto* dialog = new GoToDialog(view_->map(), preferences_, last_place_, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &GoToDialog::placeChosen, this, [this, dialog](GridPoint grid) {
         last_place_ = dialog->entry();
@@ -737,10 +736,10 @@ void MainWindow::copyCoordinates(GridPoint grid)
     if (!view_->map()) {
         return;
     }
-    const Dataset& dataset = *view_->map().dataset;
-    const double height_m = dataset.heightfield().heightNow(grid);
+    const Map& map = *view_->map();
+    const double height_m = map.heightfield().heightNow(grid);
     QGuiApplication::clipboard()->setText(plainPositionText(
-        preferences_.coordinates, dataset, grid,
+        preferences_.coordinates, map, grid,
         view_->metresPerPoint(
             {.grid = grid, .height_m = std::isfinite(height_m) ? height_m : 0.0})));
     readout_->coordinateField()->showCopied();

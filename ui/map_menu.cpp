@@ -65,12 +65,12 @@ void MapMenu::showCard(const GroundPoint& ground, QPoint at)
 {
     delete card_.data();
     // The map of the place may go while the card is open.
-    const std::weak_ptr<const Dataset> dataset = view_.ground().maps()[ground.index].map.dataset;
+    const std::weak_ptr<const Map> map = view_.ground().maps()[ground.index].map;
     const auto last = std::make_shared<PlaceFacts>(read_(ground));
     card_ = new PlaceDialog(
-        [this, dataset, ground, last] {
+        [this, map, ground, last] {
             const auto& maps = view_.ground().maps();
-            if (ground.index < maps.size() && maps[ground.index].map.dataset == dataset.lock()) {
+            if (ground.index < maps.size() && maps[ground.index].map == map.lock()) {
                 *last = read_(ground);
             } else {
                 last->is_rough = false; // nothing finer will arrive

@@ -1,6 +1,6 @@
 #include "ui/status_readout.h"
 
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "ui/widgets/coordinate_field.h"
 #include "ui/widgets/coordinate_menu.h"
 #include "ui/widgets/reserved_label.h"
@@ -25,6 +25,20 @@ QString outsideText()
 {
     //: In place of a coordinate: nothing of the map is pointed at
     return StatusReadout::tr("outside the map");
+}
+
+// A place of the scene on the grid of another map in the same CRS.
+GridPoint onGridOf(const Map& map, const Map& scene, GridPoint grid)
+{
+    if (&map == &scene) {
+        return grid;
+    }
+    if (const auto place = scene.georeference().toGeographic(grid)) {
+        if (const auto there = map.georeference().toGrid(*place)) {
+            return *there; // the right turn of longitude
+        }
+    }
+    return map.georeference().toGrid(scene.georeference().toMap(grid));
 }
 
 // A thin line between two parts of the readout.
@@ -88,11 +102,11 @@ StatusReadout::StatusReadout(QWidget* parent)
     layout->addWidget(detail_rule_);
     layout->addWidget(detail_);
     layout->addStretch(1);
-    setDatasets(nullptr, nullptr);
+    setMaps(nullptr, nullptr);
 }
 
-void StatusReadout::setDatasets(const std::shared_ptr<const Dataset>& scene,
-                                const std::shared_ptr<const Dataset>& active)
+void StatusReadout::setMaps(const std::shared_ptr<const Map>& scene,
+                            const std::shared_ptr<const Map>& active)
 {
     if (scene != scene_) {
         place_.reset();
@@ -222,11 +236,11 @@ void StatusReadout::reserveWidths()
     }
     coordinate_->setLongest(longest + QStringLiteral("000")); // digits differ in number and width
     QString highest;
-    for (const auto& dataset : {scene_, active_}) {
-        if (dataset) {
-            const HeightRange range = dataset->heightfield().range().value_or(HeightRange{});
-            keep_longer(highest, heightText(dataset->info(), range, range.minimum_m, unit_));
-            keep_longer(highest, heightText(dataset->info(), range, range.maximum_m, unit_));
+    for (const auto& map : {scene_, active_}) {
+        if (map) {
+            const HeightRange range = map->heightfield().range().value_or(HeightRange{});
+            keep_longer(highest, heightText(map->info(), range, range.minimum_m, unit_));
+            keep_longer(highest, heightText(map->info(), range, range.maximum_m, unit_));
         }
     }
     height_->setLongest(tr("≈ %1").arg(highest) + QLatin1Char('0'));
@@ -236,16 +250,16 @@ void StatusReadout::reserveWidths()
 
 StatusReadout::ReadHeight StatusReadout::heightAt(const RayHit& hit) const
 {
-    const auto read = [this](const Dataset& dataset, GridPoint grid, double height_m) {
-        const Heightfield& heightfield = dataset.heightfield();
+    const auto read = [this](const Map& map, GridPoint grid, double height_m) {
+        const Heightfield& heightfield = map.heightfield();
         const bool is_exact = heightfield.isExact(grid);
         if (heightfield.isTiled() && is_exact) {
             height_m = heightfield.heightNow(grid); // the ray may have come a moment too early
         }
-        ReadHeight height{.text = heightText(dataset.info(),
-                                             heightfield.range().value_or(HeightRange{}), height_m,
-                                             unit_)};
-        if (dataset.isPreview()) {
+        ReadHeight height{.text =
+                              heightText(map.info(), heightfield.range().value_or(HeightRange{}),
+                                         height_m, unit_)};
+        if (map.isPreview()) {
             height.why_rough = tr("Read from a preview; exact once the overviews are built");
         } else if (!is_exact) {
             height.why_rough = tr("Read from a coarser level; the samples here are being read");

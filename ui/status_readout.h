@@ -15,7 +15,7 @@ class QToolButton;
 namespace marsview {
 
 class CoordinateField;
-class Dataset;
+class Map;
 class ReservedLabel;
 
 /// A position that is read, and how exactly it can be pointed at.
@@ -35,8 +35,7 @@ public:
     /// `scene` is the map that positions are on, null for none. `active` is the one whose
     /// elevations are shown, where it has any; it may be the same, or null for none. Both lie in
     /// one CRS.
-    void setDatasets(const std::shared_ptr<const Dataset>& scene,
-                     const std::shared_ptr<const Dataset>& active);
+    void setMaps(const std::shared_ptr<const Map>& scene, const std::shared_ptr<const Map>& active);
     /// Nothing where no position of the map is pointed at.
     void setPlace(const std::optional<ReadPlace>& place);
     void setFormat(const CoordinateFormat& format);
@@ -77,8 +76,8 @@ private:
     };
     ReadHeight heightAt(const RayHit& hit) const;
 
-    std::shared_ptr<const Dataset> scene_;
-    std::shared_ptr<const Dataset> active_;
+    std::shared_ptr<const Map> scene_;
+    std::shared_ptr<const Map> active_;
     std::optional<ReadPlace> place_;
     CoordinateFormat format_;
     HeightUnit unit_ = HeightUnit::Metres;

@@ -114,9 +114,9 @@ void StretchControl::show()
         {.layer = QString::fromStdString(layer->name),
          .stretch = layer->stretch,
          .stretched = session_.stretchedRangeOf(*layer),
-         .all = layer->dataset->heightfield().range().value_or(HeightRange{}),
+         .all = layer->map->heightfield().range().value_or(HeightRange{}),
          .ramp = &rampOf(*layer),
-         .histogram = histograms_->find(layer->dataset),
+         .histogram = histograms_->find(layer->map),
          .is_in_picture = std::find(shown.begin(), shown.end(), layer) != shown.end(),
          .slopes = is_slope ? std::optional(session_.slopeRangeOf(*layer)) : std::nullopt,
          .are_slopes_chosen = layer->slope_range.has_value()});

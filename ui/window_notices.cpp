@@ -92,7 +92,7 @@ QList<Notice> WindowNotices::ofSample() const
     if (sample == nullptr || active == nullptr) {
         return {};
     }
-    const Body* body = sample->dataset->info().body;
+    const Body* body = sample->map->info().body;
     const QString name =
         body != nullptr
             ? QString::fromUtf8(body->name.data(), static_cast<qsizetype>(body->name.size()))
@@ -111,16 +111,16 @@ QList<Notice> WindowNotices::ofSample() const
 
 QList<Notice> WindowNotices::ofLayer(const Layer& layer) const
 {
-    const Dataset& dataset = *layer.dataset;
+    const Map& map = *layer.map;
     QList<Notice> notices;
     // The first notice of a preview says in numbers that it is one.
-    const std::size_t first = dataset.isPreview() ? 1 : 0;
-    if (dataset.isPreview()) {
+    const std::size_t first = map.isPreview() ? 1 : 0;
+    if (map.isPreview()) {
         notices.append(ofPreview(layer));
     }
-    const auto& suggestion = dataset.info().crs_suggestion;
+    const auto& suggestion = map.info().crs_suggestion;
     const std::string of_suggestion = suggestion ? noticeOf(*suggestion) : std::string();
-    const auto& texts = dataset.info().notices;
+    const auto& texts = map.info().notices;
     for (std::size_t i = first; i < texts.size(); ++i) {
         const QString text = QString::fromStdString(texts[i]);
         notices.append({.id = idOf(layer.id, text),
@@ -145,7 +145,7 @@ void WindowNotices::addChoices(Notice& notice,
     for (const CrsChoice& choice : suggestion.choices) {
         const QString name =
             choice.body == "Earth" ? tr("WGS 84 (Earth)") : QString::fromStdString(choice.body);
-        RasterOverrides overrides = layer.dataset->spec().overrides;
+        RasterOverrides overrides = layer.map->spec().overrides;
         overrides.crs = choice.crs;
         notice.actions.append(
             {suggestion.choices.size() == 1

@@ -4,13 +4,15 @@
 #include "app/bench/contact_bench.h"
 #include "app/bench/reference/fractal_heights.h"
 #include "app/bench/svg_plot.h"
+#include "app/cli/commands.h"
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
+#include "app/console/map_options.h"
 #include "app/console/number_checks.h"
 #include "app/console/output_file.h"
 #include "app/console/text_output.h"
-#include "app/console/touch_map.h"
 #include "core/base/parallel.h"
+#include "core/session/open_map.h"
 #include "core/terrain/surface_analysis.h"
 
 #include <CLI/CLI.hpp>
@@ -56,7 +58,7 @@ struct Options {
 // What the hand wanders over.
 struct Ground {
     std::string name;
-    std::shared_ptr<const Dataset> dataset; // null: the fractal
+    std::shared_ptr<const Map> map; // null: the fractal
     std::shared_ptr<const FilledHeightfield> filled;
     SceneFrame frame;
     std::size_t hierarchy_bytes = 0;
@@ -135,17 +137,19 @@ Result<Ground> fractalGround(const Options& options, JobMonitor& monitor)
 
 Result<Ground> mapGround(const Options& options, JobMonitor& monitor)
 {
-    Result<TouchMap> map = openTouchMap(options.map, TouchStore::Held, monitor);
-    if (!map) {
-        return std::move(map).error();
+    Result<std::shared_ptr<const Map>> opened =
+        openMap(options.map.spec(), defaultMapResources(), monitor, {.is_in_memory = true});
+    if (!opened) {
+        return std::move(opened).error();
     }
+    const std::shared_ptr<const Map> map = std::move(opened).value();
     Ground ground;
     ground.name = options.map.path;
     ground.hierarchy_bytes =
-        hierarchyBytes(map->analysis->bounds, map->dataset->heightfield().samples().hasVoids());
-    ground.frame = map->dataset->georeference().sceneFrame();
-    ground.filled = map->filled;
-    ground.dataset = map->dataset;
+        hierarchyBytes(map->analysis()->bounds, map->heightfield().samples().hasVoids());
+    ground.frame = map->georeference().sceneFrame();
+    ground.filled = map->filled();
+    ground.map = map;
     return ground;
 }
 
@@ -322,7 +326,7 @@ Plot plotOf(const Options& options, const Ground& ground, const ContactBenchResu
     Plot plot;
     plot.title = "Contact models: run time against error";
     const auto name =
-        ground.dataset ? std::filesystem::path(ground.name).filename().string() : ground.name;
+        ground.map ? std::filesystem::path(ground.name).filename().string() : ground.name;
     plot.note = fmt::format("{}; {} triangles; {}", name, ground.triangleCount(), processorName());
     plot.x_label = "mean time of an update, µs; speeds in cells an update at the ends of each line";
     plot.y_label = "mean distance from the ideal proxy, cells";
@@ -400,8 +404,8 @@ Status runBenchContact(const Options& given)
         }
     }
     std::fflush(stdout); // before what is said about it
-    if (ground.dataset) {
-        printNotices(ground.dataset->info());
+    if (ground.map) {
+        printNotices(ground.map->info());
     }
     if (result->unfinished_count != 0) {
         std::fprintf(stderr, "marsview-cli: %s: the ideal was not found in %llu pieces\n",

@@ -100,8 +100,8 @@ public:
         , buffer_(options.viewport)
         , picture_(*scene.renderer)
         , ground_{.box = scene.box(exaggeration),
-                  .pixel_m = std::min(scene.map.dataset->georeference().pixelWidthMetres(),
-                                      scene.map.dataset->georeference().pixelHeightMetres()),
+                  .pixel_m = std::min(scene.map->georeference().pixelWidthMetres(),
+                                      scene.map->georeference().pixelHeightMetres()),
                   .height = [this](double east_m, double north_m) {
                       return scene_.ground(east_m, north_m, exaggeration_);
                   }}
@@ -181,8 +181,8 @@ public:
         if (!picture) {
             return picture.error();
         }
-        const Heightfield& heightfield = scene_.map.dataset->heightfield();
-        const SceneFrame& frame = scene_.map.dataset->georeference().sceneFrame();
+        const Heightfield& heightfield = scene_.map->heightfield();
+        const SceneFrame& frame = scene_.map->georeference().sceneFrame();
         RestingPose pose{.camera = camera,
                          .triangle_count = picture->report.triangle_count,
                          .error_bound_px = picture->report.error_px,
@@ -190,7 +190,7 @@ public:
                                                       options_.viewport, picture->depths_m,
                                                       options_.error_px),
                          .difference = std::nullopt};
-        const std::size_t all = scene_.map.dataset->info().triangleCount();
+        const std::size_t all = scene_.map->info().triangleCount();
         if (options_.is_full || all <= kFullTrianglesMax) {
             request.detail.has_every_sample = true;
             const Result<OffscreenPicture> full =
@@ -218,11 +218,11 @@ public:
             return tint ? light.error() : tint.error();
         }
         return measureColorError(
-            {.drawn = {scene_.map.dataset->heightfield(),
-                       scene_.map.dataset->georeference().sceneFrame(), exaggeration_},
-             .bounds = scene_.map.analysis->bounds,
+            {.drawn = {scene_.map->heightfield(), scene_.map->georeference().sceneFrame(),
+                       exaggeration_},
+             .bounds = scene_.map->analysis()->bounds,
              .ramp = scene_.ramp(),
-             .range = tintedRange(scene_.ramp(), scene_.map.tint_range)},
+             .range = tintedRange(scene_.ramp(), scene_.map->tintRange())},
             camera, options_.viewport,
             {.tint = tint->colors.rgb, .light = light->colors.rgb, .depths_m = tint->depths_m},
             kColorStride);
@@ -268,7 +268,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
         return std::move(scene).error();
     }
     scene->exaggeration = options.exaggeration.value_or(scene->exaggeration);
-    const RasterInfo& info = scene->map.dataset->info();
+    const RasterInfo& info = scene->map->info();
     LongJob job("flying");
     Bench bench(*scene, scene->exaggeration, options, *news, job.monitor());
     if (!bench.canDraw()) {

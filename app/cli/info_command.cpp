@@ -40,23 +40,24 @@ Json textOrNull(const std::string& text)
 }
 
 // Longitude and latitude in degrees of the outer corners, the way people of that body count them.
-Json cornersOf(const OpenedMap& map, LatitudeKind latitude_kind)
+Json cornersOf(const Georeference& georeference, LatitudeKind latitude_kind)
 {
-    const double right = static_cast<double>(map.info.columns) - 0.5;
-    const double below = static_cast<double>(map.info.rows) - 0.5;
+    const double right = static_cast<double>(georeference.columns()) - 0.5;
+    const double below = static_cast<double>(georeference.rows()) - 0.5;
     Json corners = Json::object();
     for (const auto& [name, grid] : {std::pair{"upper_left", GridPoint{-0.5, -0.5}},
                                      std::pair{"upper_right", GridPoint{right, -0.5}},
                                      std::pair{"lower_left", GridPoint{-0.5, below}},
                                      std::pair{"lower_right", GridPoint{right, below}}}) {
-        const auto point = map.georeference.toGeographic(grid);
+        const auto point = georeference.toGeographic(grid);
         if (!point) {
             corners[name] = nullptr;
             continue;
         }
-        const Angle latitude = latitude_kind == LatitudeKind::Planetographic
-                                   ? map.info.crs->ellipsoid()->planetographic(point->latitude)
-                                   : point->latitude;
+        const Angle latitude =
+            latitude_kind == LatitudeKind::Planetographic
+                ? georeference.crs()->ellipsoid()->planetographic(point->latitude)
+                : point->latitude;
         corners[name] = {point->longitude.degrees(), latitude.degrees()};
     }
     return corners;
@@ -76,11 +77,11 @@ Json suggestionOf(const RasterInfo& info)
             {"choices", std::move(choices)}};
 }
 
-Json describe(const OpenedMap& map,
-              const std::optional<SampleStatistics>& statistics,
-              const MapOptions& options)
+Json jsonOf(const RasterInfo& info,
+            const std::optional<SampleStatistics>& statistics,
+            const MapOptions& options)
 {
-    const RasterInfo& info = map.info;
+    const Georeference georeference = georeferenceOf(info);
     const ElevationScale scale = info.elevationScale();
     const bool has_samples = statistics && statistics->hasSamples();
     double low = has_samples ? scale.height(statistics->raw_minimum) : kNone;
@@ -121,16 +122,15 @@ Json describe(const OpenedMap& map,
     json["body"] = info.body != nullptr ? Json(info.body->name) : Json(nullptr);
     const auto ellipsoid = info.crs ? info.crs->ellipsoid() : std::nullopt;
     json["radii_m"] = ellipsoid ? Json{ellipsoid->equatorial_m, ellipsoid->polar_m} : Json(nullptr);
-    const GeoTransform& transform = map.georeference.transform();
+    const GeoTransform& transform = georeference.transform();
     json["pixel_size"] = {transform.pixelWidth(), transform.pixelHeight()};
-    json["pixel_size_m"] = {map.georeference.pixelWidthMetres(),
-                            map.georeference.pixelHeightMetres()};
+    json["pixel_size_m"] = {georeference.pixelWidthMetres(), georeference.pixelHeightMetres()};
     json["geotransform"] = info.transform ? Json(info.transform->terms()) : Json(nullptr);
     const LatitudeKind latitude_kind = options.latitudeKind(info.body);
     json["latitude_kind"] =
         latitude_kind == LatitudeKind::Planetographic ? "planetographic" : "planetocentric";
-    json["corners_lonlat"] = info.crs ? cornersOf(map, latitude_kind) : Json(nullptr);
-    json["wraps_around"] = map.georeference.wrapsAround();
+    json["corners_lonlat"] = info.crs ? cornersOf(georeference, latitude_kind) : Json(nullptr);
+    json["wraps_around"] = georeference.wrapsAround();
     json["triangle_count"] = info.triangleCount();
     json["notices"] = info.notices;
     return json;
@@ -199,30 +199,25 @@ void printForPeople(const Json& json, const RasterInfo& info)
     print("triangles", field("triangle_count"));
 }
 
-// A map that was prepared has been read once already, and one at a server is not fetched whole.
-Result<SampleStatistics> statisticsOf(OpenedMap& map, const MapOptions& options)
+// A prepared map has been read once already, and a remote one is not fetched whole. Notices about
+// that are added to `info`.
+Result<SampleStatistics> statisticsOf(OpenRaster raster, RasterInfo& info)
 {
     LongJob job("reading");
-    const MapResources resources = defaultMapResources();
-    const DatasetSpec spec = options.spec();
-    const Result<OpenPlan> plan = planOpening(spec, resources);
-    if (plan) {
-        map.info.notices.insert(map.info.notices.end(), plan->notices.begin(), plan->notices.end());
+    if (!checkIsSurface("", info)) {
+        return raster.file.scan(job.monitor(), raster.voids());
     }
-    if (plan && plan->store == MapStore::Tiled) {
-        const Result<LoadedMap> loaded = openPlanned(spec, *plan, resources, job.monitor());
-        if (loaded && !plan->level_path) {
-            map.info.notices.emplace_back(
-                "minimum, maximum and voids are estimated from an overview");
-        }
-        if (loaded) {
-            return loaded->levels->statistics;
-        }
-        if (!map.info.remote_version.empty()) {
-            return loaded.error(); // it is not to be fetched whole
-        }
+    Result<MapOpening> opening = MapOpening::begin(std::move(raster), defaultMapResources());
+    if (!opening) {
+        return std::move(opening).error();
     }
-    return map.file.scan(job.monitor(), {map.info.nodata});
+    const std::vector<std::string>& notices = opening->notices();
+    info.notices.insert(info.notices.end(), notices.begin(), notices.end());
+    Result<SampleStatistics> statistics = opening->statistics(job.monitor());
+    if (statistics && opening->isEstimated()) {
+        info.notices.emplace_back("minimum, maximum and voids are estimated from an overview");
+    }
+    return statistics;
 }
 
 // A raster with what --json prints of it.
@@ -233,32 +228,33 @@ struct Description {
 
 Result<Description> describe(const MapOptions& options, bool has_statistics)
 {
-    Result<OpenedMap> map = openMap(options);
-    if (!map) {
-        return std::move(map).error();
+    Result<OpenRaster> raster = openRaster(options);
+    if (!raster) {
+        return std::move(raster).error();
     }
+    RasterInfo info = raster->info;
     std::optional<SampleStatistics> statistics;
     if (has_statistics) {
-        const Result<SampleStatistics> computed = statisticsOf(*map, options);
+        const Result<SampleStatistics> computed = statisticsOf(std::move(*raster), info);
         if (computed) {
             statistics = *computed;
-            noteSuspiciousSamples(map->info, *statistics);
+            noteSuspiciousSamples(info, *statistics);
         } else if (computed.error().code == ErrorCode::TooLarge) {
-            const std::string path = addressOf(map->info.path) + ": ";
+            const std::string path = addressOf(info.path) + ": ";
             const std::string& why = computed.error().message;
-            map->info.notices.push_back("minimum, maximum and voids are not computed: " +
-                                        (why.starts_with(path) ? why.substr(path.size()) : why));
+            info.notices.push_back("minimum, maximum and voids are not computed: " +
+                                   (why.starts_with(path) ? why.substr(path.size()) : why));
         } else {
             return computed.error();
         }
     }
-    // Described it can be, but what needs a surface refuses it.
-    if (const Status surface = checkIsSurface("", map->info); !surface) {
+    // It can be described, but commands that need a surface refuse it.
+    if (const Status surface = checkIsSurface("", info); !surface) {
         constexpr std::string_view kNoPath = ": ";
-        map->info.notices.push_back(surface.error().message.substr(kNoPath.size()));
+        info.notices.push_back(surface.error().message.substr(kNoPath.size()));
     }
-    Json json = withSchema(describe(*map, statistics, options));
-    return Description{std::move(map->info), std::move(json)};
+    Json json = withSchema(jsonOf(info, statistics, options));
+    return Description{std::move(info), std::move(json)};
 }
 
 // Every file is described; of those that fail, all but the last are reported here.

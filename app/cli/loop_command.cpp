@@ -261,7 +261,7 @@ Status runLoop(const Options& options)
         const std::string text = asText(report);
         std::fwrite(text.data(), 1, text.size(), stdout);
     }
-    printNotices(map->opened.dataset->info());
+    printNotices(map->opened->info());
     if (!replay_notice->empty()) {
         std::fprintf(stderr, "marsview-cli: %s\n", asOneLine(*replay_notice).c_str());
     }

@@ -7,28 +7,27 @@ namespace marsview {
 Result<LoopMap>
 openLoopMap(const MapOptions& map, const LoopMapOptions& options, JobMonitor& monitor)
 {
-    Result<TouchMap> opened = openTouchMap(map, TouchStore::HeldOrTiled, monitor);
+    Result<std::shared_ptr<const Map>> opened = openMap(map.spec(), defaultMapResources(), monitor);
     if (!opened) {
         return std::move(opened).error();
     }
     LoopMap result;
     result.opened = std::move(opened).value();
-    const auto& dataset = result.opened.dataset;
-    const Georeference& georeference = dataset->georeference();
-    const Heightfield& heightfield = dataset->heightfield();
+    const Georeference& georeference = result.opened->georeference();
+    const Heightfield& heightfield = result.opened->heightfield();
     result.cell_m = 0.5 * (georeference.pixelWidthMetres() + georeference.pixelHeightMetres());
     result.radius_m = options.radius_m.value_or(0.5 * result.cell_m);
     result.box = sceneBox(georeference.sceneFrame(), georeference.columns(), georeference.rows(),
                           heightfield.range().value_or(HeightRange{}), options.exaggeration);
-    const GoalFrame frame({dataset, &georeference}, options.exaggeration);
+    const GoalFrame frame({result.opened, &georeference}, options.exaggeration);
     const ServoMapOptions servo{.kind = options.kind, .contact = {.radius_m = result.radius_m}};
-    if (result.opened.filled) {
-        result.map = makeServoMap(frame, result.opened.filled, servo);
+    if (result.opened->filled()) {
+        result.map = makeServoMap(frame, result.opened->filled(), servo);
         return result;
     }
     auto feeder = WindowFeeder::create(
         heightfield.tiles()->raster(),
-        std::make_shared<const TileHeights>(result.opened.levels, heightfield.scale()));
+        std::make_shared<const TileHeights>(result.opened->levels(), heightfield.scale()));
     if (!feeder) {
         return std::move(feeder).error();
     }

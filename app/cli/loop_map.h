@@ -1,8 +1,9 @@
 // A map for a servo loop: in memory, or in tiles with the thread that brings them.
 #pragma once
 
-#include "app/console/touch_map.h"
+#include "app/console/map_options.h"
 #include "core/contact/contact_model.h"
+#include "core/session/open_map.h"
 #include "core/view/scene_box.h"
 #include "haptics/terrain/servo_map.h"
 #include "haptics/terrain/window_feeder.h"
@@ -20,7 +21,7 @@ struct LoopMapOptions {
 
 /// Feeds while it lives. The map is the servo's until the loop has ended.
 struct LoopMap {
-    TouchMap opened;
+    std::shared_ptr<const Map> opened;
     std::unique_ptr<WindowFeeder> feeder; // null where the map is held
     std::shared_ptr<ServoMap> map;
     SceneBox box;          // of the whole map

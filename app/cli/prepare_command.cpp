@@ -51,12 +51,11 @@ std::uint64_t bytesOf(const std::string& path)
     return ignored ? 0 : bytes;
 }
 
-Result<Work> workFor(const Options& options)
+Result<Work> workFor(const Options& options, const OpenRaster& raster)
 {
     Work work;
     PrepareJob& job = work.job;
     job.when_there = PrepareJob::WhenThere::Check;
-    job.spec = options.map.spec();
     job.when_busy =
         options.is_waiting ? TiledGeoTiffJob::WhenBusy::Wait : TiledGeoTiffJob::WhenBusy::Fail;
     job.checkpoint_interval =
@@ -66,11 +65,7 @@ Result<Work> workFor(const Options& options)
         options.output.empty() ||
         std::filesystem::equivalent(options.output, options.map.path, ignored);
     if (may_be_in_place) {
-        const Result<bool> in_place = canBeUsedInPlace(job.spec);
-        if (!in_place) {
-            return in_place.error();
-        }
-        if (*in_place) {
+        if (canBeUsedInPlace(raster)) {
             work.is_in_place = true;
             return work;
         }
@@ -92,13 +87,14 @@ Result<Work> workFor(const Options& options)
 }
 
 // Where nothing is said and the raster itself will not do, among the prepared maps.
-Result<PrepareReport> prepare(const PrepareJob& job, bool is_in_place, JobMonitor& monitor)
+Result<PrepareReport> prepare(const OpenRaster& raster, const Work& work, JobMonitor& monitor)
 {
-    if (is_in_place || !job.raster_path.empty()) {
-        return prepareMapFiles(job, monitor);
+    const PrepareJob& job = work.job;
+    if (work.is_in_place || !job.raster_path.empty()) {
+        return prepareMapFiles(raster, job, monitor);
     }
-    return prepareInFolder({.spec = job.spec,
-                            .folder = MapFolder::defaultPath(),
+    return prepareInFolder(raster,
+                           {.folder = MapFolder::defaultPath(),
                             .when_busy = job.when_busy,
                             .when_there = job.when_there,
                             .checkpoint_interval = job.checkpoint_interval},
@@ -127,16 +123,22 @@ void print(const Json& json)
 
 Status runPrepare(const Options& options)
 {
-    const Result<Work> work = workFor(options);
+    if (options.output.empty()) {
+        if (Status local = checkIsLocal(options.map.spec()); !local) {
+            return local;
+        }
+    }
+    const Result<OpenRaster> raster = openRaster(options.map);
+    if (!raster) {
+        return raster.error();
+    }
+    const Result<Work> work = workFor(options, *raster);
     if (!work) {
         return work.error();
     }
-    // Beforehand: what it takes may be among them.
-    if (const Result<RasterFile> file = RasterFile::open(options.map.path, options.map.band)) {
-        printNotices(file->info());
-    }
+    printNotices(raster->info); // before the work, as they may say how long it takes
     LongJob job("preparing");
-    Result<PrepareReport> report = prepare(work->job, work->is_in_place, job.monitor());
+    Result<PrepareReport> report = prepare(*raster, *work, job.monitor());
     if (!report) {
         return std::move(report).error();
     }

@@ -50,7 +50,7 @@ Result<OrbitCamera> cameraFrom(const Options& options,
     }
     camera.azimuth = Angle::degrees(options.azimuth_deg);
     if (!options.look_at.empty()) {
-        const Georeference& georeference = scene.map.dataset->georeference();
+        const Georeference& georeference = scene.map->georeference();
         const GridPoint grid =
             georeference.toGrid(MapPoint{options.look_at.front(), options.look_at.back()});
         const double last_column = static_cast<double>(georeference.columns() - 1);
@@ -61,7 +61,7 @@ Result<OrbitCamera> cameraFrom(const Options& options,
                          fmt::format("--look-at: {},{} is not on the map", options.look_at.front(),
                                      options.look_at.back())};
         }
-        const double height_m = scene.map.dataset->heightfield().heightWaiting(grid);
+        const double height_m = scene.map->heightfield().heightWaiting(grid);
         camera.target = georeference.sceneFrame().toScene(
             grid, std::isnan(height_m) ? 0.0 : height_m * exaggeration);
     }
@@ -117,7 +117,7 @@ Status runRender(const Options& options)
         std::fprintf(stderr, "%s: %zu triangles, 99 %% of the pixels within %.2g pixels\n",
                      options.output.c_str(), picture->report.triangle_count,
                      picture->report.error_px);
-        printNotices(scene->map.dataset->info());
+        printNotices(scene->map->info());
     }
     return written;
 }

@@ -35,8 +35,7 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
         return std::string();
     }
     const std::string file = replayedFile(uri);
-    const auto& dataset = map.opened.dataset;
-    const std::shared_ptr<const Georeference> georeference(dataset, &dataset->georeference());
+    const std::shared_ptr<const Georeference> georeference(map.opened, &map.opened->georeference());
     const Result<ReplayFit> fit = replayFit(file, {&georeference, 1});
     if (!fit) {
         return fit.error();

@@ -42,12 +42,13 @@ struct Position {
 
 class Sampler {
 public:
-    // `tiles`: of the map, where somebody vouches for them.
-    Sampler(OpenedMap& map, const Options& options, std::shared_ptr<const TileSource> tiles)
-        : map_(map)
-        , reader_(map.file, map.info, map.georeference, std::move(tiles))
+    // `tiles`: of the raster, where a level file verifies them; may be null.
+    Sampler(OpenRaster& raster, const Options& options, std::shared_ptr<const TileSource> tiles)
+        : info_(raster.info)
+        , georeference_(georeferenceOf(raster.info))
+        , reader_(raster.file, raster.info, georeference_, std::move(tiles))
         , frame_(options.frame)
-        , latitude_kind_(options.map.latitudeKind(map.info.body))
+        , latitude_kind_(options.map.latitudeKind(raster.info.body))
         , is_json_(options.is_json)
     {}
 
@@ -72,7 +73,7 @@ private:
         case PositionFrame::Pixel:
             return reader_.height(GridPoint{p.first, p.second});
         case PositionFrame::Map:
-            return reader_.height(map_.georeference.toGrid(MapPoint{p.first, p.second}));
+            return reader_.height(georeference_.toGrid(MapPoint{p.first, p.second}));
         case PositionFrame::LonLat:
             return reader_.height(geographic(p));
         }
@@ -83,7 +84,7 @@ private:
     {
         const Angle latitude = Angle::degrees(p.second);
         return {Angle::degrees(p.first), latitude_kind_ == LatitudeKind::Planetographic
-                                             ? map_.info.crs->ellipsoid()->planetocentric(latitude)
+                                             ? info_.crs->ellipsoid()->planetocentric(latitude)
                                              : latitude};
     }
 
@@ -93,17 +94,17 @@ private:
         json["height"] = asJson(height_m);
         json["unit"] = "m";
         json["vertical_datum"] =
-            map_.info.vertical_datum.empty() ? Json(nullptr) : Json(map_.info.vertical_datum);
+            info_.vertical_datum.empty() ? Json(nullptr) : Json(info_.vertical_datum);
         std::optional<GridPoint> grid;
         switch (frame_) {
         case PositionFrame::Pixel:
             grid = GridPoint{p.first, p.second};
             break;
         case PositionFrame::Map:
-            grid = map_.georeference.toGrid(MapPoint{p.first, p.second});
+            grid = georeference_.toGrid(MapPoint{p.first, p.second});
             break;
         case PositionFrame::LonLat:
-            grid = map_.georeference.toGrid(geographic(p));
+            grid = georeference_.toGrid(geographic(p));
             break;
         }
         json["pixel"] = nullptr;
@@ -111,13 +112,12 @@ private:
         json["lonlat"] = nullptr;
         if (grid) {
             json["pixel"] = {asJson(grid->column), asJson(grid->row)};
-            const MapPoint map = map_.georeference.toMap(*grid);
+            const MapPoint map = georeference_.toMap(*grid);
             json["map"] = {asJson(map.x), asJson(map.y)};
-            if (const auto point = map_.georeference.toGeographic(*grid)) {
-                const Angle latitude =
-                    latitude_kind_ == LatitudeKind::Planetographic
-                        ? map_.info.crs->ellipsoid()->planetographic(point->latitude)
-                        : point->latitude;
+            if (const auto point = georeference_.toGeographic(*grid)) {
+                const Angle latitude = latitude_kind_ == LatitudeKind::Planetographic
+                                           ? info_.crs->ellipsoid()->planetographic(point->latitude)
+                                           : point->latitude;
                 json["lonlat"] = {asJson(point->longitude.degrees()), asJson(latitude.degrees())};
             }
         }
@@ -126,7 +126,8 @@ private:
         return json;
     }
 
-    OpenedMap& map_;
+    const RasterInfo& info_;
+    Georeference georeference_;
     SurfaceReader reader_;
     PositionFrame frame_;
     LatitudeKind latitude_kind_;
@@ -198,30 +199,30 @@ Status runSample(const Options& options)
     if (options.is_stdin) {
         allowLargeBlockCache();
     }
-    Result<OpenedMap> map = openMap(options.map);
-    if (!map) {
-        return std::move(map).error();
+    Result<OpenRaster> raster = openRaster(options.map);
+    if (!raster) {
+        return std::move(raster).error();
     }
-    const bool has_lonlat = map->info.crs && map->info.crs->kind() != CrsKind::Local;
+    const bool has_lonlat = raster->info.crs && raster->info.crs->kind() != CrsKind::Local;
     if (options.frame == PositionFrame::LonLat && !has_lonlat) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: has no CRS, so it has no longitude and latitude; set "
                                  "one with --crs or --body",
                                  options.map.path)};
     }
-    Result<VouchedTiles> vouched = vouchedTiles(map->file, map->info);
-    if (!vouched) {
-        return std::move(vouched).error();
+    Result<VerifiedTiles> verified = verifiedTiles(*raster);
+    if (!verified) {
+        return std::move(verified).error();
     }
-    if (!vouched->notice.empty()) {
-        map->info.notices.push_back(std::move(vouched->notice));
+    if (!verified->notice.empty()) {
+        raster->info.notices.push_back(std::move(verified->notice));
     }
-    Sampler sampler(*map, options, std::move(vouched->tiles));
+    Sampler sampler(*raster, options, std::move(verified->tiles));
     Status status = options.is_stdin
                         ? sampleStdin(sampler)
                         : sampler.print({options.position.first, options.position.second});
     if (status) {
-        printNotices(map->info);
+        printNotices(raster->info);
     }
     return status;
 }

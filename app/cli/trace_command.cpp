@@ -49,7 +49,7 @@ touchesOf(const Options& options, const GoalRecording& recording, const TraceSub
                         contactModelKind(options.model.value_or("")).value_or(kContactModelDefault),
                     .radius_m = options.radius_m.value_or(subject.radius_m),
                     .exaggeration = options.exaggeration.value_or(1.0)};
-    if (recording.parts.empty() || subject.dataset == nullptr) {
+    if (recording.parts.empty() || subject.map == nullptr) {
         return std::vector<TraceTouch>{said};
     }
     std::vector<TraceTouch> touches;
@@ -174,13 +174,13 @@ std::string noticeOf(const Options& options,
     if (recording.is_cut_short) {
         remarks.emplace_back(kCutShortText);
     }
-    if (subject.dataset && !subject.is_recorded_on && !recording.parts.empty() &&
+    if (subject.map && !subject.is_recorded_on && !recording.parts.empty() &&
         recording.parts.front().ground) {
         remarks.push_back(otherMapText(*recording.parts.front().ground));
     }
-    if (subject.dataset && !recording.goals.empty()) {
-        const Georeference& map = subject.dataset->georeference();
-        const GoalFrame frame({subject.dataset, &map}, 1.0);
+    if (subject.map && !recording.goals.empty()) {
+        const Georeference& map = subject.map->georeference();
+        const GoalFrame frame({subject.map, &map}, 1.0);
         if (std::all_of(recording.goals.begin(), recording.goals.end(),
                         [&frame](const TracePoint& goal) { return frame.isClamped(goal); })) {
             remarks.emplace_back(
@@ -303,8 +303,8 @@ Status runTrace(const Options& options)
             return written;
         }
     }
-    if (subject->dataset) {
-        printNotices(subject->dataset->info());
+    if (subject->map) {
+        printNotices(subject->map->info());
     }
     if (const std::string notice = noticeOf(options, *recording, *subject, *updates);
         !notice.empty()) {

@@ -1,8 +1,8 @@
 #include "app/cli/trace_subject.h"
 
-#include "app/console/touch_map.h"
 #include "core/contact/resident_heights.h"
 #include "core/mesh/mesh_file.h"
+#include "core/session/open_map.h"
 #include "haptics/trace/replay_check.h"
 
 #include <algorithm>
@@ -84,24 +84,27 @@ meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
 Result<TraceSubject>
 mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor& monitor)
 {
-    const TouchStore store = recording.ground.empty() ? TouchStore::HeldOrTiled : TouchStore::Tiled;
-    Result<TouchMap> map = openTouchMap(options, store, monitor);
-    if (!map) {
-        return std::move(map).error();
+    MapResources resources = defaultMapResources();
+    if (!recording.ground.empty()) {
+        resources.held_bytes_max = 0; // in tiles, as it was recorded
     }
+    Result<std::shared_ptr<const Map>> opened = openMap(options.spec(), resources, monitor);
+    if (!opened) {
+        return std::move(opened).error();
+    }
+    const std::shared_ptr<const Map> map = std::move(opened).value();
     TraceSubject subject;
-    const auto dataset = map->dataset;
-    subject.dataset = dataset;
-    const Georeference& georeference = dataset->georeference();
+    subject.map = map;
+    const Georeference& georeference = map->georeference();
     subject.radius_m = (georeference.pixelWidthMetres() + georeference.pixelHeightMetres()) / 4.0;
     subject.is_recorded_on = isRecordedOn(recording, georeference);
-    const auto goal_frame = [dataset](const TraceTouch& touch) {
-        const Georeference& placed = dataset->georeference();
-        return GoalFrame({dataset, &placed}, touch.frame.value_or(placed.sceneFrame()),
+    const auto goal_frame = [map](const TraceTouch& touch) {
+        const Georeference& placed = map->georeference();
+        return GoalFrame({map, &placed}, touch.frame.value_or(placed.sceneFrame()),
                          touch.exaggeration);
     };
-    if (map->filled) {
-        subject.make = [goal_frame, filled = map->filled](const TraceTouch& touch) {
+    if (map->filled()) {
+        subject.make = [goal_frame, filled = map->filled()](const TraceTouch& touch) {
             const GoalFrame frame = goal_frame(touch);
             const HeightfieldSurface surface(filled, frame.frame(), touch.exaggeration);
             return mapToucher(makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
@@ -109,9 +112,9 @@ mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor
         };
         return subject;
     }
-    const Heightfield& heightfield = dataset->heightfield();
+    const Heightfield& heightfield = map->heightfield();
     const TiledRaster& raster = heightfield.tiles()->raster();
-    const auto heights = std::make_shared<const TileHeights>(map->levels, heightfield.scale());
+    const auto heights = std::make_shared<const TileHeights>(map->levels(), heightfield.scale());
     std::shared_ptr<const TiledTerrain> terrain;
     if (subject.is_recorded_on && !recording.ground.empty()) {
         auto recorded = RecordedGround::make(raster, heights);

@@ -8,7 +8,7 @@
 #include "core/contact/contact_model.h"
 #include "core/geo/scene_frame.h"
 #include "core/levels/waiting_terrain.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "haptics/trace/goal_file.h"
 #include "haptics/trace/recorded_ground.h"
 
@@ -40,7 +40,7 @@ struct Toucher {
 struct TraceSubject {
     std::function<Toucher(const TraceTouch&)> make;
     double radius_m = 1.0;                         // where nobody has told another
-    std::shared_ptr<const Dataset> dataset;        // null for a mesh
+    std::shared_ptr<const Map> map;                // null for a mesh
     std::shared_ptr<const WaitingTerrain> waiting; // of a map in tiles, or else:
     std::shared_ptr<RecordedGround> recorded;      // the same as a recording felt it
     bool is_recorded_on = false;                   // what the recording says of its map holds

@@ -7,7 +7,7 @@
 #include "core/files/file_address.h"
 #include "core/files/remote_raster.h"
 #include "core/geo/crs.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -73,8 +73,7 @@ CLI::Validator mapName()
 void MapOptions::addTo(CLI::App& command)
 {
     command
-        .add_option("DEM", path,
-                    "elevation map: a file, a label, an address, or a GDAL dataset name")
+        .add_option("DEM", path, "elevation map: a file, a label, an address, or a GDAL map name")
         ->required()
         ->transform(mapName());
     addOverridesTo(command);
@@ -151,7 +150,7 @@ RasterOverrides MapOptions::overrides() const
     return overrides;
 }
 
-DatasetSpec MapOptions::spec() const
+RasterSpec MapOptions::spec() const
 {
     return {.path = path, .band = band, .overrides = overrides()};
 }
@@ -202,26 +201,19 @@ LatitudeKind MapOptions::latitudeKind(const Body* of_body) const
     return of_body->latitude;
 }
 
-Result<OpenedMap> openMap(const MapOptions& options)
+Result<OpenRaster> openRaster(const MapOptions& options)
 {
     std::optional<LongJob> job;
     if (!LongJob::isRunning()) {
         job.emplace("opening");
     }
-    Result<RasterFile> file = RasterFile::open(options.path, options.band);
-    if (!file) {
-        return std::move(file).error();
+    Result<OpenRaster> raster = openRaster(options.spec());
+    if (raster && raster->info.crs_suggestion) { // here it is set by an option
+        RasterInfo& info = raster->info;
+        std::replace(info.notices.begin(), info.notices.end(), noticeOf(*info.crs_suggestion),
+                     optionNoticeOf(*info.crs_suggestion));
     }
-    Result<RasterInfo> info = withOverrides(file->info(), options.overrides());
-    if (!info) {
-        return Error{info.error().code, fmt::format("{}: {}", options.path, info.error().message)};
-    }
-    if (info->crs_suggestion) { // here it is set by an option
-        std::replace(info->notices.begin(), info->notices.end(), noticeOf(*info->crs_suggestion),
-                     optionNoticeOf(*info->crs_suggestion));
-    }
-    Georeference georeference = georeferenceOf(*info);
-    return OpenedMap{std::move(file).value(), std::move(info).value(), std::move(georeference)};
+    return raster;
 }
 
 void printNotices(const RasterInfo& info)

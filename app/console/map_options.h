@@ -3,10 +3,8 @@
 
 #include "core/base/result.h"
 #include "core/geo/body.h"
-#include "core/geo/georeference.h"
-#include "core/raster/raster_file.h"
+#include "core/raster/open_raster.h"
 #include "core/raster/raster_info.h"
-#include "core/session/dataset.h"
 
 #include <optional>
 #include <string>
@@ -38,7 +36,7 @@ struct MapOptions {
     /// All but the map itself.
     void addOverridesTo(CLI::App& command);
     RasterOverrides overrides() const;
-    DatasetSpec spec() const;
+    RasterSpec spec() const;
     /// The overrides as they were given: for another process.
     std::vector<std::string> overrideArguments() const;
     /// Whether anything but the map itself was given.
@@ -50,14 +48,8 @@ struct MapOptions {
 /// For every option that names a map: "file://" addresses become paths.
 CLI::Validator mapName();
 
-/// An open raster with the options applied.
-struct OpenedMap {
-    RasterFile file;
-    RasterInfo info;
-    Georeference georeference;
-};
-
-Result<OpenedMap> openMap(const MapOptions& options);
+/// The raster that the options name, with their overrides. Shows progress where that takes long.
+Result<OpenRaster> openRaster(const MapOptions& options);
 
 /// Says on stderr what was noticed about the map: for when the result is out. A failure says only
 /// its own sentence.

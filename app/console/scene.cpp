@@ -21,22 +21,21 @@ constexpr int kSideMax = 16384;
 
 const ColorRamp& Scene::ramp() const
 {
-    const Body* body = map.dataset->info().body;
+    const Body* body = map->info().body;
     return defaultColorRamp(body != nullptr ? body->name : std::string_view{});
 }
 
 SceneBox Scene::box(double with_exaggeration) const
 {
-    const Heightfield& heightfield = map.dataset->heightfield();
-    return sceneBox(map.dataset->georeference().sceneFrame(), heightfield.columns(),
-                    heightfield.rows(), heightfield.range().value_or(HeightRange{}),
-                    with_exaggeration);
+    const Heightfield& heightfield = map->heightfield();
+    return sceneBox(map->georeference().sceneFrame(), heightfield.columns(), heightfield.rows(),
+                    heightfield.range().value_or(HeightRange{}), with_exaggeration);
 }
 
 double Scene::ground(double east_m, double north_m, double with_exaggeration, Ground which) const
 {
-    const GridPoint grid = map.dataset->georeference().sceneFrame().toGrid({east_m, north_m, 0.0});
-    const Heightfield& heightfield = map.dataset->heightfield();
+    const GridPoint grid = map->georeference().sceneFrame().toGrid({east_m, north_m, 0.0});
+    const Heightfield& heightfield = map->heightfield();
     const double height_m =
         which == Ground::Waiting ? heightfield.heightWaiting(grid) : heightfield.height(grid);
     return height_m * with_exaggeration;
@@ -44,7 +43,7 @@ double Scene::ground(double east_m, double north_m, double with_exaggeration, Gr
 
 OrbitCamera Scene::bounded(const OrbitCamera& camera, double with_exaggeration, Ground which) const
 {
-    const Georeference& georeference = map.dataset->georeference();
+    const Georeference& georeference = map->georeference();
     return constrained(
         camera,
         navigationLimits(box(with_exaggeration), std::min(georeference.pixelWidthMetres(),
@@ -70,13 +69,12 @@ Result<Scene> emptyScene(std::function<void()> notify)
                  .exaggeration = 1.0};
 }
 
-void showIn(Scene& scene, LoadedMap map, const ColorRamp* ramp)
+void showIn(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp)
 {
     scene.map = std::move(map);
-    scene.renderer->setLayers(
-        {terrainLayer(scene.map, scene.map.dataset->georeference().sceneFrame(),
-                      ramp != nullptr ? *ramp : scene.ramp())});
-    scene.exaggeration = suitableExaggeration(*scene.map.dataset);
+    scene.renderer->setLayers({terrainLayer(scene.map, scene.map->georeference().sceneFrame(),
+                                            ramp != nullptr ? *ramp : scene.ramp())});
+    scene.exaggeration = suitableExaggeration(*scene.map);
 }
 
 Result<Scene>
@@ -87,7 +85,8 @@ openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()
         return scene;
     }
     LongJob job("reading");
-    Result<LoadedMap> map = openMap(options.spec(), defaultMapResources(), job.monitor());
+    Result<std::shared_ptr<const Map>> map =
+        openMap(options.spec(), defaultMapResources(), job.monitor());
     if (!map) {
         return std::move(map).error();
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/console/map_options.h"
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "core/view/navigation.h"
 #include "ui/render/egl_context.h"
 #include "ui/render/terrain_renderer.h"
@@ -21,7 +21,7 @@ namespace marsview {
 struct Scene {
     std::unique_ptr<EglContext> context; // outlives the renderer
     std::unique_ptr<TerrainRenderer> renderer;
-    LoadedMap map;
+    std::shared_ptr<const Map> map;
     double exaggeration = 1.0; // that suits the map
 
     /// The ramp that suits the map's body.
@@ -45,7 +45,7 @@ struct Scene {
 /// A renderer without a map; `notify` is TerrainRenderer's. This first, as it fails at once.
 Result<Scene> emptyScene(std::function<void()> notify = {});
 /// From now on the map is drawn. `ramp` is null for the one that suits the body.
-void showIn(Scene& scene, LoadedMap map, const ColorRamp* ramp);
+void showIn(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp);
 
 /// Reads and analyses the map, showing progress. `ramp` is null for the one that suits the body;
 /// `notify` is TerrainRenderer's.

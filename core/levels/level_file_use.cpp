@@ -9,37 +9,24 @@
 
 namespace marsview {
 
-Result<LevelFileKey> levelFileKey(const std::string& raster_path, int band, const RasterInfo& info)
+Result<RasterLevels> openLevels(const std::string& level_path,
+                                const std::string& raster_path,
+                                int band,
+                                const RasterInfo& info)
 {
+    if (!fileExists(level_path)) {
+        return Error{ErrorCode::NotFound, level_path + ": not found"};
+    }
     Result<SourceIdentity> identity = identify(raster_path, OverviewFiles::Counted);
     if (!identity) {
         return std::move(identity).error();
     }
-    return LevelFileKey{.raster = std::move(*identity), .band = band, .nodata = info.nodata};
-}
-
-Status checkLevels(const std::string& level_path,
-                   const std::string& raster_path,
-                   int band,
-                   const RasterInfo& info)
-{
-    if (!fileExists(level_path)) {
-        return Error{ErrorCode::NotFound, ""};
+    LevelFileKey key{.raster = std::move(*identity), .band = band, .nodata = info.nodata};
+    Result<LevelFile> file = LevelFile::open(level_path, key);
+    if (!file) {
+        return std::move(file).error();
     }
-    const Result<LevelFileKey> key = levelFileKey(raster_path, band, info);
-    if (!key) {
-        return key.error();
-    }
-    const Result<LevelFile> file = LevelFile::open(level_path, *key);
-    return file ? Status(Done{}) : Status(file.error());
-}
-
-bool hasLevels(const std::string& level_path,
-               const std::string& raster_path,
-               int band,
-               const RasterInfo& info)
-{
-    return checkLevels(level_path, raster_path, band, info).has_value();
+    return RasterLevels{.path = level_path, .key = std::move(key), .file = std::move(*file)};
 }
 
 std::string notUsed(const std::string& level_path, const Error& why)
@@ -48,32 +35,33 @@ std::string notUsed(const std::string& level_path, const Error& why)
     const bool is_about_it = why.message.starts_with(beginning);
     return fmt::format("the level file beside it is not used: it {}",
                        is_about_it ? why.message.substr(beginning.size())
-                                   : "cannot be told to be its own (" + why.message + ")");
+                                   : "cannot be verified (" + why.message + ")");
 }
 
-Result<VouchedTiles> vouchedTiles(const RasterFile& file, const RasterInfo& info)
+Result<VerifiedTiles> verifiedTiles(const OpenRaster& raster)
 {
+    const RasterInfo& info = raster.info;
     const std::string level_path = LevelFile::pathFor(info.path);
-    if (!fileExists(level_path)) {
-        return VouchedTiles{};
-    }
-    const auto key = levelFileKey(info.path, info.band, info);
-    const auto levels = key ? LevelFile::open(level_path, *key) : key.error();
-    if (!levels && levels.error().code == ErrorCode::Damaged) {
-        return levels.error();
-    }
+    const Result<RasterLevels> levels = openLevels(level_path, info.path, info.band, info);
     if (!levels) {
-        return VouchedTiles{.tiles = nullptr, .notice = notUsed(level_path, levels.error())};
+        switch (levels.error().code) {
+        case ErrorCode::NotFound:
+            return VerifiedTiles{};
+        case ErrorCode::Damaged:
+            return levels.error();
+        default:
+            return VerifiedTiles{.tiles = nullptr, .notice = notUsed(level_path, levels.error())};
+        }
     }
-    const auto tiles = GeotiffTileSource::of(file, {info.nodata});
+    const auto tiles = GeotiffTileSource::of(raster.file, raster.voids());
     if (!tiles) {
-        return VouchedTiles{.tiles = nullptr, .notice = notUsed(level_path, tiles.error())};
+        return VerifiedTiles{.tiles = nullptr, .notice = notUsed(level_path, tiles.error())};
     }
-    auto checksums = levels->readChecksums();
+    auto checksums = levels->file.readChecksums();
     if (!checksums) {
         return std::move(checksums).error();
     }
-    return VouchedTiles{.tiles = (*tiles)->checkedBy(std::move(*checksums)), .notice = {}};
+    return VerifiedTiles{.tiles = (*tiles)->checkedBy(std::move(*checksums)), .notice = {}};
 }
 
 } // namespace marsview

@@ -1,9 +1,9 @@
-// Whether a level file is used for a raster, and what it vouches for.
+// The level file of a raster: found, checked to belong to it, and what it verifies.
 #pragma once
 
 #include "core/base/result.h"
 #include "core/levels/level_file.h"
-#include "core/raster/raster_file.h"
+#include "core/raster/open_raster.h"
 #include "core/raster/raster_info.h"
 #include "core/tiles/tile_source.h"
 
@@ -12,33 +12,32 @@
 
 namespace marsview {
 
-/// What a level file of the raster at `raster_path`, which `info` describes, has to be made from.
-Result<LevelFileKey> levelFileKey(const std::string& raster_path, int band, const RasterInfo& info);
-
-/// Whether the file is there and belongs to the raster: an error where it is not used, NotFound
-/// where there is none. Only where there is one is the raster looked at, which at a server takes a
-/// dozen requests.
-Status checkLevels(const std::string& level_path,
-                   const std::string& raster_path,
-                   int band,
-                   const RasterInfo& info);
-bool hasLevels(const std::string& level_path,
-               const std::string& raster_path,
-               int band,
-               const RasterInfo& info);
-
-/// What the user is told of a level file that is not used.
-std::string notUsed(const std::string& level_path, const Error& why);
-
-/// Tiles that somebody vouches for.
-struct VouchedTiles {
-    std::shared_ptr<const TileSource> tiles; // null where nobody does
-    std::string notice;                      // why a level file is not used; empty: there is none
+/// An open level file that belongs to its raster.
+struct RasterLevels {
+    std::string path;
+    LevelFileKey key; // of the raster
+    LevelFile file;
 };
 
-/// The tiles of a raster that has a level file beside it: an error each that is not as it was when
-/// that was made, for of a damaged tile GDAL may decode other samples without a word. `info` is the
-/// file's, overrides included.
-Result<VouchedTiles> vouchedTiles(const RasterFile& file, const RasterInfo& info);
+/// Opens the level file at `level_path` for the raster at `raster_path`, which `info` describes
+/// with overrides. NotFound where there is no such file; any other error says why it cannot be
+/// used. Only where there is one is the raster read, which at a server takes a dozen requests.
+Result<RasterLevels> openLevels(const std::string& level_path,
+                                const std::string& raster_path,
+                                int band,
+                                const RasterInfo& info);
+
+/// The notice about a level file that is not used.
+std::string notUsed(const std::string& level_path, const Error& why);
+
+/// Tiles with checksums.
+struct VerifiedTiles {
+    std::shared_ptr<const TileSource> tiles; // null without a level file that can be used
+    std::string notice;                      // why a level file is not used, or empty
+};
+
+/// The tiles of a raster with a level file beside it. Reading one that has changed since the level
+/// file was built is an error: GDAL may decode a damaged tile to other samples without an error.
+Result<VerifiedTiles> verifiedTiles(const OpenRaster& raster);
 
 } // namespace marsview

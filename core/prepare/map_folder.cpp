@@ -135,6 +135,12 @@ MapFolder MapFolder::at(const fs::path& folder)
     return MapFolder(fs::absolute(folder, none).lexically_normal());
 }
 
+bool MapFolder::hasMaps() const
+{
+    std::error_code failure;
+    return !filesByMap(folder_, failure).empty();
+}
+
 std::string
 MapFolder::pathFor(const SourceIdentity& source, int band, const std::string& settings) const
 {

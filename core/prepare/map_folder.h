@@ -40,6 +40,9 @@ public:
 
     const std::filesystem::path& path() const noexcept { return folder_; }
 
+    /// Whether any map was prepared here. Reads the names in the folder only.
+    bool hasMaps() const;
+
     /// Where the prepared form of a raster's band lies or is to be put. The same content gives the
     /// same name wherever the raster lies.
     std::string

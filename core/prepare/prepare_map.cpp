@@ -51,13 +51,11 @@ std::uint64_t levelBytesFor(const RasterInfo& info)
 }
 
 // Of maps that nobody has used for long.
-Status makeRoomFor(const PrepareJob& job, const MapFolder& folder, const std::string& kept)
+void makeRoomFor(const RasterInfo& info,
+                 const PrepareJob& job,
+                 const MapFolder& folder,
+                 const std::string& kept)
 {
-    Result<RasterFile> file = RasterFile::open(job.spec.path, job.spec.band);
-    if (!file) {
-        return std::move(file).error();
-    }
-    const RasterInfo& info = file->info();
     const bool is_copy_there =
         job.when_there != PrepareJob::WhenThere::Replace && fileExists(job.raster_path);
     std::uint64_t bytes = fileExists(job.level_path) ? 0 : levelBytesFor(info);
@@ -65,16 +63,7 @@ Status makeRoomFor(const PrepareJob& job, const MapFolder& folder, const std::st
         const std::uint64_t copy = tiledGeoTiffBytesMax(info);
         bytes += copy - std::min(copy, bytesOnDisk(job.raster_path + ".part"));
     }
-    static_cast<void>(folder.makeRoom(bytes, kept)); // writing will tell what is missing
-    return Done{};
-}
-
-Error liesAtServer(const std::string& path)
-{
-    return {ErrorCode::Unsupported,
-            fmt::format("{}: lies at a server, where nothing can be written beside it, and is read "
-                        "from there as it is; name a file to copy it to",
-                        path)};
+    static_cast<void>(folder.makeRoom(bytes, kept)); // writing reports what is missing
 }
 
 // So that two programs do not write the same level file.
@@ -114,12 +103,12 @@ struct LevelWork {
     SourceStamp stamp; // of the raster, before anything of it was read
 };
 
-Result<LevelWork>
-levelWork(const PrepareJob& job, const PrepareReport& report, const RasterInfo& info)
+Result<LevelWork> levelWork(const OpenRaster& source, const PrepareReport& report)
 {
+    const RasterInfo& info = source.info;
     LevelWork work{.raster_path = report.raster_path,
                    .level_path = report.level_path,
-                   .band = report.is_source_used ? job.spec.band : 1,
+                   .band = report.is_source_used ? source.spec.band : 1,
                    .info = info,
                    .source = nullptr,
                    .key = {},
@@ -129,15 +118,23 @@ levelWork(const PrepareJob& job, const PrepareReport& report, const RasterInfo& 
         return std::move(identity).error();
     }
     work.key = {.raster = std::move(*identity), .band = work.band, .nodata = info.nodata};
-    Result<RasterFile> raster = RasterFile::open(work.raster_path, work.band);
-    if (!raster) {
-        return std::move(raster).error();
+    if (report.is_source_used) {
+        auto tiles = GeotiffTileSource::of(source.file, source.voids());
+        if (!tiles) {
+            return std::move(tiles).error();
+        }
+        work.source = std::move(*tiles);
+        return work;
     }
-    auto source = GeotiffTileSource::of(*raster, {info.nodata});
-    if (!source) {
-        return std::move(source).error();
+    Result<RasterFile> copy = RasterFile::open(work.raster_path, work.band);
+    if (!copy) {
+        return std::move(copy).error();
     }
-    work.source = std::move(*source);
+    auto tiles = GeotiffTileSource::of(*copy, source.voids());
+    if (!tiles) {
+        return std::move(tiles).error();
+    }
+    work.source = std::move(*tiles);
     return work;
 }
 
@@ -146,16 +143,16 @@ std::string withoutRemedy(const std::string& sentence)
     return sentence.substr(0, sentence.rfind(';'));
 }
 
-Status makeLevels(const PrepareJob& job,
+Status makeLevels(const OpenRaster& raster,
+                  const PrepareJob& job,
                   PrepareReport& report,
-                  const RasterInfo& info,
                   JobMonitor& monitor)
 {
     Result<FileLock> lock = lockFor(report.level_path, job.when_busy, monitor);
     if (!lock) {
         return std::move(lock).error();
     }
-    const Result<LevelWork> work = levelWork(job, report, info);
+    const Result<LevelWork> work = levelWork(raster, report);
     if (!work) {
         return work.error();
     }
@@ -174,7 +171,7 @@ Status makeLevels(const PrepareJob& job,
     }
     const LevelBuild build{
         .source = work->source.get(),
-        .scale = info.elevationScale(),
+        .scale = raster.info.elevationScale(),
         .key = work->key,
         .path = report.level_path,
         .confirm = [&work]() -> Status {
@@ -193,9 +190,9 @@ Status makeLevels(const PrepareJob& job,
 
 // Whether a copy that is there can be told from a damaged one: by its level file or, where there is
 // none yet, by itself.
-Status checkKnown(const PrepareJob& job, const PrepareReport& report, const RasterInfo& info)
+Status checkKnown(const OpenRaster& raster, const PrepareReport& report)
 {
-    const Result<LevelWork> work = levelWork(job, report, info);
+    const Result<LevelWork> work = levelWork(raster, report);
     if (!work) {
         return work.error();
     }
@@ -208,30 +205,31 @@ Status checkKnown(const PrepareJob& job, const PrepareReport& report, const Rast
     return levels ? Status(Done{}) : Status(levels.error());
 }
 
-Status
-makeCopy(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, JobMonitor& monitor)
+Status makeCopy(const OpenRaster& raster,
+                const PrepareJob& job,
+                PrepareReport& report,
+                JobMonitor& monitor)
 {
     const Clock::time_point start = Clock::now();
     const JobPart copying(monitor, 0.0, kCopyingShare);
     TiledGeoTiffJob copy;
-    copy.source = job.spec.path;
-    copy.band = job.spec.band;
-    copy.overrides = job.spec.overrides;
+    copy.source = raster.spec.path;
+    copy.band = raster.spec.band;
+    copy.overrides = raster.spec.overrides;
     copy.path = job.raster_path;
     copy.when_busy = job.when_busy;
     copy.when_there = job.when_there == PrepareJob::WhenThere::Replace
                           ? TiledGeoTiffJob::WhenThere::Replace
                           : TiledGeoTiffJob::WhenThere::Keep;
-    copy.bytes_after = levelBytesFor(info);
+    copy.bytes_after = levelBytesFor(raster.info);
     copy.checkpoint_interval = job.checkpoint_interval;
     Result<TiledGeoTiffReport> copied = writeTiledGeoTiff(copy, monitor);
     if (copied && copied->is_there) {
-        if (const Status known = checkKnown(job, report, info); !known) {
+        if (const Status known = checkKnown(raster, report); !known) {
             copy.when_there = TiledGeoTiffJob::WhenThere::Replace;
             copied = writeTiledGeoTiff(copy, monitor);
-            report.notes.push_back(fmt::format(
-                "{}: cannot be told to be what it was when it was prepared; it is made anew",
-                report.raster_path));
+            report.notes.push_back(
+                fmt::format("{}: cannot be verified; it is rebuilt", report.raster_path));
         }
     }
     if (!copied) {
@@ -244,25 +242,27 @@ makeCopy(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, J
 }
 
 Status
-measure(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, JobMonitor& monitor)
+measure(const OpenRaster& raster, const PrepareJob& job, PrepareReport& report, JobMonitor& monitor)
 {
     const Clock::time_point start = Clock::now();
     const JobPart measuring(monitor, report.is_source_used ? 0.0 : kCopyingShare, 1.0);
-    Status made = makeLevels(job, report, info, monitor);
+    Status made = makeLevels(raster, job, report, monitor);
     report.level_seconds += secondsSince(start);
     return made;
 }
 
-Status
-makeFiles(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, JobMonitor& monitor)
+Status makeFiles(const OpenRaster& raster,
+                 const PrepareJob& job,
+                 PrepareReport& report,
+                 JobMonitor& monitor)
 {
     if (report.is_source_used) {
-        return measure(job, report, info, monitor);
+        return measure(raster, job, report, monitor);
     }
-    if (Status copied = makeCopy(job, report, info, monitor); !copied) {
+    if (Status copied = makeCopy(raster, job, report, monitor); !copied) {
         return copied;
     }
-    Status made = measure(job, report, info, monitor);
+    Status made = measure(raster, job, report, monitor);
     if (made || made.error().code == ErrorCode::Cancelled ||
         made.error().code == ErrorCode::TooLarge || isWholeTiledGeoTiff(report.raster_path)) {
         return made;
@@ -274,67 +274,60 @@ makeFiles(const PrepareJob& job, PrepareReport& report, const RasterInfo& info, 
         fmt::format("{}: was damaged while it was measured; it is made anew", report.raster_path));
     PrepareJob again = job;
     again.when_there = PrepareJob::WhenThere::Replace;
-    Status copied = makeCopy(again, report, info, monitor);
-    return copied ? measure(again, report, info, monitor) : copied;
+    Status copied = makeCopy(raster, again, report, monitor);
+    return copied ? measure(raster, again, report, monitor) : copied;
 }
 
 } // namespace
 
-Result<bool> canBeUsedInPlace(const DatasetSpec& spec)
+Status checkIsLocal(const RasterSpec& spec)
 {
-    Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
-    if (!file) {
-        return std::move(file).error();
+    if (!remoteNameFor(spec.path)) {
+        return Done{};
     }
-    const std::optional<double> nodata =
-        spec.overrides.nodata ? spec.overrides.nodata : file->info().nodata;
-    return GeotiffTileSource::of(*file, {nodata}).has_value();
+    return Error{ErrorCode::Unsupported,
+                 fmt::format("{}: is on a server, where nothing can be written next to it, and is "
+                             "read from there as it is; name a file to copy it to",
+                             spec.path)};
 }
 
-Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesystem::path& folder)
+bool canBeUsedInPlace(const OpenRaster& raster)
+{
+    return GeotiffTileSource::of(raster.file, raster.voids()).has_value();
+}
+
+Result<std::string> preparedPathFor(const OpenRaster& raster, const std::filesystem::path& folder)
 {
     if (folder.empty()) {
         return Error{ErrorCode::NotFound,
-                     spec.path + ": is prepared nowhere, as there is no folder for prepared maps"};
+                     raster.spec.path + ": cannot be prepared without a folder for prepared maps"};
     }
-    Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
-    if (!file) {
-        return std::move(file).error();
-    }
-    const Result<SourceIdentity> identity = identify(file->info().path);
+    const Result<SourceIdentity> identity = identify(raster.file.info().path);
     if (!identity) {
         return identity.error();
     }
-    RasterInfo info = file->info();
-    if (spec.overrides.nodata) {
-        info.nodata = spec.overrides.nodata;
-    }
-    return MapFolder::at(folder).pathFor(*identity, spec.band, info.voidSettings());
+    return MapFolder::at(folder).pathFor(*identity, raster.spec.band, raster.info.voidSettings());
 }
 
-Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor)
+Result<PrepareReport>
+prepareMapFiles(const OpenRaster& raster, const PrepareJob& job, JobMonitor& monitor)
 {
-    Result<RasterFile> file = RasterFile::open(job.spec.path, job.spec.band);
-    if (!file) {
-        return std::move(file).error();
-    }
-    Result<RasterInfo> info = withOverrides(file->info(), job.spec.overrides);
-    if (!info) {
-        return Error{info.error().code, fmt::format("{}: {}", job.spec.path, info.error().message)};
-    }
-    if (Status surface = checkIsSurface(job.spec.path, *info); !surface) {
+    const RasterInfo& info = raster.info;
+    if (Status surface = checkIsSurface(raster.spec.path, info); !surface) {
         return std::move(surface).error();
     }
     PrepareReport report;
     report.is_source_used = job.raster_path.empty();
-    report.raster_path = report.is_source_used ? info->path : job.raster_path;
+    report.raster_path = report.is_source_used ? info.path : job.raster_path;
     report.level_path =
         job.level_path.empty() ? LevelFile::pathFor(report.raster_path) : job.level_path;
-    report.samples = std::uint64_t{info->columns} * info->rows;
-    if (remoteNameFor(report.level_path)) {
-        return liesAtServer(job.spec.path);
+    report.samples = std::uint64_t{info.columns} * info.rows;
+    const std::string& written_next_to =
+        report.is_source_used ? raster.spec.path : report.raster_path;
+    if (Status local = checkIsLocal({.path = written_next_to}); !local) {
+        return std::move(local).error();
     }
-    if (Status made = makeFiles(job, report, *info, monitor); !made) {
+    if (Status made = makeFiles(raster, job, report, monitor); !made) {
         return std::move(made).error();
     }
     const bool was_there =
@@ -343,7 +336,7 @@ Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor
         return report;
     }
     const Clock::time_point start = Clock::now();
-    const Result<LevelWork> work = levelWork(job, report, *info);
+    const Result<LevelWork> work = levelWork(raster, report);
     if (!work) {
         return work.error();
     }
@@ -373,29 +366,29 @@ Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor
     PrepareJob again = job;
     again.when_there = PrepareJob::WhenThere::Replace;
     // A copy stays where only its levels are damaged.
-    Status made = is_raster ? makeFiles(again, report, *info, monitor)
-                            : makeLevels(again, report, *info, monitor);
+    Status made = is_raster ? makeFiles(raster, again, report, monitor)
+                            : makeLevels(raster, again, report, monitor);
     return made ? Result<PrepareReport>(std::move(report))
                 : Result<PrepareReport>(std::move(made).error());
 }
 
-Result<PrepareReport> prepareInFolder(const FolderJob& job, JobMonitor& monitor)
+Result<PrepareReport>
+prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& monitor)
 {
-    if (remoteNameFor(job.spec.path)) {
-        return liesAtServer(job.spec.path);
+    if (Status local = checkIsLocal(raster.spec); !local) {
+        return std::move(local).error();
     }
     const Result<MapFolder> folder = MapFolder::open(job.folder);
     if (!folder) {
         return folder.error();
     }
-    const Result<std::string> kept = preparedPathFor(job.spec, job.folder);
-    const Result<bool> in_place = canBeUsedInPlace(job.spec);
-    if (!kept || !in_place) {
-        return kept ? in_place.error() : kept.error();
+    const Result<std::string> kept = preparedPathFor(raster, job.folder);
+    if (!kept) {
+        return kept.error();
     }
+    const bool in_place = canBeUsedInPlace(raster);
     const std::string name = std::filesystem::path(*kept).filename().string();
-    PrepareJob prepare{.spec = job.spec,
-                       .raster_path = *in_place ? std::string() : *kept,
+    PrepareJob prepare{.raster_path = in_place ? std::string() : *kept,
                        .level_path = LevelFile::pathFor(*kept),
                        .when_busy = job.when_busy,
                        .when_there = job.when_there,
@@ -406,15 +399,13 @@ Result<PrepareReport> prepareInFolder(const FolderJob& job, JobMonitor& monitor)
         static_cast<void>(folder->remove(name));
         prepare.when_there = PrepareJob::WhenThere::Replace;
     }
-    const bool is_copy_there = !*in_place && fileExists(*kept);
-    if (Status room = makeRoomFor(prepare, *folder, *kept); !room) {
-        return std::move(room).error();
-    }
-    Result<PrepareReport> prepared = prepareMapFiles(prepare, monitor);
+    const bool is_copy_there = !in_place && fileExists(*kept);
+    makeRoomFor(raster.info, prepare, *folder, *kept);
+    Result<PrepareReport> prepared = prepareMapFiles(raster, prepare, monitor);
     // A copy that was there is not made again, and then it is what cannot be read.
     if (!prepared && is_copy_there && prepared.error().code != ErrorCode::Cancelled &&
         prepared.error().code != ErrorCode::TooLarge && folder->remove(name)) {
-        prepared = prepareMapFiles(prepare, monitor);
+        prepared = prepareMapFiles(raster, prepare, monitor);
     }
     if (!prepared) {
         return prepared;

@@ -4,7 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/prepare/tiled_geotiff.h"
-#include "core/raster/dataset_spec.h"
+#include "core/raster/open_raster.h"
 
 #include <chrono>
 #include <cstdint>
@@ -15,7 +15,6 @@
 namespace marsview {
 
 struct PrepareJob {
-    DatasetSpec spec;
     /// Of the tiled GeoTIFF to make; empty where the raster is one that can be used in place.
     std::string raster_path{};
     /// Of the level file; empty: beside the tiled raster.
@@ -41,22 +40,25 @@ struct PrepareReport {
     std::vector<std::string> notes; // sentences for the user, those of the copy included
 };
 
-/// Whether the raster of `spec` is one whose tiles can be read where it lies.
-Result<bool> canBeUsedInPlace(const DatasetSpec& spec);
+/// Refuses a remote raster: it is read where it is, and nothing can be written next to it.
+Status checkIsLocal(const RasterSpec& spec);
+
+/// Whether the tiles of the raster can be read where it is.
+bool canBeUsedInPlace(const OpenRaster& raster);
 
 /// Where the prepared form of a raster lies, or is to be put, in a folder of prepared maps, which
 /// need not be there. NotFound where `folder` is empty: nobody keeps any.
-Result<std::string> preparedPathFor(const DatasetSpec& spec, const std::filesystem::path& folder);
+Result<std::string> preparedPathFor(const OpenRaster& raster, const std::filesystem::path& folder);
 
 /// Copies the raster into a tiled GeoTIFF unless it is used in place, then measures it into its
 /// level file. Each appears whole or not at all; what is there already and belongs to the raster is
 /// not made again, unless it is damaged or to be replaced. A raster that is used in place and is
 /// damaged is an error: nothing can make it again. Stopped, the work is gone on with the next time.
 /// On all cores; not for the GUI thread. Errors name the file and say what to do.
-Result<PrepareReport> prepareMapFiles(const PrepareJob& job, JobMonitor& monitor);
+Result<PrepareReport>
+prepareMapFiles(const OpenRaster& raster, const PrepareJob& job, JobMonitor& monitor);
 
 struct FolderJob {
-    DatasetSpec spec;
     std::filesystem::path folder;
     std::uint64_t folder_bytes_max = 0; // 0: MapFolder::defaultBytesMax()
     TiledGeoTiffJob::WhenBusy when_busy = TiledGeoTiffJob::WhenBusy::Wait;
@@ -67,7 +69,8 @@ struct FolderJob {
 /// As prepareMapFiles(), in the folder of prepared maps: what was noted there as damaged is made
 /// anew, the maps that were not used for longest make room on the disk where that is enough, and
 /// afterwards the folder is trimmed.
-Result<PrepareReport> prepareInFolder(const FolderJob& job, JobMonitor& monitor);
+Result<PrepareReport>
+prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& monitor);
 
 /// What is to be done about a raster with a level file that turns out to be damaged: the end of a
 /// sentence.

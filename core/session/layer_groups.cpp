@@ -7,7 +7,7 @@ namespace {
 
 const Body* bodyOf(const Layer& layer)
 {
-    return layer.dataset->info().body;
+    return layer.map->info().body;
 }
 
 // The layers of the group of `id` without that layer, as indexes into the session without it.

@@ -53,15 +53,14 @@ SceneFrame frameWithin(const Georeference& scene, const Georeference& map)
     return result;
 }
 
-SceneSurface::SceneSurface(const std::vector<LoadedMap>& maps)
+SceneSurface::SceneSurface(const std::vector<std::shared_ptr<const Map>>& maps)
 {
-    for (const LoadedMap& map : maps) {
-        const Georeference& georeference = map.dataset->georeference();
-        maps_.push_back(
-            {.map = map,
-             .frame = maps_.empty()
-                          ? georeference.sceneFrame()
-                          : frameWithin(maps_.front().map.dataset->georeference(), georeference)});
+    for (const std::shared_ptr<const Map>& map : maps) {
+        const Georeference& georeference = map->georeference();
+        maps_.push_back({.map = map,
+                         .frame = maps_.empty() ? georeference.sceneFrame()
+                                                : frameWithin(maps_.front().map->georeference(),
+                                                              georeference)});
     }
 }
 
@@ -70,11 +69,11 @@ std::optional<GroundPoint> SceneSurface::cast(const Ray& ray, double exaggeratio
     std::optional<GroundPoint> nearest;
     for (std::size_t index = 0; index < maps_.size(); ++index) {
         const SceneMap& part = maps_[index];
-        const Heightfield& heightfield = part.map.dataset->heightfield();
+        const Heightfield& heightfield = part.map->heightfield();
         double from_m = 0.0;
         for (int i = 0; i < kCoveredMax; ++i) {
             const auto hit =
-                castRay(heightfield, part.map.analysis->bounds,
+                castRay(heightfield, part.map->analysis()->bounds,
                         gridRay(ray.at(from_m), ray.direction, part.frame, exaggeration));
             if (!hit || (nearest && from_m + hit->t >= nearest->distance_m)) {
                 break;
@@ -118,7 +117,7 @@ SceneBox SceneSurface::box(double exaggeration) const
 {
     SceneBox box;
     for (const SceneMap& part : maps_) {
-        const Heightfield& heightfield = part.map.dataset->heightfield();
+        const Heightfield& heightfield = part.map->heightfield();
         const SceneBox more = sceneBox(part.frame, heightfield.columns(), heightfield.rows(),
                                        heightfield.range().value_or(HeightRange{}), exaggeration);
         box = &part == &maps_.front() ? more : united(box, more);
@@ -130,7 +129,7 @@ double SceneSurface::pixelMetres() const
 {
     double pixel_m = std::numeric_limits<double>::infinity();
     for (const SceneMap& part : maps_) {
-        const Georeference& georeference = part.map.dataset->georeference();
+        const Georeference& georeference = part.map->georeference();
         pixel_m =
             std::min({pixel_m, georeference.pixelWidthMetres(), georeference.pixelHeightMetres()});
     }
@@ -146,7 +145,7 @@ bool SceneSurface::isCovered(const ScenePoint& place, std::size_t index) const
 
 double SceneSurface::heightOf(const SceneMap& map, double east_m, double north_m) const
 {
-    const Heightfield& heightfield = map.map.dataset->heightfield();
+    const Heightfield& heightfield = map.map->heightfield();
     const auto on_edge = [](double place, std::size_t count) {
         const double nearest = std::clamp(place, 0.0, static_cast<double>(count - 1));
         return std::abs(nearest - place) < 1e-6 ? nearest : place;

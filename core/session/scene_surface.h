@@ -1,7 +1,7 @@
 // The ground of a scene: the surfaces of the maps that are shown together.
 #pragma once
 
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "core/terrain/ray_cast.h"
 #include "core/view/camera.h"
 #include "core/view/scene_box.h"
@@ -14,7 +14,7 @@ namespace marsview {
 
 /// A map in the scene.
 struct SceneMap {
-    LoadedMap map;
+    std::shared_ptr<const Map> map;
     SceneFrame frame; // from its grid to the scene
 };
 
@@ -32,7 +32,7 @@ class SceneSurface {
 public:
     SceneSurface() = default;
     /// The uppermost first. All lie in one CRS.
-    explicit SceneSurface(const std::vector<LoadedMap>& maps);
+    explicit SceneSurface(const std::vector<std::shared_ptr<const Map>>& maps);
 
     bool isEmpty() const noexcept { return maps_.empty(); }
     const std::vector<SceneMap>& maps() const noexcept { return maps_; }

@@ -1,6 +1,6 @@
 #include "core/session/session.h"
 
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 
 #include <algorithm>
 #include <array>
@@ -33,9 +33,9 @@ Session changed(Session session, LayerId id, Change change)
     return session;
 }
 
-LayerState stateBeside(const Dataset& scene, const Dataset& dataset)
+LayerState stateBeside(const Map& scene, const Map& map)
 {
-    const RasterInfo& info = dataset.info();
+    const RasterInfo& info = map.info();
     if (info.body != nullptr && scene.info().body != nullptr && info.body != scene.info().body) {
         return LayerState::OtherBody;
     }
@@ -45,8 +45,8 @@ LayerState stateBeside(const Dataset& scene, const Dataset& dataset)
     if (info.body != scene.info().body) {
         return LayerState::OtherCrs; // only one of the two is on a body that we know
     }
-    return isSameCrs(*scene.info().crs, *info.crs, dataset.georeference()) ? LayerState::Shown
-                                                                           : LayerState::OtherCrs;
+    return isSameCrs(*scene.info().crs, *info.crs, map.georeference()) ? LayerState::Shown
+                                                                       : LayerState::OtherCrs;
 }
 
 bool isShownIn(const std::vector<const Layer*>& shown, LayerId id)
@@ -82,15 +82,15 @@ std::size_t indexOf(const Session& session, LayerId id)
 
 Session added(Session session, Layer layer)
 {
-    MARSVIEW_CHECK(layer.dataset != nullptr);
+    MARSVIEW_CHECK(layer.map != nullptr);
     const Session before = session;
     if (!(layer.exaggeration > 0.0)) {
-        layer.exaggeration = suitableExaggeration(*layer.dataset);
+        layer.exaggeration = suitableExaggeration(*layer.map);
     }
     layer.id = LayerId{session.next_id};
     ++session.next_id;
     if (layer.name.empty()) {
-        layer.name = std::filesystem::path(layer.dataset->spec().path).filename().string();
+        layer.name = std::filesystem::path(layer.map->spec().path).filename().string();
     }
     if (!layer.is_sample) {
         std::erase_if(session.layers, [](const Layer& other) { return other.is_sample; });
@@ -166,14 +166,14 @@ Session withName(Session session, LayerId id, std::string name)
     return changed(std::move(session), id, [&](Layer& layer) { layer.name = std::move(name); });
 }
 
-Session withDataset(Session session, LayerId id, std::shared_ptr<const Dataset> dataset)
+Session withMap(Session session, LayerId id, std::shared_ptr<const Map> map)
 {
-    MARSVIEW_CHECK(dataset != nullptr);
+    MARSVIEW_CHECK(map != nullptr);
     return changed(std::move(session), id, [&](Layer& layer) {
-        if (layer.exaggeration == suitableExaggeration(*layer.dataset)) {
-            layer.exaggeration = suitableExaggeration(*dataset);
+        if (layer.exaggeration == suitableExaggeration(*layer.map)) {
+            layer.exaggeration = suitableExaggeration(*map);
         }
-        layer.dataset = std::move(dataset);
+        layer.map = std::move(map);
     });
 }
 
@@ -187,15 +187,15 @@ std::vector<LayerState> placement(const Session& session)
 {
     std::vector<LayerState> states;
     states.reserve(session.layers.size());
-    const Dataset* scene = nullptr;
+    const Map* scene = nullptr;
     for (const Layer& layer : session.layers) {
         if (!layer.is_visible) {
             states.push_back(LayerState::Hidden);
         } else if (scene == nullptr) {
-            scene = layer.dataset.get();
+            scene = layer.map.get();
             states.push_back(LayerState::Shown);
         } else {
-            states.push_back(stateBeside(*scene, *layer.dataset));
+            states.push_back(stateBeside(*scene, *layer.map));
         }
     }
     return states;

@@ -1,10 +1,10 @@
 // The document as a value: which maps are open, in what order, and how they look.
 //
 // Every change is a pure function from one session to the next, so undo is keeping the one before.
-// Sessions share their datasets; a copy costs a few words a layer.
+// Sessions share their maps; a copy costs a few words a layer.
 #pragma once
 
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "core/view/color_stretch.h"
 #include "core/view/slope_range.h"
 #include "core/view/terrain_look.h"
@@ -23,12 +23,12 @@ enum class LayerId : std::uint32_t { None = 0 };
 
 struct Layer {
     LayerId id = LayerId::None;
-    std::shared_ptr<const Dataset> dataset; // never null in a session
-    std::string name{};                     // as people read it
-    bool is_visible = true;                 // as far as the user is concerned; see placement()
-    std::string ramp{};     // a name of colorRamps(); empty: the one that suits the body
-    bool is_sample = false; // came by itself, and goes when the user opens something
-    ColorStretch stretch{}; // over which elevations the ramp is spread
+    std::shared_ptr<const Map> map; // never null in a session
+    std::string name{};             // as people read it
+    bool is_visible = true;         // as far as the user is concerned; see placement()
+    std::string ramp{};             // a name of colorRamps(); empty: the one that suits the body
+    bool is_sample = false;         // came by itself, and goes when the user opens something
+    ColorStretch stretch{};         // over which elevations the ramp is spread
     std::optional<SlopeRange> slope_range{}; // the same for slopes; nothing: what suits the map
     /// Vertical exaggeration of the scene while this layer is the topmost in it. Positive in a
     /// session; 0 in a layer that is added: suitableExaggeration().
@@ -57,7 +57,7 @@ inline const Layer* activeLayer(const Session& session)
 std::size_t indexOf(const Session& session, LayerId id);
 
 /// The layer on top, under a new id, and active. Samples make room for what is none. An empty name
-/// becomes the last part of the dataset's path.
+/// becomes the last part of the map's path.
 ///
 /// Where a change of layers leaves a layer in the picture that was there before, the picture keeps
 /// its exaggeration: all layers that are shown take it over.
@@ -76,8 +76,8 @@ Session withStretch(Session session, LayerId id, const ColorStretch& stretch);
 /// Nothing: the range that suits the map.
 Session withSlopeRange(Session session, LayerId id, const std::optional<SlopeRange>& range);
 Session withName(Session session, LayerId id, std::string name);
-/// A layer whose exaggeration suited the old dataset gets the one that suits the new dataset.
-Session withDataset(Session session, LayerId id, std::shared_ptr<const Dataset> dataset);
+/// A layer whose exaggeration suited the old map gets the one that suits the new map.
+Session withMap(Session session, LayerId id, std::shared_ptr<const Map> map);
 Session withLook(Session session, const TerrainLook& look);
 
 /// Whether a layer is in the picture, and if not, why not.

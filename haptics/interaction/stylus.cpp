@@ -10,7 +10,7 @@ namespace marsview {
 void Stylus::setGround(const SceneSurface& ground, double exaggeration)
 {
     const auto is_same = [](const SceneMap& a, const SceneMap& b) {
-        return a.map.dataset == b.map.dataset && a.frame == b.frame;
+        return a.map == b.map && a.frame == b.frame;
     };
     const bool is_same_ground = std::equal(ground.maps().begin(), ground.maps().end(),
                                            ground_.maps().begin(), ground_.maps().end(), is_same);

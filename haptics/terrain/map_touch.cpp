@@ -12,15 +12,15 @@ namespace marsview {
 MapTouch::MapTouch(const SceneMap& map)
     : map_(map)
 {
-    const Heightfield& heightfield = map_.map.dataset->heightfield();
+    const Heightfield& heightfield = map_.map->heightfield();
     if (!heightfield.isTiled()) {
         return;
     }
     // The map has its coarsest tile always at hand.
     const TiledSamples& tiles = *heightfield.tiles();
     feeder_ = std::make_unique<WindowFeeder>(
-        tiles.raster(), std::make_shared<const TileHeights>(map_.map.levels, heightfield.scale()),
-        tiles.top());
+        tiles.raster(),
+        std::make_shared<const TileHeights>(map_.map->levels(), heightfield.scale()), tiles.top());
     feeder_->exchange()->windows.take();
     // Nobody feels a jump through a mouse.
     terrain_ = std::make_shared<ResidentTerrain>(
@@ -31,8 +31,8 @@ MapTouch::MapTouch(const SceneMap& map)
 std::unique_ptr<MapContactModel>
 MapTouch::makeModel(ContactModelKind kind, double exaggeration, const ContactModelOptions& options)
 {
-    if (map_.map.filled) {
-        return makeContactModel(kind, {map_.map.filled, map_.frame, exaggeration}, options);
+    if (map_.map->filled()) {
+        return makeContactModel(kind, {map_.map->filled(), map_.frame, exaggeration}, options);
     }
     if (!terrain_) {
         return nullptr;

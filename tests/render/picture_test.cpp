@@ -2,7 +2,7 @@
 
 #include "app/bench/reference/color_error.h"
 #include "app/bench/reference/picture_error.h"
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "core/terrain/ray_cast.h"
 #include "core/view/navigation.h"
 #include "tests/render/render_fixture.h"
@@ -23,17 +23,17 @@ namespace {
 
 // A map from a file.
 struct LoadedTestMap {
-    LoadedMap map;
+    std::shared_ptr<const Map> map;
 
     explicit LoadedTestMap(const std::filesystem::path& path)
     {
         JobMonitor monitor;
-        auto dataset = loadDataset({path.string(), 1, {}}, monitor, std::size_t{1} << 30);
-        map = prepareMap(std::move(dataset).value(), monitor).value();
+        auto read = readMap(RasterSpec{path.string(), 1, {}}, monitor, std::size_t{1} << 30);
+        map = std::move(read).value();
     }
 
-    const Heightfield& field() const { return map.dataset->heightfield(); }
-    SceneFrame frame() const { return map.dataset->georeference().sceneFrame(); }
+    const Heightfield& field() const { return map->heightfield(); }
+    SceneFrame frame() const { return map->georeference().sceneFrame(); }
     SceneBox box(double exaggeration) const
     {
         return sceneBox(frame(), field().columns(), field().rows(), field().range().value(),
@@ -51,7 +51,7 @@ std::vector<OrbitCamera> views(const LoadedTestMap& map, double exaggeration, co
     const SceneBox box = map.box(exaggeration);
     const OrbitCamera home = homeCamera(box, size);
     std::vector<OrbitCamera> cameras{home};
-    const Georeference& georeference = map.map.dataset->georeference();
+    const Georeference& georeference = map.map->georeference();
     const NavigationLimits limits = navigationLimits(
         box, std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
     const auto ground = [&](double east_m, double north_m) {
@@ -77,10 +77,10 @@ protected:
     // At 1 pixel, nearly all of the picture is within it, and none is far off.
     void expectWithinOnePixel(const std::string& name, const LoadedTestMap& map)
     {
-        renderer_->setLayers({terrainLayer(map.map, map.map.dataset->georeference().sceneFrame(),
-                                           defaultColorRamp(""))});
+        renderer_->setLayers(
+            {terrainLayer(map.map, map.map->georeference().sceneFrame(), defaultColorRamp(""))});
         const Viewport size{.width = 640, .height = 400};
-        const double suitable = suitableExaggeration(*map.map.dataset);
+        const double suitable = suitableExaggeration(*map.map);
         for (const double exaggeration : {1.0, std::max(suitable, 3.0)}) {
             int view = 0;
             for (const OrbitCamera& camera : views(map, exaggeration, size)) {
@@ -134,9 +134,9 @@ protected:
                 const SceneFrame frame = map.frame();
                 const ColorError error = measureColorError(
                     {.drawn = {map.field(), frame, exaggeration},
-                     .bounds = map.map.analysis->bounds,
+                     .bounds = map.map->analysis()->bounds,
                      .ramp = ramp,
-                     .range = tintedRange(ramp, map.map.tint_range)},
+                     .range = tintedRange(ramp, map.map->tintRange())},
                     camera, size,
                     {.tint = tint.colors.rgb, .light = light.colors.rgb, .depths_m = tint.depths_m},
                     2);
@@ -180,7 +180,7 @@ protected:
                 const Ray ray = pickRay(
                     camera, size,
                     {static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5});
-                const auto hit = castRay(map.field(), map.map.analysis->bounds,
+                const auto hit = castRay(map.field(), map.map->analysis()->bounds,
                                          gridRay(ray.origin, ray.direction, frame, exaggeration));
                 step[i] = hit ? static_cast<int>(std::floor(hit->height_m / interval_m)) : kNone;
             }
@@ -234,11 +234,11 @@ protected:
     // pixel, rims that are off by a part of a pixel differ: up to 2.1 % in the whole of Mars.
     void expectSameColors(const std::string& name, const LoadedTestMap& map)
     {
-        renderer_->setLayers({terrainLayer(map.map, map.map.dataset->georeference().sceneFrame(),
-                                           defaultColorRamp(""))});
+        renderer_->setLayers(
+            {terrainLayer(map.map, map.map->georeference().sceneFrame(), defaultColorRamp(""))});
         const Viewport size{.width = 640, .height = 400};
         DrawStyle style;
-        style.exaggeration = suitableExaggeration(*map.map.dataset);
+        style.exaggeration = suitableExaggeration(*map.map);
         int view = 0;
         for (const OrbitCamera& camera : views(map, style.exaggeration, size)) {
             const Picture lod = draw(camera, size, {.error_px = 1.0}, style).colors;

@@ -5,17 +5,23 @@
 
 namespace marsview::test {
 
-LoadedMap loadedMap(const std::string& path)
+std::shared_ptr<const Map> loadedMap(const std::string& path)
 {
     JobMonitor monitor;
-    auto dataset = loadDataset({path, 1, {}}, monitor, std::size_t{1} << 30);
-    if (!dataset) {
-        throw std::runtime_error(dataset.error().message);
+    auto map = readMap(RasterSpec{path, 1, {}}, monitor, std::size_t{1} << 30);
+    if (!map) {
+        throw std::runtime_error(map.error().message);
     }
-    return prepareMap(std::move(dataset).value(), monitor).value();
+    return std::move(map).value();
 }
 
-LoadedMap MapMaker::make(const Place& place, const Height& height)
+Result<std::shared_ptr<const Map>> overridden(const Map& map, const RasterOverrides& overrides)
+{
+    JobMonitor monitor;
+    return withOverrides(map, overrides, monitor);
+}
+
+std::shared_ptr<const Map> MapMaker::make(const Place& place, const Height& height)
 {
     std::vector<double> samples;
     for (std::size_t row = 0; row < place.rows; ++row) {

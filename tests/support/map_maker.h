@@ -1,7 +1,7 @@
 // Maps of any shape and place, prepared as the program prepares them.
 #pragma once
 
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "tests/support/make_raster.h"
 
 #include <array>
@@ -12,7 +12,10 @@
 namespace marsview::test {
 
 /// Loads and prepares a file; fails the test, and throws, where that cannot be.
-LoadedMap loadedMap(const std::string& path);
+std::shared_ptr<const Map> loadedMap(const std::string& path);
+
+/// withOverrides() without a monitor.
+Result<std::shared_ptr<const Map>> overridden(const Map& map, const RasterOverrides& overrides);
 
 /// Makes maps in a folder that vanishes with the object.
 class MapMaker {
@@ -26,7 +29,7 @@ public:
         std::string srs{}; // anything OGR understands; empty for none
     };
 
-    LoadedMap make(const Place& place, const Height& height);
+    std::shared_ptr<const Map> make(const Place& place, const Height& height);
 
 private:
     TempFolder folder_;

@@ -31,37 +31,38 @@ MapOpener LargeMaps::opener()
 {
     MapOpener opener;
     opener.resources.tiles = tiles_;
-    opener.plan = [this](const DatasetSpec& spec, const MapResources&) -> Result<OpenPlan> {
-        const Result<RasterFile> file = RasterFile::open(spec.path, spec.band);
-        if (!file) {
-            return file.error();
-        }
-        const std::lock_guard lock(mutex_);
-        const bool is_prepared =
-            std::find(prepared_.begin(), prepared_.end(), spec.path) != prepared_.end();
-        return OpenPlan{.store = is_prepared ? MapStore::Tiled : MapStore::Unprepared,
-                        .raster_path = spec.path,
-                        .level_path = {}};
-    };
-    opener.preview = [this](const DatasetSpec& spec, const DecimationLimits& limits,
-                            JobMonitor& monitor) {
-        DecimationLimits some = limits;
-        some.samples_max = kPreviewSamples;
-        if (are_previews_rough_ && limits.time_max < std::chrono::seconds(1)) {
-            some.now = [hours = std::make_shared<std::atomic<int>>(0)] {
-                return std::chrono::hours(++*hours);
-            };
-        } else {
-            some.time_max = std::chrono::hours(1);
-        }
-        return readPreview(spec, some, monitor);
-    };
-    opener.prepare = [this](const DatasetSpec& spec, const MapResources&, JobMonitor& monitor) {
+    opener.preview = [this](const RasterSpec& spec, const DecimationLimits& limits,
+                            JobMonitor& monitor) { return preview(spec, limits, monitor); };
+    opener.prepare = [this](const RasterSpec& spec, const MapResources&, JobMonitor& monitor) {
         return prepare(spec, monitor);
     };
-    opener.open = [this](const DatasetSpec& spec, const OpenPlan&, const MapResources& resources,
-                         JobMonitor& monitor) { return openTiled(spec, resources, monitor); };
+    opener.open = [this](const RasterSpec& spec, const MapResources& resources,
+                         JobMonitor& monitor) -> Result<std::shared_ptr<const Map>> {
+        return isPrepared(spec) ? openTiled(spec, resources, monitor) : preview(spec, {}, monitor);
+    };
     return opener;
+}
+
+bool LargeMaps::isPrepared(const RasterSpec& spec) const
+{
+    const std::lock_guard lock(mutex_);
+    return std::find(prepared_.begin(), prepared_.end(), spec.path) != prepared_.end();
+}
+
+Result<std::shared_ptr<const Map>> LargeMaps::preview(const RasterSpec& spec,
+                                                      const DecimationLimits& limits,
+                                                      JobMonitor& monitor) const
+{
+    DecimationLimits some = limits;
+    some.samples_max = kPreviewSamples;
+    if (are_previews_rough_ && limits.time_max < std::chrono::seconds(1)) {
+        some.now = [hours = std::make_shared<std::atomic<int>>(0)] {
+            return std::chrono::hours(++*hours);
+        };
+    } else {
+        some.time_max = std::chrono::hours(1);
+    }
+    return readPreview(spec, some, monitor);
 }
 
 void LargeMaps::finishPreparing(const std::optional<Error>& failure)
@@ -128,7 +129,7 @@ std::vector<std::string> LargeMaps::prepared() const
     return prepared_;
 }
 
-Status LargeMaps::prepare(const DatasetSpec& spec, JobMonitor& monitor)
+Status LargeMaps::prepare(const RasterSpec& spec, JobMonitor& monitor)
 {
     std::unique_lock lock(mutex_);
     ++begun_count_;
@@ -164,18 +165,14 @@ std::optional<Error> LargeMaps::beforeRead(const TileId& id)
                : std::nullopt;
 }
 
-Result<LoadedMap>
-LargeMaps::openTiled(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor)
+Result<std::shared_ptr<const Map>>
+LargeMaps::openTiled(const RasterSpec& spec, const MapResources& resources, JobMonitor& monitor)
 {
-    auto dataset = loadDataset(spec, monitor, std::size_t{1} << 30);
-    if (!dataset) {
-        return std::move(dataset).error();
-    }
-    Result<LoadedMap> whole = prepareMap(std::move(dataset).value(), monitor);
+    Result<std::shared_ptr<const Map>> whole = readMap(spec, monitor, std::size_t{1} << 30);
     if (!whole) {
         return whole;
     }
-    const Heightfield& heightfield = whole->dataset->heightfield();
+    const Heightfield& heightfield = (*whole)->heightfield();
     const auto source = std::make_shared<const test::GridTileSource>(
         heightfield,
         test::GridTileSource::Options{
@@ -188,13 +185,15 @@ LargeMaps::openTiled(const DatasetSpec& spec, const MapResources& resources, Job
     MapLevels levels;
     levels.layout = source->layout();
     levels.statistics = statisticsOf(heightfield);
-    levels.analysis = whole->analysis;
-    return prepareTiledMap(tiledDataset({.spec = spec,
-                                         .file_info = whole->dataset->fileInfo(),
-                                         .info = whole->dataset->info(),
-                                         .statistics = levels.statistics,
-                                         .tiles = std::move(*tiles)}),
-                           std::make_shared<const MapLevels>(levels));
+    levels.analysis = (*whole)->analysis();
+    const SampleStatistics statistics = levels.statistics;
+    return tiledMap(
+        {.spec = spec,
+         .file_info = (*whole)->fileInfo(),
+         .info = (*whole)->info(),
+         .statistics = statistics,
+         .heightfield = Heightfield(std::move(*tiles), statistics, heightfield.scale())},
+        std::make_shared<const MapLevels>(levels));
 }
 
 } // namespace marsview

@@ -41,17 +41,21 @@ public:
     /// Tiles that nobody holds on to have to be read again.
     void forgetTiles() { tiles_->clear(); }
 
+    /// A map in tiles, prepared or not.
+    Result<std::shared_ptr<const Map>>
+    openTiled(const RasterSpec& spec, const MapResources& resources, JobMonitor& monitor);
+
     int begunCount() const;
     int stoppedCount() const;
     /// The files that were prepared, in order.
     std::vector<std::string> prepared() const;
 
 private:
-    Status prepare(const DatasetSpec& spec, JobMonitor& monitor);
+    bool isPrepared(const RasterSpec& spec) const;
+    Result<std::shared_ptr<const Map>>
+    preview(const RasterSpec& spec, const DecimationLimits& limits, JobMonitor& monitor) const;
+    Status prepare(const RasterSpec& spec, JobMonitor& monitor);
     std::optional<Error> beforeRead(const TileId& id);
-    Result<LoadedMap>
-    openTiled(const DatasetSpec& spec, const MapResources& resources, JobMonitor& monitor);
-
     std::shared_ptr<TileCache> tiles_ = std::make_shared<TileCache>(TileCacheOptions{});
     mutable std::mutex mutex_;
     std::condition_variable changed_;

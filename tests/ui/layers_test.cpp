@@ -51,7 +51,7 @@ protected:
     }
     std::string shown()
     {
-        return window_->view()->map() ? window_->view()->map().dataset->spec().path : "";
+        return window_->view()->map() ? window_->view()->map()->spec().path : "";
     }
     bool settle() { return waitUntilSettled(*window_); }
     bool waitForLoads()
@@ -202,7 +202,7 @@ TEST_F(LayersTest, EveryChangeIsUndoneAndRedoneImmediately)
         }
     }
     ASSERT_TRUE(settle());
-    EXPECT_EQ(shown(), shownLayers(window_->session()).front()->dataset->spec().path);
+    EXPECT_EQ(shown(), shownLayers(window_->session()).front()->map->spec().path);
 }
 
 TEST_F(LayersTest, ManyStepsOfTheLightAreOneStepBack)
@@ -222,7 +222,7 @@ TEST_F(LayersTest, AMapOfAnotherBodyIsHiddenWithTheReasonInItsRow)
 {
     controller().open({maps_.mars(), maps_.moon()});
     ASSERT_TRUE(settle());
-    EXPECT_EQ(shown(), layers()[0].dataset->spec().path); // the Moon, opened last
+    EXPECT_EQ(shown(), layers()[0].map->spec().path); // the Moon, opened last
     const LayerModel& model = *window_->datasetPanel()->model();
     const auto reason = [&model, this](std::size_t layer) {
         return model.indexOfLayer(id(layer)).data(LayerModel::ReasonRole).toString();
@@ -232,14 +232,14 @@ TEST_F(LayersTest, AMapOfAnotherBodyIsHiddenWithTheReasonInItsRow)
     // Hidden, the Moon makes way.
     controller().setVisible(id(0), false);
     ASSERT_TRUE(settle());
-    EXPECT_EQ(shown(), layers()[1].dataset->spec().path);
+    EXPECT_EQ(shown(), layers()[1].map->spec().path);
     EXPECT_EQ(reason(1), QString());
     // So it does below.
     controller().setVisible(id(0), true);
     controller().move(id(1), 0);
     ASSERT_TRUE(settle());
     EXPECT_EQ(layers()[0].name, "mars.vrt");
-    EXPECT_EQ(shown(), layers()[0].dataset->spec().path);
+    EXPECT_EQ(shown(), layers()[0].map->spec().path);
 }
 
 TEST_F(LayersTest, PanelsAndStatusBarSpeakOfTheActiveLayer)
@@ -274,7 +274,7 @@ TEST_F(LayersTest, HeightsAreThoseOfTheActiveLayerWhereBothAreShown)
     StatusReadout& readout = *window_->readout();
     RayHit hit;
     hit.grid = middle;
-    hit.height_m = layers()[0].dataset->heightfield().height(middle);
+    hit.height_m = layers()[0].map->heightfield().height(middle);
     readout.setPlace(ReadPlace{.hit = hit});
     const auto told = [&readout] {
         QString text = readout.heightLabel().section(QLatin1Char(' '), 0, 0);
@@ -300,7 +300,7 @@ TEST_F(LayersTest, ALayerMayBeRemovedWhileAnotherIsLoading)
     window_->undoStack().undo();
     EXPECT_THAT(names(), ElementsAre("hill.asc"));
     ASSERT_TRUE(settle());
-    EXPECT_EQ(shown(), layers()[0].dataset->spec().path);
+    EXPECT_EQ(shown(), layers()[0].map->spec().path);
 }
 
 TEST_F(LayersTest, ALayerMayBeRemovedWhileItsOwnOverrideIsLoading)
@@ -351,13 +351,13 @@ TEST_F(LayersTest, AMapOnTopKeepsWhatIsInSight)
     view.flyTo({.column = 30.0, .row = 20.0}, 4e5);
     ASSERT_TRUE(settle());
     const GeographicPoint place =
-        *view.map().dataset->georeference().toGeographic({.column = 30.0, .row = 20.0});
+        *view.map()->georeference().toGeographic({.column = 30.0, .row = 20.0});
     const QPointF before = *view.positionOf(GridPoint{.column = 30.0, .row = 20.0});
     // Overlaps the lower right of the first, whose scene it takes over.
     ASSERT_TRUE(openAndWait(
         *window_, maps_.placed("corner", "IAU_2015:49900", {15.0, 0.1, 0.0, 16.0, 0.0, -0.1})));
     EXPECT_EQ(view.exaggeration(), 2.0);
-    const QPointF after = *view.positionOf(*view.map().dataset->georeference().toGrid(place));
+    const QPointF after = *view.positionOf(*view.map()->georeference().toGrid(place));
     // The heights of the two differ there; sideways nothing moves.
     EXPECT_NEAR(after.x(), before.x(), 2.0);
 }
@@ -401,13 +401,13 @@ TEST_F(LayersTest, ToldOfItsVoidsAMapIsExaggeratedForWhatIsLeft)
     ASSERT_TRUE(openAndWait(*window_, file));
     const TerrainView& view = *window_->view();
     const double flat = view.exaggeration();
-    EXPECT_FALSE(view.map().dataset->info().notices.empty());
+    EXPECT_FALSE(view.map()->info().notices.empty());
     RasterOverrides overrides;
     overrides.nodata = -32767.0;
     controller().overrideGeoreferencing(id(0), overrides);
     ASSERT_TRUE(waitForLoads());
     ASSERT_TRUE(settle());
-    EXPECT_EQ(view.map().dataset->heightfield().range()->minimum_m, 105.0);
+    EXPECT_EQ(view.map()->heightfield().range()->minimum_m, 105.0);
     EXPECT_GT(view.exaggeration(), flat);
 }
 

@@ -35,10 +35,7 @@ protected:
     }
 
     TerrainView& view() { return *window_->view(); }
-    std::string shownFile()
-    {
-        return view().map() ? view().map().dataset->spec().path : std::string();
-    }
+    std::string shownFile() { return view().map() ? view().map()->spec().path : std::string(); }
     bool waitForLoad()
     {
         return QTest::qWaitFor([this] { return !window_->loader().isLoading(); }, 30000);
@@ -67,7 +64,7 @@ TEST_F(MainWindowTest, OpensAFileAskedForBeforeItWasShown)
     window.open(file);
     window.show();
     ASSERT_TRUE(waitUntilSettled(window));
-    EXPECT_EQ(window.view()->map().dataset->spec().path, file.toStdString());
+    EXPECT_EQ(window.view()->map()->spec().path, file.toStdString());
     EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("hill.asc")));
 }
 
@@ -87,8 +84,8 @@ TEST_F(MainWindowTest, OpensAFolderOfAdjoiningRastersAsOneMap)
     ASSERT_TRUE(waitUntilSettled(*window_));
     EXPECT_EQ(shownFile(), folder.toStdString());
     ASSERT_TRUE(view().map());
-    EXPECT_EQ(view().map().dataset->info().columns, 120U);
-    EXPECT_EQ(view().map().dataset->heightfield().height({90.0, 10.0}), 30.0 + 20.0);
+    EXPECT_EQ(view().map()->info().columns, 120U);
+    EXPECT_EQ(view().map()->heightfield().height({90.0, 10.0}), 30.0 + 20.0);
     EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("tiles")));
     EXPECT_TRUE(window_->recentFiles()->files().contains(folder));
 }
@@ -186,7 +183,7 @@ TEST_F(MainWindowTest, TellsPositionAndHeightUnderThePointer)
     QTest::mouseMove(&view(), pointer);
     const auto hit = view().surfaceAt(pointer);
     ASSERT_TRUE(hit);
-    const Dataset& dataset = *view().map().dataset;
+    const Map& dataset = *view().map();
     const double height_m = dataset.heightfield().height(hit->grid);
     const auto is_told = [&] {
         const QString height = window_->readout()->heightLabel().section(QLatin1Char(' '), 0, 0);
@@ -202,23 +199,23 @@ TEST_F(MainWindowTest, TellsPositionAndHeightUnderThePointer)
 TEST_F(MainWindowTest, TakesAndUndoesToldGeoreferencing)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
-    EXPECT_EQ(view().map().dataset->georeference().body(), nullptr);
+    EXPECT_EQ(view().map()->georeference().body(), nullptr);
     GeoreferencingPanel& panel = *window_->georeferencingPanel();
     panel.edit();
     panel.findChild<QLineEdit*>(QStringLiteral("crs"))->setText(QStringLiteral("EPSG:32611"));
     panel.findChild<QPushButton*>(QStringLiteral("apply"))->click();
     ASSERT_TRUE(waitUntilSettled(*window_));
-    ASSERT_NE(view().map().dataset->georeference().body(), nullptr);
-    EXPECT_EQ(view().map().dataset->georeference().body()->name, "Earth");
-    EXPECT_EQ(formatName(window_->readout()->format(), view().map().dataset->info()),
+    ASSERT_NE(view().map()->georeference().body(), nullptr);
+    EXPECT_EQ(view().map()->georeference().body()->name, "Earth");
+    EXPECT_EQ(formatName(window_->readout()->format(), view().map()->info()),
               QStringLiteral("geodetic"));
 
     window_->undoStack().undo();
     ASSERT_TRUE(waitUntilSettled(*window_));
-    EXPECT_EQ(view().map().dataset->georeference().body(), nullptr);
+    EXPECT_EQ(view().map()->georeference().body(), nullptr);
     window_->undoStack().redo();
     ASSERT_TRUE(waitUntilSettled(*window_));
-    EXPECT_NE(view().map().dataset->georeference().body(), nullptr);
+    EXPECT_NE(view().map()->georeference().body(), nullptr);
 }
 
 TEST_F(MainWindowTest, RefusesGeoreferencingThatMakesNoSenseInItsForm)
@@ -230,9 +227,9 @@ TEST_F(MainWindowTest, RefusesGeoreferencingThatMakesNoSenseInItsForm)
     panel.findChild<QLineEdit*>(QStringLiteral("crs"))->setText(QStringLiteral("EPSG:nonsense"));
     panel.findChild<QPushButton*>(QStringLiteral("apply"))->click();
     ASSERT_TRUE(waitForLoad());
-    EXPECT_EQ(failures.count(), 0); // reported next to the field instead
+    EXPECT_EQ(failures.count(), 0);             // reported next to the field instead
     EXPECT_EQ(window_->undoStack().count(), 1); // opening the map
-    EXPECT_TRUE(view().map().dataset->spec().overrides.isEmpty());
+    EXPECT_TRUE(view().map()->spec().overrides.isEmpty());
 }
 
 TEST_F(MainWindowTest, ReadsTheFileAgainForAnotherNodataValue)
@@ -243,8 +240,8 @@ TEST_F(MainWindowTest, ReadsTheFileAgainForAnotherNodataValue)
     panel.findChild<QLineEdit*>(QStringLiteral("nodata"))->setText(QStringLiteral("100"));
     panel.findChild<QPushButton*>(QStringLiteral("apply"))->click();
     ASSERT_TRUE(waitUntilSettled(*window_));
-    EXPECT_TRUE(std::isnan(view().map().dataset->heightfield().sample(0, 0)));
-    EXPECT_FALSE(std::isnan(view().map().dataset->heightfield().sample(30, 20)));
+    EXPECT_TRUE(std::isnan(view().map()->heightfield().sample(0, 0)));
+    EXPECT_FALSE(std::isnan(view().map()->heightfield().sample(30, 20)));
 }
 
 TEST_F(MainWindowTest, LeavesTwoThirdsOfTheWidthToTheMap)

@@ -68,7 +68,7 @@ protected:
     QString positionOfTheMiddle()
     {
         const auto hit = view().surfaceAt(QPointF(view().width() / 2.0, view().height() / 2.0));
-        return hit ? positionText(readout().format(), *view().map().dataset, hit->grid,
+        return hit ? positionText(readout().format(), *view().map(), hit->grid,
                                   view().metresPerPoint(*hit))
                    : QString();
     }
@@ -161,7 +161,7 @@ TEST_F(StatusReadoutTest, CopiesMapCoordinatesThatOtherProgramsRead)
     CoordinateFormat format = readout().format();
     format.system = PositionSystem::Map;
     Q_EMIT readout().formatChosen(format);
-    EXPECT_EQ(positionText(readout().format(), *view().map().dataset, {9.5, 9.5}),
+    EXPECT_EQ(positionText(readout().format(), *view().map(), {9.5, 9.5}),
               QStringLiteral("500.300, −4.000.300 m"));
     window_->copyCoordinates(GridPoint{9.5, 9.5});
     EXPECT_EQ(QGuiApplication::clipboard()->text(), QStringLiteral("500300, -4000300"));

@@ -242,7 +242,7 @@ TEST_F(StretchTest, OfSlopesIsInDegrees)
 {
     controller().setShading(ShadingMode::Slope);
     Legend& legend = *window_->overlays()->legend();
-    EXPECT_EQ(legend.content().slopes, window_->view()->map().slope_range);
+    EXPECT_EQ(legend.content().slopes, window_->view()->map()->slopeRange());
     EXPECT_FALSE(window_->actionSet().stretch_to_view->isEnabled());
     choose(StretchKind::Fixed);
     ASSERT_TRUE(dialog().isVisible());

@@ -96,7 +96,7 @@ protected:
         window_->controller().open({hill_, moon_, mars_});
         EXPECT_TRUE(waitUntilSettled(*window_));
         for (const Layer& layer : window_->session().layers) {
-            const RasterInfo& info = layer.dataset->info();
+            const RasterInfo& info = layer.map->info();
             if (info.crs) {
                 names_.append(QString::fromStdString(info.crs->name()));
                 names_.append(QString::fromStdString(info.crs->wkt()));
@@ -189,7 +189,7 @@ TEST_F(TranslationTest, ReachesEveryDialog)
     window_->actionSet().edit_stretch->trigger();
     expectMarked(*window_->stretch().dialog());
     window_->stretch().dialog()->close();
-    GoToDialog go_to(window_->view()->map().dataset, {}, {}, window_.get());
+    GoToDialog go_to(window_->view()->map(), {}, {}, window_.get());
     expectMarked(go_to);
     go_to.findChild<QLineEdit*>(QStringLiteral("coordinate"))->setText(QStringLiteral("15, 15"));
     expectMarked(go_to);

@@ -117,7 +117,7 @@ TEST_F(WindowMemoryTest, OpensARecentFile)
     EXPECT_EQ(entries[1]->text(), QStringLiteral("hill.asc"));
     entries[1]->trigger();
     ASSERT_TRUE(waitUntilSettled(*window));
-    EXPECT_EQ(window->view()->map().dataset->spec().path, hill.toStdString());
+    EXPECT_EQ(window->view()->map()->spec().path, hill.toStdString());
     EXPECT_EQ(recentEntries(*window)[0]->text(), QStringLiteral("hill.asc"));
 }
 

@@ -1,7 +1,7 @@
 // A map as the view is given it.
 #pragma once
 
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "core/view/color_ramp.h"
 
 #include <optional>
@@ -9,7 +9,7 @@
 namespace marsview {
 
 struct ShownLayer {
-    LoadedMap map;
+    std::shared_ptr<const Map> map;
     const ColorRamp* ramp = nullptr; // one of colorRamps(); never null
     /// Over which elevations the ramp is spread; nothing for what suits the map.
     std::optional<HeightRange> color_range{};
@@ -19,13 +19,13 @@ struct ShownLayer {
 /// The elevations at the ends of the layer's ramp.
 inline HeightRange colorRangeOf(const ShownLayer& layer)
 {
-    return tintedRange(*layer.ramp, layer.color_range.value_or(layer.map.tint_range));
+    return tintedRange(*layer.ramp, layer.color_range.value_or(layer.map->tintRange()));
 }
 
 /// The slopes there in the mode Slope.
 inline SlopeRange slopeRangeOf(const ShownLayer& layer)
 {
-    return layer.slope_range.value_or(layer.map.slope_range);
+    return layer.slope_range.value_or(layer.map->slopeRange());
 }
 
 } // namespace marsview

@@ -30,10 +30,10 @@ constexpr milliseconds kTouchInterval{33};
 
 // Whether two pictures of one file, a preview maybe, have their outer corners in the same places of
 // the scene.
-bool isSameGround(const Dataset& a, const Dataset& b)
+bool isSameGround(const Map& a, const Map& b)
 {
-    const auto corner = [](const Dataset& dataset, double side) {
-        const Georeference& georeference = dataset.georeference();
+    const auto corner = [](const Map& map, double side) {
+        const Georeference& georeference = map.georeference();
         const auto end = [side](std::size_t count) {
             return -0.5 + side * static_cast<double>(count);
         };
@@ -61,8 +61,7 @@ bool isCompletionOf(const SceneSurface& before, const SceneSurface& now)
 {
     return std::any_of(before.maps().begin(), before.maps().end(), [&now](const SceneMap& then) {
         return std::any_of(now.maps().begin(), now.maps().end(), [&then](const SceneMap& map) {
-            return then.map.dataset != map.map.dataset &&
-                   isOfSameMap(*then.map.dataset, *map.map.dataset);
+            return then.map != map.map && isOfSameMap(*then.map, *map.map);
         });
     });
 }
@@ -122,23 +121,23 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
                             std::optional<double> exaggeration)
 {
     shown_ = top_first;
-    std::vector<LoadedMap> maps;
+    std::vector<std::shared_ptr<const Map>> maps;
     for (const ShownLayer& layer : top_first) {
         maps.push_back(layer.map);
     }
-    const LoadedMap map = maps.empty() ? LoadedMap{} : maps.front();
-    const bool is_completed = map_ && map && isOfSameMap(*map_.dataset, *map.dataset);
+    const std::shared_ptr<const Map> map = maps.empty() ? nullptr : maps.front();
+    const bool is_completed = map_ && map && isOfSameMap(*map_, *map);
     const bool is_same_place =
         map_ && map &&
-        (map_.dataset->georeference().sceneFrame() == map.dataset->georeference().sceneFrame() ||
-         isSameGround(*map_.dataset, *map.dataset));
-    const bool is_other_map = map.dataset != map_.dataset;
+        (map_->georeference().sceneFrame() == map->georeference().sceneFrame() ||
+         isSameGround(*map_, *map));
+    const bool is_other_map = map != map_;
     if (map_ && is_other_map) {
         rememberSight();
     }
     // What is seen of a preview is seen of its map, whatever would suit that better.
     const bool is_suited =
-        map_ && !is_completed && style_.exaggeration == suitableExaggeration(*map_.dataset);
+        map_ && !is_completed && style_.exaggeration == suitableExaggeration(*map_);
     const double exaggeration_before = style_.exaggeration;
     const SceneSurface before = ground_;
     map_ = map;
@@ -158,20 +157,20 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
         sight = sightToGoOnWith(before);
     } else if (map_ && is_suited) {
         // The same place may have other heights now, as when its voids were told of.
-        const double suitable = suitableExaggeration(*map_.dataset);
-        sight = Sight{.dataset = map_.dataset,
+        const double suitable = suitableExaggeration(*map_);
+        sight = Sight{.map = map_,
                       .camera = reexaggerated(navigator_.goal(), style_.exaggeration, suitable),
                       .exaggeration = suitable};
     }
     if (sight) {
         style_.exaggeration = sight->exaggeration;
     } else if (is_other_place) {
-        style_.exaggeration = suitableExaggeration(*map_.dataset);
+        style_.exaggeration = suitableExaggeration(*map_);
     }
     if (map_ && exaggeration && *exaggeration != style_.exaggeration) {
         if (sight || !is_other_place) { // otherwise the opening view follows
             const OrbitCamera camera = sight ? sight->camera : navigator_.goal();
-            sight = Sight{.dataset = map_.dataset,
+            sight = Sight{.map = map_,
                           .camera = reexaggerated(camera, style_.exaggeration, *exaggeration),
                           .exaggeration = *exaggeration};
         }
@@ -205,12 +204,12 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
     }
 }
 
-void TerrainView::succeed(const std::shared_ptr<const Dataset>& preview,
-                          const std::shared_ptr<const Dataset>& map)
+void TerrainView::replacePreview(const std::shared_ptr<const Map>& preview,
+                                 const std::shared_ptr<const Map>& map)
 {
     for (Sight& sight : sights_) {
-        if (sight.dataset.lock() == preview) {
-            sight.dataset = map;
+        if (sight.map.lock() == preview) {
+            sight.map = map;
         }
     }
 }
@@ -218,12 +217,11 @@ void TerrainView::succeed(const std::shared_ptr<const Dataset>& preview,
 void TerrainView::rememberSight()
 {
     std::erase_if(sights_, [this](const Sight& sight) {
-        const auto dataset = sight.dataset.lock();
-        return !dataset || dataset == map_.dataset;
+        const auto map = sight.map.lock();
+        return !map || map == map_;
     });
-    sights_.push_back({.dataset = map_.dataset,
-                       .camera = navigator_.goal(),
-                       .exaggeration = style_.exaggeration});
+    sights_.push_back(
+        {.map = map_, .camera = navigator_.goal(), .exaggeration = style_.exaggeration});
 }
 
 // Where one of the maps was in the picture before, the same piece of it stays in sight. Otherwise a
@@ -232,17 +230,16 @@ std::optional<TerrainView::Sight> TerrainView::sightToGoOnWith(const SceneSurfac
 {
     for (const SceneMap& now : ground_.maps()) {
         for (const SceneMap& then : before.maps()) {
-            if (now.map.dataset == then.map.dataset) {
+            if (now.map == then.map) {
                 OrbitCamera camera = navigator_.goal();
                 camera.target =
                     now.frame.toScene(then.frame.toGrid(camera.target), camera.target.z);
-                return Sight{
-                    .dataset = map_.dataset, .camera = camera, .exaggeration = style_.exaggeration};
+                return Sight{.map = map_, .camera = camera, .exaggeration = style_.exaggeration};
             }
         }
     }
     const auto known = std::find_if(sights_.begin(), sights_.end(), [this](const Sight& sight) {
-        return sight.dataset.lock() == map_.dataset;
+        return sight.map.lock() == map_;
     });
     return known != sights_.end() ? std::optional(*known) : std::nullopt;
 }
@@ -386,7 +383,7 @@ void TerrainView::flyTo(GridPoint grid, double distance_m)
         return;
     }
     OrbitCamera goal =
-        lookingAt(map_.dataset->georeference().sceneFrame().toScene(grid, 0.0), navigator_.goal());
+        lookingAt(map_->georeference().sceneFrame().toScene(grid, 0.0), navigator_.goal());
     if (distance_m > 0.0) {
         goal.distance_m = distance_m;
     }
@@ -452,9 +449,9 @@ std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
     if (!map_) {
         return std::nullopt;
     }
-    const double height_m = map_.dataset->heightfield().heightNow(grid);
+    const double height_m = map_->heightfield().heightNow(grid);
     return positionOfPlace(
-        map_.dataset->georeference().sceneFrame().toScene(grid, height_m * style_.exaggeration));
+        map_->georeference().sceneFrame().toScene(grid, height_m * style_.exaggeration));
 }
 
 std::optional<QPointF> TerrainView::positionOfPlace(const ScenePoint& place) const
@@ -469,7 +466,7 @@ std::optional<QPointF> TerrainView::positionOfPlace(const ScenePoint& place) con
 void TerrainView::goToOpeningView()
 {
     is_at_opening_view_ = true;
-    navigator_.jumpTo(openingCamera(map_.dataset->georeference())
+    navigator_.jumpTo(openingCamera(map_->georeference())
                           .value_or(homeCamera(ground_.box(style_.exaggeration), viewport())));
 }
 

@@ -61,10 +61,10 @@ public:
     const std::vector<ShownLayer>& shownLayers() const noexcept { return shown_; }
     /// `map` is going to be shown in place of `preview`: it is seen as that was left. To be told
     /// before setLayers().
-    void succeed(const std::shared_ptr<const Dataset>& preview,
-                 const std::shared_ptr<const Dataset>& map);
+    void replacePreview(const std::shared_ptr<const Map>& preview,
+                        const std::shared_ptr<const Map>& map);
     /// The topmost map shown; none where there is none.
-    const LoadedMap& map() const noexcept { return map_; }
+    const std::shared_ptr<const Map>& map() const noexcept { return map_; }
     /// Its colours; null where there is no map.
     const ColorRamp* ramp() const noexcept { return ramp_; }
     /// Everything that is shown.
@@ -164,7 +164,7 @@ Q_SIGNALS:
     void ready();
     /// There is none that will do.
     void unavailable(const QString& reason);
-    void mapShown(const LoadedMap& map);
+    void mapShown(const std::shared_ptr<const Map>& map);
     /// setLayers() or setLook() took effect.
     void layersChanged();
     void lookChanged();
@@ -214,7 +214,7 @@ protected:
 private:
     // How a map was looked at.
     struct Sight {
-        std::weak_ptr<const Dataset> dataset; // the topmost
+        std::weak_ptr<const Map> map; // the topmost
         OrbitCamera camera;
         double exaggeration = 1.0;
     };
@@ -266,7 +266,7 @@ private:
     bool has_antialiasing_ = true;
 
     std::vector<ShownLayer> shown_;
-    LoadedMap map_;
+    std::shared_ptr<const Map> map_;
     const ColorRamp* ramp_ = nullptr;
     SceneSurface ground_;
     std::vector<TerrainLayer> layers_;

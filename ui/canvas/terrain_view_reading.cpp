@@ -48,8 +48,8 @@ double TerrainView::metresPerPoint(const RayHit& hit) const
     if (!map_) {
         return 0.0;
     }
-    const ScenePoint place = map_.dataset->georeference().sceneFrame().toScene(
-        hit.grid, hit.height_m * style_.exaggeration);
+    const ScenePoint place =
+        map_->georeference().sceneFrame().toScene(hit.grid, hit.height_m * style_.exaggeration);
     return metresPerPixel(navigator_.camera(), viewport(), place) * devicePixelRatioF();
 }
 
@@ -128,7 +128,7 @@ void TerrainView::reportPointer()
     Q_EMIT pointerMoved(position ? surfaceAt(*position) : std::nullopt);
     // A ray takes what is loaded. Where the pointer rests, the samples themselves are read.
     const auto ground = position ? groundUnder(*position) : std::optional<GroundPoint>();
-    if (ground && !ground_.maps()[ground->index].map.dataset->heightfield().isExact(ground->grid)) {
+    if (ground && !ground_.maps()[ground->index].map->heightfield().isExact(ground->grid)) {
         pointer_timer_.start(kRestInterval);
     }
 }
@@ -140,7 +140,7 @@ void TerrainView::readUnderPointer()
     if (!ground) {
         return;
     }
-    const Heightfield& heightfield = ground_.maps()[ground->index].map.dataset->heightfield();
+    const Heightfield& heightfield = ground_.maps()[ground->index].map->heightfield();
     if (!heightfield.isExact(ground->grid)) {
         static_cast<void>(heightfield.height(ground->grid)); // requests it
         if (heightfield.tiles()->isLoading()) {

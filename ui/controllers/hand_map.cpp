@@ -18,28 +18,27 @@ HandMap::HandMap(const SceneMap& map)
     : map_(map)
     , map_id_(nextMapId())
 {
-    const Heightfield& heightfield = map_.map.dataset->heightfield();
-    if (map_.map.filled || !heightfield.isTiled()) {
+    const Heightfield& heightfield = map_.map->heightfield();
+    if (map_.map->filled() || !heightfield.isTiled()) {
         return;
     }
     // The map has its coarsest tile always at hand: there is something to touch at once, and finer
     // ground comes as it is loaded.
     const TiledSamples& tiles = *heightfield.tiles();
     feeder_ = std::make_unique<WindowFeeder>(
-        tiles.raster(), std::make_shared<const TileHeights>(map_.map.levels, heightfield.scale()),
-        tiles.top());
+        tiles.raster(),
+        std::make_shared<const TileHeights>(map_.map->levels(), heightfield.scale()), tiles.top());
     terrain_ = std::make_shared<ServoTerrain>(feeder_->exchange(), feeder_->heights());
     feeder_->start();
 }
 
 std::shared_ptr<ServoMap> HandMap::make(ContactModelKind kind, double exaggeration) const
 {
-    const auto& dataset = map_.map.dataset;
-    const GoalFrame frame({dataset, &dataset->georeference()}, map_.frame, exaggeration);
+    const GoalFrame frame({map_.map, &map_.map->georeference()}, map_.frame, exaggeration);
     const ServoMapOptions options{
         .kind = kind, .contact = {.radius_m = 0.5 * map_.frame.meanCellSideM()}, .map_id = map_id_};
-    if (map_.map.filled) {
-        return makeServoMap(frame, map_.map.filled, options);
+    if (map_.map->filled()) {
+        return makeServoMap(frame, map_.map->filled(), options);
     }
     return terrain_ ? makeServoMap(frame, terrain_, options) : nullptr;
 }

@@ -17,10 +17,7 @@ class HandMap {
 public:
     explicit HandMap(const SceneMap& map);
 
-    bool isOf(const SceneMap& map) const
-    {
-        return map.map.dataset == map_.map.dataset && map.frame == map_.frame;
-    }
+    bool isOf(const SceneMap& map) const { return map.map == map_.map && map.frame == map_.frame; }
     const SceneMap& map() const noexcept { return map_; }
 
     /// Null for a map that is held in memory without what fills its voids.

@@ -21,7 +21,7 @@ constexpr double kRoomOfWidth = 0.03;
 
 MapPlan planOf(const SceneMap& map)
 {
-    const Georeference& georeference = map.map.dataset->georeference();
+    const Georeference& georeference = map.map->georeference();
     return {.frame = map.frame, .columns = georeference.columns(), .rows = georeference.rows()};
 }
 

@@ -531,7 +531,7 @@ void HapticsController::checkReplay()
     tellReplay();
     std::vector<std::shared_ptr<const Georeference>> maps;
     for (const SceneMap& map : view_.ground().maps()) {
-        maps.emplace_back(map.map.dataset, &map.map.dataset->georeference());
+        maps.emplace_back(map.map, &map.map->georeference());
     }
     if (maps.empty()) {
         return; // it waits for one

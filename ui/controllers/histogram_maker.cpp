@@ -17,25 +17,24 @@ HistogramMaker::~HistogramMaker()
     pool_.waitForDone(); // what it posted goes with this object
 }
 
-std::shared_ptr<const HeightHistogram>
-HistogramMaker::find(const std::shared_ptr<const Dataset>& dataset)
+std::shared_ptr<const HeightHistogram> HistogramMaker::find(const std::shared_ptr<const Map>& map)
 {
-    if (const auto hit = entries_.find(dataset.get());
-        hit != entries_.end() && !hit->second.dataset.expired()) {
+    if (const auto hit = entries_.find(map.get());
+        hit != entries_.end() && !hit->second.map.expired()) {
         return hit->second.histogram;
     }
-    std::erase_if(entries_, [](const auto& entry) { return entry.second.dataset.expired(); });
-    entries_[dataset.get()] = {.dataset = dataset, .histogram = nullptr};
-    pool_.start([this, dataset] {
+    std::erase_if(entries_, [](const auto& entry) { return entry.second.map.expired(); });
+    entries_[map.get()] = {.map = map, .histogram = nullptr};
+    pool_.start([this, map] {
         HistogramOptions options;
         options.monitor = &monitor_;
-        auto histogram = std::make_shared<const HeightHistogram>(
-            heightHistogram(dataset->heightfield(), options));
+        auto histogram =
+            std::make_shared<const HeightHistogram>(heightHistogram(map->heightfield(), options));
         QMetaObject::invokeMethod(
             this,
-            [this, dataset, histogram = std::move(histogram)] {
-                entries_[dataset.get()] = {.dataset = dataset, .histogram = histogram};
-                Q_EMIT made(dataset);
+            [this, map, histogram = std::move(histogram)] {
+                entries_[map.get()] = {.map = map, .histogram = histogram};
+                Q_EMIT made(map);
             },
             Qt::QueuedConnection);
     });

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/job_monitor.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "core/terrain/height_histogram.h"
 
 #include <QObject>
@@ -13,8 +13,8 @@
 
 namespace marsview {
 
-/// Counts each map once and forgets it with its dataset. Lives in the GUI thread; the destructor
-/// waits for the count that runs: some 10 ms, or as long as one tile takes to be read.
+/// Counts the histogram of each map once and drops it with the map. Lives in the GUI thread; the
+/// destructor waits for the count that runs: some 10 ms, or as long as one tile takes to be read.
 class HistogramMaker final : public QObject {
     Q_OBJECT
 
@@ -23,18 +23,18 @@ public:
     ~HistogramMaker() override;
 
     /// Null while it is being counted; made() tells when it is there.
-    std::shared_ptr<const HeightHistogram> find(const std::shared_ptr<const Dataset>& dataset);
+    std::shared_ptr<const HeightHistogram> find(const std::shared_ptr<const Map>& map);
 
 Q_SIGNALS:
-    void made(const std::shared_ptr<const Dataset>& dataset);
+    void made(const std::shared_ptr<const Map>& map);
 
 private:
     struct Entry {
-        std::weak_ptr<const Dataset> dataset;
+        std::weak_ptr<const Map> map;
         std::shared_ptr<const HeightHistogram> histogram; // null while it is being counted
     };
 
-    std::map<const Dataset*, Entry> entries_;
+    std::map<const Map*, Entry> entries_;
     JobMonitor monitor_; // cancelled at the end
     QThreadPool pool_;
 };

@@ -50,7 +50,7 @@ void LoadController::start(const LoadRequest& request)
     progress_timer_.start();
     reportProgress();
     pool_.start([this, job = job_] {
-        Result<LoadedMap> outcome = run(*job);
+        Result<std::shared_ptr<const Map>> outcome = run(*job);
         QMetaObject::invokeMethod(
             this, [this, job, outcome = std::move(outcome)] { finish(job, outcome); },
             Qt::QueuedConnection);
@@ -62,7 +62,7 @@ void LoadController::cancel()
     if (!job_) {
         return;
     }
-    const DatasetSpec spec = job_->request.spec;
+    const RasterSpec spec = job_->request.spec;
     abandon();
     Q_EMIT cancelled(spec);
 }
@@ -76,36 +76,18 @@ void LoadController::abandon()
     }
 }
 
-Result<LoadedMap> LoadController::run(Job& job)
+Result<std::shared_ptr<const Map>> LoadController::run(Job& job)
 {
     const LoadRequest& request = job.request;
-    const MapOpener& opener = job.opener;
     const OpeningJob opening(&job.monitor);
     try {
         if (request.loaded) {
-            auto dataset = withOverrides(*request.loaded, request.spec.overrides);
-            if (dataset) {
-                return prepareMap(std::move(dataset).value(), job.monitor);
-            }
-            if (dataset.error().code != ErrorCode::Unsupported) {
-                return std::move(dataset).error();
-            }
-        }
-        for (;;) {
-            const Result<OpenPlan> plan = opener.plan(request.spec, opener.resources);
-            if (!plan) {
-                return plan.error();
-            }
-            if (plan->store == MapStore::Unprepared) {
-                return opener.preview(request.spec, {}, job.monitor);
-            }
-            Result<LoadedMap> map = opener.open(request.spec, *plan, opener.resources, job.monitor);
-            // What is damaged is made again. It ends, as nothing can be removed twice.
-            if (map || !isDamageToPrepared(*plan, map.error()) ||
-                !discardPrepared(*plan, opener.resources)) {
+            auto map = withOverrides(*request.loaded, request.spec.overrides, job.monitor);
+            if (map || map.error().code != ErrorCode::Unsupported) {
                 return map;
             }
         }
+        return job.opener.open(request.spec, job.opener.resources, job.monitor);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::TooLarge, request.spec.path +
                                               ": needs more memory than there is; close other "
@@ -115,7 +97,8 @@ Result<LoadedMap> LoadController::run(Job& job)
     }
 }
 
-void LoadController::finish(const std::shared_ptr<Job>& job, const Result<LoadedMap>& outcome)
+void LoadController::finish(const std::shared_ptr<Job>& job,
+                            const Result<std::shared_ptr<const Map>>& outcome)
 {
     if (job != job_) {
         return; // cancelled, or another load was started, after this one was posted

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/session/dataset.h"
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "ui/controllers/map_opener.h"
 
 #include <QObject>
@@ -16,14 +15,14 @@ namespace marsview {
 
 /// What to load.
 struct LoadRequest {
-    DatasetSpec spec;
+    RasterSpec spec;
     /// The same file as it is loaded already: where nothing has to be read again, its samples are
     /// used. May be null.
-    std::shared_ptr<const Dataset> loaded;
+    std::shared_ptr<const Map> loaded;
 };
 
 struct LoadFailure {
-    DatasetSpec spec;
+    RasterSpec spec;
     Error error;
 };
 
@@ -47,20 +46,20 @@ public:
     bool isLoading() const noexcept { return job_ != nullptr; }
 
 Q_SIGNALS:
-    void started(const DatasetSpec& spec);
+    void started(const RasterSpec& spec);
     /// `fraction` is in [0, 1].
     void progressed(double fraction);
     // One of the following ends each load, except one that gave way to another start().
-    void succeeded(const LoadedMap& map);
+    void succeeded(const std::shared_ptr<const Map>& map);
     void failed(const LoadFailure& failure);
-    void cancelled(const DatasetSpec& spec);
+    void cancelled(const RasterSpec& spec);
 
 private:
     struct Job;
 
     void abandon();
-    static Result<LoadedMap> run(Job& job);
-    void finish(const std::shared_ptr<Job>& job, const Result<LoadedMap>& outcome);
+    static Result<std::shared_ptr<const Map>> run(Job& job);
+    void finish(const std::shared_ptr<Job>& job, const Result<std::shared_ptr<const Map>>& outcome);
     void reportProgress();
 
     MapOpener opener_;

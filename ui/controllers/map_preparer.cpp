@@ -21,7 +21,7 @@ DecimationLimits betterPreview()
 
 } // namespace
 
-bool isPreparedAlike(const DatasetSpec& a, const DatasetSpec& b)
+bool isPreparedAlike(const RasterSpec& a, const RasterSpec& b)
 {
     return a.path == b.path && a.band == b.band && a.overrides.nodata == b.overrides.nodata;
 }
@@ -31,7 +31,7 @@ struct MapPreparer::Job {
     MapOpener opener;
     JobMonitor previewing; // not part of the progress that is reported
     JobMonitor monitor;
-    std::function<void(const LoadedMap&)> tell_preview;
+    std::function<void(const std::shared_ptr<const Map>&)> tell_preview;
 
     void cancel()
     {
@@ -68,7 +68,7 @@ void MapPreparer::enqueue(const PrepareRequest& request)
     startNext();
 }
 
-void MapPreparer::remove(const DatasetSpec& spec)
+void MapPreparer::remove(const RasterSpec& spec)
 {
     std::erase_if(waiting_, [&spec](const PrepareRequest& request) {
         return isPreparedAlike(request.spec, spec);
@@ -88,14 +88,14 @@ void MapPreparer::removeAll()
     }
 }
 
-std::optional<DatasetSpec> MapPreparer::current() const
+std::optional<RasterSpec> MapPreparer::current() const
 {
     return job_ ? std::optional(job_->request.spec) : std::nullopt;
 }
 
-std::vector<DatasetSpec> MapPreparer::all() const
+std::vector<RasterSpec> MapPreparer::all() const
 {
-    std::vector<DatasetSpec> specs;
+    std::vector<RasterSpec> specs;
     if (job_) {
         specs.push_back(job_->request.spec);
     }
@@ -105,11 +105,11 @@ std::vector<DatasetSpec> MapPreparer::all() const
     return specs;
 }
 
-bool MapPreparer::has(const DatasetSpec& spec) const
+bool MapPreparer::has(const RasterSpec& spec) const
 {
-    const std::vector<DatasetSpec> specs = all();
+    const std::vector<RasterSpec> specs = all();
     return std::any_of(specs.begin(), specs.end(),
-                       [&spec](const DatasetSpec& other) { return isPreparedAlike(other, spec); });
+                       [&spec](const RasterSpec& other) { return isPreparedAlike(other, spec); });
 }
 
 // ended() follows for whatever reason nothing is in progress any more.
@@ -128,7 +128,7 @@ void MapPreparer::startNext()
     waiting_.pop_front();
     job_->opener = opener_;
     const std::weak_ptr<Job> of = job_;
-    job_->tell_preview = [this, of](const LoadedMap& map) {
+    job_->tell_preview = [this, of](const std::shared_ptr<const Map>& map) {
         QMetaObject::invokeMethod(
             this,
             [this, of, map] {
@@ -159,7 +159,7 @@ void MapPreparer::dropCurrent()
 
 Status MapPreparer::run(Job& job)
 {
-    const DatasetSpec& spec = job.request.spec;
+    const RasterSpec& spec = job.request.spec;
     try {
         if (job.request.is_preview_wanted && !job.monitor.isCancelled()) {
             if (const auto preview = job.opener.preview(spec, betterPreview(), job.previewing)) {
@@ -184,7 +184,7 @@ void MapPreparer::finish(const std::shared_ptr<Job>& job, const Status& outcome)
         return; // removed after this was posted
     }
     job_.reset();
-    const DatasetSpec spec = job->request.spec;
+    const RasterSpec spec = job->request.spec;
     if (outcome) {
         Q_EMIT prepared(spec);
     } else {

@@ -3,7 +3,7 @@
 
 #include "core/base/result.h"
 #include "core/base/time_left.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "ui/controllers/load_controller.h"
 #include "ui/controllers/map_opener.h"
 
@@ -21,15 +21,15 @@ namespace marsview {
 
 /// Whether the overviews of one serve the other: the samples are the same, whatever the overrides
 /// say about them.
-bool isPreparedAlike(const DatasetSpec& a, const DatasetSpec& b);
+bool isPreparedAlike(const RasterSpec& a, const RasterSpec& b);
 
 struct PrepareRequest {
-    DatasetSpec spec;
+    RasterSpec spec;
     bool is_preview_wanted = false; // a better one than is shown
 };
 
 struct PrepareProgress {
-    DatasetSpec spec;
+    RasterSpec spec;
     double fraction = 0.0;
     std::optional<std::chrono::seconds> left;
     int waiting_count = 0; // of further maps
@@ -51,23 +51,23 @@ public:
     /// Without effect if the map is in progress or waits already.
     void enqueue(const PrepareRequest& request);
     /// Without effect if the map is neither in progress nor waits.
-    void remove(const DatasetSpec& spec);
+    void remove(const RasterSpec& spec);
     void removeAll();
 
     bool isBusy() const noexcept { return job_ != nullptr; }
     /// The map in progress, if any.
-    std::optional<DatasetSpec> current() const;
+    std::optional<RasterSpec> current() const;
     /// The map in progress and those that wait.
-    std::vector<DatasetSpec> all() const;
+    std::vector<RasterSpec> all() const;
     /// The map is in progress or waits.
-    bool has(const DatasetSpec& spec) const;
+    bool has(const RasterSpec& spec) const;
 
 Q_SIGNALS:
     void progressed(const PrepareProgress& progress);
     /// A better preview, while overviews are being built.
-    void previewed(const LoadedMap& map);
+    void previewed(const std::shared_ptr<const Map>& map);
     // One of the following ends each map, except those that were removed.
-    void prepared(const DatasetSpec& spec);
+    void prepared(const RasterSpec& spec);
     void failed(const LoadFailure& failure);
     /// No map is in progress any more.
     void ended();

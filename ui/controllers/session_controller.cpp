@@ -29,16 +29,31 @@ bool isSame(const std::vector<ShownLayer>& a, const std::vector<ShownLayer>& b)
         a.begin(), a.end(), b.begin(), b.end(), [](const ShownLayer& x, const ShownLayer& y) {
             const HeightRange a_range = colorRangeOf(x);
             const HeightRange b_range = colorRangeOf(y);
-            return x.map.dataset == y.map.dataset && x.ramp == y.ramp &&
+            return x.map == y.map && x.ramp == y.ramp &&
                    marsview::slopeRangeOf(x) == marsview::slopeRangeOf(y) &&
                    a_range.minimum_m == b_range.minimum_m && a_range.maximum_m == b_range.maximum_m;
         });
 }
 
-GridPoint placeOn(const Dataset& dataset, double column_share, double row_share)
+// A place of `layer` on the grid of the scene, which lies in the same CRS.
+std::optional<GridPoint> onGridOf(const Map& scene, const Map& layer, GridPoint grid)
 {
-    return {column_share * static_cast<double>(dataset.heightfield().columns() - 1),
-            row_share * static_cast<double>(dataset.heightfield().rows() - 1)};
+    if (&scene == &layer) {
+        return grid;
+    }
+    const Georeference& from = layer.georeference();
+    if (const auto place = from.toGeographic(grid)) {
+        if (const auto there = scene.georeference().toGrid(*place)) {
+            return there;
+        }
+    }
+    return scene.georeference().toGrid(from.toMap(grid));
+}
+
+GridPoint placeOn(const Map& map, double column_share, double row_share)
+{
+    return {column_share * static_cast<double>(map.heightfield().columns() - 1),
+            row_share * static_cast<double>(map.heightfield().rows() - 1)};
 }
 
 // With a layer in the picture: on top if it cannot be shown together with what is shown now.
@@ -52,9 +67,9 @@ Session shownIn(const Session& session, LayerId id)
 }
 
 // From where the larger side of a map fills most of a picture that is 40° high.
-double distanceToSee(const Dataset& dataset)
+double distanceToSee(const Map& map)
 {
-    const Georeference& georeference = dataset.georeference();
+    const Georeference& georeference = map.georeference();
     const double side_m =
         std::max(static_cast<double>(georeference.columns()) * georeference.pixelWidthMetres(),
                  static_cast<double>(georeference.rows()) * georeference.pixelHeightMetres());
@@ -66,7 +81,7 @@ double distanceToSee(const Dataset& dataset)
 const ColorRamp& rampOf(const Layer& layer)
 {
     const ColorRamp* ramp = colorRampNamed(layer.ramp);
-    const Body* body = layer.dataset->info().body;
+    const Body* body = layer.map->info().body;
     return ramp != nullptr ? *ramp
                            : defaultColorRamp(body != nullptr ? body->name : std::string_view{});
 }
@@ -102,19 +117,19 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
     });
     connect(preparer_, &MapPreparer::progressed, this, &SessionController::preparingProgressed);
     connect(preparer_, &MapPreparer::ended, this, &SessionController::preparingEnded);
-    connect(preparer_, &MapPreparer::previewed, this, [this](const LoadedMap& map) {
-        std::vector<std::shared_ptr<const Dataset>> rough;
-        for (const Layer& layer : session_.layers) {
-            if (layer.dataset->kind() == DatasetKind::RoughPreview &&
-                isOfSameMap(*layer.dataset, *map.dataset)) {
-                rough.push_back(layer.dataset);
+    connect(
+        preparer_, &MapPreparer::previewed, this, [this](const std::shared_ptr<const Map>& map) {
+            std::vector<std::shared_ptr<const Map>> rough;
+            for (const Layer& layer : session_.layers) {
+                if (layer.map->kind() == MapKind::RoughPreview && isOfSameMap(*layer.map, *map)) {
+                    rough.push_back(layer.map);
+                }
             }
-        }
-        for (const auto& dataset : rough) {
-            succeed(dataset, map);
-        }
-    });
-    connect(preparer_, &MapPreparer::prepared, this, [this](const DatasetSpec& spec) {
+            for (const auto& preview : rough) {
+                replacePreview(preview, map);
+            }
+        });
+    connect(preparer_, &MapPreparer::prepared, this, [this](const RasterSpec& spec) {
         endPreparing({.how = Ending::How::Done, .spec = spec});
     });
     connect(preparer_, &MapPreparer::failed, this, [this](const LoadFailure& failure) {
@@ -167,7 +182,7 @@ void SessionController::overrideGeoreferencing(LayerId id, const RasterOverrides
     if (layer == nullptr) {
         return;
     }
-    Load load{.purpose = Load::Purpose::Override, .spec = layer->dataset->spec(), .layer = id};
+    Load load{.purpose = Load::Purpose::Override, .spec = layer->map->spec(), .layer = id};
     load.spec.overrides = overrides;
     enqueue(std::move(load));
     startNext();
@@ -193,7 +208,7 @@ void SessionController::startNext()
     ++begun_count_;
     const Layer* layer = layerOf(session_, current_->layer);
     const bool is_known = layer != nullptr && current_->purpose == Load::Purpose::Override;
-    loader_->start({.spec = current_->spec, .loaded = is_known ? layer->dataset : nullptr});
+    loader_->start({.spec = current_->spec, .loaded = is_known ? layer->map : nullptr});
 }
 
 void SessionController::endLoad()
@@ -239,7 +254,7 @@ void SessionController::dropLoadsOf(LayerId id)
     }
 }
 
-void SessionController::accept(const LoadedMap& map)
+void SessionController::accept(const std::shared_ptr<const Map>& map)
 {
     const Load load = *std::exchange(current_, std::nullopt);
     if (load.purpose == Load::Purpose::Complete) {
@@ -247,19 +262,18 @@ void SessionController::accept(const LoadedMap& map)
         endLoad();
         return;
     }
-    const auto dataset = maps_.keep(map);
-    if (dataset->isPreview()) {
+    if (map->isPreview()) {
         forgetEnding(load.spec); // whatever became of it before, it is wanted now
     }
     if (load.purpose == Load::Purpose::Override) {
         if (const Layer* layer = layerOf(session_, load.layer)) {
             //: Continues "Undo …"; %1 is a layer
             change(tr("Georeferencing of %1").arg(nameOf(*layer)),
-                   withDataset(session_, load.layer, dataset));
+                   withMap(session_, load.layer, map));
         }
     } else {
         const bool is_sample = load.purpose == Load::Purpose::Sample;
-        const Session after = added(session_, {.dataset = dataset, .is_sample = is_sample});
+        const Session after = added(session_, {.map = map, .is_sample = is_sample});
         to_reveal_ = after.active;
         for (const Layer& layer : session_.layers) {
             if (layer.is_sample && !is_sample) {
@@ -396,7 +410,7 @@ void SessionController::setSlopeRange(LayerId id, const std::optional<SlopeRange
 
 SlopeRange SessionController::slopeRangeOf(const Layer& layer) const
 {
-    return layer.slope_range.value_or(maps_.find(layer.dataset).slope_range);
+    return layer.slope_range.value_or(layer.map->slopeRange());
 }
 
 void SessionController::stretchToView(LayerId id)
@@ -409,7 +423,7 @@ void SessionController::stretchToView(LayerId id)
     const auto ranges =
         rangesInPicture(ground, view_.camera(), view_.viewport(), view_.exaggeration());
     for (std::size_t i = 0; i < ranges.size(); ++i) {
-        if (ground.maps()[i].map.dataset.get() == layer->dataset.get() && ranges[i] &&
+        if (ground.maps()[i].map.get() == layer->map.get() && ranges[i] &&
             isStretchRange(ranges[i]->minimum_m, ranges[i]->maximum_m)) {
             //: Continues "Undo …"; %1 is a layer
             change(tr("Stretch of %1 to Current View").arg(nameOf(*layer)),
@@ -422,25 +436,19 @@ void SessionController::stretchToView(LayerId id)
 
 HeightRange SessionController::stretchedRangeOf(const Layer& layer) const
 {
-    std::erase_if(known_ranges_, [](const KnownRange& known) { return known.dataset.expired(); });
+    std::erase_if(known_ranges_, [](const KnownRange& known) { return known.map.expired(); });
     const auto known =
         std::find_if(known_ranges_.begin(), known_ranges_.end(), [&layer](const KnownRange& range) {
-            return range.dataset.lock() == layer.dataset && range.stretch == layer.stretch;
+            return range.map.lock() == layer.map && range.stretch == layer.stretch;
         });
     if (known != known_ranges_.end()) {
         return known->range;
     }
-    const LoadedMap map = maps_.find(layer.dataset);
-    if (!map) {
-        return layer.dataset->heightfield().range().value_or(HeightRange{});
-    }
-    const HeightRange range =
-        stretchedRange(layer.stretch, {.heights = layer.dataset->heightfield(),
-                                       .means = map.analysis->means,
-                                       .automatic = map.tint_range});
+    const HeightRange range = stretchedRange(layer.stretch, {.heights = layer.map->heightfield(),
+                                                             .means = layer.map->analysis()->means,
+                                                             .automatic = layer.map->tintRange()});
     if (layer.stretch.kind == StretchKind::Percentile) {
-        known_ranges_.push_back(
-            {.dataset = layer.dataset, .stretch = layer.stretch, .range = range});
+        known_ranges_.push_back({.map = layer.map, .stretch = layer.stretch, .range = range});
     }
     return range;
 }
@@ -451,8 +459,7 @@ void SessionController::setExaggeration(double exaggeration, ChangeKind kind)
     if (shown.empty() || !(exaggeration > 0.0)) {
         return;
     }
-    const ExaggerationRange range =
-        exaggerationRange(suitableExaggeration(*shown.front()->dataset));
+    const ExaggerationRange range = exaggerationRange(suitableExaggeration(*shown.front()->map));
     const double bounded = std::clamp(exaggeration, range.least, range.most);
     const SessionRun run =
         kind == ChangeKind::OfDrag
@@ -496,7 +503,7 @@ void SessionController::apply(const Session& session)
     session_ = session;
     session_.next_id = next_id;
     for (Layer& layer : session_.layers) {
-        layer.dataset = latest(layer.dataset);
+        layer.map = latest(layer.map);
     }
     show();
     Q_EMIT sessionChanged();
@@ -507,7 +514,7 @@ void SessionController::show()
 {
     std::vector<ShownLayer> shown;
     for (const Layer* layer : shownLayers(session_)) {
-        shown.push_back({.map = maps_.find(layer->dataset),
+        shown.push_back({.map = layer->map,
                          .ramp = &rampOf(*layer),
                          .color_range = stretchedRangeOf(*layer),
                          .slope_range = layer->slope_range});
@@ -526,8 +533,8 @@ void SessionController::show()
 void SessionController::revealWhatCame()
 {
     const Layer* layer = layerOf(session_, to_reveal_);
-    const Dataset* scene = view_.map().dataset.get();
-    if (layer == nullptr || scene != layer->dataset.get()) {
+    const Map* scene = view_.map().get();
+    if (layer == nullptr || scene != layer->map.get()) {
         return;
     }
     to_reveal_ = LayerId::None;
@@ -555,14 +562,13 @@ void SessionController::goTo(LayerId id)
         change(tr("Show %1").arg(nameOf(*hidden)), shownIn(session_, id));
     }
     const Layer* layer = layerOf(session_, id);
-    const Dataset* scene = view_.map().dataset.get();
+    const Map* scene = view_.map().get();
     if (layer == nullptr || scene == nullptr || !is_shown()) {
         return;
     }
-    const Dataset& dataset = *layer->dataset;
-    const GridPoint centre =
-        scene->georeference().toGrid(placeOn(dataset, 0.5, 0.5), dataset.georeference());
-    view_.flyTo(centre, distanceToSee(dataset));
+    if (const auto centre = onGridOf(*scene, *layer->map, placeOn(*layer->map, 0.5, 0.5))) {
+        view_.flyTo(*centre, distanceToSee(*layer->map));
+    }
 }
 
 } // namespace marsview

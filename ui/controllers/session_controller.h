@@ -4,7 +4,6 @@
 #include "core/session/session.h"
 #include "ui/canvas/shown_layer.h"
 #include "ui/controllers/load_controller.h"
-#include "ui/controllers/loaded_map_store.h"
 #include "ui/controllers/map_preparer.h"
 #include "ui/controllers/session_command.h"
 
@@ -152,18 +151,18 @@ private:
     struct Load {
         /// Complete: a preview whose map has been prepared.
         enum class Purpose { Open, Sample, Override, Complete } purpose = Purpose::Open;
-        DatasetSpec spec;
+        RasterSpec spec;
         LayerId layer = LayerId::None; // that is overridden, or whose preview it is
     };
     /// What became of a preview. It lives as long as some step of undo holds the preview.
     struct Successor {
-        std::weak_ptr<const Dataset> preview;
-        std::shared_ptr<const Dataset> map; // may itself be a preview, a better one
+        std::weak_ptr<const Map> preview;
+        std::shared_ptr<const Map> map; // may itself be a preview, a better one
     };
     /// How preparing ended, for maps of which the session or its undo steps may hold a preview.
     struct Ending {
         enum class How { Done, Stopped, Failed } how = How::Done;
-        DatasetSpec spec;
+        RasterSpec spec;
         QString problem{};
         int number = 0; // counted from 1
     };
@@ -171,14 +170,15 @@ private:
     void enqueue(Load load);
     void startNext();
     void dropLoadsOf(LayerId id);
-    void accept(const LoadedMap& map);
+    void accept(const std::shared_ptr<const Map>& map);
     void endLoad();
-    void acceptComplete(const Load& load, const LoadedMap& map);
-    void succeed(const std::shared_ptr<const Dataset>& preview, const LoadedMap& map);
-    std::shared_ptr<const Dataset> latest(std::shared_ptr<const Dataset> dataset) const;
+    void acceptComplete(const Load& load, const std::shared_ptr<const Map>& map);
+    void replacePreview(const std::shared_ptr<const Map>& preview,
+                        const std::shared_ptr<const Map>& map);
+    std::shared_ptr<const Map> latest(std::shared_ptr<const Map> map) const;
     void endPreparing(const Ending& ending);
-    const Ending* endingOf(const DatasetSpec& spec) const;
-    void forgetEnding(const DatasetSpec& spec);
+    const Ending* endingOf(const RasterSpec& spec) const;
+    void forgetEnding(const RasterSpec& spec);
     void lookAfterPreviews();
     bool isCompleting(LayerId id) const;
     void change(const QString& text, const Session& after, SessionRun run = {});
@@ -192,7 +192,6 @@ private:
     std::vector<Successor> successors_;
     std::vector<Ending> endings_;
     bool are_previews_left_alone_ = false; // everything is about to end
-    LoadedMapStore maps_;
     Session session_;
     QUndoStack undo_stack_;
     std::optional<Load> current_;
@@ -206,7 +205,7 @@ private:
     int drag_serial_ = 0;
     /// A percentile takes a while to find.
     struct KnownRange {
-        std::weak_ptr<const Dataset> dataset;
+        std::weak_ptr<const Map> map;
         ColorStretch stretch;
         HeightRange range;
     };

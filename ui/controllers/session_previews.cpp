@@ -11,10 +11,10 @@ namespace marsview {
 Preparation SessionController::preparationOf(LayerId id) const
 {
     const Layer* layer = layerOf(session_, id);
-    if (layer == nullptr || !layer->dataset->isPreview()) {
+    if (layer == nullptr || !layer->map->isPreview()) {
         return {};
     }
-    const DatasetSpec& spec = layer->dataset->spec();
+    const RasterSpec& spec = layer->map->spec();
     if (const auto current = preparer_->current(); current && isPreparedAlike(*current, spec)) {
         return {.state = PreparationState::Running};
     }
@@ -34,8 +34,8 @@ Preparation SessionController::preparationOf(LayerId id) const
 void SessionController::prepare(LayerId id)
 {
     const Layer* layer = layerOf(session_, id);
-    if (layer != nullptr && layer->dataset->isPreview()) {
-        forgetEnding(layer->dataset->spec());
+    if (layer != nullptr && layer->map->isPreview()) {
+        forgetEnding(layer->map->spec());
         lookAfterPreviews();
     }
 }
@@ -56,14 +56,14 @@ void SessionController::stopAll()
 }
 
 // A prepared map that was opened in place of its preview.
-void SessionController::acceptComplete(const Load& load, const LoadedMap& map)
+void SessionController::acceptComplete(const Load& load, const std::shared_ptr<const Map>& map)
 {
     const Layer* layer = layerOf(session_, load.layer);
-    if (layer == nullptr || !isOfSameMap(*layer->dataset, *map.dataset)) {
+    if (layer == nullptr || !isOfSameMap(*layer->map, *map)) {
         lookAfterPreviews(); // removed or overridden in the meantime
         return;
     }
-    if (map.dataset->isPreview()) {
+    if (map->isPreview()) {
         endPreparing({.how = Ending::How::Failed,
                       .spec = load.spec,
                       //: %1 is a file
@@ -72,33 +72,32 @@ void SessionController::acceptComplete(const Load& load, const LoadedMap& map)
                                      .arg(QString::fromStdString(load.spec.path))});
         return;
     }
-    succeed(layer->dataset, map);
+    replacePreview(layer->map, map);
 }
 
 // In place: the same layers, looks and camera, without a step of undo.
-void SessionController::succeed(const std::shared_ptr<const Dataset>& preview, const LoadedMap& map)
+void SessionController::replacePreview(const std::shared_ptr<const Map>& preview,
+                                       const std::shared_ptr<const Map>& map)
 {
     std::erase_if(successors_, [](const Successor& s) { return s.preview.expired(); });
-    const auto dataset = maps_.keep(map);
-    successors_.push_back({.preview = preview, .map = dataset});
-    view_.succeed(preview, dataset);
+    successors_.push_back({.preview = preview, .map = map});
+    view_.replacePreview(preview, map);
     apply(session_);
     Q_EMIT preparationChanged();
 }
 
-std::shared_ptr<const Dataset>
-SessionController::latest(std::shared_ptr<const Dataset> dataset) const
+std::shared_ptr<const Map> SessionController::latest(std::shared_ptr<const Map> map) const
 {
     // Each step leads from a preview to what came later: there is an end.
     for (auto next = successors_.begin(); next != successors_.end();) {
-        if (next->preview.lock() == dataset) {
-            dataset = next->map;
+        if (next->preview.lock() == map) {
+            map = next->map;
             next = successors_.begin();
         } else {
             ++next;
         }
     }
-    return dataset;
+    return map;
 }
 
 void SessionController::endPreparing(const Ending& ending)
@@ -110,7 +109,7 @@ void SessionController::endPreparing(const Ending& ending)
     Q_EMIT preparationChanged();
 }
 
-const SessionController::Ending* SessionController::endingOf(const DatasetSpec& spec) const
+const SessionController::Ending* SessionController::endingOf(const RasterSpec& spec) const
 {
     const auto hit = std::find_if(endings_.begin(), endings_.end(), [&spec](const Ending& ending) {
         return isPreparedAlike(ending.spec, spec);
@@ -118,7 +117,7 @@ const SessionController::Ending* SessionController::endingOf(const DatasetSpec& 
     return hit != endings_.end() ? &*hit : nullptr;
 }
 
-void SessionController::forgetEnding(const DatasetSpec& spec)
+void SessionController::forgetEnding(const RasterSpec& spec)
 {
     std::erase_if(endings_,
                   [&spec](const Ending& ending) { return isPreparedAlike(ending.spec, spec); });
@@ -139,13 +138,13 @@ void SessionController::lookAfterPreviews()
     if (are_previews_left_alone_) {
         return;
     }
-    const auto is_wanted = [this](const DatasetSpec& spec) {
+    const auto is_wanted = [this](const RasterSpec& spec) {
         return std::any_of(session_.layers.begin(), session_.layers.end(), [&](const Layer& layer) {
-            return layer.dataset->isPreview() && isPreparedAlike(layer.dataset->spec(), spec);
+            return layer.map->isPreview() && isPreparedAlike(layer.map->spec(), spec);
         });
     };
     // Those that wait first, so that none of them is started.
-    const std::vector<DatasetSpec> prepared = preparer_->all();
+    const std::vector<RasterSpec> prepared = preparer_->all();
     for (auto spec = prepared.rbegin(); spec != prepared.rend(); ++spec) {
         if (!is_wanted(*spec)) {
             preparer_->remove(*spec);
@@ -153,15 +152,14 @@ void SessionController::lookAfterPreviews()
     }
     bool is_changed = false;
     for (const Layer& layer : session_.layers) {
-        const DatasetSpec& spec = layer.dataset->spec();
-        if (!layer.dataset->isPreview() || preparer_->has(spec)) {
+        const RasterSpec& spec = layer.map->spec();
+        if (!layer.map->isPreview() || preparer_->has(spec)) {
             continue;
         }
         const Ending* ending = endingOf(spec);
         if (ending == nullptr) {
             preparer_->enqueue(
-                {.spec = spec,
-                 .is_preview_wanted = layer.dataset->kind() == DatasetKind::RoughPreview});
+                {.spec = spec, .is_preview_wanted = layer.map->kind() == MapKind::RoughPreview});
             is_changed = true;
         } else if (ending->how == Ending::How::Done && !isCompleting(layer.id)) {
             enqueue({.purpose = Load::Purpose::Complete, .spec = spec, .layer = layer.id});

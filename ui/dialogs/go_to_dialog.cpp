@@ -50,12 +50,12 @@ QString readingName(ReadAs read_as, const RasterInfo& info)
                                   : GoToDialog::tr("Latitude, longitude (%1)").arg(name);
 }
 
-QString coverText(const Dataset& dataset, const CoordinateFormat& format)
+QString coverText(const Map& map, const CoordinateFormat& format)
 {
-    const Georeference& georeference = dataset.georeference();
+    const Georeference& georeference = map.georeference();
     if (format.system == PositionSystem::Geographic) {
         if (const auto extent = geographicExtent(georeference)) {
-            const ExtentText text = extentText(*extent, format, dataset.info());
+            const ExtentText text = extentText(*extent, format, map.info());
             //: The extent of a map: %1 latitudes, %2 longitudes
             return GoToDialog::tr("%1, %2").arg(text.latitudes, text.longitudes);
         }
@@ -129,13 +129,11 @@ std::vector<ReadAs> readingsOn(const RasterInfo& info, const CoordinateFormat& f
     return readings;
 }
 
-Result<FoundPlace> placeOnMap(const Dataset& dataset,
-                              const CoordinateFormat& format,
-                              ReadAs read_as,
-                              const QString& text)
+Result<FoundPlace>
+placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const QString& text)
 {
-    const RasterInfo& info = dataset.info();
-    const Georeference& georeference = dataset.georeference();
+    const RasterInfo& info = map.info();
+    const Georeference& georeference = map.georeference();
     const std::string written = text.toStdString();
     const bool has_longitudes = info.crs && info.crs->ellipsoid();
     static const QRegularExpression kAngleSigns(QStringLiteral("[°º′″NSEWnsew]"));
@@ -156,7 +154,7 @@ Result<FoundPlace> placeOnMap(const Dataset& dataset,
     }
     std::optional<GridPoint> grid;
     const auto on_surface = [&]() -> std::optional<GridPoint> {
-        return grid ? onSurface(dataset.heightfield(), *grid) : std::nullopt;
+        return grid ? onSurface(map.heightfield(), *grid) : std::nullopt;
     };
     if (read_as == ReadAs::Map) {
         const Result<MapPoint> point = mapPointFrom(written);
@@ -183,18 +181,18 @@ Result<FoundPlace> placeOnMap(const Dataset& dataset,
     if (!found) {
         return Error{ErrorCode::OutOfRange,
                      GoToDialog::tr("This place is outside the map, which covers %1.")
-                         .arg(coverText(dataset, asRead(format, read_as, info)))
+                         .arg(coverText(map, asRead(format, read_as, info)))
                          .toStdString()};
     }
     return FoundPlace{.grid = *found, .read_as = read_as};
 }
 
-GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
+GoToDialog::GoToDialog(std::shared_ptr<const Map> map,
                        const Preferences& preferences,
                        const GoToEntry& last,
                        QWidget* parent)
     : QDialog(parent)
-    , dataset_(std::move(dataset))
+    , map_(std::move(map))
     , preferences_(preferences)
     , field_(new QLineEdit(last.text, this))
     , kind_(new QComboBox(this))
@@ -202,8 +200,8 @@ GoToDialog::GoToDialog(std::shared_ptr<const Dataset> dataset,
 {
     setWindowTitle(tr("Go to Coordinate"));
     kind_->setAccessibleName(tr("How the coordinate is read"));
-    for (const ReadAs read_as : readingsOn(dataset_->info(), preferences_.coordinates)) {
-        kind_->addItem(readingName(read_as, dataset_->info()), static_cast<int>(read_as));
+    for (const ReadAs read_as : readingsOn(map_->info(), preferences_.coordinates)) {
+        kind_->addItem(readingName(read_as, map_->info()), static_cast<int>(read_as));
     }
     const int last_index = last.read_as ? kind_->findData(static_cast<int>(*last.read_as)) : 0;
     kind_->setCurrentIndex(std::max(0, last_index)); // the format's own is first
@@ -257,8 +255,8 @@ void GoToDialog::check()
     field_->setPlaceholderText(is_map ? QStringLiteral("562345.5, 5117890")
                                       : QStringLiteral("18.65 N 226.2 E, 18°39′ N 133°48′ W"));
     if (now.text.isEmpty()) {
-        const bool is_west = preferences_.coordinates.longitudesOn(dataset_->info().body) ==
-                             LongitudeNotation::West360;
+        const bool is_west =
+            preferences_.coordinates.longitudesOn(map_->info().body) == LongitudeNotation::West360;
         answer_->setText(
             is_map    ? tr("Two numbers, x and then y.")
             : is_west ? tr("Degrees, or degrees, minutes and seconds. Without letters, latitude "
@@ -269,7 +267,7 @@ void GoToDialog::check()
         return;
     }
     const Result<FoundPlace> place =
-        placeOnMap(*dataset_, preferences_.coordinates, readAs(), now.text);
+        placeOnMap(*map_, preferences_.coordinates, readAs(), now.text);
     go_button_->setEnabled(place.has_value());
     answer_->setText(place ? answerFor(*place) : asSentence(place.error().message));
 }
@@ -277,18 +275,17 @@ void GoToDialog::check()
 // The position as it was read, then in the chosen format if that is another, then the elevation.
 QString GoToDialog::answerFor(const FoundPlace& place)
 {
-    const RasterInfo& info = dataset_->info();
+    const RasterInfo& info = map_->info();
     const auto where = [&](const CoordinateFormat& format) {
         //: %1 is a position, %2 the CRS or the kind of latitude
-        return tr("%1 (%2)").arg(positionText(format, *dataset_, place.grid),
-                                 formatName(format, info));
+        return tr("%1 (%2)").arg(positionText(format, *map_, place.grid), formatName(format, info));
     };
     const CoordinateFormat& format = preferences_.coordinates;
     QStringList lines{where(asRead(format, place.read_as, info))};
     if (const QString chosen = where(format); chosen != lines.front()) {
         lines.append(chosen);
     }
-    const Heightfield& heightfield = dataset_->heightfield();
+    const Heightfield& heightfield = map_->heightfield();
     const bool is_there = heightfield.isExact(place.grid);  // before the elevation is read
     const double height_m = heightfield.height(place.grid); // requests what is not loaded yet
     if (!is_there && (heightfield.tiles()->isLoading() || heightfield.isExact(place.grid))) {
@@ -300,7 +297,7 @@ QString GoToDialog::answerFor(const FoundPlace& place)
     }
     const QString height = heightText(info, heightfield.range().value_or(HeightRange{}), height_m,
                                       preferences_.height_unit);
-    const bool is_exact = is_there && !dataset_->isPreview();
+    const bool is_exact = is_there && !map_->isPreview();
     //: An elevation that is not exact yet
     const QString shown = is_exact ? height : leftToRight(tr("≈ %1").arg(height));
     //: %1 is an elevation
@@ -310,8 +307,7 @@ QString GoToDialog::answerFor(const FoundPlace& place)
 
 void GoToDialog::go()
 {
-    if (const auto place =
-            placeOnMap(*dataset_, preferences_.coordinates, readAs(), entry().text)) {
+    if (const auto place = placeOnMap(*map_, preferences_.coordinates, readAs(), entry().text)) {
         Q_EMIT placeChosen(place->grid);
         accept();
     }

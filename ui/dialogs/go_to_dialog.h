@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "ui/controllers/preferences.h"
 #include "ui/text/coordinate_text.h"
 
@@ -43,10 +43,8 @@ struct FoundPlace {
 /// latitude and a longitude, numbers beyond 360 map coordinates, whatever `read_as` is. A longitude
 /// without a letter is west-positive where the format is. Errors say what is wrong with the text,
 /// or what the map covers if the place is elsewhere.
-Result<FoundPlace> placeOnMap(const Dataset& dataset,
-                              const CoordinateFormat& format,
-                              ReadAs read_as,
-                              const QString& text);
+Result<FoundPlace>
+placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const QString& text);
 
 /// Shows while the user types how the text is understood, or what is wrong with it.
 class GoToDialog final : public QDialog {
@@ -54,7 +52,7 @@ class GoToDialog final : public QDialog {
 
 public:
     /// Of the preferences, the format of coordinates and the unit of elevations are used.
-    GoToDialog(std::shared_ptr<const Dataset> dataset,
+    GoToDialog(std::shared_ptr<const Map> map,
                const Preferences& preferences,
                const GoToEntry& last,
                QWidget* parent = nullptr);
@@ -70,7 +68,7 @@ private:
     void check();
     void go();
 
-    std::shared_ptr<const Dataset> dataset_;
+    std::shared_ptr<const Map> map_;
     Preferences preferences_;
     QTimer arrival_timer_;       // runs while the elevation of the place is loading
     QLineEdit* field_ = nullptr; // first: what is created first has the focus first

@@ -34,7 +34,7 @@ constexpr std::size_t kMega = 1'048'576; // as the cache counts
 constexpr int kNameRole = Qt::UserRole;
 constexpr int kInUseRole = Qt::UserRole + 1;
 
-enum Column { Map, Size, LastUsed };
+enum Column { Name, Size, LastUsed };
 
 QDateTime dateOf(std::filesystem::file_time_type time)
 {
@@ -100,7 +100,7 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     maps_->setUniformRowHeights(true);
     maps_->header()->setFocusPolicy(Qt::NoFocus); // there is nothing to be done with it
     maps_->header()->setStretchLastSection(false);
-    maps_->header()->setSectionResizeMode(Map, QHeaderView::Stretch);
+    maps_->header()->setSectionResizeMode(Name, QHeaderView::Stretch);
     maps_->header()->setSectionResizeMode(Size, QHeaderView::ResizeToContents);
     maps_->header()->setSectionResizeMode(LastUsed, QHeaderView::ResizeToContents);
     remove_button_ = new QPushButton(tr("&Remove"), this);
@@ -242,14 +242,14 @@ void LargeMapsPage::listMaps()
                 auto* item = new QTreeWidgetItem(maps_);
                 const QString shown = source.isEmpty() ? name : QFileInfo(source).fileName();
                 //: Of a prepared map that some window shows
-                item->setText(Map, map.is_in_use ? tr("%1 (in use)").arg(shown) : shown);
-                item->setToolTip(Map, source.isEmpty() ? name : source);
+                item->setText(Name, map.is_in_use ? tr("%1 (in use)").arg(shown) : shown);
+                item->setToolTip(Name, source.isEmpty() ? name : source);
                 item->setText(Size, bytesText(map.bytes));
                 item->setTextAlignment(Size, Qt::AlignRight | Qt::AlignVCenter);
                 item->setText(LastUsed,
                               QLocale().toString(dateOf(map.last_used), QLocale::ShortFormat));
-                item->setData(Map, kNameRole, name);
-                item->setData(Map, kInUseRole, map.is_in_use);
+                item->setData(Name, kNameRole, name);
+                item->setData(Name, kInUseRole, map.is_in_use);
                 bytes += map.bytes;
                 is_any_free = is_any_free || !map.is_in_use;
             }
@@ -283,7 +283,7 @@ void LargeMapsPage::removeSelected()
 {
     QStringList names;
     for (const QTreeWidgetItem* item : maps_->selectedItems()) {
-        names.append(item->data(Map, kNameRole).toString());
+        names.append(item->data(Name, kNameRole).toString());
     }
     removeMaps(names);
 }
@@ -303,8 +303,8 @@ void LargeMapsPage::removeAll()
         QStringList names;
         for (int i = 0; i < maps_->topLevelItemCount(); ++i) {
             const QTreeWidgetItem* item = maps_->topLevelItem(i);
-            if (!item->data(Map, kInUseRole).toBool()) {
-                names.append(item->data(Map, kNameRole).toString());
+            if (!item->data(Name, kInUseRole).toBool()) {
+                names.append(item->data(Name, kNameRole).toString());
             }
         }
         removeMaps(names);

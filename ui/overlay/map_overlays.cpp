@@ -222,7 +222,7 @@ std::size_t MapOverlays::explainedLayer() const
     for (std::size_t i = shown.size(); i > 0; --i) {
         if (is_seen(i - 1)) {
             topmost = i - 1;
-            if (active != nullptr && shown[i - 1].map.dataset.get() == active->dataset.get()) {
+            if (active != nullptr && shown[i - 1].map.get() == active->map.get()) {
                 return i - 1;
             }
         }
@@ -240,11 +240,10 @@ void MapOverlays::showLegend()
     const ShownLayer& layer = shown[explainedLayer()];
     const TerrainLook& look = view_.look();
     const auto known =
-        std::find_if(session_.layers.begin(), session_.layers.end(), [&layer](const Layer& l) {
-            return l.dataset.get() == layer.map.dataset.get();
-        });
+        std::find_if(session_.layers.begin(), session_.layers.end(),
+                     [&layer](const Layer& l) { return l.map.get() == layer.map.get(); });
     const bool is_named = shown.size() > 1 && known != session_.layers.end();
-    const HeightRange all = layer.map.dataset->heightfield().range().value_or(HeightRange{});
+    const HeightRange all = layer.map->heightfield().range().value_or(HeightRange{});
     legend_->setContent(
         {.mode = look.mode,
          .ramp = layer.ramp,
@@ -255,7 +254,7 @@ void MapOverlays::showLegend()
          .unit = height_unit_,
          .all = all,
          .layer = is_named ? QString::fromStdString(known->name) : QString(),
-         .datum = QString::fromStdString(layer.map.dataset->info().vertical_datum)});
+         .datum = QString::fromStdString(layer.map->info().vertical_datum)});
 }
 
 void MapOverlays::showTouch()

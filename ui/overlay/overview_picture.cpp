@@ -25,13 +25,13 @@ LayerPicture pictureOf(const ShownLayer& layer,
                        const TerrainLook& look,
                        double exaggeration)
 {
-    const BlockMeans& means = layer.map.analysis->means;
+    const BlockMeans& means = layer.map->analysis()->means;
     std::size_t level = 0;
     while (std::max(means.means(level).columns(), means.means(level).rows()) > kPictureSideMax) {
         ++level;
     }
     const GridView<const float> heights = means.means(level);
-    const Georeference& georeference = layer.map.dataset->georeference();
+    const Georeference& georeference = layer.map->georeference();
     const SceneFrame frame = previewFrame(layer_frame, georeference.columns(), georeference.rows(),
                                           heights.columns(), heights.rows());
     const MapPreview preview = mapPreview(heights, frame,
@@ -69,7 +69,7 @@ OverviewPicture overviewPicture(const std::vector<ShownLayer>& layers,
 {
     MARSVIEW_CHECK(!layers.empty() && layers.size() == ground.maps().size());
     if (layers.size() == 1) {
-        const Georeference& georeference = layers.front().map.dataset->georeference();
+        const Georeference& georeference = layers.front().map->georeference();
         const SceneFrame& frame = ground.maps().front().frame;
         return {.image = pictureOf(layers.front(), frame, look, exaggeration).image,
                 .frame = frame,

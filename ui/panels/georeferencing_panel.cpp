@@ -1,7 +1,7 @@
 #include "ui/panels/georeferencing_panel.h"
 
 #include "core/geo/extent.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "ui/panels/override_form.h"
 #include "ui/text/coordinate_text.h"
 #include "ui/text/sentence.h"
@@ -131,16 +131,16 @@ void GeoreferencingPanel::makeFormPage()
     pages_->addWidget(form_page_);
 }
 
-void GeoreferencingPanel::setDataset(const std::shared_ptr<const Dataset>& dataset)
+void GeoreferencingPanel::setMap(const std::shared_ptr<const Map>& map)
 {
-    if (dataset == dataset_) {
+    if (map == map_) {
         return;
     }
     // A preview that is replaced by its map closes no form.
-    const bool is_same = dataset_ && dataset && dataset_->spec() == dataset->spec();
-    dataset_ = dataset;
-    form_->setDataset(dataset);
-    override_button_->setEnabled(dataset_ != nullptr);
+    const bool is_same = map_ && map && map_->spec() == map->spec();
+    map_ = map;
+    form_->setMap(map);
+    override_button_->setEnabled(map_ != nullptr);
     fillFacts();
     if (!is_same) {
         pages_->setCurrentWidget(facts_page_); // what was applied shows in the facts
@@ -149,7 +149,7 @@ void GeoreferencingPanel::setDataset(const std::shared_ptr<const Dataset>& datas
 
 void GeoreferencingPanel::edit()
 {
-    if (dataset_) {
+    if (map_) {
         pages_->setCurrentWidget(form_page_);
         form_->focusFirstField();
     }
@@ -224,13 +224,13 @@ void GeoreferencingPanel::fillFacts()
         item->widget()->deleteLater();
         delete item;
     }
-    if (!dataset_) {
+    if (!map_) {
         addNotice(tr("No layer is open."));
         return;
     }
-    addPlaceFacts(*dataset_);
-    addSampleFacts(*dataset_);
-    for (const std::string& notice : dataset_->info().notices) {
+    addPlaceFacts(*map_);
+    addSampleFacts(*map_);
+    for (const std::string& notice : map_->info().notices) {
         addNotice(QStringLiteral("• ") + asSentence(notice));
     }
 }
@@ -268,12 +268,12 @@ void GeoreferencingPanel::addLongFact(const QString& name, const QString& value)
     facts_->addRow(caption, fact);
 }
 
-void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
+void GeoreferencingPanel::addPlaceFacts(const Map& map)
 {
-    const RasterInfo& info = dataset.info();
+    const RasterInfo& info = map.info();
     const Georeference georeference = georeferenceOf(info); // a preview's pixels are larger
     const QString unknown = tr("unknown");
-    addLongFact(tr("File"), QString::fromStdString(dataset.spec().path));
+    addLongFact(tr("File"), QString::fromStdString(map.spec().path));
     addFact(tr("Body"), info.body != nullptr ? fromStd(info.body->name) : unknown);
     if (info.crs && info.crs->ellipsoid()) {
         const Ellipsoid& e = *info.crs->ellipsoid();
@@ -341,14 +341,14 @@ void GeoreferencingPanel::addPlaceFacts(const Dataset& dataset)
                                                : tr("none"));
 }
 
-void GeoreferencingPanel::addSampleFacts(const Dataset& dataset)
+void GeoreferencingPanel::addSampleFacts(const Map& map)
 {
-    const RasterInfo& info = dataset.info();
+    const RasterInfo& info = map.info();
     //: %1 columns and %2 rows of samples, of type %3
     addFact(tr("Samples"), tr("%1 × %2, %3")
                                .arg(countText(info.columns), countText(info.rows),
                                     fromStd(sampleTypeName(info.type))));
-    if (const auto& range = dataset.heightfield().range()) {
+    if (const auto& range = map.heightfield().range()) {
         addFact(tr("Elevations"), heightRangeText(*range, unit_of_heights_));
     }
     const QString unit = QString::fromStdString(info.unit.name);
@@ -363,7 +363,7 @@ void GeoreferencingPanel::addSampleFacts(const Dataset& dataset)
     }
     addFact(tr("Nodata"), info.nodata ? number(*info.nodata) : tr("none"));
     addFact(tr("Format"), QString::fromStdString(info.driver));
-    const QStringList changed = overriddenNames(dataset.spec().overrides);
+    const QStringList changed = overriddenNames(map.spec().overrides);
     if (!changed.isEmpty()) {
         addFact(tr("Set by you"), QLocale().createSeparatedList(changed));
     }

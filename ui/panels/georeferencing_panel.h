@@ -18,7 +18,7 @@ class QVBoxLayout;
 
 namespace marsview {
 
-class Dataset;
+class Map;
 class OverrideForm;
 
 /// Two pages: the facts, and the form to override them. Asks for changes; never makes any.
@@ -30,7 +30,7 @@ public:
 
     /// The map in effect; null for none. Fills both pages; the form stays open for as long as it is
     /// the same file with the same overrides.
-    void setDataset(const std::shared_ptr<const Dataset>& dataset);
+    void setMap(const std::shared_ptr<const Map>& map);
     void setHeightUnit(HeightUnit unit);
     void setCoordinateFormat(const CoordinateFormat& format);
 
@@ -52,10 +52,10 @@ private:
     void addLongFact(const QString& name, const QString& value);
     void addNotice(const QString& text);
     void flash(QLabel& label);
-    void addPlaceFacts(const Dataset& dataset);
-    void addSampleFacts(const Dataset& dataset);
+    void addPlaceFacts(const Map& map);
+    void addSampleFacts(const Map& map);
 
-    std::shared_ptr<const Dataset> dataset_;
+    std::shared_ptr<const Map> map_;
     HeightUnit unit_of_heights_ = HeightUnit::Metres;
     CoordinateFormat coordinates_;
     QStackedWidget* pages_ = nullptr;

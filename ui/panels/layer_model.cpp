@@ -46,9 +46,9 @@ LayerModel::LayerModel(QObject* parent)
     , histograms_(new HistogramMaker(this))
 {
     connect(histograms_, &HistogramMaker::made, this,
-            [this](const std::shared_ptr<const Dataset>& dataset) {
+            [this](const std::shared_ptr<const Map>& map) {
                 for (int row = 0; row < rowCount(); ++row) {
-                    if (!isHeader(index(row)) && layerAt(index(row)).dataset == dataset) {
+                    if (!isHeader(index(row)) && layerAt(index(row)).map == map) {
                         Q_EMIT dataChanged(index(row), index(row));
                     }
                 }
@@ -114,7 +114,7 @@ QModelIndex LayerModel::indexOfLayer(LayerId id) const
 
 std::shared_ptr<const HeightHistogram> LayerModel::histogramAt(const QModelIndex& index) const
 {
-    return histograms_->find(layerAt(index).dataset);
+    return histograms_->find(layerAt(index).map);
 }
 
 const ColorRamp& LayerModel::rampAt(const QModelIndex& index) const
@@ -144,8 +144,8 @@ QString LayerModel::reasonAt(const QModelIndex& index) const
         return {};
     }
     const Layer& scene = session_.layers[static_cast<std::size_t>(shown - states_.begin())];
-    const Dataset& dataset = *layerAt(index).dataset;
-    const RasterInfo& info = dataset.info();
+    const Map& map = *layerAt(index).map;
+    const RasterInfo& info = map.info();
     switch (stateAt(index)) {
     case LayerState::Shown:
     case LayerState::Hidden:
@@ -153,7 +153,7 @@ QString LayerModel::reasonAt(const QModelIndex& index) const
     case LayerState::OtherBody:
         //: Why a layer is not shown: %1 is its body, %2 the body that the view shows
         return tr("Hidden: on %1; the view shows %2")
-            .arg(bodyInSentence(*info.body), bodyInSentence(*scene.dataset->info().body));
+            .arg(bodyInSentence(*info.body), bodyInSentence(*scene.map->info().body));
     case LayerState::OtherCrs:
         //: Why a layer is not shown: %1 is its coordinate system
         return tr("Hidden: its CRS, %1, is not that of the view")
@@ -170,7 +170,7 @@ QString LayerModel::reasonAt(const QModelIndex& index) const
 
 QVariant LayerModel::headerRowData(const QModelIndex& index, int role) const
 {
-    const Body* body = layerAt(index).dataset->info().body;
+    const Body* body = layerAt(index).map->info().body;
     switch (role) {
     case Qt::DisplayRole:
     case Qt::AccessibleTextRole:
@@ -192,14 +192,14 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
         return headerRowData(index, role);
     }
     const Layer& layer = layerAt(index);
-    const RasterInfo& info = layer.dataset->info();
+    const RasterInfo& info = layer.map->info();
     const LayerState state = stateAt(index);
     const auto size = [&info] {
         //: Columns and rows of a map
         return leftToRight(tr("%1 × %2").arg(countText(info.columns), countText(info.rows)));
     };
     const auto range = [this, &layer] {
-        return heightRangeText(layer.dataset->heightfield().range().value_or(HeightRange{}), unit_);
+        return heightRangeText(layer.map->heightfield().range().value_or(HeightRange{}), unit_);
     };
     switch (role) {
     case Qt::DisplayRole:
@@ -210,7 +210,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
                : state == LayerState::Hidden ? Qt::Unchecked
                                              : Qt::PartiallyChecked;
     case Qt::ToolTipRole: {
-        const QString path = QString::fromStdString(layer.dataset->spec().path);
+        const QString path = QString::fromStdString(layer.map->spec().path);
         const QString reason = reasonAt(index);
         //: Tool tip: %1 says why a layer is not shown, %2 is its file
         return reason.isEmpty() ? path
@@ -220,7 +220,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
         const QString reason = reasonAt(index);
         const QString visibility = !reason.isEmpty() ? tr("%1. Press Space to show it").arg(reason)
                                    : state == LayerState::Hidden ? tr("hidden")
-                                   : layer.dataset->isPreview()  ? tr("shown as a preview")
+                                   : layer.map->isPreview()      ? tr("shown as a preview")
                                                                  : tr("shown");
         //: For screen readers: name, state, columns × rows and range of elevations of a layer
         return tr("%1, %2, %3 samples, elevations %4")
@@ -235,7 +235,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
     case NoteRole: {
         const QString reason = reasonAt(index);
         //: Of a layer: what is shown is a smaller version of the map
-        return reason.isEmpty() && layer.dataset->isPreview() ? tr("Preview") : reason;
+        return reason.isEmpty() && layer.map->isPreview() ? tr("Preview") : reason;
     }
     case IsShownRole:
         return state == LayerState::Shown;

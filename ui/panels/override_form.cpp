@@ -1,6 +1,6 @@
 #include "ui/panels/override_form.h"
 
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "ui/panels/crs_field.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/form_field.h"
@@ -131,7 +131,7 @@ OverrideForm::OverrideForm(QWidget* parent)
                 [this, choice] { fieldOf(choice)->setProblem({}); });
     }
     connect(body_, &QComboBox::currentIndexChanged, this, [this] {
-        const Body* in_file = dataset_ ? dataset_->info().body : nullptr;
+        const Body* in_file = map_ ? map_->info().body : nullptr;
         const std::string chosen = body_->currentData().toString().toStdString();
         crs_->setBody(chosen.empty() ? in_file : bodyNamed(chosen));
     });
@@ -217,7 +217,7 @@ void OverrideForm::addButtons(QVBoxLayout& layout)
     reset_button->setObjectName(QStringLiteral("reset"));
     reset_button->setToolTip(tr("Use the values of the file alone"));
     connect(reset_button, &QPushButton::clicked, this, [this] {
-        if (dataset_ && dataset_->spec().overrides.isEmpty()) {
+        if (map_ && map_->spec().overrides.isEmpty()) {
             fill();
             Q_EMIT closed();
         } else {
@@ -235,10 +235,10 @@ void OverrideForm::addButtons(QVBoxLayout& layout)
     layout.addLayout(buttons);
 }
 
-void OverrideForm::setDataset(const std::shared_ptr<const Dataset>& dataset)
+void OverrideForm::setMap(const std::shared_ptr<const Map>& map)
 {
-    const bool is_same = dataset_ && dataset && dataset_->spec() == dataset->spec();
-    dataset_ = dataset;
+    const bool is_same = map_ && map && map_->spec() == map->spec();
+    map_ = map;
     if (!is_same) {
         fill();
     }
@@ -274,7 +274,7 @@ void OverrideForm::fill()
     fieldOf(crs_)->setHint(
         tr("Type a name or a code to search, such as UTM 10N, Mars "
            "equirectangular or EPSG:32610. A PROJ string or WKT will do too."));
-    const RasterOverrides overrides = dataset_ ? dataset_->spec().overrides : RasterOverrides{};
+    const RasterOverrides overrides = map_ ? map_->spec().overrides : RasterOverrides{};
     const auto fill_number = [](QLineEdit* field, const std::optional<double>& value,
                                 const std::optional<double>& in_file) {
         field->setText(value ? exactNumber(*value) : QString());
@@ -288,11 +288,11 @@ void OverrideForm::fill()
         const int index = value ? box->findData(QString::fromStdString(*value)) : 0;
         box->setCurrentIndex(std::max(0, index));
     };
-    const RasterInfo file = dataset_ ? dataset_->fileInfo() : RasterInfo{};
+    const RasterInfo file = map_ ? map_->fileInfo() : RasterInfo{};
     crs_->setText(QString::fromStdString(overrides.crs.value_or("")));
     crs_->setPlaceholderText(file.crs ? QString::fromStdString(file.crs->name()) : QString());
     crs_->setCursorPosition(0);
-    crs_->setBody(dataset_ ? dataset_->info().body : nullptr);
+    crs_->setBody(map_ ? map_->info().body : nullptr);
     choose(body_, overrides.body, file.body != nullptr ? file.body->name : std::string_view());
     choose(unit_, overrides.vertical_unit,
            file.is_unit_declared ? std::string_view(file.unit.name) : std::string_view());
@@ -300,7 +300,7 @@ void OverrideForm::fill()
         return e ? std::optional((*e).*which) : std::nullopt;
     };
     const std::optional<Ellipsoid> in_effect =
-        dataset_ && dataset_->info().crs ? dataset_->info().crs->ellipsoid() : std::nullopt;
+        map_ && map_->info().crs ? map_->info().crs->ellipsoid() : std::nullopt;
     fill_number(equatorial_, radius(overrides.ellipsoid, &Ellipsoid::equatorial_m),
                 radius(in_effect, &Ellipsoid::equatorial_m));
     fill_number(polar_, radius(overrides.ellipsoid, &Ellipsoid::polar_m),
@@ -356,7 +356,7 @@ Ellipsoid OverrideForm::ellipsoidFrom(std::optional<double> equatorial_m,
 {
     const double only_m = equatorial_m ? *equatorial_m : *polar_m;
     Ellipsoid rest{.equatorial_m = only_m, .polar_m = only_m};
-    if (const std::optional<Crs>& crs = dataset_->fileInfo().crs) {
+    if (const std::optional<Crs>& crs = map_->fileInfo().crs) {
         const std::optional<Ellipsoid> in_file = crs->ellipsoid();
         rest = in_file && !in_file->isSphere() ? *in_file : rest;
     }
@@ -401,7 +401,7 @@ std::optional<RasterOverrides> OverrideForm::entered()
     overrides.scale = number(scale_);
     overrides.offset = number(offset_);
     overrides.nodata = number(nodata_);
-    GeoTransform::Terms terms = dataset_->fileInfo().transform.value_or(GeoTransform{}).terms();
+    GeoTransform::Terms terms = map_->fileInfo().transform.value_or(GeoTransform{}).terms();
     for (std::size_t i = 0; i < terms.size(); ++i) {
         if (const auto value = number(terms_[i])) {
             terms[i] = *value;
@@ -416,7 +416,7 @@ std::optional<RasterOverrides> OverrideForm::entered()
 
 void OverrideForm::apply()
 {
-    if (!dataset_) {
+    if (!map_) {
         return;
     }
     clearProblems();
@@ -424,11 +424,11 @@ void OverrideForm::apply()
     if (!overrides) {
         return;
     }
-    if (*overrides == dataset_->spec().overrides) {
+    if (*overrides == map_->spec().overrides) {
         Q_EMIT closed();
         return;
     }
-    if (const auto info = withOverrides(dataset_->fileInfo(), *overrides); !info) {
+    if (const auto info = withOverrides(map_->fileInfo(), *overrides); !info) {
         showFailure(QString::fromStdString(info.error().message));
         return;
     }

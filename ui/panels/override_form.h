@@ -19,7 +19,7 @@ class QVBoxLayout;
 namespace marsview {
 
 class CrsField;
-class Dataset;
+class Map;
 class FormField;
 
 /// Fields that are empty keep the file's value. Asks for changes, makes none. What cannot be used
@@ -32,7 +32,7 @@ public:
 
     /// Null for none. Fills the fields, unless it is the same file with the same overrides as
     /// before: then what is being typed stays.
-    void setDataset(const std::shared_ptr<const Dataset>& dataset);
+    void setMap(const std::shared_ptr<const Map>& map);
     void focusFirstField();
     /// Why overrides could not be applied, "OPTION: WHY", which may follow a path.
     void showFailure(const QString& problem);
@@ -64,7 +64,7 @@ private:
     void apply();
     FormField* fieldOf(const QWidget* editor) const;
 
-    std::shared_ptr<const Dataset> dataset_;
+    std::shared_ptr<const Map> map_;
     QTimer typing_timer_; // runs out when the user stops typing
     std::map<OverrideField, FormField*> fields_;
     QList<FormField*> all_fields_;

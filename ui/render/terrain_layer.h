@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geo/scene_frame.h"
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "core/terrain/heightfield.h"
 #include "core/terrain/surface_analysis.h"
 #include "core/view/color_ramp.h"
@@ -25,16 +25,16 @@ struct TerrainLayer {
 
 /// The layer of a map that lies in the scene as `frame` says.
 inline TerrainLayer
-terrainLayer(const LoadedMap& map, const SceneFrame& frame, const ColorRamp& ramp)
+terrainLayer(const std::shared_ptr<const Map>& map, const SceneFrame& frame, const ColorRamp& ramp)
 {
-    return {.heightfield = {map.dataset, &map.dataset->heightfield()},
-            .analysis = map.analysis,
+    return {.heightfield = {map, &map->heightfield()},
+            .analysis = map->analysis(),
             .frame = frame,
             .ramp = &ramp,
-            .tint_range = tintedRange(ramp, map.tint_range),
-            .slope_range = map.slope_range,
-            .slope_max = map.slope_max,
-            .relief = map.relief};
+            .tint_range = tintedRange(ramp, map->tintRange()),
+            .slope_range = map->slopeRange(),
+            .slope_max = map->slopeMax(),
+            .relief = map->relief()};
 }
 
 } // namespace marsview

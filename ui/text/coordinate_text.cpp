@@ -1,6 +1,6 @@
 #include "ui/text/coordinate_text.h"
 
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 
 #include <QCoreApplication>
 #include <QLocale>
@@ -172,10 +172,10 @@ QString positionText(const CoordinateFormat& format,
                                       digitsOf(format, info, georeference, screen_pixel_m))
                      : QString();
     }
-    const MapPoint map = georeference.toMap(grid);
+    const MapPoint point = georeference.toMap(grid);
     const int decimals = mapDecimals(georeference, screen_pixel_m);
-    const QString x = numberText(map.x, decimals);
-    const QString y = numberText(map.y, decimals);
+    const QString x = numberText(point.x, decimals);
+    const QString y = numberText(point.y, decimals);
     if (info.crs && info.crs->kind() == CrsKind::Geographic) {
         //: Map coordinates that are degrees: %1 is x, %2 is y
         return leftToRight(tr("%1°, %2°").arg(x, y));
@@ -185,21 +185,19 @@ QString positionText(const CoordinateFormat& format,
     return leftToRight(tr("%1, %2 %3").arg(x, y, unit).trimmed());
 }
 
-QString positionText(const CoordinateFormat& format,
-                     const Dataset& dataset,
-                     GridPoint grid,
-                     double screen_pixel_m)
+QString
+positionText(const CoordinateFormat& format, const Map& map, GridPoint grid, double screen_pixel_m)
 {
-    return positionText(format, dataset.info(), dataset.georeference(), grid, screen_pixel_m);
+    return positionText(format, map.info(), map.georeference(), grid, screen_pixel_m);
 }
 
 QString plainPositionText(const CoordinateFormat& format,
-                          const Dataset& dataset,
+                          const Map& map,
                           GridPoint grid,
                           double screen_pixel_m)
 {
-    const RasterInfo& info = dataset.info();
-    const Georeference& georeference = dataset.georeference();
+    const RasterInfo& info = map.info();
+    const Georeference& georeference = map.georeference();
     if (systemOn(format, info) == PositionSystem::Geographic) {
         const auto point = georeference.toGeographic(grid);
         if (!point) {
@@ -210,10 +208,10 @@ QString plainPositionText(const CoordinateFormat& format,
         return QStringLiteral("%1, %2").arg(QString::fromStdString(angleText(parts.latitude)),
                                             QString::fromStdString(angleText(parts.longitude)));
     }
-    const MapPoint map = georeference.toMap(grid);
+    const MapPoint point = georeference.toMap(grid);
     const int decimals = mapDecimals(georeference, screen_pixel_m);
-    return QStringLiteral("%1, %2").arg(QString::number(map.x, 'f', decimals),
-                                        QString::number(map.y, 'f', decimals));
+    return QStringLiteral("%1, %2").arg(QString::number(point.x, 'f', decimals),
+                                        QString::number(point.y, 'f', decimals));
 }
 
 QString geographicText(const GeographicPoint& point,

@@ -13,7 +13,7 @@
 
 namespace marsview {
 
-class Dataset;
+class Map;
 
 /// The system that `format` has on a map: map coordinates where there are no longitudes.
 PositionSystem systemOn(const CoordinateFormat& format, const RasterInfo& info);
@@ -37,14 +37,14 @@ QString positionText(const CoordinateFormat& format,
                      GridPoint grid,
                      double screen_pixel_m = 0.0);
 QString positionText(const CoordinateFormat& format,
-                     const Dataset& dataset,
+                     const Map& map,
                      GridPoint grid,
                      double screen_pixel_m = 0.0);
 
 /// The same for the clipboard, which other programs read: with a decimal point and "-" in every
 /// locale, without groups of digits, units or marks of the writing direction.
 QString plainPositionText(const CoordinateFormat& format,
-                          const Dataset& dataset,
+                          const Map& map,
                           GridPoint grid,
                           double screen_pixel_m = 0.0);
 

@@ -34,11 +34,10 @@ QString aspectText(Angle aspect)
         .arg(numberText(rounded, 0), placeTr(kPoints[point]));
 }
 
-PlaceFacts
-placeFacts(const Dataset& dataset, const QString& layer, GridPoint grid, const PlaceTerms& terms)
+PlaceFacts placeFacts(const Map& map, const QString& layer, GridPoint grid, const PlaceTerms& terms)
 {
-    const Heightfield& heightfield = dataset.heightfield();
-    const Georeference& georeference = dataset.georeference();
+    const Heightfield& heightfield = map.heightfield();
+    const Georeference& georeference = map.georeference();
     const double height_m = heightfield.height(grid); // requests missing tiles
     PlaceFacts place;
     place.is_rough = !heightfield.isExact(grid);
@@ -50,15 +49,15 @@ placeFacts(const Dataset& dataset, const QString& layer, GridPoint grid, const P
         return place.is_rough ? placeTr(QT_TRANSLATE_NOOP("PlaceFacts", "≈ %1")).arg(value) : value;
     };
     add(QT_TRANSLATE_NOOP("PlaceFacts", "Layer"), layer);
-    place.coordinates = positionText(terms.format, dataset, grid);
-    place.plain_coordinates = plainPositionText(terms.format, dataset, grid);
+    place.coordinates = positionText(terms.format, map, grid);
+    place.plain_coordinates = plainPositionText(terms.format, map, grid);
     if (!place.coordinates.isEmpty()) {
         add(QT_TRANSLATE_NOOP("PlaceFacts", "Coordinates"), place.coordinates);
     }
     if (std::isfinite(height_m)) {
         const HeightRange range = heightfield.range().value_or(HeightRange{});
         add(QT_TRANSLATE_NOOP("PlaceFacts", "Elevation"),
-            read(heightText(dataset.info(), range, height_m, terms.unit)));
+            read(heightText(map.info(), range, height_m, terms.unit)));
         const double relief =
             inUnit(range.maximum_m, terms.unit) - inUnit(range.minimum_m, terms.unit);
         place.elevation =

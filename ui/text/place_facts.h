@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geo/frames.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "ui/text/coordinate_text.h"
 
 #include <QString>
@@ -29,10 +29,10 @@ struct PlaceTerms {
     HeightUnit unit = HeightUnit::Metres;
 };
 
-/// Of a place on the grid of `dataset`, which is called `layer`. Elevation, slope and aspect are
+/// Of a place on the grid of `map`, which is called `layer`. Elevation, slope and aspect are
 /// those of the full-resolution surface, not exaggerated.
 PlaceFacts
-placeFacts(const Dataset& dataset, const QString& layer, GridPoint grid, const PlaceTerms& terms);
+placeFacts(const Map& map, const QString& layer, GridPoint grid, const PlaceTerms& terms);
 
 /// "225° (SW)": a direction on the compass.
 QString aspectText(Angle aspect);

@@ -1,6 +1,6 @@
 #include "app/bench/terrain/held_map.h"
 
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "core/terrain/surface_analysis.h"
 
 #include <algorithm>
@@ -115,11 +115,11 @@ middleOf(std::size_t map_columns, std::size_t map_rows, std::size_t columns, std
 
 Result<HeldMap> holdWindow(const MapOptions& options, const GridWindow& window, JobMonitor& monitor)
 {
-    Result<OpenedMap> opened = openMap(options);
+    Result<OpenRaster> opened = openRaster(options);
     if (!opened) {
         return std::move(opened).error();
     }
-    Result<LoadedSamples> loaded = opened->file.readWindow(window, {.nodata = opened->info.nodata});
+    Result<LoadedSamples> loaded = opened->file.readWindow(window, opened->voids());
     if (!loaded) {
         return std::move(loaded).error();
     }
@@ -137,7 +137,7 @@ Result<HeldMap> holdWindow(const MapOptions& options, const GridWindow& window, 
     if (!filled) {
         return std::move(filled).error();
     }
-    SceneFrame frame = opened->georeference.sceneFrame();
+    SceneFrame frame = georeferenceOf(opened->info).sceneFrame();
     frame.origin.column -= static_cast<double>(window.column);
     frame.origin.row -= static_cast<double>(window.row);
     return HeldMap{.filled = std::make_shared<const FilledHeightfield>(std::move(filled).value()),

@@ -4,7 +4,7 @@
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -38,14 +38,14 @@ Result<MadeTerrain> makeTerrain(const MakeTerrainOptions& options)
     const auto begin = std::chrono::steady_clock::now();
     forgetPeakMemory();
     LongJob job(fmt::format("making {}", options.path));
-    const Result<std::shared_ptr<const Dataset>> loaded =
-        loadDataset({.path = options.from}, job.monitor(), defaultMemoryBudget());
+    const Result<std::shared_ptr<const Map>> loaded =
+        readMap(RasterSpec{.path = options.from}, job.monitor(), defaultMemoryBudget());
     if (!loaded) {
         return loaded.error();
     }
-    const Dataset& dataset = **loaded;
-    const RasterInfo& info = dataset.info();
-    if (dataset.heightfield().samples().hasVoids()) {
+    const Map& map = **loaded;
+    const RasterInfo& info = map.info();
+    if (map.heightfield().samples().hasVoids()) {
         return Error{ErrorCode::Unsupported,
                      fmt::format("{}: some of its samples are void; choose a map without voids",
                                  options.from)};
@@ -59,14 +59,14 @@ Result<MadeTerrain> makeTerrain(const MakeTerrainOptions& options)
     heights_m.reserve(info.columns * info.rows);
     for (std::size_t r = 0; r < info.rows; ++r) {
         for (std::size_t c = 0; c < info.columns; ++c) {
-            heights_m.push_back(static_cast<float>(dataset.heightfield().sample(c, r)));
+            heights_m.push_back(static_cast<float>(map.heightfield().sample(c, r)));
         }
     }
     const DetailedHeights heights(GridView<const float>(heights_m.data(), info.columns, info.rows),
                                   {.columns = options.columns,
                                    .rows = options.rows,
                                    .seed = options.seed,
-                                   .wraps_around = dataset.georeference().wrapsAround()});
+                                   .wraps_around = map.georeference().wrapsAround()});
     const Status written = writeComputedRaster(
         {.path = options.path,
          .columns = options.columns,

@@ -5,7 +5,7 @@
 #include "app/console/map_options.h"
 #include "core/base/result.h"
 #include "core/levels/tile_heights.h"
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "core/session/open_map.h"
 
 #include <cstddef>
@@ -54,7 +54,8 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options);
 Result<BenchJson> measureFrames(const TerrainBenchOptions& options);
 
 /// The map in tiles however small it is, prepared first where it has to be.
-Result<LoadedMap> openInTiles(const TerrainBenchOptions& options, JobMonitor& monitor);
+Result<std::shared_ptr<const Map>> openInTiles(const TerrainBenchOptions& options,
+                                               JobMonitor& monitor);
 /// Resources by which every map comes in tiles.
 MapResources tiledResources();
 
@@ -67,6 +68,6 @@ struct TouchedTiles {
     std::size_t columns() const { return raster.layout().columns; }
     std::size_t rows() const { return raster.layout().rows; }
 };
-TouchedTiles touchedTiles(const LoadedMap& map);
+TouchedTiles touchedTiles(const std::shared_ptr<const Map>& map);
 
 } // namespace marsview

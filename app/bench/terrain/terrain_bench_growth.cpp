@@ -42,7 +42,7 @@ public:
 
     Result<BenchJson> run()
     {
-        const Result<OpenedMap> opened = openMap(options_.map);
+        const Result<OpenRaster> opened = openRaster(options_.map);
         if (!opened) {
             return opened.error();
         }
@@ -104,13 +104,13 @@ private:
 
     Status openWhole()
     {
-        Result<LoadedMap> map = openInTiles(options_, monitor_);
+        Result<std::shared_ptr<const Map>> map = openInTiles(options_, monitor_);
         if (!map) {
             return std::move(map).error();
         }
         whole_ = std::move(map).value();
         const TouchedTiles tiles = touchedTiles(whole_);
-        addTiles(whole_.dataset->info().triangleCount(), tiles.frame, tiles.raster, tiles.heights);
+        addTiles(whole_->info().triangleCount(), tiles.frame, tiles.raster, tiles.heights);
         return Done{};
     }
 
@@ -215,7 +215,7 @@ private:
     JobMonitor& monitor_;
     TickClock clock_;
     TileCache cache_{{.bytes_max = std::size_t{256} << 20, .loader_threads = 1}};
-    LoadedMap whole_;
+    std::shared_ptr<const Map> whole_;
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
     std::vector<Size> sizes_;

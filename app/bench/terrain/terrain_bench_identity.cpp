@@ -27,7 +27,7 @@ bool isSame(const ContactState& a, const ContactState& b)
 Result<BenchJson> measureIdentity(const TerrainBenchOptions& options)
 {
     LongJob job("comparing");
-    const Result<OpenedMap> opened = openMap(options.map);
+    const Result<OpenRaster> opened = openRaster(options.map);
     if (!opened) {
         return opened.error();
     }
@@ -47,10 +47,10 @@ Result<BenchJson> measureIdentity(const TerrainBenchOptions& options)
     // A cache so small that tiles come and go.
     constexpr std::size_t kCacheBytes = std::size_t{4} << 20;
     TileCache cache({.bytes_max = kCacheBytes, .loader_threads = 1});
-    std::optional<LoadedMap> map;
+    std::optional<std::shared_ptr<const Map>> map;
     std::string unopened;
     if (is_whole) {
-        Result<LoadedMap> in_tiles = openInTiles(options, job.monitor());
+        Result<std::shared_ptr<const Map>> in_tiles = openInTiles(options, job.monitor());
         if (in_tiles) {
             map = std::move(in_tiles).value();
         } else {

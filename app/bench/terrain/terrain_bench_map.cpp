@@ -12,17 +12,18 @@ MapResources tiledResources()
     return resources;
 }
 
-Result<LoadedMap> openInTiles(const TerrainBenchOptions& options, JobMonitor& monitor)
+Result<std::shared_ptr<const Map>> openInTiles(const TerrainBenchOptions& options,
+                                               JobMonitor& monitor)
 {
     return openMap(options.map.spec(), tiledResources(), monitor);
 }
 
-TouchedTiles touchedTiles(const LoadedMap& map)
+TouchedTiles touchedTiles(const std::shared_ptr<const Map>& map)
 {
-    const Heightfield& heightfield = map.dataset->heightfield();
+    const Heightfield& heightfield = map->heightfield();
     return {.raster = heightfield.tiles()->raster(),
-            .heights = std::make_shared<const TileHeights>(map.levels, heightfield.scale()),
-            .frame = map.dataset->georeference().sceneFrame()};
+            .heights = std::make_shared<const TileHeights>(map->levels(), heightfield.scale()),
+            .frame = map->georeference().sceneFrame()};
 }
 
 } // namespace marsview

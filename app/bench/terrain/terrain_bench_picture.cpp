@@ -25,21 +25,18 @@ Result<BenchJson> measureFirstPicture(const TerrainBenchOptions& options)
         return std::move(stage).error();
     }
     LongJob job("opening");
-    const DatasetSpec spec = options.map.spec();
     const Clock::time_point begin = Clock::now();
     const auto since = [begin] {
         return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     };
-    const Result<OpenPlan> plan = planOpening(spec, resources);
-    if (!plan) {
-        return plan.error();
-    }
-    const bool is_prepared = plan->store != MapStore::Unprepared;
-    Result<LoadedMap> map = is_prepared ? openPlanned(spec, *plan, resources, job.monitor())
-                                        : previewMap(spec, kPreviewSamples, job.monitor());
+    Result<std::shared_ptr<const Map>> map =
+        openMap(options.map.spec(), resources, job.monitor(),
+                {.without_overviews = WithoutOverviews::Preview,
+                 .preview = {.samples_max = kPreviewSamples}});
     if (!map) {
         return std::move(map).error();
     }
+    const bool is_prepared = !(*map)->isPreview();
     const double opened_ms = since();
     (*stage)->show(std::move(map).value());
     const OrbitCamera camera = (*stage)->camera(Flight::Orbit, 0.0);

@@ -30,16 +30,16 @@ double bytesBelow(const std::filesystem::path& folder)
 Result<BenchJson> measurePrepare(const TerrainBenchOptions& options)
 {
     const MapResources resources = tiledResources();
-    const DatasetSpec spec = options.map.spec();
-    const Result<OpenedMap> opened = openMap(options.map);
-    if (!opened) {
-        return opened.error();
+    const RasterSpec spec = options.map.spec();
+    Result<OpenRaster> raster = openRaster(options.map);
+    if (!raster) {
+        return std::move(raster).error();
     }
-    const Result<OpenPlan> plan = planOpening(spec, resources);
-    if (!plan) {
-        return plan.error();
+    const Result<MapOpening> opening = MapOpening::begin(std::move(*raster), resources);
+    if (!opening) {
+        return opening.error();
     }
-    if (plan->store != MapStore::Unprepared) {
+    if (opening->storage() != MapStorage::NeedsOverviews) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: there is nothing to prepare", options.map.path)};
     }
@@ -48,13 +48,13 @@ Result<BenchJson> measurePrepare(const TerrainBenchOptions& options)
     LongJob job("preparing");
     forgetPeakMemory();
     const auto begin = std::chrono::steady_clock::now();
-    if (const Status status = prepareForOpening(spec, resources, job.monitor()); !status) {
+    if (const Status status = buildOverviews(spec, resources, job.monitor()); !status) {
         return status.error();
     }
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const double samples =
-        static_cast<double>(opened->info.columns) * static_cast<double>(opened->info.rows);
+    const double samples = static_cast<double>(opening->raster().info.columns) *
+                           static_cast<double>(opening->raster().info.rows);
     return BenchJson{{"seconds", seconds},
                      {"samples_per_s", samples / seconds},
                      {"peak_memory_mb", static_cast<double>(peakMemoryBytes()) / 1e6},

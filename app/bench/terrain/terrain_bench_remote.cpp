@@ -13,9 +13,9 @@ namespace marsview {
 namespace {
 
 // Olympus Mons on Mars; the middle of any other map.
-GridPoint destination(const Dataset& dataset)
+GridPoint destination(const Map& map)
 {
-    const Georeference& georeference = dataset.georeference();
+    const Georeference& georeference = map.georeference();
     const bool is_mars = georeference.body() != nullptr && georeference.body()->name == "Mars";
     if (is_mars) {
         if (const auto grid = georeference.toGrid(
@@ -43,19 +43,20 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options)
         return std::move(stage).error();
     }
     LongJob job("fetching");
-    Result<LoadedMap> map = openMap(options.map.spec(), tiledResources(), job.monitor());
+    Result<std::shared_ptr<const Map>> map =
+        openMap(options.map.spec(), tiledResources(), job.monitor());
     if (!map) {
         return std::move(map).error();
     }
-    const Dataset& dataset = *map->dataset;
+    const Map& shown = **map;
     (*stage)->show(*map);
     const OrbitCamera whole = (*stage)->camera(Flight::Orbit, 0.0);
     (*stage)->paintWhole(whole, job.monitor());
     const NetworkStatistics opened = networkStatistics();
     // Closer by a quarter from picture to picture, each until it is whole, down to where a sample
     // is wider than a pixel.
-    const GridPoint place = destination(dataset);
-    const double pixel_m = dataset.georeference().pixelHeightMetres();
+    const GridPoint place = destination(shown);
+    const double pixel_m = shown.georeference().pixelHeightMetres();
     const double nearest_m = 400.0 * pixel_m;
     std::uint64_t pictures = 1;
     for (double distance_m = whole.distance_m; !job.monitor().isCancelled();
@@ -66,7 +67,7 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options)
             break;
         }
     }
-    const double height_m = dataset.heightfield().heightWaiting(place);
+    const double height_m = shown.heightfield().heightWaiting(place);
     if (job.monitor().isCancelled()) {
         return Error{ErrorCode::Cancelled, "fetching was cancelled"};
     }

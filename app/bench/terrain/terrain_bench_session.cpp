@@ -18,7 +18,7 @@ Result<BenchJson> measureSession(const TerrainBenchOptions& options)
     }
     const MapResources resources = tiledResources();
     LongJob job("a session");
-    Result<LoadedMap> map = openMap(options.map.spec(), resources, job.monitor());
+    Result<std::shared_ptr<const Map>> map = openMap(options.map.spec(), resources, job.monitor());
     if (!map) {
         return std::move(map).error();
     }

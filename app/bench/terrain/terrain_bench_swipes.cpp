@@ -64,7 +64,8 @@ Result<BenchJson> measureSwipes(const TerrainBenchOptions& options)
 {
     LongJob job("swiping");
     const MapResources resources = tiledResources();
-    const Result<LoadedMap> map = openMap(options.map.spec(), resources, job.monitor());
+    const Result<std::shared_ptr<const Map>> map =
+        openMap(options.map.spec(), resources, job.monitor());
     if (!map) {
         return map.error();
     }

@@ -40,14 +40,14 @@ TerrainStage::TerrainStage(Scene scene, const Viewport& viewport, std::shared_pt
     , picture_(*scene_.renderer)
 {}
 
-void TerrainStage::show(LoadedMap map)
+void TerrainStage::show(std::shared_ptr<const Map> map)
 {
     showIn(scene_, std::move(map), nullptr);
 }
 
 OrbitCamera TerrainStage::camera(Flight flight, double t) const
 {
-    const Georeference& georeference = scene_.map.dataset->georeference();
+    const Georeference& georeference = scene_.map->georeference();
     const FlightGround ground{
         .box = scene_.box(scene_.exaggeration),
         .pixel_m = std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()),
@@ -60,7 +60,7 @@ OrbitCamera TerrainStage::camera(Flight flight, double t) const
 OrbitCamera TerrainStage::above(GridPoint place, double distance_m) const
 {
     OrbitCamera camera = this->camera(Flight::Orbit, 0.0);
-    camera.target = scene_.map.dataset->georeference().sceneFrame().toScene(place, 0.0);
+    camera.target = scene_.map->georeference().sceneFrame().toScene(place, 0.0);
     camera.distance_m = distance_m;
     return scene_.bounded(camera, scene_.exaggeration);
 }

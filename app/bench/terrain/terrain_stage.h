@@ -19,7 +19,7 @@ public:
     static Result<std::unique_ptr<TerrainStage>> create(const Viewport& viewport);
 
     /// From now on this map is drawn.
-    void show(LoadedMap map);
+    void show(std::shared_ptr<const Map> map);
     const Scene& scene() const noexcept { return scene_; }
     /// On a flight over the map, within the bounds of navigation.
     OrbitCamera camera(Flight flight, double t) const;

@@ -1,6 +1,6 @@
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
@@ -86,12 +86,12 @@ TEST(ProxyGraph, HoldsItsPromisesOnTheBundledMaps)
     for (const char* name : {"mars_mola_4ppd.tif", "mount_st_helens_30m.tif"}) {
         SCOPED_TRACE(name);
         JobMonitor monitor;
-        const auto dataset =
-            loadDataset({(test::bundledSamples() / name).string()}, monitor, std::size_t{1} << 30U);
-        ASSERT_TRUE(dataset) << dataset.error().message;
-        const auto terrain = test::filledTerrain((*dataset)->heightfield());
+        const auto map = readMap(RasterSpec{(test::bundledSamples() / name).string()}, monitor,
+                                 std::size_t{1} << 30U);
+        ASSERT_TRUE(map) << map.error().message;
+        const auto terrain = test::filledTerrain((*map)->heightfield());
         for (const double exaggeration : {0.1, 1.0, 5.0, 20.0}) {
-            const HeightfieldSurface surface(terrain, (*dataset)->georeference().sceneFrame(),
+            const HeightfieldSurface surface(terrain, (*map)->georeference().sceneFrame(),
                                              exaggeration);
             sum.add(wander(surface, random, 4000, 0.5));
             sum.add(wander(surface, random, 4000, 10.0));

@@ -6,7 +6,7 @@
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "core/session/scene_surface.h"
 #include "tests/core/contact/contact_judge.h"
 #include "tests/core/contact/contact_terrain.h"
@@ -261,19 +261,19 @@ std::vector<Scenery> centimetresInUtm()
         .rows = 50,
         .transform = {5e5 + 1.0 / 3.0, 0.01, 0.0, 5e6 + 0.1, 0.0, -0.01},
         .srs = "EPSG:32633"};
-    const LoadedMap map = maker.make(small, [&](std::size_t c, std::size_t r) {
+    const std::shared_ptr<const Map> map = maker.make(small, [&](std::size_t c, std::size_t r) {
         return 0.01 * static_cast<double>(heights[r * 60 + c]) + 1234.5;
     });
     const test::MapMaker::Place large{.columns = 20,
                                       .rows = 20,
                                       .transform = {4.99e5, 100.0, 0.0, 5.001e6, 0.0, -100.0},
                                       .srs = "EPSG:32633"};
-    const LoadedMap around =
+    const std::shared_ptr<const Map> around =
         maker.make(large, [](std::size_t c, std::size_t r) { return double(c) + double(r); });
     const SceneSurface scene({around, map});
-    return {{map.filled, map.dataset->georeference().sceneFrame()},
-            {map.filled, scene.maps()[1].frame},
-            {map.filled, scene.maps()[1].frame, 20.0}};
+    return {{map->filled(), map->georeference().sceneFrame()},
+            {map->filled(), scene.maps()[1].frame},
+            {map->filled(), scene.maps()[1].frame, 20.0}};
 }
 
 std::vector<Scenery> randomFrames()
@@ -468,8 +468,8 @@ std::vector<Case> cases()
         all.push_back({name, [file = file] {
                            JobMonitor monitor;
                            const auto dataset =
-                               loadDataset({(test::bundledSamples() / file).string()}, monitor,
-                                           std::size_t{1} << 30U)
+                               readMap(RasterSpec{(test::bundledSamples() / file).string()},
+                                       monitor, std::size_t{1} << 30U)
                                    .value();
                            const auto terrain = test::filledTerrain(dataset->heightfield());
                            std::vector<Scenery> sceneries;
@@ -588,7 +588,7 @@ TEST(StabilityOfMaps, OneRowOrColumnIsRefusedInOneSentence)
             test::writeRaster(folder, std::to_string(columns) + ".tif", "GTiff",
                               test::recipeFor(columns, std::vector<float>(30, 1.0F)));
         JobMonitor monitor;
-        const auto dataset = loadDataset({path, 1, {}}, monitor, std::size_t{1} << 30);
+        const auto dataset = readMap(RasterSpec{path, 1, {}}, monitor, std::size_t{1} << 30);
         ASSERT_FALSE(dataset);
         const std::string& message = dataset.error().message;
         EXPECT_THAT(message, testing::HasSubstr(columns == 1 ? "1 × 30" : "30 × 1"));

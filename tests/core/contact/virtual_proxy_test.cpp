@@ -1,6 +1,6 @@
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/virtual_proxy.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/core/contact/contact_terrain.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/nan.h"
@@ -390,11 +390,11 @@ TEST(VirtualProxy, HoldsItsPromisesOnTheBundledMaps)
     for (const char* name : {"mars_mola_4ppd.tif", "mount_st_helens_30m.tif"}) {
         SCOPED_TRACE(name);
         JobMonitor monitor;
-        const auto dataset =
-            loadDataset({(test::bundledSamples() / name).string()}, monitor, std::size_t{1} << 30U);
-        ASSERT_TRUE(dataset) << dataset.error().message;
-        const auto terrain = test::filledTerrain((*dataset)->heightfield());
-        const SceneFrame frame = (*dataset)->georeference().sceneFrame();
+        const auto map = readMap(RasterSpec{(test::bundledSamples() / name).string()}, monitor,
+                                 std::size_t{1} << 30U);
+        ASSERT_TRUE(map) << map.error().message;
+        const auto terrain = test::filledTerrain((*map)->heightfield());
+        const SceneFrame frame = (*map)->georeference().sceneFrame();
         const double cell_m = std::hypot(frame.east_per_column, frame.north_per_column);
         for (const double exaggeration : {1.0, 5.0, 20.0}) {
             const HeightfieldSurface surface(terrain, frame, exaggeration);

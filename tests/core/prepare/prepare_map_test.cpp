@@ -1,6 +1,7 @@
 #include "core/levels/level_file.h"
 #include "core/prepare/map_folder.h"
 #include "core/prepare/prepare_map.h"
+#include "core/session/open_map.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
@@ -38,14 +39,16 @@ protected:
     }
     PrepareJob job(WhenThere when_there) const
     {
-        return {.spec = {.path = folder_.file("map.vrt")},
-                .raster_path = folder_.file("out.tif"),
-                .when_there = when_there};
+        return {.raster_path = folder_.file("out.tif"), .when_there = when_there};
     }
-    static Result<PrepareReport> run(const PrepareJob& job)
+    Result<PrepareReport> run(const PrepareJob& job) const
+    {
+        return run(folder_.file("map.vrt"), job);
+    }
+    static Result<PrepareReport> run(const std::string& path, const PrepareJob& job)
     {
         JobMonitor monitor;
-        return prepareMapFiles(job, monitor);
+        return prepareMapFiles(*openRaster({.path = path}), job, monitor);
     }
     static void overwrite(const std::string& path, double share)
     {
@@ -146,7 +149,7 @@ TEST_F(PrepareMap, LeavesADamagedRasterOfTheUsersWhereItIs)
     overwrite(own, 0.5);
     const std::string damaged = test::readFile(own);
     for (const std::string& copy : {std::string(), folder_.file("copy.tif")}) {
-        const Result<PrepareReport> report = run({.spec = {.path = own}, .raster_path = copy});
+        const Result<PrepareReport> report = run(own, {.raster_path = copy});
         ASSERT_FALSE(report);
         EXPECT_THAT(report.error().message, testing::StartsWith(own + ": "));
         EXPECT_TRUE(test::readFile(own) == damaged);
@@ -183,14 +186,13 @@ TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
     const std::string out = folder_.file("out.tif");
     const std::string own = folder_.file("own.tif"); // nobody knows what it was made from
     test::runTool({"gdal_translate", "-q", "-of", "COG", folder_.file("map.vrt"), own});
-    ASSERT_TRUE(run({.spec = {.path = own}}));
+    ASSERT_TRUE(run(own, {}));
     for (const auto& [path, remedy] :
          {std::pair{out, "prepare it again from " + folder_.file("map.vrt")},
           std::pair{own, std::string("get it again from where it came")}}) {
         const std::string levels = test::readFile(LevelFile::pathFor(path));
         overwrite(path, 0.5);
-        const Result<PrepareReport> report =
-            run({.spec = {.path = path}, .when_there = WhenThere::Check});
+        const Result<PrepareReport> report = run(path, {.when_there = WhenThere::Check});
         ASSERT_FALSE(report) << path;
         EXPECT_THAT(report.error().message, HasSubstr("is damaged in the tile"));
         EXPECT_THAT(report.error().message, HasSubstr(remedy));
@@ -205,10 +207,8 @@ TEST_F(PrepareMap, LeavesNoMoreInTheFolderThanItMayHold)
     JobMonitor monitor;
     for (int seed = 0; seed < 3; ++seed) {
         const Result<PrepareReport> report =
-            prepareInFolder({.spec = {.path = source("map" + std::to_string(seed), seed)},
-                             .folder = maps.path(),
-                             .folder_bytes_max = 1},
-                            monitor);
+            prepareInFolder(*openRaster({.path = source("map" + std::to_string(seed), seed)}),
+                            {.folder = maps.path(), .folder_bytes_max = 1}, monitor);
         ASSERT_TRUE(report) << report.error().message;
         ASSERT_EQ(folder.list()->size(), 1U);
         EXPECT_EQ(folder.list()->front().path, report->raster_path);
@@ -218,12 +218,13 @@ TEST_F(PrepareMap, LeavesNoMoreInTheFolderThanItMayHold)
 TEST_F(PrepareMap, RefusesToWriteBesideWhatLiesAtAServer)
 {
     const test::TempFolder maps;
+    MapResources resources;
+    resources.folder = maps.path();
     JobMonitor monitor;
-    const std::string address = "http://localhost:1/mars.tif";
-    const Result<PrepareReport> report =
-        prepareInFolder({.spec = {.path = address}, .folder = maps.path()}, monitor);
-    ASSERT_FALSE(report);
-    EXPECT_THAT(report.error().message, testing::StartsWith(address + ": lies at a server"));
+    const std::string address = "http://localhost:1/mars.tif"; // nothing is asked of it
+    const Status built = buildOverviews({.path = address}, resources, monitor);
+    ASSERT_FALSE(built);
+    EXPECT_THAT(built.error().message, testing::StartsWith(address + ": is on a server"));
     EXPECT_TRUE(fs::is_empty(maps.path()));
 }
 

@@ -1,7 +1,7 @@
 // Every real file against GDAL's own tools: what the program says of it is what gdalinfo says, and
 // its samples are what gdallocationinfo prints.
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
@@ -118,10 +118,10 @@ protected:
 
     bool isSurface() const { return columns_ > 1 && rows_ > 1; }
 
-    std::shared_ptr<const class Dataset> load() const
+    std::shared_ptr<const class Map> load() const
     {
         JobMonitor monitor;
-        auto dataset = loadDataset({path_, 1, {}}, monitor, defaultMemoryBudget());
+        auto dataset = readMap(RasterSpec{path_, 1, {}}, monitor, defaultMemoryBudget());
         EXPECT_TRUE(dataset) << dataset.error().message;
         return dataset ? *dataset : nullptr;
     }

@@ -1,6 +1,6 @@
 // The formats that elevations come in, made here from known samples.
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/nan.h"
 #include "tests/support/random.h"

@@ -1,7 +1,7 @@
 // Files that are no elevation maps, or not what they claim. Each is refused in one sentence that
 // names the file, without a crash and without taking memory for what is not there.
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/nan.h"
 #include "tests/support/run_program.h"
@@ -31,11 +31,11 @@ using test::writeVrt;
 
 constexpr std::size_t kBudget = std::size_t{1} << 30;
 
-Result<std::shared_ptr<const Dataset>> load(const std::string& path,
-                                            std::size_t memory_bytes_max = kBudget)
+Result<std::shared_ptr<const Map>> load(const std::string& path,
+                                        std::size_t memory_bytes_max = kBudget)
 {
     JobMonitor monitor;
-    return loadDataset({path, 1, {}}, monitor, memory_bytes_max);
+    return readMap(RasterSpec{path, 1, {}}, monitor, memory_bytes_max);
 }
 
 long peakMemoryKb()
@@ -363,7 +363,7 @@ TEST(Refusal, ReadingThatNobodyWantsAnyMore)
     const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
     JobMonitor monitor;
     monitor.cancel();
-    const auto dataset = loadDataset({path, 1, {}}, monitor, kBudget);
+    const auto dataset = readMap(RasterSpec{path, 1, {}}, monitor, kBudget);
     ASSERT_FALSE(dataset);
     EXPECT_EQ(dataset.error().code, ErrorCode::Cancelled);
     expectOneSentence(dataset.error(), path);

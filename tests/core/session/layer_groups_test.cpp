@@ -22,8 +22,7 @@ protected:
         Session session;
         for (auto kind = bodies.rbegin(); kind != bodies.rend(); ++kind) {
             const auto place = static_cast<std::size_t>(bodies.rend() - kind) - 1;
-            session =
-                added(session, {.dataset = on(*kind), .name = std::string(1, "abcdefgh"[place])});
+            session = added(session, {.map = on(*kind), .name = std::string(1, "abcdefgh"[place])});
         }
         return session;
     }
@@ -46,7 +45,7 @@ protected:
     }
 
 private:
-    std::shared_ptr<const Dataset> on(char kind)
+    std::shared_ptr<const Map> on(char kind)
     {
         test::RasterRecipe recipe = test::recipeFor(4, std::vector<float>(16, 1.0F));
         recipe.srs = kind == 'm' ? "IAU_2015:49900" : kind == 'e' ? "EPSG:4326" : "";
@@ -54,9 +53,9 @@ private:
         const std::string path =
             test::writeVrt(folder_, "group" + std::to_string(count_++), recipe);
         JobMonitor monitor;
-        auto dataset = loadDataset({path, 1, {}}, monitor, std::size_t{1} << 20);
-        EXPECT_TRUE(dataset) << dataset.error().message;
-        return dataset ? *dataset : nullptr;
+        auto map = readMap(RasterSpec{path, 1, {}}, monitor, std::size_t{1} << 20);
+        EXPECT_TRUE(map) << map.error().message;
+        return map ? *map : nullptr;
     }
 
     test::TempFolder folder_;
@@ -85,7 +84,7 @@ TEST_F(LayerGroupsTest, ALayerReachesEveryPlaceOfItsGroup)
             std::string names;
             std::string others;
             for (const Layer& layer : s.layers) {
-                (layer.dataset->info().body == bodyNamed("Mars") ? names : others) += layer.name;
+                (layer.map->info().body == bodyNamed("Mars") ? names : others) += layer.name;
             }
             return std::pair(names, others);
         };

@@ -67,31 +67,31 @@ protected:
         test::runTool({"gdaladdo", "-q", "-ro", "-r", how, path, "2", "4"});
     }
 
-    Result<LoadedMap> open(const std::string& path)
+    Result<std::shared_ptr<const Map>> open(const std::string& path)
     {
         JobMonitor monitor;
         return openMap({.path = path}, resources_, monitor);
     }
-    Result<OpenPlan> plan(const std::string& path) const
+    Result<MapOpening> begin(const std::string& path) const
     {
-        return planOpening({.path = path}, resources_);
+        return MapOpening::begin(openRaster({.path = path}).value(), resources_);
     }
     void prepare(const std::string& path) const
     {
         JobMonitor monitor;
-        const auto prepared = prepareMapFiles({.spec = {.path = path}}, monitor);
+        const auto prepared = prepareMapFiles(*openRaster({.path = path}), {}, monitor);
         ASSERT_TRUE(prepared) << prepared.error().message;
     }
 
     // Tiles of the finest level that cannot be read; the others are what they should be.
-    static std::size_t unreadable(const LoadedMap& map)
+    static std::size_t unreadable(const std::shared_ptr<const Map>& map)
     {
         std::size_t count = 0;
         for (std::uint32_t row = 0; row * kTileSide < kRows; ++row) {
             for (std::uint32_t column = 0; column * kTileSide < kColumns; ++column) {
                 const std::size_t c = column * kTileSide;
                 const std::size_t r = row * kTileSide;
-                const Heightfield& heightfield = map.dataset->heightfield();
+                const Heightfield& heightfield = map->heightfield();
                 if (!heightfield.isTiled()) {
                     EXPECT_EQ(heightfield.sample(c, r), heightAt(c, r));
                 } else if (const auto tile = heightfield.tiles()->raster().get(
@@ -120,7 +120,7 @@ protected:
 
     std::string keptPath(const std::string& path) const
     {
-        return preparedPathFor({.path = path}, maps_.path()).value();
+        return preparedPathFor(*openRaster({.path = path}), maps_.path()).value();
     }
 
     test::TempFolder folder_;
@@ -137,22 +137,22 @@ TEST_F(OpenMap, MakesACopyAnewOfWhichATileWasFoundDamaged)
     std::size_t noticed_late = 0;
     for (const double share : {0.15, 0.25, 0.3, 0.37, 0.45, 0.53, 0.6, 0.68, 0.75}) {
         {
-            const Result<LoadedMap> map = open(source_);
+            const Result<std::shared_ptr<const Map>> map = open(source_);
             ASSERT_TRUE(map) << map.error().message;
             ASSERT_EQ(unreadable(*map), 0U);
         }
         damage(kept, share);
         {
-            const Result<LoadedMap> map = open(source_);
+            const Result<std::shared_ptr<const Map>> map = open(source_);
             ASSERT_TRUE(map) << map.error().message;
             if (unreadable(*map) == 0) {
                 continue; // it was noticed while opening
             }
             ++noticed_late;
             EXPECT_TRUE(MapFolder::at(maps_.path()).damage(kept));
-            EXPECT_EQ(plan(source_)->store, MapStore::Unprepared);
+            EXPECT_EQ(begin(source_)->storage(), MapStorage::NeedsOverviews);
         }
-        const Result<LoadedMap> map = open(source_);
+        const Result<std::shared_ptr<const Map>> map = open(source_);
         ASSERT_TRUE(map) << map.error().message;
         EXPECT_EQ(unreadable(*map), 0U);
         EXPECT_FALSE(MapFolder::at(maps_.path()).damage(kept));
@@ -162,10 +162,10 @@ TEST_F(OpenMap, MakesACopyAnewOfWhichATileWasFoundDamaged)
 
 TEST_F(OpenMap, MakesADamagedCopyAnewThatIsStillOpen)
 {
-    Result<LoadedMap> first = open(source_);
+    Result<std::shared_ptr<const Map>> first = open(source_);
     ASSERT_TRUE(first);
     MapFolder::at(maps_.path()).noteDamage(keptPath(source_), "a tile is torn; open it again");
-    const Result<LoadedMap> second = open(source_);
+    const Result<std::shared_ptr<const Map>> second = open(source_);
     ASSERT_TRUE(second) << second.error().message;
     EXPECT_EQ(unreadable(*second), 0U);
     EXPECT_FALSE(MapFolder::at(maps_.path()).damage(keptPath(source_)));
@@ -174,7 +174,7 @@ TEST_F(OpenMap, MakesADamagedCopyAnewThatIsStillOpen)
 TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
 {
     const std::string kept = keptPath(source_);
-    Result<LoadedMap> first = open(source_);
+    Result<std::shared_ptr<const Map>> first = open(source_);
     std::size_t damaged = 0;
     for (const double share : {0.15, 0.25, 0.3, 0.37, 0.45, 0.53, 0.6, 0.68, 0.75}) {
         ASSERT_TRUE(first) << first.error().message;
@@ -192,7 +192,8 @@ TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
     MapResources of_another_program = resources_;
     of_another_program.tiles = std::make_shared<TileCache>(TileCacheOptions{});
     JobMonitor monitor;
-    const Result<LoadedMap> second = openMap({.path = source_}, of_another_program, monitor);
+    const Result<std::shared_ptr<const Map>> second =
+        openMap({.path = source_}, of_another_program, monitor);
     ASSERT_TRUE(second) << second.error().message;
     EXPECT_EQ(unreadable(*second), 0U);
     // Whatever the first one still reads is right, as unreadable() checks, by readers that are open
@@ -202,7 +203,7 @@ TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
         unreadable(*first);
     }
     EXPECT_FALSE(MapFolder::at(maps_.path()).damage(kept)) << "the new one is none";
-    const Result<LoadedMap> again = open(source_);
+    const Result<std::shared_ptr<const Map>> again = open(source_);
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(unreadable(*again), 0U);
 }
@@ -224,8 +225,8 @@ TEST_F(OpenMap, TellsOnceOfNumbersInTheEnvironmentThatAreNone)
         ASSERT_TRUE(first && second);
         const auto sentence =
             HasSubstr(std::string("MARSVIEW_HELD_MB=\"") + text + "\" in the environment is no");
-        EXPECT_THAT(first->dataset->info().notices, testing::Contains(sentence));
-        EXPECT_THAT(second->dataset->info().notices, testing::Not(testing::Contains(sentence)));
+        EXPECT_THAT((*first)->info().notices, testing::Contains(sentence));
+        EXPECT_THAT((*second)->info().notices, testing::Not(testing::Contains(sentence)));
     }
     EXPECT_TRUE(defaultMapResources().notices->take().empty());
 }
@@ -234,7 +235,7 @@ TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
 {
     const std::string path = tiled();
     {
-        const Result<LoadedMap> map = open(path); // its levels lie in the folder
+        const Result<std::shared_ptr<const Map>> map = open(path); // its levels lie in the folder
         ASSERT_TRUE(map) << map.error().message;
         ASSERT_EQ(unreadable(*map), 0U);
     }
@@ -243,7 +244,7 @@ TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
     const std::string before = test::readFile(levels);
     damage(path, 0.5, 4000);
     for (int attempt = 0; attempt < 2; ++attempt) {
-        const Result<LoadedMap> map = open(path);
+        const Result<std::shared_ptr<const Map>> map = open(path);
         if (map) {
             EXPECT_GT(unreadable(*map), 0U);
         } else {
@@ -257,23 +258,23 @@ TEST_F(OpenMap, MakesLevelsAnewWhereOverviewsBesideTheRasterAreOthers)
 {
     const std::string path = tiled();
     prepare(path);
-    EXPECT_EQ(plan(path)->level_path, LevelFile::pathFor(path));
+    EXPECT_EQ(begin(path)->levelPath(), LevelFile::pathFor(path));
     addOverviews(path, "nearest");
-    const Result<OpenPlan> outdated = plan(path);
+    const Result<MapOpening> outdated = begin(path);
     ASSERT_TRUE(outdated);
-    EXPECT_EQ(outdated->store, MapStore::Unprepared);
-    EXPECT_THAT(outdated->notices,
+    EXPECT_EQ(outdated->storage(), MapStorage::NeedsOverviews);
+    EXPECT_THAT(outdated->notices(),
                 Contains(HasSubstr("level file beside it is not used: it was made from another")));
     {
-        const Result<LoadedMap> map = open(path); // with levels in the folder
+        const Result<std::shared_ptr<const Map>> map = open(path); // with levels in the folder
         ASSERT_TRUE(map) << map.error().message;
         EXPECT_EQ(unreadable(*map), 0U);
-        EXPECT_THAT(map->dataset->info().notices, Contains(HasSubstr("is not used")));
+        EXPECT_THAT((*map)->info().notices, Contains(HasSubstr("is not used")));
     }
     prepare(path);
-    EXPECT_EQ(plan(path)->level_path, LevelFile::pathFor(path));
-    EXPECT_TRUE(plan(path)->notices.empty());
-    const Result<LoadedMap> map = open(path);
+    EXPECT_EQ(begin(path)->levelPath(), LevelFile::pathFor(path));
+    EXPECT_TRUE(begin(path)->notices().empty());
+    const Result<std::shared_ptr<const Map>> map = open(path);
     ASSERT_TRUE(map) << map.error().message;
     EXPECT_EQ(unreadable(*map), 0U);
 }
@@ -294,13 +295,13 @@ TEST_F(OpenMap, RefusesARasterThatIsNotWhatItWasThoughItsTimeIs)
     fs::last_write_time(path, time);
     for (const std::size_t held_bytes_max : {std::size_t{0}, std::size_t{1} << 30}) {
         resources_.held_bytes_max = held_bytes_max;
-        const Result<OpenPlan> refused = plan(path);
+        const Result<MapOpening> refused = begin(path);
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::Damaged);
         EXPECT_THAT(refused.error().message, HasSubstr("or remove " + LevelFile::pathFor(path)));
     }
     fs::remove(LevelFile::pathFor(path));
-    EXPECT_TRUE(plan(path));
+    EXPECT_TRUE(begin(path));
 }
 
 TEST_F(OpenMap, SaysWhyALevelFileBesideTheRasterIsNotUsed)
@@ -320,9 +321,9 @@ TEST_F(OpenMap, SaysWhyALevelFileBesideTheRasterIsNotUsed)
         std::ofstream(levels, std::ios::binary) << content;
         for (const std::size_t held_bytes_max : {std::size_t{0}, std::size_t{1} << 30}) {
             resources_.held_bytes_max = held_bytes_max;
-            const Result<LoadedMap> map = open(path);
+            const Result<std::shared_ptr<const Map>> map = open(path);
             ASSERT_TRUE(map) << map.error().message;
-            EXPECT_THAT(map->dataset->info().notices, Contains(HasSubstr(why)));
+            EXPECT_THAT((*map)->info().notices, Contains(HasSubstr(why)));
             EXPECT_EQ(unreadable(*map), 0U);
         }
     }
@@ -333,7 +334,7 @@ TEST_F(OpenMap, KeepsLevelsOfAMapInPlaceAsLongAsItIsOpen)
     const std::string path = tiled();
     const MapFolder folder = MapFolder::at(maps_.path());
     {
-        const Result<LoadedMap> map = open(path);
+        const Result<std::shared_ptr<const Map>> map = open(path);
         ASSERT_TRUE(map) << map.error().message;
         ASSERT_EQ(folder.list()->size(), 1U);
         EXPECT_TRUE(folder.list()->front().is_in_use);
@@ -346,9 +347,10 @@ TEST_F(OpenMap, KeepsLevelsOfAMapInPlaceAsLongAsItIsOpen)
 TEST_F(OpenMap, HoldsAMapWhereThereIsNoFolderForPreparedOnes)
 {
     MapResources resources;
-    const Result<OpenPlan> plan = planOpening({.path = source_}, resources);
-    ASSERT_TRUE(plan) << plan.error().message;
-    EXPECT_EQ(plan->store, MapStore::Held);
+    const Result<MapOpening> opening =
+        MapOpening::begin(openRaster({.path = source_}).value(), resources);
+    ASSERT_TRUE(opening) << opening.error().message;
+    EXPECT_EQ(opening->storage(), MapStorage::InMemory);
 }
 
 // A small archive may unpack to more than memory.
@@ -364,12 +366,14 @@ TEST_F(OpenMap, HoldsNoLargeMapOfAnArchive)
                    folder_.file("large.zip"), path});
     MapResources resources;
     resources.held_bytes_max = std::size_t{1} << 40;
-    const Result<OpenPlan> file = planOpening({.path = path}, resources);
+    const Result<MapOpening> file =
+        MapOpening::begin(openRaster({.path = path}).value(), resources);
     ASSERT_TRUE(file) << file.error().message;
-    EXPECT_EQ(file->store, MapStore::Held);
-    const Result<OpenPlan> packed = planOpening({.path = folder_.file("large.zip")}, resources);
+    EXPECT_EQ(file->storage(), MapStorage::InMemory);
+    const Result<MapOpening> packed =
+        MapOpening::begin(openRaster({.path = folder_.file("large.zip")}).value(), resources);
     ASSERT_TRUE(packed) << packed.error().message;
-    EXPECT_EQ(packed->store, MapStore::Unprepared);
+    EXPECT_EQ(packed->storage(), MapStorage::NeedsOverviews);
 }
 
 TEST_F(OpenMap, RefusesWhatIsNoSurfaceBeforePreparingIt)
@@ -377,13 +381,13 @@ TEST_F(OpenMap, RefusesWhatIsNoSurfaceBeforePreparingIt)
     for (const std::size_t columns : {1U, 600U}) {
         const std::string path = test::writeVrt(
             folder_, "line", test::recipeFor(columns, std::vector<std::int16_t>(600, 5)));
-        const Result<OpenPlan> refused = plan(path);
+        const Result<MapOpening> refused = begin(path);
         ASSERT_FALSE(refused);
         EXPECT_THAT(refused.error().message,
                     HasSubstr("samples make no surface; at least 2 × 2 are needed"));
         JobMonitor monitor;
-        const auto prepared = prepareMapFiles(
-            {.spec = {.path = path}, .raster_path = folder_.file("out.tif")}, monitor);
+        const auto prepared = prepareMapFiles(*openRaster({.path = path}),
+                                              {.raster_path = folder_.file("out.tif")}, monitor);
         ASSERT_FALSE(prepared);
         EXPECT_EQ(prepared.error().message, refused.error().message);
         EXPECT_FALSE(fs::exists(folder_.file("out.tif")));

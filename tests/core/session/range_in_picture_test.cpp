@@ -10,7 +10,7 @@ namespace marsview {
 namespace {
 
 // 100 × 100 cells of 10 m in the scene x, y = −495 … 495; elevation = 100 + x / 10.
-LoadedMap slope(test::MapMaker& maker)
+std::shared_ptr<const Map> slope(test::MapMaker& maker)
 {
     return maker.make(
         {.columns = 100,
@@ -64,11 +64,12 @@ TEST(RangesInPicture, HaveNothingForMapsThatAreNotSeen)
 {
     test::MapMaker maker;
     // A small plateau over the eastern end of the slope.
-    const LoadedMap small = maker.make({.columns = 10,
-                                        .rows = 10,
-                                        .transform = {500900.0, 10.0, 0.0, 3999550.0, 0.0, -10.0},
-                                        .srs = "EPSG:32611"},
-                                       [](auto...) { return 900.0; });
+    const std::shared_ptr<const Map> small =
+        maker.make({.columns = 10,
+                    .rows = 10,
+                    .transform = {500900.0, 10.0, 0.0, 3999550.0, 0.0, -10.0},
+                    .srs = "EPSG:32611"},
+                   [](auto...) { return 900.0; });
     const SceneSurface ground({small, slope(maker)});
     const Viewport viewport{.width = 200, .height = 200};
     const ScenePoint plateau = ground.maps()[0].frame.toScene({4.5, 4.5}, 900.0);

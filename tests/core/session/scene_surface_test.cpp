@@ -65,16 +65,17 @@ public:
     };
 
     // `x_shifts` brings each map's coordinates onto the turn of the first.
-    BruteScene(const std::vector<LoadedMap>& maps, const std::vector<double>& x_shifts)
-        : frame_(maps.front().dataset->georeference().sceneFrame())
+    BruteScene(const std::vector<std::shared_ptr<const Map>>& maps,
+               const std::vector<double>& x_shifts)
+        : frame_(maps.front()->georeference().sceneFrame())
     {
-        const Terms& scene = maps.front().dataset->georeference().transform().terms();
+        const Terms& scene = maps.front()->georeference().transform().terms();
         for (std::size_t i = 0; i < maps.size(); ++i) {
-            const Terms& terms = maps[i].dataset->georeference().transform().terms();
+            const Terms& terms = maps[i]->georeference().transform().terms();
             const Affine to = between(terms, scene, x_shifts[i]);
             Terms shifted = terms;
             shifted[0] += x_shifts[i];
-            parts_.push_back({maps[i].dataset->heightfield(), between(scene, shifted, 0.0), to});
+            parts_.push_back({maps[i]->heightfield(), between(scene, shifted, 0.0), to});
         }
     }
 
@@ -180,7 +181,7 @@ private:
 
 struct Scene {
     const char* name;
-    std::vector<LoadedMap> maps;
+    std::vector<std::shared_ptr<const Map>> maps;
     std::vector<double> x_shifts;
 };
 
@@ -217,18 +218,18 @@ std::vector<Scene> scenes()
         "0.0174532925199433]]";
     static MapMaker maker;
     std::vector<Scene> scenes;
-    const LoadedMap one = maker.make({}, holed(100.0, 60.0));
+    const std::shared_ptr<const Map> one = maker.make({}, holed(100.0, 60.0));
     scenes.push_back({"one map", {one}, {0.0}});
-    const LoadedMap lower = maker.make(
+    const std::shared_ptr<const Map> lower = maker.make(
         {.columns = 25, .rows = 22, .transform = {499820.0, 41.0, 0.0, 4000160.0, 0.0, -37.0}},
         waves(-50.0, 150.0));
     scenes.push_back({"two maps that cross", {one, lower}, {0.0, 0.0}});
-    const LoadedMap turned = maker.make(
+    const std::shared_ptr<const Map> turned = maker.make(
         {.columns = 24, .rows = 20, .transform = {500050.0, 17.0, 9.0, 3999990.0, 10.0, -18.0}},
         holed(300.0, 40.0));
     scenes.push_back({"three, one turned", {one, turned, lower}, {0.0, 0.0, 0.0}});
     scenes.push_back({"turned on top", {turned, one, lower}, {0.0, 0.0, 0.0}});
-    const LoadedMap mirrored = maker.make(
+    const std::shared_ptr<const Map> mirrored = maker.make(
         {.columns = 20, .rows = 20, .transform = {500600.0, -28.0, 0.0, 3999500.0, 3.0, 26.0}},
         holed(0.0, 90.0));
     scenes.push_back({"mirrored on top", {mirrored, turned, lower}, {0.0, 0.0, 0.0}});
@@ -241,22 +242,24 @@ std::vector<Scene> scenes()
                                    .srs = kUtm},
                                   waves(0.0, 100.0))},
                       {0.0, 0.0}});
-    const LoadedMap east = maker.make(
+    const std::shared_ptr<const Map> east = maker.make(
         {.transform = {200.0, 0.5, 0.0, 20.0, 0.0, -0.5}, .srs = kMars}, holed(2000.0, 3000.0));
-    const LoadedMap west = maker.make({.columns = 30,
-                                       .rows = 24,
-                                       .transform = {-162.0, 0.47, 0.0, 22.0, 0.0, -0.45},
-                                       .srs = kMars},
-                                      waves(0.0, 5000.0));
-    const LoadedMap holed_west = maker.make({.columns = 30,
-                                             .rows = 24,
-                                             .transform = {-162.0, 0.47, 0.0, 22.0, 0.0, -0.45},
-                                             .srs = kMars},
-                                            holed(0.0, 5000.0));
+    const std::shared_ptr<const Map> west =
+        maker.make({.columns = 30,
+                    .rows = 24,
+                    .transform = {-162.0, 0.47, 0.0, 22.0, 0.0, -0.45},
+                    .srs = kMars},
+                   waves(0.0, 5000.0));
+    const std::shared_ptr<const Map> holed_west =
+        maker.make({.columns = 30,
+                    .rows = 24,
+                    .transform = {-162.0, 0.47, 0.0, 22.0, 0.0, -0.45},
+                    .srs = kMars},
+                   holed(0.0, 5000.0));
     scenes.push_back({"longitudes a turn apart", {east, west}, {0.0, 360.0}});
     scenes.push_back({"and the other way", {holed_west, east}, {0.0, -360.0}});
     // All of Mars from 0 to 360 degrees below a map that counts from -180 to 180.
-    const LoadedMap all = maker.make(
+    const std::shared_ptr<const Map> all = maker.make(
         {.columns = 72, .rows = 36, .transform = {0.0, 5.0, 0.0, 90.0, 0.0, -5.0}, .srs = kMars},
         [](std::size_t c, std::size_t r) {
             return isHole(c, r, 40.5, 14.5, 2.5) ? kNan : wave(c, r, 4000.0) - 1000.0;
@@ -326,7 +329,7 @@ TEST_F(SceneSurfaceTest, OutermostSamplesAreGround)
         const SceneSurface surface(scene.maps);
         for (std::size_t i = 0; i < scene.maps.size(); ++i) {
             const SceneMap& map = surface.maps()[i];
-            const Heightfield& h = map.map.dataset->heightfield();
+            const Heightfield& h = map.map->heightfield();
             for (std::size_t r = 0; r < h.rows(); ++r) {
                 for (const std::size_t c : {std::size_t{0}, h.columns() - 1}) {
                     const ScenePoint p =
@@ -410,10 +413,10 @@ TEST_F(SceneSurfaceTest, CastFindsTheFirstSurfaceThatNoMapCovers)
 TEST_F(SceneSurfaceTest, CastPassesAnyNumberOfCoveredSurfaces)
 {
     MapMaker maker;
-    const LoadedMap plate =
+    const std::shared_ptr<const Map> plate =
         maker.make({.columns = 300, .rows = 3, .transform = {0.0, 1.0, 0.0, 3.0, 0.0, -1.0}},
                    [](std::size_t, std::size_t) { return 0.0; });
-    const LoadedMap comb =
+    const std::shared_ptr<const Map> comb =
         maker.make({.columns = 400, .rows = 3, .transform = {0.0, 1.0, 0.0, 3.0, 0.0, -1.0}},
                    [](std::size_t c, std::size_t) { return c % 2 == 0 ? 90.0 : 110.0; });
     const SceneSurface surface({plate, comb});
@@ -427,13 +430,14 @@ TEST_F(SceneSurfaceTest, CastPassesAnyNumberOfCoveredSurfaces)
 TEST_F(SceneSurfaceTest, CastGoesOnFromCoveredSurfacesRightBeforeTheEye)
 {
     MapMaker maker;
-    const LoadedMap plate = maker.make({}, [](std::size_t, std::size_t) { return -500.0; });
-    const LoadedMap comb =
+    const std::shared_ptr<const Map> plate =
+        maker.make({}, [](std::size_t, std::size_t) { return -500.0; });
+    const std::shared_ptr<const Map> comb =
         maker.make({}, [](std::size_t c, std::size_t) { return c % 2 == 0 ? -9.0 : 9.0; });
     const SceneSurface surface({plate, comb});
     for (int i = 0; i < 3000; ++i) {
         ScenePoint at = somewhere(surface);
-        at.z = comb.dataset->heightfield().height(surface.maps()[1].frame.toGrid(at));
+        at.z = comb->heightfield().height(surface.maps()[1].frame.toGrid(at));
         const Vec3 way = normalized(Vec3{random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0),
                                          random_.uniform(-0.5, -0.01)});
         const Ray ray{.origin = at - way * std::exp(random_.uniform(-12.0, 4.0)), .direction = way};
@@ -458,7 +462,7 @@ TEST_F(SceneSurfaceTest, BoxIsTightAroundAllSamples)
         ScenePoint low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
         ScenePoint high = -low;
         for (std::size_t i = 0; i < scene.maps.size(); ++i) {
-            const Heightfield& h = scene.maps[i].dataset->heightfield();
+            const Heightfield& h = scene.maps[i]->heightfield();
             for (std::size_t r = 0; r < h.rows(); ++r) {
                 for (std::size_t c = 0; c < h.columns(); ++c) {
                     // Voids count in the plane, not in height.
@@ -483,7 +487,7 @@ TEST_F(SceneSurfaceTest, IsNothingWhereThereAreNoMaps)
 {
     const SceneSurface none;
     EXPECT_TRUE(none.isEmpty());
-    EXPECT_TRUE(SceneSurface(std::vector<LoadedMap>{}).isEmpty());
+    EXPECT_TRUE(SceneSurface(std::vector<std::shared_ptr<const Map>>{}).isEmpty());
     EXPECT_TRUE(std::isnan(none.height(0.0, 0.0)));
     EXPECT_FALSE(none.mapAt(0.0, 0.0));
     EXPECT_FALSE(none.cast({.origin = {0.0, 0.0, 1.0}, .direction = {0.0, 0.0, -1.0}}, 1.0));
@@ -525,8 +529,8 @@ TEST(FrameWithin, PlacesAllOfAMapToAMillionthOfASample)
 TEST(FrameWithin, OfTheSceneItselfIsItsFrame)
 {
     MapMaker maker;
-    const LoadedMap map = maker.make({.srs = "EPSG:32611"}, waves(0.0, 10.0));
-    const Georeference& georeference = map.dataset->georeference();
+    const std::shared_ptr<const Map> map = maker.make({.srs = "EPSG:32611"}, waves(0.0, 10.0));
+    const Georeference& georeference = map->georeference();
     const SceneFrame frame = frameWithin(georeference, georeference);
     EXPECT_NEAR(frame.origin.column, georeference.sceneFrame().origin.column, 1e-9);
     EXPECT_NEAR(frame.origin.row, georeference.sceneFrame().origin.row, 1e-9);

@@ -1,4 +1,4 @@
-#include "core/session/loaded_map.h"
+#include "core/session/map.h"
 #include "core/session/session.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
@@ -30,7 +30,7 @@ constexpr Terms kDegrees{10.0, 0.01, 0.0, 20.0, 0.0, -0.01};
 // Datasets of a few samples, wherever they are wanted.
 class Maps {
 public:
-    std::shared_ptr<const Dataset>
+    std::shared_ptr<const Map>
     at(const std::string& srs, const Terms& terms, const RasterOverrides& overrides = {})
     {
         RasterRecipe recipe = recipeFor(12, std::vector<float>(120, 1.0F));
@@ -38,11 +38,11 @@ public:
         recipe.transform = terms;
         const std::string path = writeVrt(folder_, "map" + std::to_string(count_++), recipe);
         JobMonitor monitor;
-        auto dataset = loadDataset({path, 1, overrides}, monitor, std::size_t{1} << 20);
+        auto dataset = readMap(RasterSpec{path, 1, overrides}, monitor, std::size_t{1} << 20);
         EXPECT_TRUE(dataset) << dataset.error().message;
         return dataset ? *dataset : nullptr;
     }
-    std::shared_ptr<const Dataset> any() { return at("EPSG:32611", kUtm); }
+    std::shared_ptr<const Map> any() { return at("EPSG:32611", kUtm); }
 
 private:
     TempFolder folder_;
@@ -58,11 +58,11 @@ std::vector<std::string> namesOf(const Session& session)
     return names;
 }
 
-Session with(const std::vector<std::shared_ptr<const Dataset>>& bottom_first)
+Session with(const std::vector<std::shared_ptr<const Map>>& bottom_first)
 {
     Session session;
     for (std::size_t i = 0; i < bottom_first.size(); ++i) {
-        session = added(session, {.dataset = bottom_first[i], .name = std::string(1, "abcdef"[i])});
+        session = added(session, {.map = bottom_first[i], .name = std::string(1, "abcdef"[i])});
     }
     return session;
 }
@@ -78,18 +78,17 @@ TEST(Session, PutsWhatIsOpenedOnTopAndMakesItActive)
 TEST(Session, NamesALayerAfterItsFile)
 {
     Maps maps;
-    const Session session = added({}, {.dataset = maps.any()});
+    const Session session = added({}, {.map = maps.any()});
     EXPECT_EQ(session.layers[0].name, "map0.vrt");
 }
 
 TEST(Session, ReplacesTheSampleByWhatIsOpened)
 {
     Maps maps;
-    const Session sample = added({}, {.dataset = maps.any(), .name = "s", .is_sample = true});
-    const Session session = added(sample, {.dataset = maps.any(), .name = "a"});
+    const Session sample = added({}, {.map = maps.any(), .name = "s", .is_sample = true});
+    const Session session = added(sample, {.map = maps.any(), .name = "a"});
     EXPECT_THAT(namesOf(session), ElementsAre("a"));
-    EXPECT_THAT(namesOf(added(session, {.dataset = maps.any(), .name = "b"})),
-                ElementsAre("b", "a"));
+    EXPECT_THAT(namesOf(added(session, {.map = maps.any(), .name = "b"})), ElementsAre("b", "a"));
     EXPECT_THAT(namesOf(sample), ElementsAre("s")); // a value: what it came from is untouched
 }
 
@@ -118,7 +117,7 @@ TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
         };
         switch (random.below(8)) {
         case 0: {
-            session = added(before, {.dataset = dataset, .is_sample = random.chance(0.2)});
+            session = added(before, {.map = dataset, .is_sample = random.chance(0.2)});
             const Layer& layer = session.layers.front();
             EXPECT_TRUE(ids_ever.insert(static_cast<std::uint64_t>(layer.id)).second);
             EXPECT_EQ(session.active, layer.id);
@@ -159,8 +158,8 @@ TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
             is_only_changed_at(&Layer::name);
             break;
         case 6:
-            session = withDataset(before, id, random.chance(0.5) ? dataset : other);
-            is_only_changed_at(&Layer::dataset);
+            session = withMap(before, id, random.chance(0.5) ? dataset : other);
+            is_only_changed_at(&Layer::map);
             break;
         default:
             session = activated(before, id);
@@ -187,7 +186,7 @@ TEST(SessionExaggeration, StaysWithThePictureWhenLayersComeAndGo)
     Session session = withExaggeration(with({maps.any()}), 4.0);
     EXPECT_EQ(exaggerationOf(session), 4.0);
     const LayerId lower = session.active;
-    session = added(session, {.dataset = maps.any(), .exaggeration = 9.0});
+    session = added(session, {.map = maps.any(), .exaggeration = 9.0});
     EXPECT_EQ(exaggerationOf(session), 4.0) << "a layer on top of what was there";
     const LayerId upper = session.active;
     session = withVisibility(session, lower, false);
@@ -204,9 +203,9 @@ TEST(SessionExaggeration, IsOfItsOwnOnEachBody)
     Maps maps;
     Session session = withExaggeration(with({maps.at("IAU_2015:49900", kDegrees)}), 3.0);
     const LayerId mars = session.active;
-    session = added(session, {.dataset = maps.at("IAU_2015:30100", kDegrees)});
+    session = added(session, {.map = maps.at("IAU_2015:30100", kDegrees)});
     const LayerId moon = session.active;
-    EXPECT_EQ(exaggerationOf(session), suitableExaggeration(*layerOf(session, moon)->dataset));
+    EXPECT_EQ(exaggerationOf(session), suitableExaggeration(*layerOf(session, moon)->map));
     session = withExaggeration(session, 7.0);
     EXPECT_EQ(layerOf(session, mars)->exaggeration, 3.0);
     session = withVisibility(session, moon, false);
@@ -266,7 +265,7 @@ TEST(Placement, NeverDependsOnWhatIsHidden)
     for (int i = 0; i < 200; ++i) {
         Session session;
         for (int k = 0; k < 6; ++k) {
-            session = added(session, {.dataset = datasets[random.below(datasets.size())]});
+            session = added(session, {.map = datasets[random.below(datasets.size())]});
             if (random.chance(0.4)) {
                 session = withVisibility(session, session.active, false);
             }

@@ -15,9 +15,9 @@ using test::MapMaker;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-std::optional<SurfaceSlope> slopeOf(const LoadedMap& map, GridPoint grid)
+std::optional<SurfaceSlope> slopeOf(const std::shared_ptr<const Map>& map, GridPoint grid)
 {
-    return slopeAt(map.dataset->heightfield(), map.dataset->georeference(), grid);
+    return slopeAt(map->heightfield(), map->georeference(), grid);
 }
 
 // Rises by these shares eastward and northward.
@@ -39,7 +39,7 @@ TEST(SurfaceSlope, IsThatOfAPlaneOnAMapWithoutCrs)
     MapMaker maker;
     for (const Rise rise : {Rise{0.3, 0.0}, Rise{-0.3, 0.0}, Rise{0.0, 0.2}, Rise{0.0, -1.5},
                             Rise{0.1, 0.4}, Rise{-2.0, 0.5}}) {
-        const LoadedMap map = maker.make({}, [&](std::size_t c, std::size_t r) {
+        const std::shared_ptr<const Map> map = maker.make({}, [&](std::size_t c, std::size_t r) {
             return 30.0 *
                    (rise.east * static_cast<double>(c) - rise.north * static_cast<double>(r));
         });
@@ -69,7 +69,7 @@ TEST(SurfaceSlope, CountsMetresOnTheEllipsoidWhereTheMapIsInDegrees)
         const double east_m = kEquatorial / w * std::cos(latitude) * kDegree * kCell;
         const double north_m = kEquatorial * (1.0 - kE2) / (w * w * w) * kDegree * kCell;
         const Rise rise{0.25, -0.4};
-        const LoadedMap map =
+        const std::shared_ptr<const Map> map =
             maker.make({.transform = {-122.0, kCell, 0.0, top, 0.0, -kCell}, .srs = "EPSG:4326"},
                        [&](std::size_t c, std::size_t r) {
                            return rise.east * east_m * static_cast<double>(c) -
@@ -90,7 +90,7 @@ TEST(SurfaceSlope, IsThatOfTheSphereOnMars)
     constexpr double kRadius = 3396190.0;
     const double per_degree = kRadius * kDegree;
     const double latitude = 60.0 - 0.25 * 7.5;
-    const LoadedMap map =
+    const std::shared_ptr<const Map> map =
         maker.make({.transform = {200.0, 0.25, 0.0, 60.0, 0.0, -0.25}, .srs = "IAU_2015:49900"},
                    [&](std::size_t c, std::size_t) { return 100.0 * static_cast<double>(c); });
     const auto slope = slopeOf(map, {10.0, 7.0});
@@ -106,7 +106,7 @@ TEST(SurfaceSlope, FacesTrueNorthOnAPolarProjection)
 {
     MapMaker maker;
     // 85° N on 90° E lies to the right of the pole: northward is to the left there.
-    const LoadedMap map =
+    const std::shared_ptr<const Map> map =
         maker.make({.transform = {296000.0, 10.0, 0.0, 75.0, 0.0, -10.0},
                     .srs = "+proj=stere +lat_0=90 +lon_0=0 +k=1 +R=3396190 +units=m +no_defs"},
                    [](std::size_t c, std::size_t) { return -1.0 * static_cast<double>(c); });
@@ -124,7 +124,7 @@ TEST(SurfaceSlope, IsOfTheTriangleThatHoldsThePlace)
 {
     MapMaker maker;
     // Only the lower left corner of the cell at (4, 4) is high.
-    const LoadedMap map =
+    const std::shared_ptr<const Map> map =
         maker.make({}, [](std::size_t c, std::size_t r) { return c == 4 && r == 5 ? 30.0 : 0.0; });
     const auto upper = slopeOf(map, {4.8, 4.2});
     ASSERT_TRUE(upper);
@@ -140,7 +140,7 @@ TEST(SurfaceSlope, IsOfTheTriangleThatHoldsThePlace)
 TEST(SurfaceSlope, IsMissingOutsideTheMapAndWhereACornerIsVoid)
 {
     MapMaker maker;
-    const LoadedMap map = maker.make(
+    const std::shared_ptr<const Map> map = maker.make(
         {}, [](std::size_t c, std::size_t r) { return c == 6 && r == 6 ? std::nan("") : 1.0; });
     EXPECT_FALSE(slopeOf(map, {5.6, 5.5}));
     EXPECT_FALSE(slopeOf(map, {-0.1, 3.0}));

@@ -1,7 +1,7 @@
 // More than a million random inputs, put together from the pure functions as the view does it.
 
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "core/terrain/ray_cast.h"
 #include "core/view/exaggeration.h"
 #include "core/view/navigation.h"
@@ -354,8 +354,8 @@ class NavigationWalkOnMaps : public testing::TestWithParam<const char*> {};
 TEST_P(NavigationWalkOnMaps, NeverLosesTheMapNorEntersTheGround)
 {
     JobMonitor monitor;
-    const auto dataset = loadDataset({(test::bundledSamples() / GetParam()).string(), 1, {}},
-                                     monitor, defaultMemoryBudget());
+    const auto dataset = readMap(RasterSpec{(test::bundledSamples() / GetParam()).string(), 1, {}},
+                                 monitor, defaultMemoryBudget());
     ASSERT_TRUE(dataset);
     const Georeference& georeference = (*dataset)->georeference();
     Walk walk((*dataset)->heightfield(), georeference.sceneFrame(),

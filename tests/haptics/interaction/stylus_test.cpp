@@ -295,18 +295,18 @@ SceneSurface scene(const std::string& name)
     }
     if (name == "Layers") {
         // A holed map over a finer one at another height, turned, over one that reaches beyond.
-        const LoadedMap top =
+        const std::shared_ptr<const Map> top =
             maker.make({.columns = 31, .rows = 25}, [&](std::size_t c, std::size_t r) {
                 return std::hypot(at(c) - 12.0, at(r) - 12.0) < 6.0
                            ? std::nan("")
                            : 500.0 + 90.0 * std::sin(at(c));
             });
-        const LoadedMap middle = maker.make(
+        const std::shared_ptr<const Map> middle = maker.make(
             {.columns = 70, .rows = 70, .transform = {500100.0, 9.0, 4.0, 3999900.0, 4.0, -9.0}},
             [&](std::size_t c, std::size_t r) {
                 return 900.0 + 150.0 * std::cos(at(c) / 6.0) * std::sin(at(r) / 5.0);
             });
-        const LoadedMap bottom = maker.make(
+        const std::shared_ptr<const Map> bottom = maker.make(
             {.columns = 40, .rows = 40, .transform = {499000.0, 70.0, 0.0, 4000700.0, 0.0, -70.0}},
             [&](std::size_t c, std::size_t r) {
                 return 300.0 * std::sin(at(c * 3 + r)) + 40.0 * at(r);

@@ -44,10 +44,10 @@ void takeMemory()
 
 class Band final : public GDALRasterBand {
 public:
-    Band(GDALDataset* dataset, std::string fault)
+    Band(GDALDataset* map, std::string fault)
         : fault_(std::move(fault))
     {
-        poDS = dataset;
+        poDS = map;
         nBand = 1;
         eDataType = GDT_Int16;
         nBlockXSize = 20;
@@ -78,16 +78,16 @@ private:
     std::string fault_;
 };
 
-class Dataset final : public GDALDataset {
+class Map final : public GDALDataset {
 public:
-    explicit Dataset(std::string fault)
+    explicit Map(std::string fault)
         : fault_(fault)
     {
         nRasterXSize = 20;
         nRasterYSize = 20;
         SetBand(1, new Band(this, std::move(fault)));
     }
-    ~Dataset() override
+    ~Map() override
     {
         if (fault_ == "crash while closing") {
             std::raise(SIGSEGV);
@@ -139,7 +139,7 @@ GDALDataset* open(GDALOpenInfo* info)
         CPLError(CE_Failure, CPLE_AppDefined, "The header is wrong.\nIn two lines.");
         return nullptr;
     }
-    return new Dataset(fault);
+    return new Map(fault);
 }
 
 } // namespace

@@ -68,13 +68,13 @@ protected:
 
 TEST_F(TerrainViewTest, ShowsTheSurfaceWherePickingFindsIt)
 {
-    const Dataset& dataset = *view().map().dataset;
+    const Map& map = *view().map();
     for (const GridPoint grid : {GridPoint{20.0, 12.0}, GridPoint{5.5, 30.25}, GridPoint{50, 3}}) {
         const auto position = view().positionOf(grid);
         ASSERT_TRUE(position);
         const auto hit = view().surfaceAt(*position);
         ASSERT_TRUE(hit);
-        EXPECT_NEAR(hit->height_m, dataset.heightfield().height(hit->grid), 1e-9);
+        EXPECT_NEAR(hit->height_m, map.heightfield().height(hit->grid), 1e-9);
         // The far side of the hill may be hidden; these places are not.
         EXPECT_NEAR(hit->grid.column, grid.column, 1e-6);
         EXPECT_NEAR(hit->grid.row, grid.row, 1e-6);
@@ -160,7 +160,7 @@ TEST_F(TerrainViewTest, NeverShowsOnlySky)
         *window_,
         QString::fromStdString((test::bundledSamples() / "mount_st_helens_30m.tif").string())));
     view().setExaggeration(10.0);
-    const Heightfield& heights = view().map().dataset->heightfield();
+    const Heightfield& heights = view().map()->heightfield();
     const double last_column = static_cast<double>(heights.columns() - 1);
     const double last_row = static_cast<double>(heights.rows() - 1);
     const auto is_ground_seen = [this] {
@@ -175,7 +175,7 @@ TEST_F(TerrainViewTest, NeverShowsOnlySky)
                                         std::pair{GridPoint{last_column / 3.0, last_row}, 180.0},
                                         std::pair{GridPoint{0.0, last_row / 3.0}, -90.0}}) {
         OrbitCamera camera = view().camera();
-        camera.target = view().map().dataset->georeference().sceneFrame().toScene(
+        camera.target = view().map()->georeference().sceneFrame().toScene(
             grid, 10.0 * heights.range()->maximum_m);
         camera.distance_m = 3000.0;
         camera.azimuth = Angle::degrees(azimuth);
@@ -196,12 +196,12 @@ TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
     });
     ASSERT_TRUE(openAndWait(*window_, wall));
     view().setExaggeration(1.0);
-    const Dataset& dataset = *view().map().dataset;
-    const SceneFrame& frame = dataset.georeference().sceneFrame();
+    const Map& map = *view().map();
+    const SceneFrame& frame = map.georeference().sceneFrame();
     int frames_over_wall = 0;
     QObject::connect(&view(), &TerrainView::pointerMoved, &view(), [&] {
         const ScenePoint eye = eyeOf(view().camera());
-        const double ground_m = dataset.heightfield().height(frame.toGrid(eye));
+        const double ground_m = map.heightfield().height(frame.toGrid(eye));
         if (std::isfinite(ground_m)) {
             EXPECT_GT(eye.z, ground_m);
             frames_over_wall += ground_m > 300.0 ? 1 : 0;
@@ -294,7 +294,7 @@ TEST_F(TerrainViewTest, ShowsSkyThroughHoles)
     camera.tilt = {};
     view().setCamera(camera);
     ASSERT_TRUE(rest());
-    const SceneFrame& frame = view().map().dataset->georeference().sceneFrame();
+    const SceneFrame& frame = view().map()->georeference().sceneFrame();
     const auto hole = project(view().camera(), {.width = view().width(), .height = view().height()},
                               frame.toScene({29.5, 19.5}, 130.0 * view().exaggeration()));
     ASSERT_TRUE(hole);

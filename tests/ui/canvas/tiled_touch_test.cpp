@@ -25,20 +25,20 @@ class TiledTouchTest : public testing::Test {
 protected:
     void SetUp() override
     {
-        const DatasetSpec spec{.path = maps_.waves().toStdString()};
-        const LoadedMap held = test::loadedMap(spec.path);
+        const RasterSpec spec{.path = maps_.waves().toStdString()};
+        const std::shared_ptr<const Map> held = test::loadedMap(spec.path);
         const MapOpener opener = large_.opener();
         JobMonitor monitor;
-        auto tiled = opener.open(spec, {}, opener.resources, monitor);
+        auto tiled = large_.openTiled(spec, opener.resources, monitor);
         ASSERT_TRUE(tiled) << tiled.error().message;
-        ASSERT_TRUE(tiled->dataset->heightfield().isTiled());
-        ASSERT_FALSE(held.dataset->heightfield().isTiled());
+        ASSERT_TRUE((*tiled)->heightfield().isTiled());
+        ASSERT_FALSE(held->heightfield().isTiled());
         held_ = show(held);
         tiled_ = show(*tiled);
     }
     void TearDown() override { large_.holdTiles(false); }
 
-    static std::unique_ptr<TerrainView> show(const LoadedMap& map)
+    static std::unique_ptr<TerrainView> show(const std::shared_ptr<const Map>& map)
     {
         auto view = std::make_unique<TerrainView>();
         view->setTool(Tool::Touch);

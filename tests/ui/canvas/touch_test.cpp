@@ -46,7 +46,7 @@ private:
     int count_ = 0;
 };
 
-LoadedMap hills(MapMaker& maker, double base_m = 0.0)
+std::shared_ptr<const Map> hills(MapMaker& maker, double base_m = 0.0)
 {
     return maker.make({.columns = 120, .rows = 90}, [=](std::size_t c, std::size_t r) {
         const double x = static_cast<double>(c);
@@ -159,10 +159,10 @@ protected:
         ASSERT_TRUE(
             QTest::qWaitFor([this] { return view_->isReady() && view_->hasFocus(); }, kTimeout));
     }
-    void show(const std::vector<LoadedMap>& maps)
+    void show(const std::vector<std::shared_ptr<const Map>>& maps)
     {
         std::vector<ShownLayer> layers;
-        for (const LoadedMap& map : maps) {
+        for (const std::shared_ptr<const Map>& map : maps) {
             layers.push_back({.map = map, .ramp = colorRampNamed("grey")});
         }
         view_->setLayers(layers);
@@ -542,7 +542,7 @@ TEST_F(TouchTest, TheFirstMapMayOpenUnderThePointer)
 
 TEST_F(TouchTest, LayersThatChangeBelowKeepTheStylusOverTheGround)
 {
-    const LoadedMap top = hills(maker_);
+    const std::shared_ptr<const Map> top = hills(maker_);
     show({top});
     hover({400.0, 300.0});
     ASSERT_TRUE(view_->stylus());
@@ -628,7 +628,7 @@ TEST(TerrainViewWithoutContext, SaysThatItIsUnavailable)
     embedded.setVersion(2, 0);
     embedded.setProfile(QSurfaceFormat::NoProfile);
     MapMaker maker;
-    const LoadedMap map = hills(maker);
+    const std::shared_ptr<const Map> map = hills(maker);
     for (const QSurfaceFormat& format : {none, embedded}) {
         TerrainView view;
         QSignalSpy unavailable(&view, &TerrainView::unavailable);

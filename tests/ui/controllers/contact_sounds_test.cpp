@@ -28,7 +28,7 @@ protected:
         view_->resize(800, 600);
         view_->show();
         ASSERT_TRUE(QTest::qWaitFor([this] { return view_->isReady(); }, kTimeout));
-        const LoadedMap map =
+        const std::shared_ptr<const Map> map =
             maker_.make({.columns = 120, .rows = 90}, [](std::size_t c, std::size_t r) {
                 return 100.0 * std::sin(static_cast<double>(c) / 11.0) +
                        20.0 * static_cast<double>(r % 3);

@@ -86,11 +86,11 @@ protected:
     void expectSameProxies(const QString& file)
     {
         const SceneMap& map = view().ground().maps().front();
-        const auto& dataset = map.map.dataset;
+        const auto& dataset = map.map;
         const double exaggeration = view().exaggeration();
         const GoalFrame frame({dataset, &dataset->georeference()}, map.frame, exaggeration);
         const auto model = makeContactModel(
-            kContactModelDefault, {map.map.filled, map.frame, exaggeration}, {.radius_m = 1.0});
+            kContactModelDefault, {map.map->filled(), map.frame, exaggeration}, {.radius_m = 1.0});
         QFile text(file);
         ASSERT_TRUE(text.open(QIODevice::ReadOnly));
         const QList<QByteArray> lines = text.readAll().trimmed().split('\n');
@@ -763,13 +763,13 @@ class HapticsControllerOfTiles : public testing::Test {
 protected:
     void SetUp() override
     {
-        const DatasetSpec spec{.path = maps_.waves().toStdString()};
+        const RasterSpec spec{.path = maps_.waves().toStdString()};
         whole_ = SceneSurface({test::loadedMap(spec.path)});
         const MapOpener opener = large_.opener();
         JobMonitor monitor;
-        const auto tiled = opener.open(spec, {}, opener.resources, monitor);
+        const auto tiled = large_.openTiled(spec, opener.resources, monitor);
         ASSERT_TRUE(tiled) << tiled.error().message;
-        ASSERT_TRUE(tiled->dataset->heightfield().isTiled());
+        ASSERT_TRUE((*tiled)->heightfield().isTiled());
         view_ = std::make_unique<TerrainView>();
         view_->resize(500, 400);
         haptics_ = std::make_unique<HapticsController>(*view_, testDrivers(hand_));

@@ -24,14 +24,15 @@ struct Outcomes {
 
     explicit Outcomes(LoadController& controller)
     {
-        QObject::connect(
-            &controller, &LoadController::succeeded, &controller,
-            [this](const LoadedMap& map) { succeeded.push_back(map.dataset->spec().path); });
+        QObject::connect(&controller, &LoadController::succeeded, &controller,
+                         [this](const std::shared_ptr<const Map>& map) {
+                             succeeded.push_back(map->spec().path);
+                         });
         QObject::connect(
             &controller, &LoadController::failed, &controller,
             [this](const LoadFailure& failure) { failed.push_back(failure.error.message); });
         QObject::connect(&controller, &LoadController::cancelled, &controller,
-                         [this](const DatasetSpec&) { ++cancelled; });
+                         [this](const RasterSpec&) { ++cancelled; });
     }
     std::size_t count() const
     {
@@ -43,15 +44,15 @@ TEST(LoadController, DeliversAMapWithAllItsParts)
 {
     const TestMaps maps;
     LoadController controller;
-    LoadedMap loaded;
+    std::shared_ptr<const Map> loaded;
     QObject::connect(&controller, &LoadController::succeeded, &controller,
-                     [&](const LoadedMap& map) { loaded = map; });
+                     [&](const std::shared_ptr<const Map>& map) { loaded = map; });
     controller.start(requestFor(maps.hill()));
     EXPECT_TRUE(controller.isLoading());
     ASSERT_TRUE(QTest::qWaitFor([&] { return !controller.isLoading(); }, kTimeout));
     ASSERT_TRUE(loaded);
-    EXPECT_TRUE(loaded.analysis);
-    EXPECT_TRUE(loaded.relief);
+    EXPECT_TRUE(loaded->analysis());
+    EXPECT_TRUE(loaded->relief());
 }
 
 TEST(LoadController, TellsWhyAFileCannotBeOpened)

@@ -90,7 +90,7 @@ protected:
     // Whether the sample is there, and what the file says.
     static void expectRightHeights(MainWindow& window)
     {
-        const Heightfield& heightfield = layerOf(window).dataset->heightfield();
+        const Heightfield& heightfield = layerOf(window).map->heightfield();
         ASSERT_TRUE(heightfield.isTiled());
         for (const auto& [column, row] : {std::pair{0, 0}, {300, 200}, {1399, 1099}, {256, 511}}) {
             const GridPoint grid{static_cast<double>(column), static_cast<double>(row)};
@@ -108,7 +108,7 @@ protected:
     static void expectUsablePreview(MainWindow& window)
     {
         ASSERT_EQ(window.session().layers.size(), 1U);
-        EXPECT_TRUE(layerOf(window).dataset->isPreview());
+        EXPECT_TRUE(layerOf(window).map->isPreview());
         EXPECT_FALSE(window.controller().isBusy());
         EXPECT_FALSE(window.controller().isPreparing());
         EXPECT_FALSE(window.findChild<LoadStatus*>()->isVisible());
@@ -124,7 +124,7 @@ protected:
     }
     std::string preparedFile() const
     {
-        const auto path = preparedPathFor({.path = file_.toStdString()}, folder_);
+        const auto path = preparedPathFor(*openRaster({.path = file_.toStdString()}), folder_);
         EXPECT_TRUE(path);
         return *path;
     }
@@ -141,7 +141,7 @@ TEST_F(PreparationTest, ShowsTheMapItselfInTheEndAndAtOnceTheNextTime)
     expectRightHeights(*window);
     EXPECT_TRUE(std::filesystem::exists(preparedFile())) << preparedFile();
     WindowOptions again = options();
-    again.opener.prepare = [](const DatasetSpec&, const MapResources&, JobMonitor&) -> Status {
+    again.opener.prepare = [](const RasterSpec&, const MapResources&, JobMonitor&) -> Status {
         return Error{ErrorCode::Unreadable, "prepared twice"};
     };
     again.opener.resources.held_bytes_max = std::size_t{1} << 30; // though it could be held
@@ -189,10 +189,10 @@ TEST_F(PreparationTest, SaysWhatIsWrongWithTheFolderAndGoesOnInAnother)
 TEST_F(PreparationTest, SaysThatTheFileIsNoLongerWhole)
 {
     WindowOptions some = options();
-    some.opener.prepare = [](const DatasetSpec& spec, const MapResources& resources,
+    some.opener.prepare = [](const RasterSpec& spec, const MapResources& resources,
                              JobMonitor& monitor) {
         std::filesystem::resize_file(spec.path, std::filesystem::file_size(spec.path) / 3);
-        return prepareForOpening(spec, resources, monitor);
+        return buildOverviews(spec, resources, monitor);
     };
     const auto window = makeWindow(some);
     const QSignalSpy dialogs(window.get(), &MainWindow::openFailed);

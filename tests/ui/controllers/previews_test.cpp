@@ -76,7 +76,7 @@ protected:
         window_->open(file);
         return waitFor([&] {
             return window_->session().layers.size() == count + 1 && !controller().isBusy() &&
-                   large_.begunCount() > 0 && view().map().dataset == layer().dataset;
+                   large_.begunCount() > 0 && view().map() == layer().map;
         });
     }
     bool waitUntilWhole()
@@ -84,7 +84,7 @@ protected:
         return waitFor([this] {
             return !controller().isBusy() && !controller().isPreparing() &&
                    std::none_of(window_->session().layers.begin(), window_->session().layers.end(),
-                                [](const Layer& l) { return l.dataset->isPreview(); });
+                                [](const Layer& l) { return l.map->isPreview(); });
         });
     }
     PreparationState state() { return controller().preparationOf(layer().id).state; }
@@ -117,9 +117,9 @@ protected:
 TEST_F(PreviewsTest, GiveWayToTheirMapsInPlace)
 {
     ASSERT_TRUE(openPreview(map()));
-    EXPECT_TRUE(layer().dataset->isPreview());
+    EXPECT_TRUE(layer().map->isPreview());
     EXPECT_EQ(state(), PreparationState::Running);
-    EXPECT_FALSE(view().map().dataset->heightfield().isTiled());
+    EXPECT_FALSE(view().map()->heightfield().isTiled());
     const LayerId id = layer().id;
     // Everything that may change meanwhile.
     controller().rename(id, QStringLiteral("Plain"));
@@ -138,8 +138,8 @@ TEST_F(PreviewsTest, GiveWayToTheirMapsInPlace)
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
-    EXPECT_TRUE(layer().dataset->heightfield().isTiled());
-    EXPECT_EQ(view().map().dataset, layer().dataset);
+    EXPECT_TRUE(layer().map->heightfield().isTiled());
+    EXPECT_EQ(view().map(), layer().map);
     EXPECT_EQ(layer().id, id);
     EXPECT_EQ(layer().name, "Plain");
     EXPECT_EQ(layer().ramp, "grey");
@@ -167,8 +167,8 @@ TEST_F(PreviewsTest, GiveWayWhereverTheyAreInTheList)
     EXPECT_FALSE(layer(1).is_visible);
     // Seen again as it was left.
     controller().setVisible(below, true);
-    ASSERT_TRUE(waitFor([this] { return view().map().dataset == layer(0).dataset; }));
-    EXPECT_TRUE(view().map().dataset->heightfield().isTiled());
+    ASSERT_TRUE(waitFor([this] { return view().map() == layer(0).map; }));
+    EXPECT_TRUE(view().map()->heightfield().isTiled());
 }
 
 TEST_F(PreviewsTest, AreGoneFromTheStepsOfUndoToo)
@@ -177,14 +177,14 @@ TEST_F(PreviewsTest, AreGoneFromTheStepsOfUndoToo)
     controller().rename(layer().id, QStringLiteral("Plain"));
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
-    const auto whole = layer().dataset;
+    const auto whole = layer().map;
     window_->undoStack().undo();
-    EXPECT_EQ(layer().dataset, whole);
+    EXPECT_EQ(layer().map, whole);
     window_->undoStack().undo();
     EXPECT_TRUE(window_->session().layers.empty());
     window_->undoStack().redo();
     window_->undoStack().redo();
-    EXPECT_EQ(layer().dataset, whole);
+    EXPECT_EQ(layer().map, whole);
     EXPECT_EQ(layer().name, "Plain");
     EXPECT_FALSE(controller().isPreparing());
 }
@@ -196,7 +196,7 @@ TEST_F(PreviewsTest, AreNotPreparedForNobodyAndComeBackWithUndo)
     EXPECT_FALSE(controller().isPreparing());
     ASSERT_TRUE(waitFor([this] { return large_.stoppedCount() == 1; }));
     window_->undoStack().undo();
-    EXPECT_TRUE(layer().dataset->isPreview());
+    EXPECT_TRUE(layer().map->isPreview());
     EXPECT_TRUE(controller().isPreparing());
     ASSERT_TRUE(waitFor([this] { return large_.begunCount() == 2; }));
     large_.finishPreparing();
@@ -205,7 +205,7 @@ TEST_F(PreviewsTest, AreNotPreparedForNobodyAndComeBackWithUndo)
     window_->undoStack().redo();
     EXPECT_TRUE(window_->session().layers.empty());
     window_->undoStack().undo();
-    EXPECT_FALSE(layer().dataset->isPreview());
+    EXPECT_FALSE(layer().map->isPreview());
 }
 
 TEST_F(PreviewsTest, RemovedWhileTheirMapIsReadyAreCompletedWhenTheyComeBack)
@@ -233,7 +233,7 @@ TEST_F(PreviewsTest, StayWhenPreparingIsStoppedUntilItGoesOn)
     EXPECT_EQ(state(), PreparationState::Stopped);
     EXPECT_FALSE(controller().isPreparing());
     ASSERT_TRUE(waitFor([this] { return large_.stoppedCount() == 1; }));
-    EXPECT_TRUE(layer().dataset->isPreview());
+    EXPECT_TRUE(layer().map->isPreview());
     EXPECT_TRUE(window_->actionSet().layer.prepare->isEnabled());
     // It can be looked at and touched as before.
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
@@ -263,7 +263,7 @@ TEST_F(PreviewsTest, StayWhenPreparingFailsAndSayWhy)
     large_.finishPreparing(
         Error{ErrorCode::Unreadable, file.toStdString() + ": the disk is full; make room"});
     ASSERT_TRUE(waitFor([this] { return state() == PreparationState::Failed; }));
-    EXPECT_TRUE(layer().dataset->isPreview());
+    EXPECT_TRUE(layer().map->isPreview());
     EXPECT_TRUE(notice().startsWith(file + QStringLiteral(": the disk is full; make room")))
         << notice().toStdString();
     EXPECT_EQ(failures.count(), 0); // no dialog in the way
@@ -280,7 +280,7 @@ TEST_F(PreviewsTest, AreTakenForFailedWhereWhatWasPreparedIsGone)
     large_.finishPreparing();
     ASSERT_TRUE(waitFor([this] { return state() == PreparationState::Failed; }));
     EXPECT_NE(notice().indexOf(QStringLiteral("its overviews are gone")), -1);
-    EXPECT_TRUE(layer().dataset->isPreview());
+    EXPECT_TRUE(layer().map->isPreview());
     EXPECT_FALSE(controller().isBusy());
 }
 
@@ -309,33 +309,33 @@ TEST_F(PreviewsTest, TakeWhatTheUserTellsMeanwhile)
     ASSERT_TRUE(openPreview(map()));
     RasterOverrides overrides;
     overrides.vertical_unit = "ft";
-    const double height_m = layer().dataset->heightfield().sample(5, 5);
+    const double height_m = layer().map->heightfield().sample(5, 5);
     controller().overrideGeoreferencing(layer().id, overrides);
     ASSERT_TRUE(waitFor([this] { return !controller().isBusy(); }));
-    EXPECT_TRUE(layer().dataset->isPreview());
-    EXPECT_NEAR(layer().dataset->heightfield().sample(5, 5), height_m * 0.3048, 1e-9);
+    EXPECT_TRUE(layer().map->isPreview());
+    EXPECT_NEAR(layer().map->heightfield().sample(5, 5), height_m * 0.3048, 1e-9);
     EXPECT_EQ(large_.begunCount(), 1); // the same samples
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
-    EXPECT_EQ(layer().dataset->spec().overrides, overrides);
-    EXPECT_TRUE(layer().dataset->heightfield().isTiled());
+    EXPECT_EQ(layer().map->spec().overrides, overrides);
+    EXPECT_TRUE(layer().map->heightfield().isTiled());
     // Back before it was told, that map is completed too.
     window_->undoStack().undo();
     ASSERT_TRUE(waitUntilWhole());
-    EXPECT_TRUE(layer().dataset->spec().overrides.isEmpty());
-    EXPECT_TRUE(layer().dataset->heightfield().isTiled());
+    EXPECT_TRUE(layer().map->spec().overrides.isEmpty());
+    EXPECT_TRUE(layer().map->heightfield().isTiled());
 }
 
 TEST_F(PreviewsTest, GetBetterWhereTheFirstWasRough)
 {
     large_.makeRoughPreviews();
     ASSERT_TRUE(openPreview(map()));
-    ASSERT_TRUE(waitFor([this] { return layer().dataset->kind() == DatasetKind::Preview; }));
-    EXPECT_GT(layer().dataset->heightfield().columns(), 32U);
+    ASSERT_TRUE(waitFor([this] { return layer().map->kind() == MapKind::Preview; }));
+    EXPECT_GT(layer().map->heightfield().columns(), 32U);
     EXPECT_EQ(window_->undoStack().count(), 1);
     window_->undoStack().undo();
     window_->undoStack().redo();
-    EXPECT_EQ(layer().dataset->kind(), DatasetKind::Preview);
+    EXPECT_EQ(layer().map->kind(), MapKind::Preview);
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
 }
@@ -457,7 +457,7 @@ TEST_F(PreviewsTest, AreNotTakenForTheEndOfLoading)
     EXPECT_EQ(settled.count(), 0);
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilSettled(*window_));
-    EXPECT_FALSE(layer().dataset->isPreview());
+    EXPECT_FALSE(layer().map->isPreview());
 }
 
 } // namespace

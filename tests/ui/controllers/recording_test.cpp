@@ -123,7 +123,7 @@ TEST_F(RecordingTest, OfAMapBelowAnotherIsTheSameAgain)
     ASSERT_TRUE(moveTo({0.01, -0.02, -0.055}));
     ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
     ASSERT_NE(view().ground().maps()[1].frame,
-              view().ground().maps()[1].map.dataset->georeference().sceneFrame());
+              view().ground().maps()[1].map->georeference().sceneFrame());
     const QString file = maps_.path(QStringLiteral("touch.csv"));
     ASSERT_TRUE(haptics().startRecording(file));
     ASSERT_TRUE(stroke());

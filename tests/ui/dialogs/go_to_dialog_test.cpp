@@ -20,10 +20,10 @@ using D = ReadAs;
 
 class GoToDialogTest : public testing::Test {
 protected:
-    std::shared_ptr<const Dataset> load(const QString& file)
+    std::shared_ptr<const Map> load(const QString& file)
     {
         JobMonitor monitor;
-        return *loadDataset({.path = file.toStdString()}, monitor, std::size_t{1} << 24);
+        return *readMap(RasterSpec{.path = file.toStdString()}, monitor, std::size_t{1} << 24);
     }
 
     TestMaps maps_;
@@ -173,7 +173,7 @@ TEST_F(GoToDialogTest, FliesThereAndRemembersWhatWasAsked)
             ASSERT_TRUE(QTest::qWaitFor([&] { return window.view()->isPictureComplete(); }, 10000));
             const OrbitCamera& camera = window.view()->camera();
             const GridPoint target =
-                window.view()->map().dataset->georeference().sceneFrame().toGrid(camera.target);
+                window.view()->map()->georeference().sceneFrame().toGrid(camera.target);
             EXPECT_NEAR(target.column, 11.5, 0.01);
             EXPECT_NEAR(target.row, 11.5, 0.01);
             ASSERT_TRUE(

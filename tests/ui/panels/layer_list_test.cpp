@@ -120,7 +120,7 @@ TEST_F(LayerListTest, TheShowButtonShowsALayerInAStepThatCanBeUndone)
     QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, button.center());
     EXPECT_EQ(scene(), "m1.vrt");
     ASSERT_TRUE(waitUntilSettled(*window_));
-    EXPECT_EQ(window_->view()->map().dataset->info().body, bodyNamed("Mars"));
+    EXPECT_EQ(window_->view()->map()->info().body, bodyNamed("Mars"));
     EXPECT_EQ(activeLayer(window_->session())->name, "m1.vrt");
     EXPECT_EQ(check("m1.vrt"), Qt::Checked);
     EXPECT_EQ(check("m2.vrt"), Qt::Checked); // on the same body and in the same CRS

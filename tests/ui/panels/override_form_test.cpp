@@ -62,9 +62,9 @@ protected:
         EXPECT_EQ(noteOf(name), field<QWidget>(name)->accessibleDescription());
         EXPECT_TRUE(field<QWidget>(name)->hasFocus());
         EXPECT_EQ(field(name)->text(), entered);
-        EXPECT_TRUE(window_->view()->map().dataset->spec().overrides.isEmpty());
+        EXPECT_TRUE(window_->view()->map()->spec().overrides.isEmpty());
     }
-    const RasterInfo& info() { return activeLayer(window_->session())->dataset->info(); }
+    const RasterInfo& info() { return activeLayer(window_->session())->map->info(); }
 
     TestMaps maps_;
     std::unique_ptr<MainWindow> window_;
@@ -166,7 +166,7 @@ TEST_F(OverrideFormTest, SetsScaleOffsetAndVerticalDatum)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     const auto sample = [this] {
-        return activeLayer(window_->session())->dataset->heightfield().height({12.0, 7.0});
+        return activeLayer(window_->session())->map->heightfield().height({12.0, 7.0});
     };
     const double before = sample();
     openForm();
@@ -197,7 +197,7 @@ TEST_F(OverrideFormTest, FindsACrsByNameWithTheKeyboard)
     QTest::keyClick(list, Qt::Key_Return);
     EXPECT_EQ(crs->text(), second);
     EXPECT_TRUE(form().isVisible()); // choosing applies nothing yet
-    EXPECT_TRUE(window_->view()->map().dataset->spec().overrides.isEmpty());
+    EXPECT_TRUE(window_->view()->map()->spec().overrides.isEmpty());
     EXPECT_FALSE(noteOf("crs").isEmpty()); // its name, in words
 }
 

@@ -160,7 +160,7 @@ TEST_F(ExaggerationTest, IsThatOfEachMapWhenTheyAlternate)
 {
     window_->controller().setExaggeration(3.0);
     ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
-    const double suitable = suitableExaggeration(*view().map().dataset);
+    const double suitable = suitableExaggeration(*view().map());
     EXPECT_DOUBLE_EQ(view().exaggeration(), suitable);
     EXPECT_NEAR(box().value(), suitable, 1e-6);
     window_->controller().setVisible(window_->session().layers.front().id, false);

@@ -1,6 +1,6 @@
 // Named features lie where the gazetteers say, through the whole program: file, placement, surface.
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/support/nomenclature.h"
 #include "tests/support/shared_data.h"
 
@@ -18,12 +18,12 @@ namespace {
 using test::marsDistance_km;
 using test::NamedFeature;
 
-std::shared_ptr<const Dataset> load(const std::filesystem::path& path)
+std::shared_ptr<const Map> load(const std::filesystem::path& path)
 {
     JobMonitor monitor;
-    auto dataset = loadDataset({path.string(), 1, {}}, monitor, defaultMemoryBudget());
-    EXPECT_TRUE(dataset) << dataset.error().message;
-    return dataset ? *dataset : nullptr;
+    auto map = readMap(RasterSpec{path.string(), 1, {}}, monitor, defaultMemoryBudget());
+    EXPECT_TRUE(map) << map.error().message;
+    return map ? *map : nullptr;
 }
 
 struct Place {
@@ -34,18 +34,18 @@ struct Place {
 
 // The highest (sign +1) or lowest (-1) sample among those that `is_wanted` takes.
 template <typename F>
-Place extreme(const Dataset& dataset, double sign, F&& is_wanted)
+Place extreme(const Map& map, double sign, F&& is_wanted)
 {
     Place best;
     bool is_found = false;
-    const Heightfield& surface = dataset.heightfield();
+    const Heightfield& surface = map.heightfield();
     for (std::size_t r = 0; r < surface.rows(); ++r) {
         for (std::size_t c = 0; c < surface.columns(); ++c) {
             const double height = surface.sample(c, r);
             if (!(height * sign > best.height_m * sign) && is_found) {
                 continue;
             }
-            const auto place = dataset.georeference().toGeographic(
+            const auto place = map.georeference().toGeographic(
                 GridPoint{static_cast<double>(c), static_cast<double>(r)});
             if (!place || std::isnan(height)) {
                 continue;
@@ -67,22 +67,21 @@ double distance_km(const Place& place, const NamedFeature& feature)
                            feature.east_longitude_deg);
 }
 
-Place highestWithin(const Dataset& dataset, const NamedFeature& feature, double radius_km)
+Place highestWithin(const Map& map, const NamedFeature& feature, double radius_km)
 {
-    return extreme(dataset, 1.0,
-                   [&](const Place& p) { return distance_km(p, feature) < radius_km; });
+    return extreme(map, 1.0, [&](const Place& p) { return distance_km(p, feature) < radius_km; });
 }
 
-double heightAt(const Dataset& dataset, double latitude_deg, double longitude_deg)
+double heightAt(const Map& map, double latitude_deg, double longitude_deg)
 {
-    return dataset.height({Angle::degrees(longitude_deg), Angle::degrees(latitude_deg)});
+    return map.height({Angle::degrees(longitude_deg), Angle::degrees(latitude_deg)});
 }
 
 // Coordinates of the Gazetteer of Planetary Nomenclature.
 const NamedFeature kOlympus{"Olympus Mons", 610.13, 18.65, 226.2};
 const NamedFeature kHellas{"Hellas Planitia", 2299.16, -42.43, 70.5};
 
-void expectOlympusAndHellas(const Dataset& mars)
+void expectOlympusAndHellas(const Map& mars)
 {
     const auto any = [](const Place&) { return true; };
     const Place summit = extreme(mars, 1.0, any);
@@ -203,13 +202,13 @@ TEST(LolaPlacement, CornersSummitAndDeepestPoint)
 TEST(EarthPlacement, PeaksAndLakesAreWhereTheyAre)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
-    const auto near = [](const Dataset& d, double lat, double lon, double degrees, double sign) {
+    const auto near = [](const Map& d, double lat, double lon, double degrees, double sign) {
         return extreme(d, sign, [=](const Place& p) {
             return std::hypot(p.latitude_deg - lat, p.longitude_deg - lon) < degrees;
         });
     };
     // Latitudes of the program are planetocentric: 46.0 geographic is 45.81.
-    const auto centric = [](const Dataset& d, double lat) {
+    const auto centric = [](const Map& d, double lat) {
         return d.georeference().crs()->ellipsoid()->planetocentric(Angle::degrees(lat)).degrees();
     };
     const auto helens = load(test::sharedData() / "usgs_dem/SainteHelens.dem");

@@ -1,7 +1,8 @@
 // Heights in feet, radii and kilometres come out in metres.
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/support/gdal_tools.h"
+#include "tests/support/map_maker.h"
 #include "tests/support/random.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
@@ -17,12 +18,12 @@
 namespace marsview {
 namespace {
 
-std::shared_ptr<const Dataset> load(const std::string& path, const RasterOverrides& overrides = {})
+std::shared_ptr<const Map> load(const std::string& path, const RasterOverrides& overrides = {})
 {
     JobMonitor monitor;
-    auto dataset = loadDataset({path, 1, overrides}, monitor, defaultMemoryBudget());
-    EXPECT_TRUE(dataset) << dataset.error().message;
-    return dataset ? *dataset : nullptr;
+    auto map = readMap(RasterSpec{path, 1, overrides}, monitor, defaultMemoryBudget());
+    EXPECT_TRUE(map) << map.error().message;
+    return map ? *map : nullptr;
 }
 
 // A USGS DEM is ASCII in records of 1024 characters. Record A holds the unit of elevations in
@@ -99,7 +100,7 @@ TEST(Units, FeetThatTheFileDoesNotDeclareAreToldByTheUser)
     }
     EXPECT_NEAR(feet->heightfield().range()->maximum_m, 14176.16 * 0.3048, 0.01);
     // The same without reading the file again.
-    const auto told = withOverrides(*assumed, overrides);
+    const auto told = test::overridden(*assumed, overrides);
     ASSERT_TRUE(told) << told.error().message;
     EXPECT_EQ((*told)->heightfield().sample(1000, 500), feet->heightfield().sample(1000, 500));
 }
@@ -113,7 +114,7 @@ TEST(Units, ScaleAndOffsetOfTheUserChangeAMapWithoutReadingItAgain)
     overrides.scale = -0.5; // the smallest sample becomes the highest
     overrides.offset = 12.0;
     overrides.vertical_datum = "local datum";
-    const auto changed = withOverrides(*mars, overrides);
+    const auto changed = test::overridden(*mars, overrides);
     ASSERT_TRUE(changed) << changed.error().message;
     const std::vector<test::Pixel> pixels{{0, 0}, {1439, 719}, {528, 285}, {700, 333}};
     const std::vector<double> raw = test::rawSamples(path, pixels);
@@ -126,11 +127,11 @@ TEST(Units, ScaleAndOffsetOfTheUserChangeAMapWithoutReadingItAgain)
     EXPECT_EQ((*changed)->info().vertical_datum, "local datum");
     EXPECT_EQ((*changed)->spec().overrides, overrides);
     // And back.
-    const auto again = withOverrides(**changed, {});
+    const auto again = test::overridden(**changed, {});
     ASSERT_TRUE(again);
     EXPECT_EQ((*again)->heightfield().sample(528, 285), raw[2]);
     overrides.scale = 0.0;
-    const auto refused = withOverrides(*mars, overrides);
+    const auto refused = test::overridden(*mars, overrides);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refusedField(refused.error()), OverrideField::Scale) << refused.error().message;
 }

@@ -1,6 +1,7 @@
 #include "core/raster/raster_file.h"
-#include "core/session/dataset.h"
+#include "core/session/map.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/map_maker.h"
 #include "tests/support/random.h"
 #include "tests/support/reference_surface.h"
 
@@ -20,10 +21,10 @@ using test::recipeFor;
 using test::TempFolder;
 using test::writeRaster;
 
-std::shared_ptr<const Dataset> load(const std::string& path, const RasterOverrides& overrides = {})
+std::shared_ptr<const Map> load(const std::string& path, const RasterOverrides& overrides = {})
 {
     JobMonitor monitor;
-    auto dataset = loadDataset({path, 1, overrides}, monitor, std::size_t{1} << 30);
+    auto dataset = readMap(RasterSpec{path, 1, overrides}, monitor, std::size_t{1} << 30);
     EXPECT_TRUE(dataset) << dataset.error().message;
     return dataset ? *dataset : nullptr;
 }
@@ -54,12 +55,12 @@ struct GlobalMap {
     }
 };
 
-double heightAt(const Dataset& dataset, double longitude_deg, double latitude_deg)
+double heightAt(const Map& dataset, double longitude_deg, double latitude_deg)
 {
     return dataset.height({Angle::degrees(longitude_deg), Angle::degrees(latitude_deg)});
 }
 
-TEST(Dataset, TheSeamOfAGlobalMapIsAnyOtherCell)
+TEST(Map, TheSeamOfAGlobalMapIsAnyOtherCell)
 {
     for (const double west_deg : {0.0, -180.0, 20.0}) {
         const GlobalMap map(west_deg);
@@ -89,7 +90,7 @@ TEST(Dataset, TheSeamOfAGlobalMapIsAnyOtherCell)
     }
 }
 
-TEST(Dataset, EverySampleOfAGlobalMapIsFoundByItsLongitudeAndLatitude)
+TEST(Map, EverySampleOfAGlobalMapIsFoundByItsLongitudeAndLatitude)
 {
     const GlobalMap map;
     const auto dataset = load(map.path);
@@ -106,7 +107,7 @@ TEST(Dataset, EverySampleOfAGlobalMapIsFoundByItsLongitudeAndLatitude)
 }
 
 // Rounding of the conversions must not put a sample of the map's edge outside the map.
-TEST(Dataset, TheOutermostSamplesAreFoundByTheirLongitudeAndLatitude)
+TEST(Map, TheOutermostSamplesAreFoundByTheirLongitudeAndLatitude)
 {
     const struct {
         const char* srs;
@@ -138,7 +139,7 @@ TEST(Dataset, TheOutermostSamplesAreFoundByTheirLongitudeAndLatitude)
     }
 }
 
-TEST(Dataset, OutsideAndNotANumberGiveNaN)
+TEST(Map, OutsideAndNotANumberGiveNaN)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor(kColumns, std::vector<float>(kColumns * kRows, 7.0F));
@@ -162,14 +163,14 @@ TEST(DatasetOverrides, AreAppliedWithoutReadingTheFileAgain)
     ASSERT_TRUE(before);
     RasterOverrides overrides;
     overrides.vertical_unit = "km";
-    const auto after = withOverrides(*before, overrides);
+    const auto after = test::overridden(*before, overrides);
     ASSERT_TRUE(after) << after.error().message;
     EXPECT_EQ(&(*after)->heightfield().samples(), &before->heightfield().samples());
     EXPECT_EQ((*after)->heightfield().sample(3, 4), before->heightfield().sample(3, 4) * 1000.0);
     EXPECT_EQ((*after)->spec().overrides, overrides);
     EXPECT_EQ((*after)->fileInfo().unit.name, "m");
     // And taken back.
-    const auto again = withOverrides(**after, {});
+    const auto again = test::overridden(**after, {});
     ASSERT_TRUE(again);
     EXPECT_EQ((*again)->heightfield().sample(3, 4), before->heightfield().sample(3, 4));
     EXPECT_TRUE((*again)->spec().overrides.isEmpty());
@@ -191,7 +192,7 @@ TEST(DatasetOverrides, ThatCannotBeUsedLeaveTheMapAsItWas)
     bad[5].transform = GeoTransform::Terms{0, 0, 0, 0, 0, 0};
     bad[6].nodata = -9999.0;
     for (std::size_t i = 0; i < bad.size(); ++i) {
-        const auto refused = withOverrides(*dataset, bad[i]);
+        const auto refused = test::overridden(*dataset, bad[i]);
         ASSERT_FALSE(refused) << i;
         EXPECT_TRUE(refused.error().message.starts_with(map.path)) << refused.error().message;
         EXPECT_EQ(refused.error().message.find('\n'), std::string::npos);
@@ -200,7 +201,8 @@ TEST(DatasetOverrides, ThatCannotBeUsedLeaveTheMapAsItWas)
         EXPECT_TRUE(dataset->spec().overrides.isEmpty());
         if (i < 6) {
             JobMonitor monitor;
-            const auto loaded = loadDataset({map.path, 1, bad[i]}, monitor, std::size_t{1} << 30);
+            const auto loaded =
+                readMap(RasterSpec{map.path, 1, bad[i]}, monitor, std::size_t{1} << 30);
             ASSERT_FALSE(loaded) << i;
             EXPECT_TRUE(loaded.error().message.starts_with(map.path)) << loaded.error().message;
         }
@@ -218,7 +220,7 @@ TEST(DatasetOverrides, AnotherNodataIsAppliedOnLoading)
     EXPECT_FALSE(std::isnan(dataset->heightfield().sample(0, 0)));
 }
 
-TEST(Dataset, WithoutAPlaceEachPixelIsAUnitSquare)
+TEST(Map, WithoutAPlaceEachPixelIsAUnitSquare)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<float>(3, {1, 2, 3, 4, 5, 6});

@@ -1,5 +1,5 @@
 #include "core/session/open_map.h"
-#include "core/session/preview_map.h"
+#include "core/session/preview.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/shared_data.h"
@@ -16,12 +16,12 @@ namespace {
 
 constexpr auto kForever = std::chrono::hours(1);
 
-LoadedMap preview(const DatasetSpec& spec, std::size_t samples_max)
+std::shared_ptr<const Map> preview(const RasterSpec& spec, std::size_t samples_max)
 {
     JobMonitor monitor;
     auto map = readPreview(spec, {.samples_max = samples_max, .time_max = kForever}, monitor);
     EXPECT_TRUE(map) << map.error().message;
-    return map ? *map : LoadedMap{};
+    return map ? *map : std::shared_ptr<const Map>{};
 }
 
 std::string marsPath()
@@ -42,11 +42,11 @@ MapPoint outerCorner(const Georeference& georeference, bool is_right, bool is_lo
 TEST(PreviewMap, CoversTheSameGroundAsItsMap)
 {
     for (const std::string& path : {marsPath(), helensPath()}) {
-        const LoadedMap whole = test::loadedMap(path);
-        const LoadedMap small = preview({.path = path}, 5000);
+        const std::shared_ptr<const Map> whole = test::loadedMap(path);
+        const std::shared_ptr<const Map> small = preview({.path = path}, 5000);
         ASSERT_TRUE(small);
-        const Georeference& a = whole.dataset->georeference();
-        const Georeference& b = small.dataset->georeference();
+        const Georeference& a = whole->georeference();
+        const Georeference& b = small->georeference();
         ASSERT_LT(b.columns(), a.columns());
         const double tolerance =
             1e-9 * a.transform().pixelWidth() * static_cast<double>(a.columns());
@@ -71,17 +71,17 @@ TEST(PreviewMap, CoversTheSameGroundAsItsMap)
 TEST(PreviewMap, HasTheHeightsOfItsMapAtItsSamples)
 {
     for (const std::string& path : {marsPath(), helensPath()}) {
-        const LoadedMap whole = test::loadedMap(path);
-        const LoadedMap small = preview({.path = path}, 5000);
+        const std::shared_ptr<const Map> whole = test::loadedMap(path);
+        const std::shared_ptr<const Map> small = preview({.path = path}, 5000);
         ASSERT_TRUE(small);
-        const Heightfield& truth = whole.dataset->heightfield();
-        const Heightfield& heights = small.dataset->heightfield();
+        const Heightfield& truth = whole->heightfield();
+        const Heightfield& heights = small->heightfield();
         for (std::size_t j = 0; j < heights.rows(); ++j) {
             for (std::size_t i = 0; i < heights.columns(); ++i) {
                 // By way of the ground: where the sample says that it lies.
-                const MapPoint at = small.dataset->georeference().toMap(
-                    {static_cast<double>(i), static_cast<double>(j)});
-                const GridPoint place = whole.dataset->georeference().toGrid(at);
+                const MapPoint at =
+                    small->georeference().toMap({static_cast<double>(i), static_cast<double>(j)});
+                const GridPoint place = whole->georeference().toGrid(at);
                 const auto column = decimatedPlace(i, heights.columns(), truth.columns());
                 const auto row = decimatedPlace(j, heights.rows(), truth.rows());
                 EXPECT_LE(std::abs(place.column - static_cast<double>(column)), 0.5 + 1e-6);
@@ -96,45 +96,45 @@ TEST(PreviewMap, HasTheHeightsOfItsMapAtItsSamples)
 
 TEST(PreviewMap, TellsOfTheWholeFileAndThatItIsAPreview)
 {
-    const LoadedMap whole = test::loadedMap(marsPath());
-    const LoadedMap small = preview({.path = marsPath()}, 5000);
+    const std::shared_ptr<const Map> whole = test::loadedMap(marsPath());
+    const std::shared_ptr<const Map> small = preview({.path = marsPath()}, 5000);
     ASSERT_TRUE(small);
-    EXPECT_TRUE(small.dataset->isPreview());
-    EXPECT_FALSE(whole.dataset->isPreview());
-    const RasterInfo& info = small.dataset->info();
-    EXPECT_EQ(info.columns, whole.dataset->info().columns);
-    EXPECT_EQ(info.rows, whole.dataset->info().rows);
-    EXPECT_EQ(info.transform, whole.dataset->info().transform);
-    EXPECT_EQ(info.body, whole.dataset->info().body);
-    EXPECT_EQ(info.vertical_datum, whole.dataset->info().vertical_datum);
+    EXPECT_TRUE(small->isPreview());
+    EXPECT_FALSE(whole->isPreview());
+    const RasterInfo& info = small->info();
+    EXPECT_EQ(info.columns, whole->info().columns);
+    EXPECT_EQ(info.rows, whole->info().rows);
+    EXPECT_EQ(info.transform, whole->info().transform);
+    EXPECT_EQ(info.body, whole->info().body);
+    EXPECT_EQ(info.vertical_datum, whole->info().vertical_datum);
     ASSERT_FALSE(info.notices.empty());
     EXPECT_NE(info.notices.front().find("a preview of"), std::string::npos);
-    EXPECT_TRUE(isOfSameMap(*small.dataset, *whole.dataset));
-    EXPECT_FALSE(isOfSameMap(*whole.dataset, *whole.dataset));
-    EXPECT_FALSE(isOfSameMap(*small.dataset, *test::loadedMap(helensPath()).dataset));
+    EXPECT_TRUE(isOfSameMap(*small, *whole));
+    EXPECT_FALSE(isOfSameMap(*whole, *whole));
+    EXPECT_FALSE(isOfSameMap(*small, *test::loadedMap(helensPath())));
 }
 
 TEST(PreviewMap, TakesOverrides)
 {
-    DatasetSpec spec{.path = helensPath()};
+    RasterSpec spec{.path = helensPath()};
     spec.overrides.vertical_unit = "ft";
     spec.overrides.transform = {{100.0, 2.0, 0.0, 200.0, 0.0, -3.0}};
-    const LoadedMap small = preview(spec, 3000);
+    const std::shared_ptr<const Map> small = preview(spec, 3000);
     ASSERT_TRUE(small);
-    const Georeference& georeference = small.dataset->georeference();
+    const Georeference& georeference = small->georeference();
     const MapPoint corner = outerCorner(georeference, true, true);
-    EXPECT_NEAR(corner.x, 100.0 + 2.0 * static_cast<double>(small.dataset->info().columns), 1e-6);
-    EXPECT_NEAR(corner.y, 200.0 - 3.0 * static_cast<double>(small.dataset->info().rows), 1e-6);
+    EXPECT_NEAR(corner.x, 100.0 + 2.0 * static_cast<double>(small->info().columns), 1e-6);
+    EXPECT_NEAR(corner.y, 200.0 - 3.0 * static_cast<double>(small->info().rows), 1e-6);
     // And others afterwards, without being read again.
-    const auto later = withOverrides(*small.dataset, {});
+    const auto later = test::overridden(*small, {});
     ASSERT_TRUE(later);
     EXPECT_TRUE((*later)->isPreview());
-    EXPECT_EQ((*later)->info().columns, small.dataset->info().columns);
-    const LoadedMap plain = preview({.path = helensPath()}, 3000);
-    EXPECT_EQ((*later)->georeference().transform(), plain.dataset->georeference().transform());
-    EXPECT_NEAR((*later)->heightfield().sample(3, 3),
-                small.dataset->heightfield().sample(3, 3) / 0.3048, 1e-6);
-    EXPECT_EQ((*later)->info().notices, plain.dataset->info().notices);
+    EXPECT_EQ((*later)->info().columns, small->info().columns);
+    const std::shared_ptr<const Map> plain = preview({.path = helensPath()}, 3000);
+    EXPECT_EQ((*later)->georeference().transform(), plain->georeference().transform());
+    EXPECT_NEAR((*later)->heightfield().sample(3, 3), small->heightfield().sample(3, 3) / 0.3048,
+                1e-6);
+    EXPECT_EQ((*later)->info().notices, plain->info().notices);
 }
 
 TEST(PreviewMap, PlacesFilesWithoutAnyPlaceInPixels)
@@ -143,10 +143,10 @@ TEST(PreviewMap, PlacesFilesWithoutAnyPlaceInPixels)
     test::RasterRecipe recipe = test::recipeFor(200, std::vector<float>(200 * 100, 7.0F));
     recipe.transform.reset();
     const std::string path = test::writeRaster(folder, "bare.tif", "GTiff", recipe);
-    const LoadedMap small = preview({.path = path}, 200);
+    const std::shared_ptr<const Map> small = preview({.path = path}, 200);
     ASSERT_TRUE(small);
-    EXPECT_EQ(small.dataset->georeference().columns(), 20U);
-    const MapPoint corner = outerCorner(small.dataset->georeference(), true, true);
+    EXPECT_EQ(small->georeference().columns(), 20U);
+    const MapPoint corner = outerCorner(small->georeference(), true, true);
     EXPECT_NEAR(corner.x, 200.0, 1e-9);
     EXPECT_NEAR(corner.y, -100.0, 1e-9);
 }
@@ -158,11 +158,12 @@ TEST(PreviewMap, IsRefusedWhereNoHeightIsFound)
     recipe.band_xml = "<NoDataValue>-9</NoDataValue>";
     const std::string path = test::writeRaster(folder, "void.tif", "GTiff", recipe);
     JobMonitor monitor;
-    const auto map = previewMap({.path = path}, 200, monitor);
+    const auto map = readPreview(RasterSpec{.path = path}, {.samples_max = 200}, monitor);
     ASSERT_FALSE(map);
     EXPECT_EQ(map.error().code, ErrorCode::Invalid);
     EXPECT_EQ(map.error().message.find(path + ": "), 0U);
-    const auto missing = previewMap({.path = "/no/such/map.tif"}, 200, monitor);
+    const auto missing =
+        readPreview(RasterSpec{.path = "/no/such/map.tif"}, {.samples_max = 200}, monitor);
     ASSERT_FALSE(missing);
 }
 
