@@ -27,20 +27,6 @@ QString outsideText()
     return StatusReadout::tr("outside the map");
 }
 
-// A place of the scene on the grid of another map in the same CRS.
-GridPoint onGridOf(const Map& map, const Map& scene, GridPoint grid)
-{
-    if (&map == &scene) {
-        return grid;
-    }
-    if (const auto place = scene.georeference().toGeographic(grid)) {
-        if (const auto there = map.georeference().toGrid(*place)) {
-            return *there; // the right turn of longitude
-        }
-    }
-    return map.georeference().toGrid(scene.georeference().toMap(grid));
-}
-
 // A thin line between two parts of the readout.
 QWidget* makeRule(QWidget* parent)
 {

@@ -35,21 +35,6 @@ bool isSame(const std::vector<ShownLayer>& a, const std::vector<ShownLayer>& b)
         });
 }
 
-// A place of `layer` on the grid of the scene, which lies in the same CRS.
-std::optional<GridPoint> onGridOf(const Map& scene, const Map& layer, GridPoint grid)
-{
-    if (&scene == &layer) {
-        return grid;
-    }
-    const Georeference& from = layer.georeference();
-    if (const auto place = from.toGeographic(grid)) {
-        if (const auto there = scene.georeference().toGrid(*place)) {
-            return there;
-        }
-    }
-    return scene.georeference().toGrid(from.toMap(grid));
-}
-
 GridPoint placeOn(const Map& map, double column_share, double row_share)
 {
     return {column_share * static_cast<double>(map.heightfield().columns() - 1),
@@ -566,9 +551,10 @@ void SessionController::goTo(LayerId id)
     if (layer == nullptr || scene == nullptr || !is_shown()) {
         return;
     }
-    if (const auto centre = onGridOf(*scene, *layer->map, placeOn(*layer->map, 0.5, 0.5))) {
-        view_.flyTo(*centre, distanceToSee(*layer->map));
-    }
+    const Map& map = *layer->map;
+    const GridPoint centre =
+        scene->georeference().toGrid(placeOn(map, 0.5, 0.5), map.georeference());
+    view_.flyTo(centre, distanceToSee(map));
 }
 
 } // namespace marsview
