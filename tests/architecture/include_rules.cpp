@@ -9,7 +9,7 @@
 namespace marsview::test {
 namespace {
 
-// A folder and the project's folders that it may include from. Longer folders come first.
+// A folder and the folders of the project that it may include from. Longer paths come first.
 struct Layer {
     std::string_view folder;
     std::vector<std::string_view> may_include;
@@ -82,7 +82,7 @@ bool startsWithAny(std::string_view text, std::span<const std::string_view> star
                        [text](std::string_view start) { return text.starts_with(start); });
 }
 
-// <QWidget>, <QtCore/qglobal.h>, <qpa/…>: Qt's headers begin so, and no other library's here.
+// <QWidget>, <QtCore/qglobal.h>, <qpa/…>: in this project only Qt's headers are named like this.
 bool isQt(std::string_view header)
 {
     return (header.size() > 1 && header[0] == 'Q' &&
@@ -151,7 +151,7 @@ std::vector<std::string> includesOf(std::string_view source)
                 }
             }
         }
-        // Comments that begin within a line end there, in this project.
+        // In this project a comment that starts within a line also ends on that line.
         is_in_comment = line.starts_with("/*") && line.find("*/") == std::string_view::npos;
     }
     return includes;

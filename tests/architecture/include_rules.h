@@ -1,4 +1,4 @@
-// The arrows between the layers, as rules on #include lines.
+// The dependency rules between the layers, checked on #include lines.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace marsview::test {
 
-/// What is named by the #include directives of a source text, with their quotes or brackets:
-/// "core/base/angle.h" as it stands, <QWidget> with its brackets. Comments are not includes.
+/// The names in the #include directives of a source text, with their quotes or brackets:
+/// "core/base/angle.h" as written, <QWidget> with its brackets. Comments are skipped.
 std::vector<std::string> includesOf(std::string_view source);
 
-/// Why a file at `path` (relative to the source root) may not include `include`; nothing where it
-/// may.
+/// The reason why a file at `path` (relative to the source root) may not include `include`; nullopt
+/// where it may.
 std::optional<std::string> violation(std::string_view path, std::string_view include);
 
 } // namespace marsview::test

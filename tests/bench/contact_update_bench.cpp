@@ -1,5 +1,5 @@
-// One update of a contact model over a fractal, by the speed of the goal. The hash of the proxies
-// is printed, so that a faster number that touches something else is noticed.
+// One update of a contact model over a fractal, by the speed of the goal. Prints a hash of the
+// proxies, so that a faster run with a different result is noticed.
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
@@ -64,8 +64,8 @@ SceneFrame centredFrame()
     return {.origin = {kCentre, kCentre}};
 }
 
-// A hand that wanders at a constant speed, `low` to `high` metres above the surface (negative:
-// pressed into it), turning back at the border.
+// A goal that moves at a constant speed, `low` to `high` meters above the surface (negative: below
+// it), and turns back at the border.
 std::vector<ScenePoint>
 path(const HeightfieldSurface& surface, double cells, double low, double high)
 {
@@ -102,7 +102,7 @@ void run(benchmark::State& state, const S& surface, double low, double high)
     Model<S> model(surface);
     ContactCounters sum;
     std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const ScenePoint& goal : goals) { // once for what is counted, and to warm the caches
+    for (const ScenePoint& goal : goals) { // once for the counters, and to warm the caches
         const ContactState at = model.update(goal);
         sum.vertices += at.counters.vertices;
         sum.faces += at.counters.faces;

@@ -1,5 +1,5 @@
-// Casts and nearest points over general meshes, by the number of triangles; and what it takes to
-// check and build one. The hash of what was met is printed.
+// Segment casts and nearest-point queries over general meshes, by the number of triangles, and the
+// cost of checking and building a mesh. Prints a hash of the results.
 #include "core/mesh/mesh_cast.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -38,7 +38,7 @@ TriangleSoup ball(std::uint32_t n)
         const double polar = std::numbers::pi * i / n;
         for (std::uint32_t j = 0; j < n; ++j) {
             const double around = 2.0 * std::numbers::pi * j / n;
-            const double rough = std::min(0.1, 1.0 / n); // no steeper the finer
+            const double rough = std::min(0.1, 1.0 / n); // independent of the resolution
             const double radius = 1.1 + 0.08 * std::sin(7.0 * polar) * std::cos(5.0 * around) +
                                   random.uniform(-rough, rough) * 0.5;
             soup.vertices.push_back({radius * std::sin(polar) * std::cos(around),
@@ -100,7 +100,7 @@ void castAll(benchmark::State& state, const std::vector<Segment>& segments)
     }
     const double n = static_cast<double>(segments.size());
     state.counters["triangles"] = static_cast<double>(mesh.faceCount());
-    state.counters["faces"] = faces / n; // looked at, a cast
+    state.counters["faces"] = faces / n; // tests per cast
     state.counters["hits"] = hits / n;
     state.SetLabel(fmt::format("hash {:016x}", hash));
 }
@@ -120,7 +120,8 @@ std::vector<Segment> segments(double reach_from, double step_low, double step_hi
     return all;
 }
 
-// From just outside the ball, a hand's motion long: mostly free, as while touching.
+// From just outside the ball, as long as a typical movement of the goal: mostly free, as during
+// contact.
 void BM_MeshCastShort(benchmark::State& state)
 {
     castAll(state, segments(1.2, 0.0, 0.02));
@@ -163,7 +164,7 @@ void BM_MeshBuild(benchmark::State& state)
     state.counters["bytes_per_triangle"] = static_cast<double>(bytes) / faces;
 }
 
-// The argument's square, twice, is the number of triangles: 1000, 100 000, 1 000 000.
+// Twice the square of the argument is the number of triangles: 1000, 100 000, 1 000 000.
 BENCHMARK(BM_MeshCastShort)->Arg(23)->Arg(224)->Arg(708);
 BENCHMARK(BM_MeshCastLong)->Arg(23)->Arg(224)->Arg(708);
 BENCHMARK(BM_MeshNearest)->Arg(23)->Arg(224)->Arg(708);

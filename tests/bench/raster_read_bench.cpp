@@ -1,5 +1,5 @@
-// Reading whole rasters: samples per second, bytes held per sample, peak memory. The hash of the
-// samples is printed, so that a faster number that reads something else is noticed.
+// Reading whole rasters: samples per second, bytes in memory per sample, peak memory. Prints a hash
+// of the samples, so that a faster run with a different result is noticed.
 #include "core/raster/raster_file.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
@@ -18,7 +18,7 @@
 namespace marsview {
 namespace {
 
-// FNV-1a over the samples as doubles, voids as a mark of their own: the same on every machine.
+// FNV-1a over the samples as doubles; a void counts as a separate value. The same on every machine.
 std::uint64_t hashOf(const SampleGrid& grid)
 {
     std::uint64_t hash = 0xcbf29ce484222325U;
@@ -77,7 +77,7 @@ void BM_ReadAll(benchmark::State& state, const std::string& path)
     state.SetLabel(fmt::format("hash {:016x}", hash));
 }
 
-// Fractal-like but cheap: sums of sines, with a void in a thousand.
+// Looks like a fractal but is cheap: a sum of sines, with one void per thousand samples.
 template <typename T>
 std::string synthetic(const test::TempFolder& folder,
                       const std::string& name,

@@ -7,7 +7,7 @@
 namespace marsview::test {
 namespace {
 
-// What the device of these runs states, and all that is softer, at any delay it may have.
+// The stiffness that the device of these runs states, and every lower one, at any supported delay.
 class Stability : public testing::TestWithParam<ContactModelKind> {};
 
 TEST_P(Stability, HoldsUpToTheStatedStiffnessInEveryScene)
@@ -24,7 +24,7 @@ TEST_P(Stability, HoldsUpToTheStatedStiffnessInEveryScene)
                     << share * kStatedStiffnessNPerM << " N/m: ripple " << 1e6 * result.ripple_m
                     << " um, " << result.speed_m_per_s << " m/s, " << result.energy_j_max << " J";
                 if (scene != StabilityScene::ZoomHold) {
-                    EXPECT_GT(result.contact_share, 0.5); // or nothing was pressed on
+                    EXPECT_GT(result.contact_share, 0.5); // otherwise nothing was pressed
                 }
             }
         }
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Models,
                              return name;
                          });
 
-// Why the ground gives way to a wall: the two together are stiffer than either.
+// Why the terrain force fades near a workspace wall: together the two are stiffer than either one.
 TEST(StabilityCase, TheNaiveSumOfWallAndGroundIsNotStableWhereTheFadeIs)
 {
     StabilityOptions options{.stiffness_n_per_m = kStatedStiffnessNPerM, .delay_s = 3e-3};
@@ -51,7 +51,7 @@ TEST(StabilityCase, TheNaiveSumOfWallAndGroundIsNotStableWhereTheFadeIs)
     EXPECT_GT(naive.ripple_m, 1e-3);
 }
 
-// A criterion that everything fulfils would say nothing.
+// A criterion that every run meets would prove nothing.
 TEST(StabilityCase, IsLostWhereASpringIsTooStiffForItsDelay)
 {
     const StabilityOptions options{.stiffness_n_per_m = 4000.0, .delay_s = 3e-3};

@@ -1,9 +1,9 @@
 // One update of each contact model over a map in memory and over the same map in tiles that are all
-// there: what reading through a resident window costs. The hash of the proxies is the same for
+// resident: the cost of reading through a resident window. The hash of the proxies is the same for
 // both.
 //
-// Of the two, times can only be compared within a run:
-// --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
+// Compare the two times only within one run: --benchmark_enable_random_interleaving=true
+// --benchmark_repetitions=5
 #include "core/contact/contact_model.h"
 #include "haptics/terrain/resident_terrain.h"
 #include "tests/haptics/terrain/tiled_map.h"
@@ -24,7 +24,7 @@
 namespace marsview {
 namespace {
 
-// The finest level of a window is as large: 8 × 8 tiles.
+// The same size as the finest level of a window: 8 × 8 tiles.
 constexpr std::size_t kSide = 2048;
 
 struct Ground {
@@ -60,7 +60,7 @@ SceneFrame centredFrame()
     return {.origin = {kCentre, kCentre}};
 }
 
-// A hand that wanders at a constant speed, 2 to 5 metres below the surface, turning back at the
+// A goal that moves at a constant speed, 2 to 5 meters below the surface, and turns back at the
 // border.
 std::vector<ScenePoint> path(double cells)
 {
@@ -125,7 +125,7 @@ void registerAll()
             auto* bench = benchmark::RegisterBenchmark(
                 name.c_str(),
                 [kind, is_tiled](benchmark::State& state) { run(state, kind, is_tiled); });
-            bench->Arg(1)->Arg(10)->Arg(100)->Arg(500); // tenths of a cell an update
+            bench->Arg(1)->Arg(10)->Arg(100)->Arg(500); // tenths of a cell per update
         }
     }
 }

@@ -40,7 +40,7 @@ nlohmann::json onSmallFractal(const std::vector<std::string>& options)
     return measured(all);
 }
 
-// The rows of a model with goals below the surface.
+// The rows of a model for goals below the surface.
 std::vector<nlohmann::json> rowsOf(const nlohmann::json& bench, const std::string& model)
 {
     std::vector<nlohmann::json> rows;
@@ -99,7 +99,7 @@ TEST(BenchContactCommand, MeasuresModelsAtSpeedsOverAFractal)
 
 TEST(BenchContactCommand, FindsWhatIsExactAndWhatIsNot)
 {
-    // The ideal shares no code with the models. At a tenth of a cell an update all of them follow
+    // The ideal shares no code with the models. At a tenth of a cell per update all models follow
     // it; at ten cells only the one that follows the motion does.
     const nlohmann::json bench =
         onSmallFractal({"--updates", "600", "--goals", "below", "--scales", "3"});
@@ -177,7 +177,7 @@ TEST(BenchContactCommand, PrintsATableForPeopleAndDrawsAPlot)
     }
     EXPECT_THAT(plot, testing::Not(testing::HasSubstr("nan")));
     EXPECT_THAT(plot, testing::Not(testing::HasSubstr("inf")));
-    // A line for each model in each panel.
+    // One line per model in each panel.
     std::size_t lines = 0;
     for (std::size_t at = plot.find("<polyline"); at != std::string::npos;
          at = plot.find("<polyline", at + 1)) {

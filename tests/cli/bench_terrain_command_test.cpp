@@ -27,7 +27,7 @@ made(const TempFolder& folder, const std::string& name, const std::vector<std::s
     return path;
 }
 
-// In tiles even though it is small, with what is prepared in the folder.
+// Runs the benchmark in tiles although the map is small. The prepared files go into the folder.
 nlohmann::json
 measured(const TempFolder& folder, const std::string& map, const std::vector<std::string>& options)
 {
@@ -53,7 +53,7 @@ TEST(BenchTerrainCommand, MakesAMapOverTheSameGround)
     for (const char* key : {"body", "crs_name", "vertical_datum"}) {
         EXPECT_EQ(info.value(key, nlohmann::json()), source.value(key, nlohmann::json())) << key;
     }
-    // The same corners, in other steps.
+    // The same corners with a different step.
     EXPECT_DOUBLE_EQ(info["geotransform"][0], source["geotransform"][0]);
     EXPECT_DOUBLE_EQ(info["geotransform"][3], source["geotransform"][3]);
     EXPECT_DOUBLE_EQ(info["geotransform"][1].get<double>() * 700.0, 360.0);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// The program with folders of its own for plugins and for what it remembers of them.
+// The program with its own folders for plugins and for their stored state.
 class DevicesCommand : public testing::Test {
 protected:
     void SetUp() override { fs::create_directories(plugins()); }
@@ -37,7 +37,7 @@ protected:
                            "XDG_STATE_HOME=" + folder_.file("state"), "MARSVIEW_PLUGIN_PATH="},
                           arguments);
     }
-    // What is said about the plugin of this behaviour.
+    // The report about the plugin with this behavior.
     nlohmann::json entry(const std::string& behaviour) const
     {
         const ProgramOutput output = devices({"--json"});
@@ -123,7 +123,7 @@ TEST(DevicesTable, AlignsItsColumnsAndKeepsEveryDeviceOnOneLine)
               "x:   A h\xef\xbf\xbdnd  ready");
 }
 
-// As its makers would do it: from an installed program, by CMake's and by pkg-config's way.
+// As a plugin author would build it: against an installed program, with CMake and with pkg-config.
 TEST_F(DevicesCommand, ListsTheExamplePluginOnceItsMakersHaveBuiltIt)
 {
     const std::string prefix = folder_.file("prefix");

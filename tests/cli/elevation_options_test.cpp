@@ -1,4 +1,4 @@
-// What the user knows better of samples and their placement, on the command line.
+// Overrides of units, scale, offset and placement on the command line.
 #include "tests/cli/run_cli.h"
 #include "tests/support/gdal_tools.h"
 #include "tests/support/make_raster.h"
@@ -79,7 +79,8 @@ TEST(ElevationOptions, ApplyToAPreparedMapWhateverItWasPreparedWith)
         SCOPED_TRACE(prepared);
         const std::vector<std::string> options{"--scale", "-0.25", "--offset", "3"};
         EXPECT_DOUBLE_EQ(sampleWith(prepared, "599", "499", options), raw * -0.25 + 3.0);
-        // Its levels, bounds and fills are in other elevations than it was prepared with.
+        // Levels, bounds and fills are converted to elevations other than those they were prepared
+        // with.
         nlohmann::json info = nlohmann::json::parse(
             runCliWith(tiled, {"info", prepared, "--json", "--scale", "-0.25", "--offset", "3"})
                 .out);

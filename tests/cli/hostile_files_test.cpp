@@ -1,4 +1,4 @@
-// Files that crash, stop or fill what reads them: each ends in one line, or opens.
+// Files that make a reader crash, hang or run out of memory: each gives a one-line error, or opens.
 #include "tests/cli/run_cli.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/random.h"
@@ -49,7 +49,7 @@ struct TiffEntry {
 constexpr std::uint16_t kShort = 3;
 constexpr std::uint16_t kLong = 4;
 
-// A classic TIFF of one directory.
+// A classic TIFF with one directory.
 std::string tiffOf(const std::vector<TiffEntry>& entries, std::uint32_t next = 0)
 {
     std::string bytes = "II*" + bytesOf(0, 1) + bytesOf(8, 4) + bytesOf(entries.size(), 2);
@@ -60,7 +60,7 @@ std::string tiffOf(const std::vector<TiffEntry>& entries, std::uint32_t next = 0
     return bytes + bytesOf(next, 4);
 }
 
-// What GDAL's own test file many_blocks_truncated.tif does: a raster of 16 million strips.
+// The same as GDAL's own test file many_blocks_truncated.tif: a raster with 16 million strips.
 std::string manyBlocks(std::uint32_t listed, std::uint32_t offsets_at)
 {
     constexpr std::uint32_t kRows = 1U << 24U;
@@ -146,7 +146,7 @@ TEST_F(HostileFiles, WhatLibrariesPrintIsNotShown)
     EXPECT_THAT(refused.err, HasSubstr("The header is wrong. In two lines\n"));
 }
 
-// 2026-11: HDF5 did after a file that it had opened.
+// 2026-11: HDF5 crashed at exit after opening a file successfully.
 TEST_F(HostileFiles, ALibraryThatCrashesAtTheEndOfTheProgramDoesNotCount)
 {
     const ProgramOutput output = info(faulty("crash at exit"), {"--json"});
@@ -154,7 +154,7 @@ TEST_F(HostileFiles, ALibraryThatCrashesAtTheEndOfTheProgramDoesNotCount)
     EXPECT_EQ(nlohmann::json::parse(output.out)["maximum"], 399.0);
 }
 
-// 2026-11: HDF5 made 20 000 files next to a damaged one.
+// 2026-11: HDF5 created 20 000 files next to a damaged one.
 TEST_F(HostileFiles, LibrariesMakeNoFiles)
 {
     constexpr unsigned kVersion = 1; // LANDLOCK_CREATE_RULESET_VERSION
@@ -170,7 +170,7 @@ TEST_F(HostileFiles, AnAnswerIsRememberedUntilTheFileChanges)
 {
     const std::string path = faulty("crash");
     expectOneLine(info(path), path);
-    environment_ = {"GDAL_DRIVER_PATH=/nonexistent"}; // no driver recognises it now
+    environment_ = {"GDAL_DRIVER_PATH=/nonexistent"}; // the file has no driver now
     EXPECT_THAT(info(path).err, HasSubstr("the FAULTY driver of GDAL crashed"));
     faulty("crash"); // the same bytes, written again
     EXPECT_THAT(info(path).err, HasSubstr("is not a raster that GDAL can read"));
@@ -187,7 +187,7 @@ TEST_F(HostileFiles, ATiffThatPromisesMoreBlocksThanItHoldsIsRefused)
     }
 }
 
-// 2026-11: GDAL 3.6 looks for a row beyond the last one without end.
+// 2026-11: GDAL 3.6 searches endlessly for a row beyond the last one.
 TEST_F(HostileFiles, ATextGridThatIsCutShortIsRefused)
 {
     const std::string whole = test::readFile(test::writeRaster(
@@ -246,7 +246,7 @@ TEST_F(HostileFiles, BombsAreRefused)
     }
 }
 
-// A few bytes of a file, changed as transfers and bad disks do.
+// Changes a few bytes of a file, as failed transfers and bad disks do.
 std::string damaged(std::string bytes, int how, test::Random& random)
 {
     switch (how) {
@@ -319,7 +319,7 @@ TEST_F(HostileFiles, StatisticsCanBeSkipped)
     EXPECT_THAT(info(path, {"--no-statistics"}).out, HasSubstr("minimum         unknown"));
 }
 
-// 100 million samples in one tile: GDAL would hold it whole.
+// 100 million samples in one tile: GDAL would read it into memory as a whole.
 TEST_F(HostileFiles, StatisticsOfHugeBlocksAreLeftOut)
 {
     const std::string path = test::writeRaster(

@@ -47,7 +47,7 @@ TEST(InfoCommand, AgreesWithGdalinfoOnEveryReadableFile)
         const std::string path = (sharedData() / entry.path).string();
         const ProgramOutput output = runCli({"info", path, "--json"});
         if (output.exit_status != 0) {
-            continue; // what must be refused, and how, is the subject of the raster tests
+            continue; // errors and their messages are tested with the rasters
         }
         SCOPED_TRACE(entry.path);
         const nlohmann::json ours = nlohmann::json::parse(output.out);
@@ -59,14 +59,14 @@ TEST(InfoCommand, AgreesWithGdalinfoOnEveryReadableFile)
         EXPECT_EQ(!ours["nodata"].is_null(), firstBand(theirs).contains("noDataValue"));
         EXPECT_EQ(!ours["crs_wkt"].is_null(), theirs.contains("coordinateSystem"));
         if (entry.path.find("megt90n000cb") != std::string::npos) {
-            continue; // moved by a pixel on purpose
+            continue; // shifted by a pixel on purpose
         }
         EXPECT_EQ(ours["geotransform"].is_null(), !theirs.contains("geoTransform"));
         if (theirs.contains("geoTransform")) {
             for (std::size_t i = 0; i < 6; ++i) {
                 const double term = theirs["geoTransform"][i].get<double>();
                 EXPECT_NEAR(ours["geotransform"][i].get<double>(), term,
-                            1e-16 + 1e-15 * std::abs(term)); // gdalinfo writes 16 decimals
+                            1e-16 + 1e-15 * std::abs(term)); // gdalinfo prints 16 decimals
             }
         }
     }
@@ -78,7 +78,7 @@ TEST(InfoCommand, PlacesTheCornersOfPds3MapsWhereTheLabelsDo)
     for (const char* label : {"mars_mola/megt90n000cb.lbl", "moon_lola/LDEM_4.LBL"}) {
         SCOPED_TRACE(label);
         const nlohmann::json corners = cliInfo((sharedData() / label).string())["corners_lonlat"];
-        constexpr double kRoundedScaleDeg = 0.002; // the labels write MAP_SCALE with five digits
+        constexpr double kRoundedScaleDeg = 0.002; // the labels give MAP_SCALE with five digits
         EXPECT_THAT(corners["upper_left"].get<std::vector<double>>(),
                     ElementsAre(DoubleNear(0.0, kRoundedScaleDeg), DoubleNear(90.0, 1e-9)));
         EXPECT_THAT(corners["lower_right"].get<std::vector<double>>(),

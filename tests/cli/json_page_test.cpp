@@ -1,4 +1,4 @@
-// The page that documents JSON output lists the fields that the program prints, and no others.
+// The page that documents the JSON output lists exactly the fields that the program prints.
 #include "tests/cli/run_cli.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
@@ -66,7 +66,7 @@ void addNames(const nlohmann::json& json, const std::string& prefix, Names& name
     }
 }
 
-// Names below one that is documented as free ("let_go_s.*") are not listed one by one.
+// Names below one that is documented as free ("let_go_s.*") are not listed separately.
 Names withoutFree(const Names& names, const DocumentedFields& documented)
 {
     Names kept;
@@ -93,10 +93,10 @@ void expectDocumented(const std::string& heading, const nlohmann::json& json)
     printed = withoutFree(printed, documented);
     for (const std::string& name : printed) {
         EXPECT_TRUE(documented.always.contains(name) || documented.sometimes.contains(name))
-            << name << " is printed and not documented";
+            << name << " is printed but not documented";
     }
     for (const std::string& name : documented.always) {
-        EXPECT_TRUE(printed.contains(name)) << name << " is documented and not printed";
+        EXPECT_TRUE(printed.contains(name)) << name << " is documented but not printed";
     }
 }
 

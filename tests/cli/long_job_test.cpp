@@ -27,10 +27,10 @@ TEST(LongJob, TellsTheTimeLeftFromThePaceOfThisRun)
 {
     using Seconds = std::chrono::duration<double>;
     EXPECT_EQ(LongJob::timeLeft(0.0, 0.5, Seconds(60.0)), "about 60 s left");
-    EXPECT_EQ(LongJob::timeLeft(0.5, 0.6, Seconds(60.0)), "about 4 min left"); // went on at 0.5
+    EXPECT_EQ(LongJob::timeLeft(0.5, 0.6, Seconds(60.0)), "about 4 min left"); // resumed at 0.5
     EXPECT_EQ(LongJob::timeLeft(0.0, 0.01, Seconds(180.0)), "about 5.0 h left");
-    EXPECT_EQ(LongJob::timeLeft(0.0, 0.001, Seconds(1.0)), ""); // too early to say
-    EXPECT_EQ(LongJob::timeLeft(0.0, 0.99, Seconds(60.0)), ""); // hardly any
+    EXPECT_EQ(LongJob::timeLeft(0.0, 0.001, Seconds(1.0)), ""); // too early for an estimate
+    EXPECT_EQ(LongJob::timeLeft(0.0, 0.99, Seconds(60.0)), ""); // almost no time
     EXPECT_EQ(LongJob::timeLeft(0.5, 0.5, Seconds(60.0)), "");
 }
 

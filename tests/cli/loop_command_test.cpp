@@ -32,7 +32,7 @@ nlohmann::json looped(std::vector<std::string> more)
     return output.exit_status == 0 ? nlohmann::json::parse(output.out) : nlohmann::json();
 }
 
-// The columns of a file, counted from 0, line by line.
+// The given columns of a file (numbered from 0), line by line.
 std::vector<std::string> columnsOf(const std::string& text, const std::vector<std::size_t>& wanted)
 {
     std::vector<std::string> lines;
@@ -56,7 +56,7 @@ std::vector<std::string> columnsOf(const std::string& text, const std::vector<st
     return lines;
 }
 
-// A loop on a plugin's device, which a test ends by signals. Its output is in a file.
+// A loop with a plugin's device, which the test ends with signals. Its output goes to a file.
 class RunningLoop {
 public:
     RunningLoop(const TempFolder& folder, const std::string& behaviour)
@@ -70,7 +70,7 @@ public:
 
     std::string printed() const { return folder_.file("printed"); }
     std::string recorded() const { return folder_.file("recorded.csv"); }
-    /// Of the files that mark calls of plugins which have not come back, those of `call`.
+    /// The number of marker files for `call`; a marker shows that a plugin call has not returned.
     std::size_t markers(const std::string& call = ".loading") const
     {
         std::error_code none;
@@ -81,7 +81,7 @@ public:
         }
         return count;
     }
-    /// False where the program ended before that.
+    /// False if the program ended first.
     bool waitUntil(const std::function<bool()>& is_so)
     {
         while (!is_so()) {
@@ -92,7 +92,7 @@ public:
         }
         return true;
     }
-    /// The exit status; -1 where the signal ended it.
+    /// The exit status; -1 if a signal ended it.
     int end(int signal)
     {
         program_.signal(signal);
@@ -148,7 +148,7 @@ TEST(LoopCommand, WhatItRecordsIsTheSameAgainInTraceAndInReplay)
 
 TEST(LoopCommand, WhatItRecordsOverTilesIsTheSameAgainInTrace)
 {
-    // From the first tick on, when there is nothing but the coarsest tile.
+    // From the first tick on, when only the coarsest tile is resident.
     const TempFolder folder;
     const std::string first = folder.file("first.csv");
     const std::string traced = folder.file("traced.csv");
@@ -166,7 +166,8 @@ TEST(LoopCommand, WhatItRecordsOverTilesIsTheSameAgainInTrace)
     run({"trace", bundledMars(), "--goals", first, "-o", traced});
     EXPECT_EQ(a, columnsOf(readFile(traced), {3, 0, 1, 2}));
 
-    // On another map there is no such ground: as it lies, and said so.
+    // On another map this tile does not exist: the goals are traced over the map as it is, with a
+    // message.
     const ProgramOutput other = run({"trace", bundledMountain(), "--goals", first, "-o", traced});
     EXPECT_THAT(other.err, HasSubstr("first.csv: was recorded on another map, one of "));
     EXPECT_THAT(other.err, HasSubstr(" samples of Mars"));
@@ -179,7 +180,7 @@ TEST(LoopCommand, ARecordingThatWasCutShortIsReadUpToThere)
     looped({"--device", "sim:swipe=5,lift_s=0.2", "--seconds", "0.5", "--record", whole});
     const std::string text = readFile(whole);
     const std::size_t lines = columnsOf(text, {0}).size();
-    // As where the program was killed, or the disk was full.
+    // As if the program had been killed, or the disk had been full.
     const std::string cut = folder.write("cut.csv", text.substr(0, text.size() - 3));
     const ProgramOutput traced = runCli({"trace", bundledMars(), "--goals", cut});
     EXPECT_EQ(traced.exit_status, 0) << traced.err;
@@ -213,7 +214,7 @@ TEST(LoopCommand, WhatComesOutOtherwiseThanItWasRecordedIsToldOf)
     EXPECT_EQ(differing(), 0);
     EXPECT_THAT(trace({"--unit", "ft"}), HasSubstr(" updates that come out otherwise now"));
     EXPECT_GT(differing(), 100);
-    EXPECT_EQ(trace({"--model", "god-object"}), "") << "this was asked for";
+    EXPECT_EQ(trace({"--model", "god-object"}), "") << "requested by the option";
     EXPECT_EQ(differing(), -1);
 }
 
@@ -253,7 +254,7 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     };
     const ProgramOutput nan = run("says_nan");
     EXPECT_THAT(nan.err, AllOf(HasSubstr("was lost after 0.0 s: "), HasSubstr("not finite; ")));
-    EXPECT_THAT(nan.out, HasSubstr("; last reason: device lost\n")) << "the report is printed, too";
+    EXPECT_THAT(nan.out, HasSubstr("; last reason: device lost\n")) << "with a report";
     const ProgramOutput millimetres = run("says_millimetres");
     EXPECT_THAT(millimetres.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
     const ProgramOutput lost = run("answers_nonsense");
@@ -271,7 +272,7 @@ TEST(LoopCommand, CountsTheEndOfItsTimeForNoTrouble)
 {
     const nlohmann::json loop = looped({"--device", "sim:swipe=3", "--seconds", "0.5"});
     ASSERT_FALSE(loop.is_null());
-    EXPECT_GT(loop["in_contact"], 100) << "there is a force to be let go";
+    EXPECT_GT(loop["in_contact"], 100) << "the test needs a force that can be switched off";
     EXPECT_FALSE(loop["let_go_s"].contains("device unready")) << loop["let_go_s"];
     EXPECT_NE(loop["last_reason"], "device unready");
 }
@@ -284,7 +285,7 @@ TEST(LoopCommand, EndsInTimeWhereADeviceIsTooSlowForItsRate)
                    {"loop", bundledMars(), "--json", "--seconds", "0.5", "--device",
                     "plugin:" MARSVIEW_TEST_PLUGINS "/is_slow.so"});
     EXPECT_EQ(output.exit_status, 0) << output.err;
-    // A read takes five milliseconds, so that all 500 ticks would take two and a half seconds.
+    // A read takes five milliseconds, so all 500 ticks would take two and a half seconds.
     EXPECT_LT(nlohmann::json::parse(output.out)["ticks"], 400);
 }
 
@@ -294,7 +295,7 @@ TEST(LoopCommand, EndsInOrderHoweverItIsToldTo)
         SCOPED_TRACE(signal);
         const TempFolder folder;
         RunningLoop loop(folder, "is_good");
-        ASSERT_TRUE(loop.waitUntil([&] { // some updates behind the columns' names
+        ASSERT_TRUE(loop.waitUntil([&] { // some updates after the header line
             constexpr std::uintmax_t kBytesMin = 1000;
             std::error_code none;
             const std::uintmax_t bytes = std::filesystem::file_size(loop.recorded(), none);
@@ -342,7 +343,7 @@ TEST(LoopCommand, DoesNotRecordOverWhatItReplays)
     EXPECT_EQ(output.exit_status, 1);
     EXPECT_THAT(output.err, HasSubstr("is an input file; choose another output file"));
     EXPECT_EQ(readFile(goals), "x,y,z\n0,0,0\n");
-    // Nor over its map, in whatever way.
+    // The map must not be overwritten either, through any option.
     const std::string map = folder.file("map.tif");
     std::filesystem::copy_file(bundledMars(), map);
     const std::string before = readFile(map);

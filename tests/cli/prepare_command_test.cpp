@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using testing::HasSubstr;
 
-// Tall: a checkpoint every 2048 rows.
+// A tall map: a checkpoint every 2048 rows.
 std::string tallMap(const TempFolder& folder)
 {
     Random random;
@@ -66,7 +66,8 @@ TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
     const nlohmann::json info = checksumsOf(folder.file("map.tif"));
     EXPECT_EQ(firstBand(info)["checksum"], firstBand(source_info)["checksum"]);
     EXPECT_EQ(firstBand(info)["overviews"].size(), 7U);
-    // What is told of it comes from the level file, and is what reading the source tells.
+    // `info` reads these values from the level file; they must equal the ones computed from the
+    // source.
     const auto told = [](const std::string& path) {
         const ProgramOutput output_of_info = runCli({"info", path, "--json"});
         EXPECT_EQ(output_of_info.exit_status, 0) << output_of_info.err;
@@ -84,7 +85,7 @@ TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
 
 TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
 {
-    // Not after every row of tiles: a disk that takes 20 ms to be sure of a file would take
+    // Not after every row of tiles: on a disk that takes 20 ms to sync a file, that would take
     // minutes.
     constexpr const char* kOften = "0.05";
     const TempFolder folder;
@@ -107,19 +108,20 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
             {MARSVIEW_CLI, "prepare", source, "-o", path, "--checkpoint", kOften}, messages);
         const auto moment_ms =
             static_cast<int>(random.uniform(0.0, 0.7 * static_cast<double>(duration_ms)));
-        poll(nullptr, 0, moment_ms); // a random moment, not one to wait for
+        poll(nullptr, 0, moment_ms); // a random moment, not a condition to wait for
         program.signal(SIGKILL);
         const int status = program.wait();
         if (status == -1) {
             ++kills;
             continue;
         }
-        ASSERT_EQ(status, 0) << readFile(messages); // the lock is free, and nothing left disturbs
+        // the lock is free, and no leftover file disturbs
+        ASSERT_EQ(status, 0) << readFile(messages);
         ++finished;
         ASSERT_EQ(checksumsOf(path), expected);
         fs::remove(path);
     }
-    // Once more, from a kill that left something begun.
+    // Once more, from a kill that left unfinished files.
     const std::string journal = path + ".part.journal";
     fs::remove(path);
     for (int i = 0; i < 100 && !fs::exists(journal); ++i) {
@@ -130,7 +132,7 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
              static_cast<int>(random.uniform(0.1, 0.5) * static_cast<double>(duration_ms)));
         program.signal(SIGKILL);
         program.wait();
-        if (fs::exists(path)) { // through with the copy
+        if (fs::exists(path)) { // the copy was complete
             fs::remove(path);
         }
     }
@@ -139,7 +141,7 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
     ASSERT_EQ(last.exit_status, 0) << last.err;
     EXPECT_THAT(last.err, HasSubstr("resumed after row"));
     EXPECT_EQ(checksumsOf(path), expected);
-    // Little is left behind of what was written and not noted.
+    // Few bytes remain of data that was written after the last checkpoint.
     EXPECT_LT(static_cast<double>(fs::file_size(path)),
               1.02 * static_cast<double>(fs::file_size(whole)));
     for (const char* ending : {".part", ".part.journal", ".part.journal.new", ".lock"}) {
@@ -176,7 +178,7 @@ TEST(PrepareCommand, SaysThatThereIsNoRoomAndGoesOnWhenThereIs)
     const TempFolder folder;
     const std::string source = tallMap(folder);
     const std::string path = folder.file("map.tif");
-    // A limit on the size of files stands in for a full disk; in blocks of 512 bytes.
+    // A limit on the file size, in blocks of 512 bytes, simulates a full disk.
     for (const auto& [blocks, is_resumed] : {std::pair{200, false}, std::pair{20'000, true}}) {
         const ProgramOutput output = runProgram(
             {"sh", "-c",
@@ -211,7 +213,7 @@ TEST(PrepareCommand, LooksForRoomBeforehand)
     const ProgramOutput output = runProgram({"unshare", "-Urm", "sh", "-c", script});
     if (output.exit_status == 99 || output.exit_status == 127 ||
         output.err.find("unshare") != std::string::npos) {
-        GTEST_SKIP() << "this machine lets nobody make a small disk: " << output.err;
+        GTEST_SKIP() << "cannot create a small disk on this machine: " << output.err;
     }
     EXPECT_EQ(output.exit_status, 1);
     EXPECT_THAT(output.err, HasSubstr("needs up to 57 MB, but"));
@@ -251,7 +253,7 @@ TEST(PrepareCommand, OverwritesNothingButPreparedMaps)
         EXPECT_THAT(output.err, HasSubstr(there + ": already exists and is not a prepared map"));
         EXPECT_TRUE(readFile(there) == before);
     }
-    // An empty one, as mktemp makes, and one that it made itself.
+    // An empty file, as mktemp creates it, and a file that prepare itself has written.
     const std::string empty = folder.write("map.tif", "");
     for (int i = 0; i < 2; ++i) {
         const ProgramOutput output = runCli({"prepare", source, "-o", empty});
@@ -286,7 +288,7 @@ TEST(PrepareCommand, MakesRoomOnAFullDiskByTheMapThatWasNotUsedForLongest)
     const ProgramOutput output = runProgram({"unshare", "-Urm", "sh", "-c", script});
     if (output.exit_status == 99 || output.exit_status == 127 ||
         output.err.find("unshare") != std::string::npos) {
-        GTEST_SKIP() << "this machine lets nobody make a small disk: " << output.err;
+        GTEST_SKIP() << "cannot create a small disk on this machine: " << output.err;
     }
     EXPECT_EQ(output.exit_status, 0) << output.err;
 }
@@ -305,7 +307,7 @@ TEST(PrepareCommand, WhatItMadeOpensWhereNothingMayBeWritten)
     const ProgramOutput output = runProgram({"unshare", "-Urm", "sh", "-c", script});
     if (output.exit_status == 99 || output.exit_status == 127 ||
         output.err.find("unshare") != std::string::npos) {
-        GTEST_SKIP() << "this machine lets nobody make a folder read-only: " << output.err;
+        GTEST_SKIP() << "cannot make a folder read-only on this machine: " << output.err;
     }
     EXPECT_EQ(output.exit_status, 0) << output.err;
 }

@@ -1,4 +1,4 @@
-// The promises that hold for every command: exit status, and which stream says what.
+// Contracts of every command: the exit status, and which stream gets which output.
 #include "tests/cli/run_cli.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"

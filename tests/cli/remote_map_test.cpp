@@ -1,4 +1,4 @@
-// Maps at a server, felt by the program as their files are.
+// Maps on a server give the same contact as their files on disk.
 #include "tests/cli/run_cli.h"
 #include "tests/support/http_server.h"
 #include "tests/support/make_raster.h"
@@ -23,7 +23,7 @@ constexpr std::size_t kSide = 2048;
 
 class RemoteMap : public testing::Test {
 protected:
-    // What the proxies of a trace are, without the counters: these tell how they were found.
+    // The proxies of a trace without the counters, which depend on how the proxies were found.
     std::string proxies(const std::string& dem, const std::string& goals) const
     {
         const ProgramOutput output =
@@ -42,7 +42,7 @@ protected:
         return found;
     }
 
-    // A plain with single samples that stand out of it: no overview shows them.
+    // A plain with single samples that stand out of it. No overview shows them.
     std::string writeMap(const std::string& name,
                          const std::vector<std::size_t>& peaks,
                          std::int16_t plain_m) const
@@ -55,7 +55,7 @@ protected:
                            {"-co", "COMPRESS=NONE", "-co", "RESAMPLING=AVERAGE"});
     }
 
-    // A goal above each place, and one inside what stands there.
+    // One goal above each place, and one inside the peak there.
     static std::string goalsAt(const std::vector<std::size_t>& places, double inside_m)
     {
         std::string goals = "x,y,z\n";
@@ -84,7 +84,7 @@ TEST_F(RemoteMap, PeaksThatNoOverviewShowsAreFelt)
     const std::string file = writeMap("peaks.tif", peaks, 100);
     const std::string goals = goalsAt(peaks, 1500.0);
     const std::string truth = proxies(file, goals);
-    EXPECT_THAT(truth, testing::HasSubstr(",1,")); // in contact
+    EXPECT_THAT(truth, testing::HasSubstr(",1,")); // is in contact
     EXPECT_EQ(proxies(server_.url("peaks.tif"), goals), truth);
 }
 
@@ -97,7 +97,7 @@ TEST_F(RemoteMap, IsFetchedAnewFromAServerThatNamesNoVersions)
     const std::string before = proxies(server_.url("map.tif"), goals);
     EXPECT_EQ(before, proxies(file, goals));
     writeMap("map.tif", {}, 200);
-    ASSERT_EQ(std::filesystem::file_size(file), size); // nothing else would tell
+    ASSERT_EQ(std::filesystem::file_size(file), size); // otherwise the size would reveal the change
     const std::string after = proxies(server_.url("map.tif"), goals);
     EXPECT_NE(after, before);
     EXPECT_EQ(after, proxies(file, goals));

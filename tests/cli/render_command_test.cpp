@@ -23,7 +23,7 @@ class RenderCommand : public testing::Test {
 protected:
     void SetUp() override
     {
-        // A machine without a driver is told of before anything is read.
+        // A missing OpenGL driver is reported before any file is read.
         const std::string missing = folder_.file("missing.tif");
         const ProgramOutput output = render({missing, "-o", folder_.file("no.png")});
         if (output.err.find("no OpenGL") != std::string::npos) {
@@ -31,12 +31,12 @@ protected:
         }
     }
 
-    // The program's answer to `render`, without a display server to ask.
+    // The program's output for `render`, with no display server available.
     ProgramOutput render(const std::vector<std::string>& options) const
     {
         return renderHolding({}, options);
     }
-    // The same with a bound for what is read whole: of a prepared map, nothing.
+    // The same with a limit on rasters read into memory as a whole; 0 for prepared maps.
     ProgramOutput renderHolding(const std::string& held_mb,
                                 const std::vector<std::string>& options) const
     {
@@ -49,7 +49,7 @@ protected:
         return runCliWith(environment, arguments);
     }
 
-    // The bytes of a picture's bands, one after the other, as GDAL reads them.
+    // The bytes of a picture's bands, one band after the other, as GDAL reads them.
     std::string pixels(const std::string& png) const
     {
         const std::string raw = png + ".raw";
@@ -57,7 +57,7 @@ protected:
         return readFile(raw);
     }
 
-    // One sentence that names what is wrong, and no picture.
+    // The command prints one sentence that names the cause, and writes no picture.
     void expectRefusal(const std::vector<std::string>& options, const std::string& named) const
     {
         const ProgramOutput output = render(options);
@@ -69,7 +69,7 @@ protected:
         if (output.exit_status == 1) {
             EXPECT_EQ(std::count(output.err.begin(), output.err.end(), '\n'), 1) << output.err;
         }
-        // Each by itself, so that one failure is one.
+        // Two separate checks, so that each reports its own failure.
         EXPECT_FALSE(std::filesystem::remove(folder_.file("no.png")));
         EXPECT_FALSE(std::filesystem::exists(folder_.file("no.png.part")));
     }
@@ -121,12 +121,12 @@ TEST_F(RenderCommand, ShowsTheWholeMapUnlessToldWhereToLook)
     ASSERT_EQ(render({bundledMountain(), "-o", whole, "--size", "400x300"}).exit_status, 0);
     const std::string bytes = pixels(whole);
     ASSERT_EQ(bytes.size(), 400U * 300U * 3U);
-    // Sky on the border on all sides, ground in the middle: the map lies within the picture.
+    // Sky along the border on all sides, terrain in the middle: the whole map is in the picture.
     const auto at = [&](std::size_t x, std::size_t y, std::size_t band) {
         return static_cast<int>(static_cast<unsigned char>(bytes[(band * 300 + y) * 400 + x]));
     };
     const auto isSkyLike = [&](std::size_t x,
-                               std::size_t y) { // dark and blue, the darkest there is
+                               std::size_t y) { // dark and blue, darker than any terrain
         return at(x, y, 0) < 45 && at(x, y, 1) < 50 && at(x, y, 2) < 60 &&
                at(x, y, 2) > at(x, y, 0);
     };
@@ -146,7 +146,7 @@ TEST_F(RenderCommand, ShowsTheWholeMapUnlessToldWhereToLook)
     EXPECT_GT(difference(bytes, pixels(near)).mean, 1.0);
 }
 
-// A table mountain of 11 x 11 samples in a plain is in the middle of the picture, and nowhere else.
+// A mesa of 11 x 11 samples in a plain appears in the middle of the picture, and nowhere else.
 TEST_F(RenderCommand, LooksAtThePlaceOnTheMap)
 {
     constexpr std::size_t kColumns = 300;
@@ -172,7 +172,7 @@ TEST_F(RenderCommand, LooksAtThePlaceOnTheMap)
         return std::array<char, 3>{bytes.at(middle), bytes.at(101 * 101 + middle),
                                    bytes.at(2 * 101 * 101 + middle)};
     };
-    // Coordinates of the middle of pixel (210, 50), and of places 10 pixels away from it.
+    // The map coordinates of the middle of pixel (210, 50), and of points 10 pixels away from it.
     const auto place = [](double column, double row) {
         return fmt::format("{},{}", 500000.0 + 30.0 * (column + 0.5),
                            4000000.0 - 30.0 * (row + 0.5));
@@ -279,7 +279,7 @@ TEST_F(RenderCommand, NamesTheFileThatCannotBeWritten)
 {
     const std::string nowhere = folder_.file("missing/picture.png");
     expectRefusal({bundledMountain(), "--size", "40x30", "-o", nowhere}, nowhere);
-    // A folder of that name is in the way, and stays.
+    // A folder of that name is in the way. It must stay.
     const std::string taken = folder_.file("taken");
     std::filesystem::create_directory(taken);
     expectRefusal({bundledMountain(), "--size", "40x30", "-o", taken}, taken);
@@ -309,8 +309,8 @@ TEST_F(RenderCommand, DrawsTheSameWithEverySampleAndWithinAPixel)
     const Difference coarse = difference(full, draw("coarse.png", {"--error-px", "30"}));
     EXPECT_LT(fine.mean, 1.0);
     EXPECT_LT(fine.share, 0.01);
-    EXPECT_GT(coarse.mean, fine.mean) << "the option has to do something";
-    // The same command draws the same picture.
+    EXPECT_GT(coarse.mean, fine.mean) << "the option must have an effect";
+    // The same command gives the same picture.
     EXPECT_EQ(full, draw("again.png", {"--full"}));
 }
 
@@ -367,7 +367,7 @@ TEST_F(RenderCommand, DrawsNoPictureOfAPreparedMapThatIsDamaged)
     EXPECT_GT(refusals, 2);
 }
 
-// Tiles are drawn on their own, most of them without a void.
+// Tiles are drawn separately; most of them have no voids.
 TEST_F(RenderCommand, DrawsAllOfAPreparedMapWithAHole)
 {
     constexpr std::size_t kColumns = 1500;

@@ -9,17 +9,18 @@
 
 namespace marsview::test {
 
-/// Runs the program that was built beside the tests.
+/// Runs the program from the build tree of the tests.
 ProgramOutput runCli(std::vector<std::string> arguments, const std::string& input = "");
 
-/// The same in an environment with these "NAME=value" besides; a "NAME" alone is taken away.
+/// The same with these "NAME=value" entries added to the environment; a plain "NAME" is removed
+/// from it.
 ProgramOutput runCliWith(const std::vector<std::string>& environment,
                          const std::vector<std::string>& arguments);
 
-/// `info PATH --json`, parsed; throws where it fails.
+/// The parsed output of `info PATH --json`; throws if the command fails.
 nlohmann::json cliInfo(const std::string& path, const std::vector<std::string>& options = {});
 
-/// The numbers printed one a line; "nan" as NaN.
+/// The numbers printed one per line; "nan" gives NaN.
 std::vector<double> numbersIn(const std::string& text);
 
 } // namespace marsview::test

@@ -50,16 +50,17 @@ TEST(SampleCommand, ReturnsTheSampleAtIntegerPixels)
 TEST(SampleCommand, FindsOlympusMonsByLongitudeAndLatitudeInAnyTurn)
 {
     const double height = sampleAt(bundledMars(), "--lonlat", 226.2, 18.65);
-    EXPECT_GT(height, 18000.0);          // within the caldera, some 3 km below its rim
-    constexpr double kToleranceM = 1e-6; // 360° more or less round in the 14th digit
+    EXPECT_GT(height, 18000.0);          // in the caldera, some 3 km below its rim
+    constexpr double kToleranceM = 1e-6; // 360° more or less, rounded in the 14th digit
     EXPECT_NEAR(sampleAt(bundledMars(), "--lonlat", -133.8, 18.65), height, kToleranceM);
     EXPECT_NEAR(sampleAt(bundledMars(), "--lonlat", 586.2, 18.65), height, kToleranceM);
 }
 
 TEST(SampleCommand, TakesLatitudesOnTheEarthAsMapsPrintThem)
 {
-    // The crater rim's highest point as the Geographic Names Information System lists it is on the
-    // map only if 46.19° is a planetographic latitude: planetocentric ones end at 46.06° there.
+    // The highest point of the crater rim, as the Geographic Names Information System lists it, is
+    // on the map only if 46.19° is a planetographic latitude: the map ends at 46.06° planetocentric
+    // there.
     const double height = sampleAt(bundledMountain(), "--lonlat", -122.1886, 46.1914);
     EXPECT_GT(height, 2300.0);
     const ProgramOutput centric = runCli({"sample", bundledMountain(), "--lonlat", "-122.1886",
@@ -81,7 +82,8 @@ TEST(SampleCommand, AgreesBetweenItsThreeFrames)
     const auto by = [](const char* frame, const std::string& line) {
         return std::stod(runCli({"sample", bundledMountain(), frame, "--stdin"}, line).out);
     };
-    constexpr double kToleranceM = 1e-6; // a micrometre on a slope of 1 is a micrometre of height
+    // a micrometer on a slope of 1 is a micrometer of elevation
+    constexpr double kToleranceM = 1e-6;
     EXPECT_NEAR(by("--map", map), height, kToleranceM);
     EXPECT_NEAR(by("--lonlat", lonlat), height, kToleranceM);
 }
@@ -154,7 +156,7 @@ TEST(SampleCommand, ReadsTheColoradoMapInFeetWhenTold)
     EXPECT_DOUBLE_EQ(told, rawSamples(path, {{1000, 500}}).front() * 0.3048);
 }
 
-// Of some damage GDAL decodes other samples without a word.
+// GDAL decodes some damaged tiles to wrong samples without an error.
 TEST(SampleCommand, TellsNoHeightOfAPreparedMapThatIsDamaged)
 {
     namespace fs = std::filesystem;
@@ -184,14 +186,14 @@ TEST(SampleCommand, TellsNoHeightOfAPreparedMapThatIsDamaged)
         flipBits(path, 3, random);
         const ProgramOutput output = sampled(path);
         if (output.exit_status == 0) {
-            // All right, or nobody knows what the file was.
+            // Correct, or the level file was rejected, so that the damage could not be detected.
             EXPECT_TRUE(output.out == truth.out ||
                         output.err.find("the level file beside it is not used") !=
                             std::string::npos);
         } else {
             ++refusals;
             EXPECT_THAT(output.err, HasSubstr(path));
-            EXPECT_EQ(truth.out.substr(0, output.out.size()), output.out) << "before the refusal";
+            EXPECT_EQ(truth.out.substr(0, output.out.size()), output.out) << "then the error";
         }
     }
     EXPECT_GT(refusals, 5);

@@ -62,7 +62,7 @@ std::vector<Row> rowsOf(const std::string& csv)
     return rows;
 }
 
-// The trace of goals given as text, header and all.
+// The trace of the given goals text, which includes the header.
 std::vector<Row> traced(const std::string& dem,
                         const std::string& goals,
                         const std::vector<std::string>& options = {})
@@ -85,7 +85,7 @@ std::vector<double> heightsAt(const std::string& dem, const std::vector<Row>& ro
     return numbersIn(runCli({"sample", dem, "--map", "--stdin"}, lines).out);
 }
 
-// A map of hills, with a hole where `has_void`.
+// A map of hills, with a hole if `has_void`.
 std::string hills(const TempFolder& folder,
                   const std::string& srs,
                   const std::array<double, 6>& transform,
@@ -115,7 +115,7 @@ struct Hills {
     double height;
 };
 
-// Cells of about one height unit in each.
+// Cells with about one unit of height in each.
 const std::vector<Hills>& hillsEverywhere()
 {
     static const std::vector<Hills> kHills{
@@ -135,7 +135,7 @@ struct Goals {
     std::vector<std::array<double, 3>> points;
 };
 
-// A wandering hand, mostly below the surface; some goals above it.
+// Goals on a random walk, mostly below the surface; some above it.
 Goals goalsOver(const Hills& hills, int count)
 {
     Random random;
@@ -184,7 +184,7 @@ TEST(TraceCommand, KeepsProxiesOnTheSurfaceThatSampleTells)
                         }
                     } else {
                         EXPECT_EQ(row.feature, "free");
-                        // To the digit the goal.
+                        // Exactly the goal, to the last digit.
                         EXPECT_EQ((std::array{row.x, row.y, row.z}), goals.points[i]);
                         EXPECT_FALSE(row.z < heights[i]);
                     }
@@ -199,7 +199,7 @@ TEST(TraceCommand, KeepsProxiesOnTheSurfaceThatSampleTells)
 
 TEST(TraceCommand, RestsAtTheClosestPointOfAPlaneInSceneMetres)
 {
-    // 30 m cells; z rises 0.4 m a metre eastwards, 0.8 with the exaggeration.
+    // 30 m cells; z rises 0.4 m per meter eastwards, 0.8 with the exaggeration.
     std::vector<float> samples;
     for (int i = 0; i < 50 * 50; ++i) {
         samples.push_back(static_cast<float>(12.0 * (i % 50)));
@@ -216,7 +216,7 @@ TEST(TraceCommand, RestsAtTheClosestPointOfAPlaneInSceneMetres)
     const double goal_z = 0.4 * (goal_x - x0) - depth;
     const std::vector<Row> rows = traced(
         dem, fmt::format("x,y,z\n{},{},{}\n", goal_x, goal_y, goal_z), {"--exaggeration", "2"});
-    // The foot of the goal: (depth × 2) below along z, so west by slope / (1 + slope²).
+    // The foot of the goal: (depth × 2) below along z, so it moves west by slope / (1 + slope²).
     const double x = goal_x - 2.0 * depth * 0.8 / (1.0 + 0.64);
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_TRUE(rows[0].is_in_contact);
@@ -227,8 +227,8 @@ TEST(TraceCommand, RestsAtTheClosestPointOfAPlaneInSceneMetres)
 
 TEST(TraceCommand, MeasuresDegreesAtTheLatitudeOfTheCentre)
 {
-    // A plane that rises eastwards on a sphere, around 60° north: a degree east is worth half of
-    // one north.
+    // A plane on a sphere that rises eastwards, around 60° north: a degree of longitude is half as
+    // long as a degree of latitude.
     std::vector<float> samples;
     for (int i = 0; i < 41 * 41; ++i) {
         samples.push_back(static_cast<float>(300.0 * (i % 41)));
@@ -425,7 +425,7 @@ TEST(TraceCommand, HoldsASphereItsRadiusAboveTheSurface)
 
 TEST(TraceCommand, LeavesASphereThatRestsOnSamplesWhereItIs)
 {
-    // On three spikes whose middle is no sample.
+    // On three spikes; their centroid is not a sample position.
     const TempFolder folder;
     std::vector<float> heights(1600, 0.0F);
     for (const auto& [column, row] : {std::pair{20, 20}, {23, 20}, {21, 23}}) {
@@ -535,10 +535,10 @@ TEST(TraceCommand, PrintsNothingForNoGoals)
     EXPECT_EQ(json["ns"]["mean"], 0.0);
 }
 
-// As `loop --record` writes them, without what trace does not read.
+// As `loop --record` writes them, without the columns that trace ignores.
 TEST(TraceCommand, FollowsWhatARecordingWasTouchedWith)
 {
-    // Goals that sink into the mountain and slide along in it.
+    // Goals that sink into the mountain and slide along inside it.
     const auto goal = [](int i) {
         return fmt::format("{},{},{}", 562000 + 40 * i, 5115000 + 25 * i, 4000 - 150 * i);
     };
@@ -549,7 +549,7 @@ TEST(TraceCommand, FollowsWhatARecordingWasTouchedWith)
     std::string first = plain;
     std::string second = plain;
     for (int i = 0; i < 60; ++i) {
-        // The first model comes back at the end, and goes on where it was.
+        // The first model returns at the end and continues from its last state.
         const bool is_first = i < 20 || i >= 40;
         recording += goal(i);
         recording += is_first ? ",0,1,5,virtual-proxy,40,1\n" : ",0,1,6,god-object,1,3\n";
@@ -575,14 +575,14 @@ TEST(TraceCommand, FollowsWhatARecordingWasTouchedWith)
     EXPECT_EQ(words(rows), expected);
     EXPECT_TRUE(rows.at(19).is_in_contact && rows.at(39).is_in_contact &&
                 rows.at(59).is_in_contact);
-    EXPECT_NE(a, words(traced(bundledMountain(), first))) << "or models do not matter here";
+    EXPECT_NE(a, words(traced(bundledMountain(), first))) << "the model must matter";
 
-    // What the command line says holds.
+    // Options on the command line take precedence.
     const std::vector<std::string> other{"--model", "surface-walk", "--exaggeration", "2"};
     EXPECT_EQ(words(traced(bundledMountain(), all_one, other)),
               words(traced(bundledMountain(), plain, other)));
 
-    // Two maps are more than one.
+    // A recording over two maps cannot be traced on one.
     const TempFolder folder;
     const std::string two =
         folder.write("two.csv", recording + goal(60) + ",0,2,7,god-object,1,1\n");

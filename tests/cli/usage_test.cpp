@@ -1,4 +1,4 @@
-// What is refused before any file is opened, and the forms that are understood.
+// Usage errors reported before any file is opened, and the argument forms that are accepted.
 #include "tests/cli/run_cli.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using Words = std::vector<std::string>;
 
-// The first line on stderr of a command that has to end with 2.
+// The first line on stderr of a command that must exit with status 2.
 std::string refusal(const Words& arguments)
 {
     const ProgramOutput output = runCli(arguments);
@@ -178,7 +178,7 @@ TEST(Usage, TakesCommasOrBlanksBetweenNumbersThatBelongTogether)
           Words{"--lonlat", "-133.8 18.65"}, Words{"--lonlat=-133.8", "18.65"}}) {
         EXPECT_EQ(out(with({"sample", mars}, form)), truth)
             << fmt::format("{}", fmt::join(form, "|"));
-        EXPECT_EQ(out(with(with({"sample"}, form), {mars})), truth) << "before the map";
+        EXPECT_EQ(out(with(with({"sample"}, form), {mars})), truth) << "before the map is opened";
     }
     const std::string info =
         out({"info", mars, "--geotransform", "-180", "0.25", "0", "90", "0", "-0.25"});
@@ -253,7 +253,7 @@ TEST(Usage, EndsWithOneLineOnInputsThatNeverEnd)
     const std::string cli = MARSVIEW_CLI;
     const std::string mars = bundledMars();
     const auto shell = [&](const std::string& line) {
-        // 2 GB of address space are enough for the program, and end it if it reads on.
+        // 2 GB of address space are enough for the program, and stop it if it keeps reading.
         return runProgram({"bash", "-c", "ulimit -v 4000000; " + line});
     };
     for (const std::string& line :

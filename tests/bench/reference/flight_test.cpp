@@ -23,7 +23,7 @@ OrbitCamera step(Flight flight, int i)
     return cameraOn(flight, static_cast<double>(i) / kSteps, hills(), kViewport);
 }
 
-// Pixels that a sample in the middle of the picture is wide, seen face on.
+// The width in pixels of a sample in the middle of the view, seen face on.
 double samplePixels(const OrbitCamera& camera)
 {
     return hills().pixel_m * kViewport.height /

@@ -29,7 +29,7 @@ HeightfieldSurface sampledSurface(int samples, const Height& height)
     return surfaceOver(test::filledTerrain(static_cast<std::size_t>(samples), heights));
 }
 
-// A hand that turns slowly at a constant speed within `reach` metres of the middle.
+// A goal that turns slowly at a constant speed within `reach` meters of the middle.
 class Wanderer {
 public:
     Wanderer(test::Random& random, double speed_m, double reach_m)
@@ -81,7 +81,7 @@ TEST(ReferenceProxy, EndsInALocalMinimumOnOrAboveTheSurface)
             if (state.is_in_contact) {
                 ++contacts;
                 EXPECT_NEAR(over / scale, 0.0, 1e-8);
-                // Of goals closer than rounding, directions mean nothing.
+                // For goals closer than rounding error, directions are meaningless.
                 if (distance(state.proxy, clamped) > 1e-6 * scale) {
                     const double cosine = test::steepestCosine(surface, state.proxy, clamped);
                     worst_cosine = std::max(worst_cosine, cosine);
@@ -103,7 +103,7 @@ TEST(ReferenceProxy, StandsOnAPlaneAtTheFootOfTheGoal)
 {
     const HeightfieldSurface surface =
         sampledSurface(65, [](int c, int r) { return 0.5 * c - 0.25 * r; });
-    // North is against the rows.
+    // North is opposite to the row direction.
     const Vec3 normal = normalized({-0.5, -0.25, 1.0});
     const ScenePoint on_plane{0.0, 0.0, 0.5 * 32.0 - 0.25 * 32.0};
     test::Random random;
@@ -131,7 +131,7 @@ TEST(ReferenceProxy, StandsInAValleyAtTheClosestPointOfTheSpaceAboveIt)
     for (int i = 0; i < 400; ++i) {
         ScenePoint goal = hand.next();
         goal.z = std::abs(goal.x) - random.uniform(0.1, 12.0);
-        // The free space is convex: each of the two slopes, or where they meet.
+        // The free space is convex: the minimum is on one of the two slopes, or where they meet.
         ScenePoint closest{0.0, goal.y, 0.0};
         const double foot = (std::abs(goal.x) + goal.z) / 2.0;
         if (foot > 0.0) {
@@ -163,7 +163,7 @@ TEST(ReferenceProxy, KeepsToItsSideOfARidgeUntilTheFootOfTheGoalPassesIt)
         const auto foot = [&] {
             return (goal.x - side * kSlope * goal.z) / (1.0 + kSlope * kSlope);
         };
-        // The way is straight: what its end does not pass, nothing on it does.
+        // The path is straight: if its end does not pass the edge, no point on it does.
         if (side * foot() < 0.0) {
             side = -side;
             ++passes;
@@ -197,8 +197,9 @@ TEST(ReferenceProxy, FollowsTheMeridiansOfAConeAsFinelyAsItIsSampled)
                                      sign * kSlope * expected};
             worst = std::max(worst, distance(state.proxy, closest));
         }
-        // Chords of a cell leave the circle by 1/8 of their curvature, 1/500 cell at radius 60;
-        // feet on facets are off sideways by as much as their normals, 1/60, times the depth.
+        // The chord of a cell departs from the circle by 1/8 of the curvature, 1/500 cell at radius
+        // 60. Feet on facets are displaced sideways by the error of the normals, 1/60, times the
+        // depth.
         EXPECT_LE(worst, 0.1);
         EXPECT_GT(worst, 1e-6);
     }
@@ -260,7 +261,7 @@ TEST(ReferenceProxy, FollowsAGoalBeyondTheBorderAlongTheBorder)
         sampledSurface(33, [](int c, int r) { return 0.1 * c + std::sin(r * 0.7); });
     ReferenceProxy reference(surface);
     reference.place({0.0, 0.0, -3.0});
-    // The goal leaves over the eastern border, far out, and comes back in over the northern one.
+    // The goal leaves across the eastern border, goes far out, and returns across the northern one.
     for (const ScenePoint& goal : {ScenePoint{40.0, 3.0, -3.0}, ScenePoint{1e5, 90.0, -3.0},
                                    ScenePoint{4.0, 900.0, -3.0}, ScenePoint{4.0, 3.0, -3.0}}) {
         const ScenePoint clamped = test::clampedGoal(surface, goal);

@@ -50,7 +50,7 @@ TEST(ChildProgram, OneThatDoesNotEndIsKilled)
     const auto cancelled = runChild(program);
     ASSERT_TRUE(cancelled);
     EXPECT_EQ(cancelled->end, ChildEnd::Cancelled);
-    // With its output closed.
+    // With its output streams closed.
     program = shell("exec >&- 2>&-; while :; do :; done");
     program.time_max = std::chrono::milliseconds(50);
     EXPECT_EQ(runChild(program)->end, ChildEnd::TimedOut);

@@ -41,7 +41,7 @@ TEST(JobMonitor, StagesOfAPartAreWithinIt)
         EXPECT_DOUBLE_EQ(work_in_two_stages(), 0.8);
         EXPECT_DOUBLE_EQ(monitor.fraction(), 1.0);
     }
-    EXPECT_DOUBLE_EQ(work_in_two_stages(), 0.5); // none is left
+    EXPECT_DOUBLE_EQ(work_in_two_stages(), 0.5); // the stage has ended
 }
 
 } // namespace

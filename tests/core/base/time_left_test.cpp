@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Reports ten times a second from `begin_s` to `end_s` what `fraction(s)` says.
+// Reports `fraction(s)` ten times a second from `begin_s` to `end_s`.
 template <typename Fraction>
 void run(TimeLeft& estimate, double begin_s, double end_s, const Fraction& fraction)
 {
@@ -40,7 +40,7 @@ TEST(TimeLeft, IsExactForSteadyProgress)
     EXPECT_LE(*estimate.left(), 1s);
 }
 
-// What an earlier attempt had done is there at once, and is no sign of speed.
+// Work finished by an earlier attempt appears at once. It must not count toward the speed.
 TEST(TimeLeft, DoesNotTakeWhatWasDoneBeforeForSpeed)
 {
     TimeLeft estimate;

@@ -1,4 +1,4 @@
-// Holds every update of any contact model over a heightfield against what must be true of it.
+// Checks every update of any contact model over a heightfield against the required properties.
 #pragma once
 
 #include "core/contact/contact.h"
@@ -15,17 +15,17 @@
 
 namespace marsview::test {
 
-/// What a model does not promise.
+/// The properties that a model does not promise.
 struct ModelTraits {
-    bool may_float = false; // off the surface while it says that it is in contact
-    bool is_minimum = true; // it ends where the goal pulls no further
-    // It takes what is nearer to a sample than 1e-12 of an edge for the sample, and asks the edges
-    // alone there: between two that are almost opposite, in a slim face, the goal can pull many
-    // times as far as along each of them.
+    bool may_float = false; // may leave the surface while it reports contact
+    bool is_minimum = true; // ends where the goal pulls no further
+    // Treats a point closer to a sample than 1e-12 of an edge as the sample itself, and tests only
+    // the edges there. Between two nearly opposite edges of a thin face, the goal can pull many
+    // times farther than along either edge.
     bool is_blunt_on_slivers = false;
 };
 
-/// What was found over many updates. Shares are of what rounding is granted: 1 is the most.
+/// Results over many updates. A share is relative to the rounding allowance; 1 is the limit.
 struct Findings {
     long updates = 0;
     long contacts = 0;
@@ -34,22 +34,23 @@ struct Findings {
     long faces = 0;
     long far_edges = 0;
     long far_loops = 0;
-    long far_growths = 0; // farther than the goal moved, in updates with far-edge steps
+    long far_growths = 0; // grew by more than the goal moved, in updates with far-edge steps
     long cut_short = 0;
     long not_minimal = 0;
-    long rests = 0;              // updates whose goal was the last one's
-    long rest_moves = 0;         // those in which the proxy moved by a bit
-    long passages = 0;           // free ways looked at
-    long double height_m = 0.0L; // of the proxy, off the surface at its place
+    long rests = 0;              // updates with the same goal as the previous one
+    long rest_moves = 0;         // rests in which the proxy moved by any amount
+    long passages = 0;           // free paths checked
+    long double height_m = 0.0L; // of the proxy, above or below the surface at its place
     long double height_share = 0.0L;
     long double place_m = 0.0L;    // between the proxy's coordinates and its place on the mesh
     long double foot_m = 0.0L;     // from the goal's foot on the face or edge of the proxy
-    long double cosine = 0.0L;     // between the goal and the steepest way on
-    long double pull_share = 0.0L; // of that, in metres
-    long double growth_m = 0.0L;   // of the distance, beyond the goal's motion, no far edge crossed
+    long double cosine = 0.0L;     // between the goal and the steepest remaining direction
+    long double pull_share = 0.0L; // the same in meters
+    // of the distance, beyond the goal's motion, with no far edge crossed
+    long double growth_m = 0.0L;
     long double growth_share = 0.0L;
     long double far_growth_m = 0.0L;
-    long double distance_m = 0.0L; // the distance in doubles against that in long doubles
+    long double distance_m = 0.0L; // difference between the distance in doubles and in long doubles
     long double rest_move_m = 0.0L;
 
     void add(const ContactCounters& counters, bool is_in_contact)
@@ -64,11 +65,11 @@ struct Findings {
         cut_short += counters.cut_short;
     }
     void add(const Findings& o);
-    /// One line.
+    /// Prints one line.
     void print(const std::string& name) const;
 };
 
-/// Goals that are no place are not for it. All its failures are fatal and name the update.
+/// Not for goals with invalid coordinates. All its failures are fatal and name the update.
 template <typename Model>
 class Judge {
 public:
@@ -77,7 +78,7 @@ public:
     explicit Judge(const Surface& surface, const ModelTraits& traits = {})
         : Judge(surface, surface.terrain(), traits)
     {}
-    /// Of a surface whose heights, from now on, are those of `terrain`.
+    /// For a surface whose heights are from now on those of `terrain`.
     Judge(const Surface& surface,
           std::shared_ptr<const FilledHeightfield> terrain,
           const ModelTraits& traits)
@@ -89,13 +90,13 @@ public:
     const HeightfieldTruth& truth() const { return truth_; }
     const Findings& findings() const { return findings_; }
 
-    /// An update.
+    /// Checks model.update(goal).
     void check(Model& model, const ScenePoint& goal)
     {
         const std::optional<Last> last = last_;
         hold(model, goal, model.update(goal), last);
     }
-    /// A placing: nothing is asked of the way there.
+    /// Checks model.place(goal); the path to it is not checked.
     void checkPlaced(Model& model, const ScenePoint& goal)
     {
         hold(model, goal, model.place(goal), std::nullopt);
@@ -108,8 +109,8 @@ private:
         long double error;
         ScenePoint proxy;
         bool is_in_contact;
-        bool is_inside; // the goal, within the outermost samples
-        int rests;      // updates in a row with that goal, but for the first
+        bool is_inside; // whether the goal is within the outermost samples
+        int rests;      // number of repeated updates with that goal
     };
 
     void hold(const Model& model,
@@ -123,10 +124,10 @@ private:
         }
     }
 
-    // The length that rounding in doubles is granted at a place. What a foot is off grows with the
-    // distance from the goal: by the angle between directions that doubles can tell, the more the
-    // slimmer the triangle, and by the angle that rounded heights tilt it. Feet nearer than 1e-12
-    // of an edge to its end are there.
+    // The rounding allowance at a place, as a length. The error of a foot grows with the distance
+    // from the goal: by the smallest angle between directions that doubles can represent, which is
+    // larger for thinner triangles, and by the angle by which rounded heights tilt the triangle.
+    // Feet closer than 1e-12 of an edge to its end count as the end.
     static constexpr long double kEpsilon = 0x1p-52L;
     static constexpr long double kShare = 4e-12L;
     static constexpr long double kAngle = 4e-13L;
@@ -142,7 +143,8 @@ private:
         const LongVec seen = truth_.goal(goal);
         const long double goal_error = truth_.goalError(goal);
         const LongVec proxy = longVec(state.proxy);
-        // Straight below the coordinates, which are rounded; a steep surface multiplies that.
+        // Straight below the coordinates. These are rounded, and a steep surface magnifies the
+        // error.
         const long double cell_m = cellMetres();
         const long double coordinate_error = truth_.goalError(state.proxy);
         const long double height_tolerance = 16.0L * kEpsilon * truth_.highest() +
@@ -159,10 +161,10 @@ private:
             const bool has_touched = state.is_in_contact || c.casts > 1 || c.vertices + c.faces > 0;
             ++findings_.passages;
             if (!has_touched) {
-                ASSERT_LE(depth_m, granted) << "through the surface";
+                ASSERT_LE(depth_m, granted) << "passed through the surface";
             }
             if (depth_m < -granted) {
-                ASSERT_FALSE(has_touched) << "held up in free space";
+                ASSERT_FALSE(has_touched) << "in contact, but in free space";
             }
         }
         long double distance_m = length(seen - proxy);
@@ -176,10 +178,10 @@ private:
         } else if (!traits_.may_float) {
             ASSERT_TRUE(model.contact().has_value());
             const auto place = meshPlace(surface_, *model.contact());
-            ASSERT_TRUE(place.has_value()) << "a place without proper shares";
+            ASSERT_TRUE(place.has_value()) << "invalid shares";
             const LongVec here = truth_.point(*place);
             const HeightfieldTruth::Rest rest = truth_.rest(*place, seen);
-            ASSERT_GT(rest.faces, 0U) << "samples that are not joined";
+            ASSERT_GT(rest.faces, 0U) << "samples that are not connected";
             findings_.place_m =
                 std::max(findings_.place_m, std::hypot(here.x - proxy.x, here.y - proxy.y));
             ASSERT_LE(std::hypot(here.x - proxy.x, here.y - proxy.y), 2.0L * coordinate_error);
@@ -224,9 +226,9 @@ private:
             const long double moved_m = length(proxy - longVec(last->proxy));
             findings_.rest_moves += moved_m > 0.0L ? 1 : 0;
             findings_.rest_move_m = std::max(findings_.rest_move_m, moved_m);
-            ASSERT_LE(moved_m, error + last->error) << "moved while the goal rested";
+            ASSERT_LE(moved_m, error + last->error) << "moved although the goal did not";
             if (last->rests > 0) {
-                ASSERT_EQ(state.proxy, last->proxy) << "moved while the goal rested on";
+                ASSERT_EQ(state.proxy, last->proxy) << "moved although the goal still did not";
             }
         }
         if (last && !traits_.may_float) {
@@ -239,7 +241,7 @@ private:
             } else {
                 findings_.growth_m = std::max(findings_.growth_m, growth_m);
                 findings_.growth_share = std::max(findings_.growth_share, growth_m / granted);
-                ASSERT_LE(growth_m, granted) << "the distance grew more than the goal moved";
+                ASSERT_LE(growth_m, granted) << "the distance grew by more than the goal moved";
             }
         }
         last_ = Last{goal,

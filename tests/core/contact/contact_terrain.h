@@ -1,4 +1,4 @@
-// Terrain to touch, and the truth about touching it that no contact model had a hand in.
+// Terrain for contact tests, and the true contact computed independently of every model.
 #pragma once
 
 #include "app/bench/reference/local_minimum.h"
@@ -20,7 +20,7 @@ std::shared_ptr<const FilledHeightfield> filledTerrain(const Heightfield& height
 /// Cells of 1 m, row 0 in the north, the origin in the middle.
 SceneFrame unitFrame(const FilledHeightfield& terrain);
 
-/// On that frame.
+/// A heightfield in that frame.
 HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
                                double exaggeration = 1.0);
 
@@ -38,14 +38,14 @@ struct NamedTerrain {
 /// Planes, ridges, valleys, peaks, checkerboards, ties, steps, fractals, maps of 2 × 2 samples.
 std::vector<NamedTerrain> syntheticTerrains();
 
-/// Height in scene metres of the surface, from the plane through three samples, in long double.
+/// Scene height of the surface in meters, from the plane through three samples, in long double.
 double bruteHeight(const HeightfieldSurface& surface, GridPoint grid);
 
 using marsview::clampedGoal;
 using marsview::steepestCosine;
 
-/// A goal near the surface, mostly below, with now and then a jump anywhere, beyond the border too;
-/// often on whole and half samples, where ties are.
+/// A goal near the surface, mostly below it. Some goals jump anywhere, also beyond the border; many
+/// are on whole and half samples, where ties occur.
 ScenePoint wanderingGoal(Random& random,
                          const HeightfieldSurface& surface,
                          const ScenePoint& last,

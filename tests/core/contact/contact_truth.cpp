@@ -21,14 +21,14 @@ LongVec normalized(const LongVec& a)
     return a * (1.0L / length(a));
 }
 
-// How `a` and `b` turn seen from above; positive: to the left.
+// The turn from `a` to `b` seen from above; positive: to the left.
 long double turn(const LongVec& a, const LongVec& b)
 {
     return a.x * b.y - a.y * b.x;
 }
 
-// The length of `goal` projected onto what two directions of length 1 span between them. They are
-// not opposite.
+// The length of `goal` projected onto the cone spanned by two unit directions. They are not
+// opposite.
 long double pullBetween(const LongVec& a, const LongVec& b, const LongVec& goal)
 {
     const LongVec normal = cross(a, b);
@@ -44,7 +44,7 @@ long double pullBetween(const LongVec& a, const LongVec& b, const LongVec& goal)
     return std::max({dot(goal, a), dot(goal, b), 0.0L});
 }
 
-// The same for a line and what lies on one side of it in a plane.
+// The same for a line and the half plane on one side of it.
 long double pullBeside(const LongVec& line, const LongVec& side, const LongVec& goal)
 {
     return std::hypot(dot(goal, line), std::max(dot(goal, side), 0.0L));
@@ -52,8 +52,8 @@ long double pullBeside(const LongVec& line, const LongVec& side, const LongVec& 
 
 constexpr LongVec kUp{0.0L, 0.0L, 1.0L};
 
-// The length of `goal` projected onto the space on and above one face, as it is seen from a place
-// on that face: within it, on its edge from b to c, or at its corner a.
+// The length of `goal` projected onto the space on and above one face, seen from a place on that
+// face: inside it, on its edge from b to c, or at its corner a.
 long double pullOver(
     std::size_t samples, const LongVec& a, const LongVec& b, const LongVec& c, const LongVec& goal)
 {
@@ -261,7 +261,7 @@ long double HeightfieldTruth::depth(const LongVec& from, const LongVec& to) cons
     };
     look(0.0L);
     look(1.0L);
-    // Between the lines of the grid and the diagonals the surface is flat.
+    // Between the grid lines and the diagonals the surface is flat.
     const auto lines = [&](long double a, long double b) {
         const auto low = static_cast<long>(std::ceil(std::min(a, b)));
         const auto high = static_cast<long>(std::floor(std::max(a, b)));
@@ -297,7 +297,8 @@ HeightfieldTruth::Rest HeightfieldTruth::rest(const MeshPlace& place, const Long
             for (const bool is_upper : {true, false}) {
                 const std::array<std::array<int, 2>, 3> corners{
                     {{c, r}, {c + 1, r + 1}, {is_upper ? c + 1 : c, is_upper ? r : r + 1}}};
-                // Corners that hold the place, and the others, in an order that suits pullOver().
+                // The corners that carry the place first, then the others, in the order that
+                // pullOver() needs.
                 std::array<LongVec, 3> points;
                 std::size_t held = 0;
                 std::size_t others = 0;

@@ -1,4 +1,5 @@
-// The truth about a place on a heightfield and a goal, in long double, from the samples alone.
+// Reference results for a place on a heightfield and a goal, in long double, from the samples
+// alone.
 #pragma once
 
 #include "core/contact/contact_surface.h"
@@ -28,7 +29,7 @@ long double dot(const LongVec& a, const LongVec& b);
 long double length(const LongVec& a);
 LongVec longVec(const Vec3& a);
 
-/// A place on the mesh: one to three samples that are joined, and the share of each; > 0, sum 1.
+/// A place on the mesh: one to three connected samples with their shares, all > 0, with sum 1.
 struct MeshPlace {
     struct Part {
         int column;
@@ -39,7 +40,7 @@ struct MeshPlace {
     std::size_t count = 0;
 };
 
-/// What a model calls its place; nothing where its numbers are not shares.
+/// The place that a model reports; nullopt if its numbers are not valid shares.
 template <typename S>
 std::optional<MeshPlace> meshPlace(const S& surface, const SurfaceContact<S>& contact)
 {
@@ -82,7 +83,7 @@ std::optional<MeshPlace> meshPlace(const S& surface, const SurfaceContact<S>& co
     return place;
 }
 
-/// A heightfield in the scene. Holds no place of its own and knows no contact model.
+/// A heightfield in the scene. Stores no place and depends on no contact model.
 class HeightfieldTruth {
 public:
     HeightfieldTruth(std::shared_ptr<const FilledHeightfield> terrain,
@@ -92,36 +93,38 @@ public:
     const FilledHeightfield& terrain() const { return *terrain_; }
     const SceneFrame& frame() const { return frame_; }
     double exaggeration() const { return exaggeration_; }
-    /// The largest difference between samples that share a cell, and the largest absolute height,
-    /// in scene metres.
+    /// The largest difference between samples of one cell, and the largest absolute height, in
+    /// scene meters.
     double step() const { return step_m_; }
     double highest() const { return highest_m_; }
 
-    /// The goal where a model sees it: clamped to the grid, in grid coordinates.
+    /// The goal as a model uses it: clamped to the grid, in grid coordinates.
     LongVec goal(const ScenePoint& goal) const;
-    /// Within the outermost samples, as far as doubles tell.
+    /// Whether the goal is within the outermost samples, to double precision.
     bool isInside(const ScenePoint& goal) const;
-    /// How far from there, in metres, a goal may be that was converted in doubles.
+    /// The largest distance, in meters, between that point and the goal after conversion in
+    /// doubles.
     long double goalError(const ScenePoint& goal) const;
 
-    /// How far the clamped goal goes while the goal goes straight from one point to another.
+    /// The path length of the clamped goal while the goal moves straight from one point to another.
     long double wayOfGoal(const ScenePoint& from, const ScenePoint& to) const;
 
     LongVec point(const MeshPlace& place) const;
-    /// Height of the surface straight above or below a point; the nearest inside is taken.
+    /// Height of the surface straight above or below a point. Points outside use the nearest point
+    /// inside.
     long double height(const LongVec& point) const;
-    /// The largest depth below the surface on the straight way from one point to another; negative
-    /// where all of it is above.
+    /// The largest depth below the surface on the straight path from one point to another; negative
+    /// if the whole path is above.
     long double depth(const LongVec& from, const LongVec& to) const;
 
     struct Rest {
-        /// How far the goal still pulls: the length of the way to the goal projected onto the
+        /// The remaining pull of the goal: the length of the vector to the goal, projected onto the
         /// tangent cone of the space on and above the surface. 0 at a minimum; on a face or edge,
         /// the distance from its foot.
         long double pull_m;
-        long double longest_m;   // edge of the faces around
-        long double slenderness; // of these faces, the largest ratio of longest edge to height
-        long double highest_m;   // of the absolute heights around
+        long double longest_m;   // longest edge of the adjacent faces
+        long double slenderness; // of these faces: the largest ratio of longest edge to height
+        long double highest_m;   // largest absolute height nearby
         std::size_t faces;
     };
     Rest rest(const MeshPlace& place, const LongVec& goal) const;

@@ -48,10 +48,10 @@ TEST(GoalFrame, ThereAndBackIsTheSamePlace)
 TEST(GoalFrame, TellsWhatIsBesideTheOutermostSamples)
 {
     const GoalFrame frame(georeference(), 1.0);
-    EXPECT_FALSE(frame.isClamped({600045.0, 5199955.0, 0.0})); // the first sample itself
+    EXPECT_FALSE(frame.isClamped({600045.0, 5199955.0, 0.0})); // exactly the first sample
     EXPECT_TRUE(frame.isClamped({600044.0, 5199955.0, 0.0}));
     EXPECT_TRUE(frame.isClamped({600045.0, 5199956.0, 0.0}));
-    EXPECT_FALSE(frame.isClamped({689955.0, 5128045.0, 0.0})); // the last
+    EXPECT_FALSE(frame.isClamped({689955.0, 5128045.0, 0.0})); // exactly the last one
     EXPECT_TRUE(frame.isClamped({689956.0, 5128045.0, 0.0}));
     EXPECT_TRUE(frame.isClamped({std::nan(""), 5199955.0, 0.0}));
 }

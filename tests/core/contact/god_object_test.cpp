@@ -24,13 +24,13 @@ using Model = GodObject<HeightfieldSurface>;
 constexpr auto kKept = GodObjectConstraints::Kept;
 constexpr auto kReleased = GodObjectConstraints::Released;
 
-// Every instantiation, whatever the samples.
+// Every instantiation, for all sample types.
 static_assert(noexcept(
     std::declval<GodObject<PlainHeightfieldSurface<std::int16_t>>&>().update(ScenePoint{})));
 static_assert(
     noexcept(std::declval<GodObject<PlainHeightfieldSurface<float>>&>().update(ScenePoint{})));
 
-// A terrain that is the same along y: a section of the paper's figures.
+// Terrain that is constant along y: a cross section as in the paper's figures.
 std::vector<float> heightsOver(std::size_t side, double (*height)(double x))
 {
     std::vector<float> heights;
@@ -94,7 +94,7 @@ double steepnessOf(const HeightfieldSurface& surface)
     return step * surface.exaggeration();
 }
 
-// Holds one update against everything that must be true of it.
+// Checks one update against all required properties.
 class Judge {
 public:
     Judge(const HeightfieldSurface& surface, GodObjectConstraints constraints)
@@ -141,7 +141,7 @@ public:
                               << state.proxy.z << " m";
             }
         }
-        // Section 3.4 of the paper: farther by no more than the goal moved.
+        // Section 3.4 of the paper: the distance grows by no more than the goal moves.
         if (has_last_) {
             const double growth = (to_goal - last_distance_) - distance(seen, last_goal_);
             tally_.worst_growth_m = std::max(tally_.worst_growth_m, growth);
@@ -176,7 +176,7 @@ Tally wander(const HeightfieldSurface& surface,
         goal = test::wanderingGoal(random, surface, goal, step_cells);
         judge.check(model, goal);
         if (i % 10 == 9) {
-            judge.check(model, goal); // held still
+            judge.check(model, goal); // does not move
         }
     }
     return judge.tally();
@@ -286,11 +286,11 @@ TEST(GodObject, FloatsBeyondARidgeWhileConstraintsAreKept)
     model.update({-3.25, 0.25, -1.0});
     const ContactState two = model.update({3.25, 0.25, -6.0});
     EXPECT_NEAR(distance(two.proxy, {3.25, 0.25, 0.0}), 0.0, 1e-12) << "on the level plane";
-    EXPECT_TRUE(two.is_in_contact) << "it is not at the goal";
+    EXPECT_TRUE(two.is_in_contact) << "not at the goal";
     EXPECT_EQ(two.feature, ContactFeature::Face) << "held by one plane";
     EXPECT_FALSE(model.contact());
     EXPECT_GT(two.proxy.z, awayFromTheRidge(3.25) + 3.0) << "off the surface";
-    // The next update begins without constraints.
+    // The next update starts without constraints.
     const ContactState three = model.update({3.25, 0.25, -6.0});
     EXPECT_NEAR(distance(three.proxy, {4.625, 0.25, -4.625}), 0.0, 1e-12);
     EXPECT_TRUE(model.contact());
@@ -317,7 +317,7 @@ TEST(GodObject, SticksInAValleyWhileConstraintsAreKept)
     Model model(surfaceOver(terrain), kKept);
     model.update({-3.25, 0.25, -1.0});
     const Vec3 foot{4.25, 0.25, 2.125};
-    const ScenePoint goal = foot - Vec3{-1.0, 0.0, 2.0} * 1.5; // below the level plane too
+    const ScenePoint goal = foot - Vec3{-1.0, 0.0, 2.0} * 1.5; // also below the level plane
     const ContactState two = model.update(goal);
     EXPECT_NEAR(distance(two.proxy, {0.0, 0.25, 0.0}), 0.0, 1e-12) << "in the valley";
     EXPECT_NEAR(distance(model.update(goal).proxy, foot), 0.0, 1e-12);
@@ -423,8 +423,8 @@ TEST(GodObject, FallsOntoASurfaceThatSinksWhileItFloats)
     }
 }
 
-// The viscosity of section 2.3: a goal that moves by v cells an update leaves kept constraints
-// behind. The lag is what one more long wait at the last goal would still bring.
+// The viscosity of section 2.3: a goal that moves by v cells per update leaves kept constraints
+// behind. The lag is the distance that a long wait at the last goal would still recover.
 TEST(GodObject, LagsBehindFastSwipesWhileConstraintsAreKept)
 {
     const auto terrain = test::filledTerrain(1025, test::fractalHeights(1025, 1025, 20031));

@@ -40,8 +40,8 @@ TEST(HeightfieldSurface, CastsFindWhatRaysFind)
             const auto goal = surface.goal(to);
             ASSERT_TRUE(start && goal);
             const auto cast = surface.castFree(*start, *goal);
-            // The cast of core/terrain goes another way: down from the root, through all it
-            // overlaps.
+            // The reference cast of core/terrain works differently: from the root down through all
+            // overlapping nodes.
             auto expected = castRay(heightfield, pyramid, gridRay(from, to - from, frame, scale));
             if (expected && expected->t > 1.0) {
                 expected.reset();
@@ -65,7 +65,7 @@ TEST(HeightfieldSurface, CastsPassNoEdgeAndNoVertex)
     const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 70, 2));
     const HeightfieldSurface surface(terrain, test::unitFrame(*terrain), 1.0);
     for (int i = 0; i < 20000; ++i) {
-        // Through a point on a vertex or an edge, steeper than any slope, to just below it.
+        // Through a point on a vertex or an edge, steeper than any slope, to just below that point.
         GridPoint on{std::floor(random.uniform(1.0, 88.0)), std::floor(random.uniform(1.0, 68.0))};
         const double along = random.unit();
         const std::size_t kind = random.below(4);
@@ -122,7 +122,7 @@ TEST(HeightfieldSurface, TellsWhereVoidsWereFilled)
     EXPECT_TRUE(is_over_void(5.0, 5.0));
     EXPECT_TRUE(is_over_void(5.5, 5.25));
     EXPECT_TRUE(is_over_void(4.75, 4.5));
-    EXPECT_FALSE(is_over_void(6.0, 5.5)) << "on the edge opposite";
+    EXPECT_FALSE(is_over_void(6.0, 5.5)) << "on the opposite edge";
     EXPECT_FALSE(is_over_void(5.75, 4.125)) << "the other triangle of the cell";
     EXPECT_FALSE(is_over_void(10.0, 10.0));
 }

@@ -45,7 +45,7 @@ double cosine(const Vec3& a, const Vec3& b)
     return lengths > 0.0 ? dot(a, b) / lengths : 0.0;
 }
 
-// What every update on a closed mesh must keep, from sums over all triangles.
+// The properties of every update on a closed mesh, checked with sums over all triangles.
 class Judge {
 public:
     Judge(const test::NamedMesh& named)
@@ -55,7 +55,7 @@ public:
                  (length(named.middle) + named.size_m))
     {}
 
-    // Never inside, and in contact on the surface.
+    // Never inside; on the surface if in contact.
     void checkPlace(const ContactState& state, const ScenePoint& goal)
     {
         ++updates_;
@@ -78,7 +78,7 @@ public:
         }
     }
 
-    // No direction leads closer at once: not along the faces there, not into free space.
+    // No direction leads closer to the goal: neither along the adjacent faces nor into free space.
     void checkMinimum(const ContactState& state, const ScenePoint& goal, test::Random& random)
     {
         if (!state.is_in_contact) {
@@ -86,7 +86,7 @@ public:
         }
         const Vec3 to_goal = goal - state.proxy;
         const double distance = length(to_goal);
-        // Coordinates are rounded, which turns the direction.
+        // Coordinates are rounded, which changes the direction.
         const double blur = 1e-6 + 64.0 * ulp_m_ / std::max(distance, 1e-300);
         if (distance < 1e-9 * size_m_ || blur > 1e-2) {
             return;
@@ -98,8 +98,8 @@ public:
             if (!isOn(corners, state.proxy, on)) {
                 continue;
             }
-            // The cone of ways within a face is spanned by the ways to its corners; the steepest
-            // of all is the way to the foot, where that is within.
+            // The directions within a face are the cone spanned by the directions to its corners.
+            // The steepest one leads to the foot if that is inside.
             for (const ScenePoint& corner : corners) {
                 const Vec3 along = corner - state.proxy;
                 if (length(along) > 1e3 * on) {
@@ -116,7 +116,7 @@ public:
                 ASSERT_LE(length(slide) / distance, blur) << "within face " << f;
             }
         }
-        // Into free space: a step that leads closer ends within the object.
+        // Into free space: a step that leads closer to the goal ends inside the object.
         const double step =
             std::min({1e-5 * size_m_, 0.1 * distance, 0.1 * clearance(state.proxy, on)});
         if (step < 1e3 * ulp_m_) {
@@ -133,7 +133,7 @@ public:
                 continue;
             }
             ++ways_;
-            ASSERT_GT(test::windingNumber(mesh_, there), 0.5) << "a free way leads closer";
+            ASSERT_GT(test::windingNumber(mesh_, there), 0.5) << "a free direction leads closer";
         }
     }
 
@@ -151,7 +151,7 @@ public:
     long cutShort() const { return cut_short_; }
 
 private:
-    // How far it is to the nearest face or edge that does not hold the point.
+    // The distance to the nearest face or edge that does not contain the point.
     double clearance(const ScenePoint& p, double on) const
     {
         double least = std::numeric_limits<double>::infinity();
@@ -196,7 +196,7 @@ private:
     double worst_cosine_ = 0.0;
 };
 
-// A goal that wanders in small and big steps, in and out of the object, and now and then onto its
+// A goal that moves in small and large steps, into and out of the object, and sometimes onto its
 // vertices, edges and faces.
 ScenePoint wander(test::Random& random, const test::NamedMesh& named, const ScenePoint& last)
 {
@@ -230,7 +230,7 @@ TYPED_TEST(MeshModel, StaysOutsideClosedMeshesAtALocalMinimum)
         Judge judge(named);
         ScenePoint goal = named.middle + Vec3{2.0 * named.size_m, 0.0, 0.0};
         model.update(goal);
-        // The sums over all triangles take longer the more there are.
+        // Fewer updates for larger meshes, because the sums run over all triangles.
         const int updates = named.mesh->faceCount() < 50 ? 10000 : 3000;
         for (int i = 0; i < updates && !testing::Test::HasFatalFailure(); ++i) {
             goal = wander(random, named, goal);
@@ -248,7 +248,8 @@ TYPED_TEST(MeshModel, StaysOutsideClosedMeshesAtALocalMinimum)
 
 TYPED_TEST(MeshModel, ManyFastUpdatesNeverEndInside)
 {
-    // Only every tenth is judged, and of contacts only the place: all the more updates.
+    // Only every tenth update is checked, and contacts only by position, which allows many more
+    // updates.
     test::Random random;
     long updates = 0;
     for (const test::NamedMesh& named : test::closedMeshes()) {
@@ -270,8 +271,8 @@ TYPED_TEST(MeshModel, ManyFastUpdatesNeverEndInside)
     std::printf("%ld updates\n", updates);
 }
 
-// Steps from the size of the mesh to below rounding error, often onto its features or less than a
-// micrometre beside them; cracks as narrow as a nanometre.
+// Steps from the size of the mesh down to below rounding error, often onto its features or less
+// than a micrometer away; cracks down to a nanometer.
 ScenePoint torment(test::Random& random, const test::NamedMesh& named, const ScenePoint& last)
 {
     const double size = named.size_m;
@@ -329,27 +330,27 @@ TYPED_TEST(MeshModel, FallsOffTheBorderOfAnOpenMesh)
     ContactState state = model.update({2.2, -2.4, -1.0});
     EXPECT_TRUE(state.is_in_contact);
     EXPECT_NEAR(length(state.proxy - ScenePoint{2.2, -2.4, 0.0}), 0.0, 1e-12);
-    // Slides below the sheet to its border and beyond.
+    // Slides along the underside of the sheet to its border and beyond.
     state = model.update({3.9, -2.4, -1.0});
     EXPECT_TRUE(state.is_in_contact);
     EXPECT_NEAR(length(state.proxy - ScenePoint{3.9, -2.4, 0.0}), 0.0, 1e-12);
     state = model.update({4.1, -2.4, -1.0});
     EXPECT_FALSE(state.is_in_contact);
     EXPECT_EQ(state.proxy, (ScenePoint{4.1, -2.4, -1.0}));
-    // From below it passes through the back.
+    // From below it passes through the back side.
     state = model.update({2.2, -2.4, -1.0});
     EXPECT_FALSE(state.is_in_contact);
     state = model.update({2.2, -2.4, 1.0});
     EXPECT_FALSE(state.is_in_contact);
     EXPECT_TRUE(model.update({2.2, -2.4, -0.5}).is_in_contact);
-    // Over a corner, too.
+    // Past a corner as well.
     EXPECT_FALSE(model.update({-0.5, 0.5, -0.5}).is_in_contact);
 }
 
 TYPED_TEST(MeshModel, OpenMeshesAreNeverPassedFromTheFront)
 {
-    // Below a rough sheet with a level border is reached by way of the border only: there the foot
-    // of the goal is straight above it.
+    // The space below a rough sheet with a level border can be reached only around the border,
+    // where the foot of the goal is straight above it.
     test::Random random;
     std::vector<double> heights(400);
     for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -375,7 +376,7 @@ TYPED_TEST(MeshModel, OpenMeshesAreNeverPassedFromTheFront)
             ASSERT_LT(test::bruteDistance(*mesh, state.proxy), 1e-12);
         } else {
             ASSERT_EQ(state.proxy, goal);
-            // It got there without being pulled through the front.
+            // It got below without being pulled through the front side.
             if (last.is_in_contact && state.proxy.z < 0.0) {
                 ++falls;
                 ASSERT_TRUE(goal.x < 0.0 || goal.x > 19.0 || goal.y > 0.0 || goal.y < -19.0)
@@ -402,7 +403,7 @@ TYPED_TEST(MeshModel, RefusesGoalsThatAreNone)
         EXPECT_TRUE(state.is_in_contact);
         EXPECT_EQ(state.counters.refused, 1U);
     }
-    // As far as can be aimed at, and back.
+    // The farthest goals that are accepted, there and back.
     EXPECT_FALSE(model.update({1e12, -1e12, 1e12}).is_in_contact);
     const ContactState through = model.update({-1e12, 1e12, -1e12});
     EXPECT_LT(test::bruteDistance(*test::meshOf(test::cube()), through.proxy) *
@@ -474,7 +475,7 @@ void expectSameAsHeightfield(double scale, double step_cells, int updates)
         const double apart = length(a.proxy - b.proxy);
         if (apart > 1e-9 || a.is_in_contact != b.is_in_contact) {
             ++differ;
-            // On from the same place, to compare each update for itself.
+            // Both continue from the same place, so that each update is compared independently.
             goal = {goal.x, goal.y, 100.0};
             truth.place(goal);
             model.place(goal);
@@ -534,7 +535,7 @@ TEST(MeshSurface, FacetsKnowTheirNeighbours)
                 EXPECT_EQ((is_left ? both.right : both.left).vertices[0], beyond.vertices[0]);
                 EXPECT_EQ((is_left ? both.left : both.right).vertices[0], facet.vertices[k]);
             }
-            // The foot is the goal's projection, by weights.
+            // The foot is the projection of the goal, by weights.
             const MeshGoal goal{{0.3, -0.2, 0.1}, {}};
             const SurfaceFoot foot = facet.foot(goal);
             EXPECT_NEAR(foot.weights[0] + foot.weights[1] + foot.weights[2], facet.scale,

@@ -30,7 +30,7 @@ HeightfieldSurface surfaceOf(std::size_t columns, const std::vector<float>& heig
     return {terrain, test::unitFrame(*terrain), 1.0};
 }
 
-// Puts the model above the surface, then moves the goal; both are judged.
+// Places the model above the surface, then moves the goal; both updates are checked.
 template <typename Model>
 ContactState moved(Model& model, const ScenePoint& from, const ScenePoint& to)
 {
@@ -76,8 +76,8 @@ TEST(PaperFigures, Figure3TheProxySlidesFromTheCollisionToTheMinimum)
 
 // Figure 6: a small error of vertex tracing leads to another local minimum.
 
-// From where a segment hits the surface, down in steps of a thousandth of a cell, each in the best
-// of so many directions. Knows heights only.
+// Starts where a segment hits the surface and descends in steps of a thousandth of a cell, each in
+// the best of many directions. Uses heights only.
 ScenePoint crawled(const HeightfieldSurface& surface, ScenePoint at, const ScenePoint& goal)
 {
     constexpr int kDirections = 720;
@@ -94,7 +94,7 @@ ScenePoint crawled(const HeightfieldSurface& surface, ScenePoint at, const Scene
                 continue;
             }
             const ScenePoint on = surface.frame().toScene(grid, test::bruteHeight(surface, grid));
-            // The fastest way down, not the farthest: per metre of surface.
+            // The steepest descent per meter of surface, not the longest step.
             const double gain = distance(at, goal) - distance(on, goal);
             const double best_gain = distance(at, goal) - distance(best, goal);
             if (gain > 0.0 &&
@@ -142,25 +142,25 @@ TEST(PaperFigures, Figure6TracingFromTheNearestVertexEndsInAnotherMinimum)
     EXPECT_NEAR(distance(figure.third, figure.at(1.75, 1.75)), 0.0, 1e-12);
     EXPECT_NEAR(distance(crawled(figure.surface, figure.collision, figure.goal), figure.third), 0.0,
                 5e-3)
-        << "3 is where the surface leads from the collision";
-    // As the paper has it, from the collision triangle's vertex that is nearest to the goal.
+        << "the descent from the collision leads to 3";
+    // As in the paper, from the vertex of the collision triangle nearest to the goal.
     const ScenePoint vertex = figure.at(2.0, 2.0);
     for (const ScenePoint& other : {figure.at(1.0, 1.0), figure.at(1.0, 2.0)}) {
         ASSERT_LT(distance(vertex, figure.goal), distance(other, figure.goal));
     }
     Graph traced(figure.surface);
     const ScenePoint fourth = moved(traced, vertex, figure.goal).proxy;
-    EXPECT_NEAR(distance(fourth, figure.at(2.0, 2.75)), 0.0, 1e-12) << "4, a local minimum too";
-    // Ours walks from the collision to the first vertex or edge, and meets 3.
+    EXPECT_NEAR(distance(fourth, figure.at(2.0, 2.75)), 0.0, 1e-12) << "4 is a local minimum too";
+    // Our model walks from the collision to the first vertex or edge, and reaches 3.
     Graph graph(figure.surface);
     EXPECT_NEAR(distance(moved(graph, figure.start, figure.goal).proxy, figure.third), 0.0, 1e-12);
 }
 
 TEST(PaperFigures, Figure6VertexTracingStillDiffersFromExactDescentNowAndThen)
 {
-    // What differs: at the edge where the walk over the collision face ends, the surface leads on
-    // into the next face, between two edges; the graph takes the steeper edge instead, and behind
-    // it another basin.
+    // The difference: the walk over the collision face ends at an edge where the surface continues
+    // into the next face, between two edges. The graph takes the steeper edge instead, which leads
+    // into another basin.
     const SixthFigure figure({3, 3, 1, 0, 3, 0, 1, 1, 1, 3, 2, 2, 1, 1, 2, 2}, {1.25, 1.75},
                              {3.0, 1.75}, -2.5);
     EXPECT_NEAR(distance(figure.third, figure.at(3.0, 0.0)), 0.0, 1e-12);
@@ -177,7 +177,7 @@ TEST(PaperFigures, Figure6VertexTracingStillDiffersFromExactDescentNowAndThen)
 }
 
 // Figures 9 and 10: a triangle ABC with an obtuse angle at A and AB twice as long as AC, which
-// makes room for area d.
+// leaves room for area d.
 
 class Triangle {
 public:
@@ -187,8 +187,8 @@ public:
         : b_{2.0, 0.0, 0.0}
         , c_{std::cos(1.9), std::sin(1.9), 0.0}
     {
-        // A is the sample in the middle, B the next in its row, and C the one right below, so that
-        // a row down is C - B.
+        // A is the sample in the middle, B the next in its row, and C the one directly below, so
+        // one row down is C - B.
         std::vector<float> heights;
         for (int row = -kHalf; row <= kHalf; ++row) {
             for (int column = -kHalf; column <= kHalf; ++column) {
@@ -219,7 +219,7 @@ public:
         const double of_c = cross(b_, p).z / area;
         return {1.0 - of_b - of_c, of_b, of_c};
     }
-    // The edges that leave A in the plane, AB first.
+    // The edges at A in the plane, AB first.
     std::array<Vec3, 6> edges() const { return {b_, c_, c_ - b_, -b_, -c_, b_ - c_}; }
 
     // From A, where the proxy rests, to a goal whose foot on the plane is `p`.
@@ -261,7 +261,7 @@ TEST(PaperFigures, Figure9TheProxyCrossesTheFarEdge)
     EXPECT_NEAR(distance(state.proxy, p), 0.0, 1e-12);
     EXPECT_LT(distance(state.proxy, goal), distance(e, goal));
 
-    // Where the surface rises behind BC, the farther minimum is on BC itself.
+    // Where the surface rises behind BC, the farther minimum lies on BC itself.
     const Triangle valley(Triangle::Beyond::RisesBehindBC);
     const Vec3 bc = valley.c() - valley.b();
     const ScenePoint nearest = valley.b() + bc * (dot(p - valley.b(), bc) / dot(bc, bc));
@@ -280,7 +280,7 @@ TEST(PaperFigures, Figure10EachAreaOfTheTriangleEndsAsThePaperSays)
     std::array<int, 4> met{};
     for (int i = -40; i <= 80; ++i) {
         for (int j = -40; j <= 40; ++j) {
-            // Not on the lines between the areas.
+            // Avoids the lines between the areas.
             const ScenePoint p{0.05 * i + 0.0123, 0.05 * j + 0.0071, 0.0};
             const double towards_b = dot(p, flat.b()) / 2.0;
             bool is_steepest = towards_b > 0.0;
@@ -300,7 +300,7 @@ TEST(PaperFigures, Figure10EachAreaOfTheTriangleEndsAsThePaperSays)
                 ++met[0]; // a: B is closer
                 EXPECT_LT(distance(p, flat.b()), length(p));
                 if (towards_b >= 2.0) {
-                    EXPECT_GE(state.counters.vertices, 2U) << "goes on from B";
+                    EXPECT_GE(state.counters.vertices, 2U) << "continues from B";
                 }
             } else if (shares[2] < 0.0) {
                 ++met[1]; // b: on the adjacent face, or, in a valley, on AB
@@ -328,8 +328,8 @@ TEST(PaperFigures, Figure10EachAreaOfTheTriangleEndsAsThePaperSays)
     }
 }
 
-// Section 3.4: the distance never grows faster than the endpoint moves, because every update ends
-// in a local minimum; every step but far-edge ones decreases the distance.
+// Section 3.4: the distance never grows by more than the endpoint moves, because every update ends
+// in a local minimum. All steps except far-edge ones decrease the distance.
 
 TEST(PaperFigures, Section34TheDistanceGrowsAtMostAsTheEndpointMoves)
 {
@@ -341,10 +341,10 @@ TEST(PaperFigures, Section34TheDistanceGrowsAtMostAsTheEndpointMoves)
         }
         const HeightfieldSurface surface = surfaceOf(60, heights);
         Graph graph(surface);
-        test::Judge<Graph> judge(surface); // holds every update against the claim
+        test::Judge<Graph> judge(surface); // checks every update against the claim
         ScenePoint goal{0.0, 0.0, -3.0};
         for (int i = 0; i < 20000 && !HasFatalFailure(); ++i) {
-            const double step = i % 100 == 0 ? 5.0 : 0.05; // steps of a hand, and leaps
+            const double step = i % 100 == 0 ? 5.0 : 0.05; // small steps, as of a hand, and jumps
             goal = {std::clamp(goal.x + random.uniform(-step, step), -28.0, 28.0),
                     std::clamp(goal.y + random.uniform(-step, step), -28.0, 28.0), 0.0};
             goal.z = surface.height(surface.frame().toGrid(goal)) -

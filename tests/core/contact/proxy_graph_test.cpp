@@ -32,7 +32,7 @@ wander(const HeightfieldSurface& surface, test::Random& random, int updates, dou
         goal = test::wanderingGoal(random, surface, goal, step_cells);
         judge.check(model, goal);
         if (i % 10 == 9) {
-            judge.check(model, goal); // held still
+            judge.check(model, goal); // does not move
         }
     }
     return judge.findings();
@@ -104,7 +104,7 @@ TEST(ProxyGraph, HoldsItsPromisesOnTheBundledMaps)
 TEST(ProxyGraph, EndsLoopsOfFarEdgesInAMinimum)
 {
     // Loops need long, thin triangles and luck: a search over six million updates on random
-    // terrains in sheared frames met one, here.
+    // terrains in sheared frames found this one.
     const auto terrain =
         test::filledTerrain(3, {-1.21333F, 3.49152F, -0.913293F, 4.44917F, -4.16928F, 3.62006F,
                                 2.66074F, 0.927445F, -1.91758F});
@@ -159,7 +159,7 @@ TEST(ProxyGraph, IsFreeAtTheGoalAboveTheSurface)
         const ContactState state = model.update(goal);
         EXPECT_FALSE(state.is_in_contact);
         EXPECT_EQ(state.proxy, goal);
-        EXPECT_EQ(state.counters.cells, 0U) << "far above, no cell needs a look";
+        EXPECT_EQ(state.counters.cells, 0U) << "far above, no cell needs a test";
     }
 }
 
@@ -214,8 +214,8 @@ TEST(ProxyGraph, SlidesDownARidge)
     const ContactState state = model.update({1.0, 4.25, -5.0});
     EXPECT_NEAR(distance(state.proxy, {3.0, 4.25, -3.0}), 0.0, 1e-12);
     EXPECT_TRUE(state.is_in_contact);
-    // Across, below the ridge, the proxy cannot follow to the other side: the ridge is higher than
-    // the foot. It stays on its slope, where the goal is nearest.
+    // Below the ridge, on its other side, the proxy cannot follow: the ridge is higher than the
+    // foot. It stays on its slope, where it is nearest to the goal.
     const ContactState other = model.update({-1.0, 4.25, -5.0});
     EXPECT_NEAR(distance(other.proxy, {2.0, 4.25, -2.0}), 0.0, 1e-12);
 }
@@ -259,8 +259,8 @@ TEST(ProxyGraph, LeavesTheSurfaceWithTheGoal)
 
 TEST(ProxyGraph, IsPlacedStraightAboveTheFirstGoal)
 {
-    // Two valleys. The goal is below the ridge between them, a little on the western side, from
-    // where the descent leads west, wherever the model began.
+    // Two valleys. The goal is below the ridge between them, slightly on the western side. From
+    // there the descent leads west, wherever the model was before.
     const auto terrain = test::filledTerrain(
         41, heightsOver(41, [](double x, double) { return std::abs(std::abs(x) - 5.0); }));
     Model model(surfaceOver(terrain));
@@ -357,7 +357,7 @@ TEST(ProxyGraph, MovesWithTheSurfaceWhenTheExaggerationChanges)
     const ContactState kept = model.update({kNan, kNan, kNan});
     EXPECT_TRUE(kept.is_in_contact);
     EXPECT_NEAR(distance(kept.proxy, {at.x, at.y, 3.0 * at.z}), 0.0, 1e-12);
-    // Free: stays where it is, unless the surface rises above it.
+    // Free: it stays where it is, unless the surface rises above it.
     model.update({0.0, 0.0, 40.0});
     model.setSurface(surfaceOver(terrain, 3.5));
     EXPECT_EQ(model.update({kNan, 0, 0}).proxy, (ScenePoint{0.0, 0.0, 40.0}));

@@ -1,7 +1,7 @@
-// Contact models where numbers are hard: ties, cliffs, slivers, huge and tiny cells, far goals.
+// Contact models with difficult numbers: ties, cliffs, slivers, huge and tiny cells, far goals.
 //
-// Prints a line a case and model with the worst of everything, in metres; in parentheses the share
-// of what rounding is granted. MARSVIEW_STRESS_UPDATES=N makes the runs N times as long.
+// Prints one line per case and model with the largest residuals, in meters, and in parentheses the
+// share of the rounding allowance. MARSVIEW_STRESS_UPDATES=N makes the runs N times as long.
 #include "core/contact/continuous_walk.h"
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
@@ -136,7 +136,7 @@ struct Runs {
             }
             const ContactState again = model.update(goal);
             EXPECT_EQ(again.counters.refused, 0U);
-            EXPECT_EQ(again.proxy, held.proxy) << "as if nothing had happened";
+            EXPECT_EQ(again.proxy, held.proxy) << "unchanged by the invalid goal";
         }
     }
 
@@ -250,8 +250,8 @@ std::vector<Scenery> inFrames(const Scenery& scenery, const std::vector<std::arr
     return sceneries;
 }
 
-// A map of the file system, 0.01 m a cell, far from the origin of its coordinates; and as the
-// second map of a scene, where its frame is found through those coordinates.
+// A map of 0.01 m cells, far from the origin of its coordinates; once alone and once as the second
+// map of a scene, where its frame is derived from those coordinates.
 std::vector<Scenery> centimetresInUtm()
 {
     test::MapMaker maker;
@@ -309,7 +309,7 @@ std::vector<Scenery> withVoids()
                         : static_cast<std::int16_t>(std::lround(20.0 * std::sin(c * 0.3) + r)));
         }
     }
-    // Once as voids, which are filled, and once as heights: holes 32 km deep.
+    // Once as voids, which are filled, and once as samples: holes 32 km deep.
     const auto filled = terrainOf(70, samples, {.nodata = kVoid});
     const auto holes = terrainOf(70, samples);
     return {{filled, test::unitFrame(*filled)}, {holes, test::unitFrame(*holes)}};
@@ -533,7 +533,7 @@ TEST_P(StabilityOfModels, IsPlacedAnywhere)
 
 TEST_P(StabilityOfModels, CrossesAContinentInOneUpdate)
 {
-    // A thousand kilometres of 1 km cells; heights as on a planet, and five times that.
+    // A thousand kilometers of 1 km cells, with the relief of a planet and five times that.
     Random random;
     const std::vector<float> heights = test::fractalHeights(1000, 800, 2);
     std::vector<std::int16_t> samples;
@@ -552,7 +552,7 @@ TEST_P(StabilityOfModels, CrossesAContinentInOneUpdate)
             const bool is_east = i % 2 == 0;
             const GridPoint to{is_east ? random.uniform(950.0, 999.0) : random.uniform(0.0, 50.0),
                                random.uniform(0.0, 799.0)};
-            // Deep enough to drag the proxy along, or across the sky.
+            // Deep enough to drag the proxy along, or high above the terrain.
             goals.push_back(frame.toScene(
                 to, i % 7 == 6 ? 1e5 : -random.uniform(1.0, 100.0) * 1000.0 * exaggeration));
         }

@@ -1,4 +1,4 @@
-// Goals that try a contact model.
+// Goals that put a contact model under stress.
 #pragma once
 
 #include "tests/core/contact/contact_truth.h"
@@ -8,11 +8,11 @@
 
 namespace marsview::test {
 
-/// An endless stream of goals over a heightfield, none refused: wandering by a thousandth of a cell
-/// and by dozens of cells, shallow and deep; straight sweeps over the map and beyond its border;
-/// jumps from anywhere to anywhere; places on samples, edges, diagonals and borders, exactly on the
-/// surface or a bit beside it; places whose foot is exactly a corner, an edge or the inside of a
-/// face; up to 1e12 m away; straight dives; and rests.
+/// An endless stream of valid goals over a heightfield: random walks with steps from a thousandth
+/// of a cell to dozens of cells, shallow and deep; straight sweeps over the map and beyond its
+/// border; jumps from anywhere to anywhere; points on samples, edges, diagonals and borders,
+/// exactly on the surface or slightly off it; points whose foot is exactly a corner, on an edge or
+/// inside a face; goals up to 1e12 m away; straight dives; and rests.
 class StressGoals {
 public:
     StressGoals(Random& random, const HeightfieldTruth& truth);
@@ -44,7 +44,7 @@ private:
     GridPoint velocity_;
     double step_ = 1.0;  // cells
     double depth_ = 1.0; // m
-    double climb_ = 0.0; // m an update
+    double climb_ = 0.0; // m per update
     double z_ = 0.0;
     bool follows_ = true;
     ScenePoint goal_;

@@ -22,7 +22,7 @@ using test::surfaceOver;
 
 using Model = VirtualProxy<HeightfieldSurface>;
 
-// Every instantiation, whatever the samples.
+// Every instantiation, for all sample types.
 static_assert(noexcept(
     std::declval<VirtualProxy<PlainHeightfieldSurface<std::int16_t>>&>().update(ScenePoint{})));
 static_assert(
@@ -44,7 +44,7 @@ long double dot(const Long3& a, const Long3& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// The point of a triangle nearest to p, by the regions of its corners, edges and inside.
+// The point of a triangle nearest to p, by the Voronoi regions of corners, edges and inside.
 Long3 nearestOf(const Long3& p, const Long3& a, const Long3& b, const Long3& c)
 {
     const Long3 ab = b - a;
@@ -83,7 +83,7 @@ Long3 nearestOf(const Long3& p, const Long3& a, const Long3& b, const Long3& c)
     return a + ab * (vb / all) + ac * (vc / all);
 }
 
-// What double coordinates can tell apart, several times.
+// A few times the resolution of double coordinates.
 double ulps(const ScenePoint& p)
 {
     return 0x1p-48 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
@@ -94,7 +94,7 @@ struct Near {
     double distance;
 };
 
-// The triangles that are nearer to a centre than `reach`, from all cells under it.
+// The triangles closer to a center than `reach`, searched in all cells below it.
 std::vector<Near>
 trianglesNear(const HeightfieldSurface& surface, const ScenePoint& centre, double reach)
 {
@@ -144,9 +144,9 @@ trianglesNear(const HeightfieldSurface& surface, const ScenePoint& centre, doubl
     return near;
 }
 
-// The part of the way to the goal that tangent planes with these normals do not hold up: the least
-// that is left of the way by adding multiples >= 0 of one, two or three of the normals, which is
-// the least by any number of them. 0 at a local minimum.
+// The part of the vector to the goal that tangent planes with these normals do not block: the
+// smallest remainder after adding nonnegative multiples of one, two or three of the normals. More
+// normals would not make it smaller. 0 at a local minimum.
 double unheld(const Vec3& to_goal, const std::vector<Vec3>& normals)
 {
     std::vector<Long3> n;
@@ -251,7 +251,8 @@ public:
         EXPECT_EQ(state.is_in_contact, state.feature != ContactFeature::Free);
         const GridPoint grid = surface_.frame().toGrid(state.proxy);
         ASSERT_GT(state.proxy.z, test::bruteHeight(surface_, grid)) << "below the surface";
-        // Of what is farther by more than rounding the tangent planes are not those of a touch.
+        // Triangles that are farther than rounding error are not in contact; their tangent planes
+        // do not count.
         const double touching = 0.01 * tolerance + ulps(state.proxy);
         const auto near = trianglesNear(surface_, state.proxy, radius + tolerance);
         double nearest = std::numeric_limits<double>::infinity();
@@ -331,7 +332,7 @@ Tally wander(const HeightfieldSurface& surface,
         goal = test::wanderingGoal(random, surface, goal, step_cells);
         judge.check(model, goal);
         if (i % 10 == 9) {
-            judge.check(model, goal); // held still
+            judge.check(model, goal); // does not move
         }
     }
     return judge.tally();
@@ -413,7 +414,7 @@ TEST(VirtualProxy, HoldsItsPromisesAsWideAsManyCells)
     expectPromisesKept(wander(surface, 20.0, random, 200, 3.0), "radius of 20 cells");
 }
 
-// Terrain that is the same along y.
+// Terrain that is constant along y.
 HeightfieldSurface ruled(double (*height)(double x))
 {
     std::vector<float> heights;
@@ -480,7 +481,7 @@ TEST(VirtualProxy, IsPlacedWhereASphereComesDownOntoTheTerrain)
     Model model(surfaceOver(terrain), 1.25);
     const ContactState below = model.place({2.5, 3.25, -40.0});
     EXPECT_NEAR(distance(below.proxy, {2.5, 3.25, 8.25}), 0.0, 1e-9);
-    // Above the surface, but not by a radius.
+    // Above the surface, but by less than the radius.
     const ContactState inside = model.place({2.5, 3.25, 7.5});
     EXPECT_NEAR(distance(inside.proxy, {2.5, 3.25, 8.25}), 0.0, 1e-9);
     EXPECT_TRUE(inside.is_in_contact);

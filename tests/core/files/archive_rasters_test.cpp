@@ -46,7 +46,7 @@ void writeInto(const TempFolder& folder,
     }
 }
 
-// Three rasters in folders, of which small.tif comes first by name, with files that are none.
+// Three rasters in folders, with a_small.tif first by name, and files that are not rasters.
 void fill(const TempFolder& folder)
 {
     writeInto(folder, "set", "a_small.tif", "GTiff", uniform<std::int16_t>(10, 10, 1));
@@ -92,7 +92,7 @@ TEST(Archive, OpensTheLargestElevationsAndNamesTheOthers)
                     Contains("3 rasters were found in the archive; " + root +
                              "/set/dem.tif is open; open another one by its name: " + root +
                              "/set/a_small.tif (10 × 10), " + root + "/set/mask.tif (90 × 90)"));
-        // By that name.
+        // Opened by that name.
         const auto other = RasterFile::open(root + "/set/a_small.tif");
         ASSERT_TRUE(other) << other.error().message;
         EXPECT_EQ(other->info().columns, 10U);
@@ -111,7 +111,7 @@ TEST(Archive, OfOneRasterNeedsNoChoice)
     EXPECT_THAT(file->info().notices, testing::ElementsAre("opened in place of one.zip"));
 }
 
-// A label and its data are one raster.
+// A label and its data count as one raster.
 TEST(Archive, CountsALabelWithItsDataOnce)
 {
     const TempFolder folder;

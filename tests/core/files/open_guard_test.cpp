@@ -1,4 +1,4 @@
-// Opening in a child process, as RasterFile does; what it does to bad drivers is in
+// Opening in a child process, as RasterFile does. Faulty drivers are tested in
 // tests/cli/hostile_files_test.cpp.
 #include "core/files/block_cache.h"
 #include "core/files/opening_job.h"
@@ -107,7 +107,7 @@ TEST_F(OpenGuardTest, ACancelEndsTheChild)
     EXPECT_EQ(code, ErrorCode::Cancelled);
 }
 
-// Settings are read once in a process: each case has one of its own.
+// Settings are read once per process, so each case has its own process.
 TEST(BlockCacheTest, TheUsersSettingsAreKept)
 {
     GTEST_FLAG_SET(death_test_style, "threadsafe");

@@ -95,17 +95,18 @@ protected:
         EXPECT_TRUE(file) << (file ? "" : file.error().message);
         return std::move(file).value();
     }
-    // What lies on disk.
+    // The samples on disk.
     static SampleGrid truth(const std::string& path, const GridWindow& window)
     {
         return std::move(RasterFile::open(path)->readWindow(window, {})->grid);
     }
-    // Puts `name` in the map's place, as somebody would who publishes a new edition.
+    // Replaces the map by `name`, as when a new edition is published.
     void publish(const std::string& name)
     {
         const std::string fresh = folder_.file("fresh.tif");
         fs::copy_file(original(name), fresh);
-        // A server that tells seconds tells this edition from the one before.
+        // With a time that differs by seconds, servers with second resolution distinguish the
+        // editions.
         fs::last_write_time(fresh,
                             fs::last_write_time(folder_.file("map.tif")) + std::chrono::seconds(5));
         fs::rename(fresh, folder_.file("map.tif"));
@@ -257,7 +258,7 @@ TEST_F(RemoteRasterTest, AServerInTroubleIsAskedAgain)
 
 TEST_F(RemoteRasterTest, AConnectionThatIsCutWhileOpeningIsTriedAgain)
 {
-    // What GDAL knows of a file it does not ask for again: every attempt is of a file of its own.
+    // GDAL caches its knowledge of a file, so every attempt uses a different file.
     for (const std::size_t body_bytes : {0U, 100U, 5000U}) {
         const std::string name = "cut_" + std::to_string(body_bytes) + ".tif";
         std::filesystem::copy_file(folder_.file("map.tif"), folder_.file(name));
@@ -302,7 +303,8 @@ TEST_F(RemoteRasterTest, ATileWhoseAnswerIsCutIsAskedForTwiceMore)
     ASSERT_TRUE(source) << source.error().message;
     const auto reader = (*source)->open();
     ASSERT_TRUE(reader) << reader.error().message;
-    // What is cut is the request for the tile, then that for opening the file anew.
+    // The first cut hits the request for the tile, the second one the request that reopens the
+    // file.
     for (std::size_t cuts = 1; cuts <= 2; ++cuts) {
         for (std::uint32_t column = 1; column < 4; ++column) {
             const TileId id{.kind = TileKind::Samples,
@@ -340,7 +342,7 @@ TEST_F(RemoteRasterTest, AFileThatChangesIsNoticedAndNeverMixed)
         bool is_noticed = false;
         for (std::size_t row = 0; row < kSide / kTileSide; ++row) {
             const auto tile = file.readWindow(tileAt(5, row), {});
-            if (tile) { // read ahead before the change
+            if (tile) { // read before the change
                 EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(5, row))));
             } else {
                 EXPECT_EQ(tile.error().message,
@@ -431,7 +433,8 @@ TEST_F(RemoteRasterTest, AServerWithoutRangesIsNotDownloadedFrom)
 {
     RasterFile file = opened(server_.url("map.tif"));
     server_.setRanges(test::HttpRanges::Ignored);
-    server_.setBandwidth(4'000'000); // else sockets hold more than the file before they are closed
+    // otherwise the file fits into socket buffers before they are closed
+    server_.setBandwidth(4'000'000);
     const auto tile = file.readWindow(tileAt(6, 6), {});
     ASSERT_FALSE(tile);
     const std::string sentence =
@@ -481,7 +484,7 @@ TEST_F(RemoteRasterTest, TilesAreThoseOfTheFileOnDisk)
         ASSERT_TRUE(here);
         EXPECT_TRUE(isSame(there->samples, here->samples));
     }
-    // A reader for one more thread reads the same edition, or none.
+    // A reader for another thread reads the same edition or fails.
     publish("other.tif");
     const auto late = (*remote)->open();
     ASSERT_FALSE(late);

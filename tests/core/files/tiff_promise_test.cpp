@@ -63,7 +63,7 @@ TEST_F(TiffPromiseTest, WhatGdalWritesFits)
     EXPECT_FALSE(picture->is_plain);
 }
 
-// The smallest files that deflate and LZW can make of many samples.
+// The smallest deflate and LZW files possible for many samples.
 TEST_F(TiffPromiseTest, FlatMapsFitHoweverSmallTheyBecome)
 {
     for (const char* compression : {"DEFLATE", "LZW", "PACKBITS", "ZSTD"}) {

@@ -17,7 +17,7 @@
 namespace marsview {
 namespace {
 
-// An ulp of the angle, in degrees; near zero that of the smallest angle that still matters.
+// An ulp of the angle, in degrees; near zero, that of the smallest angle that matters.
 double ulp(double value)
 {
     const double size = std::max(std::abs(value), std::numeric_limits<double>::min());
@@ -46,7 +46,7 @@ TEST(Ellipsoid, LatitudesAgreeWithTheClosedFormulaOnEveryBody)
         const Ellipsoid& e = body.ellipsoid;
         for (const double degrees : latitudes(random)) {
             SCOPED_TRACE(fmt::format("{} at {:.17g}", body.name, degrees));
-            // The reference starts from the angle that was passed, rounding to radians included.
+            // The reference starts from the angle passed in, including the rounding to radians.
             const Angle angle = Angle::degrees(degrees);
             const double centric = e.planetocentric(angle).radians();
             const double graphic = e.planetographic(angle).radians();
@@ -90,8 +90,8 @@ TEST(Ellipsoid, PlanetographicLatitudeIsNeverNearerToTheEquator)
     }
 }
 
-// Two short geodesics from the same point, one along the meridian and one along the parallel: an
-// independent program's answer to "how far is that".
+// Two short geodesics from the same point, along the meridian and along the parallel: the distances
+// from an independent program.
 TEST(Ellipsoid, MetresPerRadianAgreeWithTheLengthsOfShortGeodesics)
 {
     if (test::runProgram({"GeodSolve", "--version"}).exit_status == 127) {
@@ -102,7 +102,7 @@ TEST(Ellipsoid, MetresPerRadianAgreeWithTheLengthsOfShortGeodesics)
     for (const std::string_view name : {"Earth", "Mars", "Mercury", "Moon", "Vesta", "Phobos"}) {
         const Ellipsoid& e = bodyNamed(name)->ellipsoid;
         const std::vector<double> places{0.0, 0.001, 18.65, -42.43, 45.0, 70.0, -85.0, 89.0};
-        std::string input; // without exponents: to GeodSolve, an "e" is for east
+        std::string input; // no exponents: GeodSolve reads an "e" as east
         for (const double latitude : places) {
             input += fmt::format("{:.18f} 0 {:.18f} 0\n", latitude - kStep_deg / 2.0,
                                  latitude + kStep_deg / 2.0);
@@ -135,8 +135,8 @@ TEST(Ellipsoid, MetresPerRadianAgreeWithTheLengthsOfShortGeodesics)
             const double along_meridian_m = next_length();
             const double along_parallel_m = next_length();
             const double along_centric_m = next_length();
-            // The chord falls short of the parallel by (step · tan φ)²/24 of its length, 4e-10 at
-            // worst here; GeodSolve is good to some nanometres.
+            // The chord is shorter than the parallel by (step · tan φ)²/24 of its length, 4e-10 at
+            // worst here; GeodSolve is accurate to a few nanometers.
             const auto tolerance_m = [](double length_m) { return 1e-9 * length_m + 1e-8; };
             EXPECT_NEAR(e.metresPerRadianOfPlanetographicLatitude(graphic) * step_rad,
                         along_meridian_m, tolerance_m(along_meridian_m));
@@ -160,7 +160,8 @@ TEST(Ellipsoid, MetresPerRadianAgreeWithTheClosedFormula)
             const long double parallel = test::parallelRadius(e.equatorial_m, e.polar_m, latitude);
             ASSERT_NEAR(e.metresPerRadianOfPlanetographicLatitude(graphic),
                         static_cast<double>(meridian), 1e-14 * static_cast<double>(meridian));
-            // The radius of the parallel falls with tan(latitude) times the rounding of the angle.
+            // The radius of the parallel decreases with tan(latitude) times the rounding of the
+            // angle.
             ASSERT_NEAR(e.metresPerRadianOfLongitude(graphic), static_cast<double>(parallel),
                         1e-15 * e.equatorial_m);
         }
@@ -253,7 +254,7 @@ TEST(BodyMentioned, KnowsTheSpellingsOfDatumAndCrsNames)
         {"SIMPLE_CYLINDRICAL MARS", "Mars"},
         {"PolarStereographic MARS", "Mars"},
         {"Mars_localRadius", "Mars"},
-        {"Mars2000", "Mars"}, // digits end a word
+        {"Mars2000", "Mars"}, // a word ends before its digits
         {"GCS_Moon_2000", "Moon"},
         {"D_Moon_2000", "Moon"},
         {"LambertConformal MOON", "Moon"},

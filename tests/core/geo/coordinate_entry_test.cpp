@@ -27,7 +27,7 @@ TEST(PlaceFrom, UnderstandsTheWaysPeopleWrite)
     for (const Case& c : std::vector<Case>{
              {"18.65 N 226.2 E", 18.65, 226.2},
              {"18.65N226.2E", 18.65, 226.2},
-             {"18.65° N 226.20° E", 18.65, 226.2}, // as the status bar writes it
+             {"18.65° N 226.20° E", 18.65, 226.2}, // as the status bar prints it
              {"N 18.65 E 226.2", 18.65, 226.2},
              {"n18.65, e226.2", 18.65, 226.2},
              {"226.2°E, 18.65°N", 18.65, 226.2},
@@ -39,8 +39,8 @@ TEST(PlaceFrom, UnderstandsTheWaysPeopleWrite)
              {"18,65, 226,2", 18.65, 226.2},
              {"-18,65 -133,8", -18.65, -133.8},
              {"18°39′36,5″ 226°12′0,5″", 18.66 + 0.5 * kSecond, 226.2 + 0.5 * kSecond},
-             {"18,226", 18.0, 226.0},                           // one comma separates
-             {"\u206618.65° N, 226.20° E\u2069", 18.65, 226.2}, // isolated for right to left
+             {"18,226", 18.0, 226.0},                           // one comma as the separator
+             {"\u206618.65° N, 226.20° E\u2069", 18.65, 226.2}, // in right-to-left isolates
              {"\u0661\u0668\u066B\u0666\u0665 N \u0662\u0662\u0666\u066B\u0662 E", 18.65,
               226.2}, // Arabic digits
              {"18.65, 226.2", 18.65, 226.2},
@@ -74,7 +74,7 @@ TEST(PlaceFrom, ReadsBareLongitudesInTheDirectionOfTheFormat)
     };
     EXPECT_NEAR(longitude("18.65, 133.8"), -133.8, 1e-12);
     EXPECT_NEAR(longitude("18.65, -133.8"), 133.8, 1e-12);
-    EXPECT_NEAR(longitude("18.65 N 133.8 E"), 133.8, 1e-12); // a letter decides
+    EXPECT_NEAR(longitude("18.65 N 133.8 E"), 133.8, 1e-12); // one letter is enough
     EXPECT_NEAR(longitude("18.65 N 133.8 W"), -133.8, 1e-12);
 }
 

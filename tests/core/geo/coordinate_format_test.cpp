@@ -32,7 +32,7 @@ std::string span(double west, double east, LongitudeNotation range)
     return angleText(low) + " – " + angleText(high);
 }
 
-// The size of the last written digit, in degrees.
+// The size of the last printed digit, in degrees.
 long double unitOf(AngleNotation notation, int digits)
 {
     if (notation == kDecimal) {
@@ -123,7 +123,7 @@ TEST(AngleText, IsReadBackWithinHalfItsLastDigit)
         const int digits =
             is_dms ? static_cast<int>(random.below(8)) - 2 : static_cast<int>(random.below(9));
         const auto range = static_cast<LongitudeNotation>(random.below(3));
-        // Every tenth position lies at a seam or within a digit of one.
+        // Every tenth position lies at a seam or within one digit of it.
         const bool is_seam = random.chance(0.1);
         const long double unit = unitOf(notation, digits);
         const auto near = [&](double place) {
@@ -195,7 +195,7 @@ TEST(CoordinateFormat, KeepsTheKindOfLatitudePerBody)
     EXPECT_EQ(format.latitudesOn(bodyNamed("Moon")), LatitudeKind::Planetocentric);
     format.setLatitudesOn(mars, LatitudeKind::Planetocentric);
     EXPECT_EQ(format.latitudesOn(earth), LatitudeKind::Planetographic);
-    EXPECT_EQ(format, CoordinateFormat{}); // what is usual is not stored
+    EXPECT_EQ(format, CoordinateFormat{}); // a body's usual choice is not stored
 }
 
 TEST(CoordinateFormat, WritesLongitudesAsUsualOnTheBodyUnlessChosen)

@@ -31,7 +31,7 @@ const CrsCatalogue& database()
     return catalogue;
 }
 
-// The codes are those of the EPSG registry and of the IAU's list of 2015.
+// The codes are those of the EPSG registry and of the IAU 2015 list.
 TEST(CrsCatalogue, FindsSystemsByWhatPeopleType)
 {
     ASSERT_GT(database().size(), 5000U);
@@ -65,7 +65,7 @@ TEST(CrsCatalogue, StatesTheBodyOfEverySystem)
 TEST(CrsCatalogue, PutsSystemsOfTheBodyInQuestionFirst)
 {
     const auto hits = database().search("equirectangular", 2, bodyNamed("Moon"));
-    ASSERT_EQ(hits.size(), 2U); // around the near and the far side
+    ASSERT_EQ(hits.size(), 2U); // differ only in the near and the far side
     for (const CrsEntry* entry : hits) {
         EXPECT_EQ(entry->body, bodyNamed("Moon")) << entry->code;
     }

@@ -30,7 +30,7 @@ constexpr double kRoundTripTolerance = 3e-8; // map units
 // How gdaltransform writes coordinates of a CRS's own geographic system.
 enum class BaseAxes {
     LongitudeLatitude,
-    LatitudeWestLongitude, // IAU "Ographic": OGR's traditional order leaves these as they are
+    LatitudeWestLongitude, // IAU "Ographic": OGR's traditional axis order does not change these
 };
 
 struct Box {
@@ -164,7 +164,7 @@ void PrintTo(const OracleCase& c, std::ostream* stream)
 
 class CrsOracle : public testing::TestWithParam<OracleCase> {};
 
-// Test names: the text of the CRS without what a name may not hold.
+// Test names: the CRS text without characters that are not allowed in a name.
 std::string caseName(const testing::TestParamInfo<OracleCase>& info)
 {
     std::string name = info.param.crs.substr(0, info.param.crs.find(" +a"));
@@ -194,8 +194,9 @@ TEST_P(CrsOracle, LongitudeAndLatitudeAreThoseOfGdaltransform)
     ASSERT_TRUE(crs->ellipsoid());
     EXPECT_NEAR(crs->ellipsoid()->equatorial_m, c.a, 1e-6);
     EXPECT_NEAR(crs->ellipsoid()->polar_m, c.b, 1e-6);
-    // PROJ's own inverse of ellipsoidal equal-area projections is only good to millimetres: where
-    // its round trip fails, the oracle is as wrong as that; ours proves itself by its own.
+    // PROJ's own inverse of ellipsoidal equal-area projections is only accurate to millimeters.
+    // Where its round trip fails, the oracle has that error; our inverse is verified by its own
+    // round trip.
     const std::vector<Position> again = test::transformed(c.base, c.crs, back);
     const auto oracle_error_deg = [&](std::size_t i) {
         const double metres =
@@ -225,7 +226,7 @@ TEST_P(CrsOracle, LongitudeAndLatitudeAreThoseOfGdaltransform)
             << fmt::format("found {:.12f} {:.12f}, expected {:.12f} {:.12f}",
                            geographic->longitude.degrees(), geographic->latitude.degrees(),
                            static_cast<double>(longitude), static_cast<double>(latitude));
-        // Back on the map. In degrees of arc times the radius, the same tolerance.
+        // Back to map coordinates. The same tolerance: degrees of arc times the radius.
         const auto returned = crs->toMap(*geographic);
         ASSERT_TRUE(returned);
         const double error_map = std::hypot(returned->x - map[i].x, returned->y - map[i].y);
@@ -254,7 +255,7 @@ Plane equirectangular(long double a, long double lambda, long double phi)
 
 Plane sinusoidal(long double a, long double b, long double lambda, long double phi)
 {
-    // The meridian's length by Simpson's rule, the parallel's by its radius.
+    // Meridian lengths by Simpson's rule, parallels by their radius.
     constexpr int kSteps = 512;
     const auto radius = [&](long double angle) {
         return test::meridianRadius(a, b, angle / kDegreeInRadians);
@@ -356,7 +357,7 @@ TEST_P(CrsFormula, MapCoordinatesAreThoseOfTheProjectionsFormula)
     long double worst_m = 0.0L;
     long double worst_deg = 0.0L;
     for (std::size_t i = 0; i < kPositions; ++i) {
-        // Longitude east of the central meridian; the latitude that the projection takes.
+        // Longitude east of the central meridian; the latitude type that the projection expects.
         const double east_deg = random.uniform(-179.0, 179.0);
         const double graphic_deg = random.uniform(c.latitude_min_deg, c.latitude_max_deg);
         SCOPED_TRACE(fmt::format("{} at {:.17g} {:.17g}", c.crs, east_deg, graphic_deg));
@@ -369,8 +370,8 @@ TEST_P(CrsFormula, MapCoordinatesAreThoseOfTheProjectionsFormula)
         ASSERT_TRUE(map);
         const long double error_m = std::hypot(map->x - x, map->y - plane.y);
         worst_m = std::max(worst_m, error_m);
-        // PROJ's series for the length of a meridian is good to 30 micrometres on Mars (5e-10
-        // degrees); the other forward formulas are closed.
+        // PROJ's series for meridian lengths is accurate to 30 micrometers on Mars (5e-10 degrees);
+        // the other forward formulas are closed.
         ASSERT_LT(error_m, 5e-5L);
         const auto geographic =
             crs->toGeographic({static_cast<double>(x), static_cast<double>(plane.y)});
@@ -441,7 +442,7 @@ TEST(Crs, GeographicSystemsAreUnitsSignsAndMeridiansOnly)
                 c.is_centric ? own : test::centricLatitude_deg(c.a, c.b, own);
             const auto geographic = crs->toGeographic(map);
             ASSERT_TRUE(geographic);
-            // The turn is kept: the plain difference, not the one modulo a turn.
+            // Whole turns are preserved: the plain difference, not the one modulo 360°.
             const long double error =
                 std::max(std::abs(geographic->longitude.degrees() - longitude),
                          std::abs(geographic->latitude.degrees() - latitude));
@@ -449,7 +450,7 @@ TEST(Crs, GeographicSystemsAreUnitsSignsAndMeridiansOnly)
             const auto again = crs->toMap(*geographic);
             ASSERT_TRUE(again);
             ASSERT_NEAR(again->x, map.x, 1e-12);
-            // Beyond a micro-degree of the pole the inverse of the latitudes is that precise.
+            // The inverse latitude conversion is this accurate down to a microdegree from the pole.
             ASSERT_NEAR(again->y, map.y, 1e-12);
         }
         EXPECT_LT(worst_deg, 1e-12) << c.crs;
@@ -457,8 +458,8 @@ TEST(Crs, GeographicSystemsAreUnitsSignsAndMeridiansOnly)
     }
 }
 
-// OGR has no way to the system underneath a rotated pole; taking the rotated angles for longitude
-// and latitude would be worse than refusing.
+// OGR cannot convert from the system underlying a rotated pole. To use the rotated angles as
+// longitude and latitude would be worse than an error.
 TEST(Crs, ARotatedPoleIsRefused)
 {
     const auto crs = Crs::fromText(
@@ -478,7 +479,7 @@ TEST(Crs, BeyondThePolesThereIsNothing)
             EXPECT_FALSE(crs->toGeographic({10.0, latitude})) << text << " " << latitude;
         }
         EXPECT_FALSE(crs->toGeographic({std::nan(""), 10.0})) << text;
-        // A sample at the pole may miss it by the rounding of its geotransform.
+        // A sample at the pole may miss it by the rounding error of its geotransform.
         for (const double latitude : {90.0, -90.0, 90.00000000000003, -90.00000000000003}) {
             const auto pole = crs->toGeographic({10.0, latitude});
             ASSERT_TRUE(pole) << text << " " << latitude;
@@ -488,7 +489,7 @@ TEST(Crs, BeyondThePolesThereIsNothing)
     }
 }
 
-// ---- What a CRS says of itself --------------------------------------------------------------
+// ---- What a CRS reports about itself ---------------------------------------------------------
 
 TEST(Crs, TheBodyIsTheOneNamedOrElseTheOneOfThoseRadii)
 {
@@ -662,7 +663,7 @@ TEST(Crs, OnAnotherEllipsoidWestwardAxesStayWestward)
         ASSERT_TRUE(other) << other.error().message;
         EXPECT_EQ(other->eastSign(), crs->eastSign()) << text;
         EXPECT_EQ(other->northSign(), crs->northSign()) << text;
-        // The same point of the map stays in the same quarter of the body.
+        // The same map point stays in the same quadrant of the body.
         const bool is_geographic = crs->kind() == CrsKind::Geographic;
         const MapPoint map = is_geographic ? MapPoint{10.0, 20.0} : MapPoint{1e5, 5e5};
         const auto before = crs->toGeographic(map);

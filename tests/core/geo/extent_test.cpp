@@ -54,7 +54,7 @@ TEST(GeographicExtent, CountsAPoleInside)
     EXPECT_GT(extent->north.degrees(), -75.0);
 }
 
-// As of etopo5: samples at the poles, and half a pixel beyond.
+// As in etopo5: samples at the poles, and half a pixel beyond.
 TEST(GeographicExtent, EndsAtThePolesWhereSamplesLieOnThem)
 {
     const auto extent = geographicExtent(placed(360, 181, {0, 1, 0, 90.5, 0, -1}, "EPSG:4326"));
@@ -84,7 +84,7 @@ TEST(GeographicExtent, HoldsEveryPlaceOfTheRaster)
           placed(200, 100, {175, 0.05, 0, 10, 0, -0.05}, "EPSG:4326")}) {
         const auto extent = geographicExtent(map);
         ASSERT_TRUE(extent);
-        const double slack = 0.02; // degrees, of edges that are curved between the steps
+        const double slack = 0.02; // degrees; the edges are curved between the steps
         for (int i = 0; i < 500; ++i) {
             const auto place = map.toGeographic(
                 GridPoint{random.uniform(0.0, static_cast<double>(map.columns() - 1)),
@@ -103,7 +103,7 @@ TEST(GeographicExtent, HoldsEveryPlaceOfTheRaster)
 TEST(GeographicExtent, IsUnknownWithoutLongitudesOrBeyondTheProjection)
 {
     EXPECT_FALSE(geographicExtent(Georeference(10, 10, GeoTransform{}, std::nullopt)));
-    // The whole disk of an orthographic view has corners outside the body.
+    // The corners around the disk of an orthographic view are outside the body.
     EXPECT_FALSE(geographicExtent(placed(200, 200, {-7e6, 7e4, 0, 7e6, 0, -7e4},
                                          "+proj=ortho +lat_0=0 +lon_0=0 +R=6371000")));
 }

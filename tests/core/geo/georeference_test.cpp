@@ -113,8 +113,8 @@ protected:
         placed(GetParam().columns, GetParam().rows, GetParam().terms, GetParam().crs);
     test::Random random_;
 
-    // Anywhere between the outermost samples, the corners first. Global rasters end at the poles,
-    // where longitude is lost; the outermost samples lie half a pixel from there.
+    // Points between the outermost samples, the corners first. Global rasters end at the poles,
+    // where longitude is undefined; the outermost samples lie half a pixel away from them.
     GridPoint position(int i)
     {
         const double right = static_cast<double>(GetParam().columns - 1);
@@ -149,7 +149,7 @@ TEST_P(Placement, PixelToLongitudeAndLatitudeAndBackIsTheSamePixel)
         const auto geographic = reference_.toGeographic(grid);
         ASSERT_TRUE(geographic);
         if (isAtPole(*geographic)) {
-            continue; // an orphaned longitude
+            continue; // longitude without latitude
         }
         const auto back = reference_.toGrid(*geographic);
         ASSERT_TRUE(back);
@@ -187,8 +187,8 @@ TEST_P(Placement, TellsWhetherItGoesOnceAround)
 
 TEST_P(Placement, TheMetricPixelIsTheOneOnTheBody)
 {
-    // Near the centre, the scene's metres are metres on the body within the projection's scale
-    // there: a factor of 2 tells units, radii and signs apart.
+    // Near the center, scene meters equal meters on the body within the projection's scale there. A
+    // factor of 2 is enough to detect wrong units, radii and signs.
     const GridPoint centre = reference_.sceneFrame().origin;
     const auto here = reference_.toGeographic(centre);
     const auto below = reference_.toGeographic(GridPoint{centre.column, centre.row + 0.25});

@@ -49,7 +49,7 @@ TEST(GeoTransform, RoundTripsWithinABillionthOfASample)
     test::Random random;
     double worst = 0.0;
     for (int i = 0; i < 20000; ++i) {
-        // A similarity with a shear: any turn, either hand, pixels up to 5 to 1.
+        // A similarity with a shear: any rotation, either handedness, pixels of up to 5 to 1.
         const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
         const double skew = random.uniform(-0.3, 0.3);
         const double width = std::exp(random.uniform(-9.0, 9.0));

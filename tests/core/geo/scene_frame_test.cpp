@@ -56,7 +56,7 @@ TEST(SceneFrame, TheMeanCellSideIsThatOfColumnsAndRows)
 
 TEST(SceneFrame, AProjectedRasterCountsItsLinearUnit)
 {
-    // EPSG:2853 counts metres; EPSG:2924 is the same zone in US survey feet.
+    // EPSG:2853 is in meters; EPSG:2924 is the same zone in US survey feet.
     const Georeference metres = placed(11, 7, {0.0, 30.0, 0.0, 0.0, 0.0, -20.0}, "EPSG:2853");
     EXPECT_EQ(metres.sceneFrame().east_per_column, 30.0);
     EXPECT_EQ(metres.sceneFrame().north_per_row, -20.0);
@@ -74,8 +74,8 @@ TEST(SceneFrame, ARasterWithoutACrsCountsMetres)
     expectRoundTrips(reference);
 }
 
-// CLI.md's rule: over the whole raster a degree is worth what it is worth on the body's ellipsoid
-// at the latitude of the raster's centre.
+// The rule in CLI.md: over the whole raster, a degree has its length on the body's ellipsoid at the
+// latitude of the raster's center.
 TEST(SceneFrame, ADegreeIsWorthWhatItIsWorthAtTheCentreOfTheRaster)
 {
     const struct {
@@ -105,7 +105,7 @@ TEST(SceneFrame, ADegreeIsWorthWhatItIsWorthAtTheCentreOfTheRaster)
         const double east = static_cast<double>(test::parallelRadius(c.a, c.b, graphic));
         double north = static_cast<double>(test::meridianRadius(c.a, c.b, graphic));
         if (c.is_centric) {
-            // By a difference quotient of the closed formula.
+            // Checked with a difference quotient of the closed formula.
             const long double h = 1e-5L;
             const long double slope = (test::graphicLatitude_deg(c.a, c.b, c.centre_deg + h) -
                                        test::graphicLatitude_deg(c.a, c.b, c.centre_deg - h)) /
@@ -132,7 +132,7 @@ TEST(SceneFrame, MapAxesThatRunWestOrSouthAreTurned)
     const Georeference lo = placed(9, 5, {0.0, 100.0, 0.0, 0.0, 0.0, -100.0}, "EPSG:2053");
     EXPECT_EQ(lo.sceneFrame().east_per_column, -100.0);
     EXPECT_EQ(lo.sceneFrame().north_per_row, 100.0);
-    // Northing before easting is a matter of order only.
+    // Northing before easting changes only the axis order.
     const Georeference nz = placed(9, 5, {1.7e6, 100.0, 0.0, 5.4e6, 0.0, -100.0}, "EPSG:2193");
     EXPECT_EQ(nz.sceneFrame().east_per_column, 100.0);
     EXPECT_EQ(nz.sceneFrame().north_per_row, -100.0);
@@ -186,7 +186,7 @@ TEST(SceneFrame, ARotatedRasterRoundTrips)
     expectRoundTrips(reference);
 }
 
-// At a pole a degree of longitude is worth nothing; the frame stays invertible all the same.
+// At a pole a degree of longitude has zero length; the frame must still be invertible.
 TEST(SceneFrame, ARasterCentredOnAPoleIsStillInvertible)
 {
     const Georeference reference =

@@ -25,7 +25,7 @@ using test::GridTileSource;
 constexpr std::size_t kColumns = 2500;
 constexpr std::size_t kRows = 1700;
 constexpr ElevationScale kScale{.gain = 0.5, .offset_m = 100.0};
-constexpr std::size_t kMeansMax = 40'000; // of this map: level 4
+constexpr std::size_t kMeansMax = 40'000; // here: level 4
 
 MapLevels estimated(const TileSource& source, std::size_t means_max = kMeansMax)
 {
@@ -71,7 +71,7 @@ protected:
         std::shared_ptr<const SurfaceAnalysis> truth;
         GridTileSource source;
         MapLevels estimate;
-        std::uint64_t read_count; // of tiles, for the estimate
+        std::uint64_t read_count; // tiles, for the estimate
     };
 
     static Map* whole_;
@@ -103,7 +103,7 @@ TEST_F(EstimatedLevelsTest, MeansAreThoseOfTheMap)
                 for (std::size_t column = 0; column < some.columns(); ++column) {
                     ASSERT_EQ(std::isnan(some(column, row)), std::isnan(all(column, row)));
                     if (!std::isnan(all(column, row))) {
-                        // The overview's are rounded to whole raw values.
+                        // The overview's means are rounded to whole raw values.
                         ASSERT_NEAR(some(column, row), all(column, row), kScale.gain);
                     }
                 }
@@ -142,7 +142,7 @@ TEST_F(EstimatedLevelsTest, HardlyASampleLiesOutsideItsBounds)
             }
         }
         std::cout << outside << " of " << kColumns * kRows << " samples outside; "
-                  << widths / true_widths << " times as wide as need be\n";
+                  << widths / true_widths << " times as wide as necessary\n";
         EXPECT_LE(outside, kColumns * kRows / 1000);
         EXPECT_LT(widths, 6.0 * true_widths);
     }
@@ -229,7 +229,7 @@ TEST_F(EstimatedLevelsTest, StatisticsHoldTheRangeAndTheVoids)
     EXPECT_TRUE(holed_->estimate.layout.has_voids);
 }
 
-// Some lie outside of the bounds, and the hand must not fall through them.
+// Some samples exceed the estimated bounds. The proxy must not fall through them.
 TEST_F(EstimatedLevelsTest, NoSampleIsHigherThanWhatIsTouchedMayBe)
 {
     const std::vector<std::vector<float>>& maxima = whole_->estimate.filled_maxima_m;

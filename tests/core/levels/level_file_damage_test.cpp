@@ -1,4 +1,4 @@
-// Level files that were cut, overwritten, forged, or made for something else.
+// Level files that were cut, overwritten, forged, or built for another map.
 #include "core/levels/level_file.h"
 #include "core/prepare/level_builder.h"
 #include "tests/support/grid_tile_source.h"
@@ -28,7 +28,7 @@ LevelFileKey someKey()
             .nodata = -32768.0};
 }
 
-// Long enough for levels that are kept, with voids for all arrays, and small: every byte is tried.
+// Large enough for stored levels, with voids in all arrays, yet small: every byte is tested.
 Heightfield smallTerrain()
 {
     return test::int16Terrain(1030, 3, {}, [](std::size_t c, std::size_t r) {
@@ -36,7 +36,7 @@ Heightfield smallTerrain()
     });
 }
 
-// All that a level file can be asked; nothing where some of it is refused.
+// Every query of a level file; nullopt if any of them fails.
 struct Content {
     std::vector<float> numbers;
     bool operator==(const Content&) const = default;
@@ -139,7 +139,7 @@ protected:
 
     std::string written(const std::string& bytes) const { return folder_.write("damaged", bytes); }
 
-    // The file with another header, all checksums right.
+    // The file with a different header and correct checksums.
     std::string forged(const std::string& json) const
     {
         std::uint64_t header = 0;
@@ -172,7 +172,7 @@ protected:
 
 TEST_F(LevelFileDamage, IsNoticedInEveryByte)
 {
-    ASSERT_LT(bytes_.size(), 20'000U) << "too much to try";
+    ASSERT_LT(bytes_.size(), 20'000U) << "too large to try every byte";
     for (std::size_t i = 0; i < bytes_.size(); ++i) {
         std::string damaged = bytes_;
         damaged[i] = static_cast<char>(damaged[i] ^ (i % 2 == 0 ? '\xFF' : '\x01'));
@@ -257,7 +257,7 @@ TEST_F(LevelFileDamage, NeverHeedsAHeaderThatPromisesMoreThanThereIs)
     EXPECT_FALSE(contentOf(forged(std::string(100'000, '['))));
 }
 
-// Whatever stands in the header: an answer or a sentence, and no crash.
+// Whatever the header contains: a result or an error, and no crash.
 TEST_F(LevelFileDamage, SurvivesRandomHeaders)
 {
     test::Random random;
@@ -313,7 +313,7 @@ TEST_F(LevelFileDamage, OfAnotherRasterIsNotUsed)
     expect_refused(key);
     key = someKey();
     key.raster.digest = "ab13";
-    expect_refused(key, ErrorCode::Damaged); // its time says that nobody changed it
+    expect_refused(key, ErrorCode::Damaged); // its time claims that it has not changed
     ++key.raster.modified_s;
     expect_refused(key);
     key = someKey();

@@ -40,10 +40,10 @@ struct Limits {
     std::size_t memory_bytes = std::size_t{1} << 30;
     std::size_t mean_blocks = 4'000'000;
     std::vector<std::uint64_t>
-        stops{}; // tiles read by builds that are stopped, one after the other
+        stops{}; // tiles read by a series of interrupted builds
 };
 
-/// The level file of a map in memory, in a folder of its own.
+/// The level file of a map in memory, in its own folder.
 class BuiltFile {
 public:
     explicit BuiltFile(const Heightfield& field, const Limits& limits = {})
@@ -84,7 +84,7 @@ public:
 
     std::string path() const { return folder_.file("map.tif.marsview"); }
     const test::GridTileSource& source() const { return source_; }
-    /// Tiles read by the build that was not stopped.
+    /// Tiles read by the uninterrupted build.
     std::uint64_t readsAtLast() const { return source_.readCount() - reads_before_; }
     LevelFile open() const
     {
@@ -149,7 +149,7 @@ void expectSameErrors(const DetailErrors& got, const DetailErrors& expected)
     }
 }
 
-/// The levels that are there are the coarsest ones of the whole map's.
+/// The stored levels are the coarsest ones of the whole map.
 void expectSameMeans(const BlockMeans& got, const BlockMeans& expected)
 {
     const std::size_t left_out = expected.levelCount() - got.levelCount();
@@ -254,7 +254,7 @@ void expectChecksums(const TileChecksums& checksums, const test::GridTileSource&
     EXPECT_EQ(checksums.values().size(), count);
 }
 
-/// All that a level file says, against the same map held in memory.
+/// Every query of a level file, against the same map in memory.
 void expectSameAsInMemory(const Heightfield& field, const Limits& limits = {})
 {
     SCOPED_TRACE(std::to_string(field.columns()) + " x " + std::to_string(field.rows()) + " " +
@@ -398,12 +398,12 @@ TEST(LevelFile, IsNotReadAgainWhereItsBuildWentOn)
     const std::uint64_t all = BuiltFile(field).readsAtLast();
     const std::uint64_t threads = std::thread::hardware_concurrency();
     for (const std::uint64_t stop : {40U, 70U, 100U}) {
-        // Each thread may have been in a row of five tiles.
+        // Each thread may have been working on a row of five tiles.
         EXPECT_LE(BuiltFile(field, {.stops = {stop}}).readsAtLast(), all - stop + 5 * threads);
     }
 }
 
-/// Random samples of all the type's range; the value 7 is void.
+/// Random samples over the full range of the type; the value 7 is void.
 Heightfield
 wildTerrain(test::Random& random, SampleType type, std::size_t columns, std::size_t rows)
 {
@@ -486,7 +486,7 @@ TEST(LevelFile, ConvertsToOtherScales)
                 }
             }
         }
-        // No fill is above its block, and bounds are close.
+        // No fill is higher than its block, and the bounds are tight.
         JobMonitor monitor;
         const auto filled = FilledHeightfield::build(scaled, analysis, monitor).value();
         const auto& maxima = levels->filled_maxima_m;

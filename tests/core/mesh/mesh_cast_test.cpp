@@ -29,11 +29,11 @@ Real volume(const Exact& a, const Exact& b, const Exact& c)
            a.z * (b.x * c.y - b.y * c.x);
 }
 
-// Where the segment comes through the front of a face, and how surely, from signed volumes in long
-// double: the least of their shares of the largest they could be.
+// Where the segment enters through the front of a face, and with which margin: signed volumes in
+// long double, the smallest of them relative to its largest possible value.
 struct BruteHit {
     Real t = 2;
-    Real margin = 1; // of the nearest decision, over all faces
+    Real margin = 1; // of the closest decision, over all faces
     std::uint32_t face = 0;
 };
 
@@ -63,7 +63,7 @@ BruteHit bruteCast(const TriangleMesh& mesh, const ScenePoint& start, const Scen
         const Exact to_goal = from(p[0], goal);
         const Real at_goal = volume(to_goal, ab, ac) / (scale * std::max(length_of(to_goal), lc));
         const bool is_hit = w[0] >= 0 && w[1] >= 0 && w[2] >= 0 && above > 0 && at_goal <= 0;
-        // A decision counts only where the others do not already say no.
+        // A decision counts only if the others do not already rule the hit out.
         const Real worst = std::min({w[0], w[1], w[2], above, -at_goal});
         hit.margin = std::min(hit.margin, std::abs(worst));
         if (is_hit) {
@@ -107,7 +107,7 @@ TEST(MeshCast, MeetsWhatTheSumOverAllTrianglesMeets)
                 middle + test::randomDirection(random) * random.uniform(0, reach);
             const BruteHit truth = bruteCast(*mesh, start, goal);
             if (truth.margin < 1e-12) {
-                continue; // closer than doubles can tell; the tests below are about these
+                continue; // closer than double precision; the tests below cover these
             }
             ++compared;
             const MeshCast cast = castSegment(*mesh, {.base = start}, {goal});
@@ -156,7 +156,7 @@ TEST(MeshCast, NothingSlipsIntoAClosedMesh)
             if (kind > 1) {
                 through = through + (corners[2] - through) * random.unit();
             }
-            // So that start, vertex and goal are in line exactly, as often as rounding lets them.
+            // Start, vertex and goal are exactly in line, as often as rounding allows.
             const double times = std::ldexp(1.0, static_cast<int>(random.below(12)));
             const ScenePoint start = goal + (through - goal) * (1.0 + times);
             if (test::windingNumber(*mesh, start) > 0.5 ||
@@ -168,7 +168,7 @@ TEST(MeshCast, NothingSlipsIntoAClosedMesh)
             ASSERT_TRUE(cast.hit) << name;
             const ScenePoint met = pointOf(*mesh, *cast.hit);
             ASSERT_LT(test::bruteDistance(*mesh, met), 1e-12 * (size + length(met))) << name;
-            // On the segment.
+            // It lies on the segment.
             const Vec3 along = normalized(goal - start);
             ASSERT_LT(length(cross(met - start, along)),
                       1e-10 * (size + length(met) + length(goal - start)))
@@ -181,7 +181,7 @@ TEST(MeshCast, NothingSlipsIntoAClosedMesh)
 
 TEST(MeshCast, EdgesAndVerticesOfAGridAreMetExactly)
 {
-    // Straight down onto whole and half coordinates: no rounding at all.
+    // Straight down onto whole and half coordinates: no rounding.
     const auto mesh = test::meshOf(
         test::sheet(9, 9, [](int c, int r) { return static_cast<double>((3 * c + 5 * r) % 4); }));
     for (int i = 0; i <= 16; ++i) {
@@ -214,7 +214,7 @@ TEST(MeshCast, FacesAreMetFromTheFrontOnly)
     const auto mesh = test::meshOf(test::sheet(3, 3, [](int, int) { return 0.0; }));
     EXPECT_TRUE(castSegment(*mesh, {.base = {0.7, -0.4, 1}}, {{0.7, -0.4, -1}}).hit);
     EXPECT_FALSE(castSegment(*mesh, {.base = {0.7, -0.4, -1}}, {{0.7, -0.4, 1}}).hit);
-    // To the plane is a hit, along it is not, beside the border is not.
+    // A segment that ends on the plane hits; one within the plane, or past the border, does not.
     EXPECT_TRUE(castSegment(*mesh, {.base = {0.7, -0.4, 1}}, {{0.7, -0.4, 0}}).hit);
     EXPECT_FALSE(castSegment(*mesh, {.base = {0.7, -0.4, 1}}, {{0.7, -0.4, 0x1p-80}}).hit);
     EXPECT_FALSE(castSegment(*mesh, {.base = {-1, -0.4, 0.5}}, {{1, -0.4, 0.5}}).hit);
@@ -231,11 +231,11 @@ TEST(MeshCast, AStartThatRoundingPutBehindAFaceIsStoppedByIt)
             const auto [a, b, c] = mesh->points(face);
             const double u = random.unit();
             const double v = random.unit() * (1.0 - u);
-            // Rounded to the coordinates of the place: behind the face as often as in front.
+            // The start is rounded: behind the face as often as in front.
             const ScenePoint start = a + ((b - a) * u + (c - a) * v);
             const double edge = length(b - a);
             if (length(start) * 0x1p-52 > 1e-15 * edge) {
-                continue; // rounded by more than the face's size lets it
+                continue; // the rounding error is too large for the face
             }
             const ScenePoint goal =
                 start - normalized(mesh->normal(face)) * (edge * random.uniform(1e-6, 1.0)) +

@@ -17,7 +17,7 @@ std::vector<MeshFault> faultsOf(const TriangleSoup& soup)
     return findMeshFaults(soup.vertices, soup.faces, monitor);
 }
 
-// One kind only, so many times; its places' numbers.
+// Expects only faults of this kind, `count` of them; returns the indices of their places.
 std::vector<std::array<std::uint32_t, 2>>
 onlyFault(const TriangleSoup& soup, Kind kind, std::size_t count)
 {
@@ -79,7 +79,7 @@ TEST(MeshCheck, FindsTrianglesWithoutArea)
     soup.vertices.push_back({4.0, 1.0, 7.0});
     soup.vertices.push_back({5.0, 2.0, 14.0});
     soup.vertices.push_back({3.0, 0.0, 0.0});
-    soup.faces.push_back({8, 9, 10});  // on a line
+    soup.faces.push_back({8, 9, 10});  // corners on a line
     soup.faces.push_back({8, 9, 9});   // a corner twice
     soup.faces.push_back({8, 11, 10}); // two corners at one place
     EXPECT_THAT(onlyFault(soup, Kind::Degenerate, 3),
@@ -91,7 +91,7 @@ TEST(MeshCheck, FindsCopies)
     TriangleSoup soup = test::icosphere(1);
     const auto [a, b, c] = soup.faces[7];
     soup.faces.push_back({b, c, a});
-    soup.faces.push_back({b, a, c}); // turned, but the same corners
+    soup.faces.push_back({b, a, c}); // rotated, but the same corners
     soup.faces.push_back(soup.faces[3]);
     EXPECT_THAT(onlyFault(soup, Kind::Duplicate, 3),
                 ElementsAre(Numbers{80, 7}, Numbers{81, 7}, Numbers{82, 3}));
@@ -125,7 +125,7 @@ TEST(MeshCheck, FindsBowTies)
 
 TEST(MeshCheck, FindsSeamsThatAreNotWelded)
 {
-    // Two sheets side by side, with vertices of their own where they meet.
+    // Two adjacent sheets, each with its own vertices along the common border.
     const TriangleSoup left = flatSheet(3, 3);
     for (const double shift : {0.0, 1e-7, -1e-7}) {
         const TriangleSoup soup =
@@ -141,17 +141,17 @@ TEST(MeshCheck, FindsSeamsThatAreNotWelded)
 
 TEST(MeshCheck, FindsVerticesOnForeignEdges)
 {
-    // A sheet beside one of half its cells: at every second vertex of the fine border a T.
+    // A sheet next to one with half the cell size: at every second vertex of the fine border a T.
     const TriangleSoup coarse = flatSheet(2, 2);
     const TriangleSoup fine = test::placed(flatSheet(3, 3), 0.5, {1.0, 0.0, 0.0});
-    // Without the corners, which would be unwelded.
+    // The corners are left out; they would be unwelded.
     TriangleSoup soup = test::joined(coarse, fine);
     for (MeshFace& face : soup.faces) {
         for (std::uint32_t& v : face) {
             v = v == 4 ? 1 : v == 10 ? 3 : v;
         }
     }
-    // At the two corners the sheets then share no edge.
+    // At these two corners the sheets share no edge.
     const auto faults = faultsOf(soup);
     ASSERT_EQ(faults.size(), 2U) << describe(faults);
     EXPECT_EQ(faults[0].kind, Kind::BowTie);
@@ -177,7 +177,7 @@ TEST(MeshCheck, FindsWhatOnlyTouches)
     soup.vertices.insert(soup.vertices.end(), {{0.5, -0.25, 0}, {1, 0, 3}, {0, 0, 3}});
     soup.faces.push_back({4, 5, 6});
     EXPECT_THAT(onlyFault(soup, Kind::Intersection, 1), ElementsAre(Numbers{0, 2}));
-    // Above it by the least there is.
+    // Above it by the smallest possible distance.
     soup.vertices[4].z = 0x1p-300;
     EXPECT_EQ(describe(faultsOf(soup)), "");
     // In the plane of the sheet, overlapping it.
@@ -197,7 +197,7 @@ TEST(MeshCheck, FindsNeighboursThatFoldOntoEachOther)
     soup = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0.5, 0}, {1, 1, 1}, {1, 1, -1}},
             {{0, 1, 2}, {0, 2, 3}, {0, 4, 5}}};
     const auto faults = faultsOf(soup);
-    ASSERT_EQ(faults.size(), 2U) << describe(faults); // their own fan makes a bow-tie too
+    ASSERT_EQ(faults.size(), 2U) << describe(faults); // their own fan is a bow-tie too
     EXPECT_EQ(faults[0].kind, Kind::BowTie);
     EXPECT_EQ(faults[1].kind, Kind::Intersection);
     EXPECT_EQ(faults[1].count, 1U);
@@ -219,8 +219,8 @@ TEST(MeshCheck, TellsEachKindWithCountAndPlaces)
 
 TEST(MeshCheck, CountsIntersectionsAsTheSumOverAllPairsDoes)
 {
-    // Random triangles at whole coordinates, where touching is common; the truth from a segment
-    // against a triangle in exact whole numbers.
+    // Random triangles at integer coordinates, where contact is common. The truth comes from exact
+    // integer segment-triangle tests.
     test::Random random;
     using Whole = std::int64_t;
     using Point = std::array<Whole, 3>;
@@ -234,8 +234,8 @@ TEST(MeshCheck, CountsIntersectionsAsTheSumOverAllPairsDoes)
     const auto dot_of = [](const Point& a, const Point& b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     };
-    // Two closed convex sets are apart where one of these axes says so; in a plane, also where the
-    // normals of the edges within it do.
+    // Two closed convex sets are disjoint if one of these axes separates them; if coplanar, also if
+    // a normal of an edge within the plane does.
     const auto are_apart = [&](const std::array<Point, 3>& p, const std::array<Point, 3>& q) {
         const Point n = cross_of(minus(p[1], p[0]), minus(p[2], p[0]));
         const Point m = cross_of(minus(q[1], q[0]), minus(q[2], q[0]));

@@ -23,7 +23,7 @@ protected:
         JobMonitor monitor;
         return readTriangles(write(name, content), monitor);
     }
-    // The message without the path.
+    // The error message without the path.
     std::string refusal(const std::string& name, const std::string& content)
     {
         const auto soup = read(name, content);
@@ -129,7 +129,7 @@ std::string asciiStlOf(const TriangleSoup& soup)
     return text + "endsolid made by a test\n";
 }
 
-// The same triangles in the same order, whatever the numbers of their vertices.
+// The same triangles in the same order, whatever the vertex indices.
 void expectSame(const TriangleSoup& soup, const TriangleSoup& truth, double tolerance)
 {
     ASSERT_EQ(soup.faces.size(), truth.faces.size());
@@ -204,7 +204,7 @@ TEST_F(MeshFile, StlIsWeldedWhereCoordinatesAreEqual)
     const auto soup = read("a.stl", binaryStlOf(test::cube()));
     ASSERT_TRUE(soup);
     EXPECT_EQ(soup->vertices.size(), 8U);
-    // 0 and -0 are one place.
+    // 0 and -0 are the same coordinate.
     const auto zeros = read("b.stl",
                             "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
                             "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -276,7 +276,7 @@ TEST_F(MeshFile, SaysInOneSentenceWhatIsWrongWhere)
 
 TEST_F(MeshFile, AnnouncedSizesAreNotBelieved)
 {
-    // As much as the numbers could ask for would not fit in memory.
+    // Memory for the announced counts would not be available.
     for (const std::string format : {"ascii", "binary_little_endian"}) {
         EXPECT_NE(refusal("a.ply", "ply\nformat " + format +
                                        " 1.0\nelement vertex 18446744073709551615\n"

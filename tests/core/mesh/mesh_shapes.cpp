@@ -153,7 +153,7 @@ TriangleSoup star()
 
 TriangleSoup notchedBlock(double angle_rad)
 {
-    // A profile in x and z, counter-clockwise seen from -y, drawn along y from 0 to 1.
+    // A profile in x and z, counter-clockwise seen from -y, extruded along y from 0 to 1.
     const double half = std::tan(angle_rad / 2.0);
     const std::vector<std::array<double, 2>> profile{
         {-2.0, -1.0}, {2.0, -1.0}, {2.0, 1.0}, {half, 1.0}, {0.0, 0.0}, {-half, 1.0}, {-2.0, 1.0}};

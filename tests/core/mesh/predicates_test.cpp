@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-// Coordinates are whole numbers of at most 2^38 times a power of two, so that __int128 is exact.
+// Coordinates are integers of at most 2^38 times a power of two, so that __int128 is exact.
 __extension__ using Whole = __int128;
 
 struct Lattice {
@@ -65,7 +65,7 @@ TEST(Predicates, SideOfPlaneIsExactWhereDoublesAreNot)
         for (Lattice& point : l) {
             point = randomLattice(random, reach, offset);
         }
-        if (random.chance(0.5)) { // in the plane, or a step beside it
+        if (random.chance(0.5)) { // in the plane, or one step off it
             const auto s = static_cast<std::int64_t>(random.below(5)) - 2;
             const auto t = static_cast<std::int64_t>(random.below(5)) - 2;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -91,7 +91,7 @@ TEST(Predicates, SideOfPlaneIsExactWhereDoublesAreNot)
 
 TEST(Predicates, TheSideSurvivesCoordinatesOfAllMagnitudes)
 {
-    // Beside a plane far from the origin, by the least that a double can tell.
+    // Off a plane far from the origin by the smallest distance that doubles can represent.
     const Vec3 a{1e12, 1e-3, 3.0};
     const Vec3 b{1e12, 1e6 + 0.1, 5.0};
     const Vec3 c{1e12, 7.0, 1e-9};
@@ -105,7 +105,7 @@ TEST(Predicates, TheSideSurvivesCoordinatesOfAllMagnitudes)
 
 TEST(Predicates, TheSideOfAPointInTwoPartsIsExact)
 {
-    // Parts that together are no double: whole numbers and 2^-40 of them.
+    // The sum of the parts is not representable as a double: integers plus multiples of 2^-40.
     test::Random random;
     int on = 0;
     for (int i = 0; i < 50000; ++i) {
@@ -118,7 +118,7 @@ TEST(Predicates, TheSideOfAPointInTwoPartsIsExact)
         Lattice rest = randomLattice(random, 2, 0);
         if (random.chance(0.5)) {
             p = l[random.below(3)];
-            for (std::size_t k = 0; k < 3; ++k) { // along an edge, beside it by nothing or little
+            for (std::size_t k = 0; k < 3; ++k) { // along an edge, or off it by little
                 rest.at[k] = 2 * (l[1].at[k] - l[0].at[k]);
             }
             rest.at[0] += static_cast<std::int64_t>(random.below(3)) - 1;
@@ -130,7 +130,7 @@ TEST(Predicates, TheSideOfAPointInTwoPartsIsExact)
             }
             return a;
         };
-        // Of the volume's three factors only the way to the point has 62 bits.
+        // Of the three factors of the volume, only the vector to the point has 62 bits.
         const auto minor = [&](std::size_t m, std::size_t n) {
             return axis(l[0], l[1], m) * axis(l[0], l[2], n) -
                    axis(l[0], l[1], n) * axis(l[0], l[2], m);

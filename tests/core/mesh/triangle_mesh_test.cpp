@@ -32,7 +32,7 @@ TEST(TriangleMesh, ShapesAreClosedAndFaceOutward)
         EXPECT_EQ(border, 0) << name;
         EXPECT_NEAR(test::windingNumber(*mesh, middle + Vec3{10.0 * size, size, size}), 0.0, 1e-9)
             << name;
-        // A little behind the first face.
+        // Slightly behind the first face.
         const auto [a, b, c] = mesh->points(0);
         const Vec3 inward = -normalized(mesh->normal(0));
         const ScenePoint inside = (a + b + c) * (1.0 / 3.0) + inward * (1e-4 * length(b - a));
@@ -154,7 +154,8 @@ TEST(TriangleTree, EveryFaceIsInTheTreeOnce)
 
 TEST(TriangleTree, ManyFacesInOnePlaceDoNotMakeItDeep)
 {
-    // Centres at equal places, and at distances that double: what misleads splitting by space.
+    // Centers at equal positions, and at distances that double: cases that mislead spatial
+    // splitting.
     TriangleSoup soup;
     for (int i = 0; i < 3000; ++i) {
         const double s = std::ldexp(1.0, i % 60 - 30);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What lies in the folder is no longer what it was opened as.
+// The file in the folder has been replaced since it was opened.
 class StrangeSource final : public TileSource {
 public:
     const TileLayout& layout() const noexcept override { return layout_; }
@@ -47,7 +47,7 @@ TEST(KeptSource, SaysThatAnotherProgramHasMadeTheMapAnew)
     EXPECT_EQ(source->open().error().message,
               "mars.tif: was found damaged and has been prepared anew since it was opened; open it "
               "again");
-    EXPECT_FALSE(maps.damage(path)) << "what is there now is not damaged";
+    EXPECT_FALSE(maps.damage(path)) << "the current file is not damaged";
 }
 
 } // namespace marsview

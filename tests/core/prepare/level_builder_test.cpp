@@ -1,4 +1,4 @@
-// Building level files where something goes wrong.
+// Building level files when errors occur.
 #include "core/levels/level_file.h"
 #include "core/prepare/level_builder.h"
 #include "tests/support/grid_tile_source.h"
@@ -44,7 +44,7 @@ protected:
                                .scale = {},
                                .key = {},
                                .path = path(),
-                               .mean_blocks_max = 2000}; // so that some lie on disk meanwhile
+                               .mean_blocks_max = 2000}; // so that some of them are moved to disk
         return buildLevelFile(build, monitor);
     }
     Status build(TileSource& source) const
@@ -91,7 +91,7 @@ TEST_F(LevelBuilder, StopsSoonWhenCancelledAndLeavesNothing)
         ASSERT_FALSE(status);
         EXPECT_EQ(status.error().code, ErrorCode::Cancelled);
         EXPECT_EQ(fileCount(), 0U);
-        // No thread reads more than the tile it was at.
+        // No thread reads past its current tile.
         EXPECT_LE(source.readCount(), after + 1 + std::thread::hardware_concurrency());
     }
 }
@@ -99,7 +99,7 @@ TEST_F(LevelBuilder, StopsSoonWhenCancelledAndLeavesNothing)
 TEST_F(LevelBuilder, PassesOnWhatATileFailsWithAndKeepsWhatWasThere)
 {
     folder_.write("map.marsview", "of yesterday");
-    for (const int which : {1, 2}) { // pass
+    for (const int which : {1, 2}) { // the first readings succeed
         std::mutex mutex;
         int reads = 0;
         test::GridTileSource source(
@@ -222,7 +222,7 @@ TEST_F(LevelBuilder, PublishesNothingThatIsNotConfirmed)
     EXPECT_EQ(fileCount(), 1U);
 }
 
-// As after a power cut: the checkpoint is there, and what it stands on is not.
+// As after a power failure: the checkpoint exists, but the data it depends on does not.
 TEST_F(LevelBuilder, BeginsAgainWhereWhatACheckpointStandsOnIsDamaged)
 {
     const auto job = [this](const TileSource& source) {
@@ -236,7 +236,7 @@ TEST_F(LevelBuilder, BeginsAgainWhereWhatACheckpointStandsOnIsDamaged)
     test::GridTileSource source(someTerrain());
     JobMonitor monitor;
     ASSERT_TRUE(buildLevelFile(job(source), monitor));
-    // Which tile comes first in the file is up to the threads.
+    // The order of the tiles in the file depends on the threads.
     const auto content = [this] {
         std::vector<float> numbers;
         const LevelFile file = LevelFile::open(path(), {}).value();
@@ -314,7 +314,7 @@ TEST_F(LevelBuilder, LeavesNothingWhereTheDiskIsFull)
     ASSERT_TRUE(build(source));
     const std::uintmax_t size = std::filesystem::file_size(path());
     std::filesystem::remove(path());
-    // A limit on the size of files fails as a full disk does.
+    // A limit on the file size fails in the same way as a full disk.
     auto* const before = std::signal(SIGXFSZ, SIG_IGN);
     rlimit limit{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);

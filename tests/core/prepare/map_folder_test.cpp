@@ -26,7 +26,7 @@ MapFolder folderAt(const fs::path& path)
     return std::move(folder).value();
 }
 
-// A map of some bytes that was used `age` ago.
+// A map of `bytes`, last used `age` ago.
 void addMap(const test::TempFolder& folder,
             const std::string& name,
             std::size_t bytes,
@@ -50,7 +50,7 @@ std::vector<std::string> namesIn(const MapFolder& folder)
     return names;
 }
 
-// The variable as it was is put back.
+// Restores the variable.
 class Variable {
 public:
     Variable(const char* name, const char* value)
@@ -190,7 +190,7 @@ TEST(MapFolder, RemovesTheLeastRecentlyUsedThatNobodyHasOpen)
     const fs::file_time_type before = fs::last_write_time(temp.file("a.map.tif"));
     const Result<FileLock> use = folder.use(temp.file("a.map.tif"));
     ASSERT_TRUE(use);
-    fs::last_write_time(temp.file("a.map.tif.use"), before); // used long ago, and still open
+    fs::last_write_time(temp.file("a.map.tif.use"), before); // last used long ago, but still open
     const Result<std::vector<PreparedMap>> removed = folder.trim(2500);
     ASSERT_TRUE(removed);
     ASSERT_EQ(removed->size(), 2U);

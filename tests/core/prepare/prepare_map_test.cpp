@@ -102,7 +102,7 @@ TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
     std::size_t noticed_late = 0;
     for (const double share : {0.1, 0.2, 0.3, 0.35, 0.4, 0.47, 0.55, 0.6, 0.67, 0.9}) {
         overwrite(out, share);
-        // It may be told by what the file is known again by.
+        // The fields that identify the file may reveal the damage.
         ASSERT_TRUE(run(job(WhenThere::Trust)));
         const bool is_left = test::readFile(out) != whole;
         noticed_late += is_left ? 1U : 0U;
@@ -126,7 +126,7 @@ TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
     ASSERT_TRUE(run(job(WhenThere::Trust)));
     const std::string whole = test::readFile(out);
     for (const double share : {0.1, 0.2, 0.35, 0.47, 0.55, 0.67, 0.9}) {
-        // As a program leaves it that is killed before it measures.
+        // The state after a program that was killed before it measured the levels.
         fs::remove(LevelFile::pathFor(out));
         overwrite(out, share);
         const Result<PrepareReport> report = run(job(WhenThere::Trust));
@@ -169,7 +169,7 @@ TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
         const Result<PrepareReport> report = run(job(WhenThere::Check));
         ASSERT_TRUE(report) << report.error().message;
         EXPECT_THAT(report->notes, Contains(EndsWith("it is made anew"))) << share;
-        // Where there are no checksums any more, nobody knows whether the copy is what it was.
+        // Without the checksums, nothing proves that the copy is undamaged.
         const fs::file_time_type now = fs::last_write_time(folder_.file("out.tif"));
         EXPECT_TRUE(now == copied || share < 0.01 || share > 0.5) << share;
         copied = now;
@@ -184,7 +184,7 @@ TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
     source("map");
     ASSERT_TRUE(run(job(WhenThere::Check)));
     const std::string out = folder_.file("out.tif");
-    const std::string own = folder_.file("own.tif"); // nobody knows what it was made from
+    const std::string own = folder_.file("own.tif"); // its source is not recorded
     test::runTool({"gdal_translate", "-q", "-of", "COG", folder_.file("map.vrt"), own});
     ASSERT_TRUE(run(own, {}));
     for (const auto& [path, remedy] :

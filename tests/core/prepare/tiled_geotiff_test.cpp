@@ -50,7 +50,7 @@ TiledGeoTiffJob jobFor(const std::string& source, const std::string& path)
     TiledGeoTiffJob job;
     job.source = source;
     job.path = path;
-    job.checkpoint_interval = std::chrono::milliseconds(0); // as often as there can be one
+    job.checkpoint_interval = std::chrono::milliseconds(0); // as many checkpoints as possible
     return job;
 }
 
@@ -71,8 +71,8 @@ Error failureOf(const TiledGeoTiffJob& job)
     return report ? Error{} : report.error();
 }
 
-// The samples of a band, or of one of its overviews (0 is by 2), as gdal_translate writes them:
-// into a plain TIFF of one strip, whose last bytes they are. (No plainer format has 64-bit
+// The samples of a band, or of one of its overviews (0 is the one by 2), as gdal_translate writes
+// them: into a plain TIFF with one strip at the end of the file. (No simpler format has 64-bit
 // integers.)
 std::string samplesOf(const std::string& path, int overview = -1, const std::string& band = "1")
 {
@@ -161,7 +161,7 @@ void expectSameMap(const std::string& source_path, const std::string& copy_path)
             EXPECT_NEAR(b.crs->ellipsoid()->equatorial_m, a.crs->ellipsoid()->equatorial_m, 1e-6);
             EXPECT_NEAR(b.crs->ellipsoid()->polar_m, a.crs->ellipsoid()->polar_m, 1e-6);
         }
-        // The places themselves, through the CRS.
+        // The positions themselves, through the CRS.
         for (const GridPoint grid :
              {GridPoint{0.0, 0.0},
               GridPoint{static_cast<double>(a.columns) - 1.0, static_cast<double>(a.rows) - 1.0}}) {
@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue,
                              return name;
                          });
 
-// What is known of a synthetic map, for brute force.
+// The known content of a synthetic map, for brute force.
 template <typename T>
 struct Truth {
     std::size_t columns = 0;
@@ -241,7 +241,7 @@ struct Truth {
     std::optional<T> nodata;
 };
 
-// The mean of a block as the header defines it; nothing where all of it is void.
+// The mean of a block as the header defines it; nullopt if the whole block is void.
 template <typename T>
 std::optional<T> blockMean(const Truth<T>& truth, std::size_t level, std::size_t x, std::size_t y)
 {
@@ -339,7 +339,7 @@ TYPED_TEST(TiledGeoTiffType, KeepsSamplesAndAveragesThoseThatAreNotVoid)
     const test::TempFolder folder;
     constexpr double kRange = sizeof(T) == 1 ? 100.0 : 30'000.0;
     Truth<T> truth = randomMap<T>(1031, 777, std::is_signed_v<T> ? -kRange : 0.0, kRange);
-    truth.nodata = static_cast<T>(7); // in the midst of the heights
+    truth.nodata = static_cast<T>(7); // among the valid elevations
     for (std::size_t i = 0; i < truth.samples.size(); ++i) {
         truth.is_void[i] = truth.samples[i] == *truth.nodata;
     }
@@ -499,7 +499,7 @@ void setModified(const std::string& path, const timespec& time)
     ASSERT_EQ(utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
 }
 
-// Everything that gdalinfo can sum up.
+// All statistics of gdalinfo.
 nlohmann::json checksumsOf(const std::string& path)
 {
     nlohmann::json info =
@@ -542,7 +542,7 @@ TEST(TiledGeoTiff, GoesOnWhereItWasCancelled)
     ASSERT_EQ(report.notes.size(), 1U);
     EXPECT_THAT(report.notes[0], HasSubstr("resumed after row"));
     EXPECT_EQ(checksumsOf(job.path), checksumsOf(whole.path));
-    // What had been written behind the last checkpoint is written again in its place.
+    // Data written after the last checkpoint is written again at the same place.
     EXPECT_TRUE(test::readFile(job.path) == test::readFile(whole.path));
     expectNothingLeftBeside(job.path);
 }
@@ -609,7 +609,7 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
     TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
     const std::string part = job.path + ".part";
     const std::string journal_path = part + ".journal";
-    const std::string empty = folder.file("empty.tif"); // all that is there before the first tile
+    const std::string empty = folder.file("empty.tif"); // the file as it is before the first tile
     Result<RasterFile> file = RasterFile::open(source);
     ASSERT_TRUE(file);
     ASSERT_TRUE(writeGeoTiffSkeleton(empty, file->info(), {"key", source}));
@@ -622,7 +622,7 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
     ASSERT_GT(end, 10 * begin);
     const std::string truth = samplesOf(source);
     test::Random random;
-    std::size_t unused = 0; // tiles behind the checkpoint, of levels that are made at the end
+    std::size_t unused = 0; // tiles after the checkpoint, of levels that are written at the end
     for (int i = 0; i < 16; ++i) {
         std::string damaged = left;
         const std::uint64_t at = begin + random.below(end - begin);
@@ -637,7 +637,7 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
         EXPECT_TRUE(isWholeTiledGeoTiff(job.path));
         fs::remove(job.path);
     }
-    std::cout << unused << " of 16 flips were in nothing that was gone on from\n";
+    std::cout << unused << " of 16 flips hit no data that the resumed run used\n";
     EXPECT_LE(unused, 2U);
 }
 
@@ -661,8 +661,8 @@ TEST(TiledGeoTiff, PublishesNothingWhereTheSourceChangesMeanwhile)
     expectNothingLeftBeside(job.path);
 }
 
-// Writes over three of the tall map's rows, at a place where the source's identity does not look,
-// within the second in which the map was made.
+// Overwrites three of the tall map's rows, in a part of the file that the source identity does not
+// read, within the same second in which the map was written.
 void overwriteWithinTheSecond(const std::string& vrt, const std::string& raw)
 {
     const auto before = identify(vrt);
@@ -672,7 +672,7 @@ void overwriteWithinTheSecond(const std::string& vrt, const std::string& raw)
     ASSERT_TRUE(file.flush());
     setModified(raw, {1'700'000'000, 600'000'000});
     const auto after = identify(vrt);
-    ASSERT_TRUE(before && after && isSameContent(*before, *after)) << "the identity tells already";
+    ASSERT_TRUE(before && after && isSameContent(*before, *after)) << "the identity differs";
 }
 
 TEST(TiledGeoTiff, PublishesNothingWhereTheSourceIsOverwrittenWithinItsSecond)
@@ -846,7 +846,7 @@ TEST(TiledGeoTiff, TakesNoticeOfTheFileThatItReplaces)
     expectSameMap(source, path);
 }
 
-// Where a level ends with a tile of a single column or row, that is the raster's last.
+// If a level ends with a tile of a single column or row, that is the last of the raster.
 TEST(TiledLayout, NestedLevelsEndWithTheRastersLastSamples)
 {
     const test::TempFolder folder;

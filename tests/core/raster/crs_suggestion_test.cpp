@@ -24,14 +24,15 @@ RasterInfo gridAt(double west, double north, double pixel, std::size_t columns, 
 TEST(CrsSuggestion, IsMadeForGridsThatLookLikeDegrees)
 {
     const std::vector<RasterInfo> grids{
-        gridAt(0, 90, 1.0, 360, 180),                                     // a whole body, from 0
-        gridAt(-180, 90, 0.25, 1440, 720),                                // and from the other side
-        gridAt(20, 90, 1.0, 360, 180),                                    // and from anywhere
+        gridAt(0, 90, 1.0, 360, 180),                                     // the whole body, from 0
+        gridAt(-180, 90, 0.25, 1440, 720),                                // and from -180
+        gridAt(20, 90, 1.0, 360, 180),                                    // and from any meridian
         gridAt(-0.5, 90.5, 1.0, 361, 181),                                // samples on the poles
         gridAt(-1.0 / 24, 90 + 1.0 / 24, 1.0 / 12, 4320, 2161),           // ETOPO5
         gridAt(-105.550416666684, 40.2104166666, 1.0 / 1200, 240, 144),   // SRTM
         gridAt(-100.041666666667, 40.0416666667, 0.0833333333, 480, 600), // GTOPO30's layout
-        gridAt(-122.2, 43.0, 0.000269965979, 429, 279),                   // 30 m of some program
+        // 30 m, layout of some program
+        gridAt(-122.2, 43.0, 0.000269965979, 429, 279),
     };
     for (const RasterInfo& grid : grids) {
         const auto suggestion = suggestCrs(grid);
@@ -47,12 +48,12 @@ TEST(CrsSuggestion, IsNotMadeForGridsInMetres)
 {
     const std::vector<RasterInfo> grids{
         gridAt(500000, 4100000, 30, 100, 100), // UTM
-        gridAt(0, 550, 10, 76, 55),            // a site that counts from its corner
+        gridAt(0, 550, 10, 76, 55),            // a site with its origin at its corner
         gridAt(0, 50, 0.5, 100, 100),          // a trench
         gridAt(-40, 40, 0.1, 800, 800),        // around its own origin
         gridAt(10, 60, 1, 50, 50),             // cells of 1 m
         gridAt(-90, 45, 30, 6, 3),             // too coarse for degrees
-        gridAt(-720.5, 90, 0.5, 2880, 360),    // two turns of longitude
+        gridAt(-720.5, 90, 0.5, 2880, 360),    // two full turns of longitude
     };
     for (const RasterInfo& grid : grids) {
         EXPECT_FALSE(suggestCrs(grid)) << grid.transform->terms()[0];
@@ -67,7 +68,7 @@ TEST(CrsSuggestion, IsNotMadeForGridsInMetres)
 
 TEST(CrsSuggestion, DeclaredAxesAndTheBodyOfTheFileDecide)
 {
-    RasterInfo tile = gridAt(0, 10, 2, 5, 5); // would pass for metres
+    RasterInfo tile = gridAt(0, 10, 2, 5, 5); // could be meters as well
     EXPECT_FALSE(suggestCrs(tile));
     tile.axis_hints.degree_axes = "its axes are lon in degrees_east and lat in degrees_north";
     tile.axis_hints.body = bodyNamed("Moon");
@@ -119,7 +120,7 @@ TEST(CrsSuggestion, IsANoticeUntilTheCrsIsSet)
     ASSERT_TRUE(set);
     EXPECT_FALSE(set->crs_suggestion);
     EXPECT_TRUE(set->notices.empty()) << set->notices.front();
-    // A geotransform in metres takes the reason away.
+    // With a geotransform in meters there is nothing to suggest.
     RasterOverrides metres;
     metres.transform = GeoTransform::Terms{5e5, 30, 0, 4e6, 0, -30};
     EXPECT_FALSE(withOverrides(grid, metres)->crs_suggestion);
@@ -145,7 +146,7 @@ TEST(CrsOverride, IsRefusedWhereItsUnitCannotBeTheGrids)
     RasterInfo in_degrees = gridAt(0, 90, 0.25, 1440, 720);
     in_degrees.crs = *Crs::fromText("IAU_2015:49900");
     RasterInfo misplaced = gridAt(499980, 4200000, 30, 100, 100);
-    misplaced.crs = *Crs::fromText("EPSG:4326"); // as the file says, wrongly
+    misplaced.crs = *Crs::fromText("EPSG:4326"); // what the file declares, wrongly
     RasterInfo axes = gridAt(10, 50, 1, 20, 20);
     axes.axis_hints.degree_axes = "its axes are x in degrees_east and y in degrees_north";
     const std::vector<Placed> cases{
@@ -196,7 +197,7 @@ TEST(CrsOverride, IsAcceptedWithAGeotransformOfItsUnit)
     overrides.crs = "EPSG:32610";
     overrides.transform = GeoTransform::Terms{5e5, 30, 0, 4e6, 0, -30};
     EXPECT_TRUE(withOverrides(in_degrees, overrides));
-    // And the reverse: the geotransform is at fault.
+    // And the reverse: the geotransform is wrong.
     in_degrees.crs = *Crs::fromText("EPSG:4326");
     overrides.crs.reset();
     const auto refused = withOverrides(in_degrees, overrides);

@@ -31,7 +31,7 @@ struct Source {
     std::vector<std::int16_t> samples;
 };
 
-// Every sample another number, as far as int16 goes, and a few voids (-9999).
+// Every sample is different, as far as int16 allows, with a few voids (-9999).
 Source noise(std::size_t columns, std::size_t rows)
 {
     test::Random random;
@@ -66,7 +66,7 @@ Result<DecimatedSamples> decimated(const std::string& path, const DecimationLimi
     return readDecimated(*file, {file->info().nodata}, limits, monitor);
 }
 
-// Each sample is the one of the source in whose pixel the middle of its share lies.
+// Each sample is the source sample whose pixel contains the center of its block.
 void expectPicked(const DecimatedSamples& picked, const Source& source)
 {
     const SampleGrid& grid = picked.loaded.grid;
@@ -138,7 +138,7 @@ TEST(DecimatedRead, IsTheWholeRasterWhereThatIsSmallEnough)
     expectPicked(*picked, source);
 }
 
-// A clock that says how long every look at it took.
+// A clock that advances by `step` at every reading.
 std::function<std::chrono::nanoseconds()> steps(std::chrono::nanoseconds step)
 {
     return [now = std::make_shared<std::atomic<std::int64_t>>(0), step] {
@@ -164,8 +164,7 @@ TEST(DecimatedRead, StopsAtWhatCanBeHadInTimeButNeverWithNothing)
     EXPECT_EQ(fast->loaded.grid.columns(), 1024U);
     EXPECT_TRUE(fast->is_finest);
     expectPicked(*fast, source);
-    // In between, something in between: the first look takes a tenth of the time, the second what
-    // is left.
+    // A disk of medium speed: the first read takes a tenth of the time, the second the rest.
     const auto middling = decimated(
         path,
         {.samples_max = 1 << 19,
@@ -210,7 +209,7 @@ TEST(DecimatedRead, TakesTheLargestOverviewThatMayBeHad)
     EXPECT_TRUE(picked->is_overview);
     EXPECT_EQ(picked->loaded.grid.columns(), 500U);
     EXPECT_EQ(picked->loaded.grid.rows(), 375U);
-    // An overview that shows next to nothing is passed over.
+    // An overview with almost no valid samples is skipped.
     const auto few = decimated(path, {.samples_max = 10'000, .time_max = kForever});
     ASSERT_TRUE(few);
     EXPECT_FALSE(few->is_overview);
@@ -294,7 +293,7 @@ TEST(DecimatedRead, AgreesWithGdalOnRealMaps)
             const double raw = grid.raw(k % grid.columns(), k / grid.columns());
             ASSERT_TRUE(std::abs(raw - truth[k]) <= 1e-12 * std::abs(truth[k]) ||
                         (std::isnan(raw) && std::isnan(truth[k])))
-                << path << " sample " << k << ": " << raw << " beside " << truth[k];
+                << path << " sample " << k << ": " << raw << ", expected " << truth[k];
         }
         ++checked;
     }

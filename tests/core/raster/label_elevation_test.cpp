@@ -1,5 +1,5 @@
-// Elevations of labelled products against their labels, read here as text. GDAL 3.6 leaves out a
-// part of each.
+// Elevations of labelled products against their labels, which are read here as text. GDAL 3.6
+// ignores a part of each.
 #include "core/raster/label_elevation.h"
 #include "core/raster/raster_file.h"
 #include "tests/support/make_raster.h"
@@ -44,7 +44,7 @@ std::vector<std::int16_t> someSamples()
     return samples;
 }
 
-// The number that stands behind "KEY =" in a label.
+// The number after "KEY =" in a label.
 double numberBehind(const std::string& label, const std::string& key)
 {
     const std::size_t at = label.find(key);
@@ -80,13 +80,13 @@ END_OBJECT = IMAGE_MAP_PROJECTION
 struct Product {
     std::string pointer{};    // the file that ^IMAGE names
     std::string compressed{}; // the file of a COMPRESSED_FILE object
-    std::string image{};      // statements of IMAGE besides its size
+    std::string image{};      // statements of IMAGE in addition to its size
     std::string type = "LSB_INTEGER";
     int bits = 16;
     bool is_nested = true;
 };
 
-// In the form of LOLA's labels.
+// A label in the form of LOLA's labels.
 std::string pds3Label(const Product& product)
 {
     const std::size_t row_bytes = kLabelColumns * static_cast<std::size_t>(product.bits) / 8;
@@ -208,11 +208,11 @@ TEST(Pds3InJpeg2000, TakesTheLabelOfTheSameNameInAnyCase)
     folder.write("A.LBL", pds3Label({.pointer = "a.img", .compressed = "a.jp2", .image = image}));
     RasterFile upper = openOrThrow(writeJpeg2000(folder, "A.JP2", samples));
     expectElevations(upper, samples, 250.0, 0.0);
-    // The label of the raw image, of which only this edition is there.
+    // The label of the raw image, where only the JPEG2000 edition is present.
     folder.write("b.lbl", pds3Label({.pointer = "B.IMG", .image = image}));
     RasterFile edition = openOrThrow(writeJpeg2000(folder, "b.jp2", samples));
     expectElevations(edition, samples, 250.0, 0.0);
-    // And none at all.
+    // And with no label at all.
     RasterFile bare = openOrThrow(writeJpeg2000(folder, "c.jp2", samples));
     expectElevations(bare, samples, 1.0, 0.0);
     EXPECT_FALSE(bare.info().is_unit_declared);
@@ -283,13 +283,13 @@ TEST(Pds3Label, OfAnEncodedImageOpensThatImage)
             EXPECT_THAT(file.info().notices, Contains(HasSubstr("from the label product.lbl")));
         }
     }
-    // Under another pointer, and with the place in the file.
+    // With another pointer, which includes the position in the file.
     std::string other = pds3Label({.pointer = "PLAIN.JP2", .image = kRadii});
     const std::string pointer = "^IMAGE = \"PLAIN.JP2\"";
     other.replace(other.find(pointer), pointer.size(), "^HEIGHT_IMAGE = (\"PLAIN.JP2\", 1)");
     RasterFile height = openOrThrow(folder.write("product.lbl", other));
     expectElevations(height, samples, 0.5, 0.0);
-    // By its data alone, which a label of the same name describes.
+    // Opened through its data alone; a label with the same base name describes it.
     std::filesystem::remove(folder.file("product.lbl"));
     folder.write("plain.lbl", pds3Label({.pointer = "plain.tif", .image = kRadii}));
     RasterFile data = openOrThrow(folder.file("plain.tif"));
@@ -334,7 +334,7 @@ TEST(Pds3Label, CountsWhereGdalReadsItsNumbersWrong)
     }
 }
 
-// GDAL 3.6 takes 0 for nodata in every product of unsigned samples.
+// GDAL 3.6 assumes nodata 0 for every product with unsigned samples.
 TEST(Pds3Label, MakesZeroAnElevationUnlessItDeclaresItMissing)
 {
     const TempFolder folder;
@@ -378,7 +378,7 @@ TEST(Isis2Label, HasBaseAndMultiplier)
     recipe.transform.reset();
     const std::string path = test::writeRaster(folder, "cube.lab", "ISIS2", recipe);
     std::string cube = test::readFile(path);
-    // Replaced by texts of the same length, so that the samples stay where the label says.
+    // Replaced by texts of the same length, so that the samples stay at the offset in the label.
     const auto replace = [&cube](const std::string& key, const std::string& value) {
         const std::size_t at = cube.find(key);
         ASSERT_NE(at, std::string::npos) << key;
@@ -394,7 +394,7 @@ TEST(Isis2Label, HasBaseAndMultiplier)
     expectElevations(file, samples, 0.1, 50.0);
 }
 
-// These GDAL reads right: what a label says is not applied twice.
+// GDAL reads these correctly: the values of the label must not be applied twice.
 TEST(ScaleAndOffset, OfEveryOtherFormatAreAppliedOnce)
 {
     struct Format {
@@ -684,7 +684,7 @@ TEST(Pds3Label, OfACompressedFileThatIsNotThereIsRefused)
     EXPECT_FALSE(RasterFile::open(label));
 }
 
-// Of the real products.
+// For the real products.
 TEST(RealLabels, AgreeWithTheirTextAndGdalsSamples)
 {
     MARSVIEW_NEEDS_SHARED_DATA();

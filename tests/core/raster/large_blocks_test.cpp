@@ -1,4 +1,4 @@
-// Rasters in large blocks: the same samples as by GDAL's tools, without holding a block.
+// Rasters in large blocks: the same samples as from GDAL's tools, without a whole block in memory.
 #include "core/prepare/tiled_geotiff.h"
 #include "core/raster/raster_file.h"
 #include "tests/support/make_raster.h"
@@ -24,7 +24,8 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-// 18 MB of int16, one and a half million of which differ from what a plain predictor expects.
+// 18 MB of int16, one and a half million of which differ from the value that a plain predictor
+// expects.
 constexpr std::size_t kColumns = 3000;
 constexpr std::size_t kRows = 3001;
 
@@ -76,7 +77,7 @@ void expectAllReads(const std::string& path, const std::vector<T>& truth)
 {
     Result<RasterFile> file = RasterFile::open(path);
     ASSERT_TRUE(file) << file.error().message;
-    // In order, back to the beginning, over the edges of strips, pieces of rows, and the end.
+    // In order, back to the start, across strip boundaries, parts of rows, and the end.
     for (const GridWindow& window :
          {GridWindow{0, 0, kColumns, 10}, GridWindow{0, 10, kColumns, 1},
           GridWindow{0, 700, kColumns, 200}, GridWindow{0, 3, kColumns, 2},
@@ -183,7 +184,7 @@ TEST_F(LargeBlocksTest, AStripThatIsCutShortIsAnErrorAndNoHeight)
     const GridWindow begin{0, 0, kColumns, 100};
     const GridWindow end{0, kRows - 100, kColumns, 100};
     ASSERT_TRUE(file->readWindow(begin, {}));
-    // While it is open, and for who opens it then.
+    // For a file that is already open, and for one that is opened now.
     ASSERT_EQ(truncate(path.c_str(), static_cast<off_t>(fs::file_size(path) / 2)), 0);
     Result<RasterFile> again = RasterFile::open(path);
     for (RasterFile* reader : {&*file, again ? &*again : nullptr}) {
@@ -215,7 +216,7 @@ TEST_F(LargeBlocksTest, PeopleAreToldOfBlocksThatTakeMuchMemoryAlone)
     };
     const std::string strip = write(samples, {"COMPRESS=DEFLATE", "BLOCKYSIZE=3001"});
     EXPECT_THAT(notices_of(strip), Not(Contains(HasSubstr("GB of memory"))));
-    // 12000 × 12000 samples, 288 MB, of which next to nothing is on the disk.
+    // 12000 × 12000 samples, 288 MB, almost none of them stored on disk.
     test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
     const std::string large = test::writeRaster(
         folder_, "large.tif", "GTiff", recipe,

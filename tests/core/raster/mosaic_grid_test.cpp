@@ -30,7 +30,8 @@ TEST(MosaicGrid, PutsEverySampleWhereItLies)
 {
     test::Random random;
     for (int round = 0; round < 300; ++round) {
-        // Pixel sizes that no double holds, corners written with as many digits as headers have.
+        // Pixel sizes that doubles cannot represent; corners printed with as many digits as in
+        // headers.
         const double pixel = 1.0 / static_cast<double>(1 + random.below(4000));
         const double west = std::floor(random.uniform(-179.0, 100.0));
         const double north = std::floor(random.uniform(-80.0, 80.0));
@@ -66,7 +67,8 @@ TEST(MosaicGrid, PutsEverySampleWhereItLies)
             ASSERT_EQ(place.rows, parts[i].size.rows);
             end_column = std::max(end_column, place.column + place.columns);
             end_row = std::max(end_row, place.row + place.rows);
-            // The same place by the part's transform and by the whole's, to the headers' digits.
+            // The same position from the part's transform and from the mosaic's, to the digits of
+            // the headers.
             const MapPoint own = parts[i].transform.toMap({0.0, 0.0});
             const MapPoint whole = grid->transform.toMap(
                 {static_cast<double>(place.column), static_cast<double>(place.row)});
@@ -102,7 +104,7 @@ TEST(MosaicGrid, CountsWhatIsCovered)
     }
 }
 
-// All ways to cut the circle open before one of the parts, or as the parts are given.
+// Tries every place to cut the circle: before each of the parts, and as the parts are given.
 std::size_t narrowest(const std::vector<MosaicPart>& parts, double turn)
 {
     const auto width_from = [&](double west) {
@@ -162,7 +164,8 @@ TEST(MosaicGrid, LeavesAWholePlanetAsItIs)
 
 TEST(MosaicGrid, DoesNotTurnWhatHasNoWholeTurn)
 {
-    // 360 degrees are no whole number of such pixels: on the other side samples lie between these.
+    // 360 degrees are not a multiple of this pixel size: a full turn away, samples lie between
+    // these.
     const std::vector<MosaicPart> parts{partAt(-180.0, 10.0, 0.7, 10, 10),
                                         partAt(-180.0 + 500 * 0.7, 10.0, 0.7, 10, 10)};
     const auto grid = layOutMosaic(parts, 360.0);
@@ -186,7 +189,7 @@ TEST(MosaicGrid, NamesWhatDoesNotFit)
                 HasSubstr("b.tif is rotated"));
     EXPECT_THAT(why({"b.tif", transformOf({100.0, 1.001, 0.0, 0.0, 0.0, -1.0}), {100, 9}}),
                 HasSubstr("b.tif has pixels of 1.001"));
-    // A difference that does not add up to anything over the part.
+    // A difference that stays negligible over the whole part.
     EXPECT_TRUE(layOutMosaic(
         {first, {"b.tif", transformOf({100.0, 1.0001, 0.0, 0.0, 0.0, -1.0}), {100, 9}}},
         std::nullopt));

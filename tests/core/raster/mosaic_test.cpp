@@ -34,7 +34,7 @@ constexpr std::size_t kRows = 47;
 constexpr std::size_t kWest = 25; // columns
 constexpr std::size_t kNorth = 20;
 
-// A map, and a folder for pieces of it.
+// A map, and a folder for parts of it.
 class MosaicTest : public testing::Test {
 protected:
     MosaicTest() { fs::create_directory(parts()); }
@@ -52,7 +52,7 @@ protected:
         return samples;
     }
 
-    // gdal_translate of a rectangle of the map.
+    // Cuts a rectangle from the map with gdal_translate.
     std::string cut(const test::RasterRecipe& map,
                     const std::string& name,
                     const GridWindow& window,
@@ -69,7 +69,7 @@ protected:
         return part(name);
     }
 
-    // Into 2 × 2 pieces, the first of which overlaps the others.
+    // Into 2 × 2 parts; the first one overlaps the others.
     void cutIntoFour(const test::RasterRecipe& map) const
     {
         cut(map, "00.tif", {0, 0, kWest + 1, kNorth + 1});
@@ -115,7 +115,7 @@ TYPED_TEST(MosaicOf, IsTheMapThatItsPartsWereCutFrom)
     using T = TypeParam;
     std::vector<T> samples = this->template samples<T>();
     if constexpr (sizeof(T) >= 4) {
-        for (T& sample : samples) { // every digit of the type
+        for (T& sample : samples) { // full precision of the type
             sample = static_cast<T>(this->random_.uniform(0.0, sizeof(T) == 4 ? 4e6 : 4e12));
         }
     }
@@ -158,7 +158,7 @@ TYPED_TEST(MosaicOf, HasVoidsWhereNoPartIsAndWhereTheirsAre)
     fs::remove(this->part("11.tif"));
     for (std::size_t r = kNorth; r < kRows; ++r) {
         for (std::size_t c = kWest; c < kColumns; ++c) {
-            if (r > kNorth || c > kWest) { // that sample the first has too
+            if (r > kNorth || c > kWest) { // a sample that the first part has too
                 is_void[r * kColumns + c] = true;
             }
         }
@@ -205,7 +205,7 @@ TEST_F(MosaicTest, KeepsVoidsOfEveryKindApart)
 {
     const std::vector<std::int16_t> samples = this->samples<std::int16_t>();
     const test::RasterRecipe map = test::recipeFor(kColumns, samples);
-    // Three parts in which another sample stands for nothing, and one with a mask.
+    // Three parts with different nodata values, and one with a mask.
     cut(map, "a.tif", {0, 0, 20, kRows}, {"-a_nodata", "7"});
     cut(map, "b.tif", {20, 0, 20, kRows}, {"-a_nodata", "8"});
     cut(map, "c.tif", {40, 0, 11, kRows});
@@ -327,7 +327,7 @@ TEST_F(MosaicTest, NoticesEveryChangeOfItsFolder)
     cut(map, "b.tif", {30, 0, 21, kRows});
     const auto first = mosaicOf(parts(), 1);
     ASSERT_TRUE(first);
-    EXPECT_EQ(*mosaicOf(parts(), 1), *first) << "looked at again though nothing has changed";
+    EXPECT_EQ(*mosaicOf(parts(), 1), *first) << "opened again although nothing has changed";
     EXPECT_EQ(*mosaicOf(parts() + "/", 1), *first);
     const auto before = identify(parts());
     ASSERT_TRUE(before);
@@ -343,7 +343,7 @@ TEST_F(MosaicTest, NoticesEveryChangeOfItsFolder)
     // Other samples in a part.
     cut(test::recipeFor(kColumns, samples<float>()), "b.tif", {30, 0, 21, kRows});
     EXPECT_FALSE(isSameContent(*with_three, *identify(parts())));
-    // A part less.
+    // One part fewer.
     fs::remove(part("a.tif"));
     EXPECT_EQ((*mosaicOf(parts(), 1))->info.columns, 31U);
 }
@@ -401,7 +401,7 @@ TEST_F(MosaicTest, SaysWhichPartIsGone)
     const auto read = file.readWindow({0, 0, kColumns, kRows}, {});
     ASSERT_FALSE(read);
     EXPECT_THAT(read.error().message, HasSubstr("b.tif"));
-    // And goes on when it is back.
+    // Reading works again once the file is back.
     fs::rename(folder_.file("b.tif"), part("b.tif"));
     EXPECT_TRUE(file.readWindow({0, 0, kColumns, kRows}, {}));
 }

@@ -25,7 +25,7 @@ Crs simpleCylindrical()
     return *Crs::fromText("+proj=eqc +lon_0=180 +R=3396000 +no_defs");
 }
 
-// The outer corner of the first pixel lies `columns` and `rows` pixels from the map's corner.
+// The outer corner of the first pixel is `columns` and `rows` pixels away from the map's corner.
 GeoTransform offBy(double columns, double rows)
 {
     return *GeoTransform::fromTerms(

@@ -1,5 +1,5 @@
-// Every real file against GDAL's own tools: what the program says of it is what gdalinfo says, and
-// its samples are what gdallocationinfo prints.
+// Every real file against GDAL's own tools: properties as from gdalinfo, samples as from
+// gdallocationinfo.
 #include "core/raster/raster_file.h"
 #include "core/session/map.h"
 #include "tests/support/gdal_tools.h"
@@ -63,7 +63,7 @@ protected:
             GTEST_SKIP() << "the real elevation data is not at " << test::sharedData();
         }
         path_ = (test::sharedData() / GetParam()).string();
-        // The header beside a .prj is opened through its data; the oracle gets that directly.
+        // A .prj file is opened through its data; the oracle gets the data file directly.
         oracle_path_ = path_.ends_with(".prj") && !GetParam().starts_with("gdal_autotest")
                            ? path_.substr(0, path_.size() - 4) + ".flt"
                        : path_.ends_with(".prj") ? path_.substr(0, path_.size() - 4) + ".bil"
@@ -73,7 +73,7 @@ protected:
         scale_ = band.value("scale", 1.0);
         offset_ = band.value("offset", 0.0);
         metres_ = unitMetres(band.value("unit", std::string()));
-        // The Moon's radii of the products at hand: an offset of the reference radius.
+        // The lunar products here give radii: the offset is the reference radius.
         reference_m_ = offset_ == 1737400.0 ? 1737400.0 : 0.0;
         type_ = band.at("type").get<std::string>();
         if (band.contains("noDataValue")) {
@@ -81,13 +81,13 @@ protected:
         }
         columns_ = gdal_.at("size").at(0).get<std::size_t>();
         rows_ = gdal_.at("size").at(1).get<std::size_t>();
-        // ISIS3 and PDS4 have more special values than one, which their mask tells.
-        if (band.contains("mask")) { // gdalinfo lists it unless nodata alone makes it
+        // ISIS3 and PDS4 have several special values, which only the mask covers.
+        if (band.contains("mask")) { // gdalinfo lists it unless it follows from nodata alone
             mask_ = test::maskOf(oracle_path_);
         }
     }
 
-    // Height of a raw sample, by what gdalinfo says; NaN where void.
+    // Elevation of a raw sample, computed from gdalinfo's fields; NaN where void.
     double height(double raw, const test::Pixel& pixel) const
     {
         const bool is_nodata =
@@ -100,7 +100,7 @@ protected:
         return (raw * scale_ + offset_) * metres_ - reference_m_;
     }
 
-    // The digits that gdallocationinfo prints, and the rounding of the conversion.
+    // The digits that gdallocationinfo prints, plus the rounding of the conversion.
     double tolerance(double height_m) const
     {
         const double digits = type_ == "Float64" ? 1e-14 : type_ == "Float32" ? 1e-14 : 0.0;
@@ -152,7 +152,7 @@ TEST_P(CatalogueFile, IsDescribedAsGdalinfoDescribesIt)
     EXPECT_EQ(info.band_count, static_cast<int>(gdal_.at("bands").size()));
     EXPECT_EQ(info.nodata.has_value(), nodata_.has_value());
     if (nodata_ && info.nodata && !std::isnan(*nodata_)) {
-        // gdalinfo rounds what a float holds to the digits of a float.
+        // gdalinfo rounds float values to the digits of a float.
         const double digits = type_ == "Float32" ? 1e-7 : 1e-14;
         EXPECT_NEAR(*info.nodata, *nodata_, digits * std::abs(*nodata_));
     }
@@ -183,7 +183,7 @@ TEST_P(CatalogueFile, LiesWhereGdalinfoPutsIt)
     }
     std::array<double, 6> expected = gdal_["geoTransform"].get<std::array<double, 6>>();
     if (GetParam().starts_with("mars_mola/megt90n000cb")) {
-        // GDAL puts this label's grid one pixel north and west of where the label's limits are.
+        // GDAL places the grid of this label one pixel north and west of the label's limits.
         expected[0] += expected[1];
         expected[3] += expected[5];
         EXPECT_TRUE(std::any_of(info.notices.begin(), info.notices.end(), [](const std::string& n) {
@@ -200,7 +200,7 @@ TEST_P(CatalogueFile, LiesWhereGdalinfoPutsIt)
 TEST_P(CatalogueFile, HasGdallocationinfosHeightsAtItsSamples)
 {
     if (!isSurface()) {
-        GTEST_SKIP() << "1 × 1 samples make no surface";
+        GTEST_SKIP() << "1 × 1 samples do not form a surface";
     }
     const auto dataset = load();
     auto file = RasterFile::open(path_);
@@ -235,7 +235,7 @@ TEST_P(CatalogueFile, HasGdallocationinfosHeightsAtItsSamples)
 TEST_P(CatalogueFile, IsTheTriangulationOfThoseSamplesBetweenThem)
 {
     if (!isSurface()) {
-        GTEST_SKIP() << "1 × 1 samples make no surface";
+        GTEST_SKIP() << "1 × 1 samples do not form a surface";
     }
     const auto dataset = load();
     auto file = RasterFile::open(path_);
@@ -269,7 +269,7 @@ TEST_P(CatalogueFile, IsTheTriangulationOfThoseSamplesBetweenThem)
         const double v = p.row - std::floor(p.row);
         const auto expected = static_cast<double>(test::planeHeight(z, u, v));
         const double found = dataset->heightfield().height(p);
-        // The corners' own tolerance, and 4 ulp of interpolation.
+        // The tolerance of the corners, plus 4 ulp for the interpolation.
         const double bound = tolerance(largest) + 4.0 * 2.3e-16 * largest;
         const test::Pixel& corner = corners[4 * i];
         auto window =
@@ -309,7 +309,7 @@ TEST_P(CatalogueFile, ScanAndWholeReadFindTheSameRange)
     EXPECT_EQ(scanned->raw_maximum, loaded->statistics.raw_maximum);
     EXPECT_EQ(scanned->void_count, loaded->statistics.void_count);
     EXPECT_EQ(scanned->sample_count, columns_ * rows_);
-    // Brute force over what was loaded.
+    // Brute force over the loaded samples.
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     std::uint64_t voids = 0;
@@ -338,7 +338,7 @@ std::string fileName(const testing::TestParamInfo<std::string>& info)
 
 INSTANTIATE_TEST_SUITE_P(SharedData, CatalogueFile, testing::ValuesIn(readableFiles()), fileName);
 
-// Labels' data and headers open through their companions; the rest is refused.
+// Headers and data files of labels open through their companion file; all others are rejected.
 TEST(Catalogue, DataAndHeadersOpenThroughTheirCompanions)
 {
     MARSVIEW_NEEDS_SHARED_DATA();

@@ -1,4 +1,4 @@
-// The formats that elevations come in, made here from known samples.
+// The formats of elevation data, written here from known samples.
 #include "core/raster/raster_file.h"
 #include "core/session/map.h"
 #include "tests/support/make_raster.h"
@@ -144,11 +144,11 @@ TEST(RasterFile, AnArchiveWithOneRasterOpens)
     const TempFolder folder;
     const std::string tif =
         writeRaster(folder, "inside.tif", "GTiff", recipeFor(kColumns, hills()));
-    // Python is everywhere where the tools are; zip is not.
+    // Python is available wherever the tools are; zip is not.
     const std::string archive = folder.file("map.zip");
     const auto packed = test::runProgram({"python3", "-m", "zipfile", "-c", archive, tif});
     if (packed.exit_status != 0) {
-        GTEST_SKIP() << "no python3 to make an archive with";
+        GTEST_SKIP() << "python3 is needed to make an archive";
     }
     const auto file = RasterFile::open(archive);
     ASSERT_TRUE(file) << file.error().message;
@@ -162,14 +162,14 @@ TEST(RasterFile, AnArchiveWithoutRastersIsRefused)
     const std::string archive = folder.file("map.zip");
     const auto packed = test::runProgram({"python3", "-m", "zipfile", "-c", archive, text});
     if (packed.exit_status != 0) {
-        GTEST_SKIP() << "no python3 to make an archive with";
+        GTEST_SKIP() << "python3 is needed to make an archive";
     }
     const auto file = RasterFile::open(archive);
     ASSERT_FALSE(file);
     EXPECT_TRUE(file.error().message.starts_with(archive)) << file.error().message;
 }
 
-// GTOPO30's headers do not say whether samples are signed. They are: the Dead Sea is below zero.
+// GTOPO30's headers do not state whether samples are signed. They are: the Dead Sea is below zero.
 TEST(RasterFile, Gtopo30WithoutPixelTypeHasNegativeHeights)
 {
     const TempFolder folder;
@@ -198,7 +198,7 @@ TEST(RasterFile, Gtopo30WithoutPixelTypeHasNegativeHeights)
         const auto file = RasterFile::open(path);
         ASSERT_TRUE(file && file->info().transform);
         const MapPoint centre = file->info().transform->toMap({0.0, 0.0});
-        EXPECT_NEAR(centre.x, 20.00416666666667, 1e-12); // ULXMAP is a pixel's centre
+        EXPECT_NEAR(centre.x, 20.00416666666667, 1e-12); // ULXMAP is the center of a pixel
         EXPECT_NEAR(centre.y, 39.99583333333333, 1e-12);
     }
 }
@@ -358,7 +358,7 @@ TEST(RasterFile, MasksBesideTheSamplesAreHonoured)
         "<PixelOffset>1</PixelOffset><LineOffset>3</LineOffset></VRTRasterBand></MaskBand>";
     const std::string paths[] = {
         writeVrt(folder, "virtual", recipe),
-        // A file beside the map, and a mask within.
+        // A mask in a separate file, and one inside the file.
         writeRaster(folder, "beside.tif", "GTiff", recipe),
         writeRaster(folder, "within.tif", "GTiff", recipe,
                     {"--config", "GDAL_TIFF_INTERNAL_MASK", "YES"}),
@@ -460,7 +460,7 @@ TEST(RasterFile, RadiiWithoutAnOffsetAreRecognisedAndHeightsAreNot)
             const double height =
                 file->info().elevationScale().height(static_cast<double>(radii[5]));
             EXPECT_NEAR(height, static_cast<double>(radii[5]) - 3396190.0, 1e-9);
-            EXPECT_NEAR(height, static_cast<double>(heights[5]), 0.25); // a float's digits
+            EXPECT_NEAR(height, static_cast<double>(heights[5]), 0.25); // the digits of a float
         }
     }
 }

@@ -1,5 +1,5 @@
-// Files that are no elevation maps, or not what they claim. Each is refused in one sentence that
-// names the file, without a crash and without taking memory for what is not there.
+// Files that are not elevation maps, or not of the type that they claim. Each is rejected with one
+// sentence that names the file, without a crash and without allocating memory for missing data.
 #include "core/raster/raster_file.h"
 #include "core/session/map.h"
 #include "tests/support/make_raster.h"
@@ -86,7 +86,7 @@ TEST(Refusal, AMissingFile)
 TEST(Refusal, AFileThatMayNotBeRead)
 {
     if (geteuid() == 0) {
-        GTEST_SKIP() << "root may read every file";
+        GTEST_SKIP() << "root can read every file";
     }
     const TempFolder folder;
     const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
@@ -129,14 +129,14 @@ TEST(Refusal, AnAbsurdSize)
                                                   "band=\"1\"/></VRTDataset>"),
                       ErrorCode::TooLarge);
     }
-    // As large as is taken for a map, but not for this memory.
+    // An accepted size, but more than the available memory.
     expectRefused(folder.write("map.vrt",
                                "<VRTDataset rasterXSize=\"16777216\" rasterYSize=\"16777216\">"
                                "<VRTRasterBand dataType=\"Float64\" band=\"1\"/></VRTDataset>"),
                   ErrorCode::TooLarge);
 }
 
-// Many more bytes in a row than a whole map may take: nothing may be read to find that out.
+// Far more bytes per row than a whole map may have: the size must be checked before any read.
 TEST(Refusal, AWideRowOfRadiiIsNotReadBeforeTheLimitIsChecked)
 {
     const TempFolder folder;
@@ -269,7 +269,7 @@ TEST(Refusal, FilesCutShort)
     }
 }
 
-// GDAL itself takes what is missing at the end of raw data for zeros.
+// For raw data, GDAL itself replaces a missing end of the file by zeros.
 TEST(Refusal, RawDataCutShortAnywhere)
 {
     const TempFolder folder;
@@ -286,8 +286,8 @@ TEST(Refusal, RawDataCutShortAnywhere)
     }
 }
 
-// Known gap, 2026-11: GDAL 3.6 does not tell where the raw bands of a virtual raster lie, and reads
-// what they lack as zeros.
+// Known gap, 2026-11: GDAL 3.6 does not report the location of the raw bands of a virtual raster,
+// and reads their missing part as zeros.
 TEST(Refusal, RawBandsOfAVirtualRasterCutShort)
 {
     const TempFolder folder;
@@ -304,7 +304,7 @@ TEST(Refusal, RealFilesThatAreBroken)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     for (const char* file :
-         {"mars_mola/megt44n000hb.lbl", // its data is missing
+         {"mars_mola/megt44n000hb.lbl", // its data file is missing
           "derived/megt90n000cb_truncated.lbl", "derived/S11E120.hgt",
           "gdal_autotest/gcore/data/byte_truncated.tif", "oracle/mars-nomenclature.csv",
           "oracle/GeodTest-100.dat", "oracle/three_point_bennison1990.txt", "CATALOGUE.tsv"}) {
@@ -345,7 +345,8 @@ TEST(Refusal, AFileRemovedAfterItWasOpened)
     ASSERT_TRUE(file);
     fs::remove(path);
     JobMonitor monitor;
-    // The system keeps the data for whoever has it open; what may not happen is a crash or garbage.
+    // The system keeps the data for a process that has the file open. A crash or wrong samples are
+    // failures.
     const auto loaded = file->readAll(monitor, {}, kBudget);
     if (loaded) {
         EXPECT_EQ(loaded->grid.raw(2, 1), 6.0);
@@ -374,7 +375,7 @@ TEST(Refusal, ReadingThatNobodyWantsAnyMore)
     EXPECT_EQ(scanned.error().code, ErrorCode::Cancelled);
 }
 
-// What lacks a place is still a map: the user can say where it lies.
+// A raster without a geotransform is still a map: the user can enter its position.
 TEST(Tolerance, MapsWithoutAUsablePlaceOpenWithANotice)
 {
     const TempFolder folder;

@@ -79,7 +79,7 @@ TEST(HeightReference, HeightsAreNotRadii)
         deduceHeightReference(info);
         EXPECT_FALSE(info.reference_radius_m) << typical;
     }
-    RasterInfo nowhere; // no CRS, no body: nothing to compare with
+    RasterInfo nowhere; // without a CRS or a body there is nothing to compare with
     nowhere.typical_raw = 3389500.0;
     deduceHeightReference(nowhere);
     EXPECT_FALSE(nowhere.reference_radius_m);
@@ -212,7 +212,7 @@ TEST(Overrides, ScaleAndOffsetCountInTheVerticalUnit)
     const auto info = withOverrides(file, overrides);
     ASSERT_TRUE(info) << info.error().message;
     EXPECT_DOUBLE_EQ(info->elevationScale().height(1234.0), (1234.0 * 0.1 - 20.0) * 0.3048);
-    // Each replaces its own number alone.
+    // Each override replaces only its own number.
     overrides.offset.reset();
     EXPECT_DOUBLE_EQ(withOverrides(file, overrides)->elevationScale().height(100.0),
                      (100.0 * 0.1 + 7.0) * 0.3048);
@@ -225,7 +225,7 @@ TEST(Overrides, ScaleAndOffsetDecideAnewBetweenHeightsAndRadii)
 {
     RasterInfo file = mars();
     RasterOverrides overrides;
-    overrides.offset = 3396000.0; // as MOLA's labels of radii have it
+    overrides.offset = 3396000.0; // as in MOLA's labels of radii
     const auto radii = withOverrides(file, overrides);
     ASSERT_TRUE(radii);
     EXPECT_EQ(radii->reference_radius_m, 3396000.0);
@@ -305,7 +305,7 @@ TEST(Overrides, WhatCannotBeUsedIsRefusedInOneSentence)
     }
 }
 
-// Radii have to be checked whatever else is known: here no CRS would check them.
+// Radii must always be checked: here no CRS would check them.
 TEST(Overrides, BadRadiiAreRefusedWithoutACrsToo)
 {
     RasterInfo bare;

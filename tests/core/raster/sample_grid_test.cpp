@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-// Sanitizers end a program that asks for more memory than there is; here it has to be told no.
+// Sanitizers abort if an allocation exceeds the available memory; here the allocation must fail.
 #if defined(__SANITIZE_ADDRESS__)
 extern "C" const char* __asan_default_options() // NOLINT
 {
@@ -71,8 +71,8 @@ class SampleGridOf : public testing::Test {};
 
 TYPED_TEST_SUITE(SampleGridOf, test::AllSampleTypes);
 
-// Whether a sample stands for "nothing measured", from the meaning alone: no number, or the number
-// that the file declares, as a reader of that type would store it.
+// Whether a sample means "not measured", by definition: NaN, or the declared nodata value as a
+// reader of that type would store it.
 template <typename T>
 bool isVoidByMeaning(T sample, const std::optional<double>& nodata)
 {
@@ -85,16 +85,17 @@ bool isVoidByMeaning(T sample, const std::optional<double>& nodata)
         if (!nodata) {
             return false;
         }
-        // 2^63 - 1 and 2^64 - 1 are no doubles; whoever declares them is read as one more.
+        // Doubles cannot represent 2^63 - 1 and 2^64 - 1; as nodata they are read as one more.
         if (*nodata == static_cast<double>(std::numeric_limits<T>::max())) {
             return sample == std::numeric_limits<T>::max();
         }
-        // Integers of 64 bits exceed a double's digits; a long double holds both.
+        // 64-bit integers exceed the precision of a double; a long double holds both.
         return static_cast<long double>(sample) == static_cast<long double>(*nodata);
     }
 }
 
-// Few values, so that nodata is met often; the type's own limits, so that edges are.
+// Few distinct values, so that nodata occurs often; the limits of the type, so that edge cases
+// occur.
 template <typename T>
 std::vector<T> palette()
 {
@@ -153,7 +154,7 @@ TYPED_TEST(SampleGridOf, VoidsAreExactlyTheSamplesThatStandForNothing)
     for (const auto& nodata : nodataValues()) {
         if constexpr (std::is_same_v<T, float>) {
             if (nodata && std::abs(*nodata) > 3.5e38) {
-                continue; // converting it would be undefined; its own test below
+                continue; // undefined conversion; tested below
             }
         }
         SCOPED_TRACE(nodata ? std::to_string(*nodata) : "none");
@@ -255,10 +256,10 @@ TYPED_TEST(SampleGridOf, SamplesKeepTheirOwnTypeAndSize)
         }
     });
     grid.markVoid(0, 0);
-    EXPECT_EQ(grid.bytes(), 6 * sizeof(T) + 2 * sizeof(std::uint64_t)); // a word a row
+    EXPECT_EQ(grid.bytes(), 6 * sizeof(T) + 2 * sizeof(std::uint64_t)); // one word per row
 }
 
-// Nodata is written as a double; what the file holds is the float nearest to it.
+// Nodata is written as a double; the file stores the nearest float.
 TEST(SampleGrid, FloatNodataComparesAsTheFloatThatTheFileHolds)
 {
     const struct {
@@ -266,7 +267,8 @@ TEST(SampleGrid, FloatNodataComparesAsTheFloatThatTheFileHolds)
         float stored;
     } cases[] = {
         {-3.4028234663852886e+38, -std::numeric_limits<float>::max()},
-        {-3.40282346600000016e+38, -std::numeric_limits<float>::max()}, // 9 digits, as often seen
+        // 9 digits, a common notation
+        {-3.40282346600000016e+38, -std::numeric_limits<float>::max()},
         {-3.4028235e38, -std::numeric_limits<float>::max()},
         {3.4028235e38, std::numeric_limits<float>::max()},
         {-1e34, -1e34F},
@@ -301,7 +303,7 @@ TEST(SampleGrid, NodataAtTheEdgeOf64BitsIsTheTypesLimit)
                                                std::numeric_limits<std::int64_t>::max(), 0, -1});
     EXPECT_EQ(grid.applyRule({-9223372036854775808.0}, 0, 1).void_count, 1U);
     EXPECT_TRUE(grid.isVoid(0, 0));
-    // 2^64 is no uint64: nothing may wrap around to 0.
+    // 2^64 does not fit uint64: it must not wrap around to 0.
     SampleGrid wide = gridOf<std::uint64_t>(2, {0, 5});
     EXPECT_EQ(wide.applyRule({36893488147419103232.0}, 0, 1).void_count, 0U);
 }
@@ -312,7 +314,7 @@ TEST(SampleGrid, AGridTooLargeForAnyMemoryIsRefused)
         SampleGrid::create(SampleType::Float64, std::size_t{1} << 24, std::size_t{1} << 24);
     ASSERT_FALSE(grid);
     EXPECT_EQ(grid.error().code, ErrorCode::TooLarge);
-    // More bytes than a size_t counts: the product must not wrap to something small.
+    // More bytes than fit a size_t: the product must not wrap around to a small number.
     const auto wrapped =
         SampleGrid::create(SampleType::Float64, std::size_t{1} << 31, std::size_t{1} << 31);
     ASSERT_FALSE(wrapped);

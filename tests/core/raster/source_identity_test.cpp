@@ -76,7 +76,7 @@ TEST(SourceIdentity, SeesChangesAtTheHeadTheTailAndSpreadOverTheFile)
     const test::TempFolder folder;
     const std::string path = bigFile(folder);
     const SourceIdentity before = identityOf(path);
-    // The blocks lie at multiples of a seventeenth.
+    // The blocks are at multiples of a seventeenth of the file.
     for (const std::uint64_t offset :
          {std::uint64_t{0}, std::uint64_t{65'535}, std::uint64_t{3'000'000 / 17 * 9 + 100},
           std::uint64_t{3'000'000 - 65'536}, std::uint64_t{2'999'999}}) {

@@ -35,7 +35,7 @@ void setModified(const std::string& path, const timespec& time)
     ASSERT_EQ(utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
 }
 
-// Far from where SourceIdentity looks.
+// Far from the blocks that SourceIdentity reads.
 void overwriteMiddle(const std::string& path)
 {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
@@ -77,7 +77,7 @@ TEST(SourceStamp, SeesWhatWasWrittenWithinTheSecond)
     const SourceStamp stamp = stampOf(path);
     overwriteMiddle(data);
     setModified(data, {1'700'000'000, 600 * kMillisecond_ns});
-    ASSERT_TRUE(isSameContent(identity, identify(path).value())) << "the identity tells already";
+    ASSERT_TRUE(isSameContent(identity, identify(path).value())) << "the identity differs";
     EXPECT_FALSE(isUntouched(stamp));
 }
 
@@ -88,7 +88,7 @@ TEST(SourceStamp, SeesAWriterThatPutsTheTimeBack)
     const std::string data = folder.file("map.raw");
     const struct stat before = statusOf(data);
     const SourceStamp stamp = stampOf(path);
-    do { // until the file system's clock has ticked
+    do { // until the clock of the file system has advanced
         overwriteMiddle(data);
         setModified(data, before.st_mtim);
     } while (statusOf(data).st_ctim.tv_nsec == before.st_ctim.tv_nsec);

@@ -13,8 +13,8 @@ namespace {
 
 using testing::ElementsAre;
 
-// A session of small rasters, named by letters, the topmost first: 'm' on Mars, 'e' on the Earth,
-// '?' on an unknown body.
+// A session of small rasters, named by letters, topmost first: 'm' on Mars, 'e' on the Earth, '?'
+// on an unknown body.
 class LayerGroupsTest : public testing::Test {
 protected:
     Session sessionOf(const std::string& bodies)
@@ -75,7 +75,8 @@ TEST_F(LayerGroupsTest, AreInTheOrderOfTheirTopmostLayers)
     EXPECT_TRUE(layerGroups({}).empty());
 }
 
-// Whatever the order of bodies, each place in the group is reached, and other groups keep theirs.
+// Whatever the order of bodies, every position in the group can be reached, and other groups keep
+// their order.
 TEST_F(LayerGroupsTest, ALayerReachesEveryPlaceOfItsGroup)
 {
     for (const char* bodies : {"mmm", "memem", "emmem", "eemmm", "mmeem"}) {

@@ -1,4 +1,4 @@
-// Named features lie where the gazetteers say, through the whole program: file, placement, surface.
+// Named features are at their gazetteer positions, through all stages: file, placement, surface.
 #include "core/raster/raster_file.h"
 #include "core/session/map.h"
 #include "tests/support/nomenclature.h"
@@ -32,7 +32,7 @@ struct Place {
     double height_m = 0.0;
 };
 
-// The highest (sign +1) or lowest (-1) sample among those that `is_wanted` takes.
+// The highest (sign +1) or lowest (-1) sample among those that `is_wanted` accepts.
 template <typename F>
 Place extreme(const Map& map, double sign, F&& is_wanted)
 {
@@ -97,7 +97,7 @@ void expectOlympusAndHellas(const Map& mars)
     std::printf("summit %.2f N %.2f E, %.0f km from Olympus Mons; deepest %.2f N %.2f E\n",
                 summit.latitude_deg, summit.longitude_deg, distance_km(summit, kOlympus),
                 deepest.latitude_deg, deepest.longitude_deg);
-    // The same in other turns of longitude.
+    // The same with other turns of longitude.
     for (const double turn : {-720.0, -360.0, 360.0}) {
         EXPECT_NEAR(heightAt(mars, kOlympus.latitude_deg, kOlympus.east_longitude_deg + turn),
                     heightAt(mars, kOlympus.latitude_deg, kOlympus.east_longitude_deg), 1e-6);
@@ -116,8 +116,8 @@ TEST(MolaPlacement, TheSummitIsOlympusMonsAndTheDeepestPointIsInHellas)
     EXPECT_EQ(mars->info().vertical_datum, "areoid");
 }
 
-// One pixel is 0.25 degrees, 14.8 km: a grid that lies one pixel off would still pass for the
-// summits, so the volcanoes' outlines are centred as well.
+// One pixel is 0.25 degrees, 14.8 km: a grid that is one pixel off would still pass at the summits,
+// so the outlines of the volcanoes are centered as well.
 TEST(MolaPlacement, TheGreatVolcanoesAreHighestNearTheirNamedCentres)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
@@ -130,8 +130,8 @@ TEST(MolaPlacement, TheGreatVolcanoesAreHighestNearTheirNamedCentres)
         const double away_km = distance_km(top, feature);
         std::printf("%s: highest %.0f m, %.0f km from its named centre\n", name, top.height_m,
                     away_km);
-        // The gazetteer's circle holds the aprons too: Pavonis' caldera lies 0.26 of its diameter
-        // south of the circle's centre.
+        // The gazetteer's circle includes the aprons: the caldera of Pavonis lies 0.26 of the
+        // diameter south of its center.
         EXPECT_LT(away_km, feature.diameter_km * 0.27) << name;
     }
 }
@@ -144,7 +144,7 @@ TEST(MolaPlacement, TheCornersAreTheLabels)
     const Georeference& reference = mars->georeference();
     EXPECT_TRUE(reference.wrapsAround());
     // MAXIMUM_LATITUDE 90, WESTERNMOST_LONGITUDE 0, MINIMUM_LATITUDE -90, EASTERNMOST_LONGITUDE
-    // 360; MAP_SCALE is rounded to 14.818 km, which is worth 0.01 pixel at the edge.
+    // 360; MAP_SCALE is rounded to 14.818 km, an error of 0.01 pixel at the edge.
     const struct {
         double longitude_deg;
         double latitude_deg;

@@ -69,7 +69,7 @@ TEST(Map, TheSeamOfAGlobalMapIsAnyOtherCell)
         ASSERT_TRUE(dataset->georeference().wrapsAround());
         test::Random random;
         for (int i = 0; i < 4000; ++i) {
-            // Columns of an endless map, the seam often.
+            // Columns of an endlessly repeated map, many of them at the seam.
             const double column =
                 random.chance(0.5) ? random.uniform(34.9, 36.1) : random.uniform(0.0, 36.0);
             const double row = random.uniform(0.0, 17.0);
@@ -82,7 +82,7 @@ TEST(Map, TheSeamOfAGlobalMapIsAnyOtherCell)
                 test::planeHeight({map.sample(c, r), map.sample(c + 1, r), map.sample(c, r + 1),
                                    map.sample(c + 1, r + 1)},
                                   column - static_cast<double>(c), row - static_cast<double>(r));
-            // Degrees of 1e-13, over cells of 10 degrees and 29 km of height.
+            // Rounding of 1e-13 degrees, over cells of 10 degrees and 29 km of relief.
             ASSERT_NEAR(heightAt(*dataset, longitude, latitude), static_cast<double>(expected),
                         1e-7)
                 << longitude << " " << latitude;
@@ -135,7 +135,7 @@ TEST(Map, TheOutermostSamplesAreFoundByTheirLongitudeAndLatitude)
                 lost += std::isnan(dataset->height(*place)) ? 1U : 0U;
             }
         }
-        EXPECT_EQ(lost, 0U) << c.srs << ": samples without a height at their own place";
+        EXPECT_EQ(lost, 0U) << c.srs << ": samples without an elevation at their own position";
     }
 }
 
@@ -154,7 +154,7 @@ TEST(Map, OutsideAndNotANumberGiveNaN)
     EXPECT_TRUE(std::isnan(heightAt(*dataset, INFINITY, 46.0)));
 }
 
-// ---- Overrides: what is refused leaves everything as it was ---------------------------------
+// ---- Overrides: a rejected one leaves everything unchanged -----------------------------------
 
 TEST(DatasetOverrides, AreAppliedWithoutReadingTheFileAgain)
 {

@@ -1,4 +1,4 @@
-// Heights in feet, radii and kilometres come out in metres.
+// Elevations in feet, radii and kilometers are converted to meters.
 #include "core/raster/raster_file.h"
 #include "core/session/map.h"
 #include "tests/support/gdal_tools.h"
@@ -27,9 +27,9 @@ std::shared_ptr<const Map> load(const std::string& path, const RasterOverrides& 
 }
 
 // A USGS DEM is ASCII in records of 1024 characters. Record A holds the unit of elevations in
-// columns 535 to 540 (1 feet, 2 metres) and the resolution of heights, by which every elevation is
-// multiplied, in columns 841 to 852. Declaring feet and a resolution of 1/0.3048 of one expresses
-// the same heights in feet, without touching the elevations.
+// columns 535 to 540 (1 feet, 2 meters) and the resolution, a factor for every elevation, in
+// columns 841 to 852. With feet and a resolution of 1/0.3048, the file holds the same elevations in
+// feet without a change to the samples.
 std::string inFeet(std::string dem)
 {
     EXPECT_EQ(dem.substr(534, 6), "     2");
@@ -51,8 +51,8 @@ TEST(Units, AUsgsDemInFeetHasTheHeightsOfTheOneInMetres)
     EXPECT_EQ(feet->info().unit.name, "ft");
     EXPECT_TRUE(feet->info().is_unit_declared);
     EXPECT_EQ(feet->info().unit.metres, 0.3048);
-    // The resolution is written with six digits, 3e-8 off; feet are kept as floats, which up to
-    // 8343 are 0.0005 apart.
+    // The resolution has six digits, an error of 3e-8; feet are stored as floats, with steps of
+    // 0.0005 up to 8343.
     const double tolerance_m = 3e-8 * 2543.0 + 0.5 * 0.001 * 0.3048;
     double worst_m = 0.0;
     for (std::size_t r = 0; r < metres->heightfield().rows(); ++r) {
@@ -111,7 +111,7 @@ TEST(Units, ScaleAndOffsetOfTheUserChangeAMapWithoutReadingItAgain)
     const auto mars = load(path);
     ASSERT_TRUE(mars);
     RasterOverrides overrides;
-    overrides.scale = -0.5; // the smallest sample becomes the highest
+    overrides.scale = -0.5; // the smallest sample becomes the highest elevation
     overrides.offset = 12.0;
     overrides.vertical_datum = "local datum";
     const auto changed = test::overridden(*mars, overrides);
@@ -153,7 +153,7 @@ TEST(Units, RadiiOfTheMoonAreHeightsAboveTheirReferenceSphere)
     }
     const std::vector<double> raw = test::rawSamples(path, pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        // The label: HEIGHT = DN * SCALING_FACTOR, which is 0.5.
+        // The label: HEIGHT = DN * SCALING_FACTOR, with a factor of 0.5.
         EXPECT_EQ(moon->heightfield().sample(pixels[i].column, pixels[i].row), raw[i] * 0.5);
     }
 }

@@ -34,7 +34,7 @@ double heightAt(std::size_t column, std::size_t row)
                       static_cast<double>(row * 7919 % 13));
 }
 
-// Maps that are never held, prepared in a folder of their own.
+// Maps that are always tiled, prepared in a separate folder.
 class OpenMap : public testing::Test {
 protected:
     OpenMap()
@@ -52,8 +52,8 @@ protected:
         source_ = test::writeVrt(folder_, "map", test::recipeFor(kColumns, samples));
     }
 
-    // One that can be used in place, with its overviews beside it; not compressed, so that damage
-    // gives other heights without a word.
+    // A raster that can be used in place, with its overviews in a separate file; uncompressed, so
+    // that damaged bytes give wrong elevations without an error.
     std::string tiled() const
     {
         const std::string path = folder_.file("tiled.tif");
@@ -105,7 +105,7 @@ protected:
         return count;
     }
 
-    // Without another size or time.
+    // Keeps the size and the time of the file.
     static void damage(const std::string& path, double share, std::size_t bytes = 50)
     {
         const fs::file_time_type time = fs::last_write_time(path);
@@ -146,7 +146,7 @@ TEST_F(OpenMap, MakesACopyAnewOfWhichATileWasFoundDamaged)
             const Result<std::shared_ptr<const Map>> map = open(source_);
             ASSERT_TRUE(map) << map.error().message;
             if (unreadable(*map) == 0) {
-                continue; // it was noticed while opening
+                continue; // the damage was detected on opening
             }
             ++noticed_late;
             EXPECT_TRUE(MapFolder::at(maps_.path()).damage(kept));
@@ -184,7 +184,7 @@ TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
         ASSERT_TRUE(first) << first.error().message;
         damaged = unreadable(*first);
         if (damaged > 0) {
-            break; // otherwise it was noticed while opening, and made anew
+            break; // otherwise the damage was detected on opening, and the copy rebuilt
         }
     }
     ASSERT_GT(damaged, 0U);
@@ -196,8 +196,8 @@ TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
         openMap({.path = source_}, of_another_program, monitor);
     ASSERT_TRUE(second) << second.error().message;
     EXPECT_EQ(unreadable(*second), 0U);
-    // Whatever the first one still reads is right, as unreadable() checks, by readers that are open
-    // and by new ones.
+    // Every tile that the first map still reads is correct (unreadable() checks that), through open
+    // readers and through new ones.
     for (int i = 0; i < 3; ++i) {
         resources_.tiles->clear();
         unreadable(*first);
@@ -279,7 +279,7 @@ TEST_F(OpenMap, MakesLevelsAnewWhereOverviewsBesideTheRasterAreOthers)
     EXPECT_EQ(unreadable(*map), 0U);
 }
 
-// It would be taken for another raster, and what is damaged be shown as it is.
+// The opener would take it for another raster, and would show the damage as terrain.
 TEST_F(OpenMap, RefusesARasterThatIsNotWhatItWasThoughItsTimeIs)
 {
     const std::string path = tiled();

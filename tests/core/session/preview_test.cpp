@@ -59,7 +59,7 @@ TEST(PreviewMap, CoversTheSameGroundAsItsMap)
             }
         }
         EXPECT_EQ(a.wrapsAround(), b.wrapsAround()) << path;
-        // The scenes agree, so that a camera sees the same in either.
+        // The scenes agree, so a camera has the same view in both.
         const double side_m = a.pixelWidthMetres() * static_cast<double>(a.columns());
         const ScenePoint in_a = a.sceneFrame().toScene({-0.5, -0.5}, 0.0);
         const ScenePoint in_b = b.sceneFrame().toScene({-0.5, -0.5}, 0.0);

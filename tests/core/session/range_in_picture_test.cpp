@@ -1,4 +1,4 @@
-// Against closed forms: planes seen from straight above.
+// Against closed forms: planes viewed from straight above.
 #include "core/session/range_in_picture.h"
 #include "tests/support/map_maker.h"
 
@@ -35,7 +35,7 @@ TEST(RangesInPicture, ReachFromEdgeToEdgeOfThePicture)
         const auto ranges = rangesInPicture(ground, camera, viewport, 1.0);
         ASSERT_EQ(ranges.size(), 1U);
         ASSERT_TRUE(ranges[0]);
-        // The picture's edges on the plane: the rays of its left and right pixels.
+        // The edges of the picture on the plane: the rays of its left and right pixels.
         const auto x_at = [&](double pixel_x) {
             const Ray ray = pickRay(camera, viewport, {pixel_x, 200.0});
             // z = 100 + x / 10 along the ray

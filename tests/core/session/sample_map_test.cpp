@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kFile = "mars_mola_4ppd.tif";
 
-// A folder under the temporary one, with the map in it if asked for.
+// A folder in the temporary one, with the map in it if requested.
 std::filesystem::path made(const TempFolder& folder, const char* name)
 {
     const std::filesystem::path path = folder.path() / name;

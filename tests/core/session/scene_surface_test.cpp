@@ -1,4 +1,4 @@
-// Against brute force: every triangle of every map, placed by hand from the geotransforms.
+// Against brute force: every triangle of every map, placed with the geotransforms directly.
 #include "core/session/scene_surface.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/nan.h"
@@ -120,7 +120,8 @@ public:
         }
         return {kNan, parts_.size()};
     }
-    // Whether it is the same map a little to all sides: brute force and rounding must not quarrel.
+    // Whether the same map is on top within `slack_m` on all sides, so that rounding cannot change
+    // the result.
     bool isClear(double east_m, double north_m, double slack_m) const
     {
         const std::size_t index = height(east_m, north_m).index;
@@ -138,7 +139,7 @@ public:
         std::size_t index;
         double distance_m;
     };
-    // Each triangle that the ray crosses, in its order (Möller and Trumbore 1997).
+    // Every triangle that the ray crosses, in order along the ray (Möller and Trumbore 1997).
     std::vector<Hit> crossings(const Ray& ray, double exaggeration) const
     {
         std::vector<Hit> hits;
@@ -161,7 +162,7 @@ public:
                         const Vec3 q = cross(s, u);
                         const double y = dot(ray.direction, q) / det;
                         const double t = dot(v, q) / det;
-                        // NaN, from voids and rays along a triangle, is no crossing.
+                        // NaN, from voids and from rays within a triangle's plane, fails this test.
                         if (x >= -1e-12 && y >= -1e-12 && x + y <= 1.0 + 1e-12 && t >= 0.0) {
                             hits.push_back({i, t});
                         }
@@ -275,7 +276,7 @@ double cellMetres(const Scene& scene)
 
 class SceneSurfaceTest : public testing::Test {
 protected:
-    // Somewhere in the box, a little more often on the grid of the first map.
+    // Anywhere in the box, slightly more often on the grid of the first map.
     ScenePoint somewhere(const SceneSurface& surface)
     {
         const SceneBox box = surface.box(1.0);
@@ -409,7 +410,7 @@ TEST_F(SceneSurfaceTest, CastFindsTheFirstSurfaceThatNoMapCovers)
     EXPECT_GT(after_covered_in_all, 500);
 }
 
-// A lower map that stands high above the upper one, crossed over and over before the upper ends.
+// A lower map that rises above the upper one and is crossed many times before the upper map ends.
 TEST_F(SceneSurfaceTest, CastPassesAnyNumberOfCoveredSurfaces)
 {
     MapMaker maker;
@@ -465,7 +466,7 @@ TEST_F(SceneSurfaceTest, BoxIsTightAroundAllSamples)
             const Heightfield& h = scene.maps[i]->heightfield();
             for (std::size_t r = 0; r < h.rows(); ++r) {
                 for (std::size_t c = 0; c < h.columns(); ++c) {
-                    // Voids count in the plane, not in height.
+                    // Voids affect only the horizontal extent, not the range of heights.
                     const double z = h.sample(c, r) * exaggeration;
                     const ScenePoint p =
                         brute.scene(i, {static_cast<double>(c), static_cast<double>(r)}, z);
@@ -494,7 +495,7 @@ TEST_F(SceneSurfaceTest, IsNothingWhereThereAreNoMaps)
     EXPECT_EQ(none.box(1.0).diagonal_m(), 0.0);
 }
 
-// Every corner of every map, far from its centre, lies where the geotransforms have it.
+// Every corner of every map, far from its center, is where the geotransforms place it.
 TEST(FrameWithin, PlacesAllOfAMapToAMillionthOfASample)
 {
     test::Random random;

@@ -27,7 +27,7 @@ using Terms = std::array<double, 6>;
 constexpr Terms kUtm{500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0};
 constexpr Terms kDegrees{10.0, 0.01, 0.0, 20.0, 0.0, -0.01};
 
-// Datasets of a few samples, wherever they are wanted.
+// Datasets of a few samples at the given position.
 class Maps {
 public:
     std::shared_ptr<const Map>
@@ -139,7 +139,7 @@ TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
             session = moved(before, id, to);
             if (is_there) {
                 EXPECT_EQ(indexOf(session, id), std::min(to, before.layers.size() - 1));
-                // The others keep their order, and the way back is the way back.
+                // The other layers keep their order, and the reverse move restores the session.
                 EXPECT_EQ(removed(session, id).layers, removed(before, id).layers);
                 EXPECT_EQ(moved(session, id, index), before);
             }
@@ -191,7 +191,7 @@ TEST(SessionExaggeration, StaysWithThePictureWhenLayersComeAndGo)
     const LayerId upper = session.active;
     session = withVisibility(session, lower, false);
     session = withExaggeration(session, 6.0);
-    EXPECT_EQ(layerOf(session, lower)->exaggeration, 4.0) << "it was not in the picture";
+    EXPECT_EQ(layerOf(session, lower)->exaggeration, 4.0) << "it was not in the view";
     session = moved(withVisibility(session, lower, true), lower, 0);
     EXPECT_EQ(exaggerationOf(session), 6.0);
     session = removed(session, upper);
@@ -247,7 +247,7 @@ TEST(Placement, ShowsTheTopmostVisibleLayerAndWhatLiesInItsSystem)
     session = withVisibility(session, top, false);
     EXPECT_THAT(placement(session), ElementsAre(S::Hidden, S::Hidden, S::Shown, S::OtherBody,
                                                 S::OtherBody, S::UnknownPlace));
-    session = moved(session, session.layers[5].id, 0); // the one without a CRS leads
+    session = moved(session, session.layers[5].id, 0); // the one without a CRS determines the body
     EXPECT_THAT(placement(session), ElementsAre(S::Shown, S::Hidden, S::Hidden, S::UnknownPlace,
                                                 S::UnknownPlace, S::UnknownPlace));
     for (const Layer& layer : Session(session).layers) {

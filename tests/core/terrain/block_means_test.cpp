@@ -25,7 +25,7 @@ BlockMeans meansOf(const Heightfield& heightfield)
     return BlockMeans::build(heightfield, monitor).value();
 }
 
-// The mean of a block's samples and the share of them that is there.
+// The mean of a block's valid samples, and their share.
 struct Truth {
     double mean = kNan;
     double share = 0.0;
@@ -83,7 +83,8 @@ void expectMeans(const Heightfield& field)
     EXPECT_EQ(means.means(means.levelCount() - 1).rows(), 1U);
 }
 
-// Filled heights lie within the means and rise no faster than neighbouring means differ.
+// Filled heights are within the range of the means and rise no faster than neighboring means
+// differ.
 void expectSmoothFilling(const Heightfield& field)
 {
     SCOPED_TRACE(std::to_string(field.columns()) + " x " + std::to_string(field.rows()));
@@ -148,7 +149,7 @@ TEST(BlockMeans, LeaveVoidsOut)
     }
 }
 
-// Voids as they are: large areas without a block that has anything.
+// Voids as in real maps: large areas without any block that has data.
 TEST(BlockMeans, FillLargeHolesAndEmptyCornersSmoothly)
 {
     test::Random random;

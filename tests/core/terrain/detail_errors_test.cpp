@@ -26,7 +26,7 @@ struct Analysis {
         , surface(field, means)
         , errors(built<DetailErrors>(surface))
     {}
-    Analysis(const Analysis&) = delete; // surface is a view of its neighbours
+    Analysis(const Analysis&) = delete; // surface is a view of its neighboring members
     Analysis& operator=(const Analysis&) = delete;
 
     template <typename T, typename From>
@@ -37,7 +37,7 @@ struct Analysis {
     }
 };
 
-// The surface of a level at a sample, over the map's base, by triangulation.h on the samples that
+// The surface of a level at a sample, over the base of the map: triangulation.h on the samples that
 // the level keeps.
 double
 levelHeight(const DrawnSurface& surface, std::size_t level, std::size_t column, std::size_t row)
@@ -144,8 +144,8 @@ void expectMeasured(const Heightfield& heightfield)
     }
 }
 
-// A corner is no less than the nodes that meet there, and kGrowth times all finer corners of these
-// nodes.
+// A corner's error is at least that of the nodes that meet there, and at least kGrowth times that
+// of all finer corners of these nodes.
 void expectGrowingCorners(const DetailErrors& errors)
 {
     for (std::size_t level = 1; level < errors.levelCount(); ++level) {
@@ -222,7 +222,7 @@ TEST(DetailErrors, AreNothingWhereTheGroundIsEvenOrAPlane)
     }
 }
 
-// One sample out of line is far off its surroundings, and few: a quarter of its height counts.
+// A single outlier is far from its surroundings but rare: it counts with a quarter of its height.
 TEST(DetailErrors, CountAPeakByAQuarter)
 {
     const Analysis analysis(test::floatTerrain(
@@ -237,7 +237,7 @@ TEST(DetailErrors, GrowAtTheCornersFromLevelToLevel)
     for (const std::size_t columns : {34U, 65U, 700U, 1025U}) {
         const std::size_t rows = 1100 - columns;
         const auto heights = test::fractalHeights(random, columns, rows, 4000.0, 0.5);
-        // A rough corner in a plain is where corners have to spread.
+        // A rough corner in a plain is where large corner errors have to spread.
         const Analysis analysis(
             test::floatTerrain(columns, rows, [&](std::size_t c, std::size_t r) {
                 return c < columns / 4 && r < rows / 4 ? heights[r * columns + c] : 0.0;

@@ -74,7 +74,7 @@ TEST(FilledHeightfield, IsSmoothWhereItFills)
     for (std::size_t row = 30; row < 70; ++row) {
         for (std::size_t column = 40; column < 80; ++column) {
             if (isInDisc(column, row) && isInDisc(column + 1, row)) {
-                // The slope that was measured around is 1; across a hole it is the same on average.
+                // The slope measured around the hole is 1; across it the average is the same.
                 EXPECT_NEAR(terrain.sample(column + 1, row) - terrain.sample(column, row), 1.0,
                             1.5);
             }

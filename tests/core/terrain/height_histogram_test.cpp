@@ -43,7 +43,7 @@ TEST(HeightHistogram, CountsEverySampleOfASmallMapWhereItsHeightLies)
     ASSERT_EQ(histogram.counts.size(), 29U);
     EXPECT_EQ(histogram.range.minimum_m, heights.range()->minimum_m);
     EXPECT_EQ(histogram.range.maximum_m, heights.range()->maximum_m);
-    // By the edges of each part, instead of by division.
+    // By the bin edges instead of by division.
     const double step = (histogram.range.maximum_m - histogram.range.minimum_m) / 29.0;
     for (std::size_t bin = 0; bin < 29; ++bin) {
         const double low = histogram.range.minimum_m + static_cast<double>(bin) * step;
@@ -78,7 +78,7 @@ TEST(HeightHistogram, LooksAtNoMoreSamplesThanAllowed)
         EXPECT_EQ(histogram.sample_count, looked(histogram.stride));
         EXPECT_LE(histogram.sample_count, most);
         if (histogram.stride > 1) {
-            EXPECT_GT(looked(histogram.stride - 1), most); // no sparser than needed
+            EXPECT_GT(looked(histogram.stride - 1), most); // no sparser than necessary
         }
     }
 }

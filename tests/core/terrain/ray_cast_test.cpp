@@ -125,7 +125,7 @@ TEST(CastRay, FindsWhatATryOfAllTrianglesFinds)
             const double width = static_cast<double>(columns);
             const double height = static_cast<double>(rows);
             for (int i = 0; i < 400; ++i) {
-                // From above, from below, from beside and from within.
+                // From above, from below, from the side and from within.
                 const Vec3 from{(share(random) * 2.0 - 0.5) * width,
                                 (share(random) * 2.0 - 0.5) * height, share(random) * 60.0 - 20.0};
                 const Vec3 to{share(random) * width, share(random) * height,
@@ -165,7 +165,7 @@ TEST(CastRay, SlipsThroughNeitherVerticesNorEdges)
             const double c = static_cast<double>(column);
             const double r = static_cast<double>(row);
             const double z = terrain.heightfield.sample(column, row);
-            // Steep enough that nothing stands in the way (slopes are below 10 a cell).
+            // So steep that no terrain blocks the ray (slopes are below 10 per cell).
             const Vec3 from{c + share(random) - 0.5, r + share(random) - 0.5, z + 40.0};
             const auto at_vertex = terrain.cast(rayBetween(from, {c, r, z}));
             ASSERT_TRUE(at_vertex) << column << ", " << row;

@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kTexels = ReliefTile::kTexels;
 constexpr std::size_t kBorder = ReliefTile::kBorder;
 
-// The mean slope of a profile through `height` over the samples [begin, end), a half sample to
-// either side included, as far as there is a profile: the mean of its pieces' slopes.
+// The mean slope of a profile through `height` over the samples [begin, end), extended by half a
+// sample on each side as far as the profile reaches: the mean of the slopes of its segments.
 double meanSlope(const std::function<double(std::size_t)>& height,
                  std::size_t begin,
                  std::size_t end,
@@ -40,8 +40,8 @@ struct Slope {
     double north = 0.0;
 };
 
-// The gradient in the scene that goes with slopes a column and a row: the solution of
-//   slope per column = east · east per column + north · north per column, and likewise for rows.
+// The gradient in the scene for given slopes per column and row: the solution of slope per column =
+// east · east per column + north · north per column, and likewise for rows.
 Slope inScene(double per_column, double per_row, const SceneFrame& frame)
 {
     const double a = frame.east_per_column;
@@ -53,7 +53,7 @@ Slope inScene(double per_column, double per_row, const SceneFrame& frame)
             .north = (a * per_row - c * per_column) / determinant};
 }
 
-// Where the samples of a texel lie.
+// The sample range of a texel.
 struct TexelSamples {
     std::size_t x0 = 0;
     std::size_t x1 = 0; // exclusive
@@ -106,14 +106,14 @@ double shareAt(const ReliefTile::Level& level, std::size_t i, std::size_t j)
     return level.texels[j * level.side + i].share / 32767.0;
 }
 
-// Times the share, over the middle of the tile's heights.
+// Times the valid share, relative to the middle of the tile's height range.
 double weightedHeightAt(const ReliefTile& tile, std::size_t level, std::size_t i, std::size_t j)
 {
     const ReliefTile::Level& mip = tile.levels.at(level);
     return mip.texels[j * mip.side + i].height / 32767.0 * tile.height_reach_m;
 }
 
-// Of the texel's samples that are not void; NaN where there is none.
+// Over the texel's valid samples; NaN if it has none.
 double meanHeight(const Heightfield& field, const TexelSamples& texel)
 {
     double sum = 0.0;
@@ -138,7 +138,7 @@ SceneFrame rotatedFrame(std::size_t columns, std::size_t rows)
     return frame;
 }
 
-// A texel, or on the border of the map the nearest texel on it.
+// A texel; outside the map the nearest one on its border.
 std::size_t
 nearestOnMap(std::size_t texel, std::size_t tile, std::size_t level, std::size_t samples)
 {
@@ -158,7 +158,7 @@ void expectTrueSlopes(const Heightfield& field, const SceneFrame& frame, const R
     const ReliefTile::Level& finest = tile.levels.front();
     ASSERT_EQ(finest.side, ReliefTile::kSide);
     std::size_t compared = 0;
-    // Texels beyond the map share those of its edge.
+    // Texels beyond the map repeat those of its edge.
     std::map<std::array<std::size_t, 2>, Slope> known;
     double low_m = std::numeric_limits<double>::infinity();
     double high_m = -low_m;
@@ -190,7 +190,7 @@ void expectTrueSlopes(const Heightfield& field, const SceneFrame& frame, const R
     }
     EXPECT_EQ(compared, ReliefTile::kSide * ReliefTile::kSide);
     if (low_m < high_m) {
-        EXPECT_NEAR(tile.height_reach_m, (high_m - low_m) / 2.0, 1e-3) << "no bit is wasted";
+        EXPECT_NEAR(tile.height_reach_m, (high_m - low_m) / 2.0, 1e-3) << "all bits are used";
     }
 }
 
@@ -250,9 +250,9 @@ TEST(ReliefTile, HasAPlanesSlopeUpToTheBordersOfMapsAndHoles)
                 for (std::size_t j = 0; j < mip.side; ++j) {
                     for (std::size_t i = 0; i < mip.side; ++i) {
                         if (shareAt(mip, i, j) < 1.0) {
-                            continue; // weighted, and known from one side only
+                            continue; // weighted, and with data on one side only
                         }
-                        constexpr double kTolerance = 3.0 / 32767.0; // a half for every level
+                        constexpr double kTolerance = 3.0 / 32767.0; // half of it per level
                         ASSERT_NEAR(slopeAt(mip, i, j, 0), 0.125, kTolerance)
                             << level << ": " << i << ", " << j << " of " << mip.side;
                         ASSERT_NEAR(slopeAt(mip, i, j, 1), -0.5, kTolerance)
@@ -264,8 +264,8 @@ TEST(ReliefTile, HasAPlanesSlopeUpToTheBordersOfMapsAndHoles)
     }
 }
 
-// As the file describes it: the sample on the other side of a texel's border takes the place of a
-// void, half a sample away.
+// As the header describes: the sample across the texel's border replaces a void, half a sample
+// away.
 TEST(ReliefTile, WeighsSlopesAndElevationsByTheShareThatIsNotVoid)
 {
     test::Random random;
@@ -337,7 +337,7 @@ TEST(ReliefTile, WeighsSlopesAndElevationsByTheShareThatIsNotVoid)
     }
 }
 
-// So that shading looks the same whichever level it is taken from.
+// So that shading looks the same at every source level.
 TEST(ReliefTile, SmallerCopiesAreWhatTheCoarserLevelsHold)
 {
     test::Random random;
@@ -350,7 +350,7 @@ TEST(ReliefTile, SmallerCopiesAreWhatTheCoarserLevelsHold)
         const ReliefTile fine = makeReliefTile(field, frame, {level, 1, 0}, 30.0);
         const ReliefTile coarse = makeReliefTile(field, frame, {level + 1, 0, 0}, 30.0);
         const ReliefTile::Level& half = fine.levels[1];
-        // Tile (1, 0) begins in the middle of tile (0, 0) of the next level.
+        // Tile (1, 0) starts in the middle of tile (0, 0) of the next level.
         for (std::size_t j = kBorder; j < kBorder / 2 + kTexels / 2; ++j) {
             for (std::size_t i = 0; i < half.side; ++i) {
                 const std::size_t there_i = i + kBorder / 2 + kTexels / 2;

@@ -63,7 +63,7 @@ TEST(Seam, ATurnLeftOfTheLastColumnIsTheSeamsNearEnd)
     EXPECT_EQ(cell->u, 0.0);
 }
 
-// A position a rounding error left of the first sample is still on the map.
+// A position a rounding error to the left of the first sample is still on the map.
 TEST(Seam, AHairLeftOfTheFirstColumnIsTheSeamsFarEnd)
 {
     const auto cell = seamCell({-1e-18, 10.0}, kColumns, kRows);

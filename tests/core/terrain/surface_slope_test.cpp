@@ -1,4 +1,4 @@
-// Slope and aspect against closed forms: planes whose steepness on the ground is known.
+// Slope and aspect against closed forms: planes with a known slope on the ground.
 #include "core/terrain/surface_slope.h"
 #include "tests/support/map_maker.h"
 
@@ -20,13 +20,13 @@ std::optional<SurfaceSlope> slopeOf(const std::shared_ptr<const Map>& map, GridP
     return slopeAt(map->heightfield(), map->georeference(), grid);
 }
 
-// Rises by these shares eastward and northward.
+// Gradients eastward and northward.
 struct Rise {
     double east;
     double north;
 
     double slopeDegrees() const { return std::atan(std::hypot(east, north)) / kDegree; }
-    // Downhill, as on a compass.
+    // Downhill direction as a compass bearing.
     double aspectDegrees() const
     {
         const double degrees = std::atan2(-east, -north) / kDegree;
@@ -54,8 +54,8 @@ TEST(SurfaceSlope, IsThatOfAPlaneOnAMapWithoutCrs)
     }
 }
 
-// Metres for a degree shrink with the cosine of the latitude along a parallel, and follow the
-// meridian's radius of curvature along a meridian.
+// The length of a degree decreases with the cosine of the latitude along a parallel, and follows
+// the meridian's radius of curvature along a meridian.
 TEST(SurfaceSlope, CountsMetresOnTheEllipsoidWhereTheMapIsInDegrees)
 {
     MapMaker maker;
@@ -97,11 +97,11 @@ TEST(SurfaceSlope, IsThatOfTheSphereOnMars)
     ASSERT_TRUE(slope);
     const double steepness = 100.0 / (0.25 * per_degree * std::cos(latitude * kDegree));
     EXPECT_NEAR(std::tan(slope->slope.radians()), steepness, 1e-5 * steepness);
-    EXPECT_NEAR(slope->aspect->degrees(), 270.0, 1e-6) << "it rises eastward, so it faces west";
+    EXPECT_NEAR(slope->aspect->degrees(), 270.0, 1e-6) << "rising eastward, it faces west";
 }
 
-// Grid north is not north off the central meridian, and a metre of the map is not one of the
-// ground: near the pole, seen in a stereographic projection, both are.
+// Away from the central meridian grid north differs from true north, and a meter of the map differs
+// from one on the ground: near the pole in a stereographic projection, both apply.
 TEST(SurfaceSlope, FacesTrueNorthOnAPolarProjection)
 {
     MapMaker maker;
@@ -113,7 +113,7 @@ TEST(SurfaceSlope, FacesTrueNorthOnAPolarProjection)
     const auto slope = slopeOf(map, {10.0, 7.0});
     ASSERT_TRUE(slope);
     ASSERT_TRUE(slope->aspect);
-    EXPECT_NEAR(slope->aspect->degrees(), 180.0, 0.01) << "it rises to the pole";
+    EXPECT_NEAR(slope->aspect->degrees(), 180.0, 0.01) << "it rises toward the pole";
     // The scale of the projection: 2 / (1 + sin of the latitude), at 2 R tan(c / 2) = 296 105 m.
     const double c = 2.0 * std::atan(296105.0 / (2.0 * 3396190.0));
     const double scale = 2.0 / (1.0 + std::cos(c));
@@ -129,10 +129,10 @@ TEST(SurfaceSlope, IsOfTheTriangleThatHoldsThePlace)
     const auto upper = slopeOf(map, {4.8, 4.2});
     ASSERT_TRUE(upper);
     EXPECT_EQ(upper->slope.degrees(), 0.0);
-    EXPECT_FALSE(upper->aspect) << "level ground faces nowhere";
+    EXPECT_FALSE(upper->aspect) << "level ground has no aspect";
     const auto lower = slopeOf(map, {4.2, 4.8});
     ASSERT_TRUE(lower);
-    // Down by 30 m over 30 m, eastward and northward.
+    // Falls by 30 m over 30 m, eastward and northward.
     EXPECT_NEAR(lower->slope.degrees(), std::atan(std::sqrt(2.0)) / kDegree, 1e-4);
     EXPECT_NEAR(lower->aspect->degrees(), 45.0, 1e-4);
 }

@@ -1,4 +1,4 @@
-// A map read from tiles against the same map held in memory.
+// A map read from tiles against the same map in memory.
 
 #include "core/terrain/heightfield.h"
 #include "core/terrain/node_heights.h"
@@ -22,7 +22,7 @@ namespace {
 using test::GridTileSource;
 using test::Random;
 
-// A map in memory and the same map in tiles, none of which but the coarsest is there yet.
+// A map in memory and the same map in tiles, of which only the coarsest is resident.
 struct Pair {
     Heightfield held;
     std::shared_ptr<const SurfaceAnalysis> analysis;
@@ -32,7 +32,7 @@ struct Pair {
     const TiledRaster& raster() const { return tiled.tiles()->raster(); }
     const TileLayout& layout() const { return raster().layout(); }
 
-    // Every tile of Samples with probability `share`.
+    // Loads every tile of Samples with probability `share`.
     void load(Random& random, double share) const
     {
         for (std::size_t level = 0; level <= layout().topLevel(); ++level) {
@@ -81,7 +81,7 @@ Heightfield mountains(std::size_t columns, std::size_t rows, double void_share)
     Random random;
     const std::vector<double> heights = test::fractalHeights(random, columns, rows, 4000.0, 0.55);
     return test::int16Terrain(columns, rows, {}, [&](std::size_t column, std::size_t row) {
-        // Holes of all sizes, some across the borders of tiles.
+        // Holes of all sizes, some across tile borders.
         const bool is_void = std::sin(static_cast<double>(column) / 37.0) *
                                  std::cos(static_cast<double>(row) / 53.0) >
                              1.0 - void_share;
@@ -114,7 +114,7 @@ protected:
         const auto place = [this](std::size_t count) {
             const double last = static_cast<double>(count - 1);
             const double at = random_.uniform(0.0, last);
-            // Samples and their rows and columns as often as what lies between.
+            // Samples, rows and columns as often as positions in between.
             return random_.chance(0.3) ? std::round(at) : at;
         };
         return {place(maps_.held.columns()), place(maps_.held.rows())};
@@ -139,7 +139,7 @@ TEST_P(TiledHeightfield, WhatIsThereGivesTheSameHeightsToTheBit)
     }
 }
 
-// By brute force: from the finest level whose tiles around the place are there.
+// By brute force: from the finest level that has all tiles around the position.
 TEST_P(TiledHeightfield, MissingTilesAreStoodInForByTheFinestCoarserSurface)
 {
     maps_.load(random_, 0.4);
@@ -257,12 +257,12 @@ TEST_P(TiledHeightfield, NodesAreDrawnFromTheirOwnLevelAlone)
     }
 }
 
-// No cracks, whatever is missing: a sample's height does not depend on the node that shows it, as
-// long as coarser tiles are there where finer ones are.
+// No cracks, whatever tiles are missing: the height of a sample does not depend on the node that
+// shows it, provided that every resident tile has its coarser tiles resident.
 TEST_P(TiledHeightfield, NodesAgreeOnTheSamplesThatTheyShare)
 {
     const TileLayout& layout = maps_.layout();
-    for (int i = 0; i < 12; ++i) { // tiles with all that are above them
+    for (int i = 0; i < 12; ++i) { // tiles together with all their coarser tiles
         TileId id{.kind = TileKind::Samples,
                   .level = 0,
                   .column = static_cast<std::uint32_t>(
@@ -295,7 +295,7 @@ TEST_P(TiledHeightfield, NodesAgreeOnTheSamplesThatTheyShare)
                 for (std::size_t j = 0; j < kNodeSide; ++j) {
                     for (std::size_t i = 0; i < kNodeSide; ++i) {
                         // The last column and row are samples of every level, wherever they lie
-                        // in it: there the tile above may be another one.
+                        // within it; there the coarser tile may be a different one.
                         const std::size_t c = (column * 32 + i) << level;
                         const std::size_t r = (row * 32 + j) << level;
                         if (c >= layout.columns - 1 || r >= layout.rows - 1) {
@@ -320,8 +320,8 @@ double heightOf(const ReliefTile& tile, std::size_t texel)
     return it.share == 0 ? 0.0 : tile.height_middle_m + tile.height_reach_m * it.height / it.share;
 }
 
-// How far slopes from tiles are off, as a share of the root mean square of those of the samples;
-// of whole texels: those that end with the map may have a single sample.
+// The error of slopes from tiles, as a share of the root mean square slope of the samples. Full
+// texels only: those at the edge of the map may have a single sample.
 double reliefError(const Pair& maps, std::size_t level)
 {
     const SceneFrame frame = test::northUpFrame(maps.held.columns(), maps.held.rows(), 100.0);
@@ -343,7 +343,7 @@ double reliefError(const Pair& maps, std::size_t level)
             const ReliefTexel& b = relief->levels[0].texels[i];
             squares += std::pow(a.east, 2) + std::pow(a.north, 2);
             differences += std::pow(a.east - b.east, 2) + std::pow(a.north - b.north, 2);
-            // Means are kept as whole metres, like the samples of this map.
+            // Means are stored as whole meters, like the samples of this map.
             if (a.share == 32767 && b.share == 32767) {
                 EXPECT_NEAR(heightOf(truth, i), heightOf(*relief, i),
                             0.5 + 4.0 / 32767.0 * truth.height_reach_m);
@@ -358,13 +358,13 @@ TEST_P(TiledHeightfield, ReliefIsThatOfTheSamplesUpToTheSizeOfATexel)
     for (std::size_t level = 0; level < 5; ++level) {
         const double error = reliefError(maps_, level);
         if (level <= 2) {
-            EXPECT_EQ(error, 0.0) << "made of the samples themselves";
+            EXPECT_EQ(error, 0.0) << "built from the samples themselves";
         }
         EXPECT_LT(error, 0.15) << level;
     }
 }
 
-// A texture with shares of some tiles alone would leave out the ground of the others.
+// A texture made from some tiles only would omit the rest of the terrain.
 TEST_P(TiledHeightfield, EveryReliefTileOfAMapWithVoidsTellsWhereItHasNone)
 {
     const SceneFrame frame = test::northUpFrame(maps_.held.columns(), maps_.held.rows(), 100.0);
@@ -390,7 +390,7 @@ TEST_P(TiledHeightfield, ReliefFromAServerIsMadeOfFewerTilesAndSofter)
     for (std::size_t level = 0; level < 5; ++level) {
         const double error = reliefError(remote, level);
         if (level <= 1) {
-            EXPECT_EQ(error, 0.0) << "made of the samples themselves";
+            EXPECT_EQ(error, 0.0) << "built from the samples themselves";
         }
         EXPECT_LT(error, 0.3) << level;
     }

@@ -90,7 +90,7 @@ TEST(HeightInCell, TheTwoTrianglesMeetOnTheDiagonal)
         const CellHeights z = randomCell(random);
         const double t = random.uniform(1e-9, 1.0);
         const double beside = std::nextafter(t, 0.0);
-        // A step of one ulp across the diagonal moves the height by as little.
+        // A step of one ulp across the diagonal changes the height by no more than that.
         const double tolerance = 8.0 * ulp(largest(z));
         ASSERT_NEAR(heightInCell(z, t, beside), heightInCell(z, t, t), tolerance);
         ASSERT_NEAR(heightInCell(z, beside, t), heightInCell(z, t, t), tolerance);
@@ -140,7 +140,7 @@ TEST(HeightInCell, AVoidCornerMattersOnlyToItsOwnTriangle)
         EXPECT_EQ(heightInCell(no_upper_right, a, b), heightInCell(z, a, b));
         EXPECT_TRUE(std::isnan(heightInCell(no_lower_left, a, b)));
         EXPECT_EQ(heightInCell(no_lower_left, b, a), heightInCell(z, b, a));
-        // The diagonal has two ends, and neither is one of these.
+        // On the diagonal only its two ends count, and neither is void here.
         EXPECT_EQ(heightInCell(no_upper_right, a, a), heightInCell(z, a, a));
         EXPECT_EQ(heightInCell(no_lower_left, a, a), heightInCell(z, a, a));
     }

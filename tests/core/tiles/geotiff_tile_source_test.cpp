@@ -1,4 +1,4 @@
-// Tiles of a prepared map that was damaged.
+// Tiles of a damaged prepared map.
 #include "core/prepare/tiled_geotiff.h"
 #include "core/tiles/geotiff_tile_source.h"
 #include "tests/support/make_raster.h"
@@ -112,7 +112,7 @@ TEST_P(CheckedTiles, AreErrorsAndNeverOtherHeightsWhereTheFileIsDamaged)
     test::Random random;
     const std::vector<TileId> ids = allTiles(source_->layout());
     std::size_t refused = 0;
-    std::size_t silent = 0; // what nobody would have noticed without checksums
+    std::size_t silent = 0; // damage that only checksums reveal
     for (int round = 0; round < 60; ++round) {
         std::string damaged = bytes_;
         const std::size_t count = 1 + random.below(40);
@@ -122,7 +122,7 @@ TEST_P(CheckedTiles, AreErrorsAndNeverOtherHeightsWhereTheFileIsDamaged)
         }
         const auto source = opened(folder_.write("damaged.tif", damaged));
         if (source == nullptr || source->layout().mean_levels != source_->layout().mean_levels) {
-            continue; // it is not even opened as the map that was prepared
+            continue; // it no longer opens as the prepared map
         }
         const auto plain = source->open();
         const auto checked = source->checkedBy(checksums_)->open();
@@ -144,7 +144,7 @@ TEST_P(CheckedTiles, AreErrorsAndNeverOtherHeightsWhereTheFileIsDamaged)
     }
     EXPECT_GT(refused, 20U);
     RecordProperty("silent", std::to_string(silent));
-    EXPECT_GT(silent, 0U) << "the damage was none that needs checksums";
+    EXPECT_GT(silent, 0U) << "none of the damage needs checksums";
 }
 
 // Sizes at which the last sample of a level is alone in its tile.

@@ -39,8 +39,8 @@ std::vector<TileId> tilesOf(const TileLayout& layout, TileKind kind, std::size_t
     return tiles;
 }
 
-// Calls function(column, row, tile, i, j) for every sample of a level: its place on the map, and in
-// its tile.
+// Calls function(column, row, tile, i, j) for every sample of a level: its position on the map and
+// in its tile.
 template <typename F>
 void forEachSample(const TileSource& source, std::size_t level, const F& function)
 {
@@ -83,8 +83,8 @@ TEST(MeanSamplesSource, FullResolutionAndMeansAreThoseOfTheSource)
     }
 }
 
-// Means of a plane are the plane at the blocks' centres, and so is what lies between them: what is
-// shifted by half a block, or a tile off, shows.
+// The means of a plane are the plane at the block centers, and so are the values interpolated
+// between them: a shift by half a block, or a wrong tile, is detected.
 TEST(MeanSamplesSource, APlaneComesThroughAtEveryLevel)
 {
     const auto plane = [](std::size_t column, std::size_t row) {
@@ -93,7 +93,7 @@ TEST(MeanSamplesSource, APlaneComesThroughAtEveryLevel)
     const std::size_t mean_levels = 2;
     const auto made = samplesFromMeans(sourceOf(plane, mean_levels));
     for (std::size_t level = 1; level <= made->layout().topLevel(); ++level) {
-        // Beyond the outermost centres there is nothing to interpolate to.
+        // Outside the outermost centers there are no values to interpolate between.
         const std::size_t block = std::size_t{1} << std::min(level, mean_levels);
         std::size_t inner = 0;
         forEachSample(*made, level,
@@ -131,7 +131,7 @@ TEST(MeanSamplesSource, SamplesAreNearTheTrueOnes)
                       });
         const double rms = std::sqrt(squares / count);
         EXPECT_GT(rms, before);
-        // Of terrain that reaches 900 m up and down: less than its relief over a block.
+        // For terrain within ±900 m: smaller than the relief over a block.
         EXPECT_LT(rms, 10.0 * static_cast<double>(1U << level));
         before = rms;
     }

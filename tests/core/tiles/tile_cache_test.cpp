@@ -46,7 +46,7 @@ std::vector<TileId> allOfLevel0()
     return ids;
 }
 
-// A tile's samples are the map's, every one of them.
+// Every sample of a tile equals the map's.
 void expectWhole(const Tile& tile)
 {
     const TileId& id = tile.id;
@@ -60,7 +60,7 @@ void expectWhole(const Tile& tile)
     }
 }
 
-// A door that readers wait at until it is opened.
+// Blocks readers until it is opened.
 class Gate {
 public:
     void open()
@@ -78,7 +78,7 @@ public:
         changed_.notify_all();
         changed_.wait(lock, [this] { return is_open_; });
     }
-    // Until `count` readers have come to the door.
+    // Waits until `count` readers have arrived.
     void awaitReaders(int count)
     {
         std::unique_lock lock(mutex_);
@@ -135,7 +135,7 @@ TEST(TileCache, ServesTheHandBeforeTheView)
     TileWishes hand(raster, TileUrgency::Hand);
     const TileId first = tileId(4, 3);
     view.want(std::vector{first});
-    gate.awaitReaders(1); // the loader is busy with the first one
+    gate.awaitReaders(1); // the loader is busy with the first tile
     const std::vector later{tileId(0, 0), tileId(1, 0)};
     const std::vector viewed{tileId(2, 2), tileId(1, 2)};
     const std::vector touched{tileId(3, 1), tileId(2, 1)};
@@ -154,7 +154,7 @@ TEST(TileCache, ServesTheHandBeforeTheView)
 TEST(TileCache, ServesTheHandWhileTheViewWaitsForASlowSource)
 {
     for (const std::size_t threads : {2U, 4U}) {
-        Gate gate; // the view's tiles stay behind it
+        Gate gate; // the view's tiles come after it
         const TileId touched = tileId(3, 1);
         GridTileSource::Options options;
         options.before_read = [&](const TileId& id) -> std::optional<Error> {
@@ -171,7 +171,7 @@ TEST(TileCache, ServesTheHandWhileTheViewWaitsForASlowSource)
         const std::vector viewed{tileId(0, 0), tileId(1, 0), tileId(2, 0),
                                  tileId(3, 0), tileId(4, 0), tileId(0, 1)};
         view.want(viewed);
-        gate.awaitReaders(static_cast<int>(threads)); // as many as there are for the view
+        gate.awaitReaders(static_cast<int>(threads)); // as many as are needed for the view
         hand.want(std::vector{touched});
         hand.waitForAll();
         EXPECT_NE(raster.find(touched), nullptr);
@@ -200,7 +200,7 @@ TEST(TileCache, LeavesOutWhatIsNoLongerWanted)
     gate.open();
     wishes.waitForAll();
     EXPECT_NE(raster.find(tileId(4, 3)), nullptr);
-    EXPECT_EQ(source->readCount(), 2U) << "the one in work, and the one wanted";
+    EXPECT_EQ(source->readCount(), 2U) << "the tile in progress, and the requested one";
     EXPECT_EQ(cache.statistics().cancelled, 18U);
 }
 
@@ -216,7 +216,7 @@ TEST(TileCache, KeepsWithinItsBoundWhatWasUsedLast)
     EXPECT_NE(raster.find(tileId(0, 0)), nullptr); // used again
     ASSERT_TRUE(raster.get(tileId(3, 0)));
     EXPECT_NE(raster.find(tileId(0, 0)), nullptr);
-    EXPECT_EQ(raster.find(tileId(1, 0)), nullptr) << "not used for the longest";
+    EXPECT_EQ(raster.find(tileId(1, 0)), nullptr) << "least recently used";
     EXPECT_NE(raster.find(tileId(2, 0)), nullptr);
     EXPECT_LE(cache.statistics().bytes_held, 3 * tile_bytes);
     EXPECT_EQ(cache.statistics().evicted, 1U);
@@ -255,13 +255,13 @@ TEST(TileCache, TellsWhyATileFailedAndTriesAgain)
     TileWishes wishes(raster, TileUrgency::Hand);
     wishes.want(std::vector{tileId(2, 1), tileId(0, 0)});
     wishes.waitForAll();
-    EXPECT_NE(raster.find(tileId(0, 0)), nullptr) << "one tile's failure is its own";
+    EXPECT_NE(raster.find(tileId(0, 0)), nullptr) << "a failure affects only that tile";
     const auto first = raster.get(tileId(2, 1));
     if (!first) {
         EXPECT_EQ(first.error().message, "map in memory: the disk stumbled");
     }
     while (raster.find(tileId(2, 1)) == nullptr) {
-        std::this_thread::yield(); // as long as it is wanted, it is tried
+        std::this_thread::yield(); // retried for as long as it is requested
     }
     EXPECT_FALSE(raster.failure(tileId(2, 1)));
     expectWhole(*raster.find(tileId(2, 1)));
@@ -312,7 +312,7 @@ TEST(TileCache, TellsThoseWhoWishedAndNobodyAfterwards)
     }
     const int so_far = told;
     EXPECT_LE(so_far, 20);
-    EXPECT_GE(so_far, 17) << "the last ones may be told of while the wishes end";
+    EXPECT_GE(so_far, 17) << "the last ones may be reported while the requests end";
     cache.clear();
     EXPECT_TRUE(raster.get(tileId(0, 0)));
     EXPECT_EQ(told, so_far);

@@ -156,7 +156,7 @@ TEST_F(TileDiskCacheTest, ASecondReadComesFromDiskWithTheSameBits)
             EXPECT_TRUE(isSame(readTile(*cachedOnDisk(source, second, key), id), source->tile(id)));
         }
         EXPECT_EQ(source->readCount(), tiles.size());
-        EXPECT_EQ(source->openCount(), opened) << "a warm reader opens nothing";
+        EXPECT_EQ(source->openCount(), opened) << "with a warm cache the reader opens nothing";
         EXPECT_EQ(second->statistics().found, tiles.size());
         EXPECT_EQ(second->statistics().missed, 0U);
     }
@@ -185,7 +185,7 @@ TEST_F(TileDiskCacheTest, AnotherKeyIsAnotherSource)
 
 TEST_F(TileDiskCacheTest, AFileOfAnotherSourceIsNotBelieved)
 {
-    // As if the hashes of two keys were the same.
+    // As if two keys had the same hash.
     const TileId id{TileKind::Samples, 0, 1, 1};
     const auto kept = cache();
     readTile(*cachedOnDisk(plain_, kept, "one"), id);
@@ -245,7 +245,7 @@ TEST_F(TileDiskCacheTest, WhatWasUsedLongestAgoGoesFirst)
         }
     }
     ASSERT_EQ(paths.size(), tiles.size());
-    // The oldest but one is used: now it is the youngest.
+    // The second oldest is used: now it is the youngest.
     readTile(*source, tiles[1]);
     const std::uint64_t bytes = bytesIn(folder_.file("tiles"));
     const auto small = cache(bytes / 2);
@@ -256,7 +256,7 @@ TEST_F(TileDiskCacheTest, WhatWasUsedLongestAgoGoesFirst)
     EXPECT_TRUE(fs::exists(paths.back()));
     EXPECT_FALSE(fs::exists(paths[0]));
     EXPECT_FALSE(fs::exists(paths[2]));
-    // Nothing that is gone is younger than what is left.
+    // No evicted file is younger than a remaining one.
     bool is_kept = false;
     for (std::size_t i = 2; i < paths.size(); ++i) {
         EXPECT_TRUE(!is_kept || fs::exists(paths[i])) << i;
@@ -283,7 +283,8 @@ TEST_F(TileDiskCacheTest, ProgramsShareAFolderWhileOneDeletes)
     std::vector<std::thread> programs;
     for (int program = 0; program < 4; ++program) {
         programs.emplace_back([&, program] {
-            // Each with its own object, as programs have; two of them keep next to nothing.
+            // Each with its own object, as in separate programs; the limit of two of them is almost
+            // zero.
             const auto source =
                 cachedOnDisk(plain_, cache(program < 2 ? 150'000 : 100'000'000), "key");
             const auto reader = source->open();
@@ -331,7 +332,7 @@ TEST_F(TileDiskCacheTest, AFullDiskLeavesNoHalfFilesAndIsTriedAgainLater)
     rlimit before{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
     const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{5000, before.rlim_max}; // writing ends in the middle of a file
+    const rlimit small{5000, before.rlim_max}; // the disk is full in the middle of a file
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
     const Tile tile = readTile(*source, id);
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
@@ -352,7 +353,7 @@ TEST_F(TileDiskCacheTest, ChangesOfFolderAndBoundHoldFromTheNextTileOn)
         TileDiskCacheOptions{.folder = folder_.write("not a folder", "x") + "/tiles"});
     EXPECT_EQ(kept->bytesMax(), kFetchedBytesMax);
     const auto source = cachedOnDisk(plain_, kept, "key");
-    const auto reader = source->open(); // stays open through all of it
+    const auto reader = source->open(); // stays open throughout
     const std::vector<TileId> tiles = allTiles(plain_->layout(), 0);
     const auto read = [&](const TileId& id) {
         const auto tile = (*reader)->read(id);
@@ -362,7 +363,7 @@ TEST_F(TileDiskCacheTest, ChangesOfFolderAndBoundHoldFromTheNextTileOn)
     ASSERT_TRUE(kept->trouble());
     kept->setFolder(folder_.file("tiles"));
     EXPECT_EQ(kept->folder(), folder_.file("tiles"));
-    EXPECT_EQ(kept->trouble(), std::nullopt) << "it was about the other folder";
+    EXPECT_EQ(kept->trouble(), std::nullopt) << "that error concerned the other folder";
     for (const TileId& id : tiles) {
         read(id);
     }
@@ -375,14 +376,14 @@ TEST_F(TileDiskCacheTest, ChangesOfFolderAndBoundHoldFromTheNextTileOn)
     kept->setFolder(folder_.file("elsewhere"));
     read(tiles[0]);
     EXPECT_EQ(keptTilesIn(folder_.file("elsewhere")).count, 1U);
-    EXPECT_LE(bytesIn(folder_.file("tiles")), bytes / 2) << "they stay";
+    EXPECT_LE(bytesIn(folder_.file("tiles")), bytes / 2) << "the files stay";
     EXPECT_GT(bytesIn(folder_.file("tiles")), 0U);
 }
 
 TEST_F(TileDiskCacheTest, AFolderIsCountedAndEmptiedOfTilesAlone)
 {
     EXPECT_EQ(keptTilesIn(folder_.file("tiles")).count, 0U);
-    EXPECT_TRUE(removeKeptTiles(folder_.file("tiles"))) << "there is none";
+    EXPECT_TRUE(removeKeptTiles(folder_.file("tiles"))) << "the folder does not exist";
     const auto kept = cache();
     const auto source = cachedOnDisk(plain_, kept, "key");
     const std::vector<TileId> tiles = allTiles(plain_->layout(), 0);

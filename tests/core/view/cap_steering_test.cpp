@@ -30,7 +30,7 @@ TEST(CapSpeed, IsNothingInTheDeadZoneAndTheCubeBeyondIt)
         EXPECT_EQ(capSpeed(rate), 0.0);
         EXPECT_EQ(capSpeed(-rate), 0.0);
     }
-    // Halfway from 0.08 to 1 lies 0.54.
+    // Halfway from 0.08 to 1 is 0.54.
     EXPECT_NEAR(capSpeed(0.54), 0.125, 1e-15);
     EXPECT_NEAR(capSpeed(-0.54), -0.125, 1e-15);
     EXPECT_NEAR(capSpeed(0.5), 0.0951, 1e-4); // as the header says
@@ -46,11 +46,11 @@ TEST(CapSpeed, SetsInWithoutAJerkAndNeverFalls)
     for (int i = -999; i <= 1000; ++i) {
         const double speed = capSpeed(i * kStep);
         EXPECT_GE(speed, last);
-        // The cube's steepest is at its end: 3 / (1 - 0.08).
+        // The cube is steepest at its end: 3 / (1 - 0.08).
         EXPECT_LE(speed - last, 3.27 * kStep);
         last = speed;
     }
-    EXPECT_LT(capSpeed(kCapDeadZone + kStep) / kStep, 1e-5) << "its slope begins at nothing";
+    EXPECT_LT(capSpeed(kCapDeadZone + kStep) / kStep, 1e-5) << "its slope starts at zero";
 }
 
 TEST(Steered, GoesLevelToTheSideThatItIsPushedTo)
@@ -64,7 +64,7 @@ TEST(Steered, GoesLevelToTheSideThatItIsPushedTo)
                                     {Vec3{0.0, 1.0, 0.0}, away},
                                     {Vec3{0.0, -1.0, 0.0}, away * -1.0}}) {
         OrbitCamera after = pushed(push, 0.25);
-        // A camera distance a second.
+        // One camera distance per second.
         const Vec3 expected = way * (0.25 * 8e4);
         EXPECT_LT(length(after.target - before.target - expected), 1e-6);
         after.target = before.target;
@@ -76,7 +76,7 @@ TEST(Steered, ComesNearerPushedDownAndRisesPulledUp)
 {
     const OrbitCamera before = someCamera();
     const OrbitCamera down = pushed({0.0, 0.0, -1.0}, 0.5);
-    EXPECT_NEAR(down.distance_m, 8e4 / 2.0, 1e-6); // fourfold a second
+    EXPECT_NEAR(down.distance_m, 8e4 / 2.0, 1e-6); // by a factor of four per second
     EXPECT_LT(eyeOf(down).z, eyeOf(before).z);
     const OrbitCamera up = pushed({0.0, 0.0, 1.0}, 0.5);
     EXPECT_NEAR(up.distance_m, 8e4 * 2.0, 1e-6);
@@ -86,11 +86,11 @@ TEST(Steered, ComesNearerPushedDownAndRisesPulledUp)
 
 TEST(Steered, TurnsAsItIsTwistedAndLooksUpAsItIsTippedBack)
 {
-    // About the upward axis by the right hand is to the left: what is seen then lies further west
-    // of north.
+    // A right-handed rotation about the up axis turns to the left: the content then seen lies
+    // further west of north.
     EXPECT_NEAR(turned({0.0, 0.0, 1.0}, 0.2).azimuth.degrees(), -40.0 - 18.0, 1e-9);
     EXPECT_NEAR(turned({0.0, 0.0, -1.0}, 0.2).azimuth.degrees(), -40.0 + 18.0, 1e-9);
-    // About the axis to the right by the right hand the far side is lifted: towards the horizon.
+    // A right-handed rotation about the right axis lifts the far side, toward the horizon.
     EXPECT_NEAR(turned({1.0, 0.0, 0.0}, 0.2).tilt.degrees(), 50.0 + 9.0, 1e-9);
     EXPECT_NEAR(turned({-1.0, 0.0, 0.0}, 0.2).tilt.degrees(), 50.0 - 9.0, 1e-9);
     EXPECT_EQ(turned({0.0, 1.0, 0.0}, 0.2), someCamera()) << "it does not roll";

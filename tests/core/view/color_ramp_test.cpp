@@ -16,13 +16,13 @@ namespace {
 using Triple = std::array<double, 3>;
 using Matrix3 = std::array<Triple, 3>;
 
-// What people see who lack one kind of cones.
+// Colors as seen without one type of cones.
 //
 // Viénot, Brettel & Mollon, "Digital video colourmaps for checking the legibility of displays by
-// dichromats", 1999, for long and middle cones: colours collapse along the missing cone's axis onto
-// the plane of black, white and blue. Brettel, Viénot & Mollon, "Computerized simulation of color
-// appearance for dichromats", 1997, for short cones: onto two half planes through white and the
-// lights of 485 nm and of 660 nm. Cones are those of Smith & Pokorny, 1975, colours those of IEC
+// dichromats", 1999, for long and middle cones: colors collapse along the axis of the missing cone
+// onto the plane of black, white and blue. Brettel, Viénot & Mollon, "Computerized simulation of
+// color appearance for dichromats", 1997, for short cones: onto two half planes through white and
+// the lights of 485 nm and of 660 nm. Cones are those of Smith & Pokorny, 1975, colors those of IEC
 // 61966-2-1 (sRGB), the two lights those of the CIE 1931 observer.
 class ColorVision {
 public:
@@ -115,7 +115,7 @@ double difference(Rgb8 a, Rgb8 b)
     return std::hypot(x.l - y.l, x.a - y.a, x.b - y.b);
 }
 
-// The smallest differences on a ramp as somebody sees it.
+// The smallest color differences on a ramp, for one type of color vision.
 struct Distinctness {
     double neighbours = 1e9; // a twelfth of the ramp apart
     double others = 1e9;     // an eighth or more apart
@@ -140,7 +140,7 @@ Distinctness distinctness(const ColorRamp& ramp, const See& see)
 
 constexpr std::array<const char*, 3> kMissing{"protanopia", "deuteranopia", "tritanopia"};
 
-// How far lightness strays from its straight line between two places of the ramp.
+// The largest deviation of lightness from a straight line between two positions of the ramp.
 double unevenness(const std::array<Rgb8, 256>& colors, std::size_t first, std::size_t last)
 {
     const double low = lightness(colors[first]);
@@ -161,7 +161,7 @@ TEST(ColorRamp, GrowsEvenlyInLightnessWhereItSaysSo)
         const auto colors = sampledRamp(ramp);
         const double whole = unevenness(colors, 0, 255);
         const double halves = std::max(unevenness(colors, 0, 127), unevenness(colors, 128, 255));
-        std::cout << ramp.name << ": strays by " << whole << ", halves by " << halves << '\n';
+        std::cout << ramp.name << ": deviates by " << whole << ", halves by " << halves << '\n';
         switch (ramp.evenness) {
         case RampEvenness::Even:
             EXPECT_LT(whole, kBound) << ramp.name;
@@ -173,13 +173,13 @@ TEST(ColorRamp, GrowsEvenlyInLightnessWhereItSaysSo)
             EXPECT_NEAR(lightness(colors.front()), lightness(colors.back()), kBound) << ramp.name;
             break;
         case RampEvenness::Uneven:
-            EXPECT_GT(whole, kBound) << ramp.name << " is better than it says";
+            EXPECT_GT(whole, kBound) << ramp.name << " is better than declared";
             break;
         }
     }
 }
 
-// Lightness rises steadily; a byte that is rounded may take back a little of it.
+// Lightness increases steadily, except for rounding to bytes.
 TEST(ColorRamp, NeverFallsInLightnessWhereItIsEven)
 {
     for (const ColorRamp& ramp : colorRamps()) {
@@ -192,7 +192,7 @@ TEST(ColorRamp, NeverFallsInLightnessWhereItIsEven)
     }
 }
 
-// A seventeenth's steps are between 0.8 and 1.25 times their mean in Oklab where it is even.
+// For even ramps, steps of a seventeenth are between 0.8 and 1.25 times their mean in Oklab.
 TEST(ColorRamp, StepsLookEquallyLargeWhereItIsEven)
 {
     for (const ColorRamp& ramp : colorRamps()) {

@@ -18,7 +18,7 @@ HeightRange stretched(const Heightfield& field, const ColorStretch& stretch)
     return stretchedRange(stretch, {.heights = field, .means = means, .automatic = kAutomatic});
 }
 
-// Elevations 0 … 9999, each once, in an order that blocks do not follow.
+// Elevations 0 … 9999, each once, in an order unrelated to the blocks.
 Heightfield shuffledNumbers()
 {
     return test::floatTerrain(100, 100, [](std::size_t c, std::size_t r) {

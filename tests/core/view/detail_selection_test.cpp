@@ -98,7 +98,7 @@ struct Shot {
     DetailTarget target;
 };
 
-// Cameras inside the map's box, beside it and far away.
+// Cameras inside the map's box, next to it and far away.
 Shot randomShot(test::Random& random, const Map& map)
 {
     constexpr std::array<double, 9> kExaggerations{0.001, 0.1,  1.0,   1.0,   1.0,
@@ -125,7 +125,7 @@ Shot randomShot(test::Random& random, const Map& map)
     return shot;
 }
 
-// The ranges of detail_selection.h, computed again in double from its formulas.
+// The ranges of detail_selection.h, recomputed in double from its formulas.
 class Ranges {
 public:
     Ranges(const Map& map, const Shot& shot)
@@ -174,7 +174,7 @@ public:
             {size(level, column, row), range_per_error_ * error, range_per_texel_ * texel_m});
     }
 
-    // Between the corners of the level's node that holds a position, counted in samples.
+    // Between the corners of that level's node which contains a position, counted in samples.
     double between(const DetailNode& node, double column, double row) const
     {
         const auto side = static_cast<double>(kNode << node.level);
@@ -187,7 +187,7 @@ public:
         return above * (1.0 - v) + below * v;
     }
 
-    // How far a vertex of that level within `node` has given way to the next level.
+    // The morph weight of a vertex of that level within `node` toward the next level.
     double
     weight(const DetailNode& node, std::size_t level, const ScenePoint& p, double c, double r) const
     {
@@ -216,7 +216,8 @@ private:
         }
     }
 
-    // Of the nodes that make up `node`, two levels below; level 0 has no ranges to be kept apart.
+    // The largest range of the nodes two levels below `node`, which must stay apart; 0 below level
+    // 3.
     double largestTwoBelow(const DetailNode& node) const
     {
         double largest = 0.0;
@@ -235,7 +236,7 @@ private:
         return largest;
     }
 
-    // Of the box around the node's ground, 0 where it has none.
+    // The distance to the box around the node's terrain, 0 if it has none.
     double diagonal(const DetailNode& node) const
     {
         const auto& bounds = map_.analysis->bounds.bounds(node.level, node.column, node.row);
@@ -274,7 +275,7 @@ private:
     double range_per_texel_ = 0.0;
 };
 
-// Which selected node covers each block of level 0.
+// The selected node that covers each block of level 0.
 struct Cover {
     std::size_t columns;
     std::size_t rows;
@@ -325,7 +326,7 @@ Cover coverOf(const Map& map, const DetailSelection& selection)
     return cover;
 }
 
-// The position of a node's vertex on the grid.
+// The grid position of a node's vertex.
 struct Vertex {
     std::size_t column;
     std::size_t row;
@@ -346,7 +347,7 @@ sceneAt(const Map& map, const DrawnSurface& surface, const Vertex& vertex, doubl
                              height * exaggeration);
 }
 
-// All cells of what is drawn of a node, void or not, that have an area.
+// All drawn cells of a node that have an area, void or not.
 std::size_t triangleCount(const Map& map, const SelectedNode& selected)
 {
     std::size_t triangles = 0;
@@ -369,7 +370,7 @@ bool isInPicture(const Shot& shot, const ScenePoint& p)
            pixel->y < shot.view.viewport.height;
 }
 
-// Ground in the picture is covered. Looks at some of the samples.
+// All terrain in the view is covered. Checks a subset of the samples.
 void expectNoGaps(const Map& map, const Shot& shot, const Cover& cover)
 {
     const std::size_t stride = 1 + map.field.columns() * map.field.rows() / 40000;
@@ -390,7 +391,7 @@ void expectNoGaps(const Map& map, const Shot& shot, const Cover& cover)
     }
 }
 
-// A node's vertices on the edge that it has in common with coarser neighbours lie on these.
+// On an edge shared with coarser neighbors, the vertices of a node lie on their surface.
 struct EdgeCheck {
     std::size_t vertices = 0;
     std::size_t off = 0;
@@ -421,16 +422,16 @@ void checkVertices(const Map& map,
             for (std::size_t i = 0; i <= kNode; ++i) {
                 const Vertex vertex = vertexAt(map, node, i, j);
                 const ScenePoint p = sceneAt(map, surface, vertex, shot.view.exaggeration);
-                // Vertices beyond the map's last are drawn there, each with its own range.
+                // Vertices beyond the last sample are drawn at it, each with its own range.
                 const auto column = static_cast<double>((node.column * kNode + i) << node.level);
                 const auto row = static_cast<double>((node.row * kNode + j) << node.level);
                 const auto weight = [&](std::size_t level) {
                     return ranges.weight(node, level, p, column, row);
                 };
                 ASSERT_EQ(weight(node.level + 2), 0.0)
-                    << "level " << node.level << " would have to give way thrice at "
+                    << "level " << node.level << " would have to morph three times at "
                     << vertex.column << ", " << vertex.row;
-                // What it is off by where it is, in pixels; void samples are not measured.
+                // The error at its position, in pixels; void samples are not measured.
                 if (!map.field.samples().isVoid(vertex.column, vertex.row)) {
                     const double to_next = weight(node.level);
                     const double to_last = weight(node.level + 1);
@@ -445,10 +446,10 @@ void checkVertices(const Map& map,
                     const double error_px = eye_factor * error_m / distance_m;
                     ASSERT_LE(error_px, 1.0001 * shot.target.error_px) << node.level;
                     ASSERT_LE(error_px, 1.0001 * selection.error_px)
-                        << "level " << node.level << ", given way by " << to_next << " and "
+                        << "level " << node.level << ", morphed by " << to_next << " and "
                         << to_last;
                 }
-                // Neighbours across the edges that the vertex is on.
+                // The neighbors across the edges on which the vertex lies.
                 const auto block = [&](std::size_t sample, std::size_t count) {
                     return std::min(sample / kNode, count - 1);
                 };
@@ -478,7 +479,8 @@ void checkVertices(const Map& map,
                 edges.levels_max = std::max(edges.levels_max, coarsest - node.level);
                 for (std::size_t level = node.level; level < coarsest; ++level) {
                     ++edges.vertices;
-                    // Distances are from the eye to a box in one place, to a vertex in the other.
+                    // One place uses the distance from the eye to a box, the other that to a
+                    // vertex.
                     edges.off += weight(level) < 1.0 - 1e-9 ? 1U : 0U;
                 }
             }
@@ -536,7 +538,8 @@ TEST_F(DetailSelectionTest, CoversWhatIsInThePictureOnceAndGivesWayOnEveryEdge)
                         }
                     }
                 }
-                // The relief is the node's or one's around it, fine enough for where it is.
+                // The relief belongs to the node or to an ancestor, and is fine enough for its
+                // distance.
                 EXPECT_GE(selected.relief.level, kReliefLevelMin);
                 EXPECT_GE(selected.relief.level, node.level);
                 const std::size_t up = selected.relief.level - node.level;
@@ -565,7 +568,7 @@ TEST_F(DetailSelectionTest, CoversWhatIsInThePictureOnceAndGivesWayOnEveryEdge)
     RecordProperty("edge_vertices", static_cast<int>(edges.vertices));
     EXPECT_EQ(edges.off, 0U) << "of " << edges.vertices;
     EXPECT_GT(edges.vertices, 10000U);
-    // Two are possible where nodes lie diagonally, and rare.
+    // Two levels of difference are possible for diagonal neighbors, and rare.
     EXPECT_GE(edges.levels_max, 1U);
     EXPECT_LE(edges.levels_max, 2U);
 }
@@ -584,11 +587,11 @@ TEST_F(DetailSelectionTest, DrawsEachCellWhereEverySampleIsAskedFor)
             for (const SelectedNode& selected : selection.nodes) {
                 ASSERT_EQ(selected.node.level, 0U);
                 for (const float range : selected.parent_ranges_m) {
-                    ASSERT_GT(range, 1e20F) << "no vertex gives way";
+                    ASSERT_GT(range, 1e20F) << "no vertex morphs";
                 }
             }
         }
-        // From far above, everything is in the picture.
+        // From far above, everything is in the view.
         const SceneBox box = map.box(1.0);
         const DetailSelection all = selector.select(
             {.camera = {.target = box.centre(), .distance_m = 4.0 * box.diagonal_m()},
@@ -626,7 +629,7 @@ TEST_F(DetailSelectionTest, DrawsLessWhereMoreErrorIsAllowed)
     }
 }
 
-// What is selected does not depend on what was before.
+// The selection does not depend on earlier selections.
 TEST_F(DetailSelectionTest, IsAFunctionOfTheViewAlone)
 {
     const Map& map = maps_.front();

@@ -15,7 +15,7 @@ using test::someCamera;
 
 constexpr EdgeLine kLine{.viewport = {1000, 600}, .inset_px = 20.0, .covered_px = 40.0};
 
-// So far right of, below and in front of the eye.
+// A point at the given distances to the right of, below and in front of the eye.
 ScenePoint placeAt(const OrbitCamera& camera, const Vec3& right_down_forward)
 {
     const CameraAxes axes = axesOf(camera);
@@ -50,7 +50,7 @@ TEST(EdgeMark, LiesOnTheSideThatThePlaceIsOn)
     const auto above = edgeMark(camera, placeAt(camera, {0.0, -9e4, 1e4}), kLine);
     ASSERT_TRUE(above);
     EXPECT_NEAR(above->at.x, 500.0, 1e-9);
-    EXPECT_NEAR(above->at.y, 60.0, 1e-9) << "below what is covered";
+    EXPECT_NEAR(above->at.y, 60.0, 1e-9) << "below the covered strip";
     EXPECT_NEAR(above->down, -1.0, 1e-12);
     const auto below = edgeMark(camera, placeAt(camera, {0.0, 9e4, 1e4}), kLine);
     ASSERT_TRUE(below);
@@ -84,7 +84,7 @@ TEST(EdgeMark, LiesOnTheLineFromTheMiddleToWhereThePlaceWouldAppear)
         const double mark_y = mark->at.y - 300.0;
         ASSERT_NEAR(mark_x * mark->down - mark_y * mark->right, 0.0, 1e-9);
         ASSERT_GT(mark_x * mark->right + mark_y * mark->down, 0.0);
-        // On the line: at one of its sides, and beyond none.
+        // On the line: at one of its sides, and not beyond any.
         const double to_side = std::min(std::min(mark->at.x - 20.0, 980.0 - mark->at.x),
                                         std::min(mark->at.y - 60.0, 580.0 - mark->at.y));
         ASSERT_NEAR(to_side, 0.0, 1e-9);
@@ -92,7 +92,7 @@ TEST(EdgeMark, LiesOnTheLineFromTheMiddleToWhereThePlaceWouldAppear)
     EXPECT_GT(marks, 1000);
 }
 
-// Of all small turns of the view, the one that the mark asks for brings the place nearest.
+// Among all small turns of the view, the one toward the mark moves the place closest to the view.
 TEST(EdgeMark, PointsTheShortestWayToTurnAlsoToWhatIsBehind)
 {
     test::Random random;

@@ -74,7 +74,7 @@ Viewport randomViewport(test::Random& random)
     return kSome[random.below(kSome.size())];
 }
 
-// How far outside a convex polygon a point is, in samples; negative inside.
+// The distance of a point outside a convex polygon, in samples; negative inside.
 double outside(const std::vector<GridPoint>& polygon, GridPoint p)
 {
     double turn = 0.0;
@@ -134,7 +134,7 @@ TEST(Footprint, HoldsExactlyThePointsThatProjectIntoThePicture)
         }
     }
     std::cout << inside_count << " inside, " << outside_count << " outside, " << undecided_count
-              << " on the rim\n";
+              << " on the boundary\n";
     EXPECT_GT(inside_count, 5000);
     EXPECT_GT(outside_count, 5000);
     EXPECT_LT(undecided_count, 100);
@@ -192,7 +192,7 @@ TEST(Footprint, LooksPastTheHorizonToTheEdgeOfTheMap)
     const OrbitCamera camera{
         .target = {0.0, -2000.0, 0.0}, .distance_m = 500.0, .tilt = Angle::degrees(85.0)};
     const Viewport viewport{1280, 800};
-    ASSERT_GT(pickRay(camera, viewport, {0.0, 0.0}).direction.z, 0.0) << "the sky is in sight";
+    ASSERT_GT(pickRay(camera, viewport, {0.0, 0.0}).direction.z, 0.0) << "the sky is in the view";
     double north_row = 1e9;
     for (const GridPoint& p : footprint(camera, viewport, kNorthUp)) {
         north_row = std::min(north_row, p.row);

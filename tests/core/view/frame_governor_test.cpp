@@ -1,4 +1,4 @@
-// A fake clock: frames take what a made-up machine takes for them.
+// A simulated clock: frames take the time of a simulated machine.
 #include "core/view/frame_governor.h"
 #include "tests/support/random.h"
 
@@ -16,7 +16,8 @@ constexpr double kPixels = 1280.0 * 800.0;
 constexpr Milliseconds kTarget{33.0};
 constexpr std::array kSteps{1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0};
 
-// What a scene has to draw: in many terrains triangles fall with about this power of the error.
+// The cost of a scene: in many terrains the number of triangles falls with about this power of the
+// error.
 struct FakeScene {
     double sharp_triangles = 3e5;
 
@@ -26,7 +27,7 @@ struct FakeScene {
     }
 };
 
-// A machine, a scene, and the governor between them, used as ui/render/governed_picture.cpp does.
+// A machine, a scene, and the governor between them, used as in ui/render/governed_picture.cpp.
 struct Loop {
     FrameCost machine;
     FakeScene scene;
@@ -72,7 +73,7 @@ Loop randomLoop(Random& random)
     return loop;
 }
 
-// Steps of the plan from the finest, 0, to the coarsest.
+// The steps of the plan from the finest, 0, to the coarsest.
 int stepOf(const FramePlan& plan)
 {
     const auto errors = std::count_if(kSteps.begin(), kSteps.end(),
@@ -94,7 +95,7 @@ TEST(FrameGovernor, ComesToTheTargetOnMachinesOtherThanBelieved)
         EXPECT_TRUE(loop.plan.error_px <= kErrorPxLarge || loop.plan.scale == kScaleMin) << i;
         EXPECT_TRUE(loop.timeOf(loop.plan) <= kTarget * 1.1 || is_coarsest)
             << i << ": " << loop.timeOf(loop.plan).count() << " ms";
-        // Nor is it coarser than it needs to be: two steps finer would be too slow.
+        // Nor is it coarser than necessary: two steps finer would be too slow.
         if (loop.plan.scale == 1.0 && stepOf(loop.plan) >= 2) {
             const double finer_px = kSteps[static_cast<std::size_t>(stepOf(loop.plan) - 2)];
             EXPECT_GT(loop.timeOf({.error_px = finer_px, .scale = 1.0}), kTarget * 0.65)
@@ -166,8 +167,8 @@ TEST(FrameGovernor, FollowsAChangeOfLoadWithinAThirdOfASecond)
     for (int frame = 0; frame < 3; ++frame) {
         loop.frame();
     }
-    EXPECT_LE(loop.timeOf(loop.plan), kTarget * 1.1) << "predicted, not found out";
-    // Half the machine goes to another program.
+    EXPECT_LE(loop.timeOf(loop.plan), kTarget * 1.1) << "predicted, not measured";
+    // Another program takes half of the machine.
     loop.machine = {loop.machine.base * 2.0, loop.machine.per_triangle * 2.0,
                     loop.machine.per_pixel * 2.0};
     loop.frames(10);
@@ -187,7 +188,7 @@ TEST(FrameGovernor, KeepsTheSurfaceSharpUnderTheHandWhilePixelsCanGiveWay)
             EXPECT_EQ(loop.plan.error_px, 1.0) << i;
         }
         if (loop.plan.error_px > 1.0) {
-            EXPECT_EQ(loop.plan.scale, kScaleMin) << i << ": pixels give way first";
+            EXPECT_EQ(loop.plan.scale, kScaleMin) << i << ": resolution is reduced first";
         }
     }
 }

@@ -49,7 +49,8 @@ int red(const MapPreview& preview, std::size_t column, std::size_t row)
     return preview.rgba[(row * preview.columns + column) * 4];
 }
 
-// The same by another way: points in space, the cross product of what joins neighbours.
+// The same computed differently: points in space, and the cross product of the lines between
+// neighbors.
 double expectedRed(const Grid& grid,
                    const SceneFrame& frame,
                    const PreviewStyle& style,
@@ -60,7 +61,7 @@ double expectedRed(const Grid& grid,
         std::ptrdiff_t from = grid.at(c - dc, r - dr) ? -1 : 0;
         std::ptrdiff_t to = grid.at(c + dc, r + dr) ? 1 : 0;
         double rise = 0.0;
-        if (from == to) { // alone: level
+        if (from == to) { // without neighbors: level
             to = 1;
         } else {
             rise = *grid.at(c + to * dc, r + to * dr) - *grid.at(c + from * dc, r + from * dr);
@@ -85,7 +86,7 @@ double expectedRed(const Grid& grid,
                                         (style.tint_range.maximum_m - style.tint_range.minimum_m),
                                     0.0, 1.0);
     const double shade = 0.28 + 0.84 * std::max(0.0, dot(normal, light));
-    return std::min(255.0, share * 255.0 * shade); // the ramp is grey and linear
+    return std::min(255.0, share * 255.0 * shade); // the ramp is gray and linear
 }
 
 TEST(MapPreview, AgreesWithNormalsFromCrossProducts)
@@ -136,14 +137,14 @@ TEST(MapPreview, OfFlatGroundHasOneColour)
     }
     style.tint_range = {.minimum_m = 50.0, .maximum_m = 50.0};
     EXPECT_EQ(red(mapPreview(grid.view(), kNorthUp, style), 2, 2), expected)
-        << "heights all equal have the middle of the ramp";
+        << "equal elevations get the middle of the ramp";
 }
 
 TEST(MapPreview, IsLitFromTheNorthWestOnEveryRaster)
 {
     constexpr std::array<GridPoint, 9> kNine{
         {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}}};
-    // A slope that falls to the north-west, on rasters that run to all four quarters.
+    // A slope that falls to the north-west, on rasters in all four orientations.
     for (const double east : {10.0, -10.0}) {
         for (const double north : {10.0, -10.0}) {
             const SceneFrame frame{.origin = {}, .east_per_column = east, .north_per_row = north};

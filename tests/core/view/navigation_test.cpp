@@ -35,7 +35,7 @@ TEST(HomeCamera, ShowsTheWholeBoxFromTheSouth)
             widest = std::max({widest, std::abs(pixel->x / viewport.width - 0.5),
                                std::abs(pixel->y / viewport.height - 0.5)});
         }
-        EXPECT_GT(widest, 0.4) << "the map fills the picture in one direction";
+        EXPECT_GT(widest, 0.4) << "the map fills the view in one direction";
     }
 }
 
@@ -210,7 +210,8 @@ TEST(Constrained, KeepsTheEyeAboveTheGround)
     }
 }
 
-// A target in the air over the map's edge, seen along the horizon, had only sky around it.
+// With a target in the air above the map's edge, seen along the horizon, the view had shown only
+// sky around it.
 TEST(Constrained, KeepsTheGroundUnderTheTargetInThePicture)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
@@ -241,7 +242,7 @@ TEST(Constrained, TiltsLessBehindARidge)
     const ScenePoint eye = eyeOf(camera);
     EXPECT_LT(camera.tilt.degrees(), 84.0);
     EXPECT_NEAR(eye.z, ridge(eye.x, eye.y) + camera.distance_m / 50.0, 1.0);
-    EXPECT_EQ(constrained(camera, limits, ridge), camera) << "what is allowed is left alone";
+    EXPECT_EQ(constrained(camera, limits, ridge), camera) << "allowed cameras do not change";
 }
 
 TEST(Constrained, AsksNothingOfHolesInTheGround)

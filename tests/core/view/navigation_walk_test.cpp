@@ -1,4 +1,4 @@
-// More than a million random inputs, put together from the pure functions as the view does it.
+// More than a million random inputs, combined from the pure functions as the view does it.
 
 #include "core/raster/raster_file.h"
 #include "core/session/map.h"
@@ -59,7 +59,7 @@ public:
         case 0:
             moveTo(orbited(onGround(), angle(180.0), angle(20.0)));
             break;
-        case 1: // turned with the mouse
+        case 1: // rotated with the mouse
             camera_ = onGround();
             for (int i = 0; i < 5; ++i) {
                 camera_ = bounded(orbited(camera_, angle(6.0), angle(6.0)));
@@ -92,7 +92,7 @@ public:
                 moveTo(goal);
             }
             break;
-        case 9: // a window of any shape, from twice as high as wide
+        case 9: // a window of any aspect ratio, from twice as high as wide
             viewport_.height = 100 + static_cast<int>(random_.below(900));
             viewport_.width = viewport_.height / 2 + static_cast<int>(random_.below(2500));
             break;
@@ -104,8 +104,8 @@ public:
         }
     }
 
-    // Not so high that the map becomes a needle. The ground in the middle of the picture stays
-    // there, unless the eye would come too low.
+    // Limited so that the map does not become a needle. The terrain in the middle of the view stays
+    // there unless the eye would be too low.
     void stretch()
     {
         const double before = exaggeration_;
@@ -153,7 +153,7 @@ public:
         moveTo(zoomed(goal, factor, anchorAt(at, goal), limits()));
     }
 
-    // Wherever the pointer is, each time by the same factor.
+    // Wherever the pointer is, always by the same factor.
     void zoomOutCompletely()
     {
         const OrbitCamera start = camera_;
@@ -189,7 +189,7 @@ public:
         ASSERT_GE(c.target.z, box().minimum.z - slack);
         ASSERT_LE(c.target.z, box().maximum.z + slack);
 
-        // There is surface in the picture: at the target, under it, or before it.
+        // The surface is in the view: at the target, below it, or in front of it.
         const double target_ground_z = groundAt(c.target.x, c.target.y);
         if (std::isfinite(target_ground_z)) {
             const ScenePoint seen{c.target.x, c.target.y, std::min(c.target.z, target_ground_z)};
@@ -200,7 +200,7 @@ public:
                 ASSERT_GT(at->y, 0.4998 * viewport_.height);
                 ASSERT_LT(at->y, 0.876 * viewport_.height);
             }
-        } else if (over_voids_++ % 16 == 0) { // which takes long
+        } else if (over_voids_++ % 16 == 0) { // which is slow
             ASSERT_TRUE(isSurfaceSeen());
         }
     }
@@ -259,7 +259,8 @@ private:
         const auto hit = cast(ray);
         return hit ? pointOf(*hit) : anchorBesideMap(camera, ray);
     }
-    // Pixels find cells that are larger than the picture, samples find what pixels miss.
+    // The pixel test finds cells larger than the picture; the sample test finds those that pixels
+    // miss.
     bool isSurfaceSeen() const
     {
         for (const int step : {100, 10}) {
@@ -286,7 +287,7 @@ private:
         }
         return false;
     }
-    // Some inputs come while the camera still moves.
+    // Some inputs arrive while the camera is still moving.
     void moveTo(const OrbitCamera& goal)
     {
         const OrbitCamera start = camera_;
@@ -370,7 +371,7 @@ INSTANTIATE_TEST_SUITE_P(Bundled,
 
 double roughness(double column, double row)
 {
-    // No two neighbours alike, yet the same on every machine.
+    // Every two neighbors differ, yet the result is the same on every machine.
     return std::fmod(std::abs(std::sin(column * 12.9898 + row * 78.233)) * 43758.5453, 1.0);
 }
 

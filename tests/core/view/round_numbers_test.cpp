@@ -46,7 +46,7 @@ TEST(RoundNumber, IsItsOwnNeighbour)
     for (const double value : {0.001, 0.02, 0.5, 1.0, 2.0, 5.0, 10.0, 2e3, 5e6, 1e15}) {
         EXPECT_EQ(roundNumberBelow(value), value);
         EXPECT_EQ(roundNumberAbove(value), value);
-        EXPECT_EQ(roundNumberAbove(value * (1.0 + 1e-12)), value) << "a rounding too much";
+        EXPECT_EQ(roundNumberAbove(value * (1.0 + 1e-12)), value) << "one rounding too many";
     }
 }
 
@@ -78,7 +78,7 @@ TEST(RoundTicks, AreAllMultiplesOfTheSmallestStepThatFits)
         const RoundTicks ticks = roundTicks(low, high, count_max);
         ASSERT_TRUE(isRound(ticks.step)) << ticks.step;
         ASSERT_LE(ticks.values.size(), static_cast<std::size_t>(count_max));
-        // Counted by walking, from a multiple that is certainly below.
+        // Counted step by step, from a multiple that is certainly below.
         std::size_t count = 0;
         const double finer = roundNumberBelow(ticks.step * 0.9);
         std::size_t finer_count = 0;

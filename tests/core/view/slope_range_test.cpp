@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSlopeMax = 16.0;
 
-// Of the tile at level 0, of a map of cells of one metre.
+// The tile at level 0 of a map with cells of one meter.
 SlopeRange rangeOf(const Heightfield& field)
 {
     const SceneFrame frame = test::northUpFrame(field.columns(), field.rows(), 1.0);
@@ -18,7 +18,7 @@ SlopeRange rangeOf(const Heightfield& field)
                       field.rows(), kSlopeMax);
 }
 
-// A roof: its two sides are planes of a known slope, a share of the map is steeper.
+// A roof: its two sides are planes with known slopes, and a given share of the map is steeper.
 Heightfield roof(double degrees, double steep_degrees, std::size_t steep_rows)
 {
     const double slope = std::tan(Angle::degrees(degrees).radians());

@@ -17,10 +17,10 @@ TEST(AutomaticContourInterval, DrawsSomeLinesAndNotTooMany)
         const double metres_per_pixel = std::pow(10.0, random.uniform(-3.0, 5.0));
         const double interval_m = automaticContourInterval(
             {.minimum_m = low_m, .maximum_m = low_m + relief_m}, metres_per_pixel);
-        // From far: 12 to 30 lines in all.
+        // From far away: 12 to 30 lines in total.
         ASSERT_LE(interval_m, relief_m / 12.0 * (1.0 + 1e-6));
-        // From near: lines on a slope of one in ten are 40 pixels apart or more, unless the whole
-        // map has too little relief for that.
+        // From close up: lines on a slope of one in ten are at least 40 pixels apart, unless the
+        // whole map has too little relief.
         const double apart_px = interval_m / 0.1 / metres_per_pixel;
         const double lines = relief_m / interval_m;
         ASSERT_TRUE(apart_px >= 40.0 * (1.0 - 1e-6) || lines <= 30.0 * (1.0 + 1e-6));
@@ -50,7 +50,7 @@ TEST(ContourInterval, IsTheOneAskedFor)
     EXPECT_EQ(contourInterval({.has_contours = true, .contour_interval_m = 70.0}, range, 10.0), 70);
     EXPECT_EQ(contourInterval({.has_contours = true}, range, 10.0),
               automaticContourInterval(range, 10.0));
-    // Squeezed to a hundredth, terrain has a hundredth of the lines.
+    // Scaled down to a hundredth, terrain has a hundredth of the lines.
     EXPECT_EQ(contourInterval({.has_contours = true}, {.minimum_m = -9000.0, .maximum_m = 9000.0},
                               1.0, 0.01),
               automaticContourInterval({.minimum_m = -9000.0, .maximum_m = 9000.0}, 100.0));

@@ -1,4 +1,4 @@
-// Replaces operator new of this test program, and of no other, to count what is allocated.
+// Replaces operator new in this test program only, to count allocations.
 #include "core/contact/contact_model.h"
 #include "haptics/terrain/resident_terrain.h"
 #include "tests/core/contact/contact_terrain.h"
@@ -23,7 +23,7 @@ namespace {
 std::atomic<long> allocation_count{0};
 std::atomic<long> free_count{0};
 
-// Not inlined, lest the compiler take what is deleted for malloc's.
+// Not inlined; otherwise the compiler takes the freed memory for malloc's.
 [[gnu::noinline]] void* counted(std::size_t bytes)
 {
     allocation_count.fetch_add(1, std::memory_order_relaxed);
@@ -44,7 +44,7 @@ void* operator new[](std::size_t bytes)
 {
     return counted(bytes);
 }
-// AddressSanitizer has its own of these, which must not meet our delete.
+// AddressSanitizer replaces these operators, and its versions must not meet our delete.
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
 {
     allocation_count.fetch_add(1, std::memory_order_relaxed);
@@ -128,7 +128,7 @@ TEST_P(ContactModelRealTime, AllocatesAndFreesNothingOverTilesThatArrive)
         }));
     const SceneFrame frame = test::unitFrame(*map.filled);
     const HeightfieldSurface truth(map.filled, frame, 1.0);
-    // All windows are made beforehand: a feeder's work.
+    // All windows are built in advance, as a feeder does.
     std::vector<std::unique_ptr<ResidentWindow>> windows;
     windows.push_back(std::make_unique<ResidentWindow>(map.window({450.0, 350.0})));
     for (const TileId& id : test::tilesOf(*windows.front())) {

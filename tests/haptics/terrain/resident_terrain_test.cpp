@@ -44,7 +44,7 @@ const TiledMap& roughMap()
     return kMap;
 }
 
-/// What a feeder does: windows that grow by a tile at a time, each differing from what was there.
+/// Simulates a feeder: windows that grow tile by tile, each a modified copy of the previous one.
 class Arrivals {
 public:
     Arrivals(const TiledMap& map, GridPoint centre)
@@ -55,7 +55,7 @@ public:
 
     const ResidentWindow& window() const { return *window_; }
     std::vector<TileId> tiles() const { return test::tilesOf(*window_); }
-    /// The last window is gone then.
+    /// By then the previous window is freed.
     void arrive(const TileId& id)
     {
         auto next = std::make_shared<ResidentWindow>(map_.window(centre_, kSides));
@@ -85,14 +85,14 @@ struct Place {
     std::size_t row;
 };
 
-/// In the 3 × 3 tiles around the hand.
+/// In the 3 × 3 tiles around the proxy.
 std::vector<Place> placesNear(Random& random, GridPoint hand, std::size_t count)
 {
     const auto along = [&](double at, std::size_t samples) {
         const auto tile = static_cast<std::size_t>(at) / kTileSide;
         const std::size_t low = (std::max<std::size_t>(tile, 1) - 1) * kTileSide;
         const std::size_t high = std::min((tile + 2) * kTileSide, samples);
-        // Often beside a border between tiles.
+        // Often near a border between tiles.
         const std::size_t any = low + random.below(high - low);
         return random.chance(0.3)
                    ? std::clamp((any + 128) / 256 * 256 + random.below(3) - 1, low, high - 1)
@@ -140,7 +140,7 @@ TEST(ResidentTerrain, GoesFromWhatWasFeltToWhatArrivedSteadilyAndNoFasterThanThe
             for (std::size_t i = 0; i < places.size(); ++i) {
                 const double end = arrivals.window().height(places[i].column, places[i].row);
                 ASSERT_LE(std::abs(now[i] - last[i]), rate * dt + 1e-12);
-                ASSERT_LE(std::abs(now[i] - end), std::abs(last[i] - end) + 1e-12) << "not back";
+                ASSERT_LE(std::abs(now[i] - end), std::abs(last[i] - end) + 1e-12) << "moved back";
             }
             last = now;
         }
@@ -174,7 +174,7 @@ TEST(ResidentTerrain, HeightsUnderARestingHandChangeNoFasterThanTheRateWhateverA
                 const std::size_t which = random.below(missing.size());
                 arrivals.arrive(missing[which]);
                 missing.erase(missing.begin() + static_cast<std::ptrdiff_t>(which));
-                if (n == 1) { // what is published in between is not seen
+                if (n == 1) { // windows published in between are not seen
                     terrain.show(arrivals.window(), hand);
                 }
             }
@@ -195,7 +195,7 @@ TEST(ResidentTerrain, HeightsUnderARestingHandChangeNoFasterThanTheRateWhateverA
                       arrivals.window().height(place.column, place.row));
         }
     }
-    EXPECT_GT(fastest, 0.9) << "a rate that is never reached";
+    EXPECT_GT(fastest, 0.9) << "a rate that cannot be reached";
 }
 
 TEST(ResidentTerrain, FeelsAtOnceWhatArrivesFarFromTheHand)
@@ -210,7 +210,7 @@ TEST(ResidentTerrain, FeelsAtOnceWhatArrivesFarFromTheHand)
     arrivals.arrive(samplesTile(0, 1, 1));
     EXPECT_TRUE(terrain.show(arrivals.window(), hand));
     EXPECT_NE(terrain.sample(301, 301), map.filled->sample(301, 301));
-    EXPECT_TRUE(terrain.advance({900.0, 100.0}, 0.0)) << "the hand has left";
+    EXPECT_TRUE(terrain.advance({900.0, 100.0}, 0.0)) << "the proxy has left the tile";
     EXPECT_EQ(terrain.sample(301, 301), map.filled->sample(301, 301));
 }
 
@@ -244,7 +244,7 @@ TEST(ResidentTerrain, CountsWhatWasNotThere)
     arrivals.arrive(samplesTile(0, 1, 1));
     terrain.show(arrivals.window(), {300.0, 300.0});
     terrain.sample(301, 301);
-    EXPECT_EQ(terrain.misses().count, 0U) << "it is there, if not felt in full";
+    EXPECT_EQ(terrain.misses().count, 0U) << "it is resident, even if not yet fully blended in";
 }
 
 TEST(WaitingTerrain, HasTheHeightsOfTheMapInMemoryToTheBit)

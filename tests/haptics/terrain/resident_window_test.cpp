@@ -25,7 +25,7 @@ using test::Random;
 using test::samplesTile;
 using test::TiledMap;
 
-/// Rough heights with holes, some of them large.
+/// Rough terrain with holes, some of them large.
 test::HeightFunction holedHeights(std::size_t columns, std::size_t rows, double scale)
 {
     auto heights = std::make_shared<std::vector<float>>(test::fractalHeights(columns, rows, 11));
@@ -71,7 +71,8 @@ Heightfield terrainOfType(SampleType type, std::size_t columns, std::size_t rows
             {.gain = -0.37, .offset_m = 12.5}};
 }
 
-/// What a window is to say, from the rules alone: in long double, with tiles kept in a map.
+/// The expected content of a window, from the rules alone: in long double, with tiles stored in a
+/// map.
 class BruteWindow {
 public:
     BruteWindow(const TiledMap& map, const ResidentWindow& window)
@@ -97,7 +98,7 @@ public:
             }
         }
     }
-    /// Over all nodes of the finest level that the sample is in.
+    /// Over all nodes of the finest level that contain the sample.
     long double ceiling(std::size_t column, std::size_t row) const
     {
         long double least = std::numeric_limits<long double>::infinity();
@@ -220,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(Types,
 TEST(ResidentWindow, StandsInWithTheFinestLevelThatIsThere)
 {
     Random random;
-    // Sizes that powers of two divide, less one, and such that they do not.
+    // A multiple of a power of two plus or minus one, and sizes that are not.
     for (const auto& [columns, rows] : {std::pair{1025, 770}, {1500, 1111}, {2048, 513}}) {
         const auto width = static_cast<std::size_t>(columns);
         const auto height = static_cast<std::size_t>(rows);
@@ -289,7 +290,7 @@ TEST(ResidentWindow, IsNeverHigherThanWhatCastsSkipBy)
                 bounded += height == map.heights->ceiling(column, row) ? 1U : 0U;
             }
         }
-        EXPECT_GT(bounded, 300U) << "nothing that would have been too high";
+        EXPECT_GT(bounded, 300U) << "no bound may be too low";
     }
 }
 
@@ -370,7 +371,7 @@ TEST(ResidentWindow, DifferenceBoundsWhatATileChanges)
         }
     }
     EXPECT_GT(checked, 5);
-    EXPECT_GT(tightest, 0.5) << "a bound that is no use";
+    EXPECT_GT(tightest, 0.5) << "this bound is useless";
 }
 
 } // namespace

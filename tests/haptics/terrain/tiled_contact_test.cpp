@@ -1,5 +1,5 @@
-// Contact over maps that come in tiles: the same as over the map in memory where all is there, and
-// sound where it is not.
+// Contact over maps in tiles: the same as over the map in memory if all tiles are resident, and
+// valid if some are missing.
 #include "core/contact/contact_model.h"
 #include "core/contact/continuous_walk.h"
 #include "core/contact/proxy_graph.h"
@@ -71,7 +71,7 @@ TiledMap fractalMap(std::size_t columns, std::size_t rows, Samples samples, doub
     return {};
 }
 
-/// A hand that swipes over the map at a speed in cells an update, in and out of the surface.
+/// A goal that sweeps over the map at a speed in cells per update, into and out of the surface.
 std::vector<ScenePoint>
 swipe(Random& random, const HeightfieldSurface& surface, double cells, std::size_t count)
 {
@@ -126,7 +126,7 @@ TEST_P(TiledContact, EndsWhereItEndsOverTheMapInMemoryToTheBit)
             return all;
         }();
         const TiledMap& map = maps[static_cast<std::size_t>(samples)];
-        // Four of its 48 tiles, or fewer, and four more at hand.
+        // The cache has room for at most four of the 48 tiles; the terrain holds four more.
         const TileCache cache({.bytes_max = std::size_t{512} << 10, .loader_threads = 1});
         const auto waiting =
             std::make_shared<const WaitingTerrain>(TiledRaster(cache, map.source), map.heights, 4);
@@ -150,19 +150,19 @@ TEST_P(TiledContact, EndsWhereItEndsOverTheMapInMemoryToTheBit)
                     GetParam(), TiledHeightfieldSurface(resident, frame, exaggeration), options);
                 for (const ScenePoint& goal : swipe(random, surface, cells, 150)) {
                     const ContactState truth = memory->update(goal);
-                    ASSERT_TRUE(isSame(late->update(goal), truth)) << cells << " cells an update";
+                    ASSERT_TRUE(isSame(late->update(goal), truth)) << cells << " cells per update";
                     ASSERT_TRUE(isSame(at_once->update(goal), truth))
-                        << cells << " cells an update";
+                        << cells << " cells per update";
                 }
             }
         }
         EXPECT_FALSE(waiting->error().has_value());
-        EXPECT_GT(map.source->readCount() - read_before, 100U) << "a cache that held the map";
+        EXPECT_GT(map.source->readCount() - read_before, 100U) << "the cache held the whole map";
         EXPECT_EQ(resident->misses().count, 0U);
     }
 }
 
-/// Windows over a small map, of whose tiles some are missing and arrive at random.
+/// Windows over a small map. Some of its tiles are missing and arrive at random.
 class Arriving {
 public:
     Arriving(Random& random, const TiledMap& map, double rate_m_per_s)
@@ -197,7 +197,7 @@ public:
         window_ = std::move(next);
     }
 
-    /// The surface as it is felt now, as a map of its own.
+    /// The surface as the model sees it now, as a separate map.
     std::shared_ptr<const FilledHeightfield> felt() const
     {
         const std::size_t columns = map_.layout().columns;
@@ -240,7 +240,7 @@ void judgeOverWhatIsFelt(const test::ModelTraits& traits)
             arriving.arrive(hand);
         }
         arriving.terrain()->advance(hand, 0.02);
-        model.setSurface(surface); // as terrainChanged
+        model.setSurface(surface); // as for terrainChanged
         test::Judge<Model<TiledHeightfieldSurface>> judge(surface, arriving.felt(), traits);
         const ScenePoint moved = model.state().proxy;
         ASSERT_GE(moved.z, static_cast<double>(judge.truth().height(test::longVec(moved))) - 1e-9);
@@ -272,7 +272,7 @@ TEST(ResidentContact, ProxyGraphIsNeverBelowWhatIsFelt)
     judgeOverWhatIsFelt<ProxyGraph>({.is_blunt_on_slivers = true});
 }
 
-/// Height in scene metres of the surface that is felt, from the plane through three samples.
+/// Scene height of the touched surface in meters, from the plane through three samples.
 double feltHeight(const TiledTerrain& terrain, GridPoint grid, double exaggeration)
 {
     const auto cell = [](double position, std::size_t samples) {
@@ -300,7 +300,7 @@ TEST_P(TiledContact, ProxyStaysOnWhatIsFeltAndMovesNoFasterThanTheRateWhenTilesA
     constexpr double kRate = 8.0;
     constexpr double kTick = 0.001;
     const HeightfieldSurface truth(map.filled, frame, kExaggeration);
-    // One that floats or is held far off falls onto a surface that has changed.
+    // A model that floats, or is held away from the surface, falls onto a changed surface.
     const bool may_float = GetParam() == ContactModelKind::GodObject ||
                            GetParam() == ContactModelKind::GodObjectRelease;
     double fastest = 0.0;
@@ -342,7 +342,7 @@ TEST_P(TiledContact, ProxyStaysOnWhatIsFeltAndMovesNoFasterThanTheRateWhenTilesA
     EXPECT_TRUE(may_float || fastest > 0.1) << "nothing was blended";
 }
 
-// A terrain that another thread may be changing.
+// Terrain that another thread may be changing.
 class UntouchedTerrain final : public TiledTerrain {
 public:
     explicit UntouchedTerrain(std::shared_ptr<const TileHeights> heights)

@@ -26,7 +26,7 @@ TEST(WindowBlend, WeighsFromNothingToAllAtTheRate)
     blend.advance(0.0, 2.0);
     EXPECT_EQ(blend.weight(tile), 0.125);
     blend.add(kLayout, tile, 8.0);
-    EXPECT_EQ(blend.weight(tile), 0.125) << "one that is on its way goes on";
+    EXPECT_EQ(blend.weight(tile), 0.125) << "a blend in progress continues";
     blend.advance(3.0, 2.0);
     EXPECT_EQ(blend.weight(tile), 0.875);
     blend.advance(1.0, 2.0);
@@ -94,7 +94,7 @@ TEST(WindowBlend, ReachIsWhatATileHasASayIn)
             const std::size_t step = std::size_t{1} << level;
             for (std::size_t c = 0; c < layout.tileColumns(TileKind::Samples, level); ++c) {
                 const SampleBox reach = WindowBlend::reach(layout, samplesTile(level, c, 0));
-                // Of every sample of the map, the level's samples before and behind it.
+                // For every sample of the map, the samples of the level before and after it.
                 for (std::size_t at = 0; at < layout.columns; ++at) {
                     const bool is_sample = at % step == 0 || at == layout.columns - 1;
                     const std::size_t before = is_sample ? (at + step - 1) / step : at / step;
