@@ -1,7 +1,7 @@
 /*
- * An example of a device plugin: a hand that nobody holds and that needs no hardware. It rocks back
- * and forth, and gives way to forces as if on a soft spring. Copy it and put your device in place of
- * the arithmetic.
+ * An example of a device plugin: a simulated hand that needs no hardware. It rocks back and forth,
+ * and yields to forces as if on a soft spring. Copy the file and replace the arithmetic with calls
+ * to your device.
  *
  *     cmake -B build && cmake --build build && cmake --install build
  *
@@ -43,12 +43,12 @@ static MarsviewDevice* openDevice(const char* id, char* error, uint32_t error_by
 {
     MarsviewDevice* device;
     if (id[0] != '\0' && strcmp(id, "left") != 0) {
-        snprintf(error, error_bytes, "there is no hand called %s; there is one called left", id);
+        snprintf(error, error_bytes, "unknown hand %s; available: left", id);
         return NULL;
     }
     device = calloc(1, sizeof *device);
     if (device == NULL) {
-        snprintf(error, error_bytes, "there is no memory left for it");
+        snprintf(error, error_bytes, "out of memory");
         return NULL;
     }
     device->began_ns = steadyNs();

@@ -1,4 +1,4 @@
-// What light makes of slopes.
+// The effect of light on slopes.
 
 #include "tests/render/render_fixture.h"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kTerrainSide = 257;
 constexpr Viewport kSize{.width = 256, .height = 256};
 
-// All of a map of cells of one metre, from straight above.
+// All of a map with cells of one meter, from straight above.
 OrbitCamera overview(const DrawnMap& map)
 {
     OrbitCamera camera;
@@ -24,7 +24,7 @@ OrbitCamera overview(const DrawnMap& map)
     return camera;
 }
 
-// The red of the pixels that show ground, without those at its border.
+// The red channel of the pixels that show terrain, without those at its border.
 std::vector<int> reds(const Picture& picture)
 {
     std::vector<int> values;
@@ -60,7 +60,7 @@ protected:
     }
 };
 
-// A mountainside that falls by 60 degrees towards the east, with ribs down the slope.
+// A mountainside that falls by 60 degrees toward the east, with ribs down the slope.
 DrawnMap ribbedSlope()
 {
     return {floatTerrain(kTerrainSide, kTerrainSide,
@@ -85,7 +85,7 @@ TEST_F(LightTest, SlopesThatFaceAwayFromTheLightShowTheirRelief)
 
 TEST_F(LightTest, FacingTheLightItAloneCounts)
 {
-    // A plane that rises towards the light by 20 degrees: light at 45 degrees meets it at 25 from
+    // A plane that rises toward the light by 20 degrees: light at 45 degrees meets it at 25 from
     // its normal.
     const double rise = std::tan(Angle::degrees(20.0).radians());
     const DrawnMap map(
@@ -99,7 +99,7 @@ TEST_F(LightTest, FacingTheLightItAloneCounts)
     }
 }
 
-// Both sides of a roof are as steep, so only the light makes their slope colors differ.
+// Both sides of a roof are equally steep, so only the light makes their slope colors differ.
 TEST_F(LightTest, SlopeColorsAreInTheSameLightAsTheHillshade)
 {
     const DrawnMap map(floatTerrain(kTerrainSide, kTerrainSide,

@@ -1,5 +1,5 @@
-// Neighbouring nodes have the same vertices on their common edge, to the last bit: otherwise there
-// are cracks. Looks at what the vertex shader makes of nodes, through transform feedback.
+// Neighboring nodes have the same vertices on their common edge, to the last bit: otherwise there
+// are cracks. Checks the output of the vertex shader through transform feedback.
 
 #include "core/terrain/drawn_surface.h"
 #include "tests/render/render_fixture.h"
@@ -27,10 +27,10 @@ constexpr std::size_t kSide = kCells + 1;
 constexpr std::size_t kVertices = kSide * kSide;
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 
-// gl_Position and v_sample, as they came.
+// gl_Position and v_sample, unchanged.
 using Bits = std::array<std::uint32_t, 6>;
 
-// A program of the renderer's vertex stage alone.
+// A program with the renderer's vertex stage alone.
 class FeedbackProgram {
 public:
     FeedbackProgram()
@@ -71,13 +71,13 @@ private:
     GLuint id_;
 };
 
-// Draws nodes and returns kVertices entries a node, row by row.
+// Draws nodes and returns kVertices entries per node, row by row.
 class NodeVertices {
 public:
     NodeVertices()
         : atlas_(32, 32)
     {
-        // Drawing needs a frame buffer, even where nothing is written.
+        // Drawing needs a frame buffer, even if no pixels are written.
         glBindRenderbuffer(GL_RENDERBUFFER, color_.id());
         glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
         glBindFramebuffer(GL_FRAMEBUFFER, frame_.id());
@@ -134,7 +134,7 @@ public:
         std::vector<NodeInstance> batch;
         atlas_.beginRound();
         const std::uint32_t number = next_map_++;
-        std::vector<TileId> missing; // none: the samples are held
+        std::vector<TileId> missing; // none: the samples are in memory
         const auto flush = [&] {
             draw(batch, vertices);
             batch.clear();
@@ -193,7 +193,7 @@ private:
     std::uint32_t next_map_ = 0;
 };
 
-// One side of a node on the grid: where it lies, and its vertices' places among the node's.
+// One side of a node on the grid: its position, and the indices of its vertices in the node.
 struct Side {
     std::size_t begin = 0; // along the side, samples
     std::size_t end = 0;
@@ -202,7 +202,7 @@ struct Side {
 struct Tally {
     std::array<std::size_t, 4> edges_by_difference{};
     std::size_t odd = 0;
-    std::size_t morphing = 0; // edges with vertices that are between two levels
+    std::size_t morphing = 0; // edges with vertices between two levels
 };
 
 void compareEdge(const std::vector<Bits>& vertices,
@@ -363,7 +363,7 @@ TEST_F(NodeEdges, HaveTheSameBitsOnBothSides)
     EXPECT_GT(tally_.edges_by_difference[0], 1000U);
     EXPECT_GT(tally_.edges_by_difference[1], 200U);
     EXPECT_EQ(tally_.edges_by_difference[3], 0U);
-    EXPECT_GT(tally_.morphing, 100U) << "edges have to be seen half-way, too";
+    EXPECT_GT(tally_.morphing, 100U) << "some edges must be seen half-way through a morph";
     std::printf("edges by difference of level: %zu, %zu, %zu; %zu half-way\n",
                 tally_.edges_by_difference[0], tally_.edges_by_difference[1],
                 tally_.edges_by_difference[2], tally_.morphing);

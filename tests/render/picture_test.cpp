@@ -1,4 +1,4 @@
-// What pictures with less detail show, against the surface and the picture with all of it.
+// Pictures with reduced detail, against the surface and the picture with full detail.
 
 #include "app/bench/reference/color_error.h"
 #include "app/bench/reference/picture_error.h"
@@ -45,7 +45,7 @@ struct LoadedTestMap {
     }
 };
 
-// Views of a map: the whole of it, and nearer and nearer to a place in it.
+// Views of a map: all of it, and then closer and closer to a place on it.
 std::vector<OrbitCamera> views(const LoadedTestMap& map, double exaggeration, const Viewport& size)
 {
     const SceneBox box = map.box(exaggeration);
@@ -74,7 +74,7 @@ std::vector<OrbitCamera> views(const LoadedTestMap& map, double exaggeration, co
 
 class PictureTest : public RenderTest {
 protected:
-    // At 1 pixel, nearly all of the picture is within it, and none is far off.
+    // At 1 pixel, almost all of the picture is within the threshold, and no pixel is far off.
     void expectWithinOnePixel(const std::string& name, const LoadedTestMap& map)
     {
         renderer_->setLayers(
@@ -103,15 +103,15 @@ protected:
         }
     }
 
-    // Levels of 255 that 99 % of the channels of a picture, and of its views on average, are
-    // within.
+    // Bounds in levels of 255 for 99 % of the channels of a picture, and for the average over its
+    // views.
     struct ColorLimits {
         double view = 6.0;
         double average = 4.0;
     };
 
     // Each pixel has the color of the elevation where its ray meets the surface at full resolution,
-    // whatever the mesh: at exaggeration 1 its cells are many pixels wide.
+    // independent of the mesh: at exaggeration 1 its cells are many pixels wide.
     void expectColorsOfTheSurface(const std::string& name,
                                   const LoadedTestMap& map,
                                   const ColorLimits& limits)
@@ -122,7 +122,7 @@ protected:
         for (const double exaggeration : {0.5, 1.0, 2.0, 10.0}) {
             double sum_p99 = 0.0;
             const auto cameras = views(map, exaggeration, size);
-            // The whole map, and from the side, aslant and from above, nearer and nearer.
+            // The whole map, and from the side, obliquely and from above, closer and closer.
             constexpr std::array<std::size_t, 4> kViews{0, 3, 5, 7};
             for (const std::size_t view : kViews) {
                 const OrbitCamera& camera = cameras.at(view);
@@ -153,7 +153,7 @@ protected:
         }
     }
 
-    // Lines are where the elevation at full resolution passes a multiple of the interval.
+    // Contour lines are where the elevation at full resolution crosses a multiple of the interval.
     void expectContoursOfTheSurface(const LoadedTestMap& map, double exaggeration)
     {
         renderer_->setLayers({terrainLayer(map.map, map.frame(), defaultColorRamp(""))});
@@ -162,7 +162,7 @@ protected:
         const auto height = static_cast<std::size_t>(size.height);
         for (const OrbitCamera& camera : views(map, exaggeration, size)) {
             if (camera.tilt.degrees() > 60.0) {
-                continue; // lines run together towards the horizon
+                continue; // lines run together toward the horizon
             }
             DrawStyle style;
             style.exaggeration = exaggeration;
@@ -173,7 +173,7 @@ protected:
             const double interval_m = contourInterval(style.look, map.field().range().value(),
                                                       metresPerPixel(camera, size), exaggeration);
             std::vector<int> step(width *
-                                  height); // which interval a pixel is in; of no pixel: none
+                                  height); // the interval of each pixel; kNone without one
             constexpr int kNone = std::numeric_limits<int>::min();
             const SceneFrame frame = map.frame();
             for (std::size_t i = 0; i < step.size(); ++i) {
@@ -184,7 +184,7 @@ protected:
                                          gridRay(ray.origin, ray.direction, frame, exaggeration));
                 step[i] = hit ? static_cast<int>(std::floor(hit->height_m / interval_m)) : kNone;
             }
-            // How many different intervals there are around a pixel.
+            // The number of different intervals around a pixel.
             const auto differs = [&](std::size_t x, std::size_t y, std::size_t reach) {
                 for (std::size_t v = y - reach; v <= y + reach; ++v) {
                     for (std::size_t u = x - reach; u <= x + reach; ++u) {
@@ -230,8 +230,8 @@ protected:
         }
     }
 
-    // Pictures with detail chosen look like those with every sample. Without several samples a
-    // pixel, rims that are off by a part of a pixel differ: up to 2.1 % in the whole of Mars.
+    // Pictures with selected detail look like those with every sample. Without multisampling,
+    // silhouettes that are off by a fraction of a pixel differ: up to 2.1 % for the whole of Mars.
     void expectSameColors(const std::string& name, const LoadedTestMap& map)
     {
         renderer_->setLayers(
@@ -296,8 +296,8 @@ TEST_F(PictureTest, OfTheMoonAndTheEarthHasTheColorsOfTheSurfaceAtEveryExaggerat
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     expectColorsOfTheSurface("SRTM", LoadedTestMap(sharedData() / "srtm/N44W072.hgt"), {});
-    // From afar a pixel holds dozens of samples of rough ground: the picture has their mean, which
-    // differs from the elevation at the center of the pixel.
+    // From far away a pixel covers dozens of samples of rough terrain: the picture shows their
+    // mean, which differs from the elevation at the center of the pixel.
     expectColorsOfTheSurface(
         "Moon", LoadedTestMap(sharedData() / "derived/moon_gld100_64ppd_crop_8192x4096.tif"),
         {.view = 14.0, .average = 7.0});
@@ -316,8 +316,8 @@ TEST_F(PictureTest, HasTheColorsOfThePictureWithEverySample)
     expectSameColors("Helens", LoadedTestMap(bundledSamples() / "mount_st_helens_30m.tif"));
 }
 
-// A ray that comes in above the highest ground, or begins above the ground, and that passes below
-// the lowest over the map, has crossed the surface on the way, whatever detail it is drawn in.
+// A ray that starts above the terrain, or enters above its highest point, and passes below its
+// lowest point over the map has crossed the surface on the way, at every level of detail.
 bool crossesGround(const Ray& ray, const DrawnMap& map, double exaggeration)
 {
     const HeightRange range = map.field->range().value();
@@ -374,7 +374,7 @@ TEST_F(PictureTest, HasNoCracks)
             const double below = map.ground(eye.x, eye.y, style.exaggeration);
             if (eye.z < box.maximum.z &&
                 !(eye.z > below + 0.3 * camera.distance_m && camera.distance_m > 300.0)) {
-                continue; // within the mountains
+                continue; // inside the mountains
             }
             const Viewport size{.width = 300, .height = 220};
             const double error_px = kErrors.at(random.below(kErrors.size()));

@@ -13,7 +13,7 @@
 
 namespace marsview::test {
 
-/// A map that can be drawn. Copies share what is large.
+/// A map that can be drawn. Copies share the large data.
 struct DrawnMap {
     std::shared_ptr<const Heightfield> field;
     std::shared_ptr<const SurfaceAnalysis> analysis;
@@ -23,27 +23,27 @@ struct DrawnMap {
 
     TerrainLayer layer() const;
     SceneBox box(double exaggeration) const;
-    /// Height of the ground in scene metres; NaN beside the map.
+    /// Height of the terrain in scene meters; NaN outside the map.
     double ground(double east_m, double north_m, double exaggeration) const;
 };
 
-/// Colours that no terrain has.
+/// Colors that no terrain has.
 constexpr Rgb8 kSkyColor{255, 0, 255};
 
-/// Tests with a context and a renderer; skipped, with a sentence, where there is no OpenGL.
+/// Tests with a context and a renderer. Skipped with a message if OpenGL is missing.
 class RenderTest : public testing::Test {
 protected:
     void SetUp() override;
     void TearDown() override;
 
-    /// One sample a pixel, under a sky of kSkyColor. Checks that OpenGL has no complaints.
+    /// One sample per pixel, under a sky of kSkyColor. Checks that OpenGL reports no errors.
     OffscreenPicture draw(const OrbitCamera& camera,
                           const Viewport& viewport,
                           const DetailTarget& detail,
                           DrawStyle style);
 
     std::unique_ptr<EglContext> context_;       // outlives the renderer
-    std::unique_ptr<TerrainRenderer> renderer_; // null only where tests are skipped
+    std::unique_ptr<TerrainRenderer> renderer_; // null only if tests are skipped
 };
 
 bool isSky(const Picture& picture, std::size_t pixel);

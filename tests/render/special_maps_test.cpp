@@ -1,4 +1,4 @@
-// Maps and pictures at the ends of what there is: voids, layers, the smallest and the largest.
+// Extreme maps and pictures: voids, layers, the smallest and the largest sizes.
 
 #include "core/view/navigation.h"
 #include "tests/render/render_fixture.h"
@@ -16,7 +16,7 @@
 namespace marsview::test {
 namespace {
 
-// Straight down on a position of the grid, so near that a sample is `pixels` wide.
+// Straight down onto a grid position, so close that a sample is `pixels` wide.
 OrbitCamera above(const DrawnMap& map,
                   GridPoint grid,
                   double height_m,
@@ -30,7 +30,7 @@ OrbitCamera above(const DrawnMap& map,
     return camera;
 }
 
-// Where a pixel's ray meets a height.
+// The point where a pixel's ray meets a height.
 GridPoint gridAt(const DrawnMap& map,
                  const OrbitCamera& camera,
                  const Viewport& size,
@@ -44,7 +44,7 @@ GridPoint gridAt(const DrawnMap& map,
     return map.frame.toGrid(ray.at((height_m - ray.origin.z) / ray.direction.z));
 }
 
-// Whether all around a position, `margin` samples away, is the same as there.
+// Whether the result is the same at all points `margin` samples away from a position.
 template <typename Is>
 bool isSettled(const Is& is, const GridPoint& p, double margin)
 {
@@ -118,7 +118,7 @@ TEST_F(SpecialMaps, LargeHolesShowTheSkyFromFarAway)
     std::size_t compared = 0;
     for (std::size_t i = 0; i < picture.colors.rgb.size() / 3; ++i) {
         const GridPoint p = gridAt(map, camera, size, i, 0.0);
-        constexpr double kMargin = 12.0; // a texel of 8 samples, and the height's share
+        constexpr double kMargin = 12.0; // a texel of 8 samples, and the parallax of the height
         if (isSettled(isHole, p, kMargin)) {
             ++compared;
             ASSERT_EQ(isSky(picture.colors, i), isHole(p)) << p.column << ", " << p.row;
@@ -146,7 +146,7 @@ TEST_F(SpecialMaps, TheSmallestAndTheLongestMapAreDrawn)
             const OrbitCamera camera = above(map, target, map.field->height(target), 150.0, size);
             const OffscreenPicture picture = draw(camera, size, {}, {});
             for (std::size_t i = 0; i < picture.colors.rgb.size() / 3; ++i) {
-                // All of it lies within 20 m of 0; the eye is some 27 m above the ground.
+                // All of it is within 20 m of 0; the eye is some 27 m above the terrain.
                 const GridPoint p = gridAt(map, camera, size, i, map.field->height(target));
                 if (std::abs(p.column - target.column) < 1e-3 &&
                     std::abs(p.row - target.row) < 1e-3) {
@@ -214,7 +214,7 @@ TEST_F(SpecialMaps, APictureLargerThanTheDriverAllowsIsRefused)
     EXPECT_EQ(picture.error().code, ErrorCode::OutOfRange);
 }
 
-// The upper map lies below the lower one, so that it is seen only where that is cut away.
+// The upper map lies below the lower one, so it is visible only where the lower one is cut away.
 TEST_F(SpecialMaps, TheUpperMapCutsAwayTheLowerOneSaveAtItsVoids)
 {
     constexpr double kUpper = 0.0;
@@ -262,10 +262,10 @@ TEST_F(SpecialMaps, TheUpperMapCutsAwayTheLowerOneSaveAtItsVoids)
         std::size_t seen_upper = 0;
         std::size_t seen_lower = 0;
         for (std::size_t i = 0; i < picture.depths_m.size(); ++i) {
-            // The lower map is cut where the upper one is straight below its own ground.
+            // The lower map is cut where the upper one is straight below its terrain.
             const GridPoint on_lower = gridAt(upper, camera, size, i, kLower);
             const GridPoint on_upper = gridAt(upper, camera, size, i, kUpper);
-            // Corners of holes are round: shares of blocks are interpolated between their middles.
+            // Corners of holes are round: shares of blocks are interpolated between block centers.
             const auto isNearCorner = [&](const GridPoint& p) {
                 const double from = static_cast<double>(first) - 0.5;
                 const double to = static_cast<double>(last) + 0.5;
@@ -311,7 +311,7 @@ TEST_F(SpecialMaps, EveryKindOfShadingIsDrawnWithAndWithoutContoursVoidsAndCover
     for (const bool has_voids : {false, true}) {
         const DrawnMap lowest = map(has_voids, 120, 100);
         const DrawnMap cover = map(false, 20, 20);
-        for (std::size_t covers = 0; covers <= 5; ++covers) { // more than shaders know of
+        for (std::size_t covers = 0; covers <= 5; ++covers) { // more than the shaders support
             std::vector<TerrainLayer> layers;
             for (std::size_t i = 0; i < covers; ++i) {
                 TerrainLayer layer = cover.layer();
@@ -328,7 +328,7 @@ TEST_F(SpecialMaps, EveryKindOfShadingIsDrawnWithAndWithoutContoursVoidsAndCover
                     style.look = {.mode = mode, .has_contours = has_contours};
                     const OrbitCamera camera = above(lowest, {50.0, 50.0}, 0.0, 2.0, size);
                     pictures.push_back(draw(camera, size, {}, style).colors);
-                    // Beside a cover that lies deeper, the sky may show.
+                    // At the edge of a cover that lies deeper, the sky may show.
                     EXPECT_LT(skyPixels(pictures.back()), covers == 0 ? 1U : 2000U);
                 }
             }

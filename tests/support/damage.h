@@ -1,4 +1,4 @@
-// Damage to files that nothing but their content tells of.
+// Damage to files that only their content reveals.
 #pragma once
 
 #include "tests/support/random.h"
@@ -7,8 +7,8 @@
 
 namespace marsview::test {
 
-/// Turns single bits around, away from the first and last 70 kB, and sets the time that the file
-/// had. It has at least 150 kB.
+/// Flips single bits, except in the first and last 70 kB, and restores the file's time. The file
+/// has at least 150 kB.
 void flipBits(const std::string& path, int count, Random& random);
 
 } // namespace marsview::test

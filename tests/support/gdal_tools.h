@@ -10,13 +10,13 @@
 
 namespace marsview::test {
 
-/// `gdalinfo -json`; throws where gdalinfo refuses the file.
+/// `gdalinfo -json`; throws if gdalinfo rejects the file.
 nlohmann::json gdalInfo(const std::string& path);
 
-/// The first band's entry in `info`.
+/// The entry of the first band in `info`.
 const nlohmann::json& firstBand(const nlohmann::json& info);
 
-/// A number of gdalinfo's JSON, which writes NaN as text.
+/// A number in gdalinfo's JSON, which writes NaN as text.
 double jsonNumber(const nlohmann::json& value);
 
 struct Pixel {
@@ -25,10 +25,10 @@ struct Pixel {
 };
 
 /// Raw samples of the first band as `gdallocationinfo -valonly` prints them: with 15 digits, before
-/// scale and offset, nodata as its value. One run for all positions.
+/// scale and offset, nodata as its value. One process for all positions.
 std::vector<double> rawSamples(const std::string& path, const std::vector<Pixel>& pixels);
 
-/// The mask of the first band, row by row: 0 where GDAL's mask calls the sample invalid.
+/// The mask of the first band, row by row: 0 for samples that GDAL's mask marks as invalid.
 std::vector<unsigned char> maskOf(const std::string& path);
 
 struct Position {
@@ -36,13 +36,13 @@ struct Position {
     double y = 0.0;
 };
 
-/// `gdaltransform`; one run for all positions. The axes are as OGR's traditional order has them.
+/// `gdaltransform`; one process for all positions. The axes are in OGR's traditional order.
 std::vector<Position>
 transformed(const std::string& from, const std::string& to, const std::vector<Position>& positions);
 
-/// WKT so that texts compare: without the white space between its parts, and with the ensemble of
-/// WGS 84's realisations as the one datum that it stands for; which of the two GDAL writes depends
-/// on what the process opened before.
+/// WKT in a form that can be compared: without white space between its parts, and with the WGS 84
+/// ensemble replaced by the single datum it represents. Which of the two GDAL writes depends on
+/// what the process opened before.
 std::string compactWkt(const std::string& wkt);
 
 } // namespace marsview::test

@@ -1,4 +1,4 @@
-// Tiles of a map that is held in memory: the truth for everything that reads tiles.
+// Tiles of a map in memory: the reference for everything that reads tiles.
 #pragma once
 
 #include "core/terrain/filled_heightfield.h"
@@ -14,17 +14,17 @@
 namespace marsview::test {
 
 /// Samples at all levels by decimation, with the fills of FilledHeightfield; means by brute force.
-/// Counts what is read, and fails or waits on demand. Any thread.
+/// Counts reads, and fails or waits on demand. Any thread.
 class GridTileSource final : public TileSource {
 public:
     struct Options {
         std::string name = "map in memory";
         std::size_t mean_levels = 0;
-        bool is_remote = false; // says so
-        /// Called on the reading thread before each tile, outside all locks: may wait, and what it
-        /// returns is the outcome of the read. Empty: every read succeeds.
+        bool is_remote = false; // reported by the source
+        /// Called on the reading thread before each tile, outside all locks. May wait; its result
+        /// is the outcome of the read. Empty: every read succeeds.
         std::function<std::optional<Error>(const TileId&)> before_read{};
-        /// Called by open(); empty: succeeds.
+        /// Called by open(). Empty: it succeeds.
         std::function<std::optional<Error>()> before_open{};
     };
 
@@ -35,11 +35,11 @@ public:
     const std::string& name() const noexcept override { return options_.name; }
     Result<std::unique_ptr<TileReader>> open() const override;
 
-    /// The tile as readers give it, without counting or hooks.
+    /// The tile as readers return it, without counting or hooks.
     Tile tile(const TileId& id) const;
 
     const Heightfield& heightfield() const noexcept { return heightfield_; }
-    /// Reads begun, failed ones included.
+    /// Reads started, including failed ones.
     std::uint64_t readCount() const noexcept { return read_count_; }
     std::uint64_t openCount() const noexcept { return open_count_; }
 
@@ -50,7 +50,7 @@ private:
     Tile meansTile(const TileId& id) const;
 
     Heightfield heightfield_;
-    std::optional<FilledHeightfield> filled_; // where there are voids
+    std::optional<FilledHeightfield> filled_; // nonempty if there are voids
     Options options_;
     TileLayout layout_;
     mutable std::atomic<std::uint64_t> read_count_{0};

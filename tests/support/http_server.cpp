@@ -149,8 +149,8 @@ std::optional<std::uint64_t> numberFrom(std::string_view text)
     return number;
 }
 
-// 14.1.2. Ranges that begin beyond the end are left out; nothing where the header is no range of
-// bytes, which is to be ignored.
+// 14.1.2. Ranges that start beyond the end are omitted; nullopt if the header does not contain byte
+// ranges, which means that it is ignored.
 std::optional<std::vector<Range>> rangesFrom(std::string_view header, std::uint64_t file_bytes)
 {
     constexpr std::string_view unit = "bytes=";
@@ -222,7 +222,7 @@ const char* reasonOf(int status)
     }
 }
 
-// A file as it was when it was opened.
+// A file in the state in which it was opened.
 struct OpenFile {
     Descriptor descriptor;
     std::uint64_t bytes = 0;
@@ -256,7 +256,7 @@ struct Settings {
     std::size_t cut_bytes = 0;
 };
 
-// What is sent after the head: pieces of the file, each after some text.
+// The body: parts of the file, each with some text in front.
 struct Part {
     std::string text;
     Range range;
@@ -284,7 +284,7 @@ Answer refusal(int status)
     return answer;
 }
 
-// 13.1: whether the file is still the one that the client knows.
+// 13.1: whether the file is still the version that the client has.
 bool meetsConditions(const Request& request, const OpenFile& file, HttpValidators validators)
 {
     if (const std::string wanted = request.header("if-match"); !wanted.empty()) {
@@ -373,7 +373,7 @@ struct HttpServer::Impl {
     std::filesystem::path folder;
     std::array<Descriptor, 2> wake; // a pipe that ends the wait for connections
 
-    mutable std::mutex mutex; // for all below
+    mutable std::mutex mutex; // for all members below
     std::condition_variable stopped;
     bool is_stopping = false;
     Listener listener;
@@ -396,7 +396,7 @@ struct HttpServer::Impl {
     void stopAccepting();
 };
 
-// Waits unless the server is going away.
+// Waits, unless the server is stopping.
 void HttpServer::Impl::pause(std::chrono::nanoseconds time)
 {
     if (time.count() > 0) {
@@ -405,7 +405,7 @@ void HttpServer::Impl::pause(std::chrono::nanoseconds time)
     }
 }
 
-// Under the lock of nobody: joins threads.
+// Call without holding a lock: joins threads.
 void HttpServer::Impl::reap(bool is_all)
 {
     std::vector<std::unique_ptr<Connection>> finished;
@@ -484,7 +484,7 @@ void HttpServer::Impl::serve(Connection& connection)
     connection.is_over = true;
 }
 
-// What holds for this request; uses up a failure or a cut that was ordered.
+// The settings for this request; uses up one ordered failure or cut.
 Settings HttpServer::Impl::takeSettings(const Request& request)
 {
     const std::lock_guard lock(mutex);
@@ -546,7 +546,7 @@ bool HttpServer::Impl::respond(int socket, const Request& request)
 
 bool HttpServer::Impl::sendPaced(int socket, std::string_view data, const Settings& now)
 {
-    { // before it is sent: who has received an answer finds it counted
+    { // before sending: a client that has received an answer finds it counted
         const std::lock_guard lock(mutex);
         counts.body_bytes += data.size();
     }
@@ -559,7 +559,7 @@ bool HttpServer::Impl::sendPaced(int socket, std::string_view data, const Settin
     return true;
 }
 
-// False where the connection is to end.
+// False if the connection is to be closed.
 bool HttpServer::Impl::sendBody(int socket, int file, const Answer& answer, const Settings& now)
 {
     std::uint64_t left = now.cut_count > 0 ? now.cut_bytes : ~std::uint64_t{0};
@@ -577,7 +577,7 @@ bool HttpServer::Impl::sendBody(int socket, int file, const Answer& answer, cons
             piece.resize(std::min<std::uint64_t>(kPieceBytes, part.range.end - at));
             const ssize_t count = pread(file, piece.data(), piece.size(), static_cast<off_t>(at));
             if (count <= 0) {
-                return false; // the file was cut while it was sent
+                return false; // the file was truncated while it was being sent
             }
             piece.resize(static_cast<std::size_t>(count));
             at += static_cast<std::uint64_t>(count);
@@ -609,7 +609,7 @@ void HttpServer::Impl::stopAccepting()
     if (!acceptor.joinable()) {
         return;
     }
-    wake[1] = Descriptor(); // the other end reads the end of the pipe
+    wake[1] = Descriptor(); // the peer then reads the end of the pipe
     acceptor.join();
     listener = {};
     reap(true);

@@ -1,4 +1,4 @@
-// A real HTTP server for tests of maps by address.
+// A real HTTP server for tests of maps opened by address.
 #pragma once
 
 #include <chrono>
@@ -11,21 +11,21 @@
 
 namespace marsview::test {
 
-/// What a server was asked, and answered, since it started or resetCounts.
+/// The requests and responses of a server since it started, or since resetCounts.
 struct HttpCounts {
     std::uint64_t connections = 0;
     std::uint64_t requests = 0; // of any method
     std::uint64_t heads = 0;
-    std::uint64_t ranges = 0;     // asked for; a request may ask for several
+    std::uint64_t ranges = 0;     // requested; a request may ask for several
     std::uint64_t body_bytes = 0; // sent
-    std::uint64_t failures = 0;   // answers with a status of 400 or more, and bodies cut short
+    std::uint64_t failures = 0;   // responses with a status of 400 or more, and truncated bodies
 };
 
 struct HttpRequest {
     std::string method;
     std::string target;
     std::string range; // of the header; empty for none
-    int status = 0;    // of the answer
+    int status = 0;    // of the response
 };
 
 enum class HttpRanges : std::uint8_t {
@@ -33,21 +33,21 @@ enum class HttpRanges : std::uint8_t {
     Ignored, // every GET is answered with the whole file
 };
 
-/// What a server says by which a client can tell that a file has changed.
+/// The headers from which a client can detect that a file has changed.
 enum class HttpValidators : std::uint8_t {
     EtagAndTime,
     TimeOnly,
     None,
 };
 
-/// Serves the files of a folder over HTTP/1.1 on 127.0.0.1, at a port of the system's choice: HEAD
-/// and GET with single and multiple ranges, kept-alive connections, ETag and Last-Modified with
-/// their conditions. A file that is replaced is another from the next request on. Members are for
-/// any thread at any time; what is set holds for requests that arrive afterwards.
+/// Serves the files of a folder over HTTP/1.1 on 127.0.0.1, at a port chosen by the system: HEAD
+/// and GET with single and multiple ranges, keep-alive connections, ETag and Last-Modified with
+/// their conditions. A replaced file is served from the next request on. Members may be called on
+/// any thread at any time; settings apply to requests that arrive afterwards.
 class HttpServer {
 public:
     explicit HttpServer(std::filesystem::path folder);
-    /// Breaks off what is being sent.
+    /// Aborts responses in progress.
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;
     HttpServer& operator=(const HttpServer&) = delete;
@@ -60,17 +60,17 @@ public:
     std::vector<HttpRequest> requests() const;
     void resetCounts();
 
-    /// Before each answer.
+    /// The delay before each response.
     void setLatency(std::chrono::milliseconds latency);
-    /// Of each connection; 0 for as fast as it goes.
+    /// Per connection; 0 for unlimited.
     void setBandwidth(std::size_t bytes_per_s);
     void setRanges(HttpRanges ranges);
     void setValidators(HttpValidators validators);
-    /// The next `count` requests are answered with `status` and nothing else.
+    /// The next `count` requests are answered with `status` only.
     void failNext(std::size_t count, int status);
-    /// The next `count` bodies end, and with them the connection, after `body_bytes`.
+    /// The next `count` bodies, and their connections, end after `body_bytes`.
     void cutNext(std::size_t count, std::size_t body_bytes);
-    /// Connections are refused, and those that are open are closed, until accept.
+    /// Closes all connections and rejects new ones until accept().
     void refuse();
     void accept();
 

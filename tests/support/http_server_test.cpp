@@ -17,8 +17,8 @@ namespace {
 
 using std::chrono_literals::operator""ms;
 
-// A request as plain text through nothing but the shell's own sockets would need a client of our
-// own; GDAL's tools are an independent one, which speaks through libcurl.
+// Plain-text requests through the shell's sockets would need a client in this test; GDAL's tools
+// are an independent client, based on libcurl.
 ProgramOutput
 copied(const std::string& url, const std::string& to, const std::vector<std::string>& more = {})
 {

@@ -1,4 +1,4 @@
-// Making small rasters of every kind, without the program's own code.
+// Makes small rasters of every kind, without the program's own code.
 #pragma once
 
 #include "tests/support/temp_folder.h"
@@ -13,7 +13,7 @@
 
 namespace marsview::test {
 
-/// A raster as raw bytes under a virtual header (GDAL's VRT), from which gdal_translate makes the
+/// A raster as raw bytes with a virtual header (GDAL's VRT), from which gdal_translate makes the
 /// other formats.
 struct RasterRecipe {
     std::size_t columns = 0;
@@ -21,7 +21,7 @@ struct RasterRecipe {
     std::string type; // GDAL's name
     std::string bytes;
     std::optional<std::array<double, 6>> transform;
-    std::string srs;       // anything OGR understands; empty for none
+    std::string srs;       // anything that OGR accepts; empty for none
     std::string band_xml;  // such as "<NoDataValue>-9</NoDataValue>"
     std::string extra_xml; // after the band: masks, further bands
 };
@@ -51,7 +51,7 @@ constexpr const char* gdalTypeName()
     }
 }
 
-/// A recipe for `samples`, row by row, one metre a pixel with no CRS unless changed.
+/// A recipe for `samples`, row by row, one meter per pixel and without a CRS unless changed.
 template <typename T>
 RasterRecipe recipeFor(std::size_t columns, const std::vector<T>& samples)
 {

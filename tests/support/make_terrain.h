@@ -1,4 +1,4 @@
-// Terrain for tests, made from formulas and random numbers.
+// Terrain for tests, from formulas and random numbers.
 #pragma once
 
 #include "core/geo/scene_frame.h"
@@ -13,7 +13,7 @@
 
 namespace marsview::test {
 
-/// Height in metres of a sample; NaN for a void.
+/// Elevation of a sample in meters; NaN for a void.
 using HeightFunction = std::function<double(std::size_t column, std::size_t row)>;
 
 /// Samples as floats.
@@ -25,15 +25,15 @@ Heightfield int16Terrain(std::size_t columns,
                          const ElevationScale& scale,
                          const HeightFunction& height_m);
 
-/// Heights like mountains: octaves of interpolated noise, each half as wide and `roughness` times
-/// as high as the one before; within ±`relief_m`. Row by row.
+/// Elevations like those of mountains: octaves of interpolated noise, each with half the wavelength
+/// and `roughness` times the amplitude of the previous one; within ±`relief_m`. Row by row.
 std::vector<double> fractalHeights(
     Random& random, std::size_t columns, std::size_t rows, double relief_m, double roughness);
 
 /// `heights`, row by row, as a function.
 HeightFunction heightsFrom(std::vector<double> heights, std::size_t columns);
 
-/// The analysis of a heightfield that nobody cancels.
+/// The analysis of a heightfield, without cancellation.
 std::shared_ptr<const SurfaceAnalysis> analysed(const Heightfield& heightfield);
 
 /// North up, around the middle of the grid.

@@ -1,4 +1,4 @@
-// Maps of any shape and place, prepared as the program prepares them.
+// Maps of any shape and position, prepared as in the program.
 #pragma once
 
 #include "core/session/map.h"
@@ -17,7 +17,7 @@ std::shared_ptr<const Map> loadedMap(const std::string& path);
 /// withOverrides() without a monitor.
 Result<std::shared_ptr<const Map>> overridden(const Map& map, const RasterOverrides& overrides);
 
-/// Makes maps in a folder that vanishes with the object.
+/// Makes maps in a folder that is removed with the object.
 class MapMaker {
 public:
     using Height = std::function<double(std::size_t column, std::size_t row)>; // NaN for void
@@ -26,7 +26,7 @@ public:
         std::size_t columns = 20;
         std::size_t rows = 15;
         std::array<double, 6> transform{500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0}; // GDAL's order
-        std::string srs{}; // anything OGR understands; empty for none
+        std::string srs{}; // anything that OGR accepts; empty for none
     };
 
     std::shared_ptr<const Map> make(const Place& place, const Height& height);

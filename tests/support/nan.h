@@ -1,4 +1,4 @@
-// No number, as voids and failures have it.
+// NaN, the value of voids and failures.
 #pragma once
 
 #include <limits>

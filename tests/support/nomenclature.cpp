@@ -14,7 +14,8 @@ NamedFeature marsFeature(const std::string& name)
 {
     std::ifstream file(sharedData() / "oracle" / "mars-nomenclature.csv");
     std::string line;
-    // The last field's quotes are broken, so the four before it are taken by their commas.
+    // The quotes of the last field are broken, so the four fields before it are split at their
+    // commas.
     while (std::getline(file, line)) {
         std::istringstream fields(line);
         std::string field;

@@ -13,7 +13,7 @@ struct NamedFeature {
     double east_longitude_deg = 0.0; // 0 to 360
 };
 
-/// The feature of exactly that name; throws where the list has none.
+/// The feature with exactly that name; throws if the list does not contain it.
 NamedFeature marsFeature(const std::string& name);
 
 /// Great-circle distance in kilometres on a sphere of Mars' mean radius, 3389.5 km.

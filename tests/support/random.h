@@ -1,4 +1,4 @@
-// Random numbers for tests: seeded, and the seed is told where a test fails.
+// Random numbers for tests: seeded, and a failing test prints the seed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace marsview::test {
 
-/// The seed of this run: MARSVIEW_TEST_SEED from the environment, or else 20240229.
+/// The seed of this run: MARSVIEW_TEST_SEED from the environment, or 20240229.
 inline std::uint64_t testSeed()
 {
     const char* text = std::getenv("MARSVIEW_TEST_SEED"); // NOLINT(concurrency-mt-unsafe)
@@ -19,7 +19,7 @@ inline std::uint64_t testSeed()
 }
 
 /// A stream of random numbers. The same seed gives the same numbers on every machine: only the
-/// engine of the standard library is used, whose output is specified.
+/// engine of the standard library is used, because its output is specified.
 class Random {
 public:
     explicit Random(std::uint64_t seed = testSeed())
@@ -39,7 +39,7 @@ public:
 
 private:
     std::mt19937_64 engine_;
-    testing::ScopedTrace trace_; // every failure while the stream lives names its seed
+    testing::ScopedTrace trace_; // every failure during the stream's lifetime prints its seed
 };
 
 } // namespace marsview::test

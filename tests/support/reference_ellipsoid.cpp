@@ -8,8 +8,8 @@ namespace {
 
 constexpr long double kDegree = std::numbers::pi_v<long double> / 180.0L;
 
-// y·cos and x·sin instead of a tangent: exact at the equator, and good to the last digit near the
-// poles.
+// y·cos and x·sin instead of a tangent: exact at the equator, and accurate to the last digit near
+// the poles.
 long double scaledLatitude(long double latitude_deg, long double ratio)
 {
     if (std::abs(latitude_deg) == 90.0L) {
@@ -31,8 +31,8 @@ long double graphicLatitude_deg(long double equatorial, long double polar, long 
     return scaledLatitude(centric_deg, (equatorial / polar) * (equatorial / polar));
 }
 
-// The ellipse as a curve of its normal's angle φ: p = a² cos φ / w, z = b² sin φ / w,
-// w² = a² cos² φ + b² sin² φ; its radius of curvature is a² b² / w³.
+// The ellipse as a curve of the angle φ of its normal: p = a² cos φ / w, z = b² sin φ / w, w² = a²
+// cos² φ + b² sin² φ; its radius of curvature is a² b² / w³.
 long double parallelRadius(long double equatorial, long double polar, long double graphic_deg)
 {
     const long double phi = graphic_deg * kDegree;

@@ -11,7 +11,7 @@ long double graphicLatitude_deg(long double equatorial, long double polar, long 
 long double parallelRadius(long double equatorial, long double polar, long double graphic_deg);
 long double meridianRadius(long double equatorial, long double polar, long double graphic_deg);
 
-/// The difference of two longitudes, whole turns left out, in degrees in [-180, 180].
+/// The difference of two longitudes, without whole turns, in degrees in [-180, 180].
 long double turnlessDifference_deg(long double a_deg, long double b_deg);
 
 } // namespace marsview::test

@@ -19,7 +19,7 @@ struct FileCloser {
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
-// Files instead of pipes: nobody waits for anybody, whatever the sizes.
+// Files instead of pipes, so that output of any size cannot block either side.
 File temporaryFile()
 {
     File file(std::tmpfile());
@@ -40,7 +40,7 @@ std::string contents(std::FILE* file)
     return text;
 }
 
-// Null-terminated; execvp leaves the arguments alone.
+// Null-terminated; execvp does not modify the arguments.
 std::vector<char*> argvOf(const std::vector<std::string>& arguments)
 {
     std::vector<char*> argv;

@@ -1,4 +1,4 @@
-// Running other people's programs as oracles.
+// Running other programs as oracles.
 #pragma once
 
 #include <string>
@@ -8,37 +8,39 @@
 namespace marsview::test {
 
 struct ProgramOutput {
-    int exit_status = -1; // 127 where the program is not installed
+    int exit_status = -1; // 127 if the program is not installed
     std::string out;
     std::string err;
 };
 
-/// Runs `arguments[0]`, found on the PATH, with `input` on its standard input, and waits for it.
-/// No shell sees the arguments. Output of any size; throws std::system_error where the machine has
-/// no process or temporary file to give.
+/// Runs `arguments[0]`, found on the PATH, with `input` on its standard input, and waits for it. No
+/// shell parses the arguments. Output of any size; throws std::system_error if the machine cannot
+/// provide a process or a temporary file.
 ProgramOutput runProgram(const std::vector<std::string>& arguments, const std::string& input = "");
 
-/// As runProgram, for steps of a test that have to work: throws std::runtime_error with the
-/// program's complaint where it exits with anything but 0.
+/// As runProgram, for steps of a test that must succeed: throws std::runtime_error with the
+/// program's error output if the exit status is not 0.
 std::string runTool(const std::vector<std::string>& arguments, const std::string& input = "");
 
-/// A program that runs beside the test. What it prints goes into a file. Ended with its object.
+/// A program that runs in parallel with the test. Its output goes to a file. Ended by the
+/// destructor.
 class RunningProgram {
 public:
-    /// Begins; `arguments` as for runProgram. Throws std::system_error where there is no process.
+    /// Starts the program; `arguments` as for runProgram. Throws std::system_error if no process
+    /// can be created.
     RunningProgram(const std::vector<std::string>& arguments, const std::string& printed);
     ~RunningProgram();
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
 
     void signal(int number) const;
-    /// Until then nobody has waited for it.
+    /// Whether the program has ended. Does not wait.
     bool hasEnded();
-    /// The exit status; -1 where a signal ended it, 127 where the program is not installed.
+    /// Waits; the exit status, -1 if a signal ended the program, 127 if it is not installed.
     int wait();
 
 private:
-    pid_t child_ = -1; // -1 once it has been waited for
+    pid_t child_ = -1; // -1 after wait
     int status_ = 0;
 };
 

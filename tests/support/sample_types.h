@@ -1,4 +1,4 @@
-// Every type that samples may have, for typed tests.
+// All sample types, for typed tests.
 #pragma once
 
 #include <gtest/gtest.h>

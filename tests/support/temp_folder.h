@@ -1,4 +1,4 @@
-// A folder for the files that a test makes.
+// A folder for a test's files.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace marsview::test {
 
-/// An empty folder that is gone, with all it holds, when the object is.
+/// An empty folder that is removed, with its content, with the object.
 class TempFolder {
 public:
     TempFolder();
@@ -24,7 +24,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// The bytes of a file; throws where it cannot be read.
+/// The bytes of a file; throws if it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
 } // namespace marsview::test

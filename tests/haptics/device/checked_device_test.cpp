@@ -29,7 +29,7 @@ DeviceCapabilities possible()
     return c;
 }
 
-// Answers what the test wants; keeps what it was told.
+// Returns what the test has set, and records the forces written.
 struct Script {
     DeviceSample next;
     DeviceStatus status = DeviceStatus::Fine;
@@ -82,7 +82,7 @@ constexpr std::chrono::microseconds kPeriod{1000};
 
 TEST_F(CheckedDeviceTest, LetsAFastHandPass)
 {
-    // 8 m/s back and forth is faster than anybody swings a stylus.
+    // 8 m/s back and forth is faster than anyone moves a stylus.
     for (int i = 0; i < 1000; ++i) {
         const double x = 0.05 * std::sin(160.0 * 0.001 * i);
         ASSERT_EQ(readAt({x, 0.0, 0.1}, kPeriod), DeviceStatus::Fine) << i;
@@ -108,7 +108,7 @@ TEST_F(CheckedDeviceTest, TheForceStaysZeroUntilASampleIsAsItShouldBe)
     ASSERT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
     EXPECT_EQ(device_.write({0.0, 0.0, 2.0}), DeviceStatus::Fine);
     EXPECT_EQ(readAt({0.0, kNan, 0.1}, kPeriod), DeviceStatus::Unready);
-    // A loop lets its force fade, and would bring it back.
+    // A loop lets its force fade after a failed read, and would switch it on again.
     EXPECT_EQ(device_.write({0.0, 0.0, 1.0}), DeviceStatus::Unready);
     EXPECT_EQ(script_.forces.back(), Vec3{});
     EXPECT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
@@ -122,7 +122,7 @@ TEST_F(CheckedDeviceTest, TimesMayBeAnything)
                             Clock::time_point::min(), now_}) {
         script_.next.time = time;
         EXPECT_EQ(device_.read(sample_), DeviceStatus::Fine);
-        EXPECT_EQ(sample_.time, time) << "how old it is, is for the loop to judge";
+        EXPECT_EQ(sample_.time, time) << "the loop judges the age of a sample";
     }
 }
 
@@ -134,7 +134,7 @@ TEST_F(CheckedDeviceTest, DropsADeviceThatJumps)
     EXPECT_EQ(readAt({0.1, 0.0, 0.1}, kPeriod), DeviceStatus::Unready);
     EXPECT_EQ(readAt({0.1, 0.0, 0.1}, kPeriod), DeviceStatus::Lost);
     EXPECT_THAT(device_.trouble(), HasSubstr("jumps"));
-    EXPECT_EQ(readAt({-0.1, 0.0, 0.1}, kPeriod), DeviceStatus::Lost) << "for good";
+    EXPECT_EQ(readAt({-0.1, 0.0, 0.1}, kPeriod), DeviceStatus::Lost) << "permanently";
     EXPECT_EQ(device_.write({1.0, 0.0, 0.0}), DeviceStatus::Lost);
     EXPECT_EQ(script_.forces.back(), Vec3{});
 }

@@ -36,7 +36,7 @@ TEST(DeviceLock, NamesTheProgramThatHasTheDeviceUntilItEnds)
         char byte = lock && *lock ? 'y' : 'n';
         (void)!write(ready[1], &byte, 1);
         (void)!read(done[0], &byte, 1);
-        _exit(0); // without releasing it
+        _exit(0); // without releasing the lock
     }
     char byte = 0;
     ASSERT_EQ(read(ready[0], &byte, 1), 1);

@@ -9,7 +9,7 @@
 namespace marsview::test {
 namespace {
 
-// A driver whose devices only say how they were opened.
+// A driver whose devices only report how they were opened.
 class SpokenDriver final : public DeviceDriver {
 public:
     SpokenDriver(std::string scheme, std::vector<FoundDevice> devices)

@@ -43,7 +43,7 @@ TEST(LastTrouble, KeepsFewAndSmallFiles)
     const TempFolder folder;
     for (std::size_t i = 0; i < 3 * LastTrouble::kFilesMax; ++i) {
         LastTrouble(folder.path(), "device " + std::to_string(i)).set(std::string(100'000, 'x'));
-        // The first is the oldest, whatever the clock of the file system counts in.
+        // The first is the oldest, whatever the resolution of file times.
         for (const auto& entry : fs::directory_iterator(folder.path())) {
             fs::last_write_time(entry, entry.last_write_time() - std::chrono::seconds(1));
         }

@@ -4,7 +4,7 @@
 
 namespace marsview::test {
 
-// Messages as glibc 2.36 writes them.
+// Messages as glibc 2.36 prints them.
 TEST(LoaderMessage, SaysWhatIsMissingAndWhatToDo)
 {
     EXPECT_EQ(loaderSentence("/p/hand.so", "libusb-9.so.0: cannot open shared object file: No such "

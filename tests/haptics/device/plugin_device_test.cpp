@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-// The plugin's side; its devices are all that a test needs to know.
+// The plugin's side; its devices have only what the test needs.
 struct MarsviewDevice {
     std::int64_t time_ns = 0;
 };
@@ -28,7 +28,7 @@ MarsviewPlugin table()
     return plugin;
 }
 
-// As the loop gets it.
+// The device as the loop receives it.
 Clock::time_point timeOfSample(std::int64_t time_ns)
 {
     MarsviewDevice theirs{time_ns};
@@ -53,8 +53,8 @@ TEST(PluginDevice, ASampleWithoutATimeIsOfNow)
 
 TEST(PluginDevice, ASampleFromTheFutureIsNotMadeFresh)
 {
-    // A clock that counts from 1970, and what is frozen at any time ahead: read again and again it
-    // has to stay where it is, or it would never grow old.
+    // A clock that counts from 1970, and a sample time frozen in the future: repeated reads must
+    // give the same time, or the sample would never age.
     for (const std::int64_t ahead_ns : {100'000'000LL, 86'400'000'000'000LL}) {
         const std::int64_t time_ns = nanosecondsOf(Clock::now()) + ahead_ns;
         EXPECT_EQ(nanosecondsOf(timeOfSample(time_ns)), time_ns);

@@ -28,10 +28,10 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// A folder with copies of plugins, which nothing has loaded before.
+// A folder with copies of plugins that have not been loaded before.
 class PluginFolder {
 public:
-    // Long enough for a machine under load to load a small library; only what hangs takes it all.
+    // Long enough for a busy machine to load a small library; only a plugin that hangs uses it up.
     explicit PluginFolder(milliseconds patience = milliseconds(60'000))
         : patience_(patience)
     {
@@ -70,7 +70,7 @@ private:
     milliseconds patience_;
 };
 
-// The one thing that a driver finds in a folder with one plugin.
+// The only device found in a folder with one plugin.
 FoundDevice only(PluginDriver& driver)
 {
     const std::vector<FoundDevice> found = driver.find();
@@ -144,7 +144,8 @@ TEST(PluginDriver, ClampsForcesToThePeakThatTheDeviceStates)
     EXPECT_EQ((*device)->write({0.0, 33.0, 0.0}), DeviceStatus::Fine);
     DeviceSample sample;
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
-    EXPECT_NEAR(sample.position.y, 3.3e-3, 1e-12); // the tiny device shows its force as a position
+    // the tiny device returns the force as its position
+    EXPECT_NEAR(sample.position.y, 3.3e-3, 1e-12);
 }
 
 TEST(PluginDriver, ClosesADeviceWhenItIsDestroyed)
@@ -331,7 +332,7 @@ TEST(PluginDriver, LetsADeviceThatOwnsTheClockDriveTheTick)
     EXPECT_GE(count, 10);
     EXPECT_EQ(ticks.fine, count);
     device->reset();
-    EXPECT_EQ(ticks.count, count) << "a tick after the clock was stopped";
+    EXPECT_EQ(ticks.count, count) << "one tick after the clock stopped";
 }
 
 TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItOpensADevice)
@@ -347,7 +348,7 @@ TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItOpensADevice)
                                  "out until the program is started again";
     EXPECT_EQ(device.error().message, expected);
     EXPECT_EQ(only(driver).reason, expected);
-    EXPECT_EQ(driver.open(file.string()).error().message, expected) << "without trying again";
+    EXPECT_EQ(driver.open(file.string()).error().message, expected) << "without another attempt";
 }
 
 TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItListsOrCloses)
@@ -361,7 +362,7 @@ TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItListsOrCloses)
     PluginDriver other_driver(other.options());
     auto device = other_driver.open(other.add("hangs_closing").string());
     ASSERT_TRUE(device) << device.error().message;
-    device->reset(); // comes back
+    device->reset(); // returns after this time
 }
 
 using PluginDriverDeathTest = testing::Test;
@@ -404,9 +405,9 @@ TEST(PluginDriverDeathTest, LeavesOutWhatBroughtTheProgramDownUntilToldToTryAgai
                                      crash.doing + " the last time"),
                           EndsWith("tried again by marsview-cli devices --retry")));
         EXPECT_EQ(only(driver).reason, refused.error().message);
-        EXPECT_EQ(folder.markers(), 1U) << "it is not tried again meanwhile";
+        EXPECT_EQ(folder.markers(), 1U) << "there is no second attempt in between";
 
-        // Another build of it is another plugin.
+        // A different build counts as a different plugin.
         folder.add("is_good");
         EXPECT_TRUE(only(driver).isUsable());
         fs::remove(file);
@@ -449,7 +450,7 @@ TEST(GuardedDevice, IsMarkedOnlyWhileItRuns)
     while (folder.markers() != 0) {
         std::this_thread::yield();
     }
-    // Another guard around it, which is impatient.
+    // A second guard around it, with a short timeout.
     const fs::path markers = folder.options().marker_folder;
     auto marker = LoadMarker::make(markers, file, PluginCall::Run);
     ASSERT_TRUE(marker);
@@ -459,13 +460,13 @@ TEST(GuardedDevice, IsMarkedOnlyWhileItRuns)
                            .marker = std::move(*marker),
                            .lock = {},
                            .idle = milliseconds(1)});
-    while (folder.markers() != 0) { // nobody reads it
+    while (folder.markers() != 0) { // until the device is read
         std::this_thread::yield();
     }
     for (bool is_marked = false; !is_marked; is_marked = folder.markers() == 1) {
         DeviceSample sample;
         (void)guarded.read(sample);
-        std::this_thread::sleep_for(milliseconds(1)); // a thousand a second, as a loop
+        std::this_thread::sleep_for(milliseconds(1)); // a thousand per second, as a loop does
     }
 }
 
@@ -484,7 +485,7 @@ TEST(LoadMarker, OfOneProgramIsNeitherClearedNorBlamedByAnother)
         char byte = marker ? 'y' : 'n';
         (void)!write(ready[1], &byte, 1);
         (void)!read(done[0], &byte, 1);
-        _exit(0); // as if it had crashed
+        _exit(0); // as if the process had crashed
     }
     char byte = 0;
     ASSERT_EQ(read(ready[0], &byte, 1), 1);
@@ -524,7 +525,7 @@ TEST(PluginDriver, GivesOneDeviceToOneHolderHoweverItIsNamed)
                       ": is in use by this program already; close it there first");
     }
     EXPECT_THAT(driver.open(file.string() + "#b").error().message, HasSubstr("there is no b"))
-        << "another device is";
+        << "another device can be opened";
     device->reset();
     EXPECT_TRUE(driver.open(file.string()));
 }
@@ -555,7 +556,7 @@ TEST(PluginDriver, SaysWhatWentWrongTheLastTimeOfADeviceThatCanBeUsed)
             for (int i = 0; i < 5; ++i) {
                 (void)(*device)->read(sample);
             }
-            EXPECT_EQ(folder.troubles(), 0U) << "written while it runs";
+            EXPECT_EQ(folder.troubles(), 0U) << "written during the run";
         }
         EXPECT_EQ(folder.troubles(), 1U);
 
@@ -573,7 +574,7 @@ TEST(PluginDriver, ForgetsTheTroubleOfADeviceThatWorkedSince)
     LastTrouble(folder.options().marker_folder, "plugin:" + file.string()).set("it was cold");
     PluginDriver driver(folder.options());
     EXPECT_EQ(only(driver).reason, "the last time it was used: it was cold");
-    auto device = driver.open("x.so"); // another name for it
+    auto device = driver.open("x.so"); // a different name for the same plugin
     ASSERT_TRUE(device) << device.error().message;
     DeviceSample sample;
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
@@ -591,7 +592,7 @@ TEST(PluginDriver, SaysOfOtherDevicesOfAPluginNothing)
     const std::vector<FoundDevice> found = driver.find();
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].reason, "");
-    EXPECT_EQ(found[1].reason, "its cover is open") << "what is so now is more";
+    EXPECT_EQ(found[1].reason, "its cover is open") << "the current reason takes precedence";
     EXPECT_FALSE(found[1].isUsable());
 }
 
@@ -625,7 +626,8 @@ TEST(PluginDriverDeathTest, ComesToAnEndAlthoughAPluginHangsAndTriesItAgainAtThe
                 PluginDriver driver(folder.options());
                 auto device = driver.open(file.string());
                 if (device) {
-                    // As the servo thread, which nobody waits for.
+                    // Runs detached, like the servo thread, so that the driver does not wait for
+                    // it.
                     std::binary_semaphore begun{0};
                     std::thread([&] {
                         begun.release();
@@ -673,7 +675,7 @@ TEST(LoadMarkerDeathTest, OfAnEarlierProcessWithTheSameNumberStays)
                 const auto marker = LoadMarker::make(markers, crashed, PluginCall::Load);
                 left = fs::directory_iterator(markers)->path().string();
             }
-            std::ofstream(left) << getpid() << '\n'; // nobody holds it
+            std::ofstream(left) << getpid() << '\n'; // without a lock on the file
             const auto marker = LoadMarker::make(markers, hanging, PluginCall::Load);
             std::exit(marker && folder.markers() == 2 ? 7 : 8);
         },

@@ -1,8 +1,9 @@
-// One arm, seen by both drivers. The kinematics of a PHANTOM as published (M. C. Cavusoglu, D.
+// The same arm through both drivers. The kinematics of a PHANTOM as published (M. C. Cavusoglu, D.
 // Feygin, F. Tendick, A Critical Study of the Mechanical and Electrical Properties of the PHANToM
-// Haptic Interface, Presence 11(6), 2002, equations 1 and 3) are those of a Polhem arm whose bodies
-// are as long, in other angles and other axes: so OpenHaptics' frame and its conversion have to
-// agree with the Polhem driver on where the hand is, and on the torques that hold a force there.
+// Haptic Interface, Presence 11(6), 2002, equations 1 and 3) are those of a Polhem arm with bodies
+// of the same length, with other angles and axes. OpenHaptics' frame and its conversion must
+// therefore agree with the Polhem driver on the position of the end effector and on the torques
+// that produce a force there.
 #include "haptics/drivers/openhaptics_frame.h"
 #include "haptics/drivers/polhem_kinematics.h"
 #include "tests/support/random.h"
@@ -24,8 +25,7 @@ using Angles = std::array<double, 3>;
 constexpr double kLength1Mm = 139.7;
 constexpr double kLength2Mm = 139.7;
 
-// In the frame of OpenHaptics: mm, x right, y up, z towards the user; all angles zero in the
-// middle.
+// In the frame of OpenHaptics: mm, x right, y up, z toward the user; all angles zero in the middle.
 std::array<double, 3> phantomPositionMm(const Angles& q)
 {
     const double reach = kLength1Mm * std::cos(q[1]) + kLength2Mm * std::sin(q[2]);
@@ -34,8 +34,8 @@ std::array<double, 3> phantomPositionMm(const Angles& q)
             -kLength1Mm + std::cos(q[0]) * reach};
 }
 
-// The same arm as the Polhem driver describes one: the lower body is counted from the vertical
-// there, and from the level here.
+// The same arm as the Polhem driver describes it: the lower body's angle starts at the vertical
+// there, and at the horizontal here.
 PolhemParameters polhemLikePhantom()
 {
     PolhemParameters p;
@@ -49,7 +49,7 @@ PolhemPose poseOf(const Angles& q)
     return {q[0], std::numbers::pi / 2.0 - q[1], q[2]};
 }
 
-// Within what a PHANTOM reaches, and somewhat beyond.
+// Within the workspace of a PHANTOM, and somewhat beyond.
 Angles anyAngles(Random& random)
 {
     const double turn = random.uniform(-1.2, 1.2);
@@ -66,8 +66,8 @@ Vec3 anyForce(Random& random)
     return {x, y, z};
 }
 
-// How far the hand goes per radian of one joint, by central differences of the position alone, in
-// the frame of OpenHaptics and in metres.
+// The displacement of the end effector per radian of one joint, from central differences of the
+// position alone, in the frame of OpenHaptics and in meters.
 std::array<double, 3> phantomDerivative(const Angles& q, std::size_t joint)
 {
     constexpr double kStep = 1e-5;
@@ -106,9 +106,8 @@ TEST(ArmAgreement, BothDriversPutTheHandOfOneArmInOnePlace)
     EXPECT_NEAR(right.z, 0.0, 1e-15);
 }
 
-// Virtual work: the torques times the joints' motion are the force times the hand's, whichever
-// frame it is counted in. One driver sends the force itself, in the vendor's axes; the other one
-// torques.
+// Virtual work: torques times joint motion equal force times end effector motion, in every frame.
+// One driver sends the force itself, in the vendor's axes; the other sends torques.
 TEST(ArmAgreement, BothDriversHoldAForceWithTheSameTorques)
 {
     Random random;
@@ -123,17 +122,17 @@ TEST(ArmAgreement, BothDriversHoldAForceWithTheSameTorques)
             const std::array<double, 3> way_m = phantomDerivative(q, joint);
             const double by_phantom_nm =
                 sent[0] * way_m[0] + sent[1] * way_m[1] + sent[2] * way_m[2];
-            // The lower body's angle grows the other way.
+            // The lower body's angle increases in the other direction.
             const double by_polhem_nm = joint == 1 ? -torques[joint] : torques[joint];
             worst_nm = std::max(worst_nm, std::abs(by_phantom_nm - by_polhem_nm));
         }
     }
     std::printf("largest difference %.2g N·m\n", worst_nm);
-    // The differences' own error: 1e-13 mm of rounding over 1e-5 rad, and 14 N.
+    // The error of the differences: 1e-13 mm of rounding over 1e-5 rad, and 14 N.
     EXPECT_LT(worst_nm, 1e-9);
 }
 
-// The velocity of a hand that moves all joints at once, as the loop measures it, and the power.
+// The velocity of an end effector while all joints move, as the loop measures it, and the power.
 TEST(ArmAgreement, BothDriversSeeTheSamePower)
 {
     Random random;

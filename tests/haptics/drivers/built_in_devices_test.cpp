@@ -1,4 +1,4 @@
-// The devices that need no hardware, opened as the program opens them.
+// The devices that need no hardware, opened in the same way as in the program.
 #include "haptics/device/device_registry.h"
 #include "haptics/drivers/built_in_drivers.h"
 #include "tests/support/temp_folder.h"
@@ -95,7 +95,7 @@ TEST(SimDevice, SwipesAsManyCellsAnUpdateAsItIsTold)
         way_m += i > 0 ? std::hypot(step.x, step.y) : 0.0;
         last = sample.position;
     }
-    EXPECT_NEAR(way_m / 10'000 / 1e-5, 10.0, 1.0); // less while it turns round
+    EXPECT_NEAR(way_m / 10'000 / 1e-5, 10.0, 1.0); // less while it turns back
 }
 
 TEST(SimDevice, StrokesWithinTheRectangleThatItIsGiven)
@@ -103,8 +103,9 @@ TEST(SimDevice, StrokesWithinTheRectangleThatItIsGiven)
     const auto device = opened("sim:encoder_mm=0");
     const WorkspaceBox box{{0.02, -0.03, -0.06}, {0.05, -0.01, 0.06}};
     device->strokeWithin(box);
-    constexpr int kReturnTicks = 500; // from the middle, which is outside
-    constexpr double kTrailM = 0.004; // that the hand is behind its aim, or swings beyond it
+    constexpr int kReturnTicks = 500; // from the middle, which is outside the box
+    // the distance by which the hand lags behind its target or overshoots
+    constexpr double kTrailM = 0.004;
     WorkspacePoint low{1.0, 1.0, 0.0};
     WorkspacePoint high{-1.0, -1.0, 0.0};
     for (int i = 0; i < 30'000; ++i) {
@@ -120,7 +121,7 @@ TEST(SimDevice, StrokesWithinTheRectangleThatItIsGiven)
     EXPECT_LT(high.x, box.high.x + kTrailM);
     EXPECT_GT(low.y, box.low.y - kTrailM);
     EXPECT_LT(high.y, box.high.y + kTrailM);
-    // It uses all of it.
+    // It uses the whole box.
     EXPECT_LT(low.x, box.low.x + kTrailM);
     EXPECT_GT(high.x, box.high.x - kTrailM);
     EXPECT_LT(low.y, box.low.y + kTrailM);
@@ -134,7 +135,7 @@ TEST(SimDevice, RefusesWhatItDoesNotUnderstand)
               "sim:delay_ms=51: delay_ms must be a number from 0 to 50");
     EXPECT_NE(refusalOf("sim:mass=nan"), "");
     EXPECT_NE(refusalOf("sim:mass"), "");
-    EXPECT_NE(refusalOf("sim:swipe=3"), ""); // of what width?
+    EXPECT_NE(refusalOf("sim:swipe=3"), ""); // the width is missing
     const std::string unknown = refusalOf("sim:wings=2");
     EXPECT_NE(unknown.find("\"wings\""), std::string::npos) << unknown;
     EXPECT_NE(unknown.find("mass"), std::string::npos) << unknown;
@@ -212,7 +213,7 @@ TEST(RecordDevice, SaysWhereItCannotWrite)
 
 TEST(RecordDevice, TellsThatItsRecordingHasEndedAndFeelsOn)
 {
-    // Room for the heading and little more.
+    // Space for the header and little more.
     struct rlimit before {};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
     const TempFolder folder;
@@ -221,7 +222,7 @@ TEST(RecordDevice, TellsThatItsRecordingHasEndedAndFeelsOn)
     DeviceSample sample;
     EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
     EXPECT_EQ(device->trouble(), "");
-    // Writing more than the limit fails, once the signal that comes with it is ignored.
+    // Writing beyond the limit fails, provided that the accompanying signal is ignored.
     const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
     struct rlimit small = before;
     small.rlim_cur = 300;
@@ -241,7 +242,7 @@ TEST(RecordDevice, TellsThatItsRecordingHasEndedAndFeelsOn)
 TEST(RecordDevice, PassesOnWhatTroublesTheDevice)
 {
     const TempFolder folder;
-    setenv("XDG_STATE_HOME", folder.path().c_str(), 1); // where plugins leave their markers
+    setenv("XDG_STATE_HOME", folder.path().c_str(), 1); // where plugins leave their marker files
     setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
     const std::string plugin = std::string("plugin:") + MARSVIEW_TEST_PLUGINS + "/says_unready.so";
     const auto device = opened("record:" + folder.file("a.csv") + "," + plugin);

@@ -178,7 +178,7 @@ bool FakeHid::waitUntil(const std::function<bool()>& is_so)
             return true;
         }
         std::unique_lock lock(mutex_);
-        // A driver that has given up takes no more turns: then only asking again helps.
+        // A driver that has given up reads no more; then only a timed wait makes progress.
         changed_.wait_for(lock, std::chrono::milliseconds(1), [&] { return turns_ != turns; });
     }
     return false;
@@ -241,7 +241,7 @@ int FakeHid::read(unsigned char* data, std::size_t bytes, int ms)
         report = once_.front();
         once_.pop_front();
     } else if (ms > 0) {
-        // A board says something every so often; silence takes all of the patience.
+        // A board sends reports regularly; without any, the read waits for its full timeout.
         const auto wait =
             always_.empty() ? std::chrono::microseconds(1000 * ms) : std::chrono::microseconds(200);
         changed_.wait_for(lock, wait, [&] { return is_unplugged_; });

@@ -1,4 +1,5 @@
-// HID devices that a test plugs in, lets speak, and unplugs, in place of hidapi.
+// Simulated HID devices in place of hidapi: a test plugs them in, sets their reports, and unplugs
+// them.
 #pragma once
 
 #include "haptics/drivers/hid_api.h"
@@ -24,7 +25,8 @@ struct FakeHidDevice {
     std::wstring serial{};
 };
 
-/// One at a time: hidapi's functions know no object. All members may be called from any thread.
+/// One instance at a time, because hidapi's functions take no object. All members may be called
+/// from any thread.
 class FakeHid {
 public:
     using Report = std::vector<unsigned char>;
@@ -37,20 +39,20 @@ public:
     const HidApi& api() const;
     void plugIn(const FakeHidDevice& device);
 
-    /// What the open device says at every reading from now on; empty: nothing.
+    /// The report that the open device returns at every read from now on; empty: none.
     void say(const Report& report);
-    /// What it says once, before that.
+    /// A report that it returns once, before that one.
     void sayOnce(const Report& report);
-    /// Is not listed any more, and reading fails.
+    /// The device is not listed any more, and reads fail.
     void unplug();
     void plugInAgain();
-    /// The device there gets another path.
+    /// The device at this path gets another path.
     void move(const std::string& from, const std::string& to);
     void refuseToOpen();
-    /// Enumerating does not return until it is let go on.
+    /// Enumerating blocks until goOnEnumerating().
     void stallEnumerating();
     void goOnEnumerating();
-    /// Writing does not return until it is let go on.
+    /// Writing blocks until goOnWriting().
     void stallWriting();
     void goOnWriting();
 
@@ -58,16 +60,16 @@ public:
     std::size_t readings() const;
     std::size_t enumerations() const;
     std::size_t openDevices() const;
-    /// Of the last device that was opened.
+    /// For the last device that was opened.
     std::string openedPath() const;
     Report lastWritten() const;
     std::vector<Report> written() const;
 
-    /// Waits, reading after reading and report after report of the driver, until `is_so`. False
-    /// where that does not come within a hundred thousand of them.
+    /// Waits until `is_so`, while the driver reads and writes reports. False if that does not
+    /// happen within a hundred thousand of them.
     bool waitUntil(const std::function<bool()>& is_so);
 
-    // The functions of the table.
+    // Implementations for the function table.
     hid_device_info* enumerate();
     hid_device_* open(const std::string& path);
     void close();
@@ -85,7 +87,7 @@ private:
     std::string opened_path_;
     std::uint64_t turns_ = 0;
     std::size_t open_ = 0;
-    std::size_t enumerations_ = 0; // begun
+    std::size_t enumerations_ = 0; // started
     std::size_t readings_ = 0;
     bool is_unplugged_ = false;
     bool does_not_open_ = false;
@@ -93,7 +95,7 @@ private:
     bool is_enumerating_stalled_ = false;
 };
 
-/// Little-endian int16, as all of these devices speak; `first` stands in front, if anything.
+/// Little-endian int16, as in the reports of all these devices; with `first` in front, if any.
 FakeHid::Report
 reportOf(const std::vector<int>& numbers, std::size_t bytes, const FakeHid::Report& first = {});
 

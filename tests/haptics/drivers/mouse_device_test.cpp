@@ -27,7 +27,7 @@ TEST(MouseDevice, SaysWhatTheWindowSays)
     EXPECT_EQ(impossibilityOf(device->capabilities()), std::nullopt);
     DeviceSample sample;
     ASSERT_EQ(device->read(sample), DeviceStatus::Fine);
-    EXPECT_FALSE(sample.is_held) << "before anybody has touched it";
+    EXPECT_FALSE(sample.is_held) << "before the first touch";
     const auto before = std::chrono::steady_clock::now();
     link->setPointer(
         {.position = {0.01, -0.02, 0.03}, .twist_rad = 0.5, .buttons = 1, .is_held = true});

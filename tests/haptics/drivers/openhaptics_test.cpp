@@ -1,4 +1,4 @@
-// The whole driver, against a stand-in with the vendor's symbols.
+// The whole driver, against a stand-in library with the vendor's symbols.
 #include "haptics/drivers/openhaptics_driver.h"
 #include "haptics/drivers/openhaptics_frame.h"
 #include "tests/haptics/drivers/stand_in_hd.h"
@@ -71,7 +71,7 @@ protected:
         return device ? "" : device.error().message;
     }
 
-    // What the tick does; it keeps what it saw.
+    // Does the work of a tick and stores the results.
     struct Tick {
         HapticDevice& device;
         Vec3 force_n{};
@@ -100,7 +100,7 @@ protected:
 
 TEST(OpenHapticsFrame, TurnsTheirAxesIntoOurs)
 {
-    // Theirs: 10 right, 20 up, 30 towards the user. Ours: right, away, up.
+    // In the vendor's frame: 10 right, 20 up, 30 toward the user. In ours: right, away, up.
     EXPECT_EQ(fromOpenHaptics({10.0, 20.0, 30.0}), (WorkspacePoint{0.01, -0.03, 0.02}));
     EXPECT_EQ(boxFromOpenHaptics({-1.0, -2.0, -3.0, 4.0, 5.0, 6.0}),
               (WorkspaceBox{{-0.001, -0.006, -0.002}, {0.004, 0.003, 0.005}}));
@@ -109,7 +109,7 @@ TEST(OpenHapticsFrame, TurnsTheirAxesIntoOurs)
 
 TEST(OpenHapticsFrame, KeepsTheWorkOfAForce)
 {
-    // The frames differ by a turn, so force times motion is the same in both.
+    // The frames differ by a rotation, so force times motion is the same in both.
     const std::array<double, 3> motion_mm{3.0, -5.0, 7.0};
     const Vec3 force{0.4, -1.1, 2.3};
     const std::array<double, 3> theirs = forceToOpenHaptics(force);
@@ -193,7 +193,7 @@ TEST_F(OpenHapticsDriverTest, DrivesTheTickFromTheVendorsScheduler)
 {
     HapticDevice& device = open();
     DeviceSample outside;
-    EXPECT_EQ(device.read(outside), DeviceStatus::Unready) << "outside of a tick";
+    EXPECT_EQ(device.read(outside), DeviceStatus::Unready) << "outside a tick";
     hd().position_mm[0] = 10.0;
     hd().position_mm[1] = 20.0;
     hd().position_mm[2] = 30.0;
@@ -214,7 +214,7 @@ TEST_F(OpenHapticsDriverTest, DrivesTheTickFromTheVendorsScheduler)
     EXPECT_GE(state.sample.time, before);
     EXPECT_EQ(hd().force_n[0], 0.5);
     EXPECT_EQ(hd().force_n[1], -1.0);  // up
-    EXPECT_EQ(hd().force_n[2], -0.25); // towards the user
+    EXPECT_EQ(hd().force_n[2], -0.25); // toward the user
     device.stopClock();
     EXPECT_EQ(hd().frames, 5U);
     EXPECT_EQ(hd().scheduler_runs, 0);
@@ -234,7 +234,7 @@ TEST_F(OpenHapticsDriverTest, TellsTheInkwell)
     device.stopClock();
     opened_.reset();
 
-    hd().calibration_style = 1; // an arm without an inkwell, whose switch says nothing
+    hd().calibration_style = 1; // an arm without an inkwell; its switch state is meaningless
     hd().inkwell_switch = 0;
     HapticDevice& arm = open();
     EXPECT_FALSE(arm.capabilities().has_presence);
@@ -263,7 +263,7 @@ TEST_F(OpenHapticsDriverTest, IsUnreadyUntilItIsCalibrated)
     EXPECT_EQ(state.read, DeviceStatus::Fine);
     EXPECT_EQ(hd().force_n[0], 1.0);
     EXPECT_EQ(device.trouble(), "");
-    hd().calibration = 0x5002; // lost again, as after a stall of its encoders
+    hd().calibration = 0x5002; // uncalibrated again, as after a stall of its encoders
     run(250);
     EXPECT_EQ(state.read, DeviceStatus::Unready);
 }
@@ -284,7 +284,7 @@ TEST_F(OpenHapticsDriverTest, IsLostForGoodWhenItIsUnplugged)
     run(2);
     EXPECT_EQ(state.read, DeviceStatus::Lost);
     EXPECT_EQ(hd().force_n[0], 0.0);
-    EXPECT_EQ(state.count, 7) << "the loop still hears of it";
+    EXPECT_EQ(state.count, 7) << "the loop still learns of it";
 }
 
 TEST_F(OpenHapticsDriverTest, RestsAfterAnErrorOfForcesAndGoesOn)
@@ -332,7 +332,7 @@ TEST_F(OpenHapticsDriverTest, TellsByTheSamplesAgeThatTheBusStalls)
     hd().stall_ms = 30;
     run(1);
     EXPECT_EQ(state.read, DeviceStatus::Fine);
-    EXPECT_GE(age, std::chrono::milliseconds(30)) << "what came late may have been measured early";
+    EXPECT_GE(age, std::chrono::milliseconds(30)) << "a late sample may have been measured early";
 }
 
 TEST_F(OpenHapticsDriverTest, WaitsForAFrameThatHasBegunWhenItStops)
@@ -414,7 +414,7 @@ TEST_F(OpenHapticsDriverTest, GivesTheDefaultDeviceToOneHolderByEitherName)
     (void)open("Default Device");
     EXPECT_EQ(refusalOf(""), "openhaptics:Default Device" + in_use);
     opened_.reset();
-    // The drivers of FireWire days have another name for it.
+    // The drivers for FireWire devices use another name for it.
     fs::create_directories(folder_.path() / "config");
     (void)folder_.write("config/0.ini", "");
     (void)open("");

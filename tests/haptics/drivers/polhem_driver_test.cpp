@@ -1,4 +1,4 @@
-// The whole driver of WoodenHaptics and Polhem arms, against devices that a test plugs in.
+// The whole driver for WoodenHaptics and Polhem arms, against simulated HID devices.
 #include "haptics/drivers/polhem_driver.h"
 #include "haptics/drivers/polhem_report.h"
 #include "tests/haptics/drivers/fake_hid.h"
@@ -23,7 +23,7 @@ constexpr std::size_t kRawHidBytes = 64;
 const FakeHidDevice kTeensy{"/dev/hidraw7", 0x16C0, 0x0486, 0xFFAB, 0x0200};
 const FakeHidDevice kOlderBoard{"/dev/hidraw8", 0x1234, 0x0006};
 
-// At home: the upper body level towards the user, its tip at (0, 0.007, 0.132).
+// At home: the upper body is level and points toward the user, with its tip at (0, 0.007, 0.132).
 FakeHid::Report atHome(std::size_t bytes = kRawHidBytes)
 {
     return reportOf({0, 0, -5000, 0, 0, 256, 0}, bytes);
@@ -45,7 +45,7 @@ protected:
                                     sourceRoot() / "resources/devices/polhem-v1.json"},
                 .lock_folder = folder_.path() / "locks"};
     }
-    // Told that the arm is at rest, unless the test is about that.
+    // By default with the option that declares the arm to be in its home position.
     HapticDevice& open(std::string_view address = ",home")
     {
         PolhemDriver driver(options());
@@ -65,7 +65,7 @@ protected:
     {
         return hid_.waitUntil([&] { return opened_->read(sample_) == wanted; });
     }
-    // As the loop does: writes again and again, lest the watchdog bites, until this current is out.
+    // Like the loop: writes repeatedly, to keep the watchdog quiet, until this current is sent.
     bool sends(const Vec3& force_n, std::size_t motor, int ma)
     {
         return hid_.waitUntil([&] {
@@ -108,7 +108,7 @@ TEST(PolhemReport, WritesCurrentsAndEncodersAsTheBoardsReadThem)
     const PolhemCommand currents =
         polhemCurrentCommand(PolhemLayout::RawHid, {0.258, -1.5, 1000.0});
     ASSERT_EQ(currents.size, 65U);
-    EXPECT_EQ(currents.bytes[0], 0);    // the report's number
+    EXPECT_EQ(currents.bytes[0], 0);    // the number of the report
     EXPECT_EQ(currents.bytes[1], 0x02); // 258 = 0x0102
     EXPECT_EQ(currents.bytes[2], 0x01);
     EXPECT_EQ(currents.bytes[3], 0x24); // -1500 = 0xFA24
@@ -129,7 +129,7 @@ TEST(PolhemReport, WritesCurrentsAndEncodersAsTheBoardsReadThem)
 TEST_F(PolhemDriverTest, ListsArmsAndWhyOneMayNotBeOpened)
 {
     hid_.plugIn({"/dev/hidraw1", 0x046D, 0xC077});                    // a mouse
-    hid_.plugIn({"/dev/hidraw6", 0x16C0, 0x0486, 0xFFC9, 0x0004, 1}); // the Teensy's serial line
+    hid_.plugIn({"/dev/hidraw6", 0x16C0, 0x0486, 0xFFC9, 0x0004, 1}); // the Teensy's serial port
     hid_.plugIn(kTeensy);
     FakeHidDevice older = kOlderBoard;
     older.access_error = EACCES;
@@ -169,7 +169,7 @@ TEST_F(PolhemDriverTest, FindsAnArmAgainUnderAnotherPath)
     const std::vector<std::string> before = uris();
     EXPECT_EQ(before, (std::vector<std::string>{"polhem:serial=4711", "polhem:serial=4712",
                                                 "polhem:usb=1234:0006"}));
-    // The two change places, and the third moves.
+    // Two devices swap paths, and the third one gets a new path.
     hid_.move("/dev/hidraw7", "/dev/hidraw20");
     hid_.move("/dev/hidraw9", "/dev/hidraw7");
     hid_.move("/dev/hidraw20", "/dev/hidraw9");
@@ -192,7 +192,7 @@ TEST_F(PolhemDriverTest, TellsArmsApartByTheirPathsWhereNothingElseDoes)
     hid_.plugIn(kTeensy);
     FakeHidDevice other = kTeensy;
     other.path = "/dev/hidraw9";
-    other.serial = L"not, a: number"; // of no use in a URI
+    other.serial = L"not, a: number"; // unusable in a URI
     hid_.plugIn(other);
     FakeHidDevice copy = kOlderBoard;
     copy.serial = L"1";
@@ -215,7 +215,7 @@ TEST_F(PolhemDriverTest, OpensNoneOfTheArmsThatShareAName)
     hid_.plugIn(copy);
     copy.path = "/dev/hidraw9";
     hid_.plugIn(copy);
-    hid_.plugIn(kOlderBoard); // without a number
+    hid_.plugIn(kOlderBoard); // without a serial number
     FakeHidDevice another = kOlderBoard;
     another.path = "/dev/hidraw10";
     hid_.plugIn(another);
@@ -244,7 +244,7 @@ TEST_F(PolhemDriverTest, TellsWhereTheHandIsAndPushesIt)
     EXPECT_NEAR(sample_.position.z, 0.132, 1e-12);
     EXPECT_NEAR(sample_.twist_rad, -1.5707963267948966, 1e-12);
     EXPECT_EQ(device.trouble(), "");
-    // 1 N up: 0.133 N·m, a tenth at the motor, over 0.0538 N·m/A: 247 mA.
+    // 1 N up: 0.133 N·m at the joint, a tenth of it at the motor, over 0.0538 N·m/A: 247 mA.
     EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
     EXPECT_EQ(hid_.lastWritten().size(), 65U);
     // 1 N away from the user: the lower body, 0.174 N·m: 323 mA.
@@ -258,7 +258,7 @@ TEST_F(PolhemDriverTest, LetsGoWhenTheLoopStopsWriting)
     (void)open();
     ASSERT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
     EXPECT_TRUE(hid_.waitUntil([&] { return int16In(hid_.lastWritten(), 2) == 0; }));
-    EXPECT_TRUE(comesTo(DeviceStatus::Fine)) << "it goes on reading";
+    EXPECT_TRUE(comesTo(DeviceStatus::Fine)) << "it keeps reading";
 }
 
 TEST_F(PolhemDriverTest, LetsGoWhenTheBoardFallsSilentAndGoesOnWithIt)
@@ -270,7 +270,7 @@ TEST_F(PolhemDriverTest, LetsGoWhenTheBoardFallsSilentAndGoesOnWithIt)
     hid_.say({});
     EXPECT_TRUE(comesTo(DeviceStatus::Unready));
     EXPECT_THAT(device.trouble(), HasSubstr("sends no complete reports"));
-    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0)) << "however much the loop asks for";
+    EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0)) << "however large the requested force";
     hid_.say(atHome());
     EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, -247));
 }
@@ -280,7 +280,7 @@ TEST_F(PolhemDriverTest, TakesShortReportsForSilence)
     hid_.plugIn(kTeensy);
     hid_.say(reportOf({0, 0, -5000, 0, 0, 0}, 12));
     (void)open();
-    // Hundreds of them, and none counts.
+    // Hundreds of such reports, and none is used.
     const std::size_t before = hid_.writes();
     ASSERT_TRUE(hid_.waitUntil([&] { return hid_.writes() > before + 200; }));
     EXPECT_EQ(opened_->read(sample_), DeviceStatus::Unready);
@@ -308,7 +308,7 @@ TEST_F(PolhemDriverTest, AnswersTheLoopWhileTheBusStalls)
     HapticDevice& device = open();
     ASSERT_TRUE(comesTo(DeviceStatus::Fine));
     hid_.stallWriting();
-    // Sooner or later the other thread is in a write that does not return, and no sample is new.
+    // Eventually the other thread is in a write that does not return, and no sample is new.
     DeviceSample last;
     int same = 0;
     ASSERT_TRUE(hid_.waitUntil([&] {
@@ -317,7 +317,7 @@ TEST_F(PolhemDriverTest, AnswersTheLoopWhileTheBusStalls)
         same = sample_.time == last.time ? same + 1 : 0;
         last = sample_;
         return same >= 20;
-    })) << "the sample's age tells the loop";
+    })) << "the age of the sample informs the loop";
     hid_.goOnWriting();
     EXPECT_TRUE(hid_.waitUntil([&] {
         (void)device.read(sample_);
@@ -343,7 +343,7 @@ TEST_F(PolhemDriverTest, ClampsWhatTheLoopAsksFor)
     hid_.plugIn(kTeensy);
     hid_.say(atHome());
     (void)open();
-    // 50 N are clamped to 5 N, which take 1236 mA; more than 2 A is never sent.
+    // 50 N are clamped to 5 N, which needs 1236 mA; the current never exceeds 2 A.
     EXPECT_TRUE(sends({0.0, 0.0, 50.0}, 2, -1236));
     for (const FakeHid::Report& report : hid_.written()) {
         for (std::size_t motor = 0; motor < 3; ++motor) {
@@ -361,7 +361,7 @@ TEST_F(PolhemDriverTest, IsUnreadyUntilItsEncodersHaveBeenSet)
     EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
     EXPECT_THAT(device.trouble(), HasSubstr("is not calibrated"));
     EXPECT_TRUE(sends({0.0, 0.0, 1.0}, 2, 0));
-    // Somebody presses the board's button: it asks to have its encoders set.
+    // The board's button is pressed: the report requests that the encoders be set.
     hid_.say(reportOf({1, 0, -2, 0, 0, 0, 1}, kRawHidBytes));
     const FakeHid::Report home = reportOf({0, 0, 0, 1, 0, 0, -5000}, 65, {0});
     EXPECT_TRUE(hid_.waitUntil([&] { return hid_.lastWritten() == home; }));
@@ -373,7 +373,8 @@ TEST_F(PolhemDriverTest, IsUnreadyUntilItsEncodersHaveBeenSet)
 TEST_F(PolhemDriverTest, DoesNotTakeANudgedArmForACalibratedOne)
 {
     hid_.plugIn(kTeensy);
-    // After power-on, then moved; and as if somebody had calibrated it before. Both may be wrong.
+    // The state after power-on and some motion, and a state that looks calibrated. Both may be
+    // wrong.
     for (const FakeHid::Report& report :
          {reportOf({40, 5, -12, 0, 0, 0, 0}, kRawHidBytes), atHome()}) {
         hid_.say(report);
@@ -397,9 +398,9 @@ TEST_F(PolhemDriverTest, DoesNotBelieveThatItIsAtRestWhereItsEncodersSayOtherwis
     EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
     EXPECT_THAT(device.trouble(), HasSubstr("do not count as they do in its rest position"));
     for (const FakeHid::Report& report : hid_.written()) {
-        EXPECT_EQ(int16In(report, 3), 0) << "a command";
+        EXPECT_EQ(int16In(report, 3), 0) << "no command";
     }
-    // The button is believed.
+    // The button is trusted.
     hid_.sayOnce(reportOf({0, 101, -2500, 0, 0, 0, 1}, kRawHidBytes));
     hid_.say(atHome());
     EXPECT_TRUE(comesTo(DeviceStatus::Fine));
@@ -422,7 +423,7 @@ TEST_F(PolhemDriverTest, ForgetsItsCalibrationWithItsPower)
     hid_.say(atHome());
     HapticDevice& device = open();
     ASSERT_TRUE(comesTo(DeviceStatus::Fine));
-    hid_.say(reportOf({20, -150, -4900, 0, 0, 256, 0}, kRawHidBytes)); // a centimetre away
+    hid_.say(reportOf({20, -150, -4900, 0, 0, 256, 0}, kRawHidBytes)); // a centimeter away
     ASSERT_TRUE(hid_.waitUntil(
         [&] { return device.read(sample_) == DeviceStatus::Fine && sample_.position.x != 0.0; }));
     hid_.say({});
@@ -457,7 +458,7 @@ TEST_F(PolhemDriverTest, SpeaksTheOlderLayoutsToo)
     EXPECT_EQ(hid_.lastWritten().size(), 15U);
     opened_.reset();
 
-    // The oldest cannot set its encoders: what they read at home is taken off here.
+    // The oldest boards cannot set their encoders: the driver subtracts the readings at home.
     hid_.say(reportOf({10, 20, 30, 0}, 8));
     (void)open("/dev/hidraw8,home");
     ASSERT_TRUE(comesTo(DeviceStatus::Fine));

@@ -40,15 +40,15 @@ void expectNear(const WorkspacePoint& a, const WorkspacePoint& b, double toleran
 
 } // namespace
 
-// Bodies of 58, 174 and 133 mm; the workspace is counted from 140 mm before the axis, 100 mm up.
+// Bodies of 58, 174 and 133 mm; the workspace origin is 140 mm in front of the axis, 100 mm up.
 TEST(PolhemKinematics, PutsTheTipWhereTheBodiesLead)
 {
     const PolhemParameters p = polhem();
-    // Both bodies level, towards the user: 307 mm out, 58 mm up.
+    // Both bodies level, toward the user: 307 mm out, 58 mm up.
     expectNear(polhemPosition(p, {0.0, pi / 2, pi / 2}), {0.0, -0.167, -0.042});
     // The lower body upright, the upper one level, the base turned to the right.
     expectNear(polhemPosition(p, {pi / 2, 0.0, pi / 2}), {0.133, 0.140, 0.132});
-    // Both upright: the upper one hangs down beside the lower one.
+    // Both upright: the upper one hangs down next to the lower one.
     expectNear(polhemPosition(p, {0.0, 0.0, 0.0}), {0.0, 0.140, -0.001});
 }
 
@@ -61,7 +61,7 @@ TEST(PolhemKinematics, CountsEncodersThroughTheCapstans)
     EXPECT_NEAR(home.b, 0.0, 1e-15);
     EXPECT_NEAR(home.c, pi / 2, 1e-12);
     expectNear(polhemPosition(p, home), {0.0, 0.007, 0.132});
-    // The base has 180 mm: 18 turns of the motor for one of it, and against its sense.
+    // The base has 180 mm: 18 turns of the motor per turn, in the opposite direction.
     EXPECT_NEAR(polhemPose(p, {9000, 0, 0, 0, 0, 0}).a, -pi / 2, 1e-12);
     EXPECT_NEAR(polhemTwist(p, {0, 0, 0, 0, 0, 256}), -pi / 2, 1e-12);
 }
@@ -69,7 +69,7 @@ TEST(PolhemKinematics, CountsEncodersThroughTheCapstans)
 TEST(PolhemKinematics, SendsCurrentsThatHoldAForce)
 {
     const PolhemParameters p = polhem();
-    const PolhemPose pose{0.0, 0.0, pi / 2}; // the upper body level, towards the user
+    const PolhemPose pose{0.0, 0.0, pi / 2}; // the upper body level, toward the user
     // 1 N down at 133 mm: 0.133 N·m, a tenth of it at the motor.
     const auto lift = polhemCurrents(p, pose, {0.0, 0.0, 1.0});
     EXPECT_NEAR(lift[0], 0.0, 1e-12);
@@ -97,7 +97,7 @@ TEST(PolhemKinematics, DoesTheSameWorkAtTheTipAndAtTheBodies)
         const Vec3 force{newton(), newton(), newton()};
         const auto torques = polhemTorques(p, {q[0], q[1], q[2]}, force);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            // Central differences of the position, which share nothing with the Jacobian.
+            // Central differences of the position, which are independent of the Jacobian.
             std::array<double, 3> more = q;
             std::array<double, 3> less = q;
             more[axis] += kStep;
@@ -110,7 +110,7 @@ TEST(PolhemKinematics, DoesTheSameWorkAtTheTipAndAtTheBodies)
         }
     }
     std::printf("largest difference %.2g N·m\n", worst);
-    EXPECT_LT(worst, 2e-9); // the differences' own error: 1e-16 m of rounding over 1e-6 rad, 5 N
+    EXPECT_LT(worst, 2e-9); // the error of the differences: 1e-16 m of rounding over 1e-6 rad, 5 N
 }
 
 TEST(PolhemKinematics, KeepsTheForcesDirectionWhereACurrentIsAtItsMaximum)
@@ -126,7 +126,7 @@ TEST(PolhemKinematics, KeepsTheForcesDirectionWhereACurrentIsAtItsMaximum)
         const auto small = polhemCurrents(p, pose, force * 1e-5);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             ASSERT_LE(std::abs(currents[axis]), 2.0 * (1.0 + 1e-12));
-            // The same share of each other as of a force that needs no limit.
+            // The ratios are those of a force that needs no limit.
             EXPECT_NEAR(currents[axis] * small[(axis + 1) % 3],
                         currents[(axis + 1) % 3] * small[axis], 1e-12);
         }
@@ -148,7 +148,7 @@ TEST(PolhemParameters, AreThoseThatTheMakersPublished)
     EXPECT_EQ(p.force_n_peak, 5.0);
     EXPECT_EQ(p.stiffness_n_per_m_max, 800.0);
     const WorkspaceBox box = polhemWorkspace(p);
-    EXPECT_NEAR(length(box.high - WorkspacePoint{}), 0.1, 1e-12); // its corners are on the ball
+    EXPECT_NEAR(length(box.high - WorkspacePoint{}), 0.1, 1e-12); // its corners are on the sphere
     EXPECT_EQ(box.low.x, -box.high.x);
 }
 

@@ -21,7 +21,7 @@ TEST(SimulatedHand, OscillatesAsAMassOnASpring)
         hand.advance(kDt);
         worst_m = std::max(worst_m, std::abs(hand.position().x - 0.01 * std::cos(20.0 * i * kDt)));
     }
-    EXPECT_LT(worst_m, 5e-4); // implicit steps of 0.1 ms lose 2 % of the energy in a second
+    EXPECT_LT(worst_m, 5e-4); // implicit steps of 0.1 ms lose 2 % of the energy per second
 }
 
 TEST(SimulatedHand, GivesWayToAForceAsItsGripDoes)

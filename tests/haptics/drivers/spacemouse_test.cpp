@@ -19,7 +19,7 @@ const FakeHidDevice kNavigator{"/dev/hidraw2", 0x046D, 0xC626, 0x01, 0x08};
 TEST(SpaceMouseReport, TurnsTheirAxesIntoOurs)
 {
     SpaceMouseRates rates;
-    // 350 counts are all there is. Right, towards the user, down.
+    // 350 counts is full deflection. Right, toward the user, down.
     ASSERT_TRUE(takeSpaceMouseReport(reportOf({350, 175, -70}, 7, {1}), rates));
     EXPECT_EQ(rates.push, (Vec3{1.0, -0.5, 0.2}));
     ASSERT_TRUE(takeSpaceMouseReport(reportOf({-35, 700, 0}, 7, {2}), rates));
@@ -36,7 +36,7 @@ TEST(SpaceMouseReport, TakesAllSixAxesFromOneReport)
     ASSERT_TRUE(takeSpaceMouseReport(reportOf({35, 0, 0, 0, 0, -175}, 13, {1}), rates));
     EXPECT_EQ(rates.push, (Vec3{0.1, 0.0, 0.0}));
     EXPECT_EQ(rates.turn, (Vec3{0.0, 0.0, 0.5}));
-    // Also where a receiver fills its reports up.
+    // Also if a receiver pads its reports.
     ASSERT_TRUE(takeSpaceMouseReport(reportOf({0, 0, 0, 0, 0, 0}, 32, {1}), rates));
     EXPECT_TRUE(rates.isAtRest());
 }
@@ -61,10 +61,10 @@ TEST(SpaceMouseReport, LeavesTheRatesAloneWhereAReportIsShortOrUnknown)
 TEST(SpaceMouse, IsFoundAmongMiceAndKeyboardsOfItsMaker)
 {
     FakeHid hid;
-    hid.plugIn({"/dev/hidraw0", 0x046D, 0xC077, 0x01, 0x02}); // a mouse of Logitech's
+    hid.plugIn({"/dev/hidraw0", 0x046D, 0xC077, 0x01, 0x02}); // a mouse by Logitech
     hid.plugIn({"/dev/hidraw1", 0x256F, 0xC650, 0x01, 0x02}); // CadMouse
     hid.plugIn({"/dev/hidraw3", 0x256F, 0xC664, 0x01, 0x06}); // keyboard
-    hid.plugIn({"/dev/hidraw4", 0x256F, 0xC652, 0x01, 0x02}); // a receiver's mouse
+    hid.plugIn({"/dev/hidraw4", 0x256F, 0xC652, 0x01, 0x02}); // the mouse of a receiver
     hid.plugIn({"/dev/hidraw5", 0x256F, 0xC652, 0x01, 0x08}); // and its cap
     hid.plugIn(kNavigator);
     const std::vector<FoundDevice> found = SpaceMouse::find(hid.api());
@@ -110,7 +110,8 @@ TEST(SpaceMouse, ComesToRestWhenItFallsSilentWhilePushed)
     EXPECT_TRUE(hid.waitUntil([&] { return (*mouse)->rates().push.x == -1.0; }));
 }
 
-// Who sleeps while it rests hears of everything that matters, and of nothing else.
+// A client that sleeps while the cap is at rest is notified of everything relevant, and of nothing
+// else.
 TEST(SpaceMouse, NotifiesWhenItLeavesItsRestWhenAButtonGoesDownAndWhenItIsLost)
 {
     FakeHid hid;
@@ -128,15 +129,15 @@ TEST(SpaceMouse, NotifiesWhenItLeavesItsRestWhenAButtonGoesDownAndWhenItIsLost)
     EXPECT_TRUE(hid.waitUntil([&] { return notified == 1; }));
     hid.say(reportOf({70, 0, 0}, 7, {1}));
     take_turns(20);
-    EXPECT_EQ(notified, 1) << "it was pushed already";
+    EXPECT_EQ(notified, 1) << "it was already deflected";
     hid.say(reportOf({0, 0, 0}, 7, {1}));
     EXPECT_TRUE(hid.waitUntil([&] { return (*mouse)->rates().isAtRest(); }));
     hid.sayOnce({3, 1});
-    hid.sayOnce({3, 0}); // released before anybody looks
+    hid.sayOnce({3, 0}); // released before the next look
     EXPECT_TRUE(hid.waitUntil([&] { return notified == 2; }));
     take_turns(20);
     EXPECT_EQ((*mouse)->takePressed(), 1U);
-    EXPECT_EQ((*mouse)->takePressed(), 0U) << "told once";
+    EXPECT_EQ((*mouse)->takePressed(), 0U) << "reported once";
     EXPECT_EQ(notified, 2);
     hid.unplug();
     EXPECT_TRUE(hid.waitUntil([&] { return notified == 3; }));

@@ -1,5 +1,5 @@
 /* A stand-in for the vendor's libHD: its symbols, with a device that a test sets. The scheduler has
- * a thread of its own, as the real one, but turns only when a test says so. */
+ * its own thread, like the real one, but runs only when a test requests it. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/haptics/drivers/stand_in_hd.h"
@@ -74,7 +74,7 @@ EXPORT void standInRun(int turns)
     pthread_mutex_unlock(&mutex);
 }
 
-/* Two threads may misuse the library at a time. */
+/* Two threads may misuse the library at the same time. */
 static void noteMisuse(int is_one)
 {
     __atomic_add_fetch(&state.misuses, is_one ? 1 : 0, __ATOMIC_RELAXED);
@@ -262,7 +262,7 @@ EXPORT unsigned long hdScheduleAsynchronous(Callback callback, void* user, unsig
     return handle;
 }
 
-/* Does not wait for a callback that is running: nothing says that the vendor's does. */
+/* Does not wait for a running callback: the vendor's library may not wait either. */
 EXPORT void hdUnschedule(unsigned long handle)
 {
     pthread_mutex_lock(&mutex);

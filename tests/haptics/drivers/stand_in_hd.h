@@ -1,4 +1,4 @@
-/* The strings by which a test pulls the stand-in for the vendor's library. */
+/* The controls of the stand-in for the vendor's library. */
 #ifndef MARSVIEW_STAND_IN_HD_H
 #define MARSVIEW_STAND_IN_HD_H
 
@@ -6,7 +6,7 @@
 extern "C" {
 #endif
 
-/* All under `mutex` inside of the library: to be used between frames only. */
+/* Protected by `mutex` inside the library: access only between frames. */
 typedef struct StandInState {
     double position_mm[3];
     double gimbal_rad[3];
@@ -14,17 +14,17 @@ typedef struct StandInState {
     unsigned char inkwell_switch;
     unsigned calibration;
     unsigned calibration_style;
-    unsigned updated_style;  /* what hdUpdateCalibration was asked for */
-    unsigned init_error;     /* of the next hdInitDevice; 0: it works */
+    unsigned updated_style;  /* the style requested from hdUpdateCalibration */
+    unsigned init_error;     /* of the next hdInitDevice; 0: success */
     unsigned start_error;    /* of the next hdStartScheduler */
-    unsigned frame_error;    /* pushed by hdEndFrame until it is 0 again */
-    int numbers_are_shifted; /* the numbering of other headers */
+    unsigned frame_error;    /* reported by hdEndFrame until it is 0 again */
+    int numbers_are_shifted; /* the numbering in other headers */
     int numbers_are_insane;
     int inits_that_hang;
-    int stall_ms; /* how long hdBeginFrame takes */
+    int stall_ms; /* the duration of hdBeginFrame */
 
-    char opened_name[64]; /* what hdInitDevice was given; "(default)" for null */
-    double force_n[3];    /* of the last whole frame */
+    char opened_name[64]; /* the argument of hdInitDevice; "(default)" for null */
+    double force_n[3];    /* of the last complete frame */
     int open_devices;
     int scheduled;
     int scheduler_runs;
@@ -34,11 +34,11 @@ typedef struct StandInState {
     unsigned enabled_force_output;
 } StandInState;
 
-/* The state to be read and written. */
+/* The state, for reading and writing. */
 typedef StandInState* (*StandInStateFunction)(void);
-/* Lets the scheduler's thread do so many turns, and waits until they are done. */
+/* Runs the given number of scheduler turns and waits until they are done. */
 typedef void (*StandInRunFunction)(int turns);
-/* As it was when it was loaded. */
+/* Resets the state to that after loading. */
 typedef void (*StandInResetFunction)(void);
 
 #ifdef __cplusplus

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDt = 1e-3;
 
-// A hand that goes where it is told, a step at a time.
+// A hand that moves by the given steps.
 struct Hand {
     ModeOptions options;
     ModeState state;
@@ -36,7 +36,7 @@ TEST(HandModes, AGrabPansInContactAndZoomsInFreeSpace)
     hand.input.is_grabbing = true;
     EXPECT_TRUE(hand.move({}).has_changed_mode);
     EXPECT_EQ(hand.state.mode, StylusMode::Pan);
-    hand.input.is_in_contact = false; // it goes on until it lets go
+    hand.input.is_in_contact = false; // the pan continues until the grab ends
     EXPECT_FALSE(hand.move({}).has_changed_mode);
     EXPECT_EQ(hand.state.mode, StylusMode::Pan);
     hand.input.is_grabbing = false;
@@ -107,7 +107,7 @@ TEST(HandModes, ZoomingHoldsThePlaceAndZoomsByHeight)
     const double before = hand.input.frame.scene_per_metre;
     ModeStep step;
     for (int i = 0; i < 300; ++i) {
-        step = hand.move({0.0, 0.0, 1e-4}); // 30 mm: one doubling
+        step = hand.move({0.0, 0.0, 1e-4}); // 30 mm: one doubling of the scale
     }
     EXPECT_NEAR(hand.input.frame.scene_per_metre, 0.5 * before, 1e-9 * before);
     step = hand.move({0.001, -0.002, 0.0});

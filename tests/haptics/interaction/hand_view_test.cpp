@@ -22,8 +22,8 @@ HandView randomView(Random& random)
                       .turn = Angle::degrees(random.uniform(-180.0, 180.0))}};
 }
 
-// What lies at a place of the workspace is in the same place of the picture, whatever the hand has
-// made of the map.
+// A point of the workspace stays at the same place in the view, whatever pan and zoom the hand has
+// applied to the map.
 TEST(HandView, TheCameraSeesTheWorkspaceAsBefore)
 {
     Random random;

@@ -21,7 +21,7 @@ struct Transition {
     StylusMode to;
 };
 
-// All there are: 4 modes × what is held down × contact.
+// All cases: 4 modes × button and keys × contact.
 constexpr std::array kTransitions{
     Transition{StylusMode::Hover, false, false, false, StylusMode::Hover},
     Transition{StylusMode::Hover, false, false, true, StylusMode::Hover},
@@ -132,15 +132,15 @@ TEST_F(StylusForceTest, PullsFromTheGoalToTheProxyWithinTheLimit)
     for (int i = 0; i < 20000; ++i) {
         const double point_m = pointMetres();
         const ScenePoint proxy = vector(1e6);
-        // Up to 100 points of the hand: 55 are at the limit.
+        // Up to 100 points from the proxy: the force limit is at 55.
         const Vec3 from_goal = vector(random_.uniform(0.0, 100.0) * point_m);
         const Vec3 force_n = stylusForce(proxy, proxy - from_goal, point_m);
-        const double distance_m = length(proxy - (proxy - from_goal)); // as it was rounded
+        const double distance_m = length(proxy - (proxy - from_goal)); // after rounding
         ASSERT_LE(length(force_n), kForceNMax * (1.0 + 1e-12));
         if (distance_m < 0.01 * point_m) {
-            continue; // rounding of places a thousand kilometres away
+            continue; // the rounding of positions at a distance of a thousand kilometers
         }
-        // Hooke's law at the hand, whose point is 0.2 mm.
+        // Hooke's law for the device; one point is 0.2 mm.
         const double hand_m = distance_m / point_m * kHandMetresPerPoint;
         const double expected_n = std::min(hand_m * kStiffnessNPerM, kForceNMax);
         ASSERT_NEAR(length(force_n), expected_n, 1e-9);
@@ -172,7 +172,7 @@ TEST_F(StylusForceTest, IsNothingWhereThereIsNoPenetration)
 TEST_F(StylusForceTest, GrowsWithTheDepthAndNeverJumps)
 {
     double before_n = 0.0;
-    for (int depth = 1; depth <= 1200; ++depth) { // tenths of a point, beyond the deepest
+    for (int depth = 1; depth <= 1200; ++depth) { // tenths of a point, beyond the largest depth
         const double force_n = stylusForce({}, {0.0, 0.0, -0.1 * depth}, 1.0).z;
         EXPECT_GE(force_n, before_n - 1e-12);
         EXPECT_LE(force_n - before_n, 0.1 * kHandMetresPerPoint * kStiffnessNPerM * 1.000001);

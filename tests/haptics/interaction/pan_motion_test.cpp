@@ -26,7 +26,7 @@ TEST(PanMotion, WhatIsLetGoGoesOnForEverWithoutDrag)
         way = way + step.shift_m;
         EXPECT_EQ(step.force_n, Vec3{});
     }
-    EXPECT_EQ(state.velocity_m_per_s, (Vec3{0.12, -0.05, 0.0})); // to the bit
+    EXPECT_EQ(state.velocity_m_per_s, (Vec3{0.12, -0.05, 0.0})); // bit-exact
     EXPECT_NEAR(way.x, 1.2, 1e-9);
     EXPECT_NEAR(way.y, -0.5, 1e-9);
 }
@@ -52,7 +52,7 @@ TEST(PanMotion, MomentumIsWhatTheHandHasGiven)
     const PanOptions options = withoutDrag();
     PanState state;
     grabMap(state);
-    Vec3 impulse{}; // of the hand on the map
+    Vec3 impulse{}; // from the hand to the map
     for (int i = 0; i < 3000; ++i) {
         const Vec3 shift{random.uniform(-3e-4, 5e-4), random.uniform(-4e-4, 4e-4), 0.0};
         impulse = impulse - pullMap(options, state, shift, 1.0, kDt).force_n * kDt;
@@ -67,14 +67,15 @@ TEST(PanMotion, ASteadyHandFeelsNothingAndAChangeIsResisted)
     PanState state;
     grabMap(state);
     const Vec3 shift{1e-4, 0.0, 0.0};                                   // 0.1 m/s
-    EXPECT_LT(pullMap(options, state, shift, 1.0, kDt).force_n.x, 0.0); // it must be brought along
+    // the map must be accelerated
+    EXPECT_LT(pullMap(options, state, shift, 1.0, kDt).force_n.x, 0.0);
     PanStep step;
     for (int i = 0; i < 20'000; ++i) {
         step = pullMap(options, state, shift, 1.0, kDt);
     }
     EXPECT_NEAR(step.force_n.x, 0.0, 1e-6);
     EXPECT_NEAR(state.velocity_m_per_s.x, 0.1, 1e-6);
-    // Stopping: it pushes on.
+    // After a stop the map pushes on.
     for (int i = 0; i < 5; ++i) {
         step = pullMap(options, state, {}, 1.0, kDt);
     }
@@ -118,7 +119,7 @@ TEST(PanMotion, AWallTakesTheMomentum)
 {
     PanState state{.velocity_m_per_s = {0.4, 0.0, 0.0}};
     EXPECT_EQ(glideMap({}, state, 0.0, kDt).shift_m, Vec3{});
-    EXPECT_EQ(glideMap({}, state, 1.0, kDt).shift_m, Vec3{}); // for good
+    EXPECT_EQ(glideMap({}, state, 1.0, kDt).shift_m, Vec3{}); // permanently
 }
 
 TEST(PanMotion, TakesAnyTimeStep)

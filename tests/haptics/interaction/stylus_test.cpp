@@ -32,14 +32,14 @@ double reliefOf(const SceneSurface& ground)
     return box.maximum.z - box.minimum.z;
 }
 
-// A sphere's centre is off the ground that it touches, and kept constraints may hold a god-object
-// in the air.
+// A sphere's center is above the terrain that it touches, and kept constraints may hold a
+// god-object in the air.
 bool restsOnGround(ContactModelKind model)
 {
     return model != ContactModelKind::VirtualProxy && model != ContactModelKind::GodObject;
 }
 
-// What a mouse and its camera do to a stylus, and what has to be true after each of it.
+// The effect of a mouse and its camera on a stylus, and the invariants after every step.
 class Hand {
 public:
     Hand(const SceneSurface& ground, double exaggeration, ContactModelKind model)
@@ -69,7 +69,7 @@ public:
         pixel_.x = std::clamp(pixel_.x + random_.uniform(-step, step), 0.0, 900.0);
         pixel_.y = std::clamp(pixel_.y + random_.uniform(-step, step), 0.0, 700.0);
     }
-    // True where the pointer was over ground.
+    // True if the pointer was over terrain.
     bool aim()
     {
         const Ray ray = pickRay(camera_, kViewport, pixel_);
@@ -196,7 +196,7 @@ public:
                     std::isfinite(pose->proxy.z));
         if (mode_ == StylusMode::Press || mode_ == StylusMode::Hover) {
             ASSERT_EQ(pose->is_in_contact, mode_ == StylusMode::Press);
-            // Depth and height are those of the hand.
+            // Depth and height are those of the goal.
             const ScenePoint ground =
                 ground_.maps()[at_.index].frame.toScene(at_.grid, at_.height_m * exaggeration_);
             const double up = (pose->goal.z - ground.z) / point_m_;
@@ -211,7 +211,7 @@ public:
         if (std::isfinite(ground_m)) {
             ASSERT_GE(pose->proxy.z, ground_m - tolerance_m) << "below the surface";
             if (pose->is_in_contact && restsOnGround(stylus_.model())) {
-                ASSERT_LE(pose->proxy.z, ground_m + tolerance_m) << "in contact with nothing";
+                ASSERT_LE(pose->proxy.z, ground_m + tolerance_m) << "in contact without a surface";
             }
         }
         ASSERT_LE(length(pose->force_n), kForceNMax * (1.0 + 1e-12));
@@ -223,8 +223,8 @@ public:
     int aims() const { return aims_; }
 
 private:
-    // The rules in words: a grab is a pan where it began in contact, else a zoom; otherwise the
-    // button decides.
+    // The rules in words: a grab that starts in contact is a pan, otherwise a zoom; without a grab
+    // the button decides.
     void follow(const std::optional<StylusPose>& before)
     {
         const bool was_grabbed = mode_ == StylusMode::Pan || mode_ == StylusMode::Zoom;
@@ -252,13 +252,13 @@ private:
     GroundPoint at_;
     double point_m_ = 1.0;
     double depth_points_ = StylusReach{}.depth_points;
-    double aimed_depth_points_ = depth_points_; // the wheel counts from the next aim on
+    double aimed_depth_points_ = depth_points_; // the wheel takes effect at the next aim
     bool is_lifted_ = true;
     int aims_ = 0;
     int changes_in_contact_ = 0;
 };
 
-// One scene each, made when asked for.
+// One scene each, created on first use.
 SceneSurface scene(const std::string& name)
 {
     MapMaker maker;
@@ -316,7 +316,7 @@ SceneSurface scene(const std::string& name)
     return SceneSurface({test::loadedMap((test::bundledSamples() / name).string())});
 }
 
-// GoogleTest takes letters, digits and underscores.
+// GoogleTest accepts letters, digits and underscores.
 std::string testName(ContactModelKind model)
 {
     std::string name(contactModelName(model));
@@ -362,7 +362,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes,
                                     testName(std::get<1>(walk.param));
                          });
 
-// One model after the other, whatever the hand is doing.
+// Switches between all models, whatever the stylus is doing.
 TEST(Stylus, KeepsContactWhenItsModelChanges)
 {
     constexpr int kInputs = 20000;
@@ -411,8 +411,7 @@ TEST(Stylus, IsLiftedByAnotherGround)
 
 class StylusModel : public testing::TestWithParam<ContactModelKind> {};
 
-// Whatever its model: behind a wall that stops it the proxy stays, on the same side, when the model
-// becomes another one.
+// For every model: a proxy stopped by a wall stays on its side of the wall when the model changes.
 TEST_P(StylusModel, StaysWhereItIsWhenTheModelBecomesAnother)
 {
     MapMaker maker;
@@ -445,7 +444,7 @@ TEST_P(StylusModel, StaysWhereItIsWhenTheModelBecomesAnother)
         if (!is_sphere) {
             EXPECT_LT(length(after.proxy - before.proxy), 1e-3);
         }
-        // And it goes on from there.
+        // And it continues from there.
         stylus.aim(at(16.0), {.is_pressing = true}, 0.1);
         EXPECT_TRUE(stylus.pose()->is_in_contact);
     }
@@ -499,7 +498,7 @@ TEST(Stylus, ChangesItsModelWhileItIsLiftedOrHovers)
     EXPECT_EQ(stylus.pose()->proxy, proxy);
 }
 
-// Hovering from one side of a wall to the other, and letting go behind one.
+// Hovers from one side of a wall to the other, and releases the button behind one.
 TEST(Stylus, IsCaughtByNoRidgeWhileItHovers)
 {
     MapMaker maker;
@@ -517,7 +516,7 @@ TEST(Stylus, IsCaughtByNoRidgeWhileItHovers)
     stylus.aim(at(15.0), {.is_pressing = true}, 0.1);
     stylus.aim(at(5.0), {.is_pressing = true}, 0.1);
     EXPECT_GT(ground.maps()[0].frame.toGrid(stylus.pose()->proxy).column, 9.0)
-        << "while it presses, the wall is in the way";
+        << "while the button is pressed, the wall is in the way";
     stylus.aim(at(5.0), {}, 0.1);
     EXPECT_FALSE(stylus.pose()->is_in_contact);
 }
@@ -529,7 +528,7 @@ TEST(Stylus, MeetsTheGroundRightBelowWhereItIsPressedFirst)
         {maker.make({}, [](std::size_t c, std::size_t) { return c == 10 ? 5000.0 : 0.0; })});
     Stylus stylus;
     stylus.setGround(ground, 1.0);
-    // As on a touch screen: the pointer was elsewhere, behind the wall.
+    // As on a touch screen: the previous pointer position was behind the wall.
     stylus.aim({.index = 0, .grid = {5.0, 7.0}}, {}, 0.1);
     stylus.aim({.index = 0, .grid = {15.5, 7.25}}, {.is_pressing = true}, 0.1);
     const GridPoint grid = ground.maps()[0].frame.toGrid(stylus.pose()->proxy);
@@ -559,7 +558,7 @@ TEST(Stylus, PressesAsDeepAsTheWheelWants)
     EXPECT_NEAR(depth(), kStylusDepthMin, 1e-9);
 }
 
-// From an upper map over its edge onto a lower one, and back, with the button held down.
+// From an upper map across its edge onto a lower one, and back, with the button down.
 TEST(Stylus, StepsFromMapToMapWhilePressed)
 {
     const SceneSurface ground = scene("Layers");

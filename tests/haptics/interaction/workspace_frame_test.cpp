@@ -30,7 +30,8 @@ double distance(const WorkspacePoint& a, const WorkspacePoint& b)
 
 TEST(WorkspaceFrame, QuarterTurnByHand)
 {
-    // Heading east: away from the user is east in the scene, and right is south.
+    // Heading east: the workspace direction away from the user is east in the scene, and right is
+    // south.
     const WorkspaceFrame frame{.anchor = {0.01, 0.02, 0.03},
                                .place = {100.0, 200.0, 300.0},
                                .scene_per_metre = 1000.0,
@@ -97,7 +98,8 @@ TEST(WorkspaceFrame, ZoomingAndTurningKeepTheirPlace)
         EXPECT_NEAR(distance(zoomed.toWorkspace(held), fixed), 0.0, 1e-12);
         const Vec3 grown = zoomed.toWorkspace(seen) - fixed;
         EXPECT_NEAR(length(grown - (other - fixed) * factor), 0.0, 1e-11);
-        // A quarter counter-clockwise: what was right of the hand is away from the user.
+        // A quarter turn counter-clockwise: the direction right of the hand becomes away from the
+        // user.
         const WorkspaceFrame turned = frame.turned(fixed, Angle::degrees(90.0));
         EXPECT_NEAR(distance(turned.toWorkspace(held), fixed), 0.0, 1e-12);
         const Vec3 before = other - fixed;
@@ -132,7 +134,7 @@ TEST(WorkspaceFrame, TheHandReachesWhatTheCameraSees)
                 EXPECT_LE(at.z, reach.high.z + 1e-9);
             }
         }
-        // Away from the user is where the camera looks.
+        // The direction away from the user is the one in which the camera looks.
         const Vec3 away = frame.differenceToScene({0.0, 1.0, 0.0});
         EXPECT_NEAR(std::atan2(away.x, away.y),
                     std::remainder(camera.azimuth.radians(), 2.0 * 3.14159265358979), 1e-9);

@@ -22,7 +22,7 @@ TEST(ZoomDetents, AreWhereTheZoomIsAPowerOfTheRootOfTwo)
     for (int i = -20; i <= 20; ++i) {
         EXPECT_NEAR(aboveDetent(kOptions, std::exp2(0.5 * i)), 0.0, 1e-12);
     }
-    // A hand that has risen by 3 mm from a detent is 3 mm above it.
+    // A device that has risen by 3 mm from a detent is 3 mm above it.
     EXPECT_NEAR(aboveDetent(kOptions, 1024.0 / zoomFactor(kOptions, 0.003)), 0.003, 1e-12);
 }
 
@@ -38,7 +38,7 @@ TEST(ZoomDetents, PullTowardsTheNearestWeaklyAndLinearly)
     }
 }
 
-// The hand rises through several detents: what it feels has no step, not even half way between.
+// The device rises through several detents: the force has no step, not even halfway between them.
 TEST(ZoomDetents, AreContinuousAndConservative)
 {
     constexpr double kStepM = 1e-6;

@@ -27,7 +27,7 @@ TEST(FlightRecorder, KeepsTheLastOfThemInOrder)
     EXPECT_FALSE(flight.isEmpty());
 }
 
-// 2026-11-22: after another map was opened the file still ended with the last one.
+// 2026-11-22: after another map was opened, the file still ended with the previous one.
 TEST(FlightRecorder, GoesOnWhereTicksAreNumberedAnew)
 {
     FlightRecorder flight(100);

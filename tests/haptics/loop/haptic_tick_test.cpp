@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 
 constexpr double kDt = 1e-3;
 
-// A level plane at 10 m; 1 m of the scene is 1 mm of the workspace, whose middle is over the map's,
-// 20 m above the plane.
+// A level plane at 10 m. 1 m of the scene is 1 mm of the workspace, whose middle is 20 m above the
+// plane, over the middle of the map.
 struct Rig {
     DeviceCapabilities device = desktopDevice();
     TickOptions options = tickOptionsFor(device);
@@ -36,7 +36,7 @@ struct Rig {
         settings.frame = {.place = {0.0, 0.0, 30.0}, .scene_per_metre = 1000.0};
         settings.frame_number = 1;
         settings.stiffness_n_per_m = 400.0;
-        options.limits.ramp_s = 1e-3; // whole at once
+        options.limits.ramp_s = 1e-3; // full force at once
         options.limits.change_ramp_s = 1e-3;
         options.limits.rate_n_per_s_max = 1e5;
         options.is_passivity_kept = false;
@@ -51,7 +51,7 @@ struct Rig {
         input.sample.time = input.now;
         return step(options, input, state, dt_s);
     }
-    // Straight there, slowly enough to be a hand.
+    // Straight there, at the speed of a hand.
     StepResult to(const WorkspacePoint& hand)
     {
         const Vec3 way = hand - state.hand;
@@ -178,7 +178,7 @@ TEST(HapticTick, LetsGoForEveryReason)
               LetGoReason::NoTouch);
 }
 
-// Ticks with force out of 2000, of which those are late that `is_late` says.
+// The number of ticks with force out of 2000; `is_late` selects the late ones.
 template <typename F>
 int ticksWithForce(const F& is_late)
 {
@@ -200,17 +200,17 @@ int ticksWithForce(const F& is_late)
 TEST(HapticTick, LetsGoWhereTooLargeAShareOfDeadlinesIsMissed)
 {
     EXPECT_EQ(ticksWithForce([](int) { return false; }), 2000);
-    EXPECT_EQ(ticksWithForce([](int i) { return i == 700; }), 2000) << "one is none";
+    EXPECT_EQ(ticksWithForce([](int i) { return i == 700; }), 2000) << "a single one";
     EXPECT_EQ(ticksWithForce([](int i) { return i % 100 < 5; }), 2000) << "five in a row";
     EXPECT_EQ(ticksWithForce([](int i) { return i % 5 == 0; }), 2000) << "one in five";
     EXPECT_EQ(ticksWithForce([](int) { return true; }), 5) << "all";
-    // Five in six: never six in a row, and let go for good all the same. In quarters 20 after five,
-    // 19, 23, and 27, which is more than six misses, at the eighth tick.
+    // Five in six: never six in a row, yet the force goes off permanently. In quarters of a miss:
+    // 20 after five ticks, then 19, 23, and at the eighth tick 27, which is more than six misses.
     EXPECT_EQ(ticksWithForce([](int i) { return i % 6 != 5; }), 7);
-    // One in two gains 3/4 of a miss in two ticks: at the 15th tick there are six.
+    // One in two adds 3/4 of a miss every two ticks: at the 15th tick the sum is six.
     EXPECT_EQ(ticksWithForce([](int i) { return i % 2 == 0; }), 14);
     EXPECT_LT(ticksWithForce([](int i) { return i % 4 == 0; }), 400) << "one in four";
-    // Afterwards it holds again, after the 24 ticks that six misses cost.
+    // Later the force stays on, after the 24 ticks that six misses cost.
     EXPECT_EQ(ticksWithForce([](int i) { return i < 6; }), 2000 - 24);
 }
 
@@ -225,7 +225,7 @@ TEST(HapticTick, APauseBetweenWritesLetsGoAndRampsInAnew)
         rig.at(pressed);
     }
     ASSERT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
-    rig.input.since_write_s = 0.0099; // late, and once is none
+    rig.input.since_write_s = 0.0099; // late; a single one does not count
     rig.input.has_missed_deadline = true;
     EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
     rig.input.since_write_s = 0.0101;
@@ -250,14 +250,14 @@ TEST(HapticTick, TheLimiterCountsTheTimeSinceTheLastWrite)
     rig.at({});
     rig.to({0.0, 0.0, -0.0215});
     const double before_n = rig.state.safety.force_n.z;
-    // The sample is 1 ms younger than the last, but that was written 20 us ago.
+    // The sample is 1 ms newer than the previous one, but the last write was 20 us ago.
     rig.input.since_write_s = 20e-6;
     EXPECT_NEAR(rig.at({0.0, 0.0, -0.0255}).force_n.z, before_n + 500.0 * 20e-6, 1e-9);
 }
 
 TEST(HapticTick, StretchedGroundRampsIn)
 {
-    // A peak in the middle that five times the height lifts 40 mm above the hand.
+    // A peak in the middle. With five times the height, it rises 40 mm above the device.
     const auto peak = [](std::size_t column, std::size_t row) {
         return std::max(0.0, 10.0 - 0.1 * std::hypot(static_cast<double>(column) - 100.0,
                                                      static_cast<double>(row) - 100.0));
@@ -285,12 +285,12 @@ TEST(HapticTick, StretchedGroundRampsIn)
     };
     const auto high = afterwards([&](Rig& rig) { rig.settings.map = stretched(5.0); });
     EXPECT_TRUE(high[0].has_changed_map);
-    EXPECT_NEAR(length(high.back().force_n), 3.3, 1e-6) << "the peak force at last";
+    EXPECT_NEAR(length(high.back().force_n), 3.3, 1e-6) << "finally the peak force";
     for (std::size_t i = 0; i < 149; ++i) {
         const double ramp = static_cast<double>(i + 1) / 150.0;
         EXPECT_LE(length(high[i].force_n), 3.3 * ramp + 1e-6) << i;
     }
-    // The hand stays where it is, and the ground shrinks away from under it, or swells.
+    // The device does not move; the surface shrinks away from below it, or rises.
     const auto swollen = afterwards([&](Rig& rig) {
         const WorkspaceFrame& now = rig.state.frame;
         const double factor = 0.25; // 1 mm deep to 4 mm
@@ -299,7 +299,7 @@ TEST(HapticTick, StretchedGroundRampsIn)
     });
     EXPECT_TRUE(swollen[0].has_changed_map);
     EXPECT_LE(swollen[0].force_n.z, 0.02);
-    // Another model of the same ground has nothing to ramp in.
+    // Another model of the same surface needs no ramp.
     const auto same = afterwards([&](Rig& rig) { rig.settings.map = stretched(1.0); });
     EXPECT_FALSE(same[0].has_changed_map);
     EXPECT_NEAR(same[0].force_n.z, 0.4, 0.01);
@@ -328,7 +328,7 @@ TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
     const auto feed = [&] { exchange->fed_ns = rig.input.now.time_since_epoch() / 1ns; };
     rig.at({});
     const WorkspacePoint pressed{0.0, 0.0, -0.025};
-    EXPECT_NEAR(rig.to(pressed).force_n.z, 2.0, 1e-9) << "one that has not begun is not silent";
+    EXPECT_NEAR(rig.to(pressed).force_n.z, 2.0, 1e-9) << "no timeout before the start";
     feed();
     for (int i = 1; i <= 500; ++i) {
         ASSERT_EQ(rig.at(pressed).reason, LetGoReason::None) << i << " ms";
@@ -372,8 +372,8 @@ TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
 
 TEST(HapticTick, AMapThatJumpsPutsTheProxyStraightAboveTheHand)
 {
-    // A ridge between here and there, higher than the hand: a proxy that slid over would stay
-    // before it.
+    // A ridge between the two points, higher than the device: a proxy that slid over would be
+    // stopped by it.
     const auto ridge = [](std::size_t column, std::size_t) {
         return column > 60 && column < 80 ? 500.0 : 10.0;
     };
@@ -430,7 +430,7 @@ TEST(HapticTick, PansAndZoomsByTheButton)
     rig.to({0.03, 0.0, 0.01});
     rig.to({0.03, 0.0, 0.011});
     EXPECT_EQ(rig.at({0.03, 0.0, 0.011}).mode, StylusMode::Hover);
-    rig.settings.is_grabbing = true; // the key does the same
+    rig.settings.is_grabbing = true; // the key has the same effect
     EXPECT_EQ(rig.at({0.03, 0.0, 0.011}).mode, StylusMode::Zoom);
     rig.to({0.03, 0.0, 0.041});
     EXPECT_NEAR(rig.state.frame.scene_per_metre, 500.0, 1e-6);
@@ -444,7 +444,7 @@ TEST(HapticTick, StiffnessIsNoMoreThanTheDeviceAndTheLoopStand)
     EXPECT_NEAR(usedStiffness(900.0, device, 1e-3, 2e-3), 300.0, 1e-9); // half the rate
     EXPECT_EQ(usedStiffness(900.0, device, 1e-3, 0.5e-3), 600.0);
     EXPECT_EQ(usedStiffness(-1.0, device, 1e-3, 1e-3), 0.0);
-    DeviceCapabilities silent = device; // about its stiffness
+    DeviceCapabilities silent = device; // the effective stiffness
     silent.stiffness_n_per_m_max = 0.0;
     EXPECT_EQ(usedStiffness(1e5, silent, 1e-3, 1e-3), kStiffnessUnstatedNPerM);
     EXPECT_EQ(usedStiffness(1e5, silent, 1e-3, 2e-3), 0.5 * kStiffnessUnstatedNPerM);
@@ -485,7 +485,7 @@ TEST(HapticTick, AModelThatIsGivenTheGoalsAgainGivesTheSameProxiesToTheBit)
     }
 }
 
-// What the loop itself must keep to, whatever is around it.
+// Invariants of the loop under any external changes.
 TEST(HapticTick, WhatARecordingAimsAtDoesNotDependOnWhatIsSeen)
 {
     const auto bumps = [](std::size_t column, std::size_t row) {
@@ -541,7 +541,7 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
     Vec3 last{};
     WorkspacePoint hand{};
     Vec3 velocity{};
-    double wrote_at_s = 0.0; // in real time, in which ticks stall anywhere
+    double wrote_at_s = 0.0; // in real time, where a tick can stall at any point
     double now_s = 0.0;
     constexpr int kTicks = 1'000'000;
     for (int i = 0; i < kTicks; ++i) {
@@ -605,13 +605,13 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
         const auto stall_s = [&random] {
             return random.chance(0.001) ? random.uniform(0.0, 0.5) : random.uniform(0.0, 2e-5);
         };
-        // Woken, at times right after a late one; read; computed; written.
+        // The order: wake-up, sometimes right after a late one; read; compute; write.
         now_s += random.chance(0.01) ? 1e-6 : random.uniform(0.5e-3, 1.5e-3);
         now_s += stall_s();
         const double measured_at_s = now_s;
         rig.input.since_write_s = random.chance(0.001) ? anyNumber() : measured_at_s - wrote_at_s;
         now_s += stall_s();
-        if (random.chance(0.0005)) { // somebody else's bug has written here
+        if (random.chance(0.0005)) { // simulates memory corruption by a bug elsewhere
             SafetyState& safety = rig.state.safety;
             const std::array fields{&safety.force_n.x, &safety.force_n.z, &safety.gain,
                                     &safety.ramp_s, &safety.heat_n2};
@@ -622,7 +622,7 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
         const StepResult result = step(rig.options, rig.input, rig.state, dt_s);
 
         const double magnitude_n = length(result.force_n);
-        ASSERT_LE(magnitude_n, rig.device.force_n_peak) << "tick " << i; // false where NaN
+        ASSERT_LE(magnitude_n, rig.device.force_n_peak) << "tick " << i; // false for NaN
         const double given_s = *rig.input.since_write_s;
         const bool is_measured = given_s == measured_at_s - wrote_at_s;
         const double step_s = is_measured ? now_s - wrote_at_s
@@ -633,7 +633,7 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
         const double rate = result.reason == LetGoReason::None
                                 ? rig.options.limits.rate_n_per_s_max
                                 : rig.options.limits.release_n_per_s_max;
-        if (length(last) <= rig.device.force_n_peak) { // otherwise the magnitude comes first
+        if (length(last) <= rig.device.force_n_peak) { // otherwise the magnitude limit comes first
             ASSERT_LE(length(result.force_n - last), rate * step_s + 1e-13) << "tick " << i;
         }
         last = result.force_n;
@@ -646,7 +646,7 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
                     static_cast<unsigned long long>(reasons[i]));
     }
     std::printf("\n");
-    EXPECT_GT(pushed, 100'000U); // or nothing was tried
+    EXPECT_GT(pushed, 100'000U); // otherwise nothing was tested
 }
 
 TEST(HapticTick, AllocatesNothingInAnyModelOrMode)
@@ -656,7 +656,7 @@ TEST(HapticTick, AllocatesNothingInAnyModelOrMode)
 #else
     Random random;
     const auto heights = heightsFrom(fractalHeights(random, 201, 201, 20.0, 0.6), 201);
-    { // the counter counts
+    { // the counter works
         const std::uint64_t before = RtScope::allocationCount();
         const RtScope scope;
         const std::unique_ptr<int> one(new int(1));
@@ -680,7 +680,7 @@ TEST(HapticTick, AllocatesNothingInAnyModelOrMode)
         }
         EXPECT_EQ(RtScope::allocationCount(), before) << contactModelName(kind);
         for (const int count : modes) {
-            EXPECT_GT(count, 100); // each mode was there
+            EXPECT_GT(count, 100); // every mode occurred
         }
     }
 #endif

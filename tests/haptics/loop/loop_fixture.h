@@ -1,4 +1,4 @@
-// Loops to be run and hands for them, for tests of the loop and of what records it.
+// Loops and simulated hands for tests of the loop and of its recordings.
 #pragma once
 
 #include "haptics/drivers/sim_driver.h"
@@ -55,7 +55,7 @@ inline void waitFor(const ServoLoop& loop)
     }
 }
 
-// A hand that goes round and round, always below the ground of bumps().
+// A hand that moves in circles, always below the surface of bumps().
 class BuriedDevice final : public HapticDevice {
 public:
     BuriedDevice() { capabilities_.rate_hz = 5000.0; }

@@ -37,20 +37,20 @@ TEST(PassivityObserver, DampsWhatGivesMoreThanItGot)
     PassivityState state;
     noteWritten(state, {1.0, 0.0, 0.0});
     const PassivityStep step = keepPassive({}, {1.0, 0.0, 0.0}, {1e-4, 0.0, 0.0}, state, kDt);
-    EXPECT_LT(state.energy_j, 0.0); // it pushes along the motion: energy from nowhere
+    EXPECT_LT(state.energy_j, 0.0); // it pushes in the direction of motion: generated energy
     EXPECT_GT(step.damping_n_s_per_m, 0.0);
     EXPECT_LT(step.force_n.x, 1.0);
     EXPECT_LE(step.damping_n_s_per_m, PassivityOptions{}.damping_n_s_per_m_max);
 }
 
-// A mass that a late spring drives: without the observer it oscillates ever more.
+// A mass on a delayed spring: without the observer its oscillation grows.
 TEST(PassivityObserver, KeepsADelayedSpringFromGrowing)
 {
     const auto lastSwing = [](bool is_kept) {
         PassivityState state;
         double x_m = 1e-3;
         double v = 0.0;
-        double last_n = 0.0; // acts a period late
+        double last_n = 0.0; // acts one period late
         double most_m = 0.0;
         for (int i = 0; i < 3000; ++i) {
             const double wanted_n = -300.0 * x_m;

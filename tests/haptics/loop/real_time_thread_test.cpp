@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Without locking the memory of all tests that follow.
+// Does not lock memory, which would affect all tests that follow.
 RealTimeOptions quick()
 {
     return {.period = 100us, .uncounted_turns = 0, .locks_memory = false};
@@ -41,7 +41,8 @@ TEST(RealTimeThread, CallsAtWholePeriodsUntilItIsToldToStop)
     const LoopStatistics& statistics = thread.statistics();
     EXPECT_EQ(statistics.tick.count(), 200U);
     EXPECT_EQ(statistics.lateness.count(), 200U);
-    // What was missed in the last turn skipped nothing that was seen.
+    // Periods missed during the last turn are not followed by a turn that would count them as
+    // skipped.
     EXPECT_LE(periods - 199U, statistics.skipped);
     EXPECT_EQ(thread.grants().locking_refusal, "not asked for");
 }
@@ -77,7 +78,7 @@ TEST(RealTimeThread, StopsWhenItIsAskedTo)
     const int stopped_at = turns.load();
     EXPECT_GE(stopped_at, 3);
     EXPECT_EQ(thread.statistics().tick.count(), static_cast<std::uint64_t>(stopped_at));
-    thread.join(); // once more does no harm
+    thread.join(); // a second call is harmless
 }
 
 TEST(RealTimeThread, LeavesOutTheFirstTurnsAndTheirPageFaults)
@@ -87,7 +88,7 @@ TEST(RealTimeThread, LeavesOutTheFirstTurnsAndTheirPageFaults)
     constexpr std::size_t kPage = 4096;
     constexpr std::size_t kPages = 64;
     for (const std::uint64_t touched_at : {std::uint64_t{10}, std::uint64_t{70}}) {
-        // Pages that nobody has touched before.
+        // Pages that have not been accessed before.
         std::unique_ptr<char[]> memory(new char[4096 * kPage]);
         RealTimeThread thread(options, [&memory, touched_at](const LoopTick& turn) noexcept {
             if (turn.number == touched_at) {
@@ -104,7 +105,7 @@ TEST(RealTimeThread, LeavesOutTheFirstTurnsAndTheirPageFaults)
         if (touched_at < options.uncounted_turns) {
             EXPECT_EQ(faults, 0U);
         } else {
-            // Fewer than one a page where the system hands out huge ones.
+            // Fewer than one per page if the system uses huge pages.
             EXPECT_GE(faults, 1U);
         }
     }

@@ -22,7 +22,7 @@ constexpr SafetyLimits kLimits{.force_n_max = 3.0,
                                .ramp_s = 0.1,
                                .change_ramp_s = 0.02};
 
-// Its state after `count` steps with the same force.
+// The result after `count` steps with the same force.
 SafetyOutput steps(SafetyState& state, const Vec3& force_n, int count)
 {
     SafetyOutput last;
@@ -83,7 +83,7 @@ TEST(SafetyLimiter, RampsInAnewAfterAChange)
     const SafetyOutput output = limitForce(kLimits, changed, state, kDt);
     EXPECT_NEAR(output.force_n.x, 0.02, 1e-12);
     EXPECT_NEAR(steps(state, {0.4, 0.0, 0.0}, 20).force_n.x, 0.4, 1e-12);
-    // One change after the other, as while a map is dragged: nothing builds up.
+    // One map change after another, as while a map is dragged: the force must not build up.
     for (int i = 0; i < 1000; ++i) {
         EXPECT_LE(limitForce(kLimits, changed, state, kDt).force_n.x, 0.021);
         if (i == 0) {
@@ -117,12 +117,13 @@ TEST(SafetyLimiter, NothingJumpsAfterAPause)
     for (const double pause_s : {0.010001, 0.03, 1.0, 60.0}) {
         SafetyState state;
         steps(state, {3.0, 0.0, 0.0}, 500);
-        // Down to nothing, though all of another force is asked for, and in by the ramp.
+        // Ramps down to zero although the full opposite force is requested, then ramps that force
+        // in.
         const SafetyInput wanted{.force_n = {-3.0, 0.0, 0.0}};
         SafetyOutput output = limitForce(kLimits, wanted, state, pause_s);
         EXPECT_EQ(output.reason, LetGoReason::MissedDeadline);
         EXPECT_NEAR(output.force_n.x, 1.0, 1e-12); // 2000 N/s for a millisecond
-        // The next write comes at once, or in time.
+        // The next write follows immediately, or one period later.
         double last_n = output.force_n.x;
         for (int i = 1; i <= 99; ++i) {
             const double dt_s = i == 1 ? 20e-6 : kDt;
@@ -134,7 +135,7 @@ TEST(SafetyLimiter, NothingJumpsAfterAPause)
         }
         EXPECT_NEAR(steps(state, {-3.0, 0.0, 0.0}, 2).force_n.x, -3.0, 1e-12);
     }
-    // What is just no pause yet is a step.
+    // The longest interval that does not count as a pause is one step.
     SafetyState state;
     steps(state, {3.0, 0.0, 0.0}, 500);
     const SafetyOutput output =
@@ -177,7 +178,7 @@ TEST(SafetyLimiter, LimitsThatAreNoLimitsLetNothingThrough)
     }
 }
 
-// Of a small desktop device.
+// The values of a small desktop device.
 constexpr SafetyLimits kWarmLimits{.force_n_max = 3.3,
                                    .force_n_continuous = 0.9,
                                    .heat_s = 5.0,
@@ -190,11 +191,11 @@ TEST(SafetyLimiter, StrongForMomentsAndContinuousForLong)
 {
     SafetyState state;
     double root_mean_square_n = 0.0;
-    double squares_n2 = 0.0; // an independent low-pass, by Euler's steps
+    double squares_n2 = 0.0; // an independent low-pass, with Euler steps
     for (int i = 1; i <= 60'000; ++i) {
         const Vec3 force_n =
             limitForce(kWarmLimits, {.force_n = {0.0, 30.0, 40.0}}, state, kDt).force_n;
-        EXPECT_NEAR(force_n.z * 0.75, force_n.y, 1e-9); // its direction stays
+        EXPECT_NEAR(force_n.z * 0.75, force_n.y, 1e-9); // its direction does not change
         squares_n2 += kDt / 5.0 * (dot(force_n, force_n) - squares_n2);
         root_mean_square_n = std::max(root_mean_square_n, std::sqrt(squares_n2));
         // By hand: 3.3² (1 - exp(-t / 5 s)) is 0.64 × 0.9² at 0.244 s.
@@ -226,7 +227,7 @@ TEST(SafetyLimiter, NoForcesHeatMoreThanTheContinuousOneDoes)
         Vec3 force_n{};
         for (int i = 0; i < 30'000; ++i) {
             const double dt_s = random.uniform(0.5e-3, 1.5e-3);
-            // The last force is on until this tick.
+            // The previous force acts until this tick.
             squares_n2 += dt_s / limits.heat_s * (dot(force_n, force_n) - squares_n2);
             SafetyInput input{.has_changed = random.chance(1e-4)};
             const double strength_n = i / 5'000 % 2 == 0 ? 40.0 : 2.0 * lasting_n;
@@ -239,7 +240,7 @@ TEST(SafetyLimiter, NoForcesHeatMoreThanTheContinuousOneDoes)
         }
     }
     std::printf("hottest: %.6f of what the continuous force brings about\n", hottest);
-    EXPECT_GT(hottest, 0.95); // or the bound was never tried
+    EXPECT_GT(hottest, 0.95); // otherwise the bound was never reached
 }
 
 TEST(SafetyLimiter, WhatMayLastIsNeverTouched)
@@ -252,7 +253,7 @@ TEST(SafetyLimiter, WhatMayLastIsNeverTouched)
             ASSERT_NEAR(output.force_n.x, 0.9, 1e-12);
         }
     }
-    // And without a continuous force there is the peak alone.
+    // Without a continuous force limit only the peak limit applies.
     SafetyState strong;
     steps(strong, {3.0, 0.0, 0.0}, 60'000);
     EXPECT_NEAR(strong.force_n.x, 3.0, 1e-12);
@@ -271,7 +272,7 @@ TEST(SafetyLimiter, CoolsDownWhileNothingPushes)
     EXPECT_EQ(hold({3.3, 0.0, 0.0}, LetGoReason::NotHeld, 1'000), 0.0);
     EXPECT_LT(hold({3.3, 0.0, 0.0}, LetGoReason::None, 100), 2.5) << "still warm";
     EXPECT_EQ(hold({}, LetGoReason::NotHeld, 20'000), 0.0);
-    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, LetGoReason::None, 100), 3.3, 1e-9) << "cold again";
+    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, LetGoReason::None, 100), 3.3, 1e-9) << "cooled down";
     EXPECT_NEAR(cooledHeat(kWarmLimits, 4.0, 5.0), 4.0 / std::exp(1.0), 1e-12);
     EXPECT_EQ(cooledHeat(kWarmLimits, 4.0, -5.0), 4.0);
 }
@@ -301,7 +302,7 @@ TEST(SafetyLimiter, EveryReasonHasAName)
     }
 }
 
-// A number that somebody's bug may come up with.
+// A value that a bug in the caller might produce.
 double anyNumber(Random& random)
 {
     switch (random.below(10)) {
@@ -330,7 +331,7 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
     Vec3 last{};
     int spoilt = 0;
     double longest = 0.0;
-    double fastest = 0.0; // as a share of what is allowed
+    double fastest = 0.0; // as a share of the limit
     for (int i = 0; i < 1'000'000; ++i) {
         if (i % 10'000 == 0) { // another device
             state = {};
@@ -357,7 +358,7 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
         const double dt_s = random.chance(0.05)   ? anyNumber(random)
                             : random.chance(0.01) ? random.uniform(0.005, 2.0)
                                                   : random.uniform(0.0, 0.003);
-        if (random.chance(0.01)) { // somebody else's bug has written here
+        if (random.chance(0.01)) { // simulates memory corruption by a bug elsewhere
             const std::array fields{&state.force_n.x, &state.force_n.y, &state.force_n.z,
                                     &state.gain,      &state.ramp_s,    &state.heat_n2};
             *fields[random.below(fields.size())] = anyNumber(random);
@@ -366,14 +367,14 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
         }
         const SafetyOutput output = limitForce(limits, input, state, dt_s);
         const double magnitude_n = length(output.force_n);
-        ASSERT_LE(magnitude_n, limits.force_n_max) << "tick " << i; // false where NaN
+        ASSERT_LE(magnitude_n, limits.force_n_max) << "tick " << i; // false for NaN
         const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
-        // In real time, which does not stand still before the motors.
+        // The real elapsed time, which passes for the motors whatever dt says.
         const double step_s = is_time && dt_s <= 0.01 ? dt_s : 0.001;
         const double rate = output.reason == LetGoReason::None ? limits.rate_n_per_s_max
                                                                : limits.release_n_per_s_max;
         const double change_n = length(output.force_n - last);
-        if (length(last) <= limits.force_n_max) { // otherwise the magnitude comes first
+        if (length(last) <= limits.force_n_max) { // otherwise the magnitude limit comes first
             ASSERT_LE(change_n, rate * step_s + 1e-14 * limits.force_n_max) << "tick " << i;
             fastest = std::max(fastest, step_s > 1e-6 ? change_n / (rate * step_s) : 0.0);
         }
@@ -387,7 +388,7 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
         "largest force %.6f and fastest change %.6f of what is allowed, state spoilt %d "
         "times\n",
         longest, fastest, spoilt);
-    EXPECT_GT(longest, 0.99); // or the bounds were never tried
+    EXPECT_GT(longest, 0.99); // otherwise the bounds were never reached
     EXPECT_GT(fastest, 0.99);
 }
 

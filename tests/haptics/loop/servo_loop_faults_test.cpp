@@ -1,4 +1,4 @@
-// What the loop makes of devices that stall, hang, and refuse.
+// The loop with devices that stall, hang, and fail.
 #include "haptics/loop/servo_loop.h"
 #include "tests/haptics/loop/tick_fixture.h"
 
@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// Opened once, from then on for good.
+// Once opened, it stays open.
 class Gate {
 public:
     void open()
@@ -47,16 +47,17 @@ struct Write {
     bool is_from_tick = true;
 };
 
-// What a device does and is told; outlives it, as one that hangs may be closed late.
+// The behavior and the records of a device. Outlives the device, because a device that hangs may be
+// closed late.
 struct Bench {
-    // Called in each read, with its number from 0, and in the other calls.
+    // Called in each read, with its number from 0, and in each of the other calls.
     std::function<void(int)> in_read = [](int) {};
     std::function<void(int)> in_write = [](int) {};
     std::function<bool(int)> is_clock_stalled = [](int) { return false; };
     std::function<void()> in_stop_clock = [] {};
     bool starts_clock = true;
     bool owns_clock = false;
-    std::atomic<double> height_m{-0.02}; // of the hand; the ground is at 0
+    std::atomic<double> height_m{-0.02}; // of the device; the surface is at 0
     std::atomic<int> reads{0};
     std::atomic<bool> is_closed{false};
 
@@ -98,7 +99,7 @@ public:
     DeviceStatus write(const Vec3& force_n) noexcept override
     {
         const bool is_from_tick = std::this_thread::get_id() == ticking_;
-        bench_->in_write(++writes_); // the motors hear of it after that
+        bench_->in_write(++writes_); // takes effect on the motors after that
         const std::lock_guard lock(bench_->mutex);
         bench_->writes.push_back({Clock::now(), force_n, is_from_tick});
         return DeviceStatus::Fine;
@@ -189,7 +190,7 @@ double secondsSince(Clock::time_point begin)
 
 TEST(ServoLoopFaults, TheForceChangesNoFasterThanItsRateInRealTime)
 {
-    // Stalls of all lengths inside read and write, after which the hand is elsewhere.
+    // Stalls of all lengths inside read and write, after which the device is at another position.
     Case c;
     const auto stall = [bench = c.bench.get()](int call) {
         constexpr std::array kStalls{0us, 300us, 1500us, 4000us, 9000us, 11000us, 25000us};
@@ -217,9 +218,9 @@ TEST(ServoLoopFaults, TheForceChangesNoFasterThanItsRateInRealTime)
         const double after_n = length(writes[i].force_n);
         const double change_n = length(writes[i].force_n - writes[i - 1].force_n);
         if (!writes[i].is_from_tick) {
-            continue; // to rest, from outside
+            continue; // set to zero by the watchdog
         }
-        // Letting go is faster.
+        // Switching the force off is faster.
         const double rate = after_n > before_n ? 500.0 : 2000.0;
         ASSERT_LE(change_n, rate * between_s + 1e-9) << "write " << i << " of " << writes.size();
         fastest = std::max(fastest, change_n / (rate * between_s));
@@ -304,14 +305,14 @@ TEST(ServoLoopFaults, AClockThatStallsIsBroughtToRestFromOutside)
     EXPECT_EQ(state.reason, LetGoReason::LoopStalled);
     EXPECT_TRUE(state.is_stalled);
     waitUntil([&] { return loop->state().force_n == Vec3{}; });
-    // An emergency stop that no tick sees finds the motors at rest.
+    // During an emergency stop that no tick processes, the motors are already off.
     c.settings.is_stopped = true;
     loop->set(c.settings);
     EXPECT_EQ(c.bench->onMotors(), Vec3{});
     EXPECT_FALSE(loop->hasEnded());
     EXPECT_TRUE(loop->status());
 
-    // It comes back: from nothing, by the ramp.
+    // The force returns: from zero, along the ramp.
     c.settings.is_stopped = false;
     loop->set(c.settings);
     is_stalled = false;
@@ -345,7 +346,7 @@ TEST(ServoLoopFaults, AClockThatStallsForGoodEndsTheLoop)
     is_stalled = true;
     waitUntil([&] { return loop->hasEnded(); });
     EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
-    // Too late.
+    // Too late to recover.
     const int reads = c.bench->reads;
     is_stalled = false;
     waitUntil([&] { return c.bench->reads > reads + 5; });
@@ -383,11 +384,12 @@ TEST(ServoLoopFaults, AClockThatDoesNotStartIsAnError)
     EXPECT_EQ(loop->status().error().message,
               "Bench: its clock could not be started: its emergency stop is pressed");
     EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
-    loop->set(c.settings); // does not try for ever
+    loop->set(c.settings); // it does not try forever
     EXPECT_FALSE(loop->isRunning());
 }
 
-// A driver that never answers: nobody waits for it, and it may come back when all is over.
+// A driver that never answers: no thread waits for it, and its call may return after the loop is
+// gone.
 void letItHang(const std::function<void(Bench&, const std::atomic<bool>&)>& arrange)
 {
     Case c;
@@ -400,7 +402,7 @@ void letItHang(const std::function<void(Bench&, const std::atomic<bool>&)>& arra
     if (!c.bench->owns_clock) {
         waitUntil([&] { return loop->isStalled(); });
         EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
-        EXPECT_GT(loop->state().force_n.z, 0.0) << "what the motors may still have";
+        EXPECT_GT(loop->state().force_n.z, 0.0) << "the force that may still be on the motors";
         EXPECT_GT(held_n.z, 0.0);
         c.settings.is_stopped = true;
         loop->set(c.settings);
@@ -413,7 +415,7 @@ void letItHang(const std::function<void(Bench&, const std::atomic<bool>&)>& arra
     EXPECT_THAT(loop->status().error().message, testing::HasSubstr("does not answer any more"));
     EXPECT_EQ(loop->device().name, "Bench");
     EXPECT_FALSE(loop->flight().records().empty());
-    loop->set(c.settings); // the device is not touched any more
+    loop->set(c.settings); // the device is no longer called
     EXPECT_FALSE(loop->isRunning());
     loop.reset();
     std::printf("left alone after %.2f s\n", secondsSince(begin));
@@ -421,7 +423,7 @@ void letItHang(const std::function<void(Bench&, const std::atomic<bool>&)>& arra
 
     c.bench->gate.open();
     waitUntil([&] { return c.bench->is_closed.load(); });
-    EXPECT_EQ(c.bench->onMotors(), Vec3{}) << "the first thing it is told";
+    EXPECT_EQ(c.bench->onMotors(), Vec3{}) << "the first write";
 }
 
 TEST(ServoLoopFaults, ADriverThatHangsInReadIsLeftAlone)

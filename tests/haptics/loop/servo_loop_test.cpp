@@ -15,10 +15,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// What is written to a device that somebody else holds.
+// The record of a device's writes; a device owned by a loop refers to it.
 struct Writes {
     std::vector<Vec3> forces_n;
-    std::vector<std::chrono::steady_clock::time_point> times; // when each was written
+    std::vector<std::chrono::steady_clock::time_point> times; // the time of each write
     std::atomic<int> reads{0};
 };
 
@@ -66,13 +66,13 @@ TEST(ServoLoop, RunsOnlyWhileThereIsSomethingToFeel)
     loop.set({});
     EXPECT_FALSE(loop.isRunning());
     const int reads = writes.reads;
-    // Meanwhile another one makes twenty turns.
+    // In the meantime another loop makes twenty turns.
     Writes others;
     ServoLoop other(std::make_unique<WatchedDevice>(others), quick(20));
     other.set(settingsFor(servoMap(101, 101, bumps)));
     waitFor(other);
     EXPECT_EQ(writes.reads, reads);
-    EXPECT_EQ(writes.forces_n.back(), Vec3{}); // and leaves the motors at rest
+    EXPECT_EQ(writes.forces_n.back(), Vec3{}); // and leaves the motors off
 }
 
 TEST(ServoLoop, FadesOutInsteadOfDroppingTheForce)
@@ -140,7 +140,7 @@ TEST(ServoLoop, TakesOtherSettingsWhileItRuns)
     EXPECT_EQ(loop.state().force_n, Vec3{});
 }
 
-// A device with a thread of its own, as vendors' schedulers are.
+// A device with its own thread, like the vendors' schedulers.
 class ClockDevice final : public HapticDevice {
 public:
     ClockDevice()

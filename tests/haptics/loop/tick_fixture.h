@@ -1,4 +1,4 @@
-// Maps to be touched and hands to touch them with, for tests of the tick and of the loop around it.
+// Maps and simulated hands for tests of the tick and of the loop around it.
 #pragma once
 
 #include "core/terrain/filled_heightfield.h"
@@ -18,7 +18,7 @@ filledTerrain(std::size_t columns, std::size_t rows, const HeightFunction& heigh
     return std::make_shared<const FilledHeightfield>(std::move(filled).value());
 }
 
-/// A map with one metre a sample, x and y counted from the first sample.
+/// A map with one meter per sample, x and y counted from the first sample.
 inline GoalFrame metreFrame(std::size_t columns, std::size_t rows)
 {
     const GeoTransform transform =

@@ -66,7 +66,7 @@ TEST(TimeHistogram, TellsWhatWasRecordedSince)
     for (int i = 0; i < 500; ++i) {
         all.record(some());
     }
-    all.record(std::chrono::seconds(1)); // a long one that is over
+    all.record(std::chrono::seconds(1)); // a long interval that has ended
     const TimeHistogram earlier = all;
     for (int i = 0; i < 300; ++i) {
         const auto span = some();
@@ -88,7 +88,7 @@ TEST(TimeHistogram, TakesEverySpan)
     TimeHistogram histogram;
     EXPECT_EQ(histogram.quantile(0.5), nanoseconds{0});
     EXPECT_EQ(histogram.meanNanoseconds(), 0.0);
-    histogram.record(nanoseconds{-5}); // of clocks that disagree
+    histogram.record(nanoseconds{-5}); // from clocks that disagree
     EXPECT_EQ(histogram.maximum(), nanoseconds{0});
     histogram.record(nanoseconds::max());
     EXPECT_EQ(histogram.count(), 2U);

@@ -10,11 +10,11 @@ namespace {
 constexpr WorkspaceBox kReach{{-0.08, -0.05, -0.05}, {0.08, 0.05, 0.05}};
 constexpr std::int64_t kLookNs = 16'666'667;
 
-// A millimetre of the workspace is a metre of the scene, and the map lies turned by 90 degrees.
+// A millimeter of the workspace is a meter of the scene; the map is turned by 90 degrees.
 const WorkspaceFrame kFrame{
     .place = {5000.0, 7000.0, 100.0}, .scene_per_metre = 1000.0, .turn = Angle::degrees(90.0)};
 
-// A hand at `at` presses `depth_m` deep against ground whose normal is `normal`.
+// The device at `at` presses `depth_m` deep into a surface with this `normal`.
 ContactMoment pressed(std::int64_t number,
                       const WorkspacePoint& at,
                       double depth_m = 0.002,
@@ -40,7 +40,7 @@ TEST(ContactListener, HearsForceHeightAndSideInTheHandsFrame)
     EXPECT_TRUE(feel.is_in_contact);
     EXPECT_NEAR(feel.force_n, 0.6, 1e-9);       // 2 mm at 300 N/m
     EXPECT_NEAR(feel.height_share, 0.75, 1e-9); // 100 m + 50 mm at 1:1000, of 200 m
-    EXPECT_NEAR(feel.across, 0.5, 1e-9);        // to the right, however the map lies
+    EXPECT_NEAR(feel.across, 0.5, 1e-9);        // to the right, whatever the orientation of the map
     EXPECT_EQ(feel.speed_m_per_s, 0.0);
 }
 
@@ -78,7 +78,7 @@ TEST(ContactListener, IsRougherWhereTheNormalTurnsMore)
         for (int i = 200; i < 230; ++i) {
             feel = ears.hear(pressed(i, {0.199, 0.0, 0.0}));
         }
-        EXPECT_NEAR(feel.roughness_rad, rough, 1e-6) << "and is so still at rest";
+        EXPECT_NEAR(feel.roughness_rad, rough, 1e-6) << "and still is while at rest";
     }
 }
 
@@ -87,12 +87,12 @@ TEST(ContactListener, AMapThatMovesUnderTheHandOrJumpsIsNoSliding)
     ContactListener ears = listener();
     ears.hear(pressed(0, {0.0, 0.0, 0.0}));
     ContactMoment moved = pressed(1, {0.0, 0.0, 0.0});
-    // The same place of the map, elsewhere in the workspace.
+    // The same place on the map, at another position in the workspace.
     moved.frame = kFrame.panned({0.01, 0.0, 0.0});
     EXPECT_NEAR(ears.hear(moved).speed_m_per_s, 0.0, 1e-9);
-    // 100 mm in 17 ms is more than a hand does.
+    // 100 mm in 17 ms is faster than a hand.
     EXPECT_EQ(ears.hear(pressed(2, {0.1, 0.0, 0.0})).speed_m_per_s, 0.0);
-    // The same look again, as where the loop has stopped, and one after a pause.
+    // The same sample again, as when the loop has stopped, and one after a pause.
     const ContactFeel slid = ears.hear(pressed(3, {0.101, 0.0, 0.0}));
     EXPECT_GT(slid.speed_m_per_s, 0.0);
     EXPECT_EQ(ears.hear(pressed(3, {0.101, 0.0, 0.0})).speed_m_per_s, slid.speed_m_per_s);

@@ -42,7 +42,7 @@ TEST(ContactSound, IsSilentWithoutContactAndWithoutForce)
     grazing.force_n = 0.0;
     EXPECT_EQ(contactSound(grazing).noise_gain, 0.0);
     EXPECT_EQ(contactSound(grazing).tone_gain, 0.0);
-    grazing.force_n = 1e-4; // a contact that has just begun cannot click
+    grazing.force_n = 1e-4; // a contact that has just started cannot click
     EXPECT_LT(contactSound(grazing).tone_gain + contactSound(grazing).noise_gain, 1e-3);
 }
 
@@ -51,7 +51,7 @@ TEST(ContactSound, AtRestThereIsAToneAndNoHiss)
     ContactFeel rest = kStroke;
     rest.speed_m_per_s = 0.0;
     EXPECT_EQ(contactSound(rest).noise_gain, 0.0);
-    // Hand-computed: 0.4 (1 - 1/e), and 2 (1 - 1/e) + 1/2 octaves above 110 Hz.
+    // Computed by hand: 0.4 (1 - 1/e), and 2 (1 - 1/e) + 1/2 octaves above 110 Hz.
     EXPECT_NEAR(contactSound(rest).tone_gain, 0.252848, 1e-6);
     EXPECT_NEAR(contactSound(rest).tone_hz, 373.665, 1e-3);
 }
@@ -82,7 +82,7 @@ TEST(ContactSound, GrowsWithWhatItStandsFor)
         more = feel;
         more.height_share += 0.01;
         EXPECT_GE(contactSound(more).tone_hz, was.tone_hz);
-        EXPECT_EQ(contactSound(more).tone_gain, was.tone_gain) << "loudness tells the force alone";
+        EXPECT_EQ(contactSound(more).tone_gain, was.tone_gain) << "loudness shows only force";
         EXPECT_EQ(contactSound(more).noise_gain, was.noise_gain);
         if (feel.height_share > 0.0 && feel.height_share < 0.98) {
             EXPECT_GT(contactSound(more).tone_hz, was.tone_hz);
@@ -102,7 +102,7 @@ TEST(ContactSound, RisesTwoOctavesWithTheForceAndOneWithTheHeight)
     EXPECT_DOUBLE_EQ(contactSound(feel).tone_hz, 110.0);
     feel.force_n = std::log(2.0); // half of the effect: one octave
     EXPECT_NEAR(contactSound(feel).tone_hz, 220.0, 1e-9);
-    feel.height_share = 0.5; // and half of another one
+    feel.height_share = 0.5; // and half of the other
     EXPECT_NEAR(contactSound(feel).tone_hz, 220.0 * std::sqrt(2.0), 1e-9);
     feel.height_share = 0.0;
     feel.force_n = kInfinity;
@@ -111,8 +111,8 @@ TEST(ContactSound, RisesTwoOctavesWithTheForceAndOneWithTheHeight)
     EXPECT_NEAR(contactSound(feel).tone_hz, 880.0, 1e-9);
 }
 
-// Texture is what the noise is about, at whatever force and speed: rough ground hisses four times
-// as loud as smooth ground, and an octave brighter.
+// The noise depends on the texture, at every force and speed: rough terrain hisses four times as
+// loud as smooth terrain, and an octave higher.
 TEST(ContactSound, HearsRoughGroundFromSmoothGround)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -129,7 +129,7 @@ TEST(ContactSound, HearsRoughGroundFromSmoothGround)
 
 TEST(ContactSound, NothingJumps)
 {
-    // Steps of a thousandth of what matters move gains by less than a thousandth, too.
+    // Input steps of a thousandth change gains by less than a thousandth, too.
     Random random;
     for (int i = 0; i < 5000; ++i) {
         const ContactFeel feel = anyStroke(random);

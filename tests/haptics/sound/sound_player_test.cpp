@@ -1,4 +1,4 @@
-// Against OpenAL's loopback device: what would be played, as numbers.
+// Against OpenAL's loopback device: the output as numbers.
 #include "haptics/sound/sound_loops.h"
 #include "haptics/sound/sound_player.h"
 
@@ -14,7 +14,7 @@ namespace marsview::test {
 namespace {
 
 constexpr int kRateHz = 48000;
-constexpr std::size_t kFrame = 800; // between two of sixty looks a second
+constexpr std::size_t kFrame = 800; // between two of sixty updates per second
 
 struct Heard {
     std::vector<double> left;
@@ -26,7 +26,7 @@ SoundPlayer player()
     return SoundPlayer::openLoopback(kRateHz).value();
 }
 
-// So many frames of a sixtieth of a second.
+// The given number of frames, a sixtieth of a second each.
 Heard hear(SoundPlayer& player, int frames)
 {
     Heard heard;
@@ -41,7 +41,7 @@ Heard hear(SoundPlayer& player, int frames)
     return heard;
 }
 
-// What is heard once volumes have gone over.
+// The output after the volume ramps have ended.
 Heard heardOf(const SoundState& state, int frames = 30)
 {
     SoundPlayer playing = player();
@@ -77,7 +77,7 @@ double steepest(const std::vector<double>& samples)
     return most;
 }
 
-// Upward crossings of zero a second.
+// Upward zero crossings per second.
 double pitchHz(const std::vector<double>& samples)
 {
     std::size_t first = 0;
@@ -163,8 +163,8 @@ TEST(SoundPlayer, TheNoiseIsBrighterWhenItIsFaster)
 
 TEST(SoundPlayer, NeverClicks)
 {
-    // However it is switched, moved and retuned, hardly steeper than the loudest, highest tone at
-    // one side; a jump from the crest to nothing would be five times as steep.
+    // However it is switched, moved and retuned, the signal is hardly steeper than the loudest,
+    // highest tone on one side; a jump from the crest to zero would be five times as steep.
     const Heard loud = heardOf({.tone_gain = 0.4, .tone_hz = 880.0, .pan = 1.0});
     const double slope = steepest(loud.right);
     ASSERT_GT(loudest(loud.right), 5.0 * slope);
@@ -175,7 +175,7 @@ TEST(SoundPlayer, NeverClicks)
         playing.set({.tone_gain = i % 2 == 0 ? 0.4 : 0.0,
                      .tone_hz = i % 3 == 0 ? 880.0 : 440.0,
                      .pan = i % 4 < 2 ? -1.0 : 1.0});
-        // Odd parts of a frame, so that switching meets all phases.
+        // Fractional frames, so that switching happens at all phases.
         std::vector<float> samples(2 * (kFrame + static_cast<std::size_t>(37 * i % 91)));
         playing.render(samples);
         for (std::size_t s = 1; s < samples.size(); s += 2) {
@@ -184,7 +184,7 @@ TEST(SoundPlayer, NeverClicks)
             last = sample;
         }
     }
-    EXPECT_GT(most, 0.1 * slope); // it was heard
+    EXPECT_GT(most, 0.1 * slope); // the sound is on
     EXPECT_LT(most, 1.5 * slope);
 }
 
@@ -234,7 +234,7 @@ TEST(SoundPlayer, PlayersDoNotGetInEachOthersWay)
 
 TEST(SoundPlayer, WithoutAnOutputThereIsOneSentenceAndLifeGoesOn)
 {
-    // Where a machine has one, it is opened and closed without a sound.
+    // If the machine has an output, it is opened and closed silently.
     const auto opened = SoundPlayer::open();
     if (!opened) {
         EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
@@ -256,7 +256,7 @@ TEST(SoundLoops, EndWhereTheyBegin)
         EXPECT_LE(std::abs(loop.front() - loop.back()), within);
         EXPECT_LT(std::abs(sum / static_cast<double>(loop.size())), 150.0); // no offset
     }
-    // The tone in whole periods: the sample after its last would be its first.
+    // Whole periods of the tone: the sample after the last one would equal the first.
     const auto tone = toneLoop();
     EXPECT_EQ(tone.size() % 200, 0U);
     EXPECT_EQ(tone[0], tone[200]);

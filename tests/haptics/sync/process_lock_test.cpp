@@ -22,7 +22,7 @@ constexpr bool kLocksNothing = true;
 constexpr bool kLocksNothing = false;
 #endif
 
-// In kB, of a line of /proc/self/status: VmLck, VmSize.
+// The value in kB of a line of /proc/self/status: VmLck, VmSize.
 long statusOf(const std::string& name)
 {
     std::ifstream status("/proc/self/status");
@@ -46,7 +46,7 @@ void mayLockOnly(rlim_t bytes)
     setrlimit(RLIMIT_MEMLOCK, &limit);
 }
 
-// Whether the process gets `bytes` more, to be used.
+// Whether the process can allocate and use `bytes` more.
 bool getsMemory(std::size_t bytes)
 {
     void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -57,7 +57,8 @@ bool getsMemory(std::size_t bytes)
     return true;
 }
 
-// 0, or which expectation failed: in a process of its own, as limits only go down.
+// 0, or the number of the failed expectation. Runs in a separate process, because limits can only
+// be lowered.
 int boundedLocking()
 {
     const auto room = static_cast<rlim_t>(statusOf("VmSize")) * 1024 + (16U << 20);
@@ -76,25 +77,25 @@ int boundedLocking()
             return 3;
         }
     }
-    return statusOf("VmLck") <= 8 ? 0 : 4; // pages at both ends are shared with others
+    return statusOf("VmLck") <= 8 ? 0 : 4; // the pages at both ends are shared with other data
 }
 
 TEST(ProcessLock, WhereLockingIsBoundedLaterMemoryIsNotRefused)
 {
     if (kLocksNothing) {
-        GTEST_SKIP() << "sanitizers have mlock do nothing";
+        GTEST_SKIP() << "with sanitizers, mlock does nothing";
     }
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(std::exit(boundedLocking()), testing::ExitedWithCode(0), ""); // NOLINT
 }
 
-// The same where all may be locked.
+// The same where the process may lock all its memory.
 int wholeLocking()
 {
     {
         const ProcessLock lock({});
         if (!lock.refusal().empty()) {
-            return 5; // the system does not let us
+            return 5; // the system does not grant it
         }
         const ProcessLock again({});
         if (statusOf("VmLck") <= 0) {
@@ -110,7 +111,7 @@ int wholeLocking()
 TEST(ProcessLock, EndsWithTheLastThatWantsIt)
 {
     if (kLocksNothing) {
-        GTEST_SKIP() << "sanitizers have mlock do nothing";
+        GTEST_SKIP() << "with sanitizers, mlock does nothing";
     }
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(

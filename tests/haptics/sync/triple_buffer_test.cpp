@@ -52,7 +52,7 @@ TEST(TripleBuffer, ReaderHoldsWhatItHasHoweverMuchIsPublished)
     }
     ASSERT_TRUE(buffer.take());
     EXPECT_EQ(*buffer.front(), 9);
-    EXPECT_FALSE(first.expired()) << "the writer frees, not the reader";
+    EXPECT_FALSE(first.expired()) << "freed by the writer, not the reader";
     buffer.publish();
     buffer.back() = nullptr;
     EXPECT_TRUE(first.expired());

@@ -45,7 +45,7 @@ HandMotion handAt(GridPoint at, GridPoint per_second = {})
             .is_active = true};
 }
 
-/// Whether the 3 × 3 tiles around a place can be felt at full resolution.
+/// Whether the 3 × 3 tiles around a position are resident and blended in at full resolution.
 bool isFineAround(const ResidentWindow& window, GridPoint at)
 {
     for (const double dc : {-256.0, 0.0, 256.0}) {
@@ -65,7 +65,7 @@ bool isFineAround(const ResidentWindow& window, GridPoint at)
 TEST(WindowFeeder, EverythingOnTheHandsWayIsThereInTheEnd)
 {
     const TiledMap map = roughMap();
-    // Less than a window.
+    // Smaller than a window.
     const TileCache cache({.bytes_max = std::size_t{1} << 20, .loader_threads = 2});
     const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
     ServoTerrain servo(feeder->exchange(), feeder->heights());
@@ -76,7 +76,7 @@ TEST(WindowFeeder, EverythingOnTheHandsWayIsThereInTheEnd)
             servo.refresh(handAt(at), 0.001);
             std::this_thread::yield();
         }
-        // Blended for a while; then it is the truth.
+        // Blended for a while; then it equals the reference.
         for (int tick = 0; !servo.resident().blend().isEmpty(); ++tick) {
             ASSERT_LT(tick, 10'000'000);
             servo.refresh(handAt(at), 0.001);
@@ -86,7 +86,7 @@ TEST(WindowFeeder, EverythingOnTheHandsWayIsThereInTheEnd)
         EXPECT_EQ(servo.terrain()->sample(column, row), map.filled->sample(column, row));
     }
     feeder->stop();
-    // Around the first three places lie 14 tiles; for the fourth the window has to come back.
+    // 14 tiles surround the first three positions; for the fourth one the window has to return.
     EXPECT_GE(feeder->statistics().tiles_put, 14U);
     EXPECT_GE(feeder->statistics().published, 4U);
     EXPECT_GT(feeder->statistics().tiles_per_s, 0.0);
@@ -99,14 +99,15 @@ TEST(WindowFeeder, HasTheTilesAheadOfAHandThatMovesOn)
     const TiledRaster raster(cache, map.source);
     const auto feeder = WindowFeeder::create(raster, map.heights).value();
     ServoTerrain servo(feeder->exchange(), feeder->heights());
-    // One cell a millisecond, and time for a tile every five of them, and not for half of the map.
+    // One cell per millisecond, with time for one tile every five milliseconds, and not for half of
+    // the map.
     GridPoint at{300.0, 300.0};
     std::uint64_t missed = 0;
     for (int tick = 0; tick < 1500; ++tick) {
         servo.refresh(handAt(at, {1000.0, 0.0}), 0.001);
         if (tick % 5 == 0) {
             ASSERT_TRUE(feeder->feed(Clock::now()));
-            // As fast as it may be, however slow the machine is.
+            // Loads as fast as possible, however slow the machine is.
             for (const TileId& id : planWindow(map.layout(), handAt(at, {1000.0, 0.0}), {}).tiles) {
                 if (raster.find(id) == nullptr) {
                     ASSERT_TRUE(raster.get(id));
@@ -135,7 +136,7 @@ TEST(WindowFeeder, WantsNothingWithoutAHand)
     EXPECT_EQ(read, 1U) << "the coarsest tile";
     EXPECT_FALSE(feeder->feed(Clock::now()));
     feeder->exchange()->motion.write(handAt({700.0, 300.0}));
-    EXPECT_FALSE(feeder->feed(Clock::now() + std::chrono::seconds(5))) << "long silent";
+    EXPECT_FALSE(feeder->feed(Clock::now() + std::chrono::seconds(5))) << "idle for long";
     EXPECT_EQ(feeder->statistics().published, 0U);
     EXPECT_EQ(map.source->readCount(), read);
     EXPECT_TRUE(feeder->feed(Clock::now()));
@@ -165,7 +166,7 @@ TEST(WindowFeeder, StopsAtOnceWhileTilesAreOnTheirWay)
     is_open = true;
     is_open.notify_all();
     EXPECT_LE(map.source->readCount(), read);
-    feeder->start(); // and goes on
+    feeder->start(); // and continues
     while (!isFineAround(*feeder->exchange()->windows.front(), {700.0, 300.0})) {
         feeder->exchange()->motion.write(handAt({700.0, 300.0}));
         feeder->exchange()->windows.take();
@@ -205,7 +206,7 @@ TEST(WindowFeeder, GoesOnWhereTilesFailAndHasThemWhenTheyCanBeRead)
 TEST(WindowFeeder, NoTileOutlivesTheWindowsThatHaveIt)
 {
     const TiledMap map = roughMap();
-    const TileCache cache({.bytes_max = 0, .loader_threads = 1}); // keeps nothing itself
+    const TileCache cache({.bytes_max = 0, .loader_threads = 1}); // stores nothing itself
     const TiledRaster raster(cache, map.source);
     auto feeder = WindowFeeder::create(raster, map.heights).value();
     const auto exchange = feeder->exchange();
@@ -216,7 +217,7 @@ TEST(WindowFeeder, NoTileOutlivesTheWindowsThatHaveIt)
     feeder->feed(Clock::now());
     ASSERT_TRUE(exchange->windows.take());
     old = exchange->windows.front();
-    // The servo has it, whatever is published meanwhile.
+    // The servo keeps it, whatever is published in the meantime.
     for (int i = 0; i < 6; ++i) {
         exchange->motion.write(handAt(i % 2 == 0 ? first : second));
         feeder->feed(Clock::now());
@@ -230,12 +231,12 @@ TEST(WindowFeeder, NoTileOutlivesTheWindowsThatHaveIt)
     }
     EXPECT_TRUE(old.expired());
     feeder.reset();
-    EXPECT_NE(exchange->windows.front(), nullptr) << "the servo's lives on";
+    EXPECT_NE(exchange->windows.front(), nullptr) << "the servo's window stays alive";
 }
 
 TEST(WindowFeeder, AServoAtWorkNeverWaitsAndNeverReadsWhatIsGone)
 {
-    // For the thread and address sanitizers.
+    // A stress test for the thread and address sanitizers.
     Random random;
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{512} << 10, .loader_threads = 2});

@@ -78,7 +78,7 @@ TEST(WindowPlan, BeginsUnderTheHandFromCoarseToFine)
 
 TEST(WindowPlan, FollowsTheHandsWayInTheOrderOfItsTime)
 {
-    // Three tiles to the right within the time looked ahead.
+    // Three tiles to the right within the look-ahead time.
     const GridPoint at{30'150.0, 20'200.0};
     const WindowPlan plan =
         planWindow(kLayout, {.at = at, .columns_per_s = 1400.0, .is_active = true},
@@ -103,7 +103,7 @@ TEST(WindowPlan, WantsOnlyWhatComesInTime)
             const WindowPlan plan =
                 planWindow(kLayout, {.at = {5e4, 2e4}, .columns_per_s = speed, .is_active = true},
                            {.sides = {}, .tiles_per_s = tiles_per_s});
-            // What the corridor needs each second.
+            // The tiles per second that the corridor needs.
             const double needed =
                 3.0 * speed / (256.0 * std::pow(2.0, static_cast<double>(plan.finest_level)));
             EXPECT_TRUE(needed <= tiles_per_s || plan.finest_level == kLayout.topLevel());

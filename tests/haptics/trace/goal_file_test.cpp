@@ -50,7 +50,7 @@ TEST(GoalFile, ReadsTheGroundOfARecording)
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
               "a.csv: line 2 has the ground \"felt/x\", which is none that a recording tells of");
-    // A file of a program before this one.
+    // A file from an earlier version of the program.
     const auto older = readGoalRecording(
         "x,y,z,map,part,model,radius_m,exaggeration\n1,2,3,1,7,god-object,0.5,2\n", "a.csv");
     ASSERT_TRUE(older);

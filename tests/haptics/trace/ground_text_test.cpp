@@ -33,7 +33,7 @@ TEST(GroundText, ReadsBackWhatItWritesToTheBit)
     for (const GroundRecord& record : records) {
         cell += (cell.empty() ? "" : " ") + groundText(record);
     }
-    EXPECT_EQ(cell.find(','), std::string::npos) << "it is a cell of a table";
+    EXPECT_EQ(cell.find(','), std::string::npos) << "it is the cell of a table";
     EXPECT_EQ(parseGround(cell), records) << cell;
     EXPECT_EQ(parseGround(""), std::vector<GroundRecord>{});
 }

@@ -51,7 +51,7 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
     GridPoint aim = at;
     for (int tick = 0; tick < 20'000 || blended < 200 || coarse < 200; ++tick) {
         ASSERT_LT(tick, 2'000'000);
-        if (random.chance(0.002)) { // somewhere else, at any speed
+        if (random.chance(0.002)) { // another place, at any speed
             aim = {random.uniform(0.0, kColumns - 1.0), random.uniform(0.0, kRows - 1.0)};
         }
         const double share = tick % 1000 < 500 ? 0.002 : 0.1;

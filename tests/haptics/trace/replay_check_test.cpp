@@ -45,13 +45,13 @@ TEST(ReplayFit, TellsTheMapsOfARecordingBySizeAndBody)
     const ReplayFit elsewhere = fit(of_mars, {moon, nowhere, larger});
     ASSERT_TRUE(elsewhere.other_map);
     EXPECT_EQ(elsewhere.other_map->columns, 40U);
-    EXPECT_EQ(elsewhere.beside_count, 0U) << "it lies at the same place";
+    EXPECT_EQ(elsewhere.beside_count, 0U) << "it has the same position";
     EXPECT_FALSE(elsewhere.isElsewhere());
 
     const std::string of_none = recorded("part/7/40/30/0.0/0.0" + frame);
     EXPECT_FALSE(fit(of_none, {nowhere}).other_map);
     EXPECT_TRUE(fit(of_none, {mars}).other_map);
-    // Older files do not tell.
+    // Older files do not record the map.
     EXPECT_FALSE(fit(recorded(""), {moon}).other_map);
 }
 

@@ -26,7 +26,7 @@
 namespace marsview::test {
 namespace {
 
-// What a model makes of a goal, as a recording has it.
+// The model's result for a goal, as a recording contains it.
 RecordedUpdate updateOf(MapContactModel& model, const GoalFrame& frame, const TracePoint& goal)
 {
     const ContactState state = model.update(frame.toScene(goal));
@@ -58,7 +58,7 @@ TEST(SessionRecorder, ARecordingReplaysToTheSameProxiesToTheBit)
     ASSERT_TRUE(goals);
     record(std::make_unique<ReplayDevice>(*goals), second, 0);
 
-    // Goals, contact and proxies: the first three columns, the sixth to the ninth.
+    // Goals, contact and proxies: columns one to three and six to nine.
     const auto columns = [](const std::string& path) {
         std::vector<std::string> lines;
         const std::string text = readFile(path);
@@ -88,7 +88,7 @@ TEST(SessionRecorder, ARecordingReplaysToTheSameProxiesToTheBit)
 
 TEST(SessionRecorder, ARecordingTellsWhatItWasTouchedWithWhereThatChanges)
 {
-    // Other models and exaggerations while the hand is on the ground, and one that comes back.
+    // Changes the model and the exaggeration during contact, and returns to an earlier model.
     const TempFolder folder;
     const std::string path = folder.file("session.csv");
     const auto filled = filledTerrain(201, 201, bumps);
@@ -127,7 +127,7 @@ TEST(SessionRecorder, ARecordingTellsWhatItWasTouchedWithWhereThatChanges)
     EXPECT_EQ(recording->parts[3].part, recording->parts[0].part);
     EXPECT_EQ(recording->parts[7].map, recording->parts[0].map);
 
-    // Models made anew from what the file tells go the same ways, to the bit.
+    // Models rebuilt from the file give the same proxies, bit for bit.
     std::map<std::uint64_t, std::shared_ptr<ServoMap>> again;
     std::size_t in_contact = 0;
     for (std::size_t p = 0; p < recording->parts.size(); ++p) {
@@ -156,7 +156,7 @@ TEST(SessionRecorder, SaysThatUpdatesAreMissing)
     loop.set(settingsFor(makeServoMap(metreFrame(201, 201), filledTerrain(201, 201, bumps), {})));
     auto recorder = SessionRecorder::begin(loop, path);
     ASSERT_TRUE(recorder) << recorder.error().message;
-    // Nobody reads: a disk that takes nothing any more.
+    // No reader: a disk that accepts no more data.
     while (loop.state().counts.not_recorded == 0) {
         std::this_thread::yield();
     }
@@ -201,7 +201,7 @@ TEST(SessionRecorder, ARecordingThatBeginsInTheMiddleOfATouchKnowsAllOfItsModel)
         const auto fresh = makeServoMap(frame, filled, options);
         auto recorder = SessionRecorder::begin(loop, path, fresh->serial);
         ASSERT_TRUE(recorder);
-        runOn(100); // of which the file has nothing
+        runOn(100); // which are not in the file
         loop.set(settingsFor(fresh));
         runOn(2000);
         ASSERT_TRUE((*recorder)->finish());
@@ -231,7 +231,7 @@ TEST(SessionRecorder, BeginsWithALaterModelWhereTheFirstIsNeverTouched)
     const auto fresh = makeServoMap(frame, filled, {});
     auto recorder = SessionRecorder::begin(loop, path, fresh->serial);
     ASSERT_TRUE(recorder);
-    // Another model has been chosen before the hand came to touch with that one.
+    // Another model is selected before the device touches the terrain with this one.
     const auto chosen = makeServoMap(frame, filled, {.kind = ContactModelKind::GodObject});
     loop.set(settingsFor(chosen));
     const std::uint64_t until = loop.state().tick + 1000;
@@ -245,7 +245,7 @@ TEST(SessionRecorder, BeginsWithALaterModelWhereTheFirstIsNeverTouched)
     EXPECT_EQ(recording->parts.front().part, chosen->serial);
 }
 
-// The updates of a recording over a map in tiles, from tiles that are read anew.
+// Repeats the updates of a recording over a tiled map, with tiles that are read again.
 std::vector<RecordedUpdate> updatesAgain(const GoalRecording& recording,
                                          const TiledMap& map,
                                          const std::shared_ptr<const Georeference>& georeference)
@@ -306,7 +306,8 @@ TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
         ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
         auto recorder = SessionRecorder::begin(loop, path);
         ASSERT_TRUE(recorder);
-        // Other exaggerations while tiles come; the hand goes half of the map's width a second.
+        // Changes the exaggeration while tiles arrive; the device crosses half of the map's width
+        // per second.
         for (const double exaggeration : {1.0, 2.0, 1.5}) {
             LoopSettings settings =
                 settingsFor(makeServoMap(GoalFrame(georeference, exaggeration), terrain,
@@ -320,7 +321,7 @@ TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
         }
         loop.stop();
         ASSERT_TRUE((*recorder)->finish());
-        EXPECT_GT(loop.state().counts.samples_missed, 100U) << "the ground was always there";
+        EXPECT_GT(loop.state().counts.samples_missed, 100U) << "the terrain was always resident";
 
         const auto recording = readGoalRecording(readFile(path), path);
         ASSERT_TRUE(recording) << recording.error().message;

@@ -81,7 +81,7 @@ TEST(TraceFile, BelongsToOneRecordingAndIsNotEmptiedByAnother)
     }
     EXPECT_EQ(readFile(path), "x,y,z\n1,2,3\n");
     EXPECT_EQ(refusalOf(path), "");
-    // Nobody owns a device.
+    // A device file is never locked.
     const auto first = TraceFile::begin("/dev/null", "x,y,z");
     EXPECT_TRUE(first);
     EXPECT_TRUE(TraceFile::begin("/dev/null", "x,y,z"));
@@ -108,7 +108,7 @@ TEST(SaveFlight, WritesTheLastTicksWhileMoreAreAdded)
     ASSERT_EQ(goals->size(), 500U);
     EXPECT_EQ(goals->front().x, 501.0);
     EXPECT_EQ(goals->back().x, 1000.0);
-    EXPECT_TRUE(std::isnan((*goals)[199].x)) << "a tick that asked for nothing";
+    EXPECT_TRUE(std::isnan((*goals)[199].x)) << "a tick without a request";
     EXPECT_THAT(readFile(path), StartsWith(std::string(kSessionColumns) + ",hand_x,hand_y,hand_z,"
                                                                           "tick_us\n"));
     // As the window does it, with the loop running.
@@ -129,7 +129,7 @@ TEST(SaveFlight, WritesTheLastTicksWhileMoreAreAdded)
     }
     is_stopping = true;
     servo.join();
-    EXPECT_TRUE(saveFlight(std::vector<TickRecord>{}, path)) << "nothing has happened yet";
+    EXPECT_TRUE(saveFlight(std::vector<TickRecord>{}, path)) << "no tick has run yet";
 }
 
 } // namespace marsview::test

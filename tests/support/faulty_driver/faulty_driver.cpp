@@ -1,5 +1,5 @@
-// A driver for GDAL, loaded from GDAL_DRIVER_PATH, that does to the program what faulty libraries
-// do. Its files hold "FAULTY" and, after a blank, which fault.
+// A GDAL driver, loaded from GDAL_DRIVER_PATH, that simulates the faults of libraries. Its files
+// contain "FAULTY" and, after a blank, the name of the fault.
 #include <gdal_priv.h>
 
 #include <chrono>
@@ -26,12 +26,12 @@ void hang()
     }
 }
 
-// Each call holds on to a page of the stack.
+// Each call uses a page of the stack.
 int overflow(volatile char* above)
 {
     volatile char page[4096];
     page[0] = *above;
-    return page[0] == 0 ? overflow(page) + page[0] : 0; // which it always is
+    return page[0] == 0 ? overflow(page) + page[0] : 0; // always true
 }
 
 void takeMemory()
@@ -144,7 +144,7 @@ GDALDataset* open(GDALOpenInfo* info)
 
 } // namespace
 
-extern "C" CPL_DLL void GDALRegister_FAULTY(); // the name that GDAL looks for
+extern "C" CPL_DLL void GDALRegister_FAULTY(); // the name that GDAL searches for
 
 void GDALRegister_FAULTY()
 {

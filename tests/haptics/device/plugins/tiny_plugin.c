@@ -1,5 +1,5 @@
-/* A device plugin that is well behaved, except for what the build asks to be wrong with it: one
- * TINY_… definition a library, see tests/CMakeLists.txt. */
+/* A correct device plugin, except for the fault selected by the build: one TINY_… definition per
+ * library, see tests/CMakeLists.txt. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "haptics/device/plugin_abi.h"
@@ -118,7 +118,7 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
     const struct timespec five_ms = {.tv_nsec = 5000000};
     nanosleep(&five_ms, NULL);
 #endif
-    /* What was written comes back, so that a test sees it. */
+    /* Returns the force written, so that a test can check it. */
     sample->position_m[0] = device->force_n[0] / 1000.0;
     sample->position_m[1] = device->force_n[1] / 1000.0;
     sample->position_m[2] = device->force_n[2] / 1000.0;
