@@ -34,7 +34,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1280, 800);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         window_->controller().open({maps_.mars(), maps_.hill()});
         ASSERT_TRUE(waitUntilSettled(*window_));
     }
@@ -51,7 +51,7 @@ protected:
         }
     }
 
-    // Goes round with the Tab key and expects to meet every control.
+    // Moves the focus with the Tab key and expects to reach every control.
     static void expectReached(const QWidget& root)
     {
         std::set<const QWidget*> met;
@@ -100,7 +100,7 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
 {
     PreferencesDialog preferences({}, {}, window_.get());
     preferences.show();
-    QApplication::setActiveWindow(&preferences); // there is no window manager
+    QApplication::setActiveWindow(&preferences); // without a window manager
     expectReached(preferences);
     for (int page = 1; page < preferences.pages()->count(); ++page) {
         preferences.pages()->setCurrentIndex(page);
@@ -119,7 +119,7 @@ TEST_F(AccessibilityTest, TheTabKeyReachesEveryControlOfTheDialogs)
     address.close();
     GoToDialog go_to(window_->view()->map(), {}, {}, window_.get());
     go_to.show();
-    QApplication::setActiveWindow(&go_to); // there is no window manager
+    QApplication::setActiveWindow(&go_to); // without a window manager
     expectReached(go_to);
 }
 

@@ -1,4 +1,4 @@
-// How well two colours can be told apart, by WCAG 2.1.
+// Color contrast by WCAG 2.1.
 #pragma once
 
 #include <QColor>
@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-/// Relative, 0 to 1.
+/// Relative luminance, 0 to 1.
 inline double luminance(const QColor& color)
 {
     const auto linear = [](double c) {
@@ -18,7 +18,7 @@ inline double luminance(const QColor& color)
            0.0722 * linear(color.blueF());
 }
 
-/// 1 for the same, 21 for black on white.
+/// 1 for equal colors, 21 for black on white.
 inline double contrast(const QColor& a, const QColor& b)
 {
     const auto [low, high] = std::minmax({luminance(a), luminance(b)});

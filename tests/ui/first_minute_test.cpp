@@ -1,4 +1,4 @@
-// What helps a newcomer: the hint over the map, full screen, What's This and the list of keys.
+// Help for newcomers: the hint over the map, full screen, What's This and the list of shortcuts.
 
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
@@ -48,7 +48,7 @@ protected:
         window_ = std::make_unique<MainWindow>(options);
         window_->resize(1280, 800);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there may be no window manager to do it
+        QApplication::setActiveWindow(window_.get()); // possibly without a window manager
         ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
         view().setFocus();
         ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));

@@ -1,4 +1,4 @@
-// A window with the test's haptic device.
+// A window with the simulated haptic device.
 #pragma once
 
 #include "tests/ui/test_device.h"
@@ -17,7 +17,7 @@
 
 namespace marsview {
 
-/// Base of tests that lead a hand over a map in a window.
+/// Base of tests that move a simulated device over a map in a window.
 class HandWindowTest : public testing::Test {
 protected:
     static constexpr QSize kSmall{1000, 700};
@@ -32,11 +32,11 @@ protected:
         window_ = std::make_unique<MainWindow>(options);
         window_->resize(size);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
     }
     HapticsController& haptics() { return window_->haptics(); }
     TerrainView& view() { return *window_->view(); }
-    /// Of a loop that is there.
+    /// Requires a running loop.
     LoopState state() { return haptics().loop()->state(); }
     template <typename F>
     static bool waitFor(F condition)

@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-// Of a raster of several hundred samples a side.
+// For a raster of several hundred samples per side.
 constexpr std::size_t kPreviewSamples = 2500;
 
 SampleStatistics statisticsOf(const Heightfield& heightfield)
@@ -135,7 +135,7 @@ Status LargeMaps::prepare(const RasterSpec& spec, JobMonitor& monitor)
     ++begun_count_;
     monitor.report(0.37);
     while (!is_finishing_ && !monitor.isCancelled()) {
-        changed_.wait_for(lock, std::chrono::milliseconds(5)); // nobody tells of a cancel
+        changed_.wait_for(lock, std::chrono::milliseconds(5)); // a cancellation does not notify
     }
     if (monitor.isCancelled()) {
         ++stopped_count_;
@@ -176,7 +176,7 @@ LargeMaps::openTiled(const RasterSpec& spec, const MapResources& resources, JobM
     const auto source = std::make_shared<const test::GridTileSource>(
         heightfield,
         test::GridTileSource::Options{
-            .mean_levels = 2, // as in any file that is read in tiles
+            .mean_levels = 2, // as in any tiled file
             .before_read = [this](const TileId& id) { return beforeRead(id); }});
     auto tiles = TiledSamples::open(TiledRaster(*resources.tiles, source));
     if (!tiles) {

@@ -1,4 +1,4 @@
-// Small maps that are opened as if they were too large to be held.
+// Small maps that are opened as if they were too large for memory.
 #pragma once
 
 #include "tests/support/grid_tile_source.h"
@@ -14,31 +14,31 @@
 
 namespace marsview {
 
-/// Previews and tiles are the program's own; preparing takes until the test says so. Outlives the
+/// Previews and tiles are the program's own; preparing lasts until the test ends it. Outlives the
 /// windows that use it.
 class LargeMaps {
 public:
-    /// For a window's options.
+    /// For the options of a window.
     MapOpener opener();
 
-    /// Lets preparations of now and later come to an end. `failure` is what becomes of them.
+    /// Lets current and later preparations finish, with `failure` as their result if given.
     void finishPreparing(const std::optional<Error>& failure = std::nullopt);
-    /// And later ones wait again.
+    /// Makes later preparations wait again.
     void holdPreparing();
-    /// What is prepared from now on is gone when it is looked for.
+    /// Maps prepared from now on have disappeared when they are opened.
     void losePrepared();
-    /// Previews are rough at first.
+    /// Makes the first previews coarse.
     void makeRoughPreviews() { are_previews_rough_ = true; }
-    /// Tiles of the finest level are not read until this is taken back.
+    /// Blocks reads of tiles of the finest level until it is called with false.
     void holdTiles(bool is_held);
-    /// Tiles of all levels are not read until this is taken back. The GUI's thread would wait for
-    /// ever: there reading fails meanwhile.
+    /// Blocks reads of tiles of all levels until it is called with false. The GUI thread would wait
+    /// forever, so its reads fail in the meantime.
     void holdAllTiles(bool is_held);
-    /// How many tiles were read by the GUI's thread.
+    /// The number of tiles read by the GUI thread.
     int guiReadCount() const;
-    /// Reading tiles of the finest level fails until this is taken back.
+    /// Makes reads of tiles of the finest level fail until it is called with false.
     void failTiles(bool is_failing);
-    /// Tiles that nobody holds on to have to be read again.
+    /// Unused tiles have to be read again.
     void forgetTiles() { tiles_->clear(); }
 
     /// A map in tiles, prepared or not.
@@ -47,7 +47,7 @@ public:
 
     int begunCount() const;
     int stoppedCount() const;
-    /// The files that were prepared, in order.
+    /// The prepared files, in order.
     std::vector<std::string> prepared() const;
 
 private:

@@ -1,4 +1,4 @@
-// Layers from the outside: opening, order, undo.
+// Layers as the user sees them: opening, order, undo.
 
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
@@ -101,7 +101,7 @@ TEST_F(LayersTest, CancelForgetsWhatWaitsToo)
     QTest::qWait(100);
     EXPECT_TRUE(layers().empty());
     EXPECT_FALSE(window_->undoStack().canUndo());
-    // And the next one opens as ever.
+    // The next one opens as usual.
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     EXPECT_EQ(layers().size(), 1U);
 }
@@ -133,7 +133,7 @@ TEST_F(LayersTest, TheSampleIsForgottenWhereTheUserIsFaster)
     EXPECT_FALSE(controller().isBusy());
 }
 
-// Every kind of change, each undone and redone at once and without loading.
+// Every kind of change, each undone and redone immediately and without loading.
 TEST_F(LayersTest, EveryChangeIsUndoneAndRedoneImmediately)
 {
     controller().open({maps_.hill(QStringLiteral("a.asc")), maps_.hill(QStringLiteral("b.asc")),
@@ -229,12 +229,12 @@ TEST_F(LayersTest, AMapOfAnotherBodyIsHiddenWithTheReasonInItsRow)
     };
     EXPECT_EQ(reason(0), QString());
     EXPECT_EQ(reason(1), QStringLiteral("Hidden: on Mars; the view shows the Moon"));
-    // Hidden, the Moon makes way.
+    // With the Moon hidden, Mars is shown.
     controller().setVisible(id(0), false);
     ASSERT_TRUE(settle());
     EXPECT_EQ(shown(), layers()[1].map->spec().path);
     EXPECT_EQ(reason(1), QString());
-    // So it does below.
+    // The same if it is moved below.
     controller().setVisible(id(0), true);
     controller().move(id(1), 0);
     ASSERT_TRUE(settle());
@@ -260,12 +260,13 @@ TEST_F(LayersTest, PanelsAndStatusBarSpeakOfTheActiveLayer)
     EXPECT_EQ(activeLayer(window_->session())->name, "mars.vrt");
     EXPECT_EQ(body_told(), QStringLiteral("Mars"));
     EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("mars.vrt")));
-    EXPECT_EQ(window_->undoStack().count(), 2); // looking at another one is no change
+    EXPECT_EQ(window_->undoStack().count(), 2); // activating another layer is not an undo step
 }
 
 TEST_F(LayersTest, HeightsAreThoseOfTheActiveLayerWhereBothAreShown)
 {
-    // Two slopes in one system, the upper shifted by ten pixels east: 200 m apart everywhere.
+    // Two slopes in one CRS, the upper shifted by ten pixels east: a difference of 200 m
+    // everywhere.
     const QString lower = maps_.placed("lower", "EPSG:32611", {5e5, 30, 0, 4e6, 0, -30});
     const QString upper = maps_.placed("upper", "EPSG:32611", {5e5 + 300, 30, 0, 4e6, 0, -30});
     controller().open({lower, upper});
@@ -307,7 +308,7 @@ TEST_F(LayersTest, ALayerMayBeRemovedWhileItsOwnOverrideIsLoading)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     RasterOverrides overrides;
-    overrides.nodata = 100.0; // the samples have to be read again
+    overrides.nodata = 100.0; // the samples must be read again
     controller().overrideGeoreferencing(id(0), overrides);
     controller().overrideGeoreferencing(id(0), {});
     ASSERT_TRUE(controller().isBusy());
@@ -353,7 +354,7 @@ TEST_F(LayersTest, AMapOnTopKeepsWhatIsInSight)
     const GeographicPoint place =
         *view.map()->georeference().toGeographic({.column = 30.0, .row = 20.0});
     const QPointF before = *view.positionOf(GridPoint{.column = 30.0, .row = 20.0});
-    // Overlaps the lower right of the first, whose scene it takes over.
+    // Overlaps the lower right of the first, and takes over its scene.
     ASSERT_TRUE(openAndWait(
         *window_, maps_.placed("corner", "IAU_2015:49900", {15.0, 0.1, 0.0, 16.0, 0.0, -0.1})));
     EXPECT_EQ(view.exaggeration(), 2.0);

@@ -1,4 +1,4 @@
-// Runs the tests of the window in a real one: give it a display, for example with xvfb-run.
+// Runs the tests of the window in a real one. Needs a display, for example from xvfb-run.
 
 #include "ui/graphics_check.h"
 

@@ -41,7 +41,7 @@ protected:
         return QTest::qWaitFor([this] { return !window_->loader().isLoading(); }, 30000);
     }
 
-    // As a file manager does.
+    // As from a file manager.
     void drop(const QString& file)
     {
         QMimeData data;
@@ -178,7 +178,7 @@ TEST_F(MainWindowTest, TellsPositionAndHeightUnderThePointer)
     const QString file = maps_.hill();
     ASSERT_TRUE(openAndWait(*window_, file));
     const QPoint pointer = view().rect().center();
-    // Where it rests already it would not be told to move.
+    // A pointer that is there already would not generate a move event.
     QTest::mouseMove(&view(), pointer - QPoint(40, 30));
     QTest::mouseMove(&view(), pointer);
     const auto hit = view().surfaceAt(pointer);

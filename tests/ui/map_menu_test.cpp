@@ -1,4 +1,4 @@
-// The menu of a place on the map, by mouse and by keyboard.
+// The context menu of a point on the map, by mouse and by keyboard.
 
 #include "core/terrain/surface_slope.h"
 #include "tests/ui/test_map.h"
@@ -31,8 +31,8 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1000, 700);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there may be no window manager to do it
-        // Rises by 6 m to the east and 3 m to the north in each cell of 30 m.
+        QApplication::setActiveWindow(window_.get()); // possibly without a window manager
+        // Rises by 6 m to the east and 3 m to the north per cell of 30 m.
         ASSERT_TRUE(openAndWait(
             *window_, maps_.write(QStringLiteral("plane.asc"), {}, [](int column, int row) {
                 return 6.0 * column - 3.0 * row + 1000.0;
@@ -132,7 +132,7 @@ TEST_F(MapMenuTest, SaysWhatIsHereWhateverTheExaggeration)
         EXPECT_TRUE(fact(QStringLiteral("Elevation")).startsWith(QStringLiteral("1,084")) ||
                     fact(QStringLiteral("Elevation")).startsWith(QStringLiteral("1084")))
             << fact(QStringLiteral("Elevation")).toStdString();
-        // Up by 0.2 eastward and 0.1 northward: atan of the square root of 0.05, facing west by
+        // Rises by 0.2 eastward and 0.1 northward: atan of the square root of 0.05, facing west by
         // south.
         EXPECT_EQ(fact(QStringLiteral("Slope")), QStringLiteral("12.6°"));
         EXPECT_EQ(fact(QStringLiteral("Aspect")), QStringLiteral("243° (SW)"));

@@ -46,7 +46,7 @@ protected:
         window_->actionSet().save_picture->trigger();
         return window_->findChild<SavePictureDialog*>();
     }
-    // Leaves the dialog and names the file.
+    // Closes the dialog with this file name.
     void saveAs(SavePictureDialog* dialog, const QString& file)
     {
         dialog->accept();
@@ -93,7 +93,7 @@ TEST_F(PictureSaverTest, DrawsTheSizesThatAreOffered)
     saveAs(dialog, file);
     const QImage twice(file);
     ASSERT_EQ(twice.size(), viewSize() * 2);
-    // The same sight: brightness of blocks agrees with the window's picture.
+    // The same view: the brightness of blocks agrees with the window's picture.
     ASSERT_TRUE(QTest::qWaitFor([this] { return window_->view()->isPictureComplete(); }, kTimeout));
     const QImage once = window_->view()->terrainPicture();
     const QImage small = twice.scaled(once.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);

@@ -1,4 +1,4 @@
-// The program from outside.
+// The program as a separate process.
 
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
@@ -20,7 +20,7 @@ namespace {
 struct Outcome {
     int exit_code = -1;
     bool has_crashed = true;
-    QString errors; // without Qt's remarks about the environment
+    QString errors; // without Qt's messages about the environment
 };
 
 Outcome run(const QStringList& arguments, const QString& platform = {})
@@ -55,8 +55,8 @@ TEST(Program, WritesAPictureOfTheWholeMapAndExits)
     EXPECT_EQ(outcome.errors, QString());
     const QImage image(picture);
     ASSERT_EQ(image.size(), QSize(900, 600));
-    // The middle of the map's two thirds of the window, right of the panel, against the sky in
-    // its corner.
+    // The middle of the map area, two thirds of the window to the right of the panel, against the
+    // sky in its corner.
     const QColor middle = image.pixelColor(600, 330);
     const QColor corner = image.pixelColor(896, 150);
     EXPECT_GT(middle.lightness(), corner.lightness() + 20);
@@ -96,7 +96,7 @@ TEST(Program, SurvivesAPlatformWithoutOpenGl)
     }
 }
 
-// Whether the process handles SIGTERM itself; from then on it may be asked to end.
+// Whether the process handles SIGTERM itself; from then on a request to end is handled.
 bool handlesTerm(qint64 process)
 {
     QFile status(QStringLiteral("/proc/%1/status").arg(process));
@@ -156,7 +156,7 @@ TEST(Program, PassesQtsOwnOptionsOnToQt)
     EXPECT_EQ(QImage(picture).size(), QSize(900, 600));
     const Outcome none =
         run({QStringLiteral("-platform"), QStringLiteral("offscreen"), maps.hill()});
-    EXPECT_EQ(none.exit_code, 1) << "there is no OpenGL on that platform";
+    EXPECT_EQ(none.exit_code, 1) << "OpenGL is not available on that platform";
 }
 
 TEST(Program, OpensSeveralMapsTheLastOnTop)
@@ -172,12 +172,12 @@ TEST(Program, OpensSeveralMapsTheLastOnTop)
     };
     const QString hill = maps.hill();
     const QString moon = maps.moon();
-    // Of two bodies the topmost is shown; the list has both, so only the middle is compared.
+    // With two bodies the topmost is shown; the list has both, so only the middle is compared.
     const auto middle = [](const QImage& image) { return image.copy(450, 250, 150, 100); };
     const QImage both = pictureOf({moon, QStringLiteral("file://") + hill}, "both.png");
     EXPECT_EQ(both.size(), QSize(900, 600));
     EXPECT_EQ(middle(both), middle(pictureOf({hill}, "hill.png")));
-    EXPECT_NE(both, pictureOf({hill}, "hill.png")) << "there are two layers";
+    EXPECT_NE(both, pictureOf({hill}, "hill.png")) << "two layers are open";
 }
 
 } // namespace

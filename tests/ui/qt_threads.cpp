@@ -1,6 +1,6 @@
-// Tells ThreadSanitizer what goes from one thread to another through Qt, which is not compiled for
-// it: what was written before a call was posted, or a job begun, is there when it runs. The linker
-// puts these in place of Qt's functions (--wrap), and calls go on to them.
+// Declares to ThreadSanitizer the synchronization through Qt, which is built without it: writes
+// before a posted call, or before the start of a job, are visible when it runs. The linker puts
+// these functions in place of Qt's (--wrap); they forward the calls.
 #include <QMetaObject>
 #include <QThreadPool>
 
@@ -8,7 +8,7 @@
 #include <sanitizer/tsan_interface.h>
 #include <utility>
 
-// Names that the linker asks for, of Qt's mangled ones.
+// The names that the linker requires for Qt's mangled names.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" {
 bool __real__ZN11QMetaObject16invokeMethodImplEP7QObjectPN9QtPrivate15QSlotObjectBaseEN2Qt14ConnectionTypeEPv(
@@ -59,7 +59,7 @@ void __wrap__ZN11QThreadPoolD1Ev(QThreadPool* pool)
 
 namespace {
 
-// Before every event that an object gets.
+// Called before every event that an object receives.
 bool acquireOf(void** receiver_event_result)
 {
     __tsan_acquire(receiver_event_result[0]);

@@ -31,7 +31,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1280, 800);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
     }
 
     TerrainView& view() { return *window_->view(); }
@@ -41,7 +41,7 @@ protected:
         return QTest::qWaitFor([&] { return readout().coordinateLabel() == coordinates; },
                                kTimeout);
     }
-    // Within the terrain, away from every overlay.
+    // On the terrain, away from every overlay.
     void pointAtTheMiddle()
     {
         const QPoint middle = view().rect().center();
@@ -88,7 +88,7 @@ TEST_F(StatusReadoutTest, ShowsNoElevationWhileThePointerIsOverAnOverlay)
     QEnterEvent enter(QPointF(5, 5), QPointF(5, 5), QPointF(5, 5));
     QApplication::sendEvent(minimap, &enter);
     EXPECT_TRUE(readout().heightLabel().isEmpty());
-    // Moves on an overlay that takes none reach the map behind it.
+    // Move events on an overlay that ignores them reach the map behind it.
     QTest::mouseMove(&view(), minimap->geometry().center());
     QMouseEvent move(QEvent::MouseMove, minimap->geometry().center(),
                      view().mapToGlobal(minimap->geometry().center()), Qt::NoButton, Qt::NoButton,
@@ -110,7 +110,7 @@ TEST_F(StatusReadoutTest, ReadsTheMiddleOfThePictureForTheKeyboard)
     EXPECT_TRUE(isRead(positionOfTheMiddle()));
     EXPECT_FALSE(readout().heightLabel().isEmpty());
 
-    // The pointer takes over when it moves, a navigation key takes it back.
+    // The pointer takes over when it moves, and a navigation key hands back to the middle.
     ASSERT_NO_FATAL_FAILURE(pointAtTheMiddle());
     EXPECT_FALSE(crosshair->isVisible());
     QTest::keyClick(&view(), Qt::Key_Left);
@@ -181,7 +181,7 @@ TEST_F(StatusReadoutTest, KeepsTheKindOfLatitudeOfEachBody)
     ASSERT_NE(centric, nullptr);
     centric->trigger();
 
-    // 21 km lie between the kinds at 45° on the Earth.
+    // The two kinds of latitude differ by 21 km at 45° on the Earth.
     ASSERT_TRUE(openAndWait(
         *window_, maps_.placed("tile", "EPSG:4326", {10.0, 0.01, 0.0, 45.15, 0.0, -0.01})));
     readout().setPlace(ReadPlace{.hit = {.grid = {14.5, 14.5}}});

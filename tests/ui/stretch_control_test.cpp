@@ -1,4 +1,4 @@
-// The color stretch from the outside: menu, dialog, picture, undo.
+// The color stretch as the user sees it: menu, dialog, picture, undo.
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
@@ -115,14 +115,14 @@ TEST_F(StretchTest, LegendShowsTheExtremesInATooltip)
 
 TEST_F(StretchTest, ChangesTheColorsOfThePicture)
 {
-    choose(StretchKind::Full); // as it was: the map is too small to cut anything
+    choose(StretchKind::Full); // unchanged: the map is too small to cut anything
     const QImage before = window_->view()->terrainPicture();
     controller().setStretch(layer().id, fixedStretch(2000.0, 3000.0));
     ASSERT_TRUE(waitUntilSettled(*window_));
     const QImage below = window_->view()->terrainPicture();
     const QPoint middle = before.rect().center();
     EXPECT_NE(before.pixelColor(middle), below.pixelColor(middle));
-    // Below its lower end the ramp has one color: east and west differ no more than by their light.
+    // Below its lower end the ramp has one color: east and west differ only by their light.
     const QPoint west(before.width() / 3, middle.y());
     const QPoint east(before.width() * 2 / 3, middle.y());
     const auto difference = [](const QColor& a, const QColor& b) {
@@ -150,12 +150,12 @@ TEST_F(StretchTest, TakesWhatThePictureShowsNow)
     };
     EXPECT_NEAR(layer().stretch.low, height_at(0.0), 3.0);
     EXPECT_NEAR(layer().stretch.high, height_at(view.width() - 0.01), 3.0);
-    EXPECT_GT(layer().stretch.low, 100.0) << "less than all of the map";
+    EXPECT_GT(layer().stretch.low, 100.0) << "less than the whole map";
     EXPECT_EQ(shown().minimum_m, layer().stretch.low);
     const ColorStretch fixed = layer().stretch;
     camera.distance_m = 400.0;
     view.setCamera(camera);
-    EXPECT_EQ(layer().stretch, fixed) << "moving on leaves it";
+    EXPECT_EQ(layer().stretch, fixed) << "further camera moves do not change it";
     window_->undoStack().undo();
     EXPECT_EQ(layer().stretch.kind, StretchKind::Automatic);
 }
@@ -174,7 +174,7 @@ TEST_F(StretchTest, TakesTypedEndsInTheUnitOfThePreferences)
     EXPECT_NEAR(part<ElevationBox>("high").value(), 1500.0 / 0.3048, 0.6);
     type(part<ElevationBox>("high"), QStringLiteral("3000"));
     EXPECT_NEAR(layer().stretch.high, 3000.0 * 0.3048, 1e-9);
-    EXPECT_EQ(layer().stretch.low, -250.0) << "an end that was not typed stays exact";
+    EXPECT_EQ(layer().stretch.low, -250.0) << "a limit that was not edited stays exact";
     window_->setPreferences({});
 }
 
@@ -250,7 +250,7 @@ TEST_F(StretchTest, OfSlopesIsInDegrees)
     ASSERT_TRUE(layer().slope_range);
     EXPECT_NEAR(layer().slope_range->maximum.degrees(), 12.5, 1e-9);
     EXPECT_NEAR(legend.content().slopes.maximum.degrees(), 12.5, 1e-9);
-    EXPECT_EQ(layer().stretch, ColorStretch{}) << "elevations keep theirs";
+    EXPECT_EQ(layer().stretch, ColorStretch{}) << "elevations keep their stretch";
     EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Slope Colors of slope.asc"));
     choose(StretchKind::Automatic);
     EXPECT_FALSE(layer().slope_range);
@@ -283,10 +283,10 @@ TEST_F(StretchTest, LegendIsOfTheActiveLayerInThePicture)
     EXPECT_EQ(content.layer, QStringLiteral("lower.vrt"));
     controller().setStretch(layer(1).id, fixedStretch(-7.0, 9.0));
     EXPECT_EQ(content.range.minimum_m, -7.0);
-    // A layer that is not in the picture leaves the legend to the topmost in it.
+    // If the active layer is not in the picture, the legend shows the topmost one that is.
     controller().activate(layer(2).id);
     EXPECT_EQ(content.layer, QStringLiteral("upper.vrt"));
-    // Only the lower one is where the camera looks now.
+    // Only the lower one is in the view now.
     TerrainView& view = *window_->view();
     OrbitCamera camera = view.camera();
     camera.tilt = {};

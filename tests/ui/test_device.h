@@ -1,4 +1,4 @@
-// A haptic device whose hand the test leads, and drivers with it and some that fail.
+// A haptic device controlled by the test, and drivers with it and with failing devices.
 #pragma once
 
 #include "haptics/device/device_driver.h"
@@ -11,17 +11,17 @@
 
 namespace marsview {
 
-/// What the test and its devices share.
+/// The state shared by the test and its devices.
 struct TestHand {
-    std::mutex mutex; // of position; the tick only tries
+    std::mutex mutex; // of position; the tick only tries to lock
     WorkspacePoint position{};
     std::atomic<std::uint32_t> buttons{0};
     std::atomic<bool> is_lost{false};
-    std::atomic<double> force_n{0.0};     // written last
-    std::atomic<double> force_n_min{0.0}; // since the test has set it
-    std::atomic<int> open_count{0};       // devices that are open now
-    std::atomic<bool> is_there{true};     // to be found
-    std::atomic<bool> is_held_up{false};  // opening waits as long
+    std::atomic<double> force_n{0.0};     // the last force written
+    std::atomic<double> force_n_min{0.0}; // since the test last set it
+    std::atomic<int> open_count{0};       // devices currently open
+    std::atomic<bool> is_there{true};     // whether drivers find it
+    std::atomic<bool> is_held_up{false};  // opening blocks while it is set
 
     void moveTo(const WorkspacePoint& at)
     {
@@ -30,8 +30,7 @@ struct TestHand {
     }
 };
 
-/// Schemes: "hand" (the test's), "gone" (found with a reason, refuses to open), and "sim",
-/// "replay".
+/// Schemes: "hand" (the test's), "gone" (found with a reason, fails to open), and "sim", "replay".
 DriverMaker testDrivers(const std::shared_ptr<TestHand>& hand);
 
 } // namespace marsview

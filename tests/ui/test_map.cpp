@@ -89,7 +89,7 @@ bool waitUntilSettled(MainWindow& window)
                                              [&is_settled] { is_settled = true; });
     const bool was_in_time = QTest::qWaitFor([&is_settled] { return is_settled; }, kTimeout);
     QObject::disconnect(connection);
-    // Layout changes that came with the map ask for another picture.
+    // Layout changes caused by the map request another picture.
     return was_in_time && QTest::qWaitFor(
                               [&window] {
                                   return shownLayers(window.session()).empty() ||

@@ -1,4 +1,4 @@
-// Small maps on disk, and windows that show them.
+// Small maps on disk, and windows for them.
 #pragma once
 
 #include "tests/support/temp_folder.h"
@@ -13,7 +13,7 @@
 
 namespace marsview {
 
-/// A folder of maps that vanishes with the object.
+/// A folder of maps that is removed with the object.
 class TestMaps {
 public:
     struct Shape {
@@ -52,13 +52,13 @@ private:
     test::TempFolder rasters_;
 };
 
-/// Options of a window that neither remembers nor opens dialogs.
+/// Options of a window that neither stores settings nor opens dialogs.
 WindowOptions testWindowOptions();
 
-/// Waits, with events, until the window has settled. False after half a minute.
+/// Processes events until the window has settled. False after half a minute.
 bool waitUntilSettled(MainWindow& window);
 
-/// Opens and waits.
+/// Opens a file and waits.
 bool openAndWait(MainWindow& window, const QString& file);
 
 } // namespace marsview

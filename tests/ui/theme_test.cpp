@@ -38,11 +38,11 @@ TEST(Theme, KeepsEveryTextReadable)
             EXPECT_GE(
                 contrast(palette.color(P::Disabled, text), palette.color(P::Disabled, ground)), 3.0)
                 << "disabled " << text << " on " << ground;
-            // And yet to be told from what is enabled.
+            // Still distinguishable from enabled text.
             EXPECT_GE(contrast(palette.color(P::Disabled, text), palette.color(P::Active, text)),
                       1.8);
         }
-        // The focus frame against what it is drawn on.
+        // The focus frame against its background.
         EXPECT_GE(contrast(palette.color(P::Highlight), palette.color(P::Window)), 3.0);
     }
 }

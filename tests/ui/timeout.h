@@ -1,4 +1,4 @@
-// How long tests wait for what a window does by itself.
+// The timeout for things that a window does by itself.
 #pragma once
 
 namespace marsview {

@@ -1,5 +1,5 @@
-// That everything people read went through translation: a translator marks what it is asked for,
-// and what is found without its marks was not asked for.
+// Every text that users read must pass through translation: a test translator marks the texts that
+// it receives, and unmarked texts were not passed to it.
 
 #include "tests/ui/test_map.h"
 #include "tests/ui/widget_walk.h"
@@ -40,7 +40,7 @@ public:
     }
 };
 
-// What stands outside all marks.
+// The text outside all marks.
 QString unmarked(const QString& text)
 {
     QString rest;
@@ -57,9 +57,9 @@ QString unmarked(const QString& text)
     return rest;
 }
 
-// Things that are the same in every language: numbers and units, names of files, systems, bodies
-// and formats, versions and drivers, examples of coordinates and addresses, the core's sentences
-// about a map.
+// Texts that are the same in every language: numbers and units, names of files, systems, bodies and
+// formats, versions and drivers, examples of coordinates and addresses, the core's sentences about
+// a map.
 bool isUniversal(const QString& text, const QStringList& names)
 {
     static const QRegularExpression kNumbers(
@@ -128,7 +128,7 @@ protected:
             }
             count += unmarked(found.text) != found.text ? 1 : 0;
         }
-        EXPECT_GT(count, 3) << describe(root).toStdString(); // the walk found something at all
+        EXPECT_GT(count, 3) << describe(root).toStdString(); // the walk found any texts at all
     }
 
     MarkingTranslator translator_;
@@ -143,7 +143,7 @@ protected:
 TEST_F(TranslationTest, ReachesEveryTextOfTheWindow)
 {
     expectMarked(*window_);
-    // The panels' other faces.
+    // The other states of the panels.
     for (std::size_t i = 0; i < window_->session().layers.size(); ++i) {
         window_->controller().activate(window_->session().layers[i].id);
         expectMarked(*window_);

@@ -1,4 +1,4 @@
-// Everything that people meet in a window.
+// All texts and controls of a window.
 #pragma once
 
 #include <QList>
@@ -9,19 +9,19 @@ class QWidget;
 
 namespace marsview {
 
-/// A text of the window, and where it is.
+/// A text of the window and its location.
 struct FoundText {
     QString place; // "QToolButton \"cancelLoading\" toolTip"
     QString text;
 };
 
-/// The texts of `root`, its descendants and their actions and items: what is read, shown as a tip
-/// or told to screen readers. Texts of hidden widgets too.
+/// The texts of `root`, its descendants and their actions and items: labels, tooltips, and texts
+/// for screen readers. Includes hidden widgets.
 QList<FoundText> textsOf(const QWidget& root);
 
-/// Descendants that people act upon: buttons, fields, lists, sliders, and whatever takes the focus.
-/// Without the insides of Qt's own widgets and the title buttons of docks, which the menus stand in
-/// for.
+/// The interactive descendants: buttons, fields, lists, sliders, and everything that takes the
+/// focus. Without the internal parts of Qt's own widgets, and without the title buttons of docks,
+/// which have menu equivalents.
 QList<QWidget*> controlsOf(const QWidget& root);
 
 /// "QToolButton \"cancelLoading\"".

@@ -1,4 +1,4 @@
-// What one window leaves for the next.
+// The state that one window stores for the next.
 
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
@@ -113,7 +113,7 @@ TEST_F(WindowMemoryTest, OpensARecentFile)
     const auto window = makeWindow();
     ASSERT_TRUE(waitUntilSettled(*window));
     const QList<QAction*> entries = recentEntries(*window);
-    EXPECT_EQ(entries[0]->text(), QStringLiteral("ring.asc")); // the last opened first
+    EXPECT_EQ(entries[0]->text(), QStringLiteral("ring.asc")); // most recently opened first
     EXPECT_EQ(entries[1]->text(), QStringLiteral("hill.asc"));
     entries[1]->trigger();
     ASSERT_TRUE(waitUntilSettled(*window));
@@ -157,7 +157,7 @@ TEST_F(WindowMemoryTest, AppliesPreferencesWhileTheDialogIsOpen)
               darkPalette().color(QPalette::Window));
     unit->setCurrentIndex(1);
     EXPECT_EQ(window.preferences().height_unit, HeightUnit::Feet);
-    // Enter leaves; it takes nothing back.
+    // Enter closes the dialog; it reverts nothing.
     QTest::keyClick(unit, Qt::Key_Return);
     EXPECT_EQ(window.preferences().height_unit, HeightUnit::Feet);
     EXPECT_FALSE(dialog->isVisible());
@@ -190,7 +190,7 @@ TEST_F(WindowMemoryTest, TheMapKeepsTwoThirdsAtEveryWidth)
             5000))
             << width << ": " << window->view()->width();
     }
-    // In a narrow window the panel asked for last makes the other one go.
+    // In a narrow window, the panel opened last replaces the other one.
     window->resize(800, 600);
     QTest::qWait(50);
     window->docks()->reveal(*window->docks()->georeferencing());

@@ -38,7 +38,7 @@ TEST(WindowPlace, ShrinksAWindowBeforeItIsShown)
     window.resize(available.size() * 2);
     place->fit();
     EXPECT_LE(window.width(), available.width());
-    EXPECT_LT(window.height(), available.height()); // room for the title bar
+    EXPECT_LT(window.height(), available.height()); // space for the title bar
 }
 
 } // namespace

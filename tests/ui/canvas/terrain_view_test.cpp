@@ -27,7 +27,7 @@ protected:
 
     TerrainView& view() { return *window_->view(); }
     QPoint middle() { return view().rect().center(); }
-    // The camera is where it was going to. The picture need not be as fine as it gets.
+    // Waits until the camera has arrived. The picture may not yet have its full detail.
     bool arrive()
     {
         return QTest::qWaitFor([this] { return !view().isMoving(); }, 10000);
@@ -125,7 +125,7 @@ TEST_F(TerrainViewTest, ZoomsToThePointerWithTheWheel)
     EXPECT_NEAR(now->y(), pointer.y(), 0.5);
     wheel(pointer, 120, Qt::ControlModifier);
     ASSERT_TRUE(arrive());
-    EXPECT_GT(view().camera().distance_m, 0.85 * after) << "Ctrl is fine";
+    EXPECT_GT(view().camera().distance_m, 0.85 * after) << "Ctrl is for fine steps";
 }
 
 TEST_F(TerrainViewTest, RisesFromTheGroundWhenZoomedOutOverTheSky)
@@ -153,7 +153,7 @@ TEST_F(TerrainViewTest, RisesFromTheGroundWhenZoomedOutOverTheSky)
     EXPECT_GT(eyeOf(view().camera()).z, 500.0);
 }
 
-// From the slopes of Mount St Helens, stretched high, the view went out over the map's edge.
+// From the slopes of Mount St Helens, strongly exaggerated, the view left the map across its edge.
 TEST_F(TerrainViewTest, NeverShowsOnlySky)
 {
     ASSERT_TRUE(openAndWait(
@@ -188,7 +188,7 @@ TEST_F(TerrainViewTest, NeverShowsOnlySky)
     }
 }
 
-// The straight way from one side of a ridge to the other leads through it.
+// The straight path from one side of a ridge to the other passes through it.
 TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
 {
     const QString wall = maps_.write(QStringLiteral("wall.asc"), {}, [](int column, int /*row*/) {
@@ -207,7 +207,8 @@ TEST_F(TerrainViewTest, StaysAboveTheGroundWhileItMoves)
             frames_over_wall += ground_m > 300.0 ? 1 : 0;
         }
     });
-    // The turn takes the eye around the target from north by west to south: twice over the wall.
+    // The turn takes the eye around the target from north through west to south: twice over the
+    // wall.
     view().setCamera({.target = frame.toScene({38.0, 20.0}, 0.0),
                       .distance_m = 500.0,
                       .azimuth = Angle::degrees(170.0),
@@ -243,7 +244,7 @@ TEST_F(TerrainViewTest, StopsFlyingWhenPressed)
 
 TEST_F(TerrainViewTest, ObeysTheKeys)
 {
-    QApplication::setActiveWindow(window_.get()); // there may be no window manager to do it
+    QApplication::setActiveWindow(window_.get()); // possibly without a window manager
     view().setFocus();
     ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, 5000));
     const OrbitCamera before = view().camera();
@@ -314,7 +315,7 @@ TEST_F(TerrainViewTest, DrawsNothingWhenNothingChanges)
     int frames = 0;
     QObject::connect(&view(), &QOpenGLWidget::frameSwapped, window_.get(), [&] { ++frames; });
     ASSERT_TRUE(rest());
-    // The window system may still ask for a frame or two; then none comes by itself.
+    // The window system may still request a frame or two; then there are no more.
     const auto is_quiet = [&] {
         frames = 0;
         QTest::qWait(300);

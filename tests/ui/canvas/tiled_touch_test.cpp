@@ -1,4 +1,4 @@
-// A map in tiles under the hand, beside the same map held in memory.
+// Contact with a tiled map, compared with the same map in memory.
 
 #include "core/view/color_ramp.h"
 #include "tests/support/map_maker.h"
@@ -83,7 +83,7 @@ protected:
             send(*view, QEvent::MouseButtonRelease, at, Qt::LeftButton);
         }
     }
-    // How far apart the proxies are; infinite where only one is in contact.
+    // The distance between the proxies; infinite if only one is in contact.
     double apartM() const
     {
         const auto& a = held_->stylus();
@@ -92,7 +92,7 @@ protected:
                    ? length(a->proxy - b->proxy)
                    : std::numeric_limits<double>::infinity();
     }
-    // Until what is below the hand has come.
+    // Waits until the terrain below the stylus is resident.
     bool comeTogether() const
     {
         return QTest::qWaitFor([this] { return apartM() < kTogetherM; }, kTimeout);
@@ -106,7 +106,7 @@ protected:
     std::unique_ptr<TerrainView> tiled_;
 };
 
-// From cold: what is felt first is coarser ground.
+// From a cold start: the first contact is with coarser terrain.
 TEST_F(TiledTouchTest, PressesAsIntoTheMapInMemoryOnceItHasCome)
 {
     for (const QPointF at : {QPointF{150, 120}, QPointF{260, 210}, QPointF{380, 300}}) {
@@ -161,8 +161,8 @@ TEST_F(TiledTouchTest, ReadsTheHeightsOfTheMapInMemory)
     }
 }
 
-// A disk that gives nothing: the hand feels the coarser ground, the window goes on, and when the
-// tiles come the proxy is where it belongs.
+// A disk that returns no data: contact is with coarser terrain and the window continues. When the
+// tiles arrive, the proxy is exact.
 TEST_F(TiledTouchTest, NeverWaitsForTiles)
 {
     large_.holdTiles(true);
@@ -180,13 +180,13 @@ TEST_F(TiledTouchTest, NeverWaitsForTiles)
         EXPECT_TRUE(std::isfinite(length(tiled_->stylus()->force_n)));
         QCoreApplication::processEvents();
     }
-    EXPECT_GT(apartM(), kTogetherM) << "what is held back makes a difference";
+    EXPECT_GT(apartM(), kTogetherM) << "the tiles that are held back make a difference";
     large_.holdTiles(false);
     EXPECT_TRUE(comeTogether()) << apartM();
     release(from);
 }
 
-// While a hand rests on ground that is all there, nothing is drawn.
+// While the stylus rests on fully resident terrain, nothing is drawn.
 TEST_F(TiledTouchTest, RestsWhereAllHasCome)
 {
     press({250.0, 200.0});

@@ -39,7 +39,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1000, 700);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there may be no window manager to do it
+        QApplication::setActiveWindow(window_.get()); // possibly without a window manager
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
         view().setFocus();
         ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
@@ -139,7 +139,7 @@ TEST_F(ToolsTest, AreChosenOnTheToolbarInTheMenuAndByKey)
     }
 }
 
-// A list searches its rows by letters.
+// A list uses letters to search its rows.
 TEST_F(ToolsTest, KeysWorkWhileTheListOfLayersHasTheFocus)
 {
     auto* layers = window_->findChild<QListView*>(QStringLiteral("layers"));
@@ -272,7 +272,7 @@ TEST_F(ToolsTest, TheStylusOfTheMouseIsShownWithTheTouchToolOnly)
     StylusPose device;
     device.proxy = device.goal = view().camera().target;
     view().showDevice(device);
-    EXPECT_TRUE(view().shownStylus()) << "a device touches whatever the tool is";
+    EXPECT_TRUE(view().shownStylus()) << "a device touches with every tool";
     view().showDevice(std::nullopt);
 }
 
@@ -315,7 +315,7 @@ TEST_F(ToolsTest, ARightClickAsksForTheMenuAndARightDragDoesNot)
     EXPECT_EQ(asked[0][0].toPointF(), middle() + QPointF(2.0, 1.0));
     press(middle(), Qt::RightButton);
     moveTo(middle() + QPointF(60.0, 0.0), Qt::RightButton);
-    moveTo(middle(), Qt::RightButton); // back to where it began
+    moveTo(middle(), Qt::RightButton); // back to its start
     release(middle(), Qt::RightButton);
     EXPECT_EQ(asked.count(), 1);
 }

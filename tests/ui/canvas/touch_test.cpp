@@ -1,4 +1,4 @@
-// Hands on the map, in a real window: what they do, what is drawn of them, and what is not.
+// The stylus on the map, in a real window: its effects, and when it is drawn.
 #include "core/view/color_ramp.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/shared_data.h"
@@ -31,7 +31,7 @@ namespace {
 
 using test::MapMaker;
 
-// Counts what a widget is asked to paint.
+// Counts the paint events of a widget.
 class PaintCounter final : public QObject {
 public:
     explicit PaintCounter(QWidget& widget) { widget.installEventFilter(this); }
@@ -71,8 +71,7 @@ int redPixels(const QImage& picture)
     return count;
 }
 
-// Where the two sides of the red cone meet, found from its rows of pixels; in pixels from the
-// picture's corner.
+// The apex of the red cone, computed from its rows of pixels; in pixels from the picture's corner.
 std::optional<QPointF> coneTip(const QImage& picture)
 {
     struct Row {
@@ -154,7 +153,7 @@ protected:
         view_->setTool(Tool::Touch);
         view_->resize(800, 600);
         view_->show();
-        QApplication::setActiveWindow(view_.get()); // there may be no window manager to do it
+        QApplication::setActiveWindow(view_.get()); // possibly without a window manager
         view_->setFocus();
         ASSERT_TRUE(
             QTest::qWaitFor([this] { return view_->isReady() && view_->hasFocus(); }, kTimeout));
@@ -167,7 +166,7 @@ protected:
         }
         view_->setLayers(layers);
     }
-    // From a side from which cones are seen as triangles.
+    // From a side from which cones appear as triangles.
     void look()
     {
         OrbitCamera camera = view_->camera();
@@ -200,8 +199,7 @@ protected:
     void letSpaceGo() { QTest::keyRelease(view_.get(), Qt::Key_Space); }
     StylusMode mode() const { return view_->stylus()->mode; }
 
-    // The range of distances along the view axis that the terrain's depth buffer has around a
-    // position.
+    // The range of distances along the view axis in the terrain's depth buffer around a position.
     std::pair<double, double> drawnDepths(QPointF at)
     {
         view_->terrainPicture();
@@ -291,7 +289,7 @@ TEST_F(TouchTest, TheConeStandsOnTheSurfaceThatIsDrawn)
             const Vec3 forward = axesOf(view_->camera()).forward;
             const double depth_m = dot(pose.proxy - eye, forward);
             const double pixel_m = metresPerPixel(view_->camera(), view_->viewport(), pose.proxy);
-            // Where the proxy slid behind a ridge, its tip is hidden, as it should be.
+            // If the proxy has slid behind a ridge, its tip is hidden, as it should be.
             const auto hit = view_->surfaceAt(where);
             const bool is_hidden = !hit || hit->t < length(pose.proxy - eye) - 3.0 * pixel_m;
             if (!is_hidden) {
@@ -376,7 +374,7 @@ TEST_F(TouchTest, SpaceAloneZoomsAboutThePlaceItHolds)
     const QPointF where = view_->positionOfPlace(before.proxy).value();
     double distance_m = view_->camera().distance_m;
     for (int i = 1; i <= 10; ++i) {
-        hover(at - QPointF(0.0, 6.0 * i)); // away: nearer
+        hover(at - QPointF(0.0, 6.0 * i)); // away from the user: closer
         EXPECT_LT(view_->camera().distance_m, distance_m);
         distance_m = view_->camera().distance_m;
         EXPECT_EQ(mode(), StylusMode::Zoom);
@@ -387,7 +385,7 @@ TEST_F(TouchTest, SpaceAloneZoomsAboutThePlaceItHolds)
     }
     hover(at);
     EXPECT_GT(view_->camera().distance_m, distance_m);
-    press(at); // a grab keeps the mode with which it began
+    press(at); // a grab keeps the mode in which it started
     EXPECT_EQ(mode(), StylusMode::Zoom);
     release(at);
     letSpaceGo();
@@ -452,7 +450,7 @@ TEST_F(TouchTest, TheCursorMovesWithoutTheTerrainBeingDrawnAgain)
 {
     hover({300.0, 300.0});
     ASSERT_TRUE(rest());
-    QSignalSpy terrain(view_.get(), &TerrainView::detailChanged); // with each picture of it
+    QSignalSpy terrain(view_.get(), &TerrainView::detailChanged); // with every picture of it
     const PaintCounter paints(*view_);
     QImage last = view_->grabFramebuffer();
     for (int i = 1; i <= 20; ++i) {
@@ -472,7 +470,7 @@ TEST_F(TouchTest, TheCursorMovesWithoutTheTerrainBeingDrawnAgain)
     EXPECT_TRUE(view_->isPictureComplete());
     view_->step(NavigationStep::TurnLeft);
     EXPECT_TRUE(rest());
-    EXPECT_GT(terrain.count(), 0) << "it is counted at all";
+    EXPECT_GT(terrain.count(), 0) << "the counter works";
 }
 
 TEST_F(TouchTest, AnIdleWindowPaintsNothing)
@@ -500,7 +498,7 @@ TEST_F(TouchTest, AnIdleWindowPaintsNothing)
     EXPECT_EQ(composed.count(), 0);
     view_->update();
     turn();
-    EXPECT_GT(paints.count(), 0) << "they are counted at all";
+    EXPECT_GT(paints.count(), 0) << "the counters work";
 }
 
 TEST_F(TouchTest, APictureOfTheTerrainLeavesTheHandAlone)
@@ -555,7 +553,7 @@ TEST_F(TouchTest, LayersThatChangeBelowKeepTheStylusOverTheGround)
     EXPECT_TRUE(view_->stylus()->is_in_contact);
 }
 
-// A widget in another window has another graphics context.
+// A widget in another window has a different graphics context.
 TEST_F(TouchTest, AnotherWindowShowsTheSamePicture)
 {
     show({hills(maker_), hills(maker_, 50.0)});
@@ -583,8 +581,8 @@ TEST_F(TouchTest, AnotherWindowShowsTheSamePicture)
         QEvent leave(QEvent::Leave);
         QApplication::sendEvent(view_.get(), &leave);
         layout->removeWidget(view_.get());
-        view_->setParent(nullptr); // before its window goes
-        if (i == 1) {              // once as a window of its own in between
+        view_->setParent(nullptr); // before its window is destroyed
+        if (i == 1) {              // once as a separate window in between
             view_->show();
             ASSERT_TRUE(QTest::qWaitFor([&] { return ready.count() > 1; }, kTimeout));
             ASSERT_TRUE(rest());
@@ -598,7 +596,8 @@ TEST_F(TouchTest, SurvivesTheSmallestAndTheLargestWindows)
     const OrbitCamera camera = view_->camera();
     view_->setMinimumSize(1, 1);
     for (const QSize size : {QSize(1, 1), QSize(1, 700), QSize(8000, 4000), QSize(900, 1)}) {
-        // Smooth edges take four times as long in the largest, and add nothing to it.
+        // The largest pictures take four times as long with anti-aliasing, and gain nothing from
+        // it.
         view_->setAntialiasing(size.width() * size.height() < 10'000'000);
         view_->resize(size);
         QCoreApplication::processEvents();
@@ -622,7 +621,7 @@ TEST_F(TouchTest, SurvivesTheSmallestAndTheLargestWindows)
 TEST(TerrainViewWithoutContext, SaysThatItIsUnavailable)
 {
     QSurfaceFormat none = mapSurfaceFormat();
-    none.setRenderableType(QSurfaceFormat::OpenVG); // no driver has it
+    none.setRenderableType(QSurfaceFormat::OpenVG); // no driver supports it
     QSurfaceFormat embedded = mapSurfaceFormat();
     embedded.setRenderableType(QSurfaceFormat::OpenGLES);
     embedded.setVersion(2, 0);
@@ -639,7 +638,7 @@ TEST(TerrainViewWithoutContext, SaysThatItIsUnavailable)
         ASSERT_TRUE(QTest::qWaitFor([&] { return unavailable.count() > 0; }, kTimeout));
         EXPECT_FALSE(unavailable[0][0].toString().isEmpty());
         EXPECT_FALSE(view.isReady());
-        // It may be used all the same.
+        // The view can still be used without it.
         view.setLayers({{.map = map, .ramp = &colorRamps().front()}});
         view.setExaggeration(3.0);
         QTest::mouseClick(&view, Qt::LeftButton, {}, {150, 100});

@@ -18,7 +18,7 @@ QString markKey()
     return QStringLiteral("haptics/connectedBy");
 }
 
-// The number of a process that is no more.
+// The id of a process that has ended.
 qint64 endedProcess()
 {
     const pid_t child = fork();
@@ -53,7 +53,7 @@ TEST_F(ConnectionMarkTest, ADeviceIsNotConnectedByItselfAfterTheProgramEndedWith
     EXPECT_TRUE(haptics().notice().contains(QStringLiteral("ended unexpectedly while hand:")))
         << haptics().notice().toStdString();
     EXPECT_FALSE(QSettings().contains(markKey()));
-    // Whoever asks for it gets it.
+    // An explicit request connects all the same.
     haptics().connectTo(QStringLiteral("hand:"));
     EXPECT_TRUE(isConnectedSoon());
 }

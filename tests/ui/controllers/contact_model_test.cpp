@@ -1,4 +1,4 @@
-// Choosing what moves the stylus' proxy, in the window.
+// Choosing the contact model in the window.
 
 #include "core/contact/contact_model.h"
 #include "tests/ui/test_map.h"
@@ -45,7 +45,7 @@ QString plain(const QString& text)
     return QString(text).remove(QLatin1Char('&'));
 }
 
-// The menu's entries that are checked.
+// The checked entries of the menu.
 QStringList checkedEntries(const MainWindow& window)
 {
     QStringList checked;
@@ -68,7 +68,7 @@ protected:
             WindowOptions{.geometry = WindowOptions::Geometry::Remembered,
                           .failures = WindowOptions::Failures::BySignalOnly});
         window->show();
-        QApplication::setActiveWindow(window.get()); // there is no window manager
+        QApplication::setActiveWindow(window.get()); // without a window manager
         EXPECT_TRUE(QTest::qWaitForWindowExposed(window.get()));
         return window;
     }
@@ -99,7 +99,7 @@ TEST_F(ContactModelTest, OffersEveryModelOnceAndTellsItsTrade)
     std::set<QString> tips;
     for (const QAction* action : entries) {
         EXPECT_TRUE(action->isCheckable());
-        EXPECT_TRUE(action->text().contains(QLatin1Char('&'))) << "no letter to reach it";
+        EXPECT_TRUE(action->text().contains(QLatin1Char('&'))) << "no mnemonic for it";
         EXPECT_GT(action->statusTip().size(), 40) << action->text().toStdString();
         models.insert(action->data().toInt());
         tips.insert(action->statusTip());
@@ -124,7 +124,7 @@ TEST_F(ContactModelTest, ChangesWhenAnEntryIsChosenAndIsTheOnlyOneChecked)
         EXPECT_EQ(window.view()->contactModel(), model);
         EXPECT_EQ(window.preferences().contact_model, model);
         EXPECT_EQ(checkedEntries(window), QStringList{plain(entry->text())});
-        entry->trigger(); // chosen again, it stays
+        entry->trigger(); // chosen again, it stays checked
         EXPECT_EQ(window.view()->contactModel(), model);
         EXPECT_EQ(checkedEntries(window), QStringList{plain(entry->text())});
     }

@@ -1,4 +1,4 @@
-// The sound of touch over a real view, played into memory.
+// The sound of contact over a real view, played into memory.
 #include "core/view/color_ramp.h"
 #include "tests/support/map_maker.h"
 #include "tests/ui/timeout.h"
@@ -50,7 +50,7 @@ protected:
         for (int i = 0; i < 30; ++i) {
             at += QPointF(6.0, 0.0);
             send(QEvent::MouseMove, at, Qt::NoButton, Qt::LeftButton);
-            QTest::qWait(17); // a frame: sounds are made of how far the hand moves in a while
+            QTest::qWait(17); // one frame: sounds depend on how far the stylus moves per time
             loudest = std::max(loudest, sounds.sound().noise_gain + sounds.sound().tone_gain);
         }
     }

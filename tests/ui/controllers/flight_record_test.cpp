@@ -1,4 +1,4 @@
-// The flight record in a real window: of a device that works, and of one that is gone.
+// The diagnostic log in a real window: of a working device, and of one that is gone.
 #include "haptics/trace/session_recorder.h"
 #include "tests/ui/hand_window.h"
 #include "ui/canvas/terrain_view.h"
@@ -23,7 +23,7 @@
 namespace marsview {
 namespace {
 
-// Of the columns of session_recorder.h.
+// Indices of the columns in session_recorder.h.
 constexpr qsizetype kTime = 3;
 constexpr qsizetype kTick = 4;
 constexpr qsizetype kForceZ = 11;
@@ -66,7 +66,7 @@ protected:
         return waitFor([&] { return haptics().connection() == HapticsConnection::None; });
     }
     QFileDialog* dialog() { return window_->findChild<QFileDialog*>(); }
-    // What the dialog that is open saves, without the header.
+    // The rows that the open dialog saves, without the header.
     QList<QList<QByteArray>> saved(const QString& name)
     {
         const QString file = maps_.path(name);
@@ -99,13 +99,14 @@ TEST_F(FlightRecordTest, IsOfWhatHappenedBeforeItWasAskedFor)
     // A busy machine takes a while to open the dialog.
     const std::uint64_t asked = haptics().loop()->state().tick;
     ASSERT_NE(dialog(), nullptr);
-    // The loop goes on while somebody looks for a name.
+    // The loop keeps running while a file name is chosen.
     ASSERT_TRUE(waitFor([&] { return haptics().loop()->state().tick > asked + 300; }));
     const auto rows = saved(QStringLiteral("flight.csv"));
     ASSERT_GT(rows.size(), 200);
     EXPECT_LE(rows.back()[kTick].toULongLong(), asked);
     EXPECT_GT(rows.back()[kTick].toULongLong() + 100, before);
-    // The last moments, not one tick: opening a dialog may stop the loop long enough to let go.
+    // The last moments, not a single tick: opening a dialog may delay the loop enough to switch the
+    // force off.
     EXPECT_TRUE(std::any_of(rows.end() - 200, rows.end(), [](const QList<QByteArray>& row) {
         return row[kForceZ].toDouble() > 0.5;
     }));
@@ -123,7 +124,7 @@ TEST_F(FlightRecordTest, IsThereWhenTheDeviceIsGone)
     ASSERT_TRUE(lose());
     EXPECT_TRUE(action().isEnabled());
     EXPECT_TRUE(button().isEnabled());
-    // Beside the word that it was lost.
+    // Offered next to the notice of the loss.
     const QList<QToolButton*> buttons =
         window_->findChild<NoticeBar*>()->findChildren<QToolButton*>();
     const QString text = action().text().remove(QLatin1Char('&'));
@@ -137,7 +138,7 @@ TEST_F(FlightRecordTest, IsThereWhenTheDeviceIsGone)
     ASSERT_GT(rows.size(), 200);
     EXPECT_EQ(rows.back()[kReason], lost());
     EXPECT_NE(rows.front()[kReason], rows.back()[kReason]);
-    EXPECT_NE(haptics().notice(), QString()) << "it goes on saying so";
+    EXPECT_NE(haptics().notice(), QString()) << "the notice stays";
 }
 
 TEST_F(FlightRecordTest, HasTheLossAlsoWhenTheDeviceIsBack)
@@ -159,7 +160,7 @@ TEST_F(FlightRecordTest, HasTheLossAlsoWhenTheDeviceIsBack)
     }
     EXPECT_GT(losses, 0);
     EXPECT_NE(rows.back()[kReason], lost());
-    // And not of a device that somebody has put away.
+    // The log of a device that was disconnected on purpose is cleared.
     haptics().disconnectDevice();
     ASSERT_TRUE(touch());
     for (const TickRecord& tick : haptics().lastTicks()) {

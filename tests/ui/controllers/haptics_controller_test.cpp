@@ -1,4 +1,4 @@
-// Devices in a real window: what they touch, what they move, and how they end.
+// Devices in a real window: contact, moving the map, and disconnecting.
 #include "core/contact/contact_model.h"
 #include "core/view/color_ramp.h"
 #include "haptics/trace/goal_file.h"
@@ -27,7 +27,7 @@
 namespace marsview {
 namespace {
 
-// Lines of the same goal, and what a recording tells of it.
+// Lines with the same goal and the given columns of a recording.
 void writeGoals(const QString& file,
                 int count,
                 const QByteArray& goal,
@@ -63,7 +63,7 @@ protected:
         EXPECT_EQ(hand_->force_n, 0.0);
     }
 
-    // Down until the ground is felt.
+    // Down until there is a force.
     bool pressDown()
     {
         hand_->moveTo({0.0, 0.0, -0.055});
@@ -82,7 +82,7 @@ protected:
         EXPECT_EQ(state().counts.not_recorded, 0U);
         return is_long_enough && recorded.count() == 1 && recorded[0][1].toULongLong() > 500;
     }
-    // As a batch does it: the goals alone, to a model that nothing has touched.
+    // The batch equivalent: only the goals, fed to a model without earlier contact.
     void expectSameProxies(const QString& file)
     {
         const SceneMap& map = view().ground().maps().front();
@@ -157,7 +157,7 @@ TEST_F(HapticsControllerTest, TheHandReachesWhatIsSeen)
     camera.azimuth = Angle::degrees(90.0);
     view().setCamera(camera);
     EXPECT_TRUE(waitFor([&] { return spread() < 0.6 * before; }));
-    // Away from the user is the heading of the view: east.
+    // The workspace direction away from the user is the heading of the view: east.
     const Vec3 away = state().frame.differenceToScene({0.0, 1.0, 0.0});
     EXPECT_NEAR(away.y / away.x, 0.0, 1e-9);
     EXPECT_GT(away.x, 0.0);
@@ -178,7 +178,7 @@ TEST_F(HapticsControllerTest, PullingTheMapMovesTheCamera)
     ASSERT_TRUE(waitFor([&] { return length(view().camera().target - before.target) > 10.0; }));
     hand_->buttons = 0;
     ASSERT_TRUE(waitFor([&] { return state().mode != StylusMode::Pan; }));
-    // The map has gone to the right with the hand, so that what is seen lies further left.
+    // The map has moved to the right with the device, so the visible part lies further left.
     const Vec3 moved = frame.differenceToWorkspace(view().camera().target - before.target);
     EXPECT_LT(moved.x, 0.0);
     EXPECT_LT(std::abs(moved.y), 0.2 * std::abs(moved.x));
@@ -205,7 +205,7 @@ TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
     }));
     hand_->buttons = 0;
     ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Hover; }));
-    EXPECT_TRUE(waitFor([&] { // the view is some frames behind
+    EXPECT_TRUE(waitFor([&] { // the view lags by some frames
         const double wanted = state().frame.scene_per_metre / scale;
         return std::abs(view().camera().distance_m / before - wanted) < 0.02;
     })) << view().camera().distance_m / before
@@ -230,11 +230,11 @@ TEST_F(HapticsControllerTest, OpeningHoldsNothingUpAndCanBeCancelled)
     EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
     OrbitCamera camera = view().camera();
     camera.distance_m *= 0.5;
-    view().setCamera(camera); // the window goes on
+    view().setCamera(camera); // the window continues
     haptics().disconnectDevice();
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
     hand_->is_held_up = false;
-    // What comes late is closed, and never connected.
+    // A device that opens too late is closed, and never connected.
     ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
     EXPECT_TRUE(waitFor([&] { return hand_->open_count == 0; }));
     EXPECT_EQ(haptics().uri(), QStringLiteral("sim:"));
@@ -266,10 +266,10 @@ TEST_F(HapticsControllerTest, ALostDeviceThatIsThereAgainIsConnectedAnew)
     };
     ASSERT_TRUE(look());
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
-    // The panel is not to be seen, and it is looked for all the same.
+    // The panel is hidden; the search for the device continues all the same.
     hand_->is_lost = false;
     hand_->is_there = true;
-    constexpr int kPatienceMs = 20'000; // it is looked for every few seconds
+    constexpr int kPatienceMs = 20'000; // the search runs every few seconds
     EXPECT_TRUE(QTest::qWaitFor(
         [&] { return haptics().connection() == HapticsConnection::Connected; }, kPatienceMs));
 }
@@ -302,14 +302,14 @@ TEST_F(HapticsControllerTest, TheHandGoesFromTheUpperMapOntoTheLowerAndBack)
     ASSERT_TRUE(openAndWait(*window_, placed("upper", {14, 0.05, 0, 37, 0, -0.05})));
     ASSERT_EQ(view().ground().maps().size(), 2U);
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
-    // In the air: what is below the hand is chosen there as well.
+    // In the air, too, the map below the device is selected.
     const auto comes_to_lie_over = [&](std::size_t index, const WorkspacePoint& at) {
         hand_->moveTo(at);
         return waitFor([&] {
             const LoopState now = state();
             const ScenePoint hand = now.frame.toScene(now.hand);
             return length(now.hand - at) < 1e-9 && view().ground().mapAt(hand.x, hand.y) == index &&
-                   length(now.goal - hand) < 1e-6; // its own map's border does not hold it back
+                   length(now.goal - hand) < 1e-6; // not limited to the border of its own map
         });
     };
     const auto over = [&](const ScenePoint& place) {
@@ -350,7 +350,7 @@ TEST_F(HapticsControllerTest, TheEmergencyStopLetsGoFromAnywhere)
     EXPECT_TRUE(haptics().isStopped());
     ASSERT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
     EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
-    // Pressed again, it stays.
+    // Pressed again, the stop remains.
     QTest::keyClick(&view(), Qt::Key_Pause);
     EXPECT_TRUE(haptics().isStopped());
     QTest::qWait(100);
@@ -369,7 +369,7 @@ TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
     EXPECT_TRUE(haptics().isStopped());
     hand_->is_held_up = false;
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
-    ASSERT_TRUE(waitFor([&] { return state().tick > 300; })); // and forces have come by then
+    ASSERT_TRUE(waitFor([&] { return state().tick > 300; })); // and the force has returned by then
     EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
     EXPECT_EQ(hand_->force_n, 0.0);
     haptics().setStopped(false);
@@ -392,7 +392,7 @@ TEST_F(HapticsControllerTest, AReplayThatEndsWhileStoppedIsNotLost)
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
     EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
     EXPECT_FALSE(haptics().isLost());
-    EXPECT_FALSE(haptics().canBeStopped()); // nothing is waited for
+    EXPECT_FALSE(haptics().canBeStopped()); // the program is not waiting for anything
     haptics().setStopped(false);
 }
 
@@ -440,12 +440,12 @@ TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
     ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.2,lift_s=1")));
     ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    for (int i = 0; i < 2; ++i) { // the second knows nothing of the first
+    for (int i = 0; i < 2; ++i) { // the second does not depend on the first
         ASSERT_TRUE(record(file));
         expectSameProxies(file);
     }
 
-    // And the program: the same hand without one, and after it the device again.
+    // The program as well: the same goals without a device, and then the device again.
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     EXPECT_TRUE(haptics().isReplaying());
     EXPECT_TRUE(
@@ -454,7 +454,7 @@ TEST_F(HapticsControllerTest, ARecordingReplaysToTheSameProxies)
     ASSERT_TRUE(waitFor([&] { return !haptics().isReplaying() && haptics().loop() != nullptr; }));
     EXPECT_EQ(haptics().uri(), QStringLiteral("sim:speed=0.2,lift_s=1"));
     EXPECT_EQ(haptics().settings().device, QStringLiteral("sim:speed=0.2,lift_s=1"));
-    // Not where it is ended by hand; nor is the device forgotten then.
+    // Not if the replay is ended by the user; in that case the device is still remembered.
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     haptics().disconnectDevice();
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
@@ -478,7 +478,7 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
     EXPECT_EQ(replay("500900,4000600,5000,1,1,god-object,1,3", parts), other);
     EXPECT_TRUE(haptics().isReplaying());
     EXPECT_EQ(haptics().notice(), other);
-    // It follows what touches the map.
+    // The notice follows changes of the contact settings.
     haptics().setContactModel(ContactModelKind::GodObject);
     EXPECT_TRUE(haptics().problem().contains(QStringLiteral("with God-Object at 1.")));
     view().setExaggeration(3.0);
@@ -489,7 +489,7 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
 
     EXPECT_TRUE(replay("0,0,0").contains(QStringLiteral("are outside the map")));
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
-    // A device is back where no recording takes its place.
+    // The device is connected again if the recording cannot replace it.
     for (const char* goal : {"0,0,0", "none"}) {
         ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
         const QString problem = replay(goal);
@@ -497,7 +497,7 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
         EXPECT_TRUE(waitFor([&] {
             return haptics().loop() != nullptr && haptics().uri() == QStringLiteral("hand:");
         })) << goal;
-        EXPECT_EQ(haptics().problem(), problem) << "still to be read";
+        EXPECT_EQ(haptics().problem(), problem) << "not yet read";
         haptics().disconnectDevice();
     }
 }
@@ -511,17 +511,17 @@ TEST_F(HapticsControllerTest, KeepsTheHandOfARecordingInThePicture)
     const ScenePoint summit{0.0, 0.0, 0.0};
     ASSERT_FALSE(view().isInPicture(summit));
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    writeGoals(file, 3000, "500900,4000600,0"); // deep below the map's middle
+    writeGoals(file, 3000, "500900,4000600,0"); // deep below the middle of the map
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     EXPECT_TRUE(waitFor([&] {
         return !view().isMoving() && view().shownStylus() &&
                view().isInPicture(view().shownStylus()->proxy);
     }));
     EXPECT_TRUE(haptics().isReplaying());
-    EXPECT_NEAR(view().camera().distance_m, 300.0, 50.0) << "only to the side";
+    EXPECT_NEAR(view().camera().distance_m, 300.0, 50.0) << "only sideways";
 }
 
-// Every proxy that is seen in a second or two of strokes.
+// All proxies observed in a second or two of strokes.
 TEST_F(HapticsControllerTest, ASimulatedHandStrokesWithinThePicture)
 {
     ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.3,lift_s=0")));
@@ -545,7 +545,7 @@ TEST_F(HapticsControllerTest, ASimulatedHandStrokesWithinThePicture)
         view().setExaggeration(sight.exaggeration);
         view().setCamera(camera);
         const std::uint64_t begin = state().tick;
-        constexpr std::uint64_t kReturnTicks = 700; // from where the hand was before
+        constexpr std::uint64_t kReturnTicks = 700; // from the previous device position
         ASSERT_TRUE(waitFor([&] { return state().tick > begin + kReturnTicks; }));
         int seen = 0;
         int outside = 0;
@@ -570,7 +570,7 @@ TEST_F(HapticsControllerTest, TheCameraReturnsWhenAReplayEndsOrIsStopped)
     view().setCamera(camera);
     const OrbitCamera before = view().camera();
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    writeGoals(file, 60'000, "500900,4000600,0"); // out of sight
+    writeGoals(file, 60'000, "500900,4000600,0"); // out of view
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); }));
     EXPECT_GT(haptics().replayedShare(), 0.0);
@@ -637,13 +637,13 @@ TEST_F(HapticsControllerTest, ARecordingOfALowerMapIsReplayed)
         *window_, maps_.placed("small", "IAU_2015:49900", {10.0, 0.05, 0.0, 20.0, 0.0, -0.05})));
     ASSERT_EQ(view().ground().maps().size(), 2U);
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    writeGoals(file, 1000, "16,15,5000"); // beside what lies on top
+    writeGoals(file, 1000, "16,15,5000"); // outside the topmost map
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
     EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
 }
 
-// Also where it was unplugged meanwhile.
+// Also if it was unplugged in the meantime.
 TEST_F(HapticsControllerTest, ADeviceThatIsGoneAfterAReplayIsConnectedWhenItIsThere)
 {
     const QString file = maps_.path(QStringLiteral("touch.csv"));
@@ -685,10 +685,10 @@ TEST_F(HapticsControllerTest, ARecordingEndsWithItsMap)
     const QByteArray before = contentOf(map);
     EXPECT_FALSE(haptics().startRecording(map)) << "onto the map itself";
     EXPECT_FALSE(haptics().startRecording(maps_.path(QStringLiteral("hill.asc"))))
-        << "onto one below it, of which nothing is seen";
+        << "onto one below it, which is not visible";
     haptics().saveTicks(haptics().lastTicks(), map);
     EXPECT_EQ(contentOf(map), before);
-    EXPECT_TRUE(haptics().loop()->isRunning()); // it is felt all the same
+    EXPECT_TRUE(haptics().loop()->isRunning()); // it is touched all the same
 }
 
 TEST_F(HapticsControllerTest, NothingRunsWhileNothingIsConnected)
@@ -729,7 +729,7 @@ TEST_F(HapticsControllerTest, ARememberedDeviceThatIsNotThereBothersNobody)
     makeWindow(kSmall, WindowOptions::Geometry::Remembered);
     EXPECT_EQ(haptics().connection(), HapticsConnection::Opening);
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_NE(haptics().problem(), QString()); // for who looks into the panel
+    EXPECT_NE(haptics().problem(), QString()); // shown in the panel
     EXPECT_EQ(haptics().notice(), QString());
     EXPECT_EQ(haptics().settings().device, QStringLiteral("gone:"));
     haptics().connectTo(QStringLiteral("gone:"));
@@ -758,7 +758,7 @@ TEST_F(HapticsControllerTest, SettingsThatMakeNoSenseAreDefaults)
     settings.remove(QStringLiteral("haptics"));
 }
 
-// A map in tiles in a view, and the same held in memory.
+// A tiled map in a view, and the same map in memory.
 class HapticsControllerOfTiles : public testing::Test {
 protected:
     void SetUp() override
@@ -784,7 +784,7 @@ protected:
         view_.reset();
     }
 
-    // Pressed into the ground there, with no more than so much between the proxy and the ground at
+    // Presses into the terrain there; the proxy must be within the given distance of the terrain at
     // full resolution.
     bool touches(const WorkspacePoint& at, double tolerance_m)
     {
@@ -820,7 +820,7 @@ TEST_F(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
     EXPECT_TRUE(comesToTouch({-0.04, 0.02, -0.055}, kExactM));
 }
 
-// A disk that gives nothing when the hand comes, the coarsest tile no more than others.
+// A disk that returns no data when contact begins, not even the coarsest tile.
 TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
 {
     ASSERT_TRUE(QTest::qWaitFor([&] { return view_->isPictureComplete(); }, kTimeout));
@@ -830,15 +830,15 @@ TEST_F(HapticsControllerOfTiles, TouchesCoarseGroundWithoutWaitingForATile)
     haptics_->connectTo(QStringLiteral("hand:"));
     const WorkspacePoint below{0.01, 0.0, -0.055};
     EXPECT_TRUE(comesToTouch(below, HUGE_VAL));
-    EXPECT_FALSE(touches(below, kExactM)) << "what is held back makes a difference";
-    // The mouse likewise.
+    EXPECT_FALSE(touches(below, kExactM)) << "the tiles that are held back make a difference";
+    // The same with the mouse.
     view_->setTool(Tool::Touch);
     QTest::mousePress(view_.get(), Qt::LeftButton, {}, view_->rect().center());
     ASSERT_TRUE(view_->stylus());
     EXPECT_TRUE(view_->stylus()->is_in_contact);
     QTest::mouseRelease(view_.get(), Qt::LeftButton, {}, view_->rect().center());
-    EXPECT_EQ(large_.guiReadCount(), reads) << "the window's thread read a tile";
-    // And what comes is felt where it belongs.
+    EXPECT_EQ(large_.guiReadCount(), reads) << "the GUI thread read a tile";
+    // And when tiles arrive, the contact is exact.
     large_.holdAllTiles(false);
     EXPECT_TRUE(comesToTouch(below, kExactM));
 }

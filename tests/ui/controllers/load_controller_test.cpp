@@ -73,7 +73,7 @@ TEST(LoadController, DropsAResultThatArrivesAfterCancel)
     Outcomes outcomes(controller);
     for (int i = 0; i < 30; ++i) {
         controller.start(requestFor(file));
-        // Without running events, so that a result may already wait to be delivered.
+        // Does not process events, so that a result may already be waiting for delivery.
         QTest::qSleep(i % 10);
         controller.cancel();
         EXPECT_FALSE(controller.isLoading());

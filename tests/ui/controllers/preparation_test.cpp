@@ -1,4 +1,4 @@
-// Maps that the program prepares itself, in folders and from files that may be against it.
+// Maps that the program prepares itself, with faulty folders and files.
 
 #include "core/levels/level_file.h"
 #include "core/prepare/prepare_map.h"
@@ -28,7 +28,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kColumns = 1400; // so many are not looked at without a copy
+constexpr int kColumns = 1400; // together with the rows too many to view without a copy
 constexpr int kRows = 1100;
 
 float heightOf(int column, int row)
@@ -52,7 +52,7 @@ protected:
         folder_ = root_.path() / "prepared";
     }
 
-    // The program's own ways, with next to no memory for maps.
+    // The program's own opener, with almost no memory for maps.
     WindowOptions options() const
     {
         WindowOptions options = testWindowOptions();
@@ -87,7 +87,7 @@ protected:
             ->findChild<QToolButton*>(QStringLiteral("noticeAction"))
             ->click();
     }
-    // Whether the sample is there, and what the file says.
+    // Compares samples with the file's.
     static void expectRightHeights(MainWindow& window)
     {
         const Heightfield& heightfield = layerOf(window).map->heightfield();
@@ -96,7 +96,7 @@ protected:
             const GridPoint grid{static_cast<double>(column), static_cast<double>(row)};
             ASSERT_TRUE(QTest::qWaitFor(
                 [&] {
-                    static_cast<void>(heightfield.height(grid)); // asks for it
+                    static_cast<void>(heightfield.height(grid)); // requests the tile
                     return heightfield.isExact(grid);
                 },
                 kTimeout));
@@ -104,7 +104,7 @@ protected:
                         1e-9);
         }
     }
-    // The preview is there, can be looked at and touched, and nothing goes on.
+    // The preview can be viewed and touched, and no job is running.
     static void expectUsablePreview(MainWindow& window)
     {
         ASSERT_EQ(window.session().layers.size(), 1U);
@@ -144,7 +144,8 @@ TEST_F(PreparationTest, ShowsTheMapItselfInTheEndAndAtOnceTheNextTime)
     again.opener.prepare = [](const RasterSpec&, const MapResources&, JobMonitor&) -> Status {
         return Error{ErrorCode::Unreadable, "prepared twice"};
     };
-    again.opener.resources.held_bytes_max = std::size_t{1} << 30; // though it could be held
+    // although it would fit into memory
+    again.opener.resources.held_bytes_max = std::size_t{1} << 30;
     const auto second = makeWindow(again);
     ASSERT_TRUE(openAndWait(*second, file_));
     expectRightHeights(*second);
@@ -164,7 +165,7 @@ TEST_F(PreparationTest, TellsItsProgressWithoutGoingBack)
 
 TEST_F(PreparationTest, SaysWhatIsWrongWithTheFolderAndGoesOnInAnother)
 {
-    // No folder can be made where a file is: also for those who may write everywhere.
+    // No folder can be created where a file is, even by users who may write everywhere.
     const std::string in_the_way = root_.write("file", "no folder");
     WindowOptions blocked = options();
     blocked.opener.resources.folder = std::filesystem::path(in_the_way) / "prepared";
@@ -218,7 +219,7 @@ TEST_F(PreparationTest, WhatIsDamagedIsPreparedAgain)
         file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path) / 2));
         file << std::string(64, '\x5a');
         file.close();
-        // Files are known again by whole seconds, and a test takes less.
+        // File times are compared in whole seconds, and a test is faster than that.
         std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) +
                                                    std::chrono::seconds(2));
     };
@@ -260,7 +261,7 @@ TEST_F(PreparationTest, TwoWindowsPrepareOneMapOnce)
         EXPECT_EQ(stateOf(*window), PreparationState::None) << noticeOf(*window).toStdString();
         expectRightHeights(*window);
     }
-    // The map, its levels, and what marks it as used.
+    // The map, its levels, and the mark of its last use.
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
         EXPECT_EQ(entry.path().string().rfind(preparedFile(), 0), 0U) << entry.path();
         EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();

@@ -1,4 +1,4 @@
-// Maps that are looked at while they are prepared.
+// Maps that are viewed while they are being prepared.
 
 #include "tests/ui/large_maps.h"
 #include "tests/ui/test_map.h"
@@ -57,7 +57,7 @@ protected:
     SessionController& controller() { return window_->controller(); }
     const Layer& layer(std::size_t index = 0) { return window_->session().layers.at(index); }
     TerrainView& view() { return *window_->view(); }
-    // By an event of its own: the pointer of the screen may lie there already.
+    // Sends its own event, because the pointer may already be there.
     void hover(QPoint position)
     {
         QMouseEvent event(QEvent::MouseMove, position, view().mapToGlobal(position), Qt::NoButton,
@@ -69,7 +69,7 @@ protected:
     {
         return QTest::qWaitFor(condition, kTimeout);
     }
-    // Until the preview of a map is on screen and the map is being prepared.
+    // Waits until the preview is on screen and the map is being prepared.
     bool openPreview(const QString& file)
     {
         const std::size_t count = window_->session().layers.size();
@@ -121,7 +121,7 @@ TEST_F(PreviewsTest, GiveWayToTheirMapsInPlace)
     EXPECT_EQ(state(), PreparationState::Running);
     EXPECT_FALSE(view().map()->heightfield().isTiled());
     const LayerId id = layer().id;
-    // Everything that may change meanwhile.
+    // Everything that may change in the meantime.
     controller().rename(id, QStringLiteral("Plain"));
     controller().setRamp(id, QStringLiteral("grey"));
     controller().setLight(Angle::degrees(80.0), Angle::degrees(35.0));
@@ -146,7 +146,7 @@ TEST_F(PreviewsTest, GiveWayToTheirMapsInPlace)
     EXPECT_EQ(window_->session().look, before.look);
     EXPECT_EQ(window_->session().active, before.active);
     EXPECT_EQ(view().camera(), camera);
-    EXPECT_EQ(view().geometry(), place); // though the notice is gone
+    EXPECT_EQ(view().geometry(), place); // although the notice is gone
     EXPECT_EQ(view().exaggeration(), 7.5);
     EXPECT_EQ(window_->undoStack().count(), steps);
     EXPECT_FALSE(notice().contains(QStringLiteral("preview")));
@@ -165,7 +165,7 @@ TEST_F(PreviewsTest, GiveWayWhereverTheyAreInTheList)
     EXPECT_EQ(layer(0).id, below);
     EXPECT_FALSE(layer(0).is_visible);
     EXPECT_FALSE(layer(1).is_visible);
-    // Seen again as it was left.
+    // Visible again as it was.
     controller().setVisible(below, true);
     ASSERT_TRUE(waitFor([this] { return view().map() == layer(0).map; }));
     EXPECT_TRUE(view().map()->heightfield().isTiled());
@@ -201,7 +201,7 @@ TEST_F(PreviewsTest, AreNotPreparedForNobodyAndComeBackWithUndo)
     ASSERT_TRUE(waitFor([this] { return large_.begunCount() == 2; }));
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
-    // Taken back and done again after the map was ready.
+    // Undone and redone after the map was ready.
     window_->undoStack().redo();
     EXPECT_TRUE(window_->session().layers.empty());
     window_->undoStack().undo();
@@ -213,7 +213,7 @@ TEST_F(PreviewsTest, RemovedWhileTheirMapIsReadyAreCompletedWhenTheyComeBack)
     ASSERT_TRUE(openPreview(map()));
     ASSERT_TRUE(openPreview(map(QStringLiteral("other.asc"))));
     const LayerId first = layer(1).id;
-    // The step after which the map is prepared is taken back: only an undo step has the preview.
+    // The step after which the map is prepared is undone: only an undo step still has the preview.
     large_.finishPreparing();
     ASSERT_TRUE(waitFor([this] { return !large_.prepared().empty(); }));
     controller().remove(first);
@@ -235,7 +235,7 @@ TEST_F(PreviewsTest, StayWhenPreparingIsStoppedUntilItGoesOn)
     ASSERT_TRUE(waitFor([this] { return large_.stoppedCount() == 1; }));
     EXPECT_TRUE(layer().map->isPreview());
     EXPECT_TRUE(window_->actionSet().layer.prepare->isEnabled());
-    // It can be looked at and touched as before.
+    // It can be viewed and touched as before.
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
     view().setTool(Tool::Touch);
     QTest::mousePress(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
@@ -244,7 +244,7 @@ TEST_F(PreviewsTest, StayWhenPreparingIsStoppedUntilItGoesOn)
     QTest::mouseRelease(&view(), Qt::LeftButton, Qt::NoModifier, view().rect().center());
     EXPECT_NE(notice().indexOf(QStringLiteral("Build its overviews to see")), -1);
     EXPECT_TRUE(noticeButton()->isVisible());
-    // Nothing else begins it again.
+    // No other action starts it again.
     controller().rename(layer().id, QStringLiteral("Plain"));
     window_->undoStack().undo();
     EXPECT_EQ(state(), PreparationState::Stopped);
@@ -293,7 +293,7 @@ TEST_F(PreviewsTest, ArePreparedOneAfterTheOther)
     EXPECT_EQ(controller().preparationOf(layer(1).id).state, PreparationState::Running);
     EXPECT_EQ(controller().preparationOf(layer(0).id).state, PreparationState::Waiting);
     EXPECT_EQ(large_.begunCount(), 1);
-    // The one that runs is stopped, the next begins.
+    // The running one is stopped, and the next one starts.
     controller().stopPreparing();
     EXPECT_EQ(controller().preparationOf(layer(1).id).state, PreparationState::Stopped);
     EXPECT_EQ(controller().preparationOf(layer(0).id).state, PreparationState::Running);
@@ -400,12 +400,12 @@ TEST_F(PreviewsTest, MarkTheHeightsThatAreReadFromThem)
     large_.finishPreparing();
     ASSERT_TRUE(waitUntilWhole());
     ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
-    // The tiles are given up and held back: coarser ones stand in.
+    // The tiles are evicted and held back: coarser ones replace them.
     large_.holdTiles(true);
     large_.forgetTiles();
     hover(view().rect().center() + QPoint(3, 1));
     EXPECT_TRUE(window_->readout()->heightLabel().startsWith(QStringLiteral("≈ ")));
-    // And it becomes exact by itself.
+    // It becomes exact without further action.
     large_.holdTiles(false);
     EXPECT_TRUE(waitFor([this] {
         const QString label = window_->readout()->heightLabel();
@@ -413,7 +413,7 @@ TEST_F(PreviewsTest, MarkTheHeightsThatAreReadFromThem)
     }));
 }
 
-// Tiles that cannot be read are told of while they are wanted, and tried again.
+// Unreadable tiles are reported while they are needed, and retried.
 TEST_F(PreviewsTest, AreFollowedByMapsThatSayWhatCannotBeRead)
 {
     large_.finishPreparing();
@@ -427,7 +427,7 @@ TEST_F(PreviewsTest, AreFollowedByMapsThatSayWhatCannotBeRead)
     view().setCamera(camera);
     ASSERT_TRUE(waitFor([this] { return notice().contains(QStringLiteral("the disk is gone")); }));
     EXPECT_EQ(window_->readout()->detailLabel(), QStringLiteral("incomplete"));
-    ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); })); // as far as it can be
+    ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); })); // as far as possible
     large_.failTiles(false);
     ASSERT_TRUE(waitFor([this] { return !notice().contains(QStringLiteral("the disk is gone")); }));
     EXPECT_TRUE(waitFor(

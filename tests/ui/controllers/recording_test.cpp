@@ -1,4 +1,4 @@
-// Recordings that begin in the middle of a touch, and what `marsview-cli trace` makes of them.
+// Recordings that start in the middle of a contact, and their traces by `marsview-cli trace`.
 #include "core/contact/contact_model.h"
 #include "haptics/trace/goal_file.h"
 #include "tests/ui/hand_window.h"
@@ -39,7 +39,7 @@ Rows rowsOf(const QString& file)
     return rowsIn(text.readAll());
 }
 
-// What the program gives, as a user would ask for it.
+// The program's trace, with the options that a user would give.
 Rows traced(const QString& map, const QString& goals)
 {
     QProcess process;
@@ -59,14 +59,14 @@ protected:
         hand_->moveTo(at);
         return waitFor([&] { return length(state().hand - at) < 1e-9; });
     }
-    // Connected, and deep in the ground after a stroke that the file will not know of.
+    // Connected, and deep below the surface after a stroke that is not in the file.
     bool beginTouching()
     {
         return connectTo(QStringLiteral("hand:")) && moveTo({-0.05, 0.03, -0.055}) &&
                moveTo({0.01, -0.02, -0.055}) &&
                waitFor([&] { return hand_->force_n > 0.5 && state().contact.is_in_contact; });
     }
-    // A stroke that never leaves the ground.
+    // A stroke that never leaves the surface.
     bool stroke()
     {
         return moveTo({0.04, 0.03, -0.05}) && moveTo({-0.03, 0.01, -0.055}) &&
@@ -102,7 +102,7 @@ TEST_F(RecordingTest, BegunWhileTouchingIsTheSameAgainWithEveryModel)
         const Rows recorded = rowsOf(file);
         EXPECT_TRUE(std::all_of(recorded.begin(), recorded.end(), [](const auto& row) {
             return row[5] == "1";
-        })) << "it was to stay on the ground";
+        })) << "it must stay in contact";
         EXPECT_EQ(recorded[0][16].toStdString(), contactModelName(kind));
         expectSameAgain(map, file);
     }
@@ -116,7 +116,7 @@ TEST_F(RecordingTest, OfAMapBelowAnotherIsTheSameAgain)
                             maps_.placed("upper", "IAU_2015:49900", {16, 0.05, 0, 37, 0, -0.05})));
     ASSERT_EQ(view().ground().maps().size(), 2U);
     OrbitCamera camera = view().camera();
-    camera.target = {-150'000.0, 0.0, 0.0}; // beside the upper map, whose middle is at 0
+    camera.target = {-150'000.0, 0.0, 0.0}; // outside the upper map, whose middle is at 0
     camera.distance_m = 100'000.0;
     view().setCamera(camera);
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
@@ -136,7 +136,8 @@ TEST_F(RecordingTest, IsBegunWithoutTheHandFeelingIt)
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     ASSERT_TRUE(beginTouching());
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    // A busy machine stops the loop now and then for long enough to let go, recording or not.
+    // On a busy machine the loop pauses now and then for long enough to switch the force off, with
+    // or without a recording.
     bool is_disturbed = true;
     for (int i = 0; i < 50 && is_disturbed; ++i) {
         ASSERT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));
@@ -152,7 +153,7 @@ TEST_F(RecordingTest, IsBegunWithoutTheHandFeelingIt)
         }
     }
     ASSERT_FALSE(is_disturbed);
-    // Where it was: the first line puts the new model's proxy there.
+    // Back to its old place: the first line puts the proxy of the new model there.
     const Rows recorded = rowsOf(file);
     ASSERT_GT(recorded.size(), 100U);
     for (qsizetype i = 6; i < 8; ++i) {

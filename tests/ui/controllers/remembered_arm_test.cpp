@@ -1,4 +1,4 @@
-// An arm that was unplugged is found again under another path, in the same window and in the next.
+// An arm that was unplugged is found again at another path, in the same window and in the next.
 #include "haptics/drivers/polhem_driver.h"
 #include "tests/haptics/drivers/fake_hid.h"
 #include "tests/support/shared_data.h"
@@ -60,7 +60,7 @@ protected:
         window_ = std::make_unique<MainWindow>(options);
         window_->resize(1000, 700);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     }
     HapticsController& haptics() { return window_->haptics(); }
@@ -73,7 +73,7 @@ protected:
         haptics().connectTo(uri);
         return comesTo(HapticsConnection::Connected);
     }
-    // And it is seen that it is gone.
+    // Unplugs it and waits until the loss is detected.
     bool unplug()
     {
         hid_.unplug();
@@ -95,14 +95,14 @@ TEST_F(RememberedArmTest, IsConnectedAgainUnderAnotherPath)
     ASSERT_TRUE(connectTo(QStringLiteral("polhem:serial=4711")));
     EXPECT_EQ(hid_.openedPath(), "/dev/hidraw7");
     ASSERT_TRUE(unplug());
-    // Both come back, the other one where the first was.
+    // Both return, the other one at the path of the first.
     hid_.move("/dev/hidraw7", "/dev/hidraw3");
     hid_.move("/dev/hidraw8", "/dev/hidraw7");
     hid_.plugInAgain();
     ASSERT_TRUE(comesTo(HapticsConnection::Connected));
     EXPECT_EQ(hid_.openedPath(), "/dev/hidraw3");
     EXPECT_EQ(haptics().uri(), QStringLiteral("polhem:serial=4711"));
-    // And in the next window, under yet another one.
+    // And in the next window, at yet another path.
     window_->close();
     hid_.move("/dev/hidraw3", "/dev/hidraw11");
     makeWindow();
@@ -123,7 +123,7 @@ TEST_F(RememberedArmTest, IsConnectedWhenItComesAfterTheWindow)
     EXPECT_EQ(hid_.openedPath(), "/dev/hidraw5");
 }
 
-// Nobody stands beside it then to see that it is in its rest position.
+// At that time the user cannot confirm that the arm is in its home position.
 TEST_F(RememberedArmTest, IsNotTakenToBeAtRestWhenItIsBack)
 {
     hid_.plugIn(kArm);
@@ -139,7 +139,7 @@ TEST_F(RememberedArmTest, IsNotTakenToBeAtRestWhenItIsBack)
     EXPECT_EQ(haptics().uri(), QStringLiteral("polhem:serial=4711") + options);
 }
 
-// The oldest boards cannot tell, and have no other way.
+// The oldest boards have no home flag, and the option is the only way.
 TEST_F(RememberedArmTest, AnArmThatDoesNotKnowWhereItIsIsToldByAButton)
 {
     hid_.plugIn(kArmWithoutNumber);

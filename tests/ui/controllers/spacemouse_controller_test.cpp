@@ -1,4 +1,4 @@
-// A SpaceMouse in a real window: what its cap does to the camera, and when it does nothing.
+// A SpaceMouse in a real window: how its cap moves the camera, and when it does not.
 #include "core/view/cap_steering.h"
 #include "tests/haptics/drivers/fake_hid.h"
 #include "tests/ui/test_map.h"
@@ -29,7 +29,8 @@ using test::reportOf;
 constexpr auto kStep = 20ms; // of the clock below
 constexpr double kStepS = 0.02;
 
-// What the newer devices say: x right, y towards the user, z down, and turns about them, of 350.
+// The report of the newer devices: x right, y toward the user, z down, and rotations about them, of
+// 350.
 FakeHid::Report cap(int x, int y, int z, int turn_x = 0, int turn_y = 0, int turn_z = 0)
 {
     return reportOf({x, y, z, turn_x, turn_y, turn_z}, 13, {1});
@@ -40,7 +41,8 @@ protected:
     void SetUp() override
     {
         WindowOptions options = testWindowOptions();
-        // It is looked at once a frame, and goes on then: what a frame does is known to the digit.
+        // The cap is read once per frame and time advances then, so the effect of a frame is known
+        // exactly.
         options.spacemouse = {.api = &hid_.api(), .look_interval = 20ms, .now = [this] {
                                   ++looks_;
                                   return clock_ += step_;
@@ -48,7 +50,7 @@ protected:
         window_ = std::make_unique<MainWindow>(options);
         window_->resize(1000, 700);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         ASSERT_TRUE(openAndWait(
             *window_, maps_.write(QStringLiteral("flat.asc"), {}, [](int, int) { return 100.0; })));
         OrbitCamera camera = view().camera();
@@ -81,14 +83,15 @@ protected:
         hid_.plugIn({"/dev/hidraw2", 0x256F, 0xC635, 0x01, 0x08});
         return waitFor([&] { return isConnected() && !isAwake(); });
     }
-    // In how many frames the camera moved since this was asked last.
+    // The number of frames in which the camera has moved since the last call.
     int takeMoves()
     {
         const int count = static_cast<int>(moved_->count());
         moved_->clear();
         return count;
     }
-    // Holds the cap like that for some frames; in how many the camera moved.
+    // Holds the cap at this deflection for some frames; the number of frames in which the camera
+    // moved.
     int hold(const FakeHid::Report& report)
     {
         takeMoves();
@@ -98,13 +101,13 @@ protected:
         EXPECT_TRUE(waitFor([&] { return !isAwake(); }));
         return takeMoves();
     }
-    // Lets the window look at the cap so many times.
+    // Lets the window read the cap this many times.
     bool waitForLooks(int count)
     {
         const int until = looks_ + count;
         return waitFor([&] { return looks_ >= until; });
     }
-    // Where the axis of the picture meets the ground, which is level.
+    // The point where the picture's axis meets the ground, which is level.
     double distanceToGroundM()
     {
         const OrbitCamera& camera = view().camera();
@@ -115,13 +118,14 @@ protected:
     TestMaps maps_;
     std::chrono::steady_clock::time_point clock_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::duration step_ = kStep;
-    int looks_ = 0; // at the clock
+    int looks_ = 0; // clock readings
     double home_distance_m_ = 0.0;
     std::unique_ptr<MainWindow> window_;
     std::unique_ptr<QSignalSpy> moved_;
 };
 
-// 189 of 350 are 0.54: halfway from the dead zone's edge to the full push, an eighth of the speed.
+// 189 of 350 are 0.54: halfway from the edge of the dead zone to full deflection, an eighth of the
+// speed.
 constexpr int kHalf = 189;
 constexpr double kHalfSpeed = 0.125;
 
@@ -137,7 +141,8 @@ TEST_F(SpaceMouseControllerTest, APushGoesThatWayByTheTimeThatHasPassed)
           std::pair{cap(0, -kHalf, 0), away}, std::pair{cap(0, kHalf, 0), away * -1.0}}) {
         view().setCamera(begin);
         const ScenePoint eye = eyeOf(begin);
-        const double speed_m_per_s = kHalfSpeed * distanceToGroundM(); // a distance a second
+        // one camera distance per second
+        const double speed_m_per_s = kHalfSpeed * distanceToGroundM();
         const int moves = hold(report);
         const Vec3 expected = way * (moves * kStepS * speed_m_per_s);
         EXPECT_GT(length(expected), 1.0);
@@ -167,13 +172,13 @@ TEST_F(SpaceMouseControllerTest, ATwistTurnsAndATipTiltsAboutTheGroundInTheMiddl
     const auto ground = view().surfaceAt(middle);
     ASSERT_TRUE(ground);
     const OrbitCamera before = view().camera();
-    // Clockwise as the user sees it.
+    // Clockwise as seen by the user.
     int moves = hold(cap(0, 0, 0, 0, 0, kHalf));
     const OrbitCamera turned = view().camera();
     EXPECT_NEAR((turned.azimuth - before.azimuth).degrees(), moves * kStepS * kHalfSpeed * 90.0,
                 1e-9);
     EXPECT_EQ(turned.tilt, before.tilt);
-    // Its front lifted: towards the horizon.
+    // Its front lifted: toward the horizon.
     moves = hold(cap(0, 0, 0, kHalf, 0, 0));
     EXPECT_NEAR((view().camera().tilt - before.tilt).degrees(), moves * kStepS * kHalfSpeed * 45.0,
                 1e-9);
@@ -202,7 +207,7 @@ TEST_F(SpaceMouseControllerTest, NothingRunsAndNothingIsDrawnWhileItRests)
     QObject::connect(&view(), &QOpenGLWidget::frameSwapped, window_.get(), [&] { ++frames; });
     ASSERT_TRUE(waitFor([&] { return view().isPictureComplete(); }));
     const auto enumerations = hid_.enumerations();
-    // The window system may still ask for a frame or two; then none comes by itself.
+    // The window system may still request a frame or two; then there are no more.
     const auto is_quiet = [&] {
         frames = 0;
         const int looks = looks_;
@@ -212,7 +217,7 @@ TEST_F(SpaceMouseControllerTest, NothingRunsAndNothingIsDrawnWhileItRests)
     };
     EXPECT_TRUE(waitFor(is_quiet));
     EXPECT_FALSE(isAwake());
-    EXPECT_EQ(hid_.enumerations(), enumerations) << "who has one looks for none";
+    EXPECT_EQ(hid_.enumerations(), enumerations) << "with a device there is no search";
 }
 
 TEST_F(SpaceMouseControllerTest, NothingIsDrawnInTheDeadZoneNorAtALimit)
@@ -220,7 +225,7 @@ TEST_F(SpaceMouseControllerTest, NothingIsDrawnInTheDeadZoneNorAtALimit)
     ASSERT_TRUE(plugIn());
     const OrbitCamera before = view().camera();
     takeMoves();
-    hid_.say(cap(27, -27, 20, -25, 350, 27)); // rolled, too, which the camera does not do
+    hid_.say(cap(27, -27, 20, -25, 350, 27)); // rolled as well, which the camera ignores
     EXPECT_TRUE(waitForLooks(20));
     EXPECT_TRUE(isAwake());
     EXPECT_EQ(takeMoves(), 0);
@@ -280,7 +285,7 @@ TEST_F(SpaceMouseControllerTest, ItIsNotHeardWhileADialogIsOpenOrAnotherWindowIs
     other.show();
     QApplication::setActiveWindow(&other);
     expect_unheard();
-    // In front again, it goes on without being let go of first.
+    // In front again, it continues although the cap was not released in between.
     other.close();
     QApplication::setActiveWindow(window_.get());
     EXPECT_TRUE(waitFor([&] { return takeMoves() > 0; }));
@@ -295,7 +300,7 @@ TEST_F(SpaceMouseControllerTest, TheFirstButtonShowsTheWholeMap)
     hid_.sayOnce({3, 0});
     ASSERT_TRUE(waitFor([&] { return looks_ >= until && !isAwake(); }));
     EXPECT_FALSE(view().isMoving());
-    hid_.say(cap(60, 0, 0)); // held a little all the while
+    hid_.say(cap(60, 0, 0)); // slightly deflected the whole time
     ASSERT_TRUE(waitFor([&] { return takeMoves() > 0; }));
     hid_.sayOnce({3, 1});
     hid_.sayOnce({3, 0});
@@ -308,7 +313,7 @@ TEST_F(SpaceMouseControllerTest, LookingForItHoldsNothingUp)
 {
     hid_.stallEnumerating();
     const auto until = hid_.enumerations() + 1;
-    ASSERT_TRUE(waitFor([&] { return hid_.enumerations() >= until; })); // and hangs there
+    ASSERT_TRUE(waitFor([&] { return hid_.enumerations() >= until; })); // and blocks there
     hid_.say(cap(0, 0, 0));
     hid_.plugIn({"/dev/hidraw2", 0x256F, 0xC635, 0x01, 0x08});
     const Angle before = view().camera().azimuth;
@@ -316,7 +321,7 @@ TEST_F(SpaceMouseControllerTest, LookingForItHoldsNothingUp)
     ASSERT_TRUE(waitFor([&] { return !view().isMoving(); }));
     EXPECT_NEAR((view().camera().azimuth - before).degrees(), 10.0, 1e-6);
     EXPECT_FALSE(isConnected());
-    EXPECT_EQ(hid_.enumerations(), until) << "one look at a time";
+    EXPECT_EQ(hid_.enumerations(), until) << "one search at a time";
     hid_.goOnEnumerating();
     EXPECT_TRUE(waitFor([&] { return isConnected(); }));
 }

@@ -87,7 +87,7 @@ TEST(AddressDialog, IsReachedFromTheMenuAndTellsWhyOpeningFailed)
     auto* dialog = window.findChild<AddressDialog*>();
     ASSERT_NE(dialog, nullptr);
     const QSignalSpy failures(&window, &MainWindow::openFailed);
-    // Nobody listens at port 1.
+    // Port 1 has no listener.
     dialog->findChild<QComboBox*>(QStringLiteral("address"))
         ->setEditText(QStringLiteral("http://127.0.0.1:1/mars.tif"));
     openButton(*dialog)->click();

@@ -31,7 +31,7 @@ protected:
 
 TEST_F(GoToDialogTest, FindsThePlaceInEveryKindOfCoordinate)
 {
-    const auto mars = load(maps_.mars()); // 10° E, 20° N, a quarter of a degree a pixel
+    const auto mars = load(maps_.mars()); // 10° E, 20° N, a quarter of a degree per pixel
     const auto at = [&](D display, const char* text) {
         const auto place = placeOnMap(*mars, {}, display, QString::fromUtf8(text));
         EXPECT_TRUE(place) << text << ": " << (place ? "" : place.error().message);
@@ -77,7 +77,7 @@ TEST_F(GoToDialogTest, UnderstandsEveryFormatWhateverIsChosen)
     EXPECT_NEAR(column(west, D::Planetocentric, "15 N, 12.5 E"), 9.5, 1e-6);
     EXPECT_NEAR(column({}, D::Planetocentric, "15° 00′ 00″ N, 347° 30′ 00″ W"), 9.5, 1e-6);
     EXPECT_NEAR(column({}, D::Planetocentric, "15,0 12,5"), 9.5, 1e-6);
-    // Letters make it a latitude and a longitude even where x, y is asked for.
+    // Direction letters make it a latitude and a longitude even where x, y is expected.
     EXPECT_NEAR(column({}, D::Map, "15 N 12.5 E"), 9.5, 1e-6);
 }
 

@@ -44,7 +44,7 @@ TEST(GuideWindowTest, ALinkOpensItsPage)
     window.open(QStringLiteral("touching.md"));
     auto* text = window.findChild<QTextBrowser*>();
     EXPECT_TRUE(text->toPlainText().startsWith(QStringLiteral("Touching terrain")));
-    window.open(QStringLiteral("missing.md")); // stays where it is
+    window.open(QStringLiteral("missing.md")); // stays at its place
     EXPECT_TRUE(text->toPlainText().startsWith(QStringLiteral("Touching terrain")));
 }
 
@@ -62,7 +62,7 @@ TEST(GuideWindowTest, SearchShowsThePageWithTheTextAndGraysOutTheOthers)
     EXPECT_EQ(text->textCursor().selectedText(), QStringLiteral("blue"));
     QTest::keyClick(field, Qt::Key_Return);
     EXPECT_EQ(text->textCursor().selectedText(), QStringLiteral("Blue"));
-    QTest::keyClick(field, Qt::Key_Return); // from the beginning again
+    QTest::keyClick(field, Qt::Key_Return); // from the start again
     EXPECT_EQ(text->textCursor().selectedText(), QStringLiteral("blue"));
 }
 

@@ -32,7 +32,7 @@ class LargeMapsPageTest : public testing::Test {
 protected:
     void SetUp() override { folder_ = root_.path() / "maps"; }
 
-    // A prepared map of `bytes`, as far as the folder is concerned.
+    // A prepared map of `bytes`, as far as the folder can see.
     std::string addMap(const std::string& digest, std::size_t bytes) const
     {
         const Result<MapFolder> maps = MapFolder::open(folder_);
@@ -104,7 +104,7 @@ TEST_F(LargeMapsPageTest, TellsWhatIsChosen)
     EXPECT_EQ(chosen.fetched_gb, 9);
     const QSignalSpy changes(&page, &LargeMapsPage::changed);
     const QList<QSpinBox*> boxes = page.findChildren<QSpinBox*>();
-    boxes[0]->setValue(5); // too little for a picture
+    boxes[0]->setValue(5); // too little space for a picture
     page.apply(chosen);
     EXPECT_EQ(chosen.tile_memory_mb, kTileMemoryMbMin);
     boxes[0]->setValue(0);
@@ -130,7 +130,7 @@ TEST_F(LargeMapsPageTest, TellsWhatCameFromServersAndEmptiesIt)
     empty->click();
     auto* box = page.findChild<QMessageBox*>();
     ASSERT_NE(box, nullptr);
-    EXPECT_EQ(keptTilesIn(fetched()).count, 2U) << "not before it was confirmed";
+    EXPECT_EQ(keptTilesIn(fetched()).count, 2U) << "not before confirmation";
     for (QAbstractButton* button : box->buttons()) {
         if (box->buttonRole(button) == QMessageBox::DestructiveRole) {
             button->click();
@@ -268,7 +268,7 @@ TEST_F(LargeMapsPageTest, TilesThatCannotBeKeptAreToldOnceAndTheMapGoesOn)
     ASSERT_TRUE(draw());
     EXPECT_FALSE(shown().contains(sentence));
     ASSERT_TRUE(openAndWait(window, maps.hill(QStringLiteral("other.asc"))));
-    EXPECT_FALSE(shown().contains(sentence)) << "it has been told";
+    EXPECT_FALSE(shown().contains(sentence)) << "it has been shown already";
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// A hand outside the picture, in a real window: the arrow at the edge that points to it.
+// A proxy outside the picture, in a real window: the arrow at the edge that points to it.
 #include "tests/ui/color_contrast.h"
 #include "tests/ui/hand_window.h"
 #include "tests/ui/timeout.h"
@@ -24,7 +24,7 @@ bool isRed(QRgb color)
     return qRed(color) > 150 && qGreen(color) < 80 && qBlue(color) < 80;
 }
 
-// The middle of all that is red.
+// The middle of all red pixels.
 QPointF middleOfRed(const QImage& picture)
 {
     QPointF sum;
@@ -46,10 +46,10 @@ protected:
     {
         makeWindow(kSmall);
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
-        window_->overlays()->setCovered(0); // by what the map has to say
+        window_->overlays()->setCovered(0); // no notices over the map
     }
     HandPointer& pointer() { return *window_->overlays()->handPointer(); }
-    // A hand so far beside the middle of the picture, as shares of what is seen from there to its
+    // Puts the proxy to the side of the picture's middle, in fractions of the distance to its
     // edges.
     void showHandAt(double right, double up)
     {
@@ -73,7 +73,7 @@ TEST_F(HandPointerTest, IsThereOnlyWhileTheHandIsOutsideThePicture)
     EXPECT_FALSE(pointer().isVisible());
     showHandAt(1.05, 0.0);
     EXPECT_TRUE(pointer().isVisible());
-    // The view comes to see it.
+    // The camera moves until the proxy is in the picture.
     OrbitCamera camera = view().camera();
     camera.distance_m *= 1.5;
     view().setCamera(camera);
@@ -103,7 +103,7 @@ TEST_F(HandPointerTest, StandsAtTheEdgeThatTheHandIsBeyondAndPointsThere)
         EXPECT_LT(QLineF(middleOfPointer(), c.middle).length(), 1.0) << c.name;
         EXPECT_TRUE(view().rect().contains(pointer().geometry().adjusted(3, 3, -3, -3))) << c.name;
         EXPECT_TRUE(pointer().accessibleName().contains(QLatin1String(c.name))) << c.name;
-        // Its tip is in front: what is red there is narrow.
+        // The tip is in front: the red area is narrow there.
         const QImage picture = pointer().grab().toImage().convertToFormat(QImage::Format_RGB32);
         const QPointF middle = middleOfRed(picture);
         const QPointF way = c.middle - QPointF(size.width(), size.height()) / 2.0;
@@ -139,7 +139,8 @@ TEST_F(HandPointerTest, CanBeReadOnLightAndDarkGround)
         QPainter painter(&picture);
         pointer().render(&painter, {}, {}, QWidget::DrawChildren);
         painter.end();
-        // From the outside to the red: a rim that stands out from the ground, and the red from it.
+        // From the outside to the red: a rim that contrasts with the terrain, and the red that
+        // contrasts with the rim.
         double rim = 1.0;
         int red = 0;
         for (int y = 0; y < picture.height(); ++y) {
@@ -167,14 +168,14 @@ TEST_F(HandPointerTest, StaysBelowWhatCoversThePicture)
     const double before = middleOfPointer().y();
     window_->overlays()->setCovered(60);
     EXPECT_NEAR(middleOfPointer().y() - before, 60.0, 1.0);
-    // What is covered is not seen, though it is in the picture.
+    // A covered point counts as not visible, although it is in the picture.
     showHandAt(0.0, 0.98);
     EXPECT_TRUE(pointer().isVisible());
     window_->overlays()->setCovered(0);
     EXPECT_FALSE(pointer().isVisible());
 }
 
-// What a hand reaches is a box around what is seen, whose near corners are beyond the picture.
+// The workspace is a box around the visible terrain, whose near corners are outside the picture.
 TEST_F(HandPointerTest, PointsToTheHandOfADevice)
 {
     window_->haptics().connectTo(QStringLiteral("hand:"));

@@ -30,7 +30,7 @@ namespace {
 
 constexpr Viewport kViewport{1280, 800};
 
-// The four ways that rasters lie, and two that are turned.
+// The four orientations of rasters, and two rotated ones.
 struct Raster {
     const char* name;
     double east_per_column;
@@ -58,7 +58,7 @@ SceneFrame frameOf(const Raster& raster)
             .north_per_row = raster.north_per_row};
 }
 
-// Black but for one white block of 20 × 20 samples around a place of the raster.
+// Black except for one white block of 20 × 20 samples around a place of the raster.
 QImage previewWithMark(GridPoint mark)
 {
     QImage image(static_cast<int>(kColumns), static_cast<int>(kRows), QImage::Format_RGBA8888);
@@ -114,7 +114,7 @@ TEST_F(MinimapTest, AClickOnAPlaceInThePictureAsksForThatPlace)
         const SceneFrame frame = frameOf(raster);
         const GridPoint mark{150.0, 30.0};
         show(frame, previewWithMark(mark));
-        // Found by looking, not by asking the widget: the middle of what is white.
+        // Located in the image, without a query to the widget: the middle of the white pixels.
         const QImage picture = minimap_.grab().toImage();
         double x = 0.0;
         double y = 0.0;
@@ -224,7 +224,7 @@ TEST_F(MinimapTest, LeavesOtherButtonsAlone)
                       Qt::NoModifier);
     QApplication::sendEvent(&minimap_, &event);
     EXPECT_EQ(asked_count_, 0);
-    EXPECT_TRUE(event.isAccepted()) << "it is not for the map behind";
+    EXPECT_TRUE(event.isAccepted()) << "the map behind must not get it";
 }
 
 TEST_F(MinimapTest, MovesByTheArrowKeys)
@@ -319,7 +319,7 @@ TEST_F(MinimapTest, BearsTheSmallestMapAndNone)
     EXPECT_FALSE(minimap_.grab().isNull());
     minimap_.resize(1, 1);
     EXPECT_FALSE(minimap_.grab().isNull());
-    // A strip keeps enough of a plate to be seen and pressed.
+    // Even for a narrow strip, the minimap is large enough to be seen and clicked.
     minimap_.setMap(QImage(), {.origin = {0.5, 49999.5}}, 2, 100000);
     EXPECT_GE(minimap_.sizeHint().width(), 20);
     minimap_.clear();
@@ -386,7 +386,7 @@ TEST(Compass, AsksForNorthByMouseKeyAndScreenReader)
 TEST(ScaleBarView, TellsItsLengthToScreenReaders)
 {
     ScaleBarView view;
-    EXPECT_TRUE(view.sizeHint().isEmpty()) << "nothing to show before there is a camera";
+    EXPECT_TRUE(view.sizeHint().isEmpty()) << "there is no camera yet";
     view.setLongestBar(130);
     OrbitCamera camera{.distance_m = 4e6 / std::tan(Angle::degrees(20.0).radians()) / 2.0};
     // 4 000 km high in 1 000 widget pixels: 520 km in 130.
@@ -465,9 +465,9 @@ TEST(Legend, SaysWhatColorsAndLinesMean)
               "Legend: contour lines every 2 km");
     EXPECT_FALSE(legend.sizeHint().isEmpty());
     EXPECT_EQ(name({.mode = ShadingMode::Hillshade, .ramp = ramp}), "Legend");
-    EXPECT_TRUE(legend.sizeHint().isEmpty()) << "light alone needs no legend";
+    EXPECT_TRUE(legend.sizeHint().isEmpty()) << "hillshade alone needs no legend";
     EXPECT_EQ(name({.ramp = ramp, .range = {5.0, 5.0}}), "Legend");
-    EXPECT_TRUE(legend.sizeHint().isEmpty()) << "one height has one color";
+    EXPECT_TRUE(legend.sizeHint().isEmpty()) << "one elevation has one color";
     EXPECT_TRUE(legend.testAttribute(Qt::WA_TransparentForMouseEvents));
 }
 
@@ -501,7 +501,7 @@ TEST(Legend, MarksElevationsBeyondTheEndsOfTheRamp)
     EXPECT_FALSE(legend.hasLower());
     EXPECT_EQ(legend.accessibleName(),
               QStringLiteral("Legend: elevation from −5000 m to 8000 m, highest 21171 m"));
-    EXPECT_EQ(legend.sizeHint(), size) << "arrows take no room of their own";
+    EXPECT_EQ(legend.sizeHint(), size) << "arrows take no extra space";
     const QImage marked = legend.grab().toImage();
     EXPECT_NE(marked, plain);
     content.all.minimum_m = -8200.0;
@@ -557,7 +557,7 @@ TEST(ForceMeter, FillsItsBarWithTheShareOfTheLargest)
         meter.resize(meter.sizeHint());
         const QImage picture = meter.grab().toImage();
         int count = 0;
-        // Beyond the little picture of space, halfway up, blue or amber.
+        // To the right of the small image, halfway up, blue or amber.
         for (int x = picture.width() / 4; x < picture.width() * 3 / 4; ++x) {
             count += picture.pixelColor(x, picture.height() / 2).saturation() > 100 ? 1 : 0;
         }
@@ -588,7 +588,7 @@ protected:
     {
         return {minimap_, legend_, compass_, scale_bar_, hint_, force_meter_};
     }
-    // How many are seen; fails where two overlap or one sticks out.
+    // The number of visible ones; fails if two overlap or one extends beyond the view.
     int checkedCount()
     {
         int count = 0;
@@ -632,7 +632,7 @@ protected:
 
 TEST_F(OverlayLayoutTest, NeverOverlapsInWindowsOfAnySize)
 {
-    host_.setUpdatesEnabled(false); // painting takes nearly all of the time
+    host_.setUpdatesEnabled(false); // painting takes almost all of the time
     host_.show();
     test::Random random;
     std::array<int, 7> seen{};
@@ -721,7 +721,7 @@ TEST_F(OverlayLayoutTest, MovesNothingForATouch)
         }
     }
     resize(420, 300);
-    EXPECT_FALSE(force_meter_->isHidden()) << "above what is at the bottom";
+    EXPECT_FALSE(force_meter_->isHidden()) << "above the bottom overlays";
     EXPECT_LT(force_meter_->geometry().bottom(), scale_bar_->geometry().top());
     EXPECT_GT(force_meter_->geometry().left(), legend_->geometry().right());
 }

@@ -29,7 +29,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1280, 800);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         window_->controller().open({maps_.hill(QStringLiteral("a.asc")),
                                     maps_.hill(QStringLiteral("b.asc")),
                                     maps_.hill(QStringLiteral("c.asc"))});
@@ -102,7 +102,7 @@ TEST_F(DatasetPanelTest, RenamesInPlace)
     ASSERT_NE(editor, nullptr);
     editor->setText(QStringLiteral("Rim"));
     QTest::keyClick(editor, Qt::Key_Return);
-    QCoreApplication::processEvents(); // Qt commits what was typed a moment later
+    QCoreApplication::processEvents(); // Qt commits the typed text a moment later
     EXPECT_EQ(window_->session().layers[0].name, "Rim");
     window_->undoStack().undo();
     EXPECT_EQ(window_->session().layers[0].name, "c.asc");
@@ -133,9 +133,9 @@ TEST_F(DatasetPanelTest, ReordersByDropping)
     EXPECT_EQ(names(), "cba");
     drop(0, 2); // between b and a
     EXPECT_EQ(names(), "bca");
-    drop(1, 1); // where it is
+    drop(1, 1); // its current place
     EXPECT_EQ(names(), "bca");
-    drop(0, -1); // on the empty room below
+    drop(0, -1); // on the empty area below
     EXPECT_EQ(names(), "cab");
 }
 
@@ -147,7 +147,7 @@ TEST_F(DatasetPanelTest, ChoosesTheRampOfTheActiveLayer)
     QTest::keyClick(ramps, Qt::Key_Down);
     EXPECT_EQ(window_->session().layers[0].ramp, colorRamps()[0].name);
     list().setCurrentIndex(model().index(1));
-    EXPECT_EQ(ramps->currentIndex(), 0); // that one's is as it was
+    EXPECT_EQ(ramps->currentIndex(), 0); // the ramp of the other layer is unchanged
     window_->undoStack().undo();
     EXPECT_EQ(window_->session().layers[0].ramp, "");
 }

@@ -63,7 +63,7 @@ TEST_F(HapticsPanelTest, ListsDevicesWithTheReasonWhyNot)
     EXPECT_FALSE(connect.isEnabled());
     QTest::keyClick(&list(), Qt::Key_Return);
     EXPECT_EQ(haptics().connection(), HapticsConnection::None);
-    // The two lines of the last have room.
+    // The last entry has space for its two lines.
     const QRect one = list().visualItemRect(list().item(0));
     EXPECT_GE(list().visualItemRect(list().item(2)).height(), 2 * one.height() - 8);
 }
@@ -146,7 +146,7 @@ TEST_F(HapticsPanelTest, SlidersAreBoundedByTheDevice)
     EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax);
     ASSERT_TRUE(connectByKeys(0));
     EXPECT_EQ(stiffness.value(), stiffness.maximum());
-    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax); // as it was wanted
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax); // as chosen
     stiffness.setFocus();
     QTest::keyClick(&stiffness, Qt::Key_Left);
     EXPECT_EQ(haptics().settings().stiffness_n_per_m, 390.0);
@@ -192,7 +192,7 @@ TEST_F(HapticsPanelTest, RecordsOnlyWhatIsTouched)
 TEST_F(HapticsPanelTest, LooksForDevicesOnlyWhileItIsOpenAndNothingIsConnected)
 {
     hand_->is_there = false;
-    EXPECT_TRUE(waitFor([&] { return list().count() == 2; })); // found to be gone by itself
+    EXPECT_TRUE(waitFor([&] { return list().count() == 2; })); // detected as lost by itself
     ASSERT_TRUE(connectByKeys(0));
     hand_->is_there = true;
     QTest::qWait(200);

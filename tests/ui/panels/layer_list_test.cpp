@@ -1,4 +1,4 @@
-// Layers on several bodies in the list: groups, what is hidden and why, and how it is shown.
+// Layers on several bodies in the list: groups, hidden layers with their reasons, and showing them.
 
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
@@ -30,7 +30,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1280, 900);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         // From the top: the Moon, a map without CRS, and two of Mars.
         window_->controller().open(
             {maps_.mars("m1"), maps_.mars("m2"), maps_.hill(), maps_.moon()});
@@ -86,7 +86,7 @@ TEST_F(LayerListTest, IsGroupedByBody)
                                     "m2.vrt", "m1.vrt"));
     EXPECT_EQ(model().flags(rowOf("Mars")) & (Qt::ItemIsSelectable | Qt::ItemIsDragEnabled),
               Qt::NoItemFlags);
-    // Without a choice of bodies there are no headings.
+    // With a single body there are no headings.
     window_->undoStack().undo();
     window_->undoStack().undo();
     EXPECT_THAT(rows(), ElementsAre("m2.vrt", "m1.vrt"));
@@ -100,7 +100,7 @@ TEST_F(LayerListTest, SaysWhyALayerIsHiddenAndDoesNotTickIt)
     EXPECT_EQ(check("hill.asc"), Qt::PartiallyChecked);
     EXPECT_EQ(reason("hill.asc"),
               QStringLiteral("Hidden: no CRS, so its position in the view is unknown"));
-    // Hidden by the user is something else.
+    // For layers hidden by the user there is no reason.
     window_->controller().setVisible(model().idAt(rowOf("m1.vrt")), false);
     EXPECT_EQ(check("m1.vrt"), Qt::Unchecked);
     EXPECT_EQ(reason("m1.vrt"), QString());
@@ -138,12 +138,12 @@ TEST_F(LayerListTest, SpaceAndTheTickBoxShowALayerToo)
     const QRect row = list().visualRect(rowOf("hill.asc"));
     QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, row.topLeft() + QPoint(12, 14));
     EXPECT_EQ(scene(), "hill.asc");
-    // The same box hides it again.
+    // The same check box hides it again.
     const QRect now = list().visualRect(rowOf("hill.asc"));
     QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, now.topLeft() + QPoint(12, 14));
     EXPECT_EQ(scene(), "m2.vrt");
     EXPECT_EQ(check("hill.asc"), Qt::Unchecked);
-    // And the menu agrees with the boxes.
+    // The menu agrees with the check boxes.
     QAction* toggle = window_->actionSet().toggle_visibility;
     list().setCurrentIndex(rowOf("moon.vrt"));
     EXPECT_FALSE(toggle->isChecked());

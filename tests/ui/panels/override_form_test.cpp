@@ -1,4 +1,4 @@
-// The form for body, CRS and more, worked by mouse and keyboard in a window.
+// The form for body, CRS and more, operated by mouse and keyboard in a window.
 
 #include "tests/ui/color_contrast.h"
 #include "tests/ui/test_map.h"
@@ -37,7 +37,7 @@ protected:
         window_ = std::make_unique<MainWindow>(options);
         window_->resize(1280, 900);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         ASSERT_TRUE(waitUntilSettled(*window_));
     }
 
@@ -81,7 +81,7 @@ TEST_F(OverrideFormTest, ReportsAnUnknownCrsBelowItsField)
     expectRefused("crs", QStringLiteral("EPSG:nonsense"));
     EXPECT_TRUE(noteOf("crs").contains(QStringLiteral("EPSG:nonsense")));
     EXPECT_EQ(failures.count(), 0);
-    // Corrected, it is taken.
+    // Once corrected, it is accepted.
     field("crs")->selectAll();
     QTest::keyClicks(field("crs"), QStringLiteral("EPSG:32611"));
     apply();
@@ -121,7 +121,7 @@ TEST_F(OverrideFormTest, ChecksNumbersWhileTheyAreTyped)
     field("scale")->selectAll();
     QTest::keyClicks(field("scale"), QStringLiteral("2"));
     EXPECT_EQ(noteOf("scale"), QString());
-    // Where several are wrong the first gets the focus.
+    // If several fields are invalid, the first one gets the focus.
     field("equatorial")->setText(QStringLiteral("wide"));
     field("nodata")->setText(QStringLiteral("none"));
     apply();
@@ -150,7 +150,7 @@ TEST_F(OverrideFormTest, ReportsWhatTheFileCannotTakeBelowItsField)
     EXPECT_TRUE(field("equatorial")->hasFocus());
 }
 
-// Found only when the file is read again.
+// Detected only when the file is read again.
 TEST_F(OverrideFormTest, ReportsANodataValueThatLeavesNothingBelowItsField)
 {
     ASSERT_TRUE(openAndWait(
@@ -171,7 +171,7 @@ TEST_F(OverrideFormTest, SetsScaleOffsetAndVerticalDatum)
     const double before = sample();
     openForm();
     field("scale")->setText(QStringLiteral("2.5"));
-    field("offset")->setText(QStringLiteral("−10")); // as people write it
+    field("offset")->setText(QStringLiteral("−10")); // as users type it
     field("datum")->setText(QStringLiteral("EGM2008"));
     apply();
     ASSERT_TRUE(waitUntilSettled(*window_));

@@ -29,7 +29,7 @@ QString textAt(const RasterInfo& info, const CoordinateFormat& format, GridPoint
     return positionText(format, info, georeferenceFor(info), grid);
 }
 
-// Of a position on the quarter-degree grid of globalMap().
+// The text for a position on the quarter-degree grid of globalMap().
 GridPoint gridAt(double latitude, double longitude)
 {
     return {(longitude + 180.0) / 0.25 - 0.5, (90.0 - latitude) / 0.25 - 0.5};
@@ -91,7 +91,7 @@ TEST(PositionText, DistinguishesTheKindsOfLatitudeOnTheirBodyOnly)
     EXPECT_EQ(textAt(globalMap(*bodyNamed("Mars")), {}, north).left(5), QStringLiteral("45.00"));
     EXPECT_EQ(textAt(globalMap(*bodyNamed("Mars")), format, north).left(5),
               QStringLiteral("45.34"));
-    // The grid of the Earth is geodetic by itself.
+    // The Earth grid is geodetic already.
     EXPECT_EQ(textAt(globalMap(*bodyNamed("Earth")), format, north).left(5),
               QStringLiteral("45.00"));
     format.setLatitudesOn(bodyNamed("Earth"), LatitudeKind::Planetocentric);
@@ -135,7 +135,7 @@ TEST(ExtentText, NamesTheHemispheres)
               QStringLiteral("90° S – 90° N; 180° W – 180° E"));
     RasterInfo tile = globalMap(*bodyNamed("Earth"));
     tile.columns = tile.rows = 1201;
-    constexpr double kStep = 1.0 / 1200.0; // as SRTM tiles reach half a sample beyond the degree
+    constexpr double kStep = 1.0 / 1200.0; // as SRTM tiles extend half a sample beyond the degree
     tile.transform =
         GeoTransform::fromTerms({-72.0 - kStep / 2.0, kStep, 0.0, -17.0 + kStep / 2.0, 0.0, -kStep})
             .value();

@@ -26,7 +26,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1500, 800);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     }
 
@@ -142,7 +142,7 @@ TEST_F(ExaggerationTest, ADragOfTheSliderIsOneStep)
     EXPECT_DOUBLE_EQ(view().exaggeration(), once);
     steps().undo();
     EXPECT_DOUBLE_EQ(view().exaggeration(), 1.0);
-    // A drag back to the start is not a step.
+    // A drag back to its start is not an undo step.
     const QPoint begin = handle();
     QTest::mousePress(&slider(), Qt::LeftButton, {}, begin);
     for (const int by : {15, 0}) {

@@ -1,4 +1,4 @@
-// The icons: there, readable in both themes, crisp on every screen.
+// The icons: present, readable in both themes, crisp on every screen.
 
 #include "tests/ui/color_contrast.h"
 #include "tests/ui/test_map.h"
@@ -61,7 +61,7 @@ protected:
 
 TEST_F(IconsTest, ContrastWithWhatTheyAreDrawnOnInBothThemes)
 {
-    const QIcon pan = lineIcon(QStringLiteral("pan")); // made once, as those of actions are
+    const QIcon pan = lineIcon(QStringLiteral("pan")); // created once, like those of actions
     for (const Theme theme : {Theme::Light, Theme::Dark, Theme::Light}) {
         applyTheme(theme);
         const QColor ground = QApplication::palette().color(QPalette::Window);
@@ -73,7 +73,7 @@ TEST_F(IconsTest, ContrastWithWhatTheyAreDrawnOnInBothThemes)
             EXPECT_GE(contrast(normal, ground), 7.0);
             const QColor disabled = inkOf(icon.pixmap(20, QIcon::Disabled));
             EXPECT_GE(contrast(disabled, ground), 2.5);
-            EXPECT_GE(contrast(disabled, normal), 1.8) << "differs from what is enabled";
+            EXPECT_GE(contrast(disabled, normal), 1.8) << "differs from enabled icons";
         }
     }
 }
@@ -85,7 +85,7 @@ TEST_F(IconsTest, AreDrawnInThePixelsOfTheScreen)
         const QPixmap pixmap = icon.pixmap(QSize(20, 20), ratio);
         EXPECT_EQ(pixmap.width(), qRound(20 * ratio));
         EXPECT_EQ(pixmap.devicePixelRatio(), ratio);
-        // Not a small picture that was made larger: neighbours differ at the finest step.
+        // Not a scaled-up small picture: neighboring pixels differ at the finest step.
         const QImage image = pixmap.toImage();
         int edges = 0;
         for (int x = 1; x < image.width(); ++x) {
@@ -139,7 +139,7 @@ TEST_F(IconsTest, TheAboutBoxShowsTheProgramsIcon)
     EXPECT_TRUE(has_red);
 }
 
-// Nothing moves into the menu at the toolbar's end.
+// No button moves into the overflow menu of the toolbar.
 TEST_F(IconsTest, TheToolbarShowsAllItsButtonsInAWindowOf1280AndOf853Points)
 {
     MainWindow window(testWindowOptions());
@@ -159,7 +159,7 @@ TEST_F(IconsTest, TheToolbarShowsAllItsButtonsInAWindowOf1280AndOf853Points)
     window.resize(1600, 700);
     ASSERT_TRUE(QTest::qWaitFor([&] { return bar->width() == 1600; }, 5000));
     const auto* open = qobject_cast<QToolButton*>(bar->widgetForAction(window.actionSet().open));
-    EXPECT_EQ(open->toolButtonStyle(), Qt::ToolButtonTextBesideIcon) << "room for every text";
+    EXPECT_EQ(open->toolButtonStyle(), Qt::ToolButtonTextBesideIcon) << "space for every text";
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Notices: which are on the bar, what their buttons do, and that closed ones stay closed.
+// Notices: which are on the bar, the effect of their buttons, and that closed ones stay closed.
 
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
@@ -134,7 +134,7 @@ protected:
         window_ = std::make_unique<MainWindow>(testWindowOptions());
         window_->resize(1280, 500);
         window_->show();
-        QApplication::setActiveWindow(window_.get()); // there is no window manager
+        QApplication::setActiveWindow(window_.get()); // without a window manager
         ASSERT_TRUE(waitUntilSettled(*window_));
     }
     NoticeBar& bar() { return *window_->findChild<NoticeBar*>(); }
@@ -189,7 +189,7 @@ TEST_F(NoticesTest, DetailsRevealsTheNoticeAmongTheFacts)
                    fact()->hasFocus();
         },
         kTimeout));
-    // So it does with the panel closed, and by the keyboard.
+    // The same with the panel closed, and by keyboard.
     window_->docks()->georeferencing()->close();
     noticeButton(bar(), "noticeDetails")->setFocus();
     QTest::keyClick(noticeButton(bar(), "noticeDetails"), Qt::Key_Space);
@@ -210,7 +210,7 @@ TEST_F(NoticesTest, TheReplacedSampleCanBeKept)
     EXPECT_EQ(window_->session().layers[1].id, sample);
     EXPECT_FALSE(window_->session().layers[1].is_sample);
     EXPECT_FALSE(shown().contains(QStringLiteral("sample")));
-    // Further maps do not close it, and keeping it is a step that can be undone.
+    // Further maps do not close it, and the decision to keep it can be undone.
     ASSERT_TRUE(openAndWait(*window_, maps_.mars("other")));
     EXPECT_EQ(window_->session().layers.size(), 3U);
     window_->undoStack().undo();
