@@ -16,7 +16,7 @@ struct NamedFeature {
 /// The feature with exactly that name; throws if the list does not contain it.
 NamedFeature marsFeature(const std::string& name);
 
-/// Great-circle distance in kilometres on a sphere of Mars' mean radius, 3389.5 km.
+/// Great-circle distance in kilometers on a sphere of Mars' mean radius, 3389.5 km.
 double marsDistance_km(double latitude_a_deg,
                        double longitude_a_deg,
                        double latitude_b_deg,

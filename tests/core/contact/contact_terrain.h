@@ -24,7 +24,7 @@ SceneFrame unitFrame(const FilledHeightfield& terrain);
 HeightfieldSurface surfaceOver(const std::shared_ptr<const FilledHeightfield>& terrain,
                                double exaggeration = 1.0);
 
-/// In metres.
+/// In meters.
 inline double distance(const ScenePoint& a, const ScenePoint& b)
 {
     return length(a - b);

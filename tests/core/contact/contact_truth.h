@@ -14,7 +14,7 @@
 
 namespace marsview::test {
 
-/// A vector, or a point of the scene, in metres.
+/// A vector, or a point of the scene, in meters.
 struct LongVec {
     long double x = 0.0L;
     long double y = 0.0L;

@@ -19,7 +19,7 @@ std::shared_ptr<const Georeference> georeference()
 TEST(GoalFrame, PutsAGoalWhereItsSampleIsWithItsHeightExaggerated)
 {
     const GoalFrame frame(georeference(), 3.0);
-    // The centre of sample (10, 20) is 489.5 columns west and 379.5 rows north of the middle.
+    // The center of sample (10, 20) is 489.5 columns west and 379.5 rows north of the middle.
     const ScenePoint scene =
         frame.toScene({600000.0 + 10.5 * 90.0, 5200000.0 - 20.5 * 90.0, 100.0});
     EXPECT_NEAR(scene.x, -489.5 * 90.0, 1e-6);

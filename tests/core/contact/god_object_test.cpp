@@ -77,7 +77,7 @@ struct Tally {
     }
 };
 
-// The largest step between neighbouring samples, in scene metres.
+// The largest step between neighboring samples, in scene meters.
 double steepnessOf(const HeightfieldSurface& surface)
 {
     const FilledHeightfield& terrain = *surface.terrain();
@@ -257,7 +257,7 @@ TEST_P(GodObjectTest, HoldsItsPromisesOnTheBundledMaps)
     EXPECT_EQ(sum.cut_short, 0);
 }
 
-// Figure 3: one constraint. From 1 towards the goal, against the surface at 2, along it to 3.
+// Figure 3: one constraint. From 1 toward the goal, against the surface at 2, along it to 3.
 TEST_P(GodObjectTest, SlidesToTheFootOfTheGoalOnAPlane)
 {
     const auto terrain = test::filledTerrain(41, heightsOver(41, [](double x) { return 0.5 * x; }));
@@ -305,7 +305,7 @@ TEST(GodObject, FollowsTheSurfaceBeyondARidgeOnceConstraintsAreReleased)
     EXPECT_NEAR(distance(three.proxy, {4.625, 0.25, -4.625}), 0.0, 1e-12);
 }
 
-// Figure 4b: the surface slopes towards the constraint. East of the valley at x = 0 it rises.
+// Figure 4b: the surface slopes toward the constraint. East of the valley at x = 0 it rises.
 double upFromTheValley(double x)
 {
     return x <= 0.0 ? 0.0 : 0.5 * x;

@@ -206,7 +206,7 @@ terrainOf(std::size_t columns, const std::vector<T>& samples, const VoidRule& ru
         Heightfield(std::make_shared<const SampleGrid>(std::move(grid)), statistics, {}));
 }
 
-using Shape = double (*)(double column, double row); // from the centre
+using Shape = double (*)(double column, double row); // from the center
 
 template <typename T = double>
 Scenery shaped(std::size_t columns, std::size_t rows, Shape shape)

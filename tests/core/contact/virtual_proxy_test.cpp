@@ -90,7 +90,7 @@ double ulps(const ScenePoint& p)
 }
 
 struct Near {
-    Vec3 normal; // towards the centre
+    Vec3 normal; // toward the center
     double distance;
 };
 

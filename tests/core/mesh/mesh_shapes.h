@@ -25,7 +25,7 @@ TriangleSoup star();
 /// A block with a notch whose walls meet at the given angle: a valley of any sharpness.
 TriangleSoup notchedBlock(double angle_rad);
 /// Vertices (c, r, height(c, r)), facing up, each cell cut from (c, r) to (c+1, r+1) with rows
-/// counting towards -y.
+/// counting toward -y.
 TriangleSoup sheet(int columns, int rows, const std::function<double(int, int)>& height);
 
 /// All vertices multiplied by `scale`, then rotated by a fixed odd angle if requested, then

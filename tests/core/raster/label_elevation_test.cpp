@@ -1,4 +1,4 @@
-// Elevations of labelled products against their labels, which are read here as text. GDAL 3.6
+// Elevations of labeled products against their labels, which are read here as text. GDAL 3.6
 // ignores a part of each.
 #include "core/raster/label_elevation.h"
 #include "core/raster/raster_file.h"

@@ -40,7 +40,7 @@ std::vector<std::string> readableFiles()
     return paths;
 }
 
-// Metres in a unit that gdalinfo prints.
+// Meters in a unit that gdalinfo prints.
 double unitMetres(std::string unit)
 {
     std::transform(unit.begin(), unit.end(), unit.begin(),

@@ -239,7 +239,7 @@ TEST(Overrides, ScaleAndOffsetDecideAnewBetweenHeightsAndRadii)
     EXPECT_FALSE(heights->reference_radius_m);
     EXPECT_EQ(heights->vertical_datum, "");
     file.offset = 0.0;
-    file.typical_raw = 33895.0; // hundreds of metres
+    file.typical_raw = 33895.0; // hundreds of meters
     overrides.offset.reset();
     overrides.scale = 100.0;
     EXPECT_EQ(withOverrides(file, overrides)->reference_radius_m, 3396190.0);

@@ -158,7 +158,7 @@ TEST(HapticTick, LetsGoForEveryReason)
               LetGoReason::DeviceNonsense);
     EXPECT_EQ(reasonAfter([&](Rig& r) {
                   fresh(r);
-                  r.input.sample.position.x = 25.0; // millimetres
+                  r.input.sample.position.x = 25.0; // millimeters
               }),
               LetGoReason::DeviceNonsense);
     EXPECT_EQ(reasonAfter([&](Rig& r) {
