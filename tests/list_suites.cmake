@@ -1,17 +1,17 @@
-# Writes a CTest file with one test for every suite of a GoogleTest program. A process for every
-# single test costs more, in loading libraries, than most tests do.
+# Writes a CTest file with one test per suite of a GoogleTest program. With one process per test,
+# loading libraries would take longer than most tests.
 #   cmake -DPROGRAM=… -DPREFIX=… -DTIMEOUT=… -DOUTPUT=… -P list_suites.cmake
 
 execute_process(COMMAND "${PROGRAM}" --gtest_list_tests
   OUTPUT_VARIABLE listing COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX REPLACE "[[;]" "." listing "${listing}") # they mean something to CMake's lists
+string(REGEX REPLACE "[[;]" "." listing "${listing}") # special characters in CMake lists
 string(REPLACE "\n" ";" lines "${listing}")
-# CTest takes this for skipped whatever the program returned: nothing passed, and the rest of what is
-# printed lists what was skipped, and nothing that failed.
+# CTest counts a test as skipped if its output matches, whatever the exit status: no test passed, and
+# the rest of the output lists only skipped tests, no failed ones.
 set(all_skipped "\\[  PASSED  \\] 0 tests\\..(\\[  SKIPPED \\][^[]*)+$")
 set(script "")
 foreach(line IN LISTS lines)
-  # A suite: its name, a point, for typed ones a remark. Tests are indented.
+  # A suite: its name, a dot, and a comment for typed ones. Tests are indented.
   if(line MATCHES "^([^ ]+)\\.( .*)?$")
     set(suite "${CMAKE_MATCH_1}")
     string(APPEND script

@@ -404,7 +404,7 @@ TEST_F(RemoteRasterTest, BucketsAreReadByTheirNames)
           {"AWS_HTTPS", "NO"},
           {"AWS_VIRTUAL_HOSTING", "FALSE"},
           {"AWS_NO_SIGN_REQUEST", "YES"}}) {
-        setenv(name, value.c_str(), 1); // NOLINT(concurrency-mt-unsafe): nobody reads it now
+        setenv(name, value.c_str(), 1); // NOLINT(concurrency-mt-unsafe): not read now
     }
     RasterFile file = opened("s3://bucket/map.tif");
     const auto tile = file.readWindow(tileAt(3, 2), {});

@@ -93,7 +93,7 @@ TEST(MeanSamplesSource, APlaneComesThroughAtEveryLevel)
     const std::size_t mean_levels = 2;
     const auto made = samplesFromMeans(sourceOf(plane, mean_levels));
     for (std::size_t level = 1; level <= made->layout().topLevel(); ++level) {
-        // Outside the outermost centers there are no values to interpolate between.
+        // Outside the outermost centers there is nothing to interpolate between.
         const std::size_t block = std::size_t{1} << std::min(level, mean_levels);
         std::size_t inner = 0;
         forEachSample(*made, level,

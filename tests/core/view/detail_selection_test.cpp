@@ -71,7 +71,7 @@ std::vector<Map> maps(test::Random& random)
         false);
     const auto mountains = fractal(1400, 1400);
     add(
-        "plain beside mountains", 1400, 1400,
+        "plain next to mountains", 1400, 1400,
         [&](std::size_t c, std::size_t r) {
             return c + 2 * r > 1600 ? 0.001 * static_cast<double>(c) : mountains(c, r);
         },

@@ -405,7 +405,7 @@ TEST(PluginDriverDeathTest, LeavesOutWhatBroughtTheProgramDownUntilToldToTryAgai
                                      crash.doing + " the last time"),
                           EndsWith("tried again by marsview-cli devices --retry")));
         EXPECT_EQ(only(driver).reason, refused.error().message);
-        EXPECT_EQ(folder.markers(), 1U) << "there is no second attempt in between";
+        EXPECT_EQ(folder.markers(), 1U) << "not tried a second time in between";
 
         // A different build counts as a different plugin.
         folder.add("is_good");

@@ -122,7 +122,7 @@ TEST(OpenHapticsFrame, KeepsTheWorkOfAForce)
 TEST_F(OpenHapticsDriverTest, SaysThatTheLibraryIsMissing)
 {
     OpenHapticsOptions none = options();
-    none.libraries = {"libHD-that-nobody-has.so"};
+    none.libraries = {"libHD-missing.so"};
     OpenHapticsDriver driver(none);
     const std::vector<FoundDevice> found = driver.find();
     ASSERT_EQ(found.size(), 1U);

@@ -385,7 +385,7 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
         last = output.force_n;
     }
     std::printf(
-        "largest force %.6f and fastest change %.6f of what is allowed, state spoilt %d "
+        "largest force %.6f and fastest change %.6f of the limits, state corrupted %d "
         "times\n",
         longest, fastest, spoilt);
     EXPECT_GT(longest, 0.99); // otherwise the bounds were never reached

@@ -226,7 +226,7 @@ TEST(ServoLoopFaults, TheForceChangesNoFasterThanItsRateInRealTime)
         fastest = std::max(fastest, change_n / (rate * between_s));
         pushed += after_n > 1.0 ? 1 : 0;
     }
-    std::printf("fastest %.3f of what is allowed, %d of %zu with force\n", fastest, pushed,
+    std::printf("fastest %.3f of the limit, %d of %zu with force\n", fastest, pushed,
                 writes.size());
     EXPECT_GT(pushed, 100);
     EXPECT_GT(fastest, 0.5);

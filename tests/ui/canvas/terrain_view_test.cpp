@@ -315,7 +315,7 @@ TEST_F(TerrainViewTest, DrawsNothingWhenNothingChanges)
     int frames = 0;
     QObject::connect(&view(), &QOpenGLWidget::frameSwapped, window_.get(), [&] { ++frames; });
     ASSERT_TRUE(rest());
-    // The window system may still request a frame or two; then there are no more.
+    // The window system may still request a frame or two; then it requests none.
     const auto is_quiet = [&] {
         frames = 0;
         QTest::qWait(300);

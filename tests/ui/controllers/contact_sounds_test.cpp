@@ -89,12 +89,12 @@ TEST_F(ContactSoundsTest, AreSilentUntilSwitchedOnAndHeardWhileTheMouseTouches)
 TEST_F(ContactSoundsTest, SayWhyThereIsNoOutputAndGoOff)
 {
     ContactSounds sounds(*view_, []() -> Result<SoundPlayer> {
-        return Error{ErrorCode::NotFound, "sound: there is no output"};
+        return Error{ErrorCode::NotFound, "sound: no output device"};
     });
     QSignalSpy failed(&sounds, &ContactSounds::failed);
     sounds.setOn(true);
     ASSERT_TRUE(QTest::qWaitFor([&] { return failed.count() == 1; }, kTimeout));
-    EXPECT_EQ(failed.at(0).at(0).toString(), QStringLiteral("sound: there is no output"));
+    EXPECT_EQ(failed.at(0).at(0).toString(), QStringLiteral("sound: no output device"));
     EXPECT_FALSE(sounds.isOn());
     EXPECT_FALSE(sounds.isReady());
 }

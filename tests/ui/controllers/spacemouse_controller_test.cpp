@@ -207,7 +207,7 @@ TEST_F(SpaceMouseControllerTest, NothingRunsAndNothingIsDrawnWhileItRests)
     QObject::connect(&view(), &QOpenGLWidget::frameSwapped, window_.get(), [&] { ++frames; });
     ASSERT_TRUE(waitFor([&] { return view().isPictureComplete(); }));
     const auto enumerations = hid_.enumerations();
-    // The window system may still request a frame or two; then there are no more.
+    // The window system may still request a frame or two; then it requests none.
     const auto is_quiet = [&] {
         frames = 0;
         const int looks = looks_;
@@ -217,7 +217,7 @@ TEST_F(SpaceMouseControllerTest, NothingRunsAndNothingIsDrawnWhileItRests)
     };
     EXPECT_TRUE(waitFor(is_quiet));
     EXPECT_FALSE(isAwake());
-    EXPECT_EQ(hid_.enumerations(), enumerations) << "with a device there is no search";
+    EXPECT_EQ(hid_.enumerations(), enumerations) << "a device is open, so no search";
 }
 
 TEST_F(SpaceMouseControllerTest, NothingIsDrawnInTheDeadZoneNorAtALimit)

@@ -386,7 +386,7 @@ TEST(Compass, AsksForNorthByMouseKeyAndScreenReader)
 TEST(ScaleBarView, TellsItsLengthToScreenReaders)
 {
     ScaleBarView view;
-    EXPECT_TRUE(view.sizeHint().isEmpty()) << "there is no camera yet";
+    EXPECT_TRUE(view.sizeHint().isEmpty()) << "before the first camera";
     view.setLongestBar(130);
     OrbitCamera camera{.distance_m = 4e6 / std::tan(Angle::degrees(20.0).radians()) / 2.0};
     // 4 000 km high in 1 000 widget pixels: 520 km in 130.

@@ -86,7 +86,7 @@ TEST_F(LayerListTest, IsGroupedByBody)
                                     "m2.vrt", "m1.vrt"));
     EXPECT_EQ(model().flags(rowOf("Mars")) & (Qt::ItemIsSelectable | Qt::ItemIsDragEnabled),
               Qt::NoItemFlags);
-    // With a single body there are no headings.
+    // A single body needs no headings.
     window_->undoStack().undo();
     window_->undoStack().undo();
     EXPECT_THAT(rows(), ElementsAre("m2.vrt", "m1.vrt"));
@@ -100,7 +100,7 @@ TEST_F(LayerListTest, SaysWhyALayerIsHiddenAndDoesNotTickIt)
     EXPECT_EQ(check("hill.asc"), Qt::PartiallyChecked);
     EXPECT_EQ(reason("hill.asc"),
               QStringLiteral("Hidden: no CRS, so its position in the view is unknown"));
-    // For layers hidden by the user there is no reason.
+    // Layers hidden by the user have no reason.
     window_->controller().setVisible(model().idAt(rowOf("m1.vrt")), false);
     EXPECT_EQ(check("m1.vrt"), Qt::Unchecked);
     EXPECT_EQ(reason("m1.vrt"), QString());
