@@ -89,7 +89,7 @@ TEST_F(SpecialMaps, HolesAreTheTrianglesWithAVoidCorner)
                 }
                 (isHole(p) ? holes : ground) += 1;
                 ASSERT_EQ(isSky(picture.colors, i), isHole(p))
-                    << p.column << ", " << p.row << " at " << pixels << " pixels a sample";
+                    << p.column << ", " << p.row << " at " << pixels << " pixels per sample";
             }
         }
     }

@@ -178,7 +178,7 @@ TEST_F(MainWindowTest, TellsPositionAndHeightUnderThePointer)
     const QString file = maps_.hill();
     ASSERT_TRUE(openAndWait(*window_, file));
     const QPoint pointer = view().rect().center();
-    // A pointer that is there already would not generate a move event.
+    // From the same position, the pointer would not generate a move event.
     QTest::mouseMove(&view(), pointer - QPoint(40, 30));
     QTest::mouseMove(&view(), pointer);
     const auto hit = view().surfaceAt(pointer);

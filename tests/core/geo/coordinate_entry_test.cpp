@@ -74,7 +74,7 @@ TEST(PlaceFrom, ReadsBareLongitudesInTheDirectionOfTheFormat)
     };
     EXPECT_NEAR(longitude("18.65, 133.8"), -133.8, 1e-12);
     EXPECT_NEAR(longitude("18.65, -133.8"), 133.8, 1e-12);
-    EXPECT_NEAR(longitude("18.65 N 133.8 E"), 133.8, 1e-12); // one letter is enough
+    EXPECT_NEAR(longitude("18.65 N 133.8 E"), 133.8, 1e-12); // letters take precedence
     EXPECT_NEAR(longitude("18.65 N 133.8 W"), -133.8, 1e-12);
 }
 

@@ -118,7 +118,7 @@ TEST(Predicates, TheSideOfAPointInTwoPartsIsExact)
         Lattice rest = randomLattice(random, 2, 0);
         if (random.chance(0.5)) {
             p = l[random.below(3)];
-            for (std::size_t k = 0; k < 3; ++k) { // along an edge, or off it by little
+            for (std::size_t k = 0; k < 3; ++k) { // on the line of an edge, or slightly off it
                 rest.at[k] = 2 * (l[1].at[k] - l[0].at[k]);
             }
             rest.at[0] += static_cast<std::int64_t>(random.below(3)) - 1;

@@ -109,7 +109,7 @@ TEST(Refusal, ADirectory)
 TEST(Refusal, SomethingElseThanARaster)
 {
     const TempFolder folder;
-    expectRefused(folder.write("map.tif", "this is no raster"), ErrorCode::Unsupported);
+    expectRefused(folder.write("map.tif", "not a raster"), ErrorCode::Unsupported);
     expectRefused(folder.write("map.hgt", std::string(1000, 'x')), ErrorCode::Unsupported);
     expectRefused(folder.write("map.zip", "PK\x03\x04 broken"), ErrorCode::Unsupported);
     expectRefused(folder.write("map.vrt", "<VRTDataset"), ErrorCode::Unsupported);

@@ -247,7 +247,7 @@ TEST(Placement, ShowsTheTopmostVisibleLayerAndWhatLiesInItsSystem)
     session = withVisibility(session, top, false);
     EXPECT_THAT(placement(session), ElementsAre(S::Hidden, S::Hidden, S::Shown, S::OtherBody,
                                                 S::OtherBody, S::UnknownPlace));
-    session = moved(session, session.layers[5].id, 0); // the one without a CRS determines the body
+    session = moved(session, session.layers[5].id, 0); // the one without a CRS on top
     EXPECT_THAT(placement(session), ElementsAre(S::Shown, S::Hidden, S::Hidden, S::UnknownPlace,
                                                 S::UnknownPlace, S::UnknownPlace));
     for (const Layer& layer : Session(session).layers) {

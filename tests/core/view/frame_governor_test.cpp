@@ -168,7 +168,7 @@ TEST(FrameGovernor, FollowsAChangeOfLoadWithinAThirdOfASecond)
         loop.frame();
     }
     EXPECT_LE(loop.timeOf(loop.plan), kTarget * 1.1) << "predicted, not measured";
-    // Another program takes half of the machine.
+    // Another program takes half of the processor time.
     loop.machine = {loop.machine.base * 2.0, loop.machine.per_triangle * 2.0,
                     loop.machine.per_pixel * 2.0};
     loop.frames(10);

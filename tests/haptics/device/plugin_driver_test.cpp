@@ -362,7 +362,7 @@ TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItListsOrCloses)
     PluginDriver other_driver(other.options());
     auto device = other_driver.open(other.add("hangs_closing").string());
     ASSERT_TRUE(device) << device.error().message;
-    device->reset(); // returns after this time
+    device->reset(); // must return
 }
 
 using PluginDriverDeathTest = testing::Test;

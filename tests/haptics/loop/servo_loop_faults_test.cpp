@@ -415,7 +415,7 @@ void letItHang(const std::function<void(Bench&, const std::atomic<bool>&)>& arra
     EXPECT_THAT(loop->status().error().message, testing::HasSubstr("does not answer any more"));
     EXPECT_EQ(loop->device().name, "Bench");
     EXPECT_FALSE(loop->flight().records().empty());
-    loop->set(c.settings); // the device is no longer called
+    loop->set(c.settings); // the loop must not call the device again
     EXPECT_FALSE(loop->isRunning());
     loop.reset();
     std::printf("left alone after %.2f s\n", secondsSince(begin));

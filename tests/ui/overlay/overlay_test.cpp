@@ -425,7 +425,7 @@ TEST(ScaleBarView, ReadsTheSameInLayoutsFromRightToLeft)
     QGuiApplication::setLayoutDirection(Qt::RightToLeft);
     const QImage mirrored = view.grab().toImage();
     QGuiApplication::setLayoutDirection(Qt::LeftToRight);
-    EXPECT_EQ(mirrored, usual) << "the unit stays behind the number";
+    EXPECT_EQ(mirrored, usual) << "the unit stays after the number";
 }
 
 TEST(OverlayText, WritesLengthsWithTheDigitsTheyHave)
