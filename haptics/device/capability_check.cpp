@@ -7,12 +7,12 @@
 namespace marsview {
 namespace {
 
-// Generous bounds: beyond them are wrong units and memory that was never filled in, not devices.
+// Generous bounds: values beyond them come from wrong units or uninitialized memory.
 constexpr double kSideMMin = 0.001;
 constexpr double kReachMMax = 10.0;
 constexpr double kForceNMax = 1000.0;
 constexpr double kStiffnessMax = 1e6;
-constexpr double kRateHzMin = 200.0; // forces would stay on for too long between two samples
+constexpr double kRateHzMin = 200.0; // a force would stay on too long between two samples
 constexpr double kRateHzMax = 10'000.0;
 constexpr unsigned kAxesMax = 6;
 constexpr unsigned kButtonsMax = 32;
@@ -25,7 +25,7 @@ struct Bound {
     double high;
 };
 
-// Also true of NaN, which is within nothing.
+// Also true for NaN.
 bool isOutside(double value, double low, double high)
 {
     return !(value >= low && value <= high);
@@ -53,7 +53,7 @@ std::optional<std::string> impossibilityOf(const DeviceCapabilities& c)
     for (const Bound& bound :
          {Bound{"peak force", c.force_n_peak, "N", 0.0, kForceNMax},
           Bound{"continuous force", c.force_n_continuous, "N", 0.0, kForceNMax},
-          Bound{"largest stiffness", c.stiffness_n_per_m_max, "N/m", 0.0, kStiffnessMax},
+          Bound{"maximum stiffness", c.stiffness_n_per_m_max, "N/m", 0.0, kStiffnessMax},
           Bound{"rate", c.rate_hz, "Hz", kRateHzMin, kRateHzMax}}) {
         if (isOutside(bound.value, bound.low, bound.high)) {
             const double value = std::isnan(bound.value) ? std::abs(bound.value) : bound.value;

@@ -10,11 +10,11 @@
 namespace marsview {
 namespace {
 
-// A hand swings a stylus at up to 5 m/s. A step of 20 mm besides is what encoders may skip when a
-// device is knocked.
+// A hand moves a stylus at up to 5 m/s. In addition, encoders may skip by 20 mm when a device is
+// knocked.
 constexpr double kSpeedMPerSMax = 20.0;
 constexpr double kStepMMax = 0.02;
-// After a pause in which the device was elsewhere everything within reach is possible.
+// After a pause without samples, any position within reach is plausible.
 constexpr double kPauseSMax = 0.1;
 // A bad sample costs four good ones; three bad ones in a row cross the limit.
 constexpr int kDoubtPerFault = 4;
@@ -71,7 +71,7 @@ DeviceStatus CheckedDevice::read(DeviceSample& sample) noexcept
     const DeviceStatus status = device_->read(read);
     is_withholding_ = false;
     if (status != DeviceStatus::Fine) {
-        fault_.store(Fault::None, std::memory_order_relaxed); // the reason is the device's
+        fault_.store(Fault::None, std::memory_order_relaxed); // the device's own reason applies
         is_dropped_ = status == DeviceStatus::Lost;
         return status;
     }
@@ -126,7 +126,7 @@ std::string CheckedDevice::trouble() const
     case Fault::None:
         return device_->trouble();
     case Fault::NotFinite:
-        return "its samples hold numbers that are not finite";
+        return "its samples contain numbers that are not finite";
     case Fault::OutOfReach:
         return "its samples lie far outside the workspace that it states; its units may be wrong";
     case Fault::Jump:

@@ -1,4 +1,4 @@
-// A device that is believed only as far as its samples make sense.
+// A device whose samples are checked before they are used.
 #pragma once
 
 #include "haptics/device/haptic_device.h"
@@ -11,16 +11,16 @@
 
 namespace marsview {
 
-/// Goes between a device of unknown making and the loop. A sample that cannot be true (not finite,
-/// farther outside the workspace than the workspace is wide, faster than any hand) is withheld: the
-/// answer is Unready, and the force zero until a sample is as it should be. Three in a row, or more
-/// than one in five for a while, and the device is Lost for good. Forces are clamped to the peak
-/// force; one that is not finite becomes zero.
+/// Sits between an untrusted device and the loop. An implausible sample (not finite, farther
+/// outside the workspace than the workspace is wide, faster than a hand can move) is rejected:
+/// read() returns Unready, and the force is zero until a sample is plausible again. After three bad
+/// samples in a row, or more than one in five for a while, the device is permanently Lost. Forces
+/// are clamped to the peak force; a force that is not finite becomes zero.
 class CheckedDevice final : public HapticDevice {
 public:
     enum class Fault : std::uint8_t { None, NotFinite, OutOfReach, Jump };
 
-    /// `device` is there and states what is possible (capability_check.h).
+    /// `device` is not null, and its capabilities have passed the check (capability_check.h).
     explicit CheckedDevice(std::unique_ptr<HapticDevice> device);
 
     const DeviceCapabilities& capabilities() const noexcept override;
@@ -39,7 +39,7 @@ private:
     bool has_last_ = false;
     bool is_dropped_ = false;
     int doubt_ = 0;
-    bool is_withholding_ = false; // the last sample
+    bool is_withholding_ = false; // whether the last sample was rejected
     std::atomic<Fault> fault_{Fault::None};
 };
 

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "openhaptics:Left Device" and "polhem:/dev/hidraw3" as names of files, still to be recognised.
-// Plugins have long paths, whose ends tell more.
+// "openhaptics:Left Device" and "polhem:/dev/hidraw3" as recognizable file names. Plugins have long
+// paths, so the end of the path is kept.
 std::string fileNameFor(std::string_view uri)
 {
     constexpr std::size_t kShownMax = 100;

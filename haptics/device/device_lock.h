@@ -1,4 +1,4 @@
-// One program a device.
+// Locks that keep a device to one program.
 #pragma once
 
 #include "core/base/file_lock.h"
@@ -10,13 +10,13 @@
 
 namespace marsview {
 
-/// $XDG_RUNTIME_DIR/marsview/devices, else a folder of this user's among the temporary files.
+/// $XDG_RUNTIME_DIR/marsview/devices, else a per-user folder among the temporary files.
 std::filesystem::path deviceLockFolder();
 
-/// Keeps other runs of this program away from the device as long as the lock lives: the system
-/// lets several programs open a HID device, and their forces would mix. `uri` names it. Unreadable,
-/// with who has it, where somebody else does. No lock, and no error, where the folder cannot be
-/// written to.
+/// Keeps other runs of this program away from the device while the lock exists: the system lets
+/// several programs open a HID device, and their forces would mix. `uri` names the device. Returns
+/// Unreadable, naming the owner, if another program holds the lock; no lock and no error if the
+/// folder is not writable.
 Result<std::optional<FileLock>>
 lockDevice(std::string_view uri, const std::filesystem::path& folder = deviceLockFolder());
 

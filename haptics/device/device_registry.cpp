@@ -44,8 +44,8 @@ Result<std::unique_ptr<HapticDevice>> DeviceRegistry::open(std::string_view uri)
     const std::string known = fmt::format("{}", fmt::join(schemes(), ", "));
     if (colon == std::string_view::npos) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: is not the URI of a device; one begins with a scheme and a "
-                                 "colon, and the known schemes are {}",
+                     fmt::format("{}: is not a device URI; a URI begins with a scheme and a colon; "
+                                 "the known schemes are {}",
                                  uri, known)};
     }
     const std::string_view scheme = uri.substr(0, colon);

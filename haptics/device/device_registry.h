@@ -1,4 +1,4 @@
-// All drivers together: what devices are there, and the way to open one by its URI.
+// All drivers together: lists the devices and opens one by its URI.
 #pragma once
 
 #include "haptics/device/device_driver.h"
@@ -10,21 +10,21 @@
 
 namespace marsview {
 
-/// Owns the drivers. For one thread at a time; devices that it opened live on without it.
+/// Owns the drivers. One thread at a time; devices it has opened may outlive it.
 class DeviceRegistry {
 public:
-    /// The schemes of the drivers differ.
+    /// No two drivers have the same scheme.
     explicit DeviceRegistry(std::vector<std::unique_ptr<DeviceDriver>> drivers);
 
-    /// What all drivers find, in their order: devices, and what cannot be used with the reason why.
-    /// Takes as long as looking at the buses does.
+    /// The devices that all drivers find, in driver order, including unusable ones with the reason.
+    /// May take as long as a scan of the buses.
     std::vector<FoundDevice> find();
 
-    /// Opens "scheme:address". Unsupported, with the known schemes, where no driver has the scheme;
-    /// otherwise what the driver says.
+    /// Opens "scheme:address". Unsupported, listing the known schemes, if no driver has the scheme;
+    /// otherwise the driver's result.
     Result<std::unique_ptr<HapticDevice>> open(std::string_view uri);
 
-    /// In the drivers' order.
+    /// In driver order.
     std::vector<std::string> schemes() const;
 
 private:

@@ -30,8 +30,8 @@ GuardedDevice::~GuardedDevice()
     if (last_trouble_) {
         last_trouble_->set(trouble());
     }
-    // Where it cannot be marked, as after another program went down with this plugin, it is closed
-    // all the same.
+    // If it cannot be marked, for example because another program crashed in this plugin, the
+    // device is closed without a marker.
     Result<LoadMarker> closing = LoadMarker::make(marker_folder_, plugin_, PluginCall::Close);
     marker_.reset();
     device_.reset();
@@ -86,11 +86,11 @@ std::string GuardedDevice::trouble() const
     }
     switch (status_.load(std::memory_order_relaxed)) {
     case DeviceStatus::Unready:
-        return "its plugin says that it is not ready, but not why; look whether it wants to be "
-               "calibrated, and whether its emergency stop is pressed";
+        return "its plugin reports that it is not ready, without a reason; check whether it needs "
+               "calibration and whether its emergency stop is pressed";
     case DeviceStatus::Lost:
-        return "its plugin says that it is gone; look at its cable and its power, and connect "
-               "again";
+        return "its plugin reports that it is disconnected; check its cable and power, then "
+               "reconnect";
     case DeviceStatus::Fine:
     case DeviceStatus::Finished:
         break;
@@ -98,7 +98,7 @@ std::string GuardedDevice::trouble() const
     return {};
 }
 
-// With mutex_ held.
+// Requires mutex_.
 void GuardedDevice::mark()
 {
     if (!is_on_trial_ || marker_) {

@@ -1,4 +1,4 @@
-// A plugin's device while it may still take the program down.
+// A plugin's device during the time in which a crash is blamed on the plugin.
 #pragma once
 
 #include "core/base/file_lock.h"
@@ -20,18 +20,18 @@
 namespace marsview {
 
 /// Keeps a LoadMarker on disk until the device has been read kReadsOfTrial times, and again while
-/// it is closed; so whatever ends the program in its first start_clock, reads and writes, or in
-/// close, is known at the next start. A device that nobody reads for `idle` is marked no longer,
-/// until it is read again: then programs that end for other reasons are not blamed on it. Also
-/// keeps other programs away from the device, has a reason where the plugin gives none, and leaves
-/// the trouble that there is when it is closed to who looks for devices later.
+/// it closes. If the program crashes in start_clock, in the first reads and writes, or in close,
+/// the next start therefore knows which plugin was running. If the device is not read for `idle`,
+/// the marker is removed until the next read, so that unrelated crashes are not blamed on the
+/// plugin. Also keeps other programs away from the device, supplies a reason if the plugin gives
+/// none, and saves the current trouble for later device lists when the device is closed.
 class GuardedDevice final : public HapticDevice {
 public:
-    /// Two seconds of most devices.
+    /// Two seconds at the usual 1 kHz.
     static constexpr std::uint64_t kReadsOfTrial = 2000;
 
     struct Options {
-        std::unique_ptr<HapticDevice> device{}; // there
+        std::unique_ptr<HapticDevice> device{}; // not null
         std::filesystem::path plugin{};
         std::filesystem::path marker_folder{};
         std::optional<LoadMarker> marker{}; // of PluginCall::Run
@@ -63,13 +63,13 @@ private:
     std::optional<LastTrouble> last_trouble_;
 
     std::atomic<std::uint64_t> reads_{0};
-    std::atomic<DeviceStatus> status_{DeviceStatus::Fine}; // of the last read or write
+    std::atomic<DeviceStatus> status_{DeviceStatus::Fine}; // status of the last read or write
 
-    std::mutex mutex_; // of what follows; the servo thread does not touch it
+    std::mutex mutex_; // guards the members below; the servo thread does not lock it
     std::condition_variable_any wake_;
     std::optional<LoadMarker> marker_;
     bool is_on_trial_ = true;
-    std::jthread watcher_; // last: it uses all the others
+    std::jthread watcher_; // last member: its thread uses all the others
 };
 
 } // namespace marsview

@@ -56,7 +56,7 @@ void LastTrouble::set(std::string_view trouble) const
         return;
     }
     fs::create_directories(folder_, none);
-    // Who looks meanwhile sees the old sentence or the new one.
+    // Written and renamed, so that concurrent readers see the old sentence or the new one.
     const fs::path written = fs::path(file_).concat(fmt::format("-{}", getpid()));
     std::ofstream file(written);
     file << trouble.substr(0, kBytesMax);

@@ -1,4 +1,4 @@
-// Remembering why a device did not work, for who looks for devices later.
+// Remembers why a device did not work, for later device lists.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,21 @@
 
 namespace marsview {
 
-/// What went wrong when one device was used last: a small file, from one program to the next. Not
-/// for the servo thread's tick: it works on files. What cannot be written is forgotten.
+/// What went wrong when a device was last used: a small file that later runs of the program read.
+/// Not for the tick: it does file I/O. Write errors are ignored.
 class LastTrouble {
 public:
-    /// No folder has more of these files than that; the oldest go.
+    /// Most files in one folder; the oldest are deleted.
     static constexpr std::size_t kFilesMax = 32;
-    /// Longer sentences are cut off.
+    /// Longer sentences are truncated.
     static constexpr std::size_t kBytesMax = 500;
 
-    /// `device` is a name that the device always has.
+    /// `device` is a stable name of the device.
     LastTrouble(std::filesystem::path folder, std::string_view device);
 
-    /// One line, as it was set; empty where there was no trouble.
+    /// One line, as passed to set(); empty if there was no trouble.
     std::string get() const;
-    /// Empty where the device was used without trouble.
+    /// Pass an empty string after a use without trouble.
     void set(std::string_view trouble) const;
 
 private:

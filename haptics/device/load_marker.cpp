@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr const char* kEnding = ".loading";
 
 struct Call {
-    std::string_view name;  // in the file's name
+    std::string_view name;  // part of the file name
     std::string_view doing; // "while it was ..."
 };
 
@@ -43,7 +43,7 @@ std::string stemFor(const fs::path& plugin)
                        fs::last_write_time(plugin, none).time_since_epoch().count());
 }
 
-// A holder's number is written once the lock is held, so a file without one tells nothing.
+// The process number is written after the lock is held, so a file without one has no meaning.
 bool isLeftBehind(const fs::path& file)
 {
     std::error_code none;
@@ -51,7 +51,7 @@ bool isLeftBehind(const fs::path& file)
            fs::exists(file, none);
 }
 
-// The name of what an earlier call left behind; empty where there is nothing.
+// The name of the file that an earlier call left behind; empty if there is none.
 std::string leftBehind(const fs::path& folder, const std::string& stem)
 {
     std::error_code none;
@@ -75,8 +75,8 @@ std::string_view doingIn(std::string_view name_after_stem)
     return kCalls.front().doing;
 }
 
-// Whoever looks whether a marker is held holds it for a moment, so a file of one's own may be
-// taken.
+// A program that checks whether a marker is held locks it for a moment, so even an own file may be
+// locked briefly.
 std::optional<FileLock> lockOwn(const std::string& file)
 {
     constexpr int kTriesMax = 100;
@@ -93,8 +93,7 @@ std::optional<FileLock> lockOwn(const std::string& file)
     return std::nullopt;
 }
 
-// Markers may be made while the program ends, by calls that come back late, so this is never
-// destroyed.
+// Calls that return late may make markers while the program exits, so this is never destroyed.
 class Folders {
 public:
     static Folders& all()
@@ -135,8 +134,8 @@ Result<LoadMarker> LoadMarker::make(const fs::path& folder, const fs::path& plug
     const std::string stem = stemFor(plugin);
     if (const std::string left = leftBehind(folder, stem); !left.empty()) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: the program ended while this plugin was {} the last time, so "
-                                 "it is left out; replace the plugin, or have it tried again by "
+                     fmt::format("{}: the program ended while this plugin was {} last time, so the "
+                                 "plugin is skipped; replace it, or try it again with "
                                  "marsview-cli devices --retry",
                                  plugin.string(),
                                  doingIn(std::string_view(left).substr(stem.size())))};
@@ -158,8 +157,8 @@ void LoadMarker::clearAtExit()
     std::error_code none;
     for (const fs::path& folder : Folders::all().get()) {
         for (const auto& entry : fs::directory_iterator(folder, none)) {
-            // What is behind the plugin's stem: "load-4711-0.loading". One that nobody holds is of
-            // an earlier process with the same number.
+            // The part after the plugin's stem: "load-4711-0.loading". An unlocked one is from an
+            // earlier process with the same number.
             const std::string name = entry.path().stem().extension().string();
             if (entry.path().extension() == kEnding && name.find(own) != std::string::npos &&
                 FileLock::isHeld(entry.path().string())) {

@@ -18,7 +18,7 @@ std::string_view fileName(std::string_view path)
 
 } // namespace
 
-// The loader writes "FILE: what: why" in English (glibc translates only with a locale set).
+// The loader reports "FILE: what: why" in English (glibc translates only with a locale set).
 std::string loaderSentence(std::string_view name, std::string_view message)
 {
     const std::string_view subject = message.substr(0, message.find(':'));

@@ -1,4 +1,4 @@
-// Sentences for what the dynamic loader reports.
+// Messages for errors of the dynamic loader.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace marsview {
 
-/// Why the shared library `name` (a file name or path) could not be loaded and what to do, as half
-/// a sentence that follows its name: "needs the library libfoo.so.1, which is not installed; …".
-/// `message` is dlerror()'s; what is in none of the known forms is repeated in it.
+/// Why the shared library `name` (a file name or path) could not be loaded and what to do, phrased
+/// to follow the name: "needs the library libfoo.so.1, which is not installed; …". `message` comes
+/// from dlerror(); an unknown form is quoted as it is.
 std::string loaderSentence(std::string_view name, std::string_view message);
 
 } // namespace marsview

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kClosePatience{2000};
 constexpr std::uint32_t kSmallNumberMax = 255;
 
-// Answers that the interface does not know are those of a broken device.
+// A status that the interface does not define means a broken device.
 DeviceStatus statusOf(std::uint32_t answer) noexcept
 {
     switch (answer) {
@@ -36,9 +36,9 @@ std::uint8_t smallNumber(std::uint32_t value) noexcept
     return static_cast<std::uint8_t>(std::min(value, kSmallNumberMax));
 }
 
-// std::chrono::steady_clock is CLOCK_MONOTONIC. What is a little ahead of it was rounded; what is
-// more stays as it is, for the loop to refuse: dated now whenever it is read, it would never grow
-// old.
+// std::chrono::steady_clock is CLOCK_MONOTONIC. A time slightly in the future was rounded, and
+// becomes now. A time farther in the future stays, so that the loop rejects it: replaced by now at
+// every read, it would never become stale.
 Clock::time_point timeOf(std::int64_t time_ns) noexcept
 {
     const Clock::time_point now = Clock::now();
@@ -71,7 +71,7 @@ std::optional<std::string> PluginDevice::describe(const std::string& plugin_name
     alignas(std::max_align_t) std::array<std::byte, kCapabilitiesBytesMax> room{};
     auto* theirs = reinterpret_cast<MarsviewCapabilities*>(room.data());
     if (table_.capabilities(device_, theirs) != MARSVIEW_FINE) {
-        return "does not say what it is";
+        return "does not report its capabilities";
     }
     MarsviewCapabilities c;
     std::memcpy(&c, room.data(), sizeof c);
@@ -93,7 +93,7 @@ std::optional<std::string> PluginDevice::describe(const std::string& plugin_name
     capabilities_.owns_clock = (c.flags & MARSVIEW_OWNS_CLOCK) != 0;
     capabilities_.has_presence = (c.flags & MARSVIEW_HAS_PRESENCE) != 0;
     if (capabilities_.owns_clock && table_.start_clock == nullptr) {
-        return "states that it owns the clock without a function to start it";
+        return "states that it owns the clock but has no function to start it";
     }
     return impossibilityOf(capabilities_);
 }
@@ -135,8 +135,8 @@ std::string PluginDevice::trouble() const
     const std::uint32_t answer = strange_answer_.load(std::memory_order_relaxed);
     return answer == 0 ? std::string()
                        : fmt::format(
-                             "its plugin answers {}, which means nothing; the plugin has to "
-                             "be mended",
+                             "its plugin returned {}, an unknown status; report it to the "
+                             "plugin's makers",
                              answer);
 }
 

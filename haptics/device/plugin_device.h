@@ -1,4 +1,4 @@
-// A device of a plugin.
+// A device provided by a plugin.
 #pragma once
 
 #include "haptics/device/haptic_device.h"
@@ -13,11 +13,11 @@
 
 namespace marsview {
 
-/// Asks the functions of a plugin's table, which has been found complete. What it answers is not
-/// checked (CheckedDevice does that).
+/// Calls the functions of a plugin's table, which has been checked for completeness. The returned
+/// values are not checked here (see CheckedDevice).
 class PluginDevice final : public HapticDevice {
 public:
-    // Structs grow at their end only: what version 1 began with, and room for what newer ones add.
+    // Structs grow only at their end: the size in version 1, and room for newer fields.
     static constexpr std::uint32_t kCapabilitiesBytesMin = 160;
     static constexpr std::uint32_t kCapabilitiesBytesMax = 4096;
     static constexpr std::uint32_t kSampleBytesMin = 48;
@@ -25,14 +25,14 @@ public:
     static_assert(sizeof(MarsviewCapabilities) >= kCapabilitiesBytesMin);
     static_assert(sizeof(MarsviewSample) >= kSampleBytesMin);
 
-    /// Takes over what the plugin's `open` answered.
+    /// Takes ownership of the handle that the plugin's `open` returned.
     PluginDevice(const MarsviewPlugin& table, MarsviewDevice* device);
-    /// Closes the device. A plugin that does not come back from that within two seconds is left
-    /// alone with it.
+    /// Closes the device. If the plugin does not return within two seconds, it is abandoned
+    /// together with the device.
     ~PluginDevice() override;
 
-    /// Asks what the device is, to be done once, before anything else. `plugin_name` stands in for
-    /// a name. Returns what is wrong with the answer, to be put after the device's name.
+    /// Reads the capabilities; call once, before anything else. `plugin_name` replaces a missing
+    /// device name. Returns what is wrong with them, phrased to follow the device's name.
     std::optional<std::string> describe(const std::string& plugin_name);
 
     const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }
@@ -50,8 +50,8 @@ private:
     DeviceCapabilities capabilities_;
     ClockTick tick_ = nullptr;
     void* tick_self_ = nullptr;
-    std::atomic<std::uint32_t> strange_answer_{0}; // the last; 0: none
-    // The plugin may have been compiled with a larger sample than this program knows.
+    std::atomic<std::uint32_t> strange_answer_{0}; // last unknown status; 0: none
+    // The plugin may have been compiled with a larger sample struct than this program has.
     alignas(std::max_align_t) std::array<std::byte, kSampleBytesMax> sample_{};
 };
 

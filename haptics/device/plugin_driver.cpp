@@ -52,8 +52,8 @@ struct Address {
     std::string id;
 };
 
-// A library that hangs while it is loaded keeps the system's lock on loading, which exit() wants to
-// have too: it would never return.
+// A library that hangs while it is loaded holds the loader's lock, which exit() needs too: exit()
+// would never return.
 void exitWithoutUnloading()
 {
     on_exit(
@@ -73,7 +73,7 @@ std::string lastingName(const fs::path& file, const std::string& id)
                       : fmt::format("plugin:{}#{}", canonical, id);
 }
 
-// A path may have a # of its own, so whatever is a file is taken as one.
+// A path may contain "#", so an existing file is taken as a whole.
 Address split(std::string_view address)
 {
     std::error_code none;
@@ -143,8 +143,8 @@ PluginDriver::PluginDriver(PluginOptions options)
 Error PluginDriver::hung(const fs::path& file, std::string_view what, std::string_view doing)
 {
     Error error{ErrorCode::Unreadable,
-                fmt::format("{}: did not come back from {} within {:.1f} s; it is left out "
-                            "until the program is started again",
+                fmt::format("{}: did not return from {} within {:.1f} s; it is skipped "
+                            "until the program restarts",
                             what, doing, std::chrono::duration<double>(options_.patience).count())};
     known_.insert_or_assign(file, Known{stampOf(file), error});
     return error;
@@ -163,7 +163,7 @@ Result<Library> PluginDriver::load(const fs::path& file)
     if (!marker) {
         return std::move(marker).error();
     }
-    // The marker goes with the thread: one that hangs keeps it while the program runs.
+    // The thread owns the marker: if it hangs, it keeps the marker until the program ends.
     auto library =
         callWatched(options_.patience,
                     [file, held = std::optional(std::move(*marker))]() mutable -> Result<Library> {
@@ -201,7 +201,7 @@ Result<std::vector<PluginEntry>> PluginDriver::list(const fs::path& file, const 
     return std::move(*entries);
 }
 
-// However the plugin and the device were named.
+// The same name for every spelling of the plugin and the device.
 Result<std::string>
 PluginDriver::nameOf(const fs::path& file, const Library& library, std::string id)
 {
@@ -237,7 +237,7 @@ std::vector<FoundDevice> PluginDriver::devicesOf(const fs::path& file)
         const LastTrouble last(options_.marker_folder, lastingName(file, entry.id));
         const std::string trouble = device.isUsable() ? last.get() : std::string();
         if (!trouble.empty()) {
-            device.reason = "the last time it was used: " + trouble;
+            device.reason = "last time it was used: " + trouble;
             device.is_reason_past = true;
         }
     }
@@ -262,7 +262,7 @@ std::vector<FoundDevice> PluginDriver::find()
 
 fs::path PluginDriver::fileNamed(const fs::path& name) const
 {
-    // A bare name is never looked for in the current folder, where anybody may have put a file.
+    // A bare name is never searched for in the current folder, where anyone may have put a file.
     const std::vector<fs::path> folders =
         name.has_parent_path() ? std::vector<fs::path>{fs::path()} : options_.folders;
     std::error_code none;
@@ -328,8 +328,8 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
                      held = std::optional(std::move(*marker))]() mutable -> Opened {
                         Opened opened = library->open(id, uri);
                         if (opened) {
-                            // Marked before the other marker goes, so that nothing is unmarked
-                            // between them.
+                            // The new marker is made before the old one is removed, so that there
+                            // is no unmarked interval.
                             Result<LoadMarker> running = LoadMarker::make(
                                 guard.marker_folder, guard.plugin, PluginCall::Run);
                             if (running) {
@@ -343,7 +343,7 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
                         return opened;
                     });
     if (!device) {
-        last.set("did not come back from being opened");
+        last.set("did not return from being opened");
         return hung(file, uri, "being opened");
     }
     if (!*device) {

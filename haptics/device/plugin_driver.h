@@ -1,4 +1,4 @@
-// Devices of plugins, from folders and by path.
+// Devices of plugins, found in folders or by path.
 #pragma once
 
 #include "core/base/file_lock.h"
@@ -18,31 +18,30 @@
 namespace marsview {
 
 struct PluginOptions {
-    std::vector<std::filesystem::path> folders; // where plugins are looked for, in this order
+    std::vector<std::filesystem::path> folders; // searched for plugins in this order
     std::filesystem::path marker_folder;        // see LoadMarker, LastTrouble
     std::filesystem::path lock_folder;          // see lockDevice(); empty: devices are not locked
-    /// For loading a plugin, for asking what is there, and for opening a device.
+    /// Time limit for loading a plugin, listing its devices, and opening a device.
     std::chrono::milliseconds patience{3000};
 
-    /// The folders of $MARSVIEW_PLUGIN_PATH (apart by colons), the user's
+    /// The folders of $MARSVIEW_PLUGIN_PATH (separated by colons), the user's
     /// ($XDG_DATA_HOME/marsview/plugins, else ~/.local/share/marsview/plugins), those of the
-    /// installation that the program lies in, the system's.
+    /// program's installation, and the system's.
     static PluginOptions standard();
 };
 
-/// The folders for plugins of an installation whose programs are in `program_folder`: those that
-/// exist of ../lib*/marsview/plugins and ../lib/*/marsview/plugins (/usr/lib/x86_64-linux-gnu), in
-/// the order of their names. Wherever it was installed to or moved, what is installed into the same
-/// prefix is found.
+/// The plugin folders of an installation whose programs are in `program_folder`: the existing ones
+/// of ../lib*/marsview/plugins and ../lib/*/marsview/plugins (/usr/lib/x86_64-linux-gnu), sorted by
+/// name. Plugins installed into the same prefix are found wherever the prefix is.
 std::vector<std::filesystem::path>
 installedPluginFolders(const std::filesystem::path& program_folder);
 
-/// "plugin:/path/of/it.so", "plugin:it.so" in one of the folders, with "#id" behind for one of
-/// several devices. A plugin cannot take the program with it again and again: it is loaded, asked
-/// and opened on watched threads, and one that brought the program down meanwhile, or in the first
-/// seconds of running, or while it was closed, is left out from then on (LoadMarker,
-/// GuardedDevice). What went wrong with a device the last time is said of it when it is found again
-/// (LastTrouble). One device is one program's. The folders are looked at anew by every find().
+/// "plugin:/path/of/it.so", or "plugin:it.so" in one of the folders; append "#id" to select one of
+/// several devices. A plugin cannot crash the program repeatedly: it is loaded, queried and opened
+/// on watched threads, and a plugin that crashed the program in one of these calls, in its first
+/// seconds of running, or while it was closed, is skipped from then on (LoadMarker, GuardedDevice).
+/// The last problem with a device is shown when the device is found again (LastTrouble). Only one
+/// program at a time can use a device. Every find() scans the folders again.
 class PluginDriver final : public DeviceDriver {
 public:
     explicit PluginDriver(PluginOptions options = PluginOptions::standard());
@@ -51,12 +50,13 @@ public:
     std::vector<FoundDevice> find() override;
     Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override;
 
-    /// Forgets what hung, was refused or took the program down; all is tried again.
+    /// Forgets plugins that hung, were rejected or crashed the program, so that all are tried
+    /// again.
     void forgetFailures();
 
 private:
     struct Known {
-        std::string stamp; // of the file, as it was
+        std::string stamp; // of the file when it was loaded
         Result<std::shared_ptr<const PluginLibrary>> library;
     };
 
@@ -67,8 +67,8 @@ private:
                                const std::shared_ptr<const PluginLibrary>& library,
                                std::string id);
     std::vector<FoundDevice> devicesOf(const std::filesystem::path& file);
-    /// The regular file that a plugin is named by: a path, or a name in one of the folders, with or
-    /// without ".so"; empty if there is none.
+    /// The regular file for a plugin's name: a path, or a file in one of the folders, with or
+    /// without ".so"; empty if none exists.
     std::filesystem::path fileNamed(const std::filesystem::path& name) const;
     std::string folderNames() const;
     Error hung(const std::filesystem::path& file, std::string_view what, std::string_view doing);

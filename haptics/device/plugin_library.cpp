@@ -17,7 +17,7 @@
 namespace marsview {
 namespace {
 
-// Structs only grow at their end, so these are what version 1 began with.
+// Structs grow only at their end, so these are the sizes in version 1.
 constexpr std::uint32_t kPluginBytesMin = 96;
 constexpr std::uint32_t kFoundDeviceBytesMin = 24;
 static_assert(sizeof(MarsviewPlugin) >= kPluginBytesMin);
@@ -25,7 +25,7 @@ static_assert(sizeof(MarsviewFoundDevice) >= kFoundDeviceBytesMin);
 constexpr std::uint32_t kStructBytesMax = 64 * 1024;
 constexpr std::size_t kTextMax = 200;
 
-// What a plugin writes for people may be anything: no line breaks, and not without end.
+// A plugin's text may be anything: line breaks are removed, and it is truncated.
 std::string shownText(const char* text)
 {
     if (text == nullptr) {
@@ -65,8 +65,8 @@ std::optional<std::string> faultOf(const MarsviewPlugin& table)
                kStructBytesMax}}) {
         if (size.bytes < size.bytes_min || size.bytes > size.bytes_max) {
             return fmt::format(
-                "says that its {} takes {} bytes, where {} to {} are possible; it "
-                "has to be compiled anew",
+                "states that its {} has {} bytes, but {} to {} are supported; "
+                "recompile the plugin",
                 size.of, size.bytes, size.bytes_min, size.bytes_max);
         }
     }
@@ -97,9 +97,9 @@ Result<PluginLibrary> PluginLibrary::load(const std::filesystem::path& file)
     const auto refused = [&](ErrorCode code, const std::string& why) {
         return Error{code, fmt::format("{}: {}", file.string(), why)};
     };
-    // A path without a slash would be looked for among the system's libraries.
+    // A path without a slash would be searched for among the system's libraries.
     const std::filesystem::path absolute = std::filesystem::absolute(file);
-    dlerror(); // NOLINT(concurrency-mt-unsafe): forgets what was before
+    dlerror(); // clears earlier errors
     void* library = dlopen(absolute.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (library == nullptr) {
         return refused(ErrorCode::Unreadable,
@@ -113,13 +113,13 @@ Result<PluginLibrary> PluginLibrary::load(const std::filesystem::path& file)
     }
     const MarsviewPlugin* theirs = entry();
     if (theirs == nullptr) {
-        return refused(ErrorCode::Unsupported, "gave no table of functions");
+        return refused(ErrorCode::Unsupported, "returned no function table");
     }
-    // Nothing but the version is known to stand where it does before the version is known.
+    // Until the version is known, only the version's own offset is certain.
     if (theirs->abi_version != MARSVIEW_PLUGIN_ABI_VERSION) {
         return refused(ErrorCode::Unsupported,
-                       fmt::format("is made for version {} of the plugin interface, and this "
-                                   "program has version {}; get a build of it for this one",
+                       fmt::format("is built for version {} of the plugin interface, but this "
+                                   "program has version {}; get a build for this version",
                                    theirs->abi_version, MARSVIEW_PLUGIN_ABI_VERSION));
     }
     MarsviewPlugin table{};
@@ -157,7 +157,7 @@ Result<std::unique_ptr<HapticDevice>> PluginLibrary::open(const std::string& id,
         const std::string why = shownText(complaint.data());
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: could not be opened: {}", uri,
-                                 why.empty() ? "its plugin does not say why" : why)};
+                                 why.empty() ? "its plugin gave no reason" : why)};
     }
     auto device = std::make_unique<PluginDevice>(table_, opened);
     if (const auto fault = device->describe(name_)) {

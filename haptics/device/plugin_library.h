@@ -1,4 +1,4 @@
-// A device plugin in this process: its table, checked, in this program's own size.
+// A loaded device plugin: its checked function table, extended to this program's size.
 #pragma once
 
 #include "core/base/result.h"
@@ -13,24 +13,24 @@
 
 namespace marsview {
 
-/// What a plugin tells of one of its devices.
+/// What a plugin reports about one of its devices.
 struct PluginEntry {
     std::string id;
     std::string name;
-    std::string reason; // empty where it can be opened
+    std::string reason; // empty if it can be opened
 };
 
 /// Loaded libraries stay loaded. All calls run the plugin's code and may hang or crash with it:
 /// PluginDriver guards them. Any thread, one at a time.
 class PluginLibrary {
 public:
-    /// Refuses, with the reason, a file that is no shared library, has no table, or whose table is
-    /// of another version, too small, or incomplete.
+    /// Rejects, with the reason, a file that is not a shared library, has no table, or whose table
+    /// has another version, is too small, or is incomplete.
     static Result<PluginLibrary> load(const std::filesystem::path& file);
 
     const std::string& name() const noexcept { return name_; }
     std::vector<PluginEntry> enumerate() const;
-    /// Refuses devices that state what is impossible. The device is checked (CheckedDevice).
+    /// Rejects devices with implausible capabilities. The device is wrapped in a CheckedDevice.
     /// Errors begin with `uri`.
     Result<std::unique_ptr<HapticDevice>> open(const std::string& id, std::string_view uri) const;
 

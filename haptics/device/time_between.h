@@ -1,4 +1,4 @@
-// Differences of times of which one may be anything.
+// Overflow-safe differences of time points.
 #pragma once
 
 #include <chrono>
@@ -7,8 +7,8 @@
 
 namespace marsview {
 
-/// From `begin` to `end`, negative where that is earlier. Devices of unknown making date their
-/// samples as they like: what does not fit is the most that does.
+/// From `begin` to `end`; negative if `end` is earlier. Untrusted devices may put any time into
+/// their samples: a difference that does not fit saturates.
 inline std::chrono::nanoseconds timeBetween(std::chrono::steady_clock::time_point begin,
                                             std::chrono::steady_clock::time_point end) noexcept
 {

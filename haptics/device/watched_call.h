@@ -1,4 +1,4 @@
-// Calling what may never return.
+// Calls that may never return.
 #pragma once
 
 #include <chrono>
@@ -12,9 +12,9 @@
 
 namespace marsview {
 
-/// Runs `work` on a thread of its own and waits for what it returns. Nothing where that takes
-/// longer than `patience`: the thread is left alone then, and destroys late results itself, so
-/// `work` owns all that it uses. `work` does not throw.
+/// Runs `work` on its own thread and waits for the result. Empty if that takes longer than
+/// `patience`: the thread is then abandoned and destroys a late result itself, so `work` owns all
+/// that it uses. `work` does not throw.
 template <typename F>
 auto callWatched(std::chrono::milliseconds patience, F work)
     -> std::optional<std::invoke_result_t<F&>>

@@ -1,12 +1,12 @@
-// The frame of devices, in which hands move and forces are felt.
+// The device frame, in which positions are measured and forces act.
 #pragma once
 
 #include "core/base/vec.h"
 
 namespace marsview {
 
-/// A position at a device, in metres: x right, y away from the user, z up. Every driver converts
-/// its own axes and units to these at its edge. Forces in this frame are Vec3 in newtons.
+/// A position of the device, in meters: x right, y away from the user, z up. Every driver converts
+/// its own axes and units to these. Forces in this frame are Vec3 in newtons.
 struct WorkspacePoint {
     double x = 0.0;
     double y = 0.0;
@@ -25,7 +25,7 @@ constexpr WorkspacePoint operator+(const WorkspacePoint& a, const Vec3& metres)
     return {a.x + metres.x, a.y + metres.y, a.z + metres.z};
 }
 
-/// What a device reaches.
+/// The reach of a device.
 struct WorkspaceBox {
     WorkspacePoint low{};
     WorkspacePoint high{};

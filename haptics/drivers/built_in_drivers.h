@@ -9,8 +9,8 @@
 
 namespace marsview {
 
-/// One of each, in the order in which people want to see their devices. `mouse` is what the window
-/// moves; null where there is none.
+/// One driver of each kind, in the order in which the user interface lists devices. `mouse` is the
+/// link through which the window moves the mouse device; null without a window.
 std::vector<std::unique_ptr<DeviceDriver>>
 builtInDrivers(std::shared_ptr<MouseLink> mouse = nullptr);
 

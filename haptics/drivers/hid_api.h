@@ -1,5 +1,5 @@
-// The functions of hidapi that drivers use, as a table that tests replace: no machine that only
-// tests has a HID device.
+// The hidapi functions that drivers use, as a table that tests can replace: test machines have no
+// HID devices.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@ struct hid_device_info;
 
 namespace marsview {
 
-/// As in hidapi.h. Reading and writing one device is for one thread; enumerating and opening for
-/// one at a time, which hid_list.h sees to.
+/// As in hidapi.h. Reading and writing one device is for one thread; enumerating and opening are
+/// for one thread at a time (hid_list.h takes a lock).
 struct HidApi {
     hid_device_info* (*enumerate)(unsigned short vendor, unsigned short product);
     void (*free_enumeration)(hid_device_info* devices);
@@ -18,11 +18,11 @@ struct HidApi {
     void (*close)(hid_device_* device);
     int (*read_timeout)(hid_device_* device, unsigned char* data, std::size_t bytes, int ms);
     int (*write)(hid_device_* device, const unsigned char* data, std::size_t bytes);
-    /// What hidapi's access to the path would meet: 0 or an error number.
+    /// The error that opening the path would give: 0 or an errno value.
     int (*access_error)(const char* path);
 };
 
-/// hidapi over the kernel's hidraw.
+/// hidapi with the kernel's hidraw.
 const HidApi& systemHidApi();
 
 } // namespace marsview

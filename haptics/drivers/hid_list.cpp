@@ -11,14 +11,14 @@
 namespace marsview {
 namespace {
 
-// What enumerating and opening have to tell of errors hidapi keeps in one place for all threads.
+// hidapi keeps the error of enumerating and opening in one place for all threads.
 std::mutex& hidMutex()
 {
     static std::mutex mutex;
     return mutex;
 }
 
-// Product names are ASCII on all devices that are known here.
+// Product names are ASCII on all known devices.
 std::string asAscii(const wchar_t* text)
 {
     std::string ascii;
@@ -28,7 +28,7 @@ std::string asAscii(const wchar_t* text)
     return ascii;
 }
 
-// For URIs, where commas and colons mean something.
+// Empty unless the serial number can be part of a URI, where commas and colons have a meaning.
 std::string asSerial(const wchar_t* text)
 {
     std::string serial = asAscii(text);
@@ -56,7 +56,7 @@ std::vector<HidEntry> hidDevices(const HidApi& api,
                              .usage_page = info->usage_page,
                              .usage = info->usage,
                              .interface_number = info->interface_number};
-        // A path is listed once for each of its usages.
+        // hidapi lists a path once for each of its usages.
         const bool is_known = std::any_of(wanted.begin(), wanted.end(), [&](const HidEntry& other) {
             return other.path == entry.path;
         });
@@ -76,7 +76,7 @@ std::string refusalToOpen(const HidApi& api, const std::string& path)
     }
     if (error == EACCES || error == EPERM) {
         return fmt::format(
-            "you may not open {}; install 70-marsview-haptics.rules into "
+            "no permission to open {}; install 70-marsview-haptics.rules into "
             "/etc/udev/rules.d and plug the device in again",
             path);
     }
@@ -93,8 +93,8 @@ Result<HidHandle> openHid(const HidApi& api, const std::string& path, std::strin
     hid_device_* device = api.open_path(path.c_str());
     if (device == nullptr) {
         return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: {} is there, but does not open as a HID device; plug it in "
-                                 "again",
+                     fmt::format("{}: {} is listed, but cannot be opened as a HID device; plug it "
+                                 "in again",
                                  uri, path)};
     }
     return HidHandle(device, api.close);

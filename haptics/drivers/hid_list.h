@@ -1,4 +1,4 @@
-// Which HID devices of interest are connected.
+// Lists the connected HID devices of interest.
 #pragma once
 
 #include "core/base/result.h"
@@ -14,9 +14,9 @@
 namespace marsview {
 
 struct HidEntry {
-    std::string path; // "/dev/hidraw3": another one after it was plugged in anew
+    std::string path; // "/dev/hidraw3": may differ each time it is plugged in
     std::string product;
-    std::string serial; // letters, digits, "-", "_" and "."; empty where it has no such number
+    std::string serial; // letters, digits, "-", "_" and "."; empty if it has none
     std::uint16_t vendor_id = 0;
     std::uint16_t product_id = 0;
     std::uint16_t usage_page = 0; // 0: unknown
@@ -24,15 +24,16 @@ struct HidEntry {
     int interface_number = -1; // -1: unknown
 };
 
-/// All HID devices that `is_wanted`, each path once. Any thread; may take as long as the bus does.
+/// All HID devices for which `is_wanted` is true, each path once. Any thread; may take as long as a
+/// scan of the bus.
 std::vector<HidEntry> hidDevices(const HidApi& api,
                                  const std::function<bool(const HidEntry&)>& is_wanted);
 
-/// Why a device that is listed cannot be opened, one sentence without its name; empty where
-/// nothing stands against it.
+/// Why a listed device cannot be opened, as one sentence without its name; empty if nothing
+/// prevents it.
 std::string refusalToOpen(const HidApi& api, const std::string& path);
 
-/// An open device; closed with its last owner.
+/// An open device; closed when the last copy is destroyed.
 using HidHandle = std::shared_ptr<hid_device_>;
 
 /// The error begins with `uri`. Any thread.

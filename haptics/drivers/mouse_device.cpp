@@ -7,7 +7,8 @@
 namespace marsview {
 namespace {
 
-// Like a desk device of the paper's time, so that what is set for one feels alike with the other.
+// The size of a typical desktop device, so that settings chosen with one feel similar with the
+// other.
 constexpr WorkspaceBox kWorkspace{{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
 constexpr double kForceN = 3.3;
 constexpr double kStiffnessNPerM = 1000.0;
@@ -62,7 +63,7 @@ const WorkspaceBox& MouseDevice::workspace()
 
 DeviceStatus MouseDevice::read(DeviceSample& sample) noexcept
 {
-    // A window writes once a frame: meeting it again and again is impossible.
+    // A window writes once per frame: a reader cannot meet the writer repeatedly.
     for (int i = 0; i < kTriesOfReading; ++i) {
         if (const auto pointer = link_->pointer_.tryRead()) {
             last_ = *pointer;

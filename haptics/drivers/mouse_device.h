@@ -1,4 +1,4 @@
-// A mouse as a device: a window says where the stylus is, and shows the force that nobody feels.
+// The mouse as a device: a window provides the stylus position and displays the force.
 #pragma once
 
 #include "haptics/device/haptic_device.h"
@@ -10,21 +10,21 @@
 
 namespace marsview {
 
-/// Where the window has the stylus.
+/// The stylus as the window moves it.
 struct MousePointer {
     WorkspacePoint position; // clamped to MouseDevice's workspace
     double twist_rad = 0.0;
-    std::uint32_t buttons = 0; // bit 0: as a stylus button, the space bar for instance
-    bool is_held = false;      // the mouse button that stands for a hand on the stylus
+    std::uint32_t buttons = 0; // bit 0: the stylus button, for instance the space bar
+    bool is_held = false;      // the mouse button that represents holding the stylus
 };
 
-/// Between the window and the device. Positions that are not finite are left out.
+/// Connects the window and the device. Positions that are not finite are ignored.
 class MouseLink {
 public:
-    /// The window's; one thread.
+    /// Called by the window; one thread.
     void setPointer(const MousePointer& pointer) noexcept;
-    /// What the device was told to push with last; zero while none is open. Any thread but
-    /// real-time ones.
+    /// The force last written to the device; zero while none is open. Any thread except real-time
+    /// ones.
     Vec3 forceN() const noexcept { return force_n_.read(); }
 
 private:
@@ -35,10 +35,10 @@ private:
     std::atomic<bool> is_open_{false};
 };
 
-/// The sample is always as new as its reading: a mouse at rest says nothing, and is not stale.
+/// Every reading carries the current time: a mouse at rest sends nothing and is not stale.
 class MouseDevice final : public HapticDevice {
 public:
-    /// Null where the link has a device already.
+    /// Null if the link already has a device.
     static std::unique_ptr<MouseDevice> open(std::shared_ptr<MouseLink> link);
     ~MouseDevice() override;
 

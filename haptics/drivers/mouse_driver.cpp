@@ -6,7 +6,7 @@
 namespace marsview {
 namespace {
 
-constexpr const char* kNoWindow = "the mouse is moved in the program's window, and there is none";
+constexpr const char* kNoWindow = "the mouse device needs the program's window, which is not open";
 
 } // namespace
 
@@ -32,7 +32,7 @@ Result<std::unique_ptr<HapticDevice>> MouseDriver::open(std::string_view address
     }
     std::unique_ptr<MouseDevice> device = MouseDevice::open(link_);
     if (device == nullptr) {
-        return refused(ErrorCode::Unreadable, "is in use already; close it there first");
+        return refused(ErrorCode::Unreadable, "is already in use; close it there first");
     }
     return std::unique_ptr<HapticDevice>(std::move(device));
 }

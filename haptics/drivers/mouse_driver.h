@@ -1,4 +1,4 @@
-// The mouse of the program's window, by URI.
+// Opens the mouse of the program's window by URI.
 #pragma once
 
 #include "haptics/device/device_driver.h"
@@ -10,7 +10,7 @@
 
 namespace marsview {
 
-/// "mouse:". Without a link to a window there is nobody to move it, and it says so.
+/// "mouse:". Without a link to a window the device is listed as unusable, with the reason.
 class MouseDriver final : public DeviceDriver {
 public:
     explicit MouseDriver(std::shared_ptr<MouseLink> link);

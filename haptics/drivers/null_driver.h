@@ -1,5 +1,5 @@
-// A device that is not there: it rests in the middle of a desktop device's workspace, and what is
-// written to it goes nowhere. For trying a loop without anything that moves.
+// A placeholder device: it stays in the middle of a desktop device's workspace and discards forces.
+// For running a loop without moving parts.
 #pragma once
 
 #include "haptics/device/device_driver.h"

@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-constexpr int kErrorsMax = 16; // more than its stack may ever hold at a time; lest it never ends
+constexpr int kErrorsMax = 16; // more than its stack can hold; bounds the loop
 constexpr unsigned long kRateHz = 1000;
 
 } // namespace
@@ -83,7 +83,7 @@ unsigned int OpenHapticsApi::addSchedulerUser()
         return hd::kSuccess;
     }
     set_scheduler_rate_(kRateHz);
-    takeErrors(); // devices that know no other rate refuse it, and keep theirs
+    takeErrors(); // devices with a fixed rate refuse it and keep theirs
     start_scheduler_();
     const unsigned int error = takeErrors();
     scheduler_users_ += error == hd::kSuccess ? 1 : 0;
@@ -107,7 +107,7 @@ unsigned int OpenHapticsApi::takeErrors() const noexcept
         if (code == hd::kSuccess) {
             break;
         }
-        // Those of the device come before those of forces, and these before misuse of a function.
+        // Device errors rank before force errors, and these before misuse of a function.
         const auto weight = [](unsigned int c) {
             const unsigned int group = c & hd::kErrorGroup;
             return group == hd::kDeviceErrors ? 3 : group == hd::kForceErrors ? 2 : c != 0 ? 1 : 0;
@@ -130,11 +130,11 @@ std::string openHapticsErrorText(unsigned int code)
     case hd::kCommConfigError:
         return "is not set up; run the vendor's setup program (Touch_Setup) first";
     case hd::kInvalidLicense:
-        return "is refused by the vendor's library for want of a licence";
+        return "is refused by the vendor's library; check its license";
     case hd::kWarmMotors:
-        return "has warm motors; let it rest";
+        return "has overheated motors; let it cool down";
     case hd::kExceededMaxVelocity:
-        return "moved faster than it permits";
+        return "exceeded its maximum speed";
     default:
         break;
     }

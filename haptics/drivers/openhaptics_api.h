@@ -1,6 +1,6 @@
-// The vendor's library for PHANTOM and Touch devices, as far as it is used here: libHD of
-// OpenHaptics. It may not be passed on, so it is loaded while the program runs, and its interface
-// is declared here once more.
+// The parts used of the vendor's library for PHANTOM and Touch devices, libHD of OpenHaptics. Its
+// license forbids redistribution, so it is loaded at run time and its interface is declared again
+// here.
 //
 // Names, types and numbers are those of the HDAPI of OpenHaptics 3.0 to 3.4 for Linux.
 #pragma once
@@ -45,15 +45,15 @@ constexpr unsigned int kErrorGroup = 0xFF00;
 constexpr Enum kCurrentButtons = 0x2000;
 constexpr Enum kCurrentInkwellSwitch = 0x2002;
 constexpr Enum kCurrentPosition = 0x2050;     // 3 doubles, mm
-constexpr Enum kCurrentGimbalAngles = 0x2150; // 3 doubles, rad; the third is the stylus' twist
+constexpr Enum kCurrentGimbalAngles = 0x2150; // 3 doubles, rad; the third is the stylus twist
 constexpr Enum kDeviceModelType = 0x2501;
 constexpr Enum kDeviceVendor = 0x2503;
-constexpr Enum kMaxWorkspaceDimensions = 0x2550;    // 6 doubles, mm: lowest corner, highest
+constexpr Enum kMaxWorkspaceDimensions = 0x2550;    // 6 doubles, mm: minimum corner, maximum corner
 constexpr Enum kUsableWorkspaceDimensions = 0x2551; // likewise
 constexpr Enum kInputDof = 0x2553;
 constexpr Enum kCalibrationStyle = 0x2555;
 constexpr Enum kUpdateRate = 0x2600;
-constexpr Enum kNominalMaxStiffness = 0x2602; // N/mm; one more in some headers, as the next two
+constexpr Enum kNominalMaxStiffness = 0x2602; // N/mm; one higher in some headers, as the next two
 constexpr Enum kNominalMaxForce = 0x2603;
 constexpr Enum kNominalMaxContinuousForce = 0x2604;
 constexpr Enum kCurrentForce = 0x2700; // 3 doubles, N
@@ -74,16 +74,16 @@ using Callback = unsigned int (*)(void* user);
 
 } // namespace hd
 
-/// The loaded library. Its functions are the vendor's; those of a frame belong to the thread of its
-/// scheduler.
+/// The loaded library. Its functions are the vendor's; those for a frame may only be called on the
+/// scheduler's thread.
 class OpenHapticsApi {
 public:
-    /// The names under which it is installed, the newest first.
+    /// The usual names of the installed library, the newest first.
     static std::vector<std::string> defaultNames();
 
-    /// The first of these files or names that can be loaded. NotFound where there is none,
-    /// Unsupported where one lacks a function.
-    /// `complaint` receives what the dynamic loader reported where no library could be loaded.
+    /// Loads the first of these files or names that can be loaded. NotFound if none can,
+    /// Unsupported if a library lacks a function. `complaint` receives the dynamic loader's message
+    /// if no library could be loaded.
     static Result<std::shared_ptr<OpenHapticsApi>> load(const std::vector<std::string>& names,
                                                         std::string& complaint);
 
@@ -107,12 +107,12 @@ public:
                                                  unsigned short priority) = nullptr;
     void (*unschedule)(hd::SchedulerHandle handle) = nullptr;
 
-    /// The scheduler is one for all devices: it runs from the first start to the last stop. The
-    /// error code of starting it, or kSuccess. Any thread.
+    /// All devices share one scheduler: it runs from the first start to the last stop. Returns the
+    /// error code of the start, or kSuccess. Any thread.
     unsigned int addSchedulerUser();
     void removeSchedulerUser();
 
-    /// Takes all errors off the library's stack; the gravest of them, or kSuccess.
+    /// Removes all errors from the library's stack; returns the most serious one, or kSuccess.
     unsigned int takeErrors() const noexcept;
 
 private:
@@ -124,7 +124,7 @@ private:
     int scheduler_users_ = 0;
 };
 
-/// What an error code means and what to do about it, to be put after the device's name.
+/// What an error code means and what to do about it, phrased to follow the device's name.
 std::string openHapticsErrorText(unsigned int code);
 
 } // namespace marsview

@@ -16,13 +16,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What all devices of the family stand, where one does not say: those of the weakest, the Omni.
+// Limits for devices that report none: those of the weakest, the Omni.
 constexpr double kForceNPeak = 3.3;
 constexpr double kForceNContinuous = 0.88;
 constexpr double kStiffnessNPerMetreMax = 1000.0;
 
 constexpr unsigned kFramesBetweenCalibrationChecks = 200;
-// After an error of forces the device is given half a second of rest before it may push again.
+// After a force error the force stays off for half a second.
 constexpr unsigned kFramesOfRest = 500;
 constexpr std::uint8_t kButtons = 2;
 
@@ -31,7 +31,7 @@ struct ForceNumbers {
     double force_n = 0.0;
     double continuous_n = 0.0;
 
-    // From the Omni (about 1 N/mm, 3.3 N) to the Premium 3.0 (22 N), with room around.
+    // From the Omni (about 1 N/mm, 3.3 N) to the Premium 3.0 (22 N), with a margin.
     bool isSane() const
     {
         const auto is_within = [](double value, double low, double high) {
@@ -71,7 +71,7 @@ Result<std::unique_ptr<HapticDevice>> OpenHapticsDevice::open(Options options)
     device->describe();
     if (const auto fault = impossibilityOf(device->capabilities_)) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: {}, which is impossible; run the vendor's setup program "
+                     fmt::format("{}: {}, which is implausible; run the vendor's setup program "
                                  "(Touch_Setup) again",
                                  uri, *fault)};
     }
@@ -87,7 +87,7 @@ OpenHapticsDevice::~OpenHapticsDevice()
     api_->takeErrors();
 }
 
-// Whether the library knew the parameter.
+// Returns whether the library supports the parameter.
 template <typename T, typename Get>
 bool OpenHapticsDevice::get(Get getter, hd::Enum what, T* values) const
 {
@@ -118,11 +118,12 @@ void OpenHapticsDevice::describe()
     capabilities_.axes_out = 3;
     capabilities_.buttons = kButtons;
     capabilities_.owns_clock = true;
-    // Devices without an inkwell answer a question about its switch all the same.
+    // Devices without an inkwell also report a state for its switch.
     int styles = 0;
     const bool has_styles = get(api_->get_integerv, hd::kCalibrationStyle, &styles);
     const bool has_inkwell = has_styles && (styles & hd::kCalibrationStyleInkwell) != 0;
-    // The third style, resetting the encoders, takes a person who puts the arm into its position.
+    // The third style, resetting the encoders, needs a person who moves the device to its home
+    // position.
     for (const int style : {hd::kCalibrationStyleAuto, hd::kCalibrationStyleInkwell}) {
         if (has_styles && calibration_style_ == 0 && (styles & style) != 0) {
             calibration_style_ = static_cast<hd::Enum>(style);
@@ -137,8 +138,8 @@ void OpenHapticsDevice::describe()
     api_->takeErrors();
 }
 
-// The headers of some versions number these parameters one higher: whichever numbering gives sane
-// numbers is the library's.
+// The headers of some versions number these parameters one higher: the numbering that gives
+// plausible values is the library's.
 void OpenHapticsDevice::describeForces()
 {
     capabilities_.stiffness_n_per_m_max = kStiffnessNPerMetreMax;
@@ -160,7 +161,7 @@ void OpenHapticsDevice::describeForces()
 
 DeviceStatus OpenHapticsDevice::read(DeviceSample& sample) noexcept
 {
-    // The vendor's library takes forces within a frame, on its own thread: nowhere else.
+    // The vendor's library accepts forces only within a frame, on its own thread.
     if (frame_thread_ != std::this_thread::get_id()) {
         return status_ == DeviceStatus::Lost ? DeviceStatus::Lost : DeviceStatus::Unready;
     }
@@ -211,14 +212,14 @@ void OpenHapticsDevice::stopClock() noexcept
     is_stopping_.store(true);
     api_->unschedule(scheduled_);
     api_->removeSchedulerUser();
-    // Nothing says that a frame which has begun is over when these return.
+    // These calls may return while a frame is still running.
     while (is_inside_.load()) {
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
     is_scheduled_ = false;
 }
 
-// One turn of the vendor's scheduler.
+// One frame of the vendor's scheduler.
 unsigned int OpenHapticsDevice::frame() noexcept
 {
     is_inside_.store(true);
@@ -226,7 +227,7 @@ unsigned int OpenHapticsDevice::frame() noexcept
         is_inside_.store(false);
         return hd::kCallbackDone;
     }
-    const Clock::time_point now = Clock::now(); // before what may wait for the bus
+    const Clock::time_point now = Clock::now(); // before calls that may wait for the bus
     api_->begin_frame(handle_);
     beginFrame(now);
     frame_thread_ = std::this_thread::get_id();
@@ -241,7 +242,7 @@ unsigned int OpenHapticsDevice::frame() noexcept
 
 void OpenHapticsDevice::beginFrame(Clock::time_point now) noexcept
 {
-    // Zero unless the tick says otherwise: forces of the frame before do not stay on.
+    // Zero unless the tick sets a force: forces of the previous frame do not stay on.
     constexpr std::array<double, 3> kNoForce{};
     api_->set_doublev(hd::kCurrentForce, kNoForce.data());
     if (!is_calibrated_ || frames_ % kFramesBetweenCalibrationChecks == 0) {

@@ -13,13 +13,13 @@
 
 namespace marsview {
 
-/// Driven by the vendor's scheduler: one frame a tick. read() and write() work within the tick
-/// only, and answer Unready outside of one.
+/// Driven by the vendor's scheduler, one frame per tick. read() and write() work only within the
+/// tick, and return Unready outside of it.
 class OpenHapticsDevice final : public HapticDevice {
 public:
     struct Options {
         std::shared_ptr<OpenHapticsApi> api;
-        std::string name; // as the vendor's configuration has it; empty: the default one
+        std::string name; // as in the vendor's configuration; empty: the default one
         std::string uri;  // for errors
         std::optional<FileLock> lock; // keeps other programs away from it
     };
@@ -54,24 +54,24 @@ private:
     std::optional<FileLock> lock_;
     hd::Handle handle_;
     DeviceCapabilities capabilities_;
-    hd::Enum calibration_style_ = 0; // that needs nobody's help; 0: there is none
+    hd::Enum calibration_style_ = 0; // works without user action; 0: none
 
-    // Of the scheduler's thread.
+    // Used by the scheduler's thread.
     DeviceSample sample_;
     bool is_calibrated_ = false;
     unsigned frames_ = 0;
     unsigned frames_of_rest_ = 0;
 
-    // Between it and the threads that start, stop and watch.
+    // Shared between the scheduler's thread and the threads that start, stop and watch.
     std::atomic<DeviceStatus> status_{DeviceStatus::Unready};
-    std::atomic<std::thread::id> frame_thread_{}; // none outside of a frame
+    std::atomic<std::thread::id> frame_thread_{}; // default id outside of a frame
     ClockTick tick_ = nullptr;
     void* tick_self_ = nullptr;
     hd::SchedulerHandle scheduled_ = 0;
     bool is_scheduled_ = false;
     std::atomic<bool> is_stopping_{false};
     std::atomic<bool> is_inside_{false};
-    // What trouble() tells: an error code, or that the device is not calibrated.
+    // For trouble(): an error code, or that the device is not calibrated.
     std::atomic<unsigned int> error_{hd::kSuccess};
     std::atomic<unsigned int> calibration_{hd::kCalibrationOk};
 };

@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFamily = "PHANTOM or Touch (OpenHaptics)";
 
-// What the vendors call the device that is opened without a name, in their newer and older drivers.
+// The vendor's names of the default device, in newer and older drivers.
 constexpr const char* kDefaultName = "Default Device";
 constexpr const char* kOlderDefaultName = "Default PHANToM";
 
-// "Left Device.config" stands for a device that is opened as "Left Device". What the older drivers
-// write is one numbered file a device, with the name inside in a form that is not published: only
-// their default is known by its name.
+// "Left Device.config" configures a device that is opened as "Left Device". The older drivers write
+// one numbered file per device, with the name inside in an unpublished format: only their default
+// device is known by name.
 std::set<std::string> configuredNames(const std::vector<fs::path>& folders)
 {
     std::set<std::string> names;
@@ -41,7 +41,7 @@ std::set<std::string> configuredNames(const std::vector<fs::path>& folders)
     return names;
 }
 
-// The device that "openhaptics:" stands for, by the name that it has in the vendor's configuration.
+// The device that "openhaptics:" opens, by its name in the vendor's configuration.
 std::string nameOfDefault(const std::vector<fs::path>& folders)
 {
     const std::set<std::string> names = configuredNames(folders);

@@ -15,26 +15,26 @@ namespace marsview {
 
 struct OpenHapticsOptions {
     std::vector<std::string> libraries; // files or names of libHD, tried in this order
-    /// Where the vendor's setup programs leave a file per device.
+    /// The folders in which the vendor's setup programs keep one file per device.
     std::vector<std::filesystem::path> config_folders;
     std::filesystem::path lock_folder;
-    std::chrono::milliseconds patience{20'000}; // for opening a device, which homes itself
+    std::chrono::milliseconds patience{20'000}; // for opening a device, including its homing
 
-    /// $MARSVIEW_OPENHAPTICS_LIBRARY before the usual names. For devices $GTDD_HOME/config,
-    /// ~/.3dsystems/config and /usr/share/3DSystems/config, which hold "Default Device.config" and
-    /// one file for every other name, and for those of FireWire days
-    /// /etc/SensAble/PHANToMDeviceDrivers, whose default is called "Default PHANToM".
+    /// $MARSVIEW_OPENHAPTICS_LIBRARY before the usual library names. Device folders:
+    /// $GTDD_HOME/config, ~/.3dsystems/config and /usr/share/3DSystems/config, which hold "Default
+    /// Device.config" and one file for every other name, and /etc/SensAble/PHANToMDeviceDrivers of
+    /// the older FireWire drivers, whose default device is called "Default PHANToM".
     static OpenHapticsOptions standard();
 };
 
-/// "openhaptics:Default Device", by the name that the device was given in the vendor's setup
-/// program; "openhaptics:" is the default one.
+/// "openhaptics:Default Device" opens a device by its name in the vendor's setup program;
+/// "openhaptics:" opens the default one.
 class OpenHapticsDriver final : public DeviceDriver {
 public:
     explicit OpenHapticsDriver(OpenHapticsOptions options = OpenHapticsOptions::standard());
 
     std::string_view scheme() const noexcept override { return "openhaptics"; }
-    /// What is configured; whether it is connected shows when it is opened.
+    /// The configured devices; whether one is connected is known only when it is opened.
     std::vector<FoundDevice> find() override;
     Result<std::unique_ptr<HapticDevice>> open(std::string_view address) override;
 
@@ -43,7 +43,7 @@ private:
 
     OpenHapticsOptions options_;
     std::shared_ptr<OpenHapticsApi> api_;
-    std::string complaint_; // of the dynamic loader, while there is none
+    std::string complaint_; // of the dynamic loader, if no library could be loaded
 };
 
 } // namespace marsview

@@ -1,7 +1,7 @@
-// Between the frame of OpenHaptics and ours: pure functions.
+// Converts between the OpenHaptics frame and the workspace frame: pure functions.
 //
-// OpenHaptics counts in millimetres, x right, y up, z towards the user; the workspace in metres,
-// x right, y away from the user, z up. Forces are newtons in both.
+// OpenHaptics uses millimeters, x right, y up, z toward the user; the workspace frame uses meters,
+// x right, y away from the user, z up. Forces are in newtons in both.
 #pragma once
 
 #include "haptics/device/workspace.h"
@@ -15,7 +15,7 @@ constexpr WorkspacePoint fromOpenHaptics(const std::array<double, 3>& mm)
     return {mm[0] / 1000.0, -mm[2] / 1000.0, mm[1] / 1000.0};
 }
 
-/// Lowest corner, then highest.
+/// `mm` holds the minimum corner, then the maximum corner.
 constexpr WorkspaceBox boxFromOpenHaptics(const std::array<double, 6>& mm)
 {
     return {{mm[0] / 1000.0, -mm[5] / 1000.0, mm[1] / 1000.0},

@@ -10,17 +10,18 @@
 namespace marsview {
 namespace {
 
-constexpr int kReadPatienceMs = 5; // five times what lies between two reports
+constexpr int kReadPatienceMs = 5; // five report periods
 constexpr std::chrono::milliseconds kWatchdog{20};
 constexpr int kReportsAtOnceMax = 16;
 constexpr int kTriesOfReading = 4;
 constexpr std::size_t kReportBytesMax = 64;
-// Just after power-on the encoders read zero, give or take what the arm has sagged since.
+// Just after power-on the encoders read zero, except for a small sag of the device.
 constexpr int kUnsetCountsMax = 3;
-// Below the loop's, above everything else; where that is not allowed, as any other thread.
+// Below the loop's priority, above all other threads; the default priority if that is not
+// permitted.
 constexpr int kPriority = 70;
 
-// Of the three encoders that tell where the tip is.
+// Compares the three encoders that determine the position.
 int farthest(const PolhemEncoders& a, const PolhemEncoders& b)
 {
     int most = 0;
@@ -47,7 +48,7 @@ PolhemDevice::PolhemDevice(Options options)
     capabilities_.stiffness_n_per_m_max = parameters_.stiffness_n_per_m_max;
     capabilities_.axes_in = parameters_.twist_counts_per_turn != 0.0 ? 6 : 3;
     capabilities_.axes_out = 3;
-    capabilities_.buttons = 0; // the board's only one is for calibration
+    capabilities_.buttons = 0; // the board's only button is for calibration
     thread_ = std::thread([this] { run(); });
     sched_param parameters{};
     parameters.sched_priority = kPriority;
@@ -66,7 +67,7 @@ DeviceStatus PolhemDevice::read(DeviceSample& sample) noexcept
     if (state != State::Fine) {
         return state == State::Lost ? DeviceStatus::Lost : DeviceStatus::Unready;
     }
-    // The other thread writes a report a millisecond: meeting it again and again is impossible.
+    // The other thread writes a report per millisecond: a reader cannot meet the writer repeatedly.
     for (int i = 0; i < kTriesOfReading; ++i) {
         if (const auto said = said_.tryRead()) {
             last_said_ = *said;
@@ -100,18 +101,18 @@ std::string PolhemDevice::trouble() const
     case State::Silent:
         return "sends no complete reports; check its power, and whether another program uses it";
     case State::Uncalibrated:
-        return "is not calibrated, since its encoders count from wherever it got power; put the "
-               "arm "
-               "into its rest position and press the button on its board, or open it there with "
-               "\",home\" behind its address";
+        return "is not calibrated: its encoders count from the power-on position; move it into its "
+               "home "
+               "position and press the button on its board, or open it there with \",home\" "
+               "after its address";
     case State::NotAtRest:
-        return "is not calibrated, since its encoders do not count as they do in its rest "
-               "position; "
-               "put the arm there and press the button on its board, or switch its power off and "
-               "on there and connect again";
+        return "is not calibrated: its encoders do not read the counts of its home position; "
+               "move "
+               "it there and press the button on its board, or switch its power off and on there "
+               "and reconnect";
     case State::NotSet:
-        return "is not calibrated, since its board has not set its encoders to those of its rest "
-               "position; look at \"home_encoders\" in its parameters, and at its firmware";
+        return "is not calibrated: its board has not set its encoders to the counts of its home "
+               "position; check \"home_encoders\" in its parameters, and its firmware";
     case State::Lost:
         return "was unplugged, or its cable is loose; plug it in and connect again";
     }
@@ -130,8 +131,8 @@ void PolhemDevice::run() noexcept
     handle_.reset();
 }
 
-// Reads what there is and answers it; false where the device is gone. The boards speak only when
-// they are spoken to, so there is an answer to silence too.
+// Reads a report and answers it; false if the device is gone. The boards report only in response to
+// a command, so a command is sent even if no report has arrived.
 bool PolhemDevice::exchange() noexcept
 {
     const Clock::time_point begin = Clock::now();
@@ -166,7 +167,7 @@ bool PolhemDevice::exchange() noexcept
     return writeNow(polhemCurrentCommand(layout_, polhemCurrents(parameters_, pose, force)));
 }
 
-// Whether what the board has said last makes the encoders worth believing, or no longer so.
+// Updates whether the encoders can be trusted, from the latest report.
 void PolhemDevice::believe() noexcept
 {
     if (homes_at_once_) {
@@ -185,7 +186,7 @@ void PolhemDevice::believe() noexcept
     }
 }
 
-// The oldest boards cannot set their encoders: what they count at rest is taken off here.
+// The oldest boards cannot set their encoders: their counts in the home position are subtracted.
 bool PolhemDevice::home() noexcept
 {
     is_to_home_ = false;
@@ -196,7 +197,7 @@ bool PolhemDevice::home() noexcept
         }
         homing_ = Homing::Done;
     }
-    has_heard_ = false; // what was said before it does not count
+    has_heard_ = false; // earlier reports no longer count
     return writeNow(polhemHomeCommand(layout_, parameters_.home_encoders));
 }
 
@@ -205,7 +206,7 @@ bool PolhemDevice::isCloseToHome() const noexcept
     return farthest(newest_, parameters_.home_encoders) <= kRestCountsMax;
 }
 
-// Waits for a report, then takes the newest of those that have piled up.
+// Waits for a report, then takes the newest of the queued ones.
 bool PolhemDevice::readNewest() noexcept
 {
     int patience_ms = kReadPatienceMs;

@@ -1,4 +1,4 @@
-// A WoodenHaptics or Polhem arm.
+// A WoodenHaptics or Polhem device.
 #pragma once
 
 #include "core/base/file_lock.h"
@@ -15,18 +15,17 @@
 
 namespace marsview {
 
-/// Reports are read and written on a thread of its own, since writing one may take 14 ms; read()
-/// and write() exchange the newest values with it. Where the loop has not written for 20 ms, or the
-/// board has not said anything for 20 ms, the currents are zero.
+/// Reports are read and written on a separate thread, since writing one may take 14 ms; read() and
+/// write() exchange the latest values with it. If the loop has not written for 20 ms, or the board
+/// has not reported for 20 ms, the currents are zero.
 ///
-/// Its encoders only count from where they were when they got power, and no report tells whether
-/// they have been set since. So they are believed only once this object has had them set and has
-/// read them back as `home_encoders`; until then the arm is Unready. They are set when somebody
-/// presses the board's button, which says that the arm is in its rest position; or, with
-/// `homes_at_once`, where the first report agrees that it is: within kRestCountsMax of zero, as an
-/// arm is that got power in its rest position, or of `home_encoders`, as one that has been
-/// calibrated before. A board that falls silent and then counts from zero has lost its power, and
-/// its calibration with it.
+/// The encoders count from their position at power-on, and no report shows whether they have been
+/// set since. They are trusted only after this object has set them and has read them back as
+/// `home_encoders`; until then the device is Unready. They are set when the user presses the
+/// board's button to confirm that the device is in its home position, or, with `homes_at_once`,
+/// when the first report is consistent with the home position: within kRestCountsMax of zero
+/// (powered on in the home position) or of `home_encoders` (calibrated before). A board that stops
+/// reporting and then counts from zero has lost its power, and with it its calibration.
 class PolhemDevice final : public HapticDevice {
 public:
     struct Options {
@@ -38,7 +37,7 @@ public:
         std::optional<FileLock> lock; // keeps other programs away from it
     };
 
-    /// Some two degrees of a body: a hand's care in putting an arm into its rest position.
+    /// About two degrees of a body: how accurately a person puts the device into its home position.
     static constexpr int kRestCountsMax = 100;
 
     explicit PolhemDevice(Options options);
@@ -80,9 +79,9 @@ private:
     std::optional<FileLock> lock_;
     DeviceCapabilities capabilities_;
 
-    // Of the thread that exchanges reports.
+    // Used by the thread that exchanges reports.
     PolhemLayout layout_;
-    bool homes_at_once_; // as soon as it has said where it is
+    bool homes_at_once_; // at the first report
     bool is_to_home_ = false;
     Homing homing_ = Homing::NotAsked;
     bool has_heard_ = false;
@@ -90,7 +89,7 @@ private:
     PolhemEncoders newest_{};
     PolhemEncoders before_silence_{};
     Clock::time_point heard_;
-    PolhemEncoders offset_{}; // of boards whose encoders cannot be set
+    PolhemEncoders offset_{}; // for boards whose encoders cannot be set
 
     SeqLock<Said> said_;
     SeqLock<Wanted> wanted_;

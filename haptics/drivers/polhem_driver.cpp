@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Any gadget built around a Teensy may have these numbers, so nothing is sent before somebody
-// connects to it. The second interface of such a board is a serial line.
+// Any Teensy-based gadget may have these numbers, so nothing is sent before the user connects to
+// it. The second interface of such a board is a serial port.
 constexpr std::uint16_t kTeensyVendor = 0x16C0;
 constexpr std::uint16_t kTeensyRawHid = 0x0486;
 constexpr std::uint16_t kRawHidUsagePage = 0xFFAB;
@@ -41,7 +41,7 @@ bool isArm(const HidEntry& entry)
            (entry.vendor_id == kOlderVendor && entry.product_id == kOlderProduct);
 }
 
-// Which arm, whatever its path is today: by the number that its board has, or else by its kind.
+// A stable name independent of the path: the board's serial number, or else the USB ids.
 std::string lastingName(const HidEntry& entry)
 {
     return entry.serial.empty()
@@ -54,19 +54,19 @@ bool isNamed(const HidEntry& entry, std::string_view name)
     return name.empty() || (name.front() == '/' ? entry.path : lastingName(entry)) == name;
 }
 
-// One sentence that names the arms of which none is meant more than another.
+// One sentence that lists the matching devices.
 std::string refusalToChoose(std::string_view uri, const std::vector<HidEntry>& arms)
 {
     std::vector<std::string> uris;
     for (const HidEntry& arm : arms) {
         uris.push_back("polhem:" + arm.path);
     }
-    return fmt::format("{}: {} arms answer to that name; choose one by its path: {}", uri,
+    return fmt::format("{}: {} devices match that name; choose one by its path: {}", uri,
                        arms.size(), fmt::join(uris, " or "));
 }
 
 struct Address {
-    std::string name; // a path, what lastingName() says, or empty for any
+    std::string name; // a path, a name from lastingName(), or empty for any
     fs::path parameters;
     bool homes_at_once = false;
 };
@@ -88,8 +88,8 @@ Result<Address> parseAddress(std::string_view uri, std::string_view address)
             parsed.parameters = part.substr(kParameters.size());
         } else {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: \"{}\" is not understood; a path, \"serial=NUMBER\", "
-                                     "\"home\" and \"parameters=FILE\" are",
+                         fmt::format("{}: unknown part \"{}\"; use a path, \"serial=NUMBER\", "
+                                     "\"home\" or \"parameters=FILE\"",
                                      uri, part)};
         }
         is_first = false;
@@ -112,7 +112,7 @@ std::string lastingPolhemUri(std::string_view uri)
         if (end == lasting.size() || lasting[end] == ',') {
             lasting.erase(at, kHome.size());
         } else {
-            at = end; // the beginning of a longer word
+            at = end; // the name continues: no match
         }
     }
     return lasting;
@@ -137,7 +137,7 @@ std::vector<FoundDevice> PolhemDriver::find()
     std::vector<FoundDevice> found;
     const std::vector<HidEntry> arms = hidDevices(*options_.api, isArm);
     for (const HidEntry& entry : arms) {
-        // Those that cannot be told apart otherwise are by their paths, as long as these last.
+        // Devices that cannot be distinguished otherwise are named by their current paths.
         const std::string name = lastingName(entry);
         const bool is_alone = std::count_if(arms.begin(), arms.end(), [&](const HidEntry& other) {
                                   return lastingName(other) == name;
@@ -162,8 +162,8 @@ Result<std::unique_ptr<HapticDevice>> PolhemDriver::open(std::string_view addres
     });
     if (arms.empty()) {
         return Error{ErrorCode::NotFound,
-                     fmt::format("{}: no WoodenHaptics or Polhem arm is connected there; plug it "
-                                 "in, and see marsview-cli devices",
+                     fmt::format("{}: no matching WoodenHaptics or Polhem device is connected; "
+                                 "plug it in, and see marsview-cli devices",
                                  uri)};
     }
     if (!parsed->name.empty() && arms.size() > 1) {
@@ -198,7 +198,7 @@ Result<std::unique_ptr<HapticDevice>> PolhemDriver::open(std::string_view addres
         .homes_at_once = parsed->homes_at_once,
         .lock = std::move(*lock)});
     if (const auto fault = impossibilityOf(device->capabilities())) {
-        return Error{ErrorCode::Invalid, fmt::format("{}: {}, which is impossible",
+        return Error{ErrorCode::Invalid, fmt::format("{}: {}, which is implausible",
                                                      parsed->parameters.string(), *fault)};
     }
     return std::unique_ptr<HapticDevice>(std::make_unique<CheckedDevice>(std::move(device)));

@@ -1,4 +1,4 @@
-// WoodenHaptics and Polhem arms over USB HID.
+// WoodenHaptics and Polhem devices over USB HID.
 #pragma once
 
 #include "haptics/device/device_driver.h"
@@ -13,7 +13,7 @@ namespace marsview {
 
 struct PolhemOptions {
     const HidApi* api = &systemHidApi();
-    /// Files of parameters (polhem_parameters.h), of which the first that exists counts.
+    /// Parameter files (polhem_parameters.h); the first that exists is used.
     std::vector<std::filesystem::path> parameter_files;
     std::filesystem::path lock_folder;
 
@@ -21,16 +21,16 @@ struct PolhemOptions {
     static PolhemOptions standard();
 };
 
-/// What may be remembered of a URI: without ",home", which somebody says who stands beside the arm,
-/// and which is not true of another day. Of other drivers' devices all of it.
+/// The part of a URI that may be saved: without ",home", which states that the device is in its
+/// home position now. URIs of other drivers are returned unchanged.
 std::string lastingPolhemUri(std::string_view uri);
 
-/// "polhem:serial=4711", which finds the arm under whatever path it has that day; the same as
-/// "polhem:usb=1234:0006" for one whose board has no number, the only one of its kind. Invalid,
-/// with the paths to choose from, where several arms share the name. "polhem:/dev/hidraw2", or
-/// "polhem:" for the first one. Then ",home" where the arm is in its rest position and shall be
-/// calibrated there without its board's button (PolhemDevice), and ",parameters=FILE" for one that
-/// differs.
+/// "polhem:serial=4711" finds the device whatever its path is; "polhem:usb=1234:0006" does the same
+/// for a device without a serial number if it is the only one of its kind. Invalid, listing the
+/// paths to choose from, if several devices match. "polhem:/dev/hidraw2" opens a path, and
+/// "polhem:" the first device. Append ",home" to calibrate a device that is in its home position
+/// without its board's button (PolhemDevice), and ",parameters=FILE" for a device with other
+/// parameters.
 class PolhemDriver final : public DeviceDriver {
 public:
     explicit PolhemDriver(PolhemOptions options = PolhemOptions::standard());

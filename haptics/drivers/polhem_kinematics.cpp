@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// The arm's axes are towards the user, right, up; ours right, away, up.
+// The device's axes are toward the user, right, up; the workspace's are right, away, up.
 WorkspacePoint fromArm(double toward, double right, double up)
 {
     return {right, -toward, up};
@@ -68,7 +68,7 @@ polhemCurrents(const PolhemParameters& p, const PolhemPose& pose, const Vec3& fo
     std::array<double, 3> currents{};
     double excess = 1.0;
     for (std::size_t i = 0; i < 3; ++i) {
-        // Through the capstan the motor turns faster than the body, with less torque.
+        // The motor turns faster than the body by the capstan ratio, with less torque.
         const double motor_nm =
             p.angle_sign[i] * torques[i] * p.capstan_diameter_m[i] / p.body_diameter_m[i];
         currents[i] = motor_nm / p.torque_constant_nm_per_a[i];

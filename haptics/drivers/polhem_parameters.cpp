@@ -33,7 +33,7 @@ constexpr Range kInt16{std::numeric_limits<std::int16_t>::min(),
                        std::numeric_limits<std::int16_t>::max()};
 constexpr Range kSignedCounts{-1e7, 1e7};
 
-// Takes numbers out of the file and keeps the first complaint.
+// Reads numbers from the file and keeps the first error.
 class Reader {
 public:
     explicit Reader(const Json& json)
@@ -73,7 +73,7 @@ private:
     double checked(const char* name, const Json& value, Range range)
     {
         if (!value.is_number()) {
-            return complain(name, "holds " + value.dump() + ", which is no number");
+            return complain(name, "holds " + value.dump() + ", which is not a number");
         }
         const auto number = value.get<double>();
         if (!(number >= range.low && number <= range.high)) {
@@ -94,7 +94,7 @@ Result<PolhemParameters> readPolhemParameters(const std::filesystem::path& file)
     std::ifstream stream(file);
     if (!stream) {
         return Error{ErrorCode::NotFound,
-                     fmt::format("{}: the arm's parameters cannot be read; copy and change "
+                     fmt::format("{}: the device's parameters cannot be read; copy and edit "
                                  "polhem-v1.json, which comes with the program",
                                  file.string())};
     }
@@ -117,7 +117,7 @@ Result<PolhemParameters> readPolhemParameters(const std::filesystem::path& file)
     read.numbers("angle_sign", {-1.0, 1.0}, p.angle_sign);
     for (const double sign : p.angle_sign) {
         if (std::abs(sign) != 1.0) {
-            read.complain("angle_sign", "holds something else than 1 and -1");
+            read.complain("angle_sign", "holds values other than 1 and −1");
         }
     }
     read.numbers("torque_constant_nm_per_a", kTorqueConstant, p.torque_constant_nm_per_a);

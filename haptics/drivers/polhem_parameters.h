@@ -1,4 +1,4 @@
-// Reading what an arm measures from its file.
+// Reads a device's parameters from a file.
 #pragma once
 
 #include "core/base/result.h"
@@ -8,8 +8,8 @@
 
 namespace marsview {
 
-/// resources/devices/polhem-v1.json says by its example what the file holds: every number has to be
-/// there. The error names the file, the number, and what was found.
+/// resources/devices/polhem-v1.json is an example of the file: every number in it is required. The
+/// error names the file, the parameter, and its value.
 Result<PolhemParameters> readPolhemParameters(const std::filesystem::path& file);
 
 } // namespace marsview

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLongBytes = 14;
 constexpr std::size_t kOldestBytes = 8;
-constexpr std::size_t kInformation = 6; // which of the int16
+constexpr std::size_t kInformation = 6; // index of the int16
 constexpr std::size_t kCommand = 3;
 constexpr std::size_t kAttributes = 4;
 constexpr std::int16_t kSetEncoders = 1;
@@ -85,7 +85,7 @@ PolhemCommand polhemHomeCommand(PolhemLayout layout, const PolhemEncoders& encod
     put(command, kCommand, kSetEncoders);
     for (std::size_t i = 0; i < 3; ++i) {
         put(command, kAttributes + i, encoders[i]);
-        put(command, i, encoders[3 + i]); // where the currents are otherwise
+        put(command, i, encoders[3 + i]); // in place of the currents
     }
     return command;
 }

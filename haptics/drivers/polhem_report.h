@@ -1,4 +1,4 @@
-// What WoodenHaptics and Polhem boards say and hear: bytes to numbers and back.
+// Reports of WoodenHaptics and Polhem boards: encoding and decoding.
 #pragma once
 
 #include "haptics/drivers/polhem_kinematics.h"
@@ -11,31 +11,31 @@
 
 namespace marsview {
 
-/// Boards differ in the length of their reports, in and out; the numbers are little-endian int16.
+/// Boards differ in the length of their input and output reports; numbers are little-endian int16.
 enum class PolhemLayout : std::uint8_t {
     RawHid, // a Teensy: 64 bytes both ways, the first 14 of them used
-    Short,  // 14 bytes: six encoders, information
-    Oldest, // 8 bytes: three encoders, something for its makers
+    Short,  // 14 bytes: six encoders, status
+    Oldest, // 8 bytes: three encoders, data for the makers
 };
 
 struct PolhemReport {
     PolhemEncoders encoders{};
-    /// Somebody has pressed the board's button, which says that the arm is in its position for
-    /// calibration; stays so until the encoders are set.
+    /// The board's button has been pressed to confirm that the device is in its home position;
+    /// stays true until the encoders are set.
     bool wants_calibration = false;
 };
 
-/// Nothing where the report is too short for any layout of six or three encoders.
+/// Empty if the report is too short for any layout of six or three encoders.
 std::optional<PolhemReport> parsePolhemReport(std::span<const unsigned char> report);
 
-/// With hidapi's report number 0 in front; as many bytes as the layout sends.
+/// Begins with hidapi's report number 0; its length depends on the layout.
 struct PolhemCommand {
     std::array<unsigned char, 65> bytes{};
     std::size_t size = 0;
 };
-/// Currents beyond int16 milliampere are cut off there.
+/// Currents beyond the int16 range in milliamperes are clamped.
 PolhemCommand polhemCurrentCommand(PolhemLayout layout, const std::array<double, 3>& currents_a);
-/// Sets the encoders; not understood by the oldest boards, which get currents of zero.
+/// Sets the encoders. The oldest boards do not support this; they get currents of zero.
 PolhemCommand polhemHomeCommand(PolhemLayout layout, const PolhemEncoders& encoders);
 
 } // namespace marsview

@@ -20,7 +20,7 @@ constexpr std::string_view kColumns =
 struct Reading {
     DeviceSample sample;
     DeviceStatus status = DeviceStatus::Fine;
-    Vec3 force_n{}; // that was written last
+    Vec3 force_n{}; // last written
 };
 
 std::string_view nameOf(DeviceStatus status)
@@ -63,7 +63,7 @@ public:
     {
         reading_.status = device_->read(sample);
         reading_.sample = sample;
-        queue_.put(reading_); // a full queue means a disk that does not keep up: lines are left out
+        queue_.put(reading_); // full if the disk is too slow: lines are dropped
         return reading_.status;
     }
     DeviceStatus write(const Vec3& force_n) noexcept override
@@ -82,8 +82,7 @@ public:
         return device_->startClock(tick, self);
     }
     void stopClock() noexcept override { device_->stopClock(); }
-    // The device's, else why nothing is recorded any more: that does not keep the hand from
-    // feeling.
+    // The device's own problem, else why recording has stopped, which does not affect the force.
     std::string trouble() const override
     {
         std::string of_device = device_->trouble();
@@ -93,7 +92,7 @@ public:
         const std::lock_guard lock(mutex_);
         drain();
         const Status status = file_.status();
-        return status ? std::string() : "its recording has ended: " + status.error().message;
+        return status ? std::string() : "recording stopped: " + status.error().message;
     }
 
 private:
@@ -110,7 +109,7 @@ private:
         const std::lock_guard lock(mutex_);
         drain();
     }
-    // With mutex_ held, which makes of whoever calls it the queue's one reader.
+    // Requires mutex_, which makes the caller the queue's only reader.
     void drain() const
     {
         Reading r;
@@ -132,7 +131,7 @@ private:
 
     std::unique_ptr<HapticDevice> device_;
     Reading reading_;
-    mutable std::mutex mutex_; // of the file; the servo thread does not touch it
+    mutable std::mutex mutex_; // guards the file; the servo thread does not lock it
     mutable TraceFile file_;
     mutable SpscQueue<Reading, 1U << 13> queue_;
     mutable std::chrono::steady_clock::time_point begin_{};

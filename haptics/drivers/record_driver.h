@@ -1,4 +1,4 @@
-// Any device, and a file of what it measured and what was written to it: for looking into a driver.
+// A wrapper that records a device's samples and forces to a file: for debugging a driver.
 #pragma once
 
 #include "haptics/device/device_driver.h"
@@ -9,12 +9,12 @@
 
 namespace marsview {
 
-/// Scheme "record". The address is a file, a comma, and the URI of the device that is recorded:
-/// "record:touch.csv,openhaptics:". A line each time the device is read, in its workspace; a
-/// session over a map is recorded by SessionRecorder instead. A thread of its own writes.
+/// Scheme "record". The address is a file, a comma, and the URI of the device to record:
+/// "record:touch.csv,openhaptics:". Writes one line per read(), in workspace coordinates, on its
+/// own thread. (SessionRecorder records sessions over a map.)
 std::unique_ptr<DeviceDriver> makeRecordDriver();
 
-/// The file that such a device writes; empty for any other device.
+/// The file that such a device writes; empty for other URIs.
 std::string recordedFile(std::string_view uri);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// A file of goals as a device: what was aimed at once is aimed at again, one goal an update.
+// A recording of goals as a device: it plays back one goal per update.
 #pragma once
 
 #include "core/contact/goal_frame.h"
@@ -15,8 +15,8 @@ namespace marsview {
 
 enum class ReplayEnd { Finish, BeginAnew };
 
-/// Goals are in map coordinates, so it tells them by recordedGoal(); positions stay in the middle
-/// of the workspace. It can push nobody.
+/// Goals are in map coordinates, so they are returned by recordedGoal(); positions stay in the
+/// middle of the workspace. It has no force output.
 class ReplayDevice final : public HapticDevice {
 public:
     explicit ReplayDevice(std::vector<TracePoint> goals, ReplayEnd end = ReplayEnd::Finish);
@@ -34,13 +34,12 @@ private:
     std::atomic<std::size_t> next_{0}; // written by the ticking thread
 };
 
-/// Whether a device is a recording that is played back.
+/// Whether a URI names a recording.
 bool isReplay(std::string_view uri) noexcept;
 /// The file of "replay:FILE" or "replay:FILE#loop".
 std::string replayedFile(std::string_view uri);
 
-/// Scheme "replay". The address is the file, with "#loop" behind it if it should begin anew at its
-/// end.
+/// Scheme "replay". The address is the file; append "#loop" to restart at its end.
 std::unique_ptr<DeviceDriver> makeReplayDriver();
 
 } // namespace marsview

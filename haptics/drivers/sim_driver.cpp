@@ -13,9 +13,9 @@ namespace marsview {
 namespace {
 
 constexpr WorkspaceBox kWorkspace{{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
-constexpr double kInsideM = 0.01; // strokes turn back so far before the walls
+constexpr double kInsideM = 0.01; // strokes reverse this far from the walls
 
-// What the options look like in a URI.
+// The options with the names and units of the URI.
 struct UriNumbers {
     double tremor_mm = 0.0;
     double encoder_mm = 0.02;
@@ -58,8 +58,8 @@ public:
             if (numbers.cell_m == 0.0) {
                 return Error{ErrorCode::Invalid,
                              uri +
-                                 ": swipe is in cells an update; say with cell_m how wide a cell "
-                                 "is at the hand, in metres"};
+                                 ": swipe is in cells per update; set cell_m to the width of a "
+                                 "cell at the device, in meters"};
             }
             options.speed_m_per_s = numbers.swipe_cells * numbers.cell_m * options.rate_hz;
         }
@@ -71,7 +71,7 @@ public:
     }
 };
 
-// Whether it is time for what is done for `share` of each span of `every_s`, at its end.
+// Whether `seconds` lies in the last `share` of an interval of `every_s`.
 bool isTimeFor(double every_s, double share, double seconds) noexcept
 {
     return every_s > 0.0 && std::fmod(seconds, every_s) > (1.0 - share) * every_s;
@@ -124,7 +124,7 @@ DeviceStatus SimDevice::write(const Vec3& force_n) noexcept
     return DeviceStatus::Fine;
 }
 
-// Strokes that curve a little and turn back before the walls. The hand leans on the stylus with a
+// Slightly curved strokes that reverse before the walls. The hand presses on the stylus with a
 // constant force, so that it follows the surface.
 void SimDevice::wander() noexcept
 {
@@ -149,7 +149,7 @@ void SimDevice::wander() noexcept
         velocity.y = -velocity.y;
     }
     aim_ = aim_ + velocity * dt_s;
-    // Back to where the strokes are, faster than any stroke but no jump.
+    // Returns to the stroke box faster than any stroke, but without a jump.
     constexpr double kReturnMPerS = 0.5;
     const auto returned = [dt_s](double at, double low, double high) {
         return at + std::clamp(std::clamp(at, low, high) - at, -kReturnMPerS * dt_s,

@@ -41,7 +41,7 @@ void SimulatedHand::aimAt(const WorkspacePoint& aim, const Vec3& aim_m_per_s) no
 
 void SimulatedHand::push(const Vec3& force_n) noexcept
 {
-    if (count_ == kPushesMax) { // the oldest begins early
+    if (count_ == kPushesMax) { // full: the oldest begins early
         acting_n_ = pushes_[first_].force_n;
         first_ = (first_ + 1) % kPushesMax;
         --count_;
@@ -65,13 +65,13 @@ void SimulatedHand::advance(double seconds) noexcept
 
 void SimulatedHand::step(double seconds) noexcept
 {
-    // Half a step is what times may be off by; it keeps sums of steps from mattering.
+    // A tolerance of half a step hides the rounding of accumulated times.
     while (count_ > 0 && pushes_[first_].begin_s <= seconds_ + 0.5 * seconds) {
         acting_n_ = pushes_[first_].force_n;
         first_ = (first_ + 1) % kPushesMax;
         --count_;
     }
-    // Implicit in what holds the mass, so that no grip is too stiff for a step.
+    // Implicit in the grip's force on the mass, so that any grip stiffness is stable.
     const Vec3 aim_at{aim_.x, aim_.y, aim_.z};
     const Vec3 at{at_.x, at_.y, at_.z};
     const Vec3 pull_n = (aim_at + tremor() - at) * options_.grip_n_per_m +

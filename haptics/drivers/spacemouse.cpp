@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint16_t kLogitech = 0x046D; // whose the maker was
+constexpr std::uint16_t kLogitech = 0x046D; // the former maker
 constexpr std::uint16_t kThreeDconnexion = 0x256F;
 constexpr std::uint16_t kGenericDesktop = 0x01;
 constexpr std::uint16_t kMultiAxisController = 0x08;
@@ -60,7 +60,7 @@ const Model* modelOf(const HidEntry& entry)
     return model != kModels.end() ? &*model : nullptr;
 }
 
-// A receiver has one path for the cap and others for mice and keyboards.
+// A receiver has one path for the cap and other paths for mice and keyboards.
 bool isSpaceMouse(const HidEntry& entry)
 {
     const bool may_have_axes = entry.usage_page == 0 || (entry.usage_page == kGenericDesktop &&
@@ -144,7 +144,7 @@ void SpaceMouse::run() noexcept
         if (takeSpaceMouseReport({bytes.data(), size}, rates)) {
             heard = Clock::now();
         } else if (!rates.isAtRest() && Clock::now() - heard > kSilence) {
-            rates.push = rates.turn = {}; // its last word would move the camera for ever
+            rates.push = rates.turn = {}; // otherwise the last rates would move the camera forever
         } else {
             continue;
         }
@@ -168,7 +168,7 @@ std::vector<FoundDevice> SpaceMouseDriver::find()
     std::vector<FoundDevice> found = SpaceMouse::find(api_);
     for (FoundDevice& device : found) {
         if (device.isUsable()) {
-            device.reason = "moves the camera in the window by itself; it cannot touch";
+            device.reason = "moves the camera in the window; it is not a haptic device";
         }
     }
     return found;
@@ -177,7 +177,7 @@ std::vector<FoundDevice> SpaceMouseDriver::find()
 Result<std::unique_ptr<HapticDevice>> SpaceMouseDriver::open(std::string_view address)
 {
     return Error{ErrorCode::Unsupported,
-                 fmt::format("{}: a SpaceMouse moves the camera in the window and cannot touch; "
+                 fmt::format("{}: a SpaceMouse moves the camera and is not a haptic device; "
                              "name another device",
                              uriOf(address))};
 }

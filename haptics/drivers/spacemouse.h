@@ -1,4 +1,4 @@
-// A 3Dconnexion SpaceMouse and its kin. They steer the camera, not the stylus.
+// 3Dconnexion SpaceMouse devices. They move the camera, not the stylus.
 #pragma once
 
 #include "haptics/device/device_driver.h"
@@ -18,33 +18,33 @@
 
 namespace marsview {
 
-/// Reads reports on a thread of its own. A camera asks for the rates once a frame and moves by them
-/// times the frame's time.
+/// Reads reports on its own thread. A camera reads the rates once per frame and moves by the rates
+/// times the frame's duration.
 class SpaceMouse {
 public:
-    /// What is connected, with URIs "spacemouse:/dev/hidraw3". Mice and keyboards of the same maker
-    /// are left out.
+    /// The connected devices, with URIs "spacemouse:/dev/hidraw3". Mice and keyboards of the same
+    /// maker are excluded.
     static std::vector<FoundDevice> find(const HidApi& api = systemHidApi());
 
-    /// `address` is a path, or empty for the first one. The error names the URI. `notify`, which
-    /// may be empty, is called on the reading thread when the cap leaves its rest, when a button
-    /// goes down, and when the device is lost: who has nothing to do in between need not ask.
+    /// `address` is a path, or empty for the first device. The error names the URI. `notify`, which
+    /// may be empty, is called on the reading thread when the cap leaves its rest position, when a
+    /// button is pressed, and when the device is lost, so that an idle caller need not poll.
     static Result<std::unique_ptr<SpaceMouse>> open(std::string_view address,
                                                     const HidApi& api = systemHidApi(),
                                                     std::function<void()> notify = {});
-    /// Waits for a reading that is under way, 50 ms at most, and for a call of `notify`.
+    /// Waits for a running read, at most 50 ms, and for a running call of `notify`.
     ~SpaceMouse();
     SpaceMouse(const SpaceMouse&) = delete;
     SpaceMouse& operator=(const SpaceMouse&) = delete;
 
     const std::string& name() const noexcept { return name_; }
-    /// The newest rates; all zero once it is lost, or silent for 150 ms while it was pushed. Any
-    /// thread but real-time ones.
+    /// The latest rates; all zero once the device is lost, or after 150 ms without a report while
+    /// it was pushed. Any thread except real-time ones.
     SpaceMouseRates rates() const noexcept;
-    /// The buttons that went down since this was asked last, as bits; none is forgotten that was
-    /// released meanwhile. Any thread.
+    /// The buttons pressed since the last call, as bits, including those released in the meantime.
+    /// Any thread.
     std::uint32_t takePressed() noexcept { return pressed_.exchange(0); }
-    /// It was unplugged; never recovers.
+    /// The device was unplugged; it does not recover.
     bool isLost() const noexcept { return is_lost_.load(std::memory_order_acquire); }
 
 private:
@@ -62,8 +62,8 @@ private:
     std::thread thread_;
 };
 
-/// Lists them among the devices, and says what they are for to those who would touch with one. The
-/// window opens them by itself.
+/// Lists SpaceMouse devices and explains why they cannot be opened as haptic devices. The window
+/// opens them by itself.
 class SpaceMouseDriver final : public DeviceDriver {
 public:
     explicit SpaceMouseDriver(const HidApi& api = systemHidApi())

@@ -6,7 +6,7 @@
 namespace marsview {
 namespace {
 
-constexpr double kCountsMax = 350.0; // all models give about that much
+constexpr double kCountsMax = 350.0; // about the full range of all models
 constexpr unsigned char kPush = 1;
 constexpr unsigned char kTurn = 2;
 constexpr unsigned char kButtons = 3;
@@ -21,7 +21,7 @@ double rateAt(std::span<const unsigned char> report, std::size_t index)
     return std::clamp(counts / kCountsMax, -1.0, 1.0);
 }
 
-// Theirs are x right, y towards the user, z down: half a turn about x from ours.
+// The device's axes are x right, y toward the user, z down: half a turn about x from ours.
 Vec3 axesAt(std::span<const unsigned char> report, std::size_t first)
 {
     return {rateAt(report, first), 0.0 - rateAt(report, first + 1),

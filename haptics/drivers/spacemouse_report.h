@@ -1,4 +1,4 @@
-// What 3Dconnexion's six-axis devices say: bytes to rates.
+// Reports of 3Dconnexion six-axis devices: decoding.
 #pragma once
 
 #include "core/base/vec.h"
@@ -8,8 +8,8 @@
 
 namespace marsview {
 
-/// How far the cap is pushed and turned, as a share of what it can be, -1 to 1: the speeds that
-/// are wished for. Axes: x right, y away from the user, z up; turns about them by the right hand.
+/// How far the cap is pushed and turned, as a fraction of its range, -1 to 1: the requested
+/// velocities. Axes: x right, y away from the user, z up; rotations about them are right-handed.
 struct SpaceMouseRates {
     Vec3 push;
     Vec3 turn;
@@ -18,8 +18,9 @@ struct SpaceMouseRates {
     bool isAtRest() const { return push == Vec3{} && turn == Vec3{}; }
 };
 
-/// Takes over what a report, its number in front, says. Older devices send pushes and turns in
-/// reports of their own, newer ones together: the length tells. False where it says nothing.
+/// Updates `rates` from a report, which begins with its number. Older devices send translation and
+/// rotation in separate reports, newer ones together: the length distinguishes them. Returns false
+/// if the report has no rates or buttons.
 bool takeSpaceMouseReport(std::span<const unsigned char> report, SpaceMouseRates& rates);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// What stands behind the scheme of a device's URI: "mass=0.1,delay_ms=2".
+// Parses the parameters in a device's URI: "mass=0.1,delay_ms=2".
 #pragma once
 
 #include "core/base/result.h"
@@ -9,7 +9,7 @@
 
 namespace marsview {
 
-/// A number that may be given, and where it goes.
+/// An optional number: its name, its range and its destination.
 struct UriParameter {
     std::string_view name;
     double* value = nullptr;
@@ -17,8 +17,8 @@ struct UriParameter {
     double maximum = 0.0;
 };
 
-/// Reads "name=number" between commas into what the parameters point to; what is not named keeps
-/// its value. The error names `uri` and what it should have been.
+/// Parses a comma-separated list of "name=number" into the parameters' destinations; parameters
+/// that are not named keep their values. The error names `uri` and the expected form.
 Status readUriParameters(std::string_view uri,
                          std::string_view address,
                          const std::vector<UriParameter>& parameters);

@@ -1,4 +1,4 @@
-// The modes of the paper's section 4.2 at a device: what a grab does to the map and to the hand.
+// The modes of the paper's section 4.2 with a device: how a grab affects the map and the hand.
 #pragma once
 
 #include "haptics/interaction/mouse_stylus.h"
@@ -11,15 +11,15 @@ namespace marsview {
 struct ModeOptions {
     PanOptions pan;
     ZoomOptions zoom;
-    double scene_per_metre_min = 1e-3; // how far zooms go
+    double scene_per_metre_min = 1e-3; // zoom limits
     double scene_per_metre_max = 1e9;
 };
 
-/// Between two moments.
+/// The change between two ticks.
 struct ModeInput {
     WorkspacePoint hand{};       // now
     Vec3 hand_shift{};           // since the last time
-    double twist_change_rad = 0; // of the stylus; counter-clockwise seen from above
+    double twist_change_rad = 0; // of the stylus; counterclockwise seen from above
     bool is_grabbing = false;
     bool is_in_contact = false;
     double free_share = 1.0;       // 0 at a wall: WallContact::ground_share
@@ -36,20 +36,20 @@ struct ModeState {
 struct ModeStep {
     WorkspaceFrame frame;
     Vec3 force_n{};                // of the mode; 0 unless it grabs
-    bool has_changed_mode = false; // in what is felt: hovering and pressing are one
+    bool has_changed_mode = false; // in the rendered force: hovering and pressing count as one
     bool has_moved_map = false;    // pulled, gliding, zoomed or turned
 };
 
-/// Whether the mode is one that holds the map: the ground is not felt meanwhile.
+/// Whether the mode holds the map: the surface force is then off.
 constexpr bool isHolding(StylusMode mode) noexcept
 {
     return mode == StylusMode::Pan || mode == StylusMode::Zoom;
 }
 
-/// Pan: the map follows with inertia, the height is held. Zoom: height zooms about the hand, with
-/// detents, twisting turns, the place is held. Otherwise a map that has been let go glides on. The
-/// forces of a mode are along different axes, so they are added; what would be along a wall's fades
-/// out before the wall (`free_share`). Servo thread.
+/// Pan: the map follows with inertia, and the hand's height is held. Zoom: the hand's height zooms
+/// about the hand, with detents, twisting rotates the map, and the horizontal position is held.
+/// Otherwise a released map glides. The forces of a mode act along different axes, so they are
+/// added; a force along a wall's axis fades out before the wall (`free_share`). Servo thread.
 ModeStep stepModes(const ModeOptions& options,
                    const ModeInput& input,
                    ModeState& state,

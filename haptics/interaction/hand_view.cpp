@@ -7,7 +7,7 @@ OrbitCamera cameraFollowing(const HandView& before, const WorkspaceFrame& frame)
     OrbitCamera camera = before.camera;
     camera.target = frame.toScene(before.frame.toWorkspace(camera.target));
     camera.distance_m *= frame.scene_per_metre / before.frame.scene_per_metre;
-    // Headings count clockwise.
+    // Headings are clockwise.
     camera.azimuth = camera.azimuth + before.frame.turn + -frame.turn;
     return camera;
 }

@@ -1,4 +1,4 @@
-// A view and the hand's frame in it, kept together while either moves.
+// Keeps the camera and the workspace frame consistent while either moves.
 #pragma once
 
 #include "core/view/camera.h"
@@ -6,18 +6,19 @@
 
 namespace marsview {
 
-/// A camera, and how a device's workspace lies over the scene that it sees.
+/// A camera, and the placement of a device's workspace in its scene.
 struct HandView {
     OrbitCamera camera;
     WorkspaceFrame frame;
 };
 
-/// The camera after a hand has pulled, zoomed or turned the map from `before.frame` to `frame`: it
-/// is where it was as seen from the hand. Tilt and field of view stay. Both frames are sound.
+/// The camera after a hand has moved, zoomed or turned the map from `before.frame` to `frame`: its
+/// position relative to the hand does not change. Tilt and field of view are kept. Both frames are
+/// sound.
 OrbitCamera cameraFollowing(const HandView& before, const WorkspaceFrame& frame) noexcept;
 
-/// The frame after something else has moved the camera to `camera`, whose tilt does not matter: its
-/// target is where the other one's was as seen from the hand. Distances are > 0.
+/// The frame after something else has moved the camera to `camera`, whose tilt has no effect: the
+/// target's position relative to the hand does not change. Distances are > 0.
 WorkspaceFrame frameFollowing(const HandView& before, const OrbitCamera& camera) noexcept;
 
 } // namespace marsview

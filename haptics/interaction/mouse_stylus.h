@@ -1,4 +1,4 @@
-// The mouse as a stylus: where in space it points.
+// The mouse as a stylus: mode, goal and force.
 #pragma once
 
 #include "core/base/vec.h"
@@ -6,53 +6,53 @@
 
 namespace marsview {
 
-/// What the hand with the mouse is doing. As in section 4.2 of the paper "Large Haptic Topographic
-/// Maps", what a grab does depends on whether the stylus touches the ground.
+/// The interaction mode. As in section 4.2 of the paper "Large Haptic Topographic Maps", the effect
+/// of a grab depends on whether the stylus touches the surface.
 enum class StylusMode {
-    Hover, // in free space above the ground
-    Press, // into the ground
+    Hover, // in free space above the surface
+    Press, // into the surface
     Pan,   // grabbed in contact: the map moves with the hand
     Zoom,  // grabbed in free space
 };
 
-/// What the hand holds down.
+/// The pressed buttons.
 struct StylusButtons {
     bool is_pressing = false; // left mouse button
     bool is_grabbing = false; // space bar
 };
 
-/// The mode that follows: a grab keeps the mode with which it began until it ends.
+/// The next mode: a grab keeps the mode in which it began until it ends.
 StylusMode nextMode(StylusMode mode, const StylusButtons& buttons, bool is_in_contact) noexcept;
 
-/// A mouse knows no depth: the stylus hovers at a steady height over the ground behind the pointer
-/// and is pressed to a steady depth below it. Both are lengths of the hand, so that they look and
-/// feel the same at every zoom; the wheel changes the depth while pressing.
+/// A mouse has no depth axis: the stylus hovers at a constant height above the surface under the
+/// pointer and is pressed to a constant depth below it. Both are workspace lengths, so that they
+/// look and feel the same at every zoom; the wheel changes the depth while pressing.
 struct StylusReach {
-    double hover_points = 26.0; // of the screen
+    double hover_points = 26.0; // on the screen
     double depth_points = 30.0;
 };
 
 inline constexpr double kStylusDepthMin = 4.0; // points
 inline constexpr double kStylusDepthMax = 120.0;
 
-/// Where the stylus aims: above or below `ground`. `point_m` is what a point of the screen is long
-/// there, in scene metres.
+/// The goal: above or below `ground`. `point_m` is the length of a screen point there, in scene
+/// meters.
 ScenePoint stylusGoal(const ScenePoint& ground,
                       const StylusReach& reach,
                       bool is_pressing,
                       double point_m) noexcept;
 
-/// How the hand is laid over the view: a point of the screen is this long at the hand, which makes
-/// a window of 800 points 160 mm high, about what a desktop stylus reaches.
+/// The workspace length of a screen point: a window of 800 points is then 160 mm high, about the
+/// reach of a desktop stylus.
 inline constexpr double kHandMetresPerPoint = 2e-4;
 
 /// The spring between proxy and goal, in the range in which desktop devices are stable.
 inline constexpr double kStiffnessNPerM = 300.0;
 
-/// The force that fills the meter: what desktop devices sustain for a moment.
+/// The full scale of the force meter: the typical peak force of desktop devices.
 inline constexpr double kForceNMax = 3.3;
 
-/// The force on the hand in newtons: the spring from `goal` to `proxy`, cut off at kForceNMax.
+/// The force on the hand in newtons: the spring from `goal` to `proxy`, limited to kForceNMax.
 /// `point_m` > 0.
 Vec3 stylusForce(const ScenePoint& proxy, const ScenePoint& goal, double point_m) noexcept;
 

@@ -1,25 +1,24 @@
-// A map that is pulled by a hand: it has inertia, and goes on by itself when it is let go.
+// Panning of a map with inertia: it keeps moving after it is released.
 #pragma once
 
 #include "core/base/vec.h"
 
 namespace marsview {
 
-/// In the workspace, seen from above: what the hand feels of the map's mass is the same at every
-/// zoom.
+/// In the workspace, horizontally: the map's mass feels the same at every zoom.
 struct PanOptions {
     double mass_kg = 0.2;
-    /// Between the hand and what it has grabbed: a stiff spring instead of a rigid hold, which no
-    /// device renders. > 0.
+    /// Between the hand and the grabbed point: a stiff spring instead of a rigid hold, which
+    /// devices cannot render. > 0.
     double grip_n_per_m = 250.0;
     double grip_n_s_per_m = 2.0;
-    double drag_per_s = 0.7;        // share of the speed that is lost in a second, at first
-    double speed_m_per_s_max = 0.5; // of a map that glides
+    double drag_per_s = 0.7;        // fraction of the initial speed lost per second
+    double speed_m_per_s_max = 0.5; // of a gliding map
 };
 
 struct PanState {
-    Vec3 velocity_m_per_s{}; // of the map; level
-    Vec3 stretch_m{};        // from what was grabbed to the hand; level
+    Vec3 velocity_m_per_s{}; // of the map; horizontal
+    Vec3 stretch_m{};        // from the grabbed point to the hand; horizontal
 };
 
 struct PanStep {
@@ -27,20 +26,19 @@ struct PanStep {
     Vec3 force_n{}; // on the hand
 };
 
-/// What moves goes on moving; only the hold begins without a stretch.
+/// The map keeps its velocity; the hold begins without stretch.
 void grabMap(PanState& state) noexcept;
 
 /// The hand holds the map and has moved by `hand_shift` within `dt_s` >= 0. `mass_share`, 0 to 1,
-/// is of the mass: at 0, where the hand touches a wall, the map follows without inertia and the
-/// force is zero. Implicit in time: no stiffness and no mass, however small, is too much for a
-/// step.
+/// scales the mass: at 0, where the hand touches a wall, the map follows without inertia and the
+/// force is zero. Implicit in time: stable for any stiffness and any mass.
 PanStep pullMap(const PanOptions& options,
                 PanState& state,
                 const Vec3& hand_shift,
                 double mass_share,
                 double dt_s) noexcept;
 
-/// Nobody holds the map. A wall that is touched, `mass_share` 0, takes its momentum.
+/// The map is not held. If a wall is touched, `mass_share` 0, it loses its momentum.
 PanStep
 glideMap(const PanOptions& options, PanState& state, double mass_share, double dt_s) noexcept;
 

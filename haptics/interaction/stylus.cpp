@@ -38,8 +38,8 @@ void Stylus::setModel(ContactModelKind kind)
     if (!model_) {
         return;
     }
-    // A hair's breadth from the proxy towards the goal, the proxy is the nearest point of the
-    // ground. Off the ground, as a sphere's centre is, the way goes on from there.
+    // Slightly away from the proxy toward the goal, the proxy is the nearest point of the surface.
+    // Off the surface, as for a sphere's center, the motion continues from there.
     constexpr double kHair = 1e-6;
     const auto [proxy, goal] = std::pair(pose_->proxy, pose_->goal);
     model_ = makeModel();
@@ -70,7 +70,7 @@ void Stylus::aim(const GroundPoint& at, const StylusButtons& buttons, double poi
     if (is_pressing) {
         press(goal);
     } else {
-        // Hovering, a mouse has no height of its own that could get in the way of a ridge.
+        // A hovering mouse stylus has no height of its own, so ridges cannot obstruct it.
         letGo();
     }
     updatePose(mode, goal);
@@ -137,18 +137,18 @@ void Stylus::press(const ScenePoint& goal)
     if (!model_) {
         model_ = makeModel();
         if (!model_) {
-            return; // there is nothing of it to be touched
+            return; // the map has no surface there
         }
         touch_->follow(*model_, goal);
-        model_->place(goal); // from straight above: nothing beside the place is in the way
+        model_->place(goal); // from straight above: nothing next to it can obstruct it
     }
     touch_->follow(*model_, goal);
     model_->update(goal);
     keepOnItsMap(goal);
 }
 
-// A map's surface goes on below the maps that cover it, and across its voids, through which lower
-// ones are seen. The proxy must not slide there: it is pressed less deep.
+// A map's surface continues below the maps that cover it, and across its voids, through which lower
+// maps are visible. The proxy must not slide there: it is pressed less deep.
 void Stylus::keepOnItsMap(const ScenePoint& goal)
 {
     constexpr int kHalvings = 10;
@@ -163,8 +163,8 @@ void Stylus::keepOnItsMap(const ScenePoint& goal)
     }
 }
 
-// A sphere that is laid onto a slope rolls aside however shallow it is pressed. The closer the goal
-// comes to where the sphere first touches, straight above the ground aimed at, the less it does.
+// A sphere placed on a slope rolls aside however lightly it is pressed. The closer the goal is to
+// the point of first contact, straight above the aimed point, the less it rolls.
 void Stylus::holdAbove(const ScenePoint& ground)
 {
     constexpr int kDoublings = 60;

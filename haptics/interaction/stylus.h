@@ -1,4 +1,4 @@
-// The stylus that the mouse moves: its mode, its goal, and the proxy that the ground holds.
+// The stylus that the mouse moves: its mode, its goal, and its proxy on the surface.
 #pragma once
 
 #include "core/contact/contact_model.h"
@@ -11,51 +11,50 @@
 
 namespace marsview {
 
-/// Where the stylus is and what the ground does to it. In scene coordinates.
+/// The stylus and its contact force. In scene coordinates.
 struct StylusPose {
     StylusMode mode = StylusMode::Hover;
     ScenePoint proxy;
     ScenePoint goal;
     bool is_in_contact = false;
     Vec3 force_n{};                  // on the hand
-    double force_n_max = kForceNMax; // that it can be
+    double force_n_max = kForceNMax; // its maximum
 
     bool operator==(const StylusPose&) const = default;
 };
 
-/// In contact while it presses, free while it hovers; a grab keeps it as it was. The proxy is never
-/// below the ground. For the GUI thread: an update takes microseconds.
+/// In contact while it presses, free while it hovers; a grab keeps that state. The proxy is never
+/// below the surface. For the GUI thread: an update takes microseconds.
 ///
-/// A virtual proxy's sphere is as wide as a cell of the map that it touches.
+/// The sphere of a VirtualProxy is as wide as a cell of the touched map.
 class Stylus {
 public:
-    /// The ground it moves over from now on. Where only the exaggeration changes, the stylus stays
-    /// over or on the same piece of ground and moves with it; otherwise it is lifted.
+    /// Sets the surface. If only the exaggeration changes, the stylus keeps its position on the map
+    /// and moves with it; otherwise it is lifted.
     void setGround(const SceneSurface& ground, double exaggeration);
 
-    /// What moves the proxy from now on. In contact, the proxy goes on from where it is.
+    /// Sets the contact model. In contact, the proxy continues from its position.
     void setModel(ContactModelKind kind);
     ContactModelKind model() const noexcept { return kind_; }
 
-    /// The pointer is over this point of the ground, where a point of the screen is `point_m` > 0
-    /// long. While grabbed, goal and proxy stay where they are.
+    /// The pointer is over this point of the surface, where a screen point has the length `point_m`
+    /// > 0. While the map is grabbed, goal and proxy do not move.
     void aim(const GroundPoint& at, const StylusButtons& buttons, double point_m);
-    /// Takes in what has been loaded of the ground since the last call. True where the proxy may
-    /// have moved with it. For ground that comes in tiles, some thirty times a second while
-    /// isWaiting().
+    /// Applies surface data loaded since the last call. Returns true if the proxy may have moved.
+    /// Call it about thirty times a second while isWaiting().
     bool refresh();
-    /// For a hand that has not moved since it began to press: it presses once more, from straight
-    /// above, so that nothing is left of the coarser ground that it may have met at first. Nothing
-    /// where it does not press.
+    /// For a hand that has not moved since it began to press: presses again from straight above, to
+    /// remove effects of the coarser surface that it may have met at first. No effect unless
+    /// pressing.
     void pressAnew();
-    /// Whether the ground below the stylus may still change by itself.
+    /// Whether the surface below the stylus may still change by itself.
     bool isWaiting() const noexcept { return model_ != nullptr && touch_->isTiled(); }
-    /// The pointer is over no ground, or has left.
+    /// The pointer is not over a surface, or has left the view.
     void lift();
-    /// Presses deeper (factor > 1) or less deep from the next aim on, within bounds.
+    /// Changes the pressing depth, within bounds, from the next aim on: deeper if factor > 1.
     void deepen(double factor);
 
-    /// Nothing while lifted.
+    /// Empty while lifted.
     const std::optional<StylusPose>& pose() const noexcept { return pose_; }
 
 private:
@@ -71,11 +70,11 @@ private:
     SceneSurface ground_;
     double exaggeration_ = 1.0;
     StylusReach reach_;
-    GroundPoint at_; // aimed at last
+    GroundPoint at_; // the last argument of aim()
     double point_m_ = 1.0;
     ContactModelKind kind_ = kContactModelDefault;
-    std::unique_ptr<MapTouch> touch_;        // of the map aimed at, once it was touched
-    std::unique_ptr<MapContactModel> model_; // over it; while in contact
+    std::unique_ptr<MapTouch> touch_;        // for the map aimed at, from the first touch on
+    std::unique_ptr<MapContactModel> model_; // on touch_; while in contact
     std::optional<StylusPose> pose_;
 };
 

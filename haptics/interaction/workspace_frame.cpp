@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-// Counter-clockwise about the vertical.
+// Counterclockwise about the vertical.
 Vec3 turnedBy(const Vec3& v, Angle angle) noexcept
 {
     const double c = std::cos(angle.radians());
@@ -21,7 +21,7 @@ WorkspacePoint centreOf(const WorkspaceBox& box) noexcept
             0.5 * (box.low.z + box.high.z)};
 }
 
-// Bounds of turned points.
+// The bounds of rotated points.
 struct Bounds {
     Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0.0};
     Vec3 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
@@ -38,7 +38,7 @@ double share(double scene_m, double workspace_m) noexcept
     return workspace_m > 0.0 ? scene_m / workspace_m : 0.0;
 }
 
-// `low` and `high` are in the scene's metres but the workspace's axes.
+// `low` and `high` are in scene meters along the workspace's axes.
 WorkspaceFrame frameAround(const Vec3& low, const Vec3& high, Angle turn, const WorkspaceBox& reach)
 {
     const Vec3 size = reach.high - reach.low;
@@ -109,7 +109,7 @@ WorkspaceFrame frameForView(const OrbitCamera& camera,
                             const SceneBox& box,
                             const WorkspaceBox& reach)
 {
-    const Angle turn = -camera.azimuth; // headings count clockwise
+    const Angle turn = -camera.azimuth; // headings are clockwise
     Bounds bounds;
     for (const GridPoint& corner : footprint(camera, viewport, map)) {
         bounds.add(turnedBy(map.frame.toScene(corner, 0.0), -turn));

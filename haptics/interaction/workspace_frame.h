@@ -1,4 +1,4 @@
-// How a device's workspace lies over the scene.
+// The placement of a device's workspace in the scene.
 #pragma once
 
 #include "core/base/angle.h"
@@ -10,14 +10,14 @@
 
 namespace marsview {
 
-/// A similarity: shift, scale, and a turn about the vertical. The nearest place of a surface is
-/// thus the same in both, and forces are stiffness times workspace distance. A small value; all but
-/// frameForView is for any thread, the servo's too.
+/// A similarity: translation, scale, and rotation about the vertical. The nearest point of a
+/// surface is thus the same in both, and forces are stiffness times workspace distance. A small
+/// value; all functions except frameForView are for any thread, including the servo thread.
 struct WorkspaceFrame {
     WorkspacePoint anchor{};      // this point of the workspace
-    ScenePoint place{};           // lies here
-    double scene_per_metre = 1.0; // scene metres in one of the workspace; > 0
-    Angle turn{}; // from the workspace's axes to the scene's, counter-clockwise seen from above
+    ScenePoint place{};           // maps to this point
+    double scene_per_metre = 1.0; // scene meters per workspace meter; > 0
+    Angle turn{}; // from the workspace's axes to the scene's, counterclockwise seen from above
 
     bool operator==(const WorkspaceFrame&) const = default;
 
@@ -26,27 +26,27 @@ struct WorkspaceFrame {
     Vec3 differenceToWorkspace(const Vec3& scene_m) const noexcept;
     Vec3 differenceToScene(const Vec3& workspace_m) const noexcept;
 
-    /// The map moved by `shift` in the workspace, as if pulled by a hand.
+    /// The frame after the map has moved by `shift` in the workspace, as if pulled by a hand.
     WorkspaceFrame panned(const Vec3& shift) const noexcept;
-    /// The map seen `factor` > 0 times as large, the place at `fixed` staying there.
+    /// The frame after the map has been magnified by `factor` > 0 about `fixed`.
     WorkspaceFrame zoomed(const WorkspacePoint& fixed, double factor) const noexcept;
-    /// The map turned counter-clockwise about the vertical through `fixed`.
+    /// The frame after the map has been turned counterclockwise about the vertical through `fixed`.
     WorkspaceFrame turned(const WorkspacePoint& fixed, Angle angle) const noexcept;
-    /// Whether all of its numbers are finite and the scale is one.
+    /// Whether all numbers are finite and the scale is valid.
     bool isSound() const noexcept;
 };
 
-/// The frame in which a hand within `reach` gets to everything that the camera sees of the map, and
-/// up to the highest and down to the lowest of `box`: the view's heading is away from the user, and
-/// the middle of what is seen is the middle of the reach. Where the camera sees nothing of the map,
-/// around its target, as far as the camera is away.
+/// The frame in which `reach` covers all of the map that the camera sees, from the lowest to the
+/// highest point of `box`: the view's heading is away from the user, and the center of the visible
+/// part is the center of the reach. If the camera sees nothing of the map, the frame covers the
+/// surroundings of the camera's target, out to the camera's distance.
 WorkspaceFrame frameForView(const OrbitCamera& camera,
                             const Viewport& viewport,
                             const MapPlan& map,
                             const SceneBox& box,
                             const WorkspaceBox& reach);
 
-/// The frame in which a hand within `reach` gets to all of the map, north away from the user.
+/// The frame in which `reach` covers the whole map, north away from the user.
 WorkspaceFrame frameForMap(const SceneBox& box, const WorkspaceBox& reach) noexcept;
 
 } // namespace marsview

@@ -5,7 +5,7 @@
 namespace marsview {
 namespace {
 
-// A device without an extent along an axis has no walls there.
+// A device without extent along an axis has no walls there.
 double excess(double at, double low, double high) noexcept
 {
     return !(low < high) ? 0.0 : at < low ? at - low : at > high ? at - high : 0.0;

@@ -7,7 +7,7 @@
 
 namespace {
 
-// Not inlined, lest the compiler take what is deleted for malloc's.
+// Not inlined, so that the compiler does not match delete with malloc.
 [[gnu::noinline]] void* counted(std::size_t bytes) noexcept
 {
     marsview::RtScope::countAllocation();

@@ -1,4 +1,4 @@
-// The last seconds of a loop, for finding out afterwards what happened.
+// Keeps the last seconds of a loop for later diagnosis.
 #pragma once
 
 #include "haptics/loop/loop_state.h"
@@ -13,20 +13,20 @@
 
 namespace marsview {
 
-/// A ring of ticks, made beforehand. The servo thread adds without waiting; any other reads what is
-/// there, and a tick that is overwritten meanwhile is left out.
+/// A preallocated ring of ticks. The servo thread adds without waiting; any other thread reads, and
+/// skips ticks that are overwritten during the read.
 class FlightRecorder {
 public:
     explicit FlightRecorder(std::size_t ticks = 10'000)
-        // One more than is kept, for the servo thread to write into.
+        // One more than is kept, for the tick being written.
         : ring_(std::make_unique<SeqLock<TickRecord>[]>(ticks + 1)) // NOLINT(*-avoid-c-arrays)
         , size_(ticks)
     {}
 
-    /// Where it is kept.
+    /// The storage.
     MemoryRange memory() const noexcept { return {ring_.get(), (size_ + 1) * sizeof(ring_[0])}; }
 
-    /// The servo thread.
+    /// Servo thread only.
     void add(const TickRecord& record) noexcept
     {
         const std::uint64_t number = count_.load(std::memory_order_relaxed);
@@ -36,8 +36,8 @@ public:
 
     bool isEmpty() const noexcept { return count_.load(std::memory_order_acquire) == 0; }
 
-    /// Any other thread: the oldest first, across pauses of the loop, after which its ticks are
-    /// numbered from 1 again.
+    /// Any other thread. The oldest tick comes first. After a pause of the loop, tick numbers
+    /// restart at 1.
     std::vector<TickRecord> records() const
     {
         const std::uint64_t end = count_.load(std::memory_order_acquire);
@@ -46,7 +46,7 @@ public:
         result.reserve(static_cast<std::size_t>(end - begin));
         for (std::uint64_t i = begin; i < end; ++i) {
             const auto record = ring_[i % (size_ + 1)].tryRead();
-            // Once so many have been added, a much later one is being written there.
+            // After this many more ticks, a newer tick is being written to the same entry.
             if (record && count_.load(std::memory_order_acquire) < i + size_ + 1) {
                 result.push_back(*record);
             }

@@ -10,26 +10,26 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kStepMaxS = 0.01; // what dynamics count a longer time as
+constexpr double kStepMaxS = 0.01; // longer steps are clamped to this for the dynamics
 
 Vec3 asVector(const WorkspacePoint& p) noexcept
 {
     return {p.x, p.y, p.z};
 }
 
-// A place that the device cannot be at: wrong units, or a broken encoder.
+// A position that the device cannot have: wrong units, or a broken encoder.
 bool isBeyond(const WorkspaceBox& box, const WorkspacePoint& p) noexcept
 {
     const auto isOut = [](double at, double low, double high) {
         constexpr double kMarginM = 0.25;
         const double margin = std::max(kMarginM, high - low);
-        return !(at >= low - margin && at <= high + margin); // also where NaN
+        return !(at >= low - margin && at <= high + margin); // also true for NaN
     };
     return isOut(p.x, box.low.x, box.high.x) || isOut(p.y, box.low.y, box.high.y) ||
            isOut(p.z, box.low.z, box.high.z);
 }
 
-// No hand moves its stylus faster than 5 m/s.
+// A hand moves its stylus at less than 5 m/s.
 bool isJump(const Vec3& shift_m, double dt_s) noexcept
 {
     constexpr double kSpeedMaxMPerS = 5.0;
@@ -52,7 +52,7 @@ LetGoReason reasonOf(DeviceStatus status) noexcept
     return LetGoReason::Fault;
 }
 
-// One tick, with what it hands from step to step.
+// One tick, with the data passed between its steps.
 class Tick {
 public:
     Tick(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept
@@ -86,7 +86,7 @@ private:
         if (!(dt_s_ > 0.0)) {
             return;
         }
-        constexpr double kShare = 0.02; // some 50 ticks
+        constexpr double kShare = 0.02; // about 50 ticks
         state_.period_s = state_.period_s > 0.0
                               ? state_.period_s + kShare * (dt_s_ - state_.period_s)
                               : std::max(dt_s_, options_.period_s);
@@ -101,19 +101,19 @@ private:
         if (!settings_.frame.isSound()) {
             return;
         }
-        // A camera that moves smoothly takes the map along; one that jumps puts another place
-        // there.
+        // A camera that moves smoothly carries the map along; after a jump another place is below
+        // the hand.
         constexpr double kJumpM = 2e-3;
         const Vec3 moved_m =
             state_.has_frame
                 ? settings_.frame.toWorkspace(state_.frame.toScene(state_.hand)) - state_.hand
                 : Vec3{};
         if (input_.recorded_goal != nullptr) {
-            state_.has_hand = false; // what is aimed at stays where it is, whatever is seen of it
+            state_.has_hand = false; // the recorded goal does not depend on the view
         } else if (state_.has_frame && !(length(moved_m) < kJumpM)) {
             has_jumped_ = true;
         }
-        // At another scale what is touched lies elsewhere though the hand does not.
+        // At another scale the touched point moves although the hand does not.
         if (state_.has_frame && state_.contact.is_in_contact) {
             const ScenePoint& at = state_.contact.proxy;
             is_stretched_ =
@@ -131,12 +131,12 @@ private:
             return;
         }
         if (map_ != nullptr && map_->map_id == state_.map_id && state_.has_touched) {
-            is_other_model_ = true; // of the same map: it goes on where the last one was
+            is_other_model_ = true; // of the same map: it continues at the last model's proxy
         } else {
             has_jumped_ = state_.map_serial != 0 || map_ == nullptr;
             is_fresh_ = true;
         }
-        // The same ground stretched: how deep the hand is in it has jumped.
+        // The same terrain at another exaggeration: the penetration depth has jumped.
         const double exaggeration = map_ != nullptr ? map_->frame.exaggeration() : 0.0;
         is_stretched_ = is_stretched_ || (is_other_model_ && exaggeration != state_.exaggeration);
         state_.exaggeration = exaggeration;
@@ -164,7 +164,7 @@ private:
                 return false;
             }
             if (state_.has_hand && isJump(at - state_.hand, dt_s_)) {
-                note(LetGoReason::DeviceNonsense); // and it goes on from there
+                note(LetGoReason::DeviceNonsense); // and continues from there
                 has_jumped_ = true;
                 state_.has_hand = false;
             }
@@ -254,7 +254,7 @@ private:
                                 .time_ns = input_.now.time_since_epoch() / nanoseconds(1),
                                 .is_active = true};
         state_.at = at;
-        // What arrives may change the force by no more than this.
+        // Newly arrived terrain may change the force at most at this rate.
         constexpr double kForceRateNPerS = 20.0;
         terrain.resident().setRate(
             std::max(1e-3, kForceRateNPerS * state_.frame.scene_per_metre /
@@ -274,12 +274,12 @@ private:
         const Georeference& georeference = map_->frame.georeference();
         const auto along = [](double value, std::size_t count) {
             const auto last = static_cast<double>(count - 1);
-            return value >= 0.0 ? std::min(value, last) : 0.0; // also where NaN
+            return value >= 0.0 ? std::min(value, last) : 0.0; // also for NaN
         };
         return {along(at.column, georeference.columns()), along(at.row, georeference.rows())};
     }
 
-    // From the hand to the proxy, in metres of the workspace.
+    // From the stylus to the proxy, in workspace meters.
     Vec3 touch() noexcept
     {
         const TracePoint aimed = input_.recorded_goal != nullptr ? *input_.recorded_goal : aim();
@@ -302,7 +302,7 @@ private:
         return state_.frame.differenceToWorkspace(state_.contact.proxy - clamped(state_.goal));
     }
 
-    // Beyond the map's border the ground goes on level, without a wall at its edge.
+    // Beyond the map's border the surface continues level, without a wall at the edge.
     ScenePoint clamped(const ScenePoint& goal) const noexcept
     {
         const SceneFrame& frame = map_->frame.frame();
@@ -314,13 +314,13 @@ private:
         return map_->frame.fromScene(clamped(state_.frame.toScene(state_.hand)));
     }
 
-    // The goal is derived from what a recording holds, so that one that is replayed gives the same.
+    // Recomputes the goal from what a recording stores, so that a replay gives the same result.
     void update(const TracePoint& goal) noexcept
     {
         state_.goal = map_->frame.toScene(goal);
         state_.contact = map_->model->update(state_.goal);
         if (state_.contact.counters.refused == 0) {
-            // To the digit the goal where it is free, as `trace` has it.
+            // In free space exactly the goal, as in `trace`.
             state_.proxy = state_.contact.is_in_contact || map_->frame.isClamped(goal)
                                ? map_->frame.fromScene(state_.contact.proxy)
                                : goal;
@@ -334,7 +334,7 @@ private:
         }
     }
 
-    // Up above all ground, over to the new place: what is placed there is so by goals alone.
+    // Moves above all terrain and over to the new place: the result depends only on the goals.
     void putStraightAbove(const TracePoint& goal) noexcept
     {
         constexpr double kAboveAllM = 1e6;
@@ -343,8 +343,7 @@ private:
         update({goal.x, goal.y, kAboveAllM});
     }
 
-    // A hair's breadth below the last model's proxy, the new one's is the nearest point of the
-    // ground.
+    // Slightly below the last model's proxy, the new proxy is the nearest point of the surface.
     void goOnAtProxy() noexcept
     {
         if (!state_.contact.is_in_contact) {
@@ -376,7 +375,7 @@ private:
     }
 
     // Whether deadlines are missed too often, or nothing was written for so long that the hand may
-    // be anywhere.
+    // have moved anywhere.
     bool isTooLate() noexcept
     {
         constexpr unsigned kQuarters = 4;
@@ -437,13 +436,13 @@ double usedStiffness(double wanted_n_per_m,
                      double nominal_period_s,
                      double period_s) noexcept
 {
-    // A device that cannot push has no limit; what would be felt is shown all the same.
+    // A device without force output has no limit; the computed force is still displayed.
     const double unstated = device.force_n_peak > 0.0 ? kStiffnessUnstatedNPerM : wanted_n_per_m;
     const double stable =
         device.stiffness_n_per_m_max > 0.0 ? device.stiffness_n_per_m_max : unstated;
     const double rate = period_s > nominal_period_s ? nominal_period_s / period_s : 1.0;
     const double used = std::min(wanted_n_per_m, stable * rate);
-    return used > 0.0 ? used : 0.0; // also where NaN
+    return used > 0.0 ? used : 0.0; // also for NaN
 }
 
 StepResult

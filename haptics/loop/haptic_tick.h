@@ -1,4 +1,4 @@
-// One tick of the servo loop: from where the hand is to the force on it, without clock or device.
+// One tick of the servo loop: from the stylus position to the force, without clock or device.
 #pragma once
 
 #include "haptics/device/haptic_device.h"
@@ -17,28 +17,29 @@
 
 namespace marsview {
 
-/// What the program tells the loop: a tick sees all of it or nothing. Copies share the map.
+/// Settings for the loop: a tick sees all of them or none. Copies share the map.
 struct LoopSettings {
-    /// Null: there is nothing to be felt. Where the ground changes and with it where the hand's
-    /// workspace lies (another exaggeration), the new map and the new frame belong into one set():
-    /// a tick that saw one without the other would put the hand elsewhere.
+    /// Null: nothing to touch. If the terrain and the workspace frame change together (another
+    /// exaggeration), the new map and the new frame must be in the same set(): a tick with only one
+    /// of them would misplace the hand.
     std::shared_ptr<ServoMap> map;
-    WorkspaceFrame frame;             // taken over when `frame_number` changes
-    std::uint64_t frame_number = 0;   // otherwise the loop goes on with what its hand made of it
-    double stiffness_n_per_m = 300.0; // of ground and walls; bounded by what the device stands
+    WorkspaceFrame frame;             // applied when `frame_number` changes
+    std::uint64_t frame_number = 0;   // otherwise the loop keeps the frame as its hand has moved it
+    double stiffness_n_per_m = 300.0; // of surface and walls; limited by the device
     double force_share = 1.0;         // of all forces, 0 to 1
     bool has_walls = true;
-    bool is_grabbing = false; // with a key instead of the stylus' button
+    bool is_grabbing = false; // with a key instead of the stylus button
     bool is_stopped = false;  // emergency stop
     ModeOptions modes{};
-    /// The part of the workspace in which a simulated hand strokes; nothing: all of it.
+    /// The part of the workspace in which a simulated hand strokes; empty: all of it.
     std::optional<WorkspaceBox> strokes{};
 };
 
-/// How ground and walls are put together. All but Fade is there for measuring why it is there.
+/// How surface and wall forces are combined. NaiveSum exists only to measure the effect of Fade.
 enum class ForceMixing : std::uint8_t { Fade, NaiveSum };
 
-/// A third of what the simulated hand is stable with at 3 ms of delay (tests/bench/STABILITY.md).
+/// A third of the stable stiffness of the simulated hand at 3 ms of delay
+/// (tests/bench/STABILITY.md).
 inline constexpr double kStiffnessUnstatedNPerM = 300.0;
 
 /// Constant while a device is open.
@@ -47,17 +48,17 @@ struct TickOptions {
     PassivityOptions passivity;
     bool is_passivity_kept = true;
     ForceMixing mixing = ForceMixing::Fade;
-    double period_s = 1e-3; // as it should be
+    double period_s = 1e-3; // nominal
     std::chrono::nanoseconds sample_age_max{15'000'000};
     std::chrono::nanoseconds terrain_age_max{500'000'000};
-    /// Deadlines missed one after the other before it lets go. Each tick in time makes up for a
-    /// quarter of one: more than one in five, for long enough, lets go as well. It goes on letting
-    /// go until all are made up for.
+    /// Consecutive missed deadlines before the force is turned off. Each tick in time cancels a
+    /// quarter of a miss, so a miss rate above one in five also turns the force off after a while.
+    /// The force stays off until all misses are canceled.
     unsigned misses_max = 5;
 };
 
-/// Those for a device, with its peak force as the limit for moments and its continuous force, where
-/// it states one, as the limit for long.
+/// Options for a device: its peak force is the short-term limit, and its continuous force, if
+/// stated, the long-term limit.
 TickOptions tickOptionsFor(const DeviceCapabilities& device);
 
 struct TickInput {
@@ -65,16 +66,16 @@ struct TickInput {
     const DeviceCapabilities* device = nullptr;
     DeviceStatus status = DeviceStatus::Fine;
     DeviceSample sample;
-    /// Of a device that plays back: takes the place of the sample's position.
+    /// For a device that plays back a recording: replaces the sample's position.
     const TracePoint* recorded_goal = nullptr;
     std::chrono::steady_clock::time_point now{};
     bool has_missed_deadline = false; // the last tick ended, or this one began, too late
-    /// Seconds since the last force was written, which is what the limiter counts; nothing: dt_s.
-    /// More than kSafetyStepMaxS is a pause, and lets go.
+    /// Seconds since the last force was written, for the limiter; empty: dt_s. A value above
+    /// kSafetyStepMaxS is a pause and turns the force off.
     std::optional<double> since_write_s{};
 };
 
-/// Goals of one tick: one, or those by which the proxy is put elsewhere.
+/// The goals of one tick: one, or the sequence that moves the proxy to another place.
 struct TickGoals {
     static constexpr std::size_t kMax = 4;
     std::array<TracePoint, kMax> goals{};
@@ -84,7 +85,7 @@ struct TickGoals {
 };
 
 struct TickState {
-    bool has_hand = false; // a position has been taken over
+    bool has_hand = false; // a position has been accepted
     WorkspacePoint hand{};
     double twist_rad = 0.0;
     bool has_frame = false;
@@ -93,9 +94,9 @@ struct TickState {
     std::uint64_t map_serial = 0; // 0: none
     std::uint64_t map_id = 0;
     double exaggeration = 0.0; // of the map
-    bool has_touched = false;  // this map, since it came
+    bool has_touched = false;  // since this map was set
     ContactState contact;      // the last
-    TracePoint proxy{};        // the same on the map
+    TracePoint proxy{};        // the same in map coordinates
     ScenePoint goal{};
     GridPoint at{}; // of the proxy, in the last tick
     ModeState modes;
@@ -103,7 +104,7 @@ struct TickState {
     SafetyState safety;
     double period_s = 0.0; // smoothed
     unsigned misses = 0;   // in quarters
-    bool is_late = false;  // lets go until none is left
+    bool is_late = false;  // force off until no misses are left
 };
 
 struct StepResult {
@@ -111,30 +112,29 @@ struct StepResult {
     LetGoReason reason = LetGoReason::None;
     StylusMode mode = StylusMode::Hover;
     bool has_changed_mode = false;
-    bool has_changed_map = false; // another map, or the same one jumped
+    bool has_changed_map = false; // another map, or the same map moved abruptly
     WorkspacePoint hand{};
     ScenePoint goal{};
     ContactState contact;
     TracePoint proxy{};
-    TickGoals goals;                  // that the contact model was given, in order
-    double ground_share = 1.0;        // of the ground's force that the walls let through
-    double stiffness_n_per_m = 0;     // that was used
-    double damping_n_s_per_m = 0;     // that was added to stay passive
-    std::uint32_t missed_samples = 0; // of terrain that was not there at full resolution
-    bool has_ground_changed = false;  // the contact model was told that its terrain has changed
+    TickGoals goals;                  // passed to the contact model, in order
+    double ground_share = 1.0;        // fraction of the surface force that the walls let through
+    double stiffness_n_per_m = 0;     // the stiffness used
+    double damping_n_s_per_m = 0;     // added for passivity
+    std::uint32_t missed_samples = 0; // terrain samples not available at full resolution
+    bool has_ground_changed = false;  // the contact model was notified of a terrain change
 };
 
-/// The tick. `dt_s` is the time from the last sample to this one. Everything that it knows is in
-/// its arguments, and in the contact model that the settings hold; the same again gives the same
-/// again. Neither allocates nor waits.
+/// Computes one tick. `dt_s` is the time from the last sample to this one. The result depends only
+/// on the arguments and on the contact model in the settings: the same inputs give the same
+/// outputs. Does not allocate or wait.
 StepResult
 step(const TickOptions& options, const TickInput& input, TickState& state, double dt_s) noexcept;
 
-/// The stiffness that is used where `wanted` is asked for: no more than the device is stable with,
-/// and less where the loop runs slower than it should, as a sampled spring is stable only up to a
-/// stiffness that falls with its period (J. E. Colgate and G. Schenkel, Passivity of a class of
-/// sampled-data systems, 1997). A device that can push and states no stiffness is taken for one of
-/// kStiffnessUnstatedNPerM.
+/// The stiffness that is used for the requested one: at most the device's stable stiffness, and
+/// less if the loop runs slower than nominal, since the stable stiffness of a sampled spring falls
+/// with its period (J. E. Colgate and G. Schenkel, Passivity of a class of sampled-data systems,
+/// 1997). For a device that can push and states no stiffness, kStiffnessUnstatedNPerM is assumed.
 double usedStiffness(double wanted_n_per_m,
                      const DeviceCapabilities& device,
                      double nominal_period_s,

@@ -1,4 +1,4 @@
-// A thread that may never end, and whoever made it goes on all the same.
+// A thread that can be detached if its work hangs.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 namespace marsview {
 
-/// For work that calls what may hang: drivers of devices. The work owns all that it uses, so that
-/// the thread can be left alone.
+/// For work that calls functions that may hang, such as device drivers. The work owns all that it
+/// uses, so that the thread can be detached.
 class LeavableThread {
 public:
     /// `work()` begins at once; it does not throw.
@@ -25,19 +25,19 @@ public:
             state->over.notify_all();
         })
     {}
-    /// Waits, unless it was left alone.
+    /// Waits, unless the thread was detached.
     ~LeavableThread() { join(); }
     LeavableThread(const LeavableThread&) = delete;
     LeavableThread& operator=(const LeavableThread&) = delete;
 
-    /// Until the work is over, however long that takes.
+    /// Waits until the work is over; no time limit.
     void join()
     {
         if (thread_.joinable()) {
             thread_.join();
         }
     }
-    /// The same for no longer than `patience`. False: leave() it.
+    /// As join(), with a time limit. False: call leave().
     bool joinWithin(std::chrono::milliseconds patience)
     {
         {
@@ -49,7 +49,7 @@ public:
         join();
         return true;
     }
-    /// It goes on by itself, and nobody waits for it any more.
+    /// Detaches the thread.
     void leave()
     {
         if (thread_.joinable()) {

@@ -1,4 +1,4 @@
-// What is counted of a loop that has deadlines.
+// Statistics of a loop with deadlines.
 #pragma once
 
 #include "haptics/loop/time_histogram.h"
@@ -13,25 +13,25 @@ using LoopTime = std::chrono::steady_clock::time_point;
 
 /// One turn of the loop.
 struct LoopTurn {
-    LoopTime deadline; // at which it was to begin
+    LoopTime deadline; // scheduled begin
     LoopTime begin;
     LoopTime end;
 };
 
-/// Counts of turns. A turn has missed its deadline when it ends after the next one's beginning. It
-/// is the loop's own fault where the tick alone took longer than a period, and the system's where
-/// the thread was woken too late for its tick.
+/// Counts of turns. A turn misses its deadline if it ends after the next turn's scheduled begin.
+/// The loop itself is the cause if the tick alone took longer than a period, and the system is the
+/// cause if the thread woke up too late.
 struct LoopStatistics {
-    TimeHistogram tick;     // how long ticks took
-    TimeHistogram lateness; // of their beginnings
+    TimeHistogram tick;     // duration of ticks
+    TimeHistogram lateness; // of turn begins
     std::uint64_t missed_by_tick = 0;
     std::uint64_t missed_by_waking = 0;
-    std::uint64_t skipped = 0; // turns that never began, as they were over already
-    // Of the thread during these turns: taken from memory, and read from a disk.
+    std::uint64_t skipped = 0; // turns that never began, because their time had passed
+    // Page faults of the thread during these turns: without and with disk reads.
     std::uint64_t minor_faults = 0;
     std::uint64_t major_faults = 0;
 
-    /// Counts the turn and says when the next one begins: a whole number of periods later.
+    /// Counts the turn and returns when the next one begins: a whole number of periods later.
     LoopTime add(const LoopTurn& turn, std::chrono::nanoseconds period) noexcept
     {
         tick.record(turn.end - turn.begin);

@@ -32,8 +32,8 @@ bool LoopWatchdog::endWithin(std::chrono::milliseconds patience)
 void LoopWatchdog::watch(ServoCore& core, Shared& shared, bool waits_for_first)
 {
     std::uint64_t seen = core.beats();
-    // Counted in looks and not by the clock: a process that was stopped as a whole, for a debugger
-    // or by a full machine, has not been silent all that time.
+    // Counted in polls and not by the clock: a process that was stopped as a whole, by a debugger
+    // or on an overloaded machine, was not silent all that time.
     std::chrono::milliseconds silence{0};
     std::unique_lock lock(shared.mutex);
     while (!shared.wake.wait_for(lock, kLook, [&] { return shared.is_ending; })) {
@@ -46,7 +46,7 @@ void LoopWatchdog::watch(ServoCore& core, Shared& shared, bool waits_for_first)
         }
         silence += kLook;
         if (core.hasEnded()) {
-            continue; // as it should
+            continue; // as expected
         }
         if (silence >= kStalled && beats > 0) {
             core.setStalled(true);

@@ -1,4 +1,4 @@
-// Notices that no tick comes any more, from outside.
+// Detects from another thread that ticks have stopped.
 #pragma once
 
 #include "haptics/loop/leavable_thread.h"
@@ -13,25 +13,25 @@
 
 namespace marsview {
 
-/// A thread without any urgency that counts a loop's ticks while it runs. Everything that a tick
-/// watches over (old samples, the emergency stop, the limiter) needs ticks; where a device that
-/// owns the clock stops calling them, or one hangs, this is what is left.
+/// A normal-priority thread that monitors a loop's tick count. All safety checks in a tick (stale
+/// samples, the emergency stop, the limiter) need ticks; if a device that owns the clock stops
+/// calling them, or a tick hangs, this thread is the remaining safeguard.
 class LoopWatchdog {
 public:
     static constexpr std::chrono::milliseconds kLook{5};
-    /// Silence after which ticks count as stalled, and the motors are brought to rest.
+    /// Time without ticks after which they count as stalled and the motors are brought to rest.
     static constexpr std::chrono::milliseconds kStalled{20};
-    /// And after which they will not come back: the loop has ended.
+    /// Time without ticks after which the loop is considered ended.
     static constexpr std::chrono::milliseconds kDead{2000};
 
-    /// `waits_for_first`: the first tick takes as long as it takes.
+    /// `waits_for_first`: there is no time limit for the first tick.
     LoopWatchdog(std::shared_ptr<ServoCore> core, bool waits_for_first);
-    /// Within some milliseconds. Where the thread hangs in the device, it is left alone.
+    /// Returns within some milliseconds. If the thread hangs in the device, it is detached.
     ~LoopWatchdog();
     LoopWatchdog(const LoopWatchdog&) = delete;
     LoopWatchdog& operator=(const LoopWatchdog&) = delete;
 
-    /// False: it hangs in the device. No call of the device begins afterwards.
+    /// False: the thread hangs in the device. No further call of the device begins.
     bool endWithin(std::chrono::milliseconds patience);
 
 private:

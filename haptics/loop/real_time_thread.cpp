@@ -28,7 +28,7 @@ std::string refusalOfScheduling(int priority)
                       : reason(error) + "; ask for it with ulimit -r or CAP_SYS_NICE";
 }
 
-// Deeper calls than this one find their pages there.
+// Deeper calls then find their pages resident.
 [[gnu::noinline]] void touchStack(std::size_t bytes)
 {
     constexpr std::size_t kPage = 4096;
@@ -37,7 +37,7 @@ std::string refusalOfScheduling(int priority)
     if (bytes > kPage) {
         touchStack(bytes - kPage);
     }
-    page[kPage - 1] = page[0]; // not a tail call
+    page[kPage - 1] = page[0]; // prevents a tail call
 }
 
 // The part of this thread's stack that deeper calls use.
@@ -95,7 +95,7 @@ void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick, 
         memory.push_back(stackBelow(options.stack_bytes_touched));
         grants.locking_refusal = lock.emplace(memory).refusal();
     } else {
-        grants.locking_refusal = "not asked for";
+        grants.locking_refusal = "not requested";
     }
     touchProgram();
     shared.has_grants.store(true, std::memory_order_release);
@@ -123,7 +123,7 @@ void RealTimeThread::run(const RealTimeOptions& options, void* self, Tick tick, 
             tick(self, {.number = number, .deadline = turn.deadline, .dt_s = dt_s});
         turn.end = now();
         turn.deadline = statistics.add(turn, options.period);
-        // Between turns, where there is time: a microsecond.
+        // Between turns, where there is time: takes a microsecond.
         constexpr std::uint64_t kPublishEvery = 128;
         if (outcome == LoopOutcome::Stop || number % kPublishEvery == kPublishEvery - 1) {
             countFaults();

@@ -35,7 +35,7 @@ struct Unref {
 };
 using Message = std::unique_ptr<DBusMessage, Unref>;
 
-// What went wrong with a call.
+// The error of a call.
 class CallError {
 public:
     CallError() { dbus_error_init(&error_); }
@@ -53,7 +53,7 @@ private:
     DBusError error_;
 };
 
-// A number that the service tells of itself.
+// A numeric property of the service.
 std::optional<std::int64_t> property(DBusConnection* connection, const char* name)
 {
     const Message call(
@@ -85,7 +85,7 @@ std::optional<std::int64_t> property(DBusConnection* connection, const char* nam
     return std::nullopt;
 }
 
-// The service refuses processes whose real-time threads may run for ever.
+// The service refuses processes whose real-time threads have no run-time limit.
 std::string boundedRunTime(std::int64_t microseconds)
 {
     rlimit limit{};
@@ -107,16 +107,16 @@ std::string askRealtimeKit(int priority)
     CallError error;
     const Connection connection(dbus_bus_get_private(DBUS_BUS_SYSTEM, error.get()));
     if (!connection) {
-        return "RealtimeKit cannot be asked: " + error.text();
+        return "RealtimeKit cannot be used: " + error.text();
     }
     dbus_connection_set_exit_on_disconnect(connection.get(), 0);
     const auto highest = property(connection.get(), "MaxRealtimePriority");
     const auto longest = property(connection.get(), "RTTimeUSecMax");
     if (!highest || !longest) {
-        return "RealtimeKit is not there";
+        return "RealtimeKit is not available";
     }
     if (const std::string refusal = boundedRunTime(*longest); !refusal.empty()) {
-        return "RealtimeKit wants a bound on run time, which was refused: " + refusal;
+        return "RealtimeKit requires a run-time limit, which was refused: " + refusal;
     }
     const dbus_uint64_t thread = static_cast<dbus_uint64_t>(gettid());
     const dbus_uint32_t granted =
@@ -125,7 +125,7 @@ std::string askRealtimeKit(int priority)
         dbus_message_new_method_call(kService, kPath, kInterface, "MakeThreadRealtime"));
     if (!call || dbus_message_append_args(call.get(), DBUS_TYPE_UINT64, &thread, DBUS_TYPE_UINT32,
                                           &granted, DBUS_TYPE_INVALID) == 0) {
-        return "RealtimeKit cannot be asked: out of memory";
+        return "RealtimeKit cannot be used: out of memory";
     }
     const Message reply(dbus_connection_send_with_reply_and_block(connection.get(), call.get(),
                                                                   kTimeoutMs, error.get()));
@@ -134,7 +134,7 @@ std::string askRealtimeKit(int priority)
     }
     const int policy = sched_getscheduler(0);
     const bool is_real_time = policy >= 0 && (policy & ~SCHED_RESET_ON_FORK) != SCHED_OTHER;
-    return is_real_time ? std::string() : "RealtimeKit agreed, but the thread is as it was";
+    return is_real_time ? std::string() : "RealtimeKit agreed, but the scheduling is unchanged";
 }
 
 } // namespace marsview
@@ -145,7 +145,7 @@ namespace marsview {
 
 std::string askRealtimeKit(int /*priority*/)
 {
-    return "RealtimeKit cannot be asked: this build is without D-Bus";
+    return "RealtimeKit cannot be used: built without D-Bus";
 }
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// Marks what the servo thread does in a tick, so that whoever counts allocations can tell.
+// Marks the work of the servo thread within a tick, so that its allocations can be counted.
 #pragma once
 
 #include <atomic>
@@ -6,8 +6,8 @@
 
 namespace marsview {
 
-/// While one lives, its thread is in a tick. Programs and tests that link `allocation_count` have
-/// an operator new and delete that count what happens meanwhile.
+/// During its lifetime its thread is in a tick. Programs and tests that link `allocation_count`
+/// have an operator new and delete that count the calls in that time.
 class RtScope {
 public:
     RtScope() noexcept { ++depth(); }
@@ -16,12 +16,12 @@ public:
     RtScope& operator=(const RtScope&) = delete;
 
     static bool isActive() noexcept { return depth() > 0; }
-    /// Of operator new and operator delete within any scope so far. Any thread.
+    /// Calls of operator new and operator delete in all scopes so far. Any thread.
     static std::uint64_t allocationCount() noexcept
     {
         return allocations().load(std::memory_order_relaxed);
     }
-    /// For allocation_count alone.
+    /// For allocation_count only.
     static void countAllocation() noexcept
     {
         if (isActive()) {

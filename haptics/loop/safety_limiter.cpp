@@ -13,13 +13,13 @@ constexpr std::array<std::string_view, kLetGoReasonCount> kNames{
     "terrain stale", "fault",           "nothing to touch",
 };
 
-// Lengths of vectors whose squares overflow are finite too.
+// Finite also if the squares of the components overflow.
 double safeLength(const Vec3& v) noexcept
 {
     return std::hypot(v.x, v.y, v.z);
 }
 
-// Rounding must not take the vector over the bound: a hair below it.
+// Slightly shorter, so that rounding does not exceed the bound.
 Vec3 shortened(const Vec3& v, double length_max) noexcept
 {
     constexpr double kHair = 1e-15;
@@ -27,7 +27,7 @@ Vec3 shortened(const Vec3& v, double length_max) noexcept
     if (!(longest > 0.0) || !(length_max > 0.0)) {
         return {};
     }
-    const Vec3 unit = v * (1.0 / longest); // its length is 1 to sqrt(3)
+    const Vec3 unit = v * (1.0 / longest); // its length is in [1, sqrt(3)]
     if (!isFinite(unit)) {
         return {};
     }
@@ -36,15 +36,15 @@ Vec3 shortened(const Vec3& v, double length_max) noexcept
 
 double bound(double value) noexcept
 {
-    return value > 0.0 ? std::min(value, 1e6) : 0.0; // also where NaN
+    return value > 0.0 ? std::min(value, 1e6) : 0.0; // also for NaN
 }
 
-// With a force that has been on for so long.
+// The heat after `dt_s` with a constant force.
 double heatAfter(const SafetyLimits& limits, double heat_n2, double force_n2, double dt_s) noexcept
 {
     const double share = -std::expm1(-dt_s / std::max(bound(limits.heat_s), 1e-3));
     const double heat = heat_n2 + share * (force_n2 - heat_n2);
-    // No force that was allowed makes it hotter than this; what is no heat counts as that.
+    // No permitted force makes it hotter than this; an invalid heat counts as this value.
     const double hottest_n2 = bound(limits.force_n_max) * bound(limits.force_n_max);
     return heat >= 0.0 ? std::min(heat, hottest_n2) : hottest_n2;
 }
@@ -66,13 +66,13 @@ double warmForceMax(const SafetyLimits& limits, double heat_n2) noexcept
     const double peak_n = bound(limits.force_n_max);
     const double lasting_n = std::min(bound(limits.force_n_continuous), peak_n);
     const double hot_n2 = lasting_n * lasting_n;
-    constexpr double kWarm = 0.64; // of that
+    constexpr double kWarm = 0.64; // of the final heat
     if (!(hot_n2 > 0.0)) {
         return 0.0;
     }
     const double share = std::clamp((heat_n2 / hot_n2 - kWarm) / (1.0 - kWarm), 0.0, 1.0);
     const double force_n = std::sqrt(peak_n * peak_n + share * (hot_n2 - peak_n * peak_n));
-    return std::clamp(force_n, lasting_n, peak_n); // also where rounding has left them
+    return std::clamp(force_n, lasting_n, peak_n); // also after rounding errors
 }
 
 SafetyOutput limitForce(const SafetyLimits& limits,
@@ -110,7 +110,7 @@ SafetyOutput limitForce(const SafetyLimits& limits,
             state.gain = 0.0;
             state.ramp_s = std::max(bound(limits.ramp_s), 1e-6);
         } else if (input.has_changed) {
-            // One that has only begun goes on as slowly as it began.
+            // A ramp that has not finished keeps its duration.
             state.ramp_s = state.gain < 1.0 ? state.ramp_s : bound(limits.change_ramp_s);
             state.ramp_s = std::max(state.ramp_s, 1e-6);
             state.gain = 0.0;

@@ -100,7 +100,7 @@ void ServoCore::deviceTick(void* self, LoopTime now) noexcept
 {
     auto& core = *static_cast<ServoCore*>(self);
     const nanoseconds period = core.options_.period;
-    // The vendor's clock is the clock: a tick is due a period after the last.
+    // The device's clock determines the deadlines: a tick is due one period after the last.
     const LoopTime due = core.clock_last_ == LoopTime{} ? now : core.clock_last_ + period;
     core.clock_last_ = now;
     const ThreadFaults before = faultsOfThisThread();
@@ -135,7 +135,7 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
         counts_ = {};
     }
     if (!takeDevice()) {
-        return LoopOutcome::GoOn; // who watches is bringing it to rest
+        return LoopOutcome::GoOn; // the watchdog is bringing it to rest
     }
     const DeviceStatus status = device_->read(sample_);
     leaveDevice();
@@ -165,7 +165,7 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
                         wrote_at_ == LoopTime{} ? 0.0 : secondsBetween(wrote_at_, now)};
     const bool is_ending = is_ending_.load(std::memory_order_acquire);
     if (is_ending && status == DeviceStatus::Fine) {
-        input.status = DeviceStatus::Unready; // lets go, whatever else is the case
+        input.status = DeviceStatus::Unready; // turns the force off in any case
     }
     const StepResult result = step(options_.tick, input, tick_, dt_s);
     const DeviceStatus written = writeForce(result.force_n);
@@ -189,7 +189,7 @@ LoopOutcome ServoCore::turnInside(LoopTime begin, bool has_missed_deadline) noex
     return LoopOutcome::GoOn;
 }
 
-// The motors have none: what comes next begins there.
+// The motors have no force: the next force starts from zero.
 void ServoCore::forgetForce() noexcept
 {
     tick_.safety = {.heat_n2 = tick_.safety.heat_n2};
@@ -205,7 +205,7 @@ DeviceStatus ServoCore::writeForce(const Vec3& force_n) noexcept
     if (!is_brought_to_rest_.load(std::memory_order_acquire)) {
         written = device_->write(force_n);
         if (is_abandoned_.load(std::memory_order_acquire)) {
-            device_->write({}); // it hung in there, and nobody comes back to it
+            device_->write({}); // the loop was abandoned during the call
         }
         wrote_at_ = steady_clock::now();
     }
@@ -241,7 +241,7 @@ void ServoCore::publish(const StepResult& result, double tick_s) noexcept
                   .frame_number = tick_.frame_number,
                   .counts = counts_,
                   .is_finished = is_finished_});
-    // A queue that nobody empties keeps the oldest.
+    // If no thread reads the events, the oldest are kept.
     if (result.has_changed_mode) {
         events_.put({.kind = LoopEventKind::ModeChanged, .mode = result.mode, .tick = ticks_});
     }
@@ -296,7 +296,7 @@ void ServoCore::record(const StepResult& result, double tick_s) noexcept
     flight_.add(record);
 }
 
-// Whether updates are kept. One recording after the other is told everything.
+// Whether updates are recorded. A new recording gets all terrain records.
 bool ServoCore::takeRecording() noexcept
 {
     const std::uint64_t recording = recording_.load(std::memory_order_relaxed);
@@ -308,7 +308,7 @@ bool ServoCore::takeRecording() noexcept
     return recording != 0;
 }
 
-// False where there is no room for it.
+// False if there is no room for them.
 bool ServoCore::tellGround(bool was_told) noexcept
 {
     const auto& map = settings_.front().map;

@@ -1,4 +1,4 @@
-// What the servo thread, who watches it and who owns it have in common.
+// State shared by the servo thread, its watchdog and its owner.
 #pragma once
 
 #include "haptics/device/haptic_device.h"
@@ -25,12 +25,13 @@ struct ServoCoreOptions {
     TickOptions tick;
     std::chrono::nanoseconds period{1'000'000};
     std::uint64_t uncounted_turns = 100;
-    std::uint64_t ticks_max = 0;       // 0: no bound
-    std::size_t flight_ticks = 10'000; // that the flight recorder keeps
+    std::uint64_t ticks_max = 0;       // 0: no limit
+    std::size_t flight_ticks = 10'000; // capacity of the flight recorder
 };
 
-/// The device, the tick's state and what goes between the threads. Shared: where a driver hangs,
-/// its thread keeps all of this for as long as it takes, and everybody else goes on without.
+/// The device, the tick's state and the data exchanged between the threads. Shared: if a driver
+/// hangs, its thread keeps this object as long as needed, and the other threads continue without
+/// it.
 class ServoCore {
 public:
     static constexpr std::size_t kRecordsMax = 1U << 14;
@@ -40,25 +41,25 @@ public:
     HapticDevice& device() noexcept { return *device_; }
     const HapticDevice& device() const noexcept { return *device_; }
     const ServoCoreOptions& options() const noexcept { return options_; }
-    /// What ticks use besides the map, for locking.
+    /// The memory that ticks use besides the map, for locking.
     std::vector<MemoryRange> memory() const;
 
-    // The owner's, while no tick runs.
+    // Called by the owner, while no tick runs.
 
     /// Before the first tick.
     void begin();
     /// After the last one.
     void end();
 
-    // The ticking thread's.
+    // Called by the ticking thread.
 
     LoopOutcome turn(LoopTime begin, bool has_missed_deadline) noexcept;
     /// As HapticDevice::ClockTick; `self` is a ServoCore.
     static void deviceTick(void* self, LoopTime now) noexcept;
 
-    // Of who watches. Any thread but the ticking one.
+    // For the watchdog. Any thread but the ticking one.
 
-    /// Grows with every turn, at its beginning and at its end.
+    /// Increases at the beginning and at the end of every turn.
     std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_acquire); }
     void setStalled(bool is_stalled) noexcept
     {
@@ -69,19 +70,19 @@ public:
         return is_stalled_.load(std::memory_order_acquire) ||
                is_given_up_.load(std::memory_order_acquire);
     }
-    /// Writes zero to the device unless somebody is inside it. Where that succeeds the tick knows
-    /// when it comes back. May hang where the device does.
+    /// Writes zero to the device unless another thread is inside it. If that succeeds, the next
+    /// tick starts from zero force. May hang if the device does.
     void bringToRest() noexcept;
-    /// The loop has come to its end for want of ticks, also where they come back after all.
+    /// Ends the loop because ticks have stopped, even if they resume later.
     void giveUp() noexcept;
 
-    // Of everybody.
+    // Called by any thread.
 
     LoopState state() const noexcept;
     bool hasEnded() const noexcept { return has_ended_.load(std::memory_order_acquire); }
-    /// From the next tick on the force fades, and then the loop is over.
+    /// From the next tick on the force ramps down, and then the loop ends.
     void askToEnd() noexcept { is_ending_.store(true, std::memory_order_release); }
-    /// No tick reaches device, map or limiter any more, when the one that hangs comes back.
+    /// If the hanging tick returns, it no longer accesses the device, the map or the limiter.
     void abandon() noexcept { is_abandoned_.store(true, std::memory_order_release); }
     const FlightRecorder& flight() const noexcept { return flight_; }
     TripleBuffer<LoopSettings>& settings() noexcept { return settings_; }
@@ -92,7 +93,7 @@ public:
     {
         recording_.store(is_kept ? ++last_recording_ : 0, std::memory_order_relaxed);
     }
-    /// Of a device that owns the clock.
+    /// For a device that owns the clock.
     const LoopStatistics& clockStatistics() const noexcept { return clock_statistics_; }
     LoopStatistics latestClockStatistics() const noexcept { return clock_published_.read(); }
 
@@ -110,7 +111,7 @@ private:
     std::unique_ptr<HapticDevice> device_;
     ServoCoreOptions options_;
 
-    // Between the threads.
+    // Shared between the threads.
     TripleBuffer<LoopSettings> settings_;
     SeqLock<LoopState> state_;
     SpscQueue<LoopEvent, 256> events_;
@@ -125,25 +126,25 @@ private:
     std::atomic<bool> is_abandoned_{false};
     std::atomic<bool> is_stalled_{false};
     std::atomic<bool> is_given_up_{false};
-    std::atomic<bool> is_device_taken_{false}; // somebody is inside read or write
+    std::atomic<bool> is_device_taken_{false}; // a thread is inside read or write
     std::atomic<bool> is_brought_to_rest_{false};
 
-    // The ticking thread's.
+    // Used by the ticking thread.
     TickState tick_;
     DeviceSample sample_;
     LoopCounts counts_;
     std::uint64_t ticks_ = 0;
-    LoopTime read_at_{};  // when the last sample had been read; 0: none
-    LoopTime wrote_at_{}; // when the last force had been written
+    LoopTime read_at_{};  // when the last sample was read; 0: none
+    LoopTime wrote_at_{}; // when the last force was written
     bool was_too_long_ = false;
     LetGoReason last_reason_ = LetGoReason::NoTouch;
     GroundLog ground_log_;
-    std::uint64_t told_recording_ = 0;       // that ground_log_ is of
-    std::uint32_t untaken_ground_count_ = 0; // of ground_records_ that no record counts yet
+    std::uint64_t told_recording_ = 0;       // of the recording that ground_log_ reports to
+    std::uint32_t untaken_ground_count_ = 0; // terrain records not yet counted by a tick record
     bool is_finished_ = false;
-    LoopTime rested_at_{}; // when it ended; motors cool down meanwhile
+    LoopTime rested_at_{}; // when it ended; the motors cool down from then on
 
-    // The same of a device that owns the clock.
+    // The same for a device that owns the clock.
     LoopStatistics clock_statistics_;
     SeqLock<LoopStatistics> clock_published_;
     LoopTime clock_last_{};

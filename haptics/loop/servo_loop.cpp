@@ -19,10 +19,10 @@ nanoseconds periodOf(const DeviceCapabilities& device, nanoseconds otherwise)
 }
 
 constexpr const char* kHangs =
-    "its driver does not answer any more; switch the device off, and "
-    "start the program again";
+    "its driver does not respond; switch the device off, and "
+    "restart the program";
 constexpr const char* kSilent =
-    "it does not ask for forces any more; switch it off, and connect it "
+    "it has stopped requesting forces; switch it off, and connect it "
     "again";
 
 } // namespace
@@ -48,7 +48,7 @@ ServoLoop::~ServoLoop()
     if (is_abandoned_) {
         return;
     }
-    // Drivers may hang in closing too.
+    // Drivers may also hang in closing.
     callWatched(2 * kPatience, [core = std::move(core_)]() mutable {
         core.reset();
         return true;
@@ -80,7 +80,7 @@ void ServoLoop::start()
                                           last_deadline =
                                               LoopTime{}](const LoopTick& tick) mutable noexcept {
             const LoopTime now = steady_clock::now();
-            // Skipped turns, and one that is later than a whole period.
+            // Skipped turns, or one that is later than a whole period.
             const bool has_missed = tick.number > 0 && (tick.deadline - last_deadline > period ||
                                                         now - tick.deadline > period);
             last_deadline = tick.deadline;
@@ -110,10 +110,10 @@ Status ServoLoop::startClock()
     return Done{};
 }
 
-// Whether no tick runs any more.
+// Whether all ticks have ended.
 bool ServoLoop::endClock()
 {
-    // Its thread ends when the vendor's does; the force fades meanwhile.
+    // Its thread ends when the vendor's does; the force ramps down in the meantime.
     constexpr int kWaitsMax = 100;
     for (int i = 0; i < kWaitsMax && !hasEnded(); ++i) {
         const LoopState state = core_->state();
@@ -138,11 +138,11 @@ void ServoLoop::stop()
     is_running_ = false;
     const bool was_stalled = isStalled();
     core_->askToEnd();
-    // Before the first tick no driver hangs, but RealtimeKit may take its time.
+    // No driver can hang before the first tick, but RealtimeKit may take its time.
     const auto patience = core_->beats() == 0 ? 3 * kPatience : kPatience;
     bool is_over = owns_clock_ ? endClock() : thread_->joinWithin(patience);
     if (is_over) {
-        // The watchdog has had its eye on the end; a device that hangs there hangs it too.
+        // The watchdog has monitored the end; if the device hangs there, the watchdog hangs too.
         is_over = watchdog_->endWithin(kPatience) && callWatched(kPatience, [core = core_] {
                                                          core->device().write({});
                                                          return true;
@@ -196,7 +196,7 @@ std::string ServoLoop::trouble() const
     if (!trouble_.empty()) {
         return trouble_;
     }
-    if (isStalled()) { // its driver may hang in this call as well
+    if (isStalled()) { // its driver may also hang in this call
         return hasEnded() ? owns_clock_ ? kSilent : kHangs : std::string();
     }
     return core_->device().trouble();

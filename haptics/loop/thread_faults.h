@@ -8,8 +8,8 @@ namespace marsview {
 
 /// Since the thread began.
 struct ThreadFaults {
-    std::uint64_t minor = 0; // taken from memory
-    std::uint64_t major = 0; // read from a disk
+    std::uint64_t minor = 0; // without disk read
+    std::uint64_t major = 0; // with disk read
 };
 
 inline ThreadFaults faultsOfThisThread() noexcept

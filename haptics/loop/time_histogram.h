@@ -1,4 +1,4 @@
-// How long things took, counted without allocating.
+// A histogram of durations that does not allocate.
 #pragma once
 
 #include <array>
@@ -9,9 +9,8 @@
 
 namespace marsview {
 
-/// Counts spans of time in buckets whose widths are 1/32 of what they hold, from 1 ns to 18
-/// minutes; longer ones count as that, shorter ones as 0. A value of 9 KB; for one thread at a
-/// time, the servo's too.
+/// Counts durations in buckets whose width is 1/32 of their value, from 1 ns to 18 minutes; values
+/// outside that range are clamped. 9 KB; one thread at a time, including the servo thread.
 class TimeHistogram {
 public:
     using Span = std::chrono::nanoseconds;
@@ -34,8 +33,8 @@ public:
         maximum_ = other.maximum_ > maximum_ ? other.maximum_ : maximum_;
     }
 
-    /// What was recorded after `earlier`, which is a copy of this from before. Its maximum is that
-    /// of a bucket.
+    /// What was recorded after `earlier`, a previous copy of this histogram. The maximum is that of
+    /// a bucket.
     TimeHistogram since(const TimeHistogram& earlier) const noexcept
     {
         TimeHistogram result;
@@ -52,14 +51,14 @@ public:
     }
 
     std::uint64_t count() const noexcept { return count_; }
-    /// Exact; 0 where nothing was recorded.
+    /// Exact; 0 if nothing was recorded.
     Span maximum() const noexcept { return maximum_; }
     double meanNanoseconds() const noexcept
     {
         return count_ == 0 ? 0.0 : static_cast<double>(sum_.count()) / static_cast<double>(count_);
     }
-    /// A bound that `share` of the spans, in [0, 1], keep to: at most 1/32 more than the longest of
-    /// them, and never more than the maximum.
+    /// An upper bound for `share` of the durations, in [0, 1]: at most 1/32 above the longest of
+    /// them, and never above the maximum.
     Span quantile(double share) const noexcept
     {
         const double wanted = share * static_cast<double>(count_);
@@ -75,7 +74,7 @@ public:
     }
 
     /// Calls `take(end, count)` for each bucket that is not empty, in order; `end` is the longest
-    /// span that it may hold.
+    /// duration in the bucket.
     template <typename F>
     void visit(const F& take) const
     {
@@ -103,7 +102,7 @@ private:
         const unsigned shift = exponent - kBits;
         return static_cast<std::size_t>((shift + 1) * kParts + ((ns >> shift) - kParts));
     }
-    // The largest span of a bucket.
+    // The longest duration in a bucket.
     static constexpr std::uint64_t endOf(std::size_t bucket) noexcept
     {
         if (bucket < kParts) {

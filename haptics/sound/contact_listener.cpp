@@ -6,15 +6,15 @@
 namespace marsview {
 namespace {
 
-// Strokes change within some 100 ms; looks are 16 ms apart and jitter.
+// Strokes change within about 100 ms; moments are 16 ms apart with jitter.
 constexpr double kSpeedSmoothingS = 0.04;
-// Texture is told apart over a finger's breadth or less.
+// Texture is perceived over a finger's width or less.
 constexpr double kRoughnessWayM = 5e-3;
-// No hand slides faster: what does was put elsewhere.
+// Faster than any slide of a hand: the position was set elsewhere.
 constexpr double kSpeedMaxMPerS = 5.0;
-// A look that is later than this has nothing to do with the last one.
+// A moment later than this is unrelated to the last one.
 constexpr double kPauseMaxS = 0.25;
-// Of a shorter spring the direction is rounding.
+// The direction of a shorter spring is dominated by rounding.
 constexpr double kSpringMinM = 1e-6;
 
 double angleBetween(const Vec3& a, const Vec3& b) noexcept
@@ -32,7 +32,7 @@ ContactFeel ContactListener::hear(const ContactMoment& moment) noexcept
         last_ns_ = moment.time_ns;
         return {};
     }
-    // From the hand to the proxy: along the ground's normal.
+    // From the hand to the proxy: along the surface normal.
     const Vec3 spring_m = moment.frame.differenceToWorkspace(moment.proxy - moment.goal);
     follow(moment, spring_m);
     const double span_m = options_.highest_m - options_.lowest_m;
@@ -53,7 +53,7 @@ void ContactListener::follow(const ContactMoment& moment, const Vec3& spring_m) 
     if (has_last_ && !(dt_s > 0.0)) {
         return;
     }
-    // Along the ground, whatever the map did under the hand meanwhile.
+    // Along the surface, independent of map motion under the hand.
     const double way_m =
         has_last_ ? length(moment.frame.differenceToWorkspace(moment.proxy - last_proxy_)) : 0.0;
     const bool goes_on = has_last_ && dt_s <= kPauseMaxS && way_m <= kSpeedMaxMPerS * dt_s;
@@ -67,7 +67,7 @@ void ContactListener::follow(const ContactMoment& moment, const Vec3& spring_m) 
     if (length(spring_m) > kSpringMinM) {
         const Vec3 normal = normalized(spring_m);
         if (has_normal_) {
-            // At rest it is remembered.
+            // Unchanged at rest.
             roughness_rad_ += -std::expm1(-way_m / kRoughnessWayM) *
                               (angleBetween(normal_, normal) - roughness_rad_);
         }

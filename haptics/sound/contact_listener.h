@@ -1,4 +1,4 @@
-// Hears the contact out of where proxy and goal are, sixty times a second or so.
+// Derives audible properties of a contact from proxy and goal, about sixty times a second.
 #pragma once
 
 #include "core/geo/frames.h"
@@ -10,33 +10,33 @@
 
 namespace marsview {
 
-/// One look at a contact.
+/// A contact at one time.
 struct ContactMoment {
     std::int64_t time_ns = 0; // of any clock
     ScenePoint proxy{};
     ScenePoint goal{};
-    bool is_in_contact = false; // and the ground is felt: neither let go nor moved
+    bool is_in_contact = false; // and the surface force is on: not suppressed, map not held
     WorkspaceFrame frame;
     double stiffness_n_per_m = 0.0;
 };
 
-/// What is heard relative to. Constant while a map is shown with one exaggeration.
+/// The reference ranges. Constant while a map is shown with one exaggeration.
 struct ListenerOptions {
-    double lowest_m = 0.0; // of the scene: height_share 0; where highest_m is not above it, 0.5
+    double lowest_m = 0.0; // scene z of height_share 0; all shares are 0.5 unless highest_m > it
     double highest_m = 1.0;
     WorkspaceBox reach; // of the device: its ends along x are left and right
 };
 
-/// Remembers the last look, to tell speed and roughness. A value, for any one thread but the
-/// servo's.
+/// Remembers the last moment, to compute speed and roughness. A value type, for any one thread
+/// except the servo thread.
 class ContactListener {
 public:
     explicit ContactListener(const ListenerOptions& options)
         : options_(options)
     {}
 
-    /// Looks come in order; one of the same time as the last changes nothing. A place that is
-    /// farther away than a hand slides in the time begins anew, without speed.
+    /// Moments are passed in order; one with the same time as the last has no effect. After a
+    /// position change that is too large for a slide, tracking restarts with speed 0.
     ContactFeel hear(const ContactMoment& moment) noexcept;
 
 private:
@@ -47,7 +47,7 @@ private:
     bool has_normal_ = false;
     std::int64_t last_ns_ = 0;
     ScenePoint last_proxy_{};
-    Vec3 normal_{}; // of the ground, length 1, in the workspace
+    Vec3 normal_{}; // of the surface, length 1, in the workspace
     double speed_m_per_s_ = 0.0;
     double roughness_rad_ = 0.0;
 };

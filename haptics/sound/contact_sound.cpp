@@ -6,18 +6,18 @@
 namespace marsview {
 namespace {
 
-// Of each, what makes 63 % of the effect: presses, strokes and slopes as hands and maps have them.
+// For each quantity, the value of 63 % effect: typical forces, speeds and slopes.
 constexpr double kForceN = 1.0;
 constexpr double kSpeedMPerS = 0.05;
 constexpr double kRoughnessRad = 0.15;
 
-// Smooth ground hisses as well, or sliding over it would not be heard.
+// A smooth surface also makes noise, or sliding over it would be silent.
 constexpr double kSmoothShare = 0.25;
 
 constexpr double kForceOctaves = 2.0;
 constexpr double kHeightOctaves = 1.0;
 
-// 0 at 0 and below, towards 1 far above `scale`.
+// 0 at 0 and below, approaching 1 far above `scale`.
 double saturated(double value, double scale) noexcept
 {
     return value > 0.0 ? -std::expm1(-value / scale) : 0.0;
@@ -42,7 +42,7 @@ SoundState contactSound(const ContactFeel& feel) noexcept
     const double rough = saturated(feel.roughness_rad, kRoughnessRad);
     const double height = std::clamp(feel.height_share, 0.0, 1.0);
     const double texture = kSmoothShare + (1.0 - kSmoothShare) * rough;
-    // Ears hear ratios: octaves add up.
+    // Pitch perception is logarithmic: octaves add up.
     const double octaves = kForceOctaves * press + kHeightOctaves * height;
     return {.noise_gain = kNoiseGainMax * press * slide * texture,
             .noise_pitch = std::clamp(0.5 * std::exp2(slide + rough), 0.5, 2.0),

@@ -17,13 +17,13 @@ std::vector<std::int16_t> noiseLoop()
 {
     constexpr std::size_t kSamples = std::size_t{2} * kLoopRateHz;
     constexpr double kSoftness = 0.6; // of a one-pole low-pass
-    constexpr double kRms = 0.25;     // peaks of four times that are cut off, and rare
-    std::minstd_rand random(1);       // whose numbers the standard specifies
+    constexpr double kRms = 0.25;     // higher peaks are clipped, and rare
+    std::minstd_rand random(1);       // its numbers are specified by the standard
     std::vector<double> noise(kSamples);
     for (double& sample : noise) {
         sample = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
     }
-    // Twice around: the second time it begins as it ended.
+    // Filtered twice around, so that the second pass begins as it ends.
     double last = 0.0;
     std::vector<double> soft(kSamples);
     for (int round = 0; round < 2; ++round) {

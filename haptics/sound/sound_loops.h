@@ -1,4 +1,4 @@
-// The loops that sounds of contact are made of.
+// The sample loops that contact sounds are made of.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,14 @@
 namespace marsview {
 
 inline constexpr int kLoopRateHz = 44100;
-/// Of the tone's loop, played at pitch 1: 200 samples a period.
+/// Frequency of the tone's loop at pitch 1: 200 samples per period.
 inline constexpr double kLoopToneHz = 220.5;
 
-/// Two seconds of noise, mono, of a sound like sand: softer towards high notes. Its end goes on at
-/// its beginning. The same on every machine.
+/// Two seconds of sand-like noise, mono, with less energy at high frequencies. Loops seamlessly.
+/// The same on every machine.
 std::vector<std::int16_t> noiseLoop();
 
-/// A tone with two overtones, so that small loudspeakers let it be heard. Its end goes on at its
-/// beginning.
+/// A tone with two overtones, audible on small loudspeakers. Loops seamlessly.
 std::vector<std::int16_t> toneLoop();
 
 } // namespace marsview

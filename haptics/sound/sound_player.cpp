@@ -17,7 +17,7 @@
 namespace marsview {
 namespace {
 
-// What OpenAL offers beyond its core. Debian's library has all of it.
+// OpenAL extensions. Debian's library has all of them.
 struct Extensions {
     PFNALCSETTHREADCONTEXTPROC set_context = nullptr;
     PFNALCGETTHREADCONTEXTPROC context = nullptr;
@@ -28,7 +28,7 @@ struct Extensions {
 template <typename F>
 void find(F& function, const char* name)
 {
-    // OpenAL's own way to hand out functions.
+    // OpenAL returns functions this way.
     function = reinterpret_cast<F>(alcGetProcAddress(nullptr, name));
 }
 
@@ -49,14 +49,14 @@ const Extensions& extensions()
     return kFound;
 }
 
-// OpenAL's calls mean the current context. Ours is so for a call, and for its thread alone, so that
-// players do not get in each other's way.
+// OpenAL's calls use the current context. Ours is current during a call, and only on its thread, so
+// that players do not interfere with each other.
 class Current {
 public:
     explicit Current(ALCcontext* context)
     {
         const Extensions& found = extensions();
-        MARSVIEW_CHECK(found.context != nullptr && found.set_context != nullptr); // open() has seen
+        MARSVIEW_CHECK(found.context != nullptr && found.set_context != nullptr); // open() checks
         before_ = found.context();
         found.set_context(context);
     }
@@ -109,15 +109,15 @@ Result<SoundPlayer> SoundPlayer::Output::playerOn(ALCdevice* device, const ALCin
     if (context == nullptr) {
         alcCloseDevice(device);
         return Error{ErrorCode::Unsupported,
-                     "sound: the audio output refuses to be used; choose another one in the "
+                     "sound: the audio output cannot be used; choose another one in the "
                      "system's settings"};
     }
     auto output = std::make_unique<Output>(device, context);
     output->is_loopback_ = attributes != nullptr;
     if (!output->start()) {
         return Error{ErrorCode::Unsupported,
-                     "sound: the audio output plays no loops; choose another one in the system's "
-                     "settings"};
+                     "sound: the audio output cannot play loops; choose another one in the "
+                     "system's settings"};
     }
     return SoundPlayer(std::move(output));
 }
@@ -134,7 +134,7 @@ bool SoundPlayer::Output::start()
         alSourcei(sources_[i], AL_BUFFER, static_cast<ALint>(buffers_[i]));
         alSourcei(sources_[i], AL_LOOPING, AL_TRUE);
         alSourcei(sources_[i], AL_SOURCE_RELATIVE, AL_TRUE);
-        alSourcef(sources_[i], AL_ROLLOFF_FACTOR, 0.0F); // a direction, no distance
+        alSourcef(sources_[i], AL_ROLLOFF_FACTOR, 0.0F); // direction only, no distance
         alSourcef(sources_[i], AL_GAIN, 0.0F);
     }
     alSourcePlayv(kLoops, sources_.data());
@@ -172,11 +172,11 @@ void SoundPlayer::Output::set(const SoundState& wanted)
     const float z = -std::sqrt(std::max(0.0F, 1.0F - x * x));
 
     const Current current(context_);
-    alcSuspendContext(context_); // all of it from the same moment on
+    alcSuspendContext(context_); // so that all changes take effect together
     const auto [noise, tone] = sources_;
     alSourcef(noise, AL_GAIN, noise_gain);
     alSourcef(tone, AL_GAIN, tone_gain);
-    // Silent loops keep their pitch: it would be heard while they fade.
+    // Silent loops keep their pitch: a change would be audible while they fade.
     if (noise_gain > 0.0F) {
         alSourcef(noise, AL_PITCH, bounded(state.noise_pitch, 0.5, 2.0));
     }
@@ -213,10 +213,10 @@ Result<SoundPlayer> SoundPlayer::open()
 {
     if (extensions().set_context == nullptr) {
         return Error{ErrorCode::Unsupported,
-                     "sound: this OpenAL has no contexts of threads; install OpenAL Soft"};
+                     "sound: this OpenAL has no thread-local contexts; install OpenAL Soft"};
     }
     ALCdevice* device = alcOpenDevice(nullptr);
-    // What OpenAL opens where it finds nothing to play on.
+    // The device that OpenAL opens if there is no output.
     constexpr std::string_view kNowhere = "No Output";
     if (device != nullptr && alcIsExtensionPresent(nullptr, "ALC_ENUMERATE_ALL_EXT") != ALC_FALSE &&
         alcGetString(device, ALC_ALL_DEVICES_SPECIFIER) == kNowhere) {
@@ -225,8 +225,8 @@ Result<SoundPlayer> SoundPlayer::open()
     }
     if (device == nullptr) {
         return Error{ErrorCode::NotFound,
-                     "sound: no audio output can be opened; connect one, or end what uses it, and "
-                     "switch sound on again"};
+                     "sound: no audio output can be opened; connect one, or close the program that "
+                     "uses it, and switch sound on again"};
     }
     return Output::playerOn(device, nullptr);
 }

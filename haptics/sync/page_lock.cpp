@@ -25,17 +25,17 @@ std::uintptr_t pageBytes() noexcept
     return kBytes;
 }
 
-// Between constants, AddressSanitizer has what nobody should read.
+// AddressSanitizer has red zones between constants, which must not be read.
 [[gnu::no_sanitize("address")]] void touchPages(std::uintptr_t begin, std::uintptr_t bytes) noexcept
 {
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): that is how loaders tell addresses
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): loaders report addresses this way
     const auto* first = reinterpret_cast<const volatile std::byte*>(begin);
     for (std::uintptr_t at = 0; at < bytes; at += pageBytes()) {
         static_cast<void>(first[at]);
     }
 }
 
-// Whether the system sets no bound to what this process locks.
+// Whether the process may lock an unlimited amount.
 bool mayLockAnything()
 {
     rlimit limit{};
@@ -49,7 +49,7 @@ bool mayLockAnything()
            (sets[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
-// Locks of the process do not nest: the last one that dies ends them.
+// Locks of the process do not nest: munlockall() by the last owner ends them.
 struct WholeLock {
     std::mutex mutex;
     int users = 0;
@@ -65,8 +65,8 @@ std::string lockWhole()
 {
     WholeLock& whole = wholeLock();
     const std::lock_guard guard(whole.mutex);
-    // Pages are locked as they are touched: locking all that is only reserved, the stacks of all
-    // threads for instance, would touch it.
+    // Pages are locked when they are touched: locking reserved memory, such as the stacks of all
+    // threads, would touch all of it.
 #if defined(MCL_ONFAULT)
     if (whole.users > 0 || mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) {
         ++whole.users;
@@ -102,8 +102,8 @@ PageLock::PageLock(const void* data, std::size_t bytes) noexcept
     error_ = mlock(data, bytes) == 0 ? 0 : errno;
 }
 
-// Locks do not nest, and at both ends a page may be shared with what others have locked: such pages
-// stay locked until the memory goes back to the system.
+// Locks do not nest, and the pages at both ends may be shared with other locks: these pages stay
+// locked until the memory returns to the system.
 PageLock::~PageLock()
 {
     if (bytes_ == 0 || error_ != 0) {

@@ -1,4 +1,4 @@
-// Memory that the servo thread reads without a page fault.
+// Memory that the servo thread can read without a page fault.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ struct MemoryRange {
     std::size_t bytes = 0;
 };
 
-/// Brings a range of memory in, and keeps the system from taking its pages away for as long as it
-/// lives, as far as the system grants that (RLIMIT_MEMLOCK). Not for the servo thread.
+/// Pages a range in and keeps it resident during its lifetime, as far as the system permits
+/// (RLIMIT_MEMLOCK). Not for the servo thread.
 class PageLock {
 public:
     PageLock() = default;
@@ -23,7 +23,7 @@ public:
     PageLock(PageLock&& other) noexcept;
     PageLock& operator=(PageLock&& other) noexcept;
 
-    /// 0 where the pages are locked, or there are none; otherwise what the system said (errno).
+    /// 0 if the pages are locked or there are none; otherwise the system's errno.
     int error() const noexcept { return error_; }
     std::size_t bytes() const noexcept { return error_ == 0 ? bytes_ : 0; }
 
@@ -33,11 +33,11 @@ private:
     int error_ = 0;
 };
 
-/// For as long as one of these lives, the process keeps the pages that it has touched. That takes
-/// the right to lock any amount: where the system grants a bounded one (RLIMIT_MEMLOCK without
-/// CAP_IPC_LOCK), locking everything would make the process's next large allocation or growing
-/// stack fail. Then `memory` alone is locked, one range after the other, as far as it goes. What
-/// others have locked by PageLock stays in memory but is no longer locked when the last one dies.
+/// Locks all touched pages of the process during its lifetime. This requires the right to lock any
+/// amount: under a limit (RLIMIT_MEMLOCK without CAP_IPC_LOCK), locking everything would make the
+/// process's next large allocation or stack growth fail. In that case only `memory` is locked, one
+/// range after the other, up to the limit. When the last ProcessLock is destroyed, pages locked by
+/// a PageLock stay in memory but are no longer locked.
 class ProcessLock {
 public:
     explicit ProcessLock(std::span<const MemoryRange> memory);
@@ -45,7 +45,7 @@ public:
     ProcessLock(const ProcessLock&) = delete;
     ProcessLock& operator=(const ProcessLock&) = delete;
 
-    /// Empty where all of the process is locked; otherwise why it is not, and what is.
+    /// Empty if the whole process is locked; otherwise the reason, and what is locked instead.
     const std::string& refusal() const noexcept { return refusal_; }
 
 private:
@@ -54,9 +54,9 @@ private:
     std::string refusal_;
 };
 
-/// Brings in the code and constants of the program itself and of the libraries that ticks call (C,
-/// C++ and mathematics), so that what is called for the first time an hour later costs no page
-/// fault. Milliseconds; not for the servo's turns.
+/// Pages in the code and constants of the program itself and of the libraries that ticks call (C,
+/// C++ and math), so that a function's first call, even an hour later, causes no page fault. Takes
+/// milliseconds; not for the servo's turns.
 void touchProgram() noexcept;
 
 } // namespace marsview

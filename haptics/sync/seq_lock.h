@@ -1,4 +1,4 @@
-// A small value that one thread writes and others read, without the writer ever waiting.
+// A small value that one thread writes and other threads read; the writer never waits.
 #pragma once
 
 #include <array>
@@ -11,11 +11,12 @@
 
 namespace marsview {
 
-/// The writer is wait-free; a reader that meets it tries again. The value is kept in atomic words:
-/// reading one that is being written is defined, noticed and thrown away. Every word is released
-/// and acquired, so that whoever reads a word of a write sees, when it looks again, the number that
-/// this write began with (H.-J. Boehm, Can seqlocks get along with programming language memory
-/// models?, MSPC 2012); fences would do as well, but thread sanitizers do not know them.
+/// The writer is wait-free; a reader that overlaps a write retries. The value is stored in atomic
+/// words: reading during a write is defined behavior, is detected, and the result is discarded.
+/// Every word is stored with release and loaded with acquire, so that a reader that sees a word of
+/// a write also sees, in its second check, the sequence number with which that write began (H.-J.
+/// Boehm, Can seqlocks get along with programming language memory models?, MSPC 2012). Fences would
+/// also work, but thread sanitizers do not support them.
 template <typename T>
 class SeqLock {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -25,7 +26,7 @@ public:
     SeqLock(const SeqLock&) = delete;
     SeqLock& operator=(const SeqLock&) = delete;
 
-    /// For one thread at a time.
+    /// One thread at a time.
     void write(const T& value) noexcept
     {
         std::array<Word, kWords> words{};
@@ -38,7 +39,7 @@ public:
         number_.store(number + 2, std::memory_order_release);
     }
 
-    /// Nothing where the value was being written meanwhile. Any thread; wait-free.
+    /// Empty if a write overlapped the read. Any thread; wait-free.
     std::optional<T> tryRead() const noexcept
     {
         std::array<Word, kWords> words;
@@ -53,7 +54,7 @@ public:
         std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
         return value;
     }
-    /// The latest value, whole. Any thread that may wait for the writer to be elsewhere.
+    /// The latest complete value; retries while a write is in progress. Any thread that may wait.
     T read() const noexcept
     {
         while (true) {

@@ -1,4 +1,4 @@
-// Hands values from one thread to another, in order, without either ever waiting.
+// Passes values from one thread to another, in order; neither thread waits.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace marsview {
 
-/// One thread puts, one takes. What does not fit is not put, and said so. Memory is taken once,
-/// when it is made. `Capacity` is a power of two.
+/// One producer thread, one consumer thread. A value that does not fit is not stored, and put()
+/// returns false. Memory is allocated only in the constructor. `Capacity` is a power of two.
 template <typename T, std::size_t Capacity>
 class SpscQueue {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -23,11 +23,11 @@ public:
     SpscQueue(const SpscQueue&) = delete;
     SpscQueue& operator=(const SpscQueue&) = delete;
 
-    /// Where the values are kept, for whoever locks memory: bytes at data().
+    /// The storage, for callers that lock memory: `bytes` at data().
     const void* data() const noexcept { return values_.get(); }
     static constexpr std::size_t bytes() noexcept { return sizeof(std::array<T, Capacity>); }
 
-    /// The putting thread's. False where the queue is full.
+    /// Producer thread. False if the queue is full.
     bool put(const T& value) noexcept
     {
         const std::size_t end = end_.load(std::memory_order_relaxed);
@@ -38,13 +38,13 @@ public:
         end_.store(end + 1, std::memory_order_release);
         return true;
     }
-    /// The putting thread's: how many values can be put, at least.
+    /// Producer thread: a lower bound of the number of values that can be put.
     std::size_t room() const noexcept
     {
         return Capacity -
                (end_.load(std::memory_order_relaxed) - begin_.load(std::memory_order_acquire));
     }
-    /// The taking thread's. False where it is empty.
+    /// Consumer thread. False if the queue is empty.
     bool take(T& value) noexcept
     {
         const std::size_t begin = begin_.load(std::memory_order_relaxed);
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kCacheLine = 64; // lest the two sides' indices share one
+    static constexpr std::size_t kCacheLine = 64; // keeps the two sides' indices on separate lines
 
     std::unique_ptr<std::array<T, Capacity>> values_;
     alignas(kCacheLine) std::atomic<std::size_t> begin_{0};

@@ -29,7 +29,7 @@ GroundLog::tell(const ServoMap& map, bool was_told, Queue& queue) noexcept
         is_blending_ = false;
     }
     if (map.terrain == nullptr) {
-        return count; // all of it is always there
+        return count; // a map in memory is always complete
     }
     const ResidentTerrain& terrain = map.terrain->resident();
     bool has_changed = was_told;
@@ -43,7 +43,7 @@ GroundLog::tell(const ServoMap& map, bool was_told, Queue& queue) noexcept
     }
     const bool was_blending = is_blending_;
     is_blending_ = !terrain.blend().isEmpty();
-    // A blend that moves has been told.
+    // A changing blend is reported again.
     if (has_changed || is_blending_ != was_blending) {
         terrain.blend().eachTile([&put](const TileId& id, double weight) {
             put(GroundTile{id, weight});

@@ -1,4 +1,4 @@
-// What a recording is told of the ground below the hand.
+// Reports to a recording which terrain is below the hand.
 #pragma once
 
 #include "haptics/sync/spsc_queue.h"
@@ -12,22 +12,21 @@
 
 namespace marsview {
 
-/// Tells only what has changed since it last told. The servo thread's; nothing here allocates or
-/// waits.
+/// Reports only changes since the last report. Servo thread only; does not allocate or wait.
 class GroundLog {
 public:
-    /// 268 ticks of the most that one can have to tell. A recorder looks every 20 ms.
+    /// Room for 268 ticks with the maximum number of records. A recorder polls every 20 ms.
     using Queue = SpscQueue<GroundRecord, 1U << 15>;
 
-    /// What comes next is told from the beginning.
+    /// The next report starts from the beginning.
     void forget() noexcept { *this = {}; }
-    /// After a tick over `map`, and of it; `was_told` says whether the model was told that its
-    /// terrain has changed. How many records that were put; nothing where there is no room for
-    /// them.
+    /// Call after a tick over `map`. `was_told` says whether the contact model was notified of a
+    /// terrain change. Returns the number of records put into the queue; empty if there was no
+    /// room.
     std::optional<std::uint32_t> tell(const ServoMap& map, bool was_told, Queue& queue) noexcept;
 
 private:
-    static constexpr std::size_t kMax = // in a tick
+    static constexpr std::size_t kMax = // per tick
         2 + ResidentTerrain::kLevelsMax + WindowBlend::kTilesMax;
 
     std::uint64_t serial_ = 0;

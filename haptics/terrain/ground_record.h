@@ -1,4 +1,4 @@
-// What ground a recording's updates felt: what the map alone does not tell.
+// The terrain that a recording's updates used, as far as the map alone does not determine it.
 #pragma once
 
 #include "core/geo/body.h"
@@ -13,18 +13,18 @@
 
 namespace marsview {
 
-/// A contact model begins: which map it is over, and where that lies in its scene.
+/// A contact model begins: its map, and the map's place in its scene.
 struct GroundPart {
     std::uint64_t part = 0; // ServoMap's serial
     std::size_t columns = 0;
     std::size_t rows = 0;
-    Ellipsoid ellipsoid; // of the map's body; zeros where that is not known
+    Ellipsoid ellipsoid; // of the map's body; zeros if unknown
     SceneFrame frame;
 
     bool operator==(const GroundPart&) const = default;
 };
 
-/// From the next GroundFelt on, these tiles of a level are there.
+/// From the next GroundFelt on, these tiles of a level are resident.
 struct GroundLevel {
     std::size_t level = 0;
     ShownTiles shown;
@@ -32,7 +32,8 @@ struct GroundLevel {
     bool operator==(const GroundLevel&) const = default;
 };
 
-/// From the next GroundFelt to the one after it, a tile that is there is not felt in full.
+/// From the next GroundFelt to the one after it, a resident tile is blended in at less than full
+/// weight.
 struct GroundTile {
     TileId id;
     double weight = 1.0; // in [0, 1), WindowBlend's
@@ -40,9 +41,9 @@ struct GroundTile {
     bool operator==(const GroundTile&) const = default;
 };
 
-/// The ground is now as those before this one say.
+/// Applies the records before this one.
 struct GroundFelt {
-    std::uint64_t told_part = 0; // whose model was told: MapContactModel::terrainChanged(); 0: none
+    std::uint64_t told_part = 0; // part whose model got MapContactModel::terrainChanged(); 0: none
 
     bool operator==(const GroundFelt&) const = default;
 };

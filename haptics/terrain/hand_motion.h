@@ -1,4 +1,4 @@
-// How the hand moves over a map, as the servo thread tells it.
+// The motion of the hand over a map, as the servo thread reports it.
 #pragma once
 
 #include "core/geo/frames.h"
@@ -12,8 +12,8 @@ struct HandMotion {
     GridPoint at;               // of the proxy
     double columns_per_s = 0.0; // samples
     double rows_per_s = 0.0;
-    std::int64_t time_ns = 0; // of the tick that tells it; steady clock
-    bool is_active = false;   // false: there is no hand over the map
+    std::int64_t time_ns = 0; // of the tick; steady clock
+    bool is_active = false;   // false: no hand over the map
 };
 
 } // namespace marsview

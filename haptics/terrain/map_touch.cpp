@@ -16,13 +16,13 @@ MapTouch::MapTouch(const SceneMap& map)
     if (!heightfield.isTiled()) {
         return;
     }
-    // The map has its coarsest tile always at hand.
+    // A map always has its coarsest tile in memory.
     const TiledSamples& tiles = *heightfield.tiles();
     feeder_ = std::make_unique<WindowFeeder>(
         tiles.raster(),
         std::make_shared<const TileHeights>(map_.map->levels(), heightfield.scale()), tiles.top());
     feeder_->exchange()->windows.take();
-    // Nobody feels a jump through a mouse.
+    // A jump cannot be felt with a mouse, so no rate limit is needed.
     terrain_ = std::make_shared<ResidentTerrain>(
         *feeder_->exchange()->windows.front(), feeder_->heights(),
         ResidentTerrainOptions{.rate_m_per_s = std::numeric_limits<double>::infinity()});

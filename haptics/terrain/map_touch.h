@@ -1,5 +1,5 @@
-// What the mouse's stylus touches of a map: all of it where it is held in memory, and the part that
-// is there where it comes in tiles.
+// The part of a map that the mouse stylus can touch: all of a map in memory, or the resident tiles
+// of a tiled map.
 #pragma once
 
 #include "core/contact/contact_model.h"
@@ -12,8 +12,8 @@
 
 namespace marsview {
 
-/// Contact models over one map. For the GUI thread, which waits for no tile; they are loaded by
-/// threads of their own, and only while a model of it is there.
+/// Contact models over one map. For the GUI thread: it does not wait for tiles, which are loaded by
+/// separate threads while a model of the map exists.
 class MapTouch {
 public:
     explicit MapTouch(const SceneMap& map);
@@ -21,19 +21,19 @@ public:
     /// Whether the map's surface may change by itself while it is touched.
     bool isTiled() const noexcept { return feeder_ != nullptr; }
 
-    /// Null for a map that is held in memory without what fills its voids.
+    /// Null for a map in memory whose voids have not been filled.
     std::unique_ptr<MapContactModel>
     makeModel(ContactModelKind kind, double exaggeration, const ContactModelOptions& options);
 
-    /// Tells where the hand is, and takes in what has been loaded since. True where the surface
-    /// has changed: `model` has been told, and wants an update.
+    /// Reports the hand's position and applies newly loaded tiles. Returns true if the surface has
+    /// changed: `model` has been notified and needs an update.
     bool follow(MapContactModel& model, const ScenePoint& hand);
-    /// The hand is gone: nothing is loaded for it any more.
+    /// The hand is gone: loading stops.
     void release();
 
 private:
     SceneMap map_;
-    std::unique_ptr<WindowFeeder> feeder_; // of a map in tiles
+    std::unique_ptr<WindowFeeder> feeder_; // for a tiled map
     std::shared_ptr<ResidentTerrain> terrain_;
     bool is_followed_ = false;
 };

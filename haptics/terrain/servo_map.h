@@ -1,4 +1,4 @@
-// A map as the servo thread touches it.
+// A map as the servo thread uses it.
 #pragma once
 
 #include "core/contact/contact_model.h"
@@ -11,16 +11,16 @@
 
 namespace marsview {
 
-/// Made and destroyed by any thread but the servo's; used by the servo's alone.
+/// Created and destroyed by any thread except the servo thread; used only by the servo thread.
 struct ServoMap {
     GoalFrame frame;
     std::unique_ptr<MapContactModel> model;
-    std::shared_ptr<ServoTerrain> terrain;        // null where the map is held in memory
+    std::shared_ptr<ServoTerrain> terrain;        // null if the map is in memory
     ContactModelKind kind = kContactModelDefault; // of the model
-    double radius_m = 1.0;                        // the same of its sphere, where it has one
-    std::uint64_t map_id = 0;                     // of what is touched: another one is another map
-    std::uint64_t serial = 0;                     // of this object; no two are alike
-    bool is_touched = false;                      // the model has a proxy already
+    double radius_m = 1.0;                        // of the model's sphere, if it has one
+    std::uint64_t map_id = 0;                     // identifies the touched map
+    std::uint64_t serial = 0;                     // unique for each ServoMap
+    bool is_touched = false;                      // the model already has a proxy
 };
 
 struct ServoMapOptions {
@@ -33,7 +33,7 @@ struct ServoMapOptions {
 std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
                                        std::shared_ptr<const FilledHeightfield> filled,
                                        const ServoMapOptions& options);
-/// A map in tiles. Several ServoMaps, of which the servo uses one after the other, may share the
+/// A tiled map. Several ServoMaps that the servo thread uses one after the other may share the
 /// terrain.
 std::shared_ptr<ServoMap> makeServoMap(const GoalFrame& frame,
                                        std::shared_ptr<ServoTerrain> terrain,

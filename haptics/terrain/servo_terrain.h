@@ -1,4 +1,4 @@
-// A map larger than memory on the servo thread.
+// The servo thread's access to a map larger than memory.
 #pragma once
 
 #include "haptics/terrain/resident_terrain.h"
@@ -11,11 +11,11 @@
 
 namespace marsview {
 
-/// The servo's end of a WindowExchange. Made by any thread, used by the servo alone: all but the
-/// constructor is wait-free and allocates and frees nothing.
+/// The servo's end of a WindowExchange. Created by any thread, used only by the servo thread: all
+/// members except the constructor are wait-free and do not allocate or free memory.
 class ServoTerrain {
 public:
-    /// There is one for each exchange.
+    /// At most one per exchange.
     ServoTerrain(std::shared_ptr<WindowExchange> exchange,
                  std::shared_ptr<const TileHeights> heights,
                  const ResidentTerrainOptions& options = {})
@@ -28,8 +28,8 @@ public:
     std::shared_ptr<const TiledTerrain> terrain() const noexcept { return terrain_; }
     ResidentTerrain& resident() noexcept { return *terrain_; }
 
-    /// At the begin of each tick, `seconds` after the last. Where it is true, heights near the hand
-    /// have changed: MapContactModel::terrainChanged().
+    /// Call at the beginning of each tick, `seconds` after the last. If it returns true, heights
+    /// near the hand have changed: call MapContactModel::terrainChanged().
     bool refresh(const HandMotion& motion, double seconds) noexcept
     {
         exchange_->motion.write(motion);
@@ -38,14 +38,15 @@ public:
         return terrain_->advance(motion.at, seconds) || is_shown;
     }
 
-    /// How long the feeder has said nothing; 0 where it has not begun.
+    /// Time since the feeder's last sign of life; 0 before it has started.
     std::chrono::nanoseconds silence(std::chrono::steady_clock::time_point now) const noexcept
     {
         const std::int64_t fed_ns = exchange_->fed_ns.load(std::memory_order_relaxed);
         return fed_ns == 0 ? std::chrono::nanoseconds(0)
                            : now.time_since_epoch() - std::chrono::nanoseconds(fed_ns);
     }
-    /// For who stops the servo thread, after it has ended: there is no hand any more.
+    /// For the thread that stops the servo thread, after that has ended: reports that the hand is
+    /// gone.
     void leave() noexcept { exchange_->motion.write({}); }
 
 private:

@@ -1,4 +1,4 @@
-// What the servo thread and the one that feeds its window tell each other.
+// Data exchanged between the servo thread and the feeder of its window.
 #pragma once
 
 #include "haptics/sync/seq_lock.h"
@@ -19,8 +19,8 @@ struct WindowExchange {
 
     SeqLock<HandMotion> motion;                                  // the servo writes
     TripleBuffer<std::shared_ptr<const ResidentWindow>> windows; // the servo reads
-    /// When the feeder last looked, ns of the steady clock; 0: never. Where it goes silent, what
-    /// the servo has is not the ground any more.
+    /// The feeder's last round, ns of the steady clock; 0: never. If it stops, the servo's window
+    /// is no longer valid terrain.
     std::atomic<std::int64_t> fed_ns{0};
 };
 

@@ -12,26 +12,26 @@
 namespace marsview {
 namespace {
 
-// What loaders do is learned over that long.
+// The interval over which the loaders' throughput is measured.
 constexpr std::chrono::milliseconds kLearning{250};
-// A servo thread that says nothing for so long has stopped.
+// A servo thread without updates for this long has stopped.
 constexpr std::chrono::seconds kSilence{1};
-constexpr double kTilesPerSecondMin = 1.0; // lest nothing fine be wanted ever again
+constexpr double kTilesPerSecondMin = 1.0; // keeps fine levels from never being requested again
 
-// A tile and its pages' lock, which ends with the last window that has the tile.
+// A tile and the lock of its pages, which ends with the last window that contains the tile.
 struct LockedTile {
     std::shared_ptr<const Tile> tile;
     PageLock samples;
     PageLock filled;
 };
 
-// Where tiles that arrive may be felt before they are in the next window but one: the tiles around
-// the hand, and one more. A hand that is faster feels no blending.
+// The area in which tiles may be touched before the next window but one: the tiles around the hand,
+// and one more. A faster hand gets no blending.
 SampleBox nearHand(const TileLayout& layout, GridPoint hand)
 {
     const auto along = [](double at, std::size_t count) {
         const double inside =
-            at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also where NaN
+            at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also for NaN
         const std::size_t tile = static_cast<std::size_t>(inside) / kTileSide;
         return std::pair{(std::max<std::size_t>(tile, 2) - 2) * kTileSide,
                          std::min((tile + 3) * kTileSide, count) - 1};
@@ -139,7 +139,7 @@ void WindowFeeder::want(std::vector<TileId> tiles)
 void WindowFeeder::learnThroughput(Clock::time_point now, std::size_t arrived)
 {
     arrived_count_ += arrived;
-    if (wanted_.empty()) { // loaders had nothing to do: nothing can be told
+    if (wanted_.empty()) { // the loaders were idle: nothing to measure
         wanted_since_.reset();
         arrived_count_ = 0;
         return;
@@ -192,7 +192,7 @@ bool WindowFeeder::feed(Clock::time_point now)
     const WindowPlan plan = planWindow(heights_->layout(), motion, plan_options);
 
     auto next = std::make_shared<ResidentWindow>(heights_, top_, plan.centres, plan_options.sides);
-    // Before the tiles are looked for, lest one that arrives meanwhile be forgotten.
+    // Before the lookup, so that a tile that arrives in the meantime is not missed.
     const std::uint64_t generation = raster_.generation();
     bool is_changed = false;
     std::vector<TileId> arrived;
@@ -228,7 +228,7 @@ bool WindowFeeder::feed(Clock::time_point now)
         exchange_->windows.publish();
     }
     learnThroughput(now, arrived.size());
-    // What a window holds need not stay in the cache.
+    // Tiles in the window need not stay in the cache.
     std::vector<TileId> missing;
     std::copy_if(plan.tiles.begin(), plan.tiles.end(), std::back_inserter(missing),
                  [this](const TileId& id) { return !window_->has(id); });

@@ -22,32 +22,34 @@ namespace marsview {
 
 struct WindowFeederOptions {
     WindowPlanOptions plan;
-    /// How often the hand is looked at, where no tile arrives sooner; while there is none.
+    /// Polling interval of the hand while there is one, unless a tile arrives sooner; idle_period
+    /// otherwise.
     std::chrono::milliseconds active_period{5};
     std::chrono::milliseconds idle_period{50};
 };
 
 struct WindowFeederStatistics {
-    std::uint64_t published = 0;  // windows
-    std::uint64_t tiles_put = 0;  // that were in no window before
-    std::size_t finest_level = 0; // that could be had in time when last looked
-    double tiles_per_s = 0.0;     // what the loaders do
-    /// Why pages of tiles are not locked in memory, as errno; 0 where they are. The tiles are
-    /// touched in any case.
+    std::uint64_t published = 0;  // windows published
+    std::uint64_t tiles_put = 0;  // not in the previous window
+    std::size_t finest_level = 0; // that could be loaded in time at the last round
+    double tiles_per_s = 0.0;     // throughput of the loaders
+    /// The errno value if pages of tiles could not be locked in memory; 0 if they are locked. The
+    /// tiles are paged in either way.
     int lock_error = 0;
 };
 
-/// A thread of its own reads where the hand is and goes, wants the tiles on its way, and publishes
-/// a new window whenever some arrive or the hand moves on. Tiles live as long as a window that has
-/// them; windows that the servo thread has left are freed here, never there.
+/// A separate thread reads the hand's position and velocity, requests the tiles along its path, and
+/// publishes a new window whenever tiles arrive or the hand moves on. Tiles live as long as a
+/// window that contains them; windows that the servo thread has released are freed here, never on
+/// the servo thread.
 class WindowFeeder {
 public:
-    /// Reads the tile of the coarsest level first: not for a thread that must not wait.
+    /// Reads the tile of the coarsest level first, so the calling thread must be able to wait.
     static Result<std::unique_ptr<WindowFeeder>> create(const TiledRaster& raster,
                                                         std::shared_ptr<const TileHeights> heights,
                                                         const WindowFeederOptions& options = {});
-    /// `heights` have the raster's layout, and `top` is the tile of its coarsest level. Waits for
-    /// nothing.
+    /// `heights` have the raster's layout, and `top` is the tile of its coarsest level. Does not
+    /// wait.
     WindowFeeder(const TiledRaster& raster,
                  std::shared_ptr<const TileHeights> heights,
                  std::shared_ptr<const Tile> top,
@@ -57,20 +59,20 @@ public:
     WindowFeeder(const WindowFeeder&) = delete;
     WindowFeeder& operator=(const WindowFeeder&) = delete;
 
-    /// When a hand comes, and when it goes: nothing runs in between, and nothing is wanted. Both
-    /// for the thread that owns the feeder.
+    /// Call when a hand arrives over the map, and stop() when it leaves: in between nothing runs
+    /// and no tiles are requested. Both for the thread that owns the feeder.
     void start();
     void stop();
 
-    /// For the one servo thread; lives on with it.
+    /// For the one servo thread, which may keep it longer than the feeder.
     const std::shared_ptr<WindowExchange>& exchange() const noexcept { return exchange_; }
     const std::shared_ptr<const TileHeights>& heights() const noexcept { return heights_; }
     /// Any thread.
     WindowFeederStatistics statistics() const;
 
     using Clock = std::chrono::steady_clock;
-    /// One round, by hand, as the thread does them; only while it is stopped. Whether there is a
-    /// hand.
+    /// Runs one round of the thread's work; only while the thread is stopped. Returns whether there
+    /// is a hand.
     bool feed(Clock::time_point now);
 
 private:
@@ -85,20 +87,20 @@ private:
     WindowFeederOptions options_;
     std::shared_ptr<WindowExchange> exchange_;
 
-    // Of the thread, or of whoever calls feed().
+    // Used by the thread, or by the caller of feed().
     std::shared_ptr<const ResidentWindow> window_; // the latest
-    std::uint64_t generation_ = 0;                 // of the raster, when its tiles were looked for
+    std::uint64_t generation_ = 0;                 // of the raster at the last lookup
     double tiles_per_s_;
-    std::optional<Clock::time_point> wanted_since_; // or since the throughput was last learned
+    std::optional<Clock::time_point> wanted_since_; // or the last throughput measurement
     std::vector<TileId> wanted_;
     std::size_t arrived_count_ = 0;
 
-    mutable std::mutex mutex_; // of the following
+    mutable std::mutex mutex_; // guards the members below
     std::condition_variable_any changed_;
     bool has_arrived_ = false;
     WindowFeederStatistics statistics_;
 
-    TileWishes wishes_; // after what its notifications use
+    TileWishes wishes_; // after the members that its notifications use
     std::jthread thread_;
 };
 

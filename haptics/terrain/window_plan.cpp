@@ -8,15 +8,15 @@
 namespace marsview {
 namespace {
 
-// Of what the loaders can do, the share that the corridor may take: the rest is for what was not
-// foreseen.
+// The fraction of the loaders' throughput for the corridor; the rest is a reserve for unforeseen
+// motion.
 constexpr double kShareOfLoaders = 0.7;
-// Tiles across the corridor that the hand may turn into.
+// Width in tiles across the corridor, for turns of the hand.
 constexpr double kCorridorTiles = 3.0;
 constexpr int kPathPieces = 24;
-// As if the hand came into a tile half a tile beside it no sooner, in seconds.
+// Penalty per tile of distance from the path, in seconds.
 constexpr double kBeside = 1e-3;
-// From this level on all that a window covers is wanted: LevelFile keeps those levels.
+// From this level on, all tiles that a window covers are requested: LevelFile keeps those levels.
 constexpr std::size_t kCheapLevel = 3;
 
 double tileWidth(std::size_t level)
@@ -37,7 +37,7 @@ std::size_t finestLevelInTime(const TileLayout& layout,
     return level;
 }
 
-// What a window around a centre covers, along one axis.
+// The extent of a window around a center, along one axis.
 struct Span {
     std::size_t first;
     std::size_t end;
@@ -46,7 +46,7 @@ struct Span {
 struct Urgency {
     double seconds;       // until the hand is near
     std::size_t fineness; // coarse first
-    double distance;      // from where the hand is then, in tiles
+    double distance;      // from the hand's position at that time, in tiles
     auto key() const { return std::tie(seconds, fineness, distance); }
 };
 
@@ -59,7 +59,7 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
     const std::size_t top = layout.topLevel();
     plan.finest_level = finestLevelInTime(layout, motion, options);
     const auto inside = [](double at, std::size_t count) {
-        return at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also where NaN
+        return at >= 0.0 ? std::min(at, static_cast<double>(count - 1)) : 0.0; // also for NaN
     };
     const auto hand_at = [&](double seconds) {
         return GridPoint{inside(motion.at.column + seconds * motion.columns_per_s, layout.columns),
@@ -88,7 +88,7 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
         const Span rows = span(centre.row, layout.tileRows(TileKind::Samples, k));
         for (std::size_t row = rows.first; row < rows.end; ++row) {
             for (std::size_t column = columns.first; column < columns.end; ++column) {
-                // Beside the hand by so many tiles; 0 where it is inside.
+                // Distance from the hand's path in tiles; 0 inside.
                 const auto beside = [&](double seconds) {
                     const GridPoint at = hand_at(seconds);
                     const auto along = [&](double position, std::size_t tile) {

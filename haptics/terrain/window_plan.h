@@ -1,4 +1,4 @@
-// Which tiles the hand will want, by where it goes and how fast tiles can be had.
+// Plans which tiles the hand will need, from its motion and the loaders' throughput.
 #pragma once
 
 #include "core/tiles/tile.h"
@@ -12,21 +12,21 @@ namespace marsview {
 
 struct WindowPlanOptions {
     WindowSides sides;
-    double lookahead_s = 0.6;   // how far ahead the hand's way is predicted: straight on
-    double tiles_per_s = 200.0; // what loaders can do
+    double lookahead_s = 0.6;   // prediction horizon of the hand's straight path
+    double tiles_per_s = 200.0; // throughput of the loaders
 };
 
-/// What a window should cover and what it should have.
+/// What a window should cover, and the tiles to request.
 struct WindowPlan {
     std::vector<GridPoint> centres; // of the levels, for ResidentWindow
-    std::vector<TileId> tiles;      // the most urgent first; the window covers them all
-    /// Finer levels would come too late: the hand has left before they are there.
+    std::vector<TileId> tiles;      // the most urgent first; all covered by the window
+    /// Finer levels would arrive too late, after the hand has passed.
     std::size_t finest_level = 0;
 };
 
-/// Hand first: the tiles under it from coarse to fine, so that what stands in gets better at once;
-/// then those around and ahead, by the time at which the hand comes near; from level 3 on, where
-/// tiles are few and quickly read, all that the window covers. A pure function.
+/// The tiles under the hand come first, from coarse to fine, so that coarse replacements are
+/// refined at once; then the tiles around and ahead, by the time until the hand is near; from level
+/// 3 on, where tiles are few and quick to read, all that the window covers. A pure function.
 WindowPlan
 planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanOptions& options);
 

@@ -29,7 +29,7 @@ bool isHeader(const TableWords& words)
     return words.size() >= 3 && words[0] == "x" && words[1] == "y" && words[2] == "z";
 }
 
-// A line of a file whose header has three columns, or more.
+// Parses a line of three columns, or more if `has_more`.
 std::optional<TracePoint> parseGoal(const TableWords& words, bool has_more)
 {
     if (words.size() < 3 || (words.size() > 3) != has_more) {
@@ -60,14 +60,14 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
         rest.remove_prefix(kByteOrderMark.size());
     }
     GoalRecording recording;
-    std::optional<RecordingReader> reader; // of the columns that recordings have
+    std::optional<RecordingReader> reader; // for the further columns of a recording
     TableWords words;
     bool has_header = false;
     bool has_more_columns = false;
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::size_t end = rest.find('\n');
         if (end == std::string_view::npos && reader) {
-            recording.is_cut_short = true; // recordings end their lines
+            recording.is_cut_short = true; // a complete line of a recording ends with a line break
             break;
         }
         const std::string_view line = trimmed(rest.substr(0, end));
@@ -94,7 +94,7 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
         const std::optional<TracePoint> goal = parseGoal(words, has_more_columns);
         if (!goal) {
             return refused(fmt::format(
-                "is \"{}\"; three numbers with commas between them are needed", quotedWord(line)));
+                "is \"{}\"; three numbers separated by commas are needed", quotedWord(line)));
         }
         if (reader) {
             if (const std::string problem = reader->read(words, number, recording);
@@ -106,7 +106,7 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
     }
     if (!has_header) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: is empty; the header \"{}\" and a goal a line are needed",
+                     fmt::format("{}: is empty; the header \"{}\" and one goal per line are needed",
                                  name, kHeader)};
     }
     return recording;

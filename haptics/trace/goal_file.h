@@ -1,4 +1,4 @@
-// Files of goals: what a hand aimed at, one update a line.
+// Files of goals: the positions a hand aimed at, one update per line.
 #pragma once
 
 #include "core/base/result.h"
@@ -14,31 +14,31 @@
 
 namespace marsview {
 
-/// The goals in `text`: a line "x,y,z", then a goal a line. Further columns, as a recording has
-/// them, are passed over. Blanks, empty lines, CR before LF and a byte order mark do no harm; "nan"
-/// and "inf" are numbers. `name` is whose text it is, for the message that tells the line that
-/// cannot be read.
+/// Parses `text`: the header "x,y,z", then one goal per line. Further columns, as in a recording,
+/// are ignored. Blanks, empty lines, CR before LF and a byte order mark are permitted; "nan" and
+/// "inf" are numbers. `name` is the source of the text, for the message that names the invalid
+/// line.
 Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::string& name);
 
-/// What goals were aimed at with, from `first` on.
+/// The map and contact model of the goals from `first` on.
 struct GoalPart {
-    std::size_t first = 0;  // of the goals
-    std::size_t line = 0;   // of the file, from 1
-    std::uint64_t map = 0;  // another number is another map
-    std::uint64_t part = 0; // another number is another contact model; one may come back
+    std::size_t first = 0;  // index of the goal
+    std::size_t line = 0;   // line in the file, from 1
+    std::uint64_t map = 0;  // different for another map
+    std::uint64_t part = 0; // different for another contact model; a model may occur again
     ContactModelKind kind = kContactModelDefault;
     double radius_m = 1.0;
     double exaggeration = 1.0;
-    std::optional<GroundPart> ground{}; // where the file tells it
+    std::optional<GroundPart> ground{}; // if stored in the file
 };
 
-/// What has changed of the ground before a goal.
+/// Changes of the terrain before a goal.
 struct GoalGround {
     std::size_t goal = 0;
     std::vector<GroundRecord> records; // in order, without GroundParts
 };
 
-/// What came of a goal when it was recorded.
+/// The recorded result of a goal.
 struct RecordedUpdate {
     bool is_in_contact = false;
     TracePoint proxy{};
@@ -46,23 +46,23 @@ struct RecordedUpdate {
     bool operator==(const RecordedUpdate&) const = default;
 };
 
-/// Goals, and what a recording tells of them.
+/// Goals and the other data of a recording.
 struct GoalRecording {
     std::vector<TracePoint> goals;
-    std::vector<GoalPart> parts;         // in order; none where the file is but goals
-    std::vector<GoalGround> ground;      // in order; none where all of it was there
-    std::vector<RecordedUpdate> updates; // of each goal; none where the file does not tell
-    /// The last line of a recording had no end, as when the program was killed or the disk was
-    /// full, and is left out.
+    std::vector<GoalPart> parts;         // in order; none if the file contains only goals
+    std::vector<GoalGround> ground;      // in order; none if all terrain was resident
+    std::vector<RecordedUpdate> updates; // one per goal; none if not stored in the file
+    /// The last line of a recording was incomplete, for example because the program was killed or
+    /// the disk was full, and is skipped.
     bool is_cut_short = false;
 };
 
-/// The same as readGoals(), with the columns "map,part,model,radius_m,exaggeration", and with them
-/// "ground" and "contact,proxy_x,proxy_y,proxy_z", where the header has them.
+/// As readGoals(), and also reads the columns "map,part,model,radius_m,exaggeration", and with them
+/// "ground" and "contact,proxy_x,proxy_y,proxy_z", if the header has them.
 Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name);
 
-/// The text of a file, or of standard input where `path` is "-". TooLarge above 1 GiB, or with a
-/// line above 1 MiB.
+/// The text of a file, or of standard input if `path` is "-". TooLarge above 1 GiB, or with a line
+/// above 1 MiB.
 Result<std::string> readGoalText(const std::string& path);
 
 } // namespace marsview

@@ -41,7 +41,7 @@ struct Writer {
     }
 };
 
-// Takes the numbers of a word, one after the other; a wrong one makes the word wrong.
+// Parses the numbers of a word in order; an invalid number makes the word invalid.
 class Reader {
 public:
     explicit Reader(std::string_view word)

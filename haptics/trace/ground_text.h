@@ -1,4 +1,4 @@
-// The ground of a recording, as its column "ground" has it.
+// The text format of a recording's column "ground".
 #pragma once
 
 #include "haptics/terrain/ground_record.h"
@@ -10,10 +10,10 @@
 
 namespace marsview {
 
-/// What has changed of the ground before an update; empty where nothing has.
+/// The column with the terrain changes before an update; an empty cell means no change.
 inline constexpr std::string_view kGroundColumn = "ground";
 
-/// A word of numbers with slashes between them, exact to the bit:
+/// One word: numbers separated by slashes, exact to the bit:
 ///
 ///     part/PART/COLUMNS/ROWS/EQUATORIAL_M/POLAR_M/COLUMN/ROW/E_COLUMN/E_ROW/N_COLUMN/N_ROW
 ///     level/LEVEL/FIRST_COLUMN/FIRST_ROW/COLUMNS/ROWS/BITS     BITS in hexadecimal
@@ -23,7 +23,7 @@ inline constexpr std::string_view kGroundColumn = "ground";
 /// as GroundPart (with SceneFrame's terms), GroundLevel, GroundTile and GroundFelt.
 std::string groundText(const GroundRecord& record);
 
-/// The words of a cell, which have blanks between them. Nothing where one is none of the above.
+/// Parses a cell: words separated by blanks. Empty if a word has none of the above forms.
 std::optional<std::vector<GroundRecord>> parseGround(std::string_view cell);
 
 } // namespace marsview

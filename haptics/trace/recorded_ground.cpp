@@ -11,7 +11,7 @@ namespace {
 
 Error notThere()
 {
-    return Error{ErrorCode::Invalid, "the recording felt tiles that the map does not have"};
+    return Error{ErrorCode::Invalid, "the recording uses tiles that the map does not have"};
 }
 
 } // namespace
@@ -55,7 +55,7 @@ Status RecordedGround::follow(const GroundRecord& record)
         shown_[level->level] = shown;
         is_other_window_ = true;
     } else if (const auto* tile = std::get_if<GroundTile>(&record)) {
-        // The coarsest is always felt in full.
+        // The coarsest tile always has full weight.
         if (tile->id.level >= layout.topLevel() || !layout.contains(tile->id)) {
             return notThere();
         }

@@ -1,4 +1,4 @@
-// The ground that a recording over a map in tiles felt, again.
+// Reconstructs the terrain of a recording over a tiled map.
 #pragma once
 
 #include "core/base/result.h"
@@ -12,18 +12,17 @@
 
 namespace marsview {
 
-/// Follows the records of a recording: where tiles were missing or blended when it was made, they
-/// are so again, to the bit. Reads tiles from disk while it does; for batch work and one thread at
-/// a time.
+/// Follows the records of a recording: tiles that were missing or blended during the recording are
+/// so again, to the bit. Reads tiles from disk; for batch work and one thread at a time.
 class RecordedGround {
 public:
-    /// `heights` have the layout of the raster. What the coarsest tile cannot be had for.
+    /// `heights` have the layout of the raster. Returns the error of reading the coarsest tile.
     static Result<std::shared_ptr<RecordedGround>> make(const TiledRaster& raster,
                                                         std::shared_ptr<const TileHeights> heights);
 
-    /// For contact models, which are not asked meanwhile. Invalid where the map has no such tiles;
-    /// what a tile cannot be had for. After a GroundFelt the model of its part is to be told that
-    /// the terrain has changed.
+    /// Updates the terrain for contact models, which must not be used during the call. Invalid if
+    /// the map has no such tiles; otherwise the error of reading a tile. After a GroundFelt, notify
+    /// its part's model that the terrain has changed.
     Status follow(const GroundRecord& record);
 
     std::shared_ptr<const TiledTerrain> terrain() const { return terrain_; }
@@ -40,7 +39,7 @@ private:
     std::vector<ShownTiles> shown_; // by level
     std::shared_ptr<const ResidentWindow> window_;
     std::shared_ptr<ResidentTerrain> terrain_;
-    WindowBlend blend_; // of the next GroundFelt
+    WindowBlend blend_; // for the next GroundFelt
     bool is_other_window_ = false;
 };
 

@@ -13,7 +13,7 @@
 namespace marsview {
 namespace {
 
-// Where each of the names is; nothing where one is missing.
+// The positions of the names; empty if one is missing.
 template <std::size_t N>
 std::optional<std::array<std::size_t, N>> placesOf(const std::array<std::string_view, N>& names,
                                                    const TableWords& header)
@@ -72,12 +72,12 @@ RecordingReader::read(const TableWords& words, std::size_t number, GoalRecording
 {
     std::optional<GoalPart> part = partIn(words);
     if (!part) {
-        return "does not tell map, part, model, radius_m and exaggeration as a recording does";
+        return "has no valid map, part, model, radius_m and exaggeration";
     }
     if (ground_at_) {
         const auto records = parseGround(words[*ground_at_]);
         if (!records) {
-            return fmt::format("has the ground \"{}\", which is none that a recording tells of",
+            return fmt::format("has the invalid ground \"{}\"",
                                quotedWord(words[*ground_at_]));
         }
         addGround(*records, recording);
@@ -85,7 +85,7 @@ RecordingReader::read(const TableWords& words, std::size_t number, GoalRecording
     if (update_at_) {
         const auto update = updateIn(words);
         if (!update) {
-            return "does not tell contact, proxy_x, proxy_y and proxy_z as a recording does";
+            return "has no valid contact, proxy_x, proxy_y and proxy_z";
         }
         recording.updates.push_back(*update);
     }
@@ -132,7 +132,7 @@ std::optional<RecordedUpdate> RecordingReader::updateIn(const TableWords& words)
     return RecordedUpdate{.is_in_contact = *contact != 0, .proxy = {*x, *y, *z}};
 }
 
-// Keeps what is said of parts with the parts, the rest with the goal that comes next.
+// Stores GroundParts with their parts, and all other records with the next goal.
 void RecordingReader::addGround(const std::vector<GroundRecord>& records, GoalRecording& recording)
 {
     GoalGround ground{.goal = recording.goals.size(), .records = {}};

@@ -1,4 +1,4 @@
-// The columns that a recording has besides its goals.
+// The columns of a recording other than its goals.
 #pragma once
 
 #include "haptics/terrain/ground_record.h"
@@ -15,14 +15,14 @@
 
 namespace marsview {
 
-/// Reads them line by line into a GoalRecording.
+/// Parses them line by line into a GoalRecording.
 class RecordingReader {
 public:
-    /// Nothing where the header does not have the columns "map,part,model,radius_m,exaggeration".
+    /// Empty if the header does not have the columns "map,part,model,radius_m,exaggeration".
     static std::optional<RecordingReader> forHeader(const TableWords& header);
 
-    /// A line of the file, the `number`th from 1, whose goal is the next of `recording`. What is
-    /// wrong with the line, to be put after its number; empty where nothing is.
+    /// Parses the file's line `number` (from 1), whose goal is the next of `recording`. Returns the
+    /// error, phrased to follow the line number; empty if the line is valid.
     std::string read(const TableWords& words, std::size_t number, GoalRecording& recording);
 
 private:
@@ -35,7 +35,7 @@ private:
     std::optional<RecordedUpdate> updateIn(const TableWords& words) const;
     void addGround(const std::vector<GroundRecord>& records, GoalRecording& recording);
 
-    // Where columns are; older recordings do not have all.
+    // Column positions; older recordings do not have all of these columns.
     std::array<std::size_t, kPartNames.size()> part_at_{};
     std::optional<std::array<std::size_t, kUpdateNames.size()>> update_at_;
     std::optional<std::size_t> ground_at_;

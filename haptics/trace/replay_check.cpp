@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-// To the outer edges of the pixels.
+// Including the outer edges of the pixels.
 bool isOn(const Georeference& georeference, const TracePoint& goal)
 {
     constexpr double kHalf = 0.5;
@@ -28,7 +28,7 @@ bool isRecordedOn(const GroundPart& part, const Georeference& map) noexcept
 
 const GoalPart* ReplayFit::otherThan(const TouchedGround& ground) const noexcept
 {
-    constexpr double kSame = 1e-6; // radii follow from the map's cells, by more ways than one
+    constexpr double kSame = 1e-6; // radii are computed from the map's cells in more than one way
     const auto other = std::find_if(parts.begin(), parts.end(), [&](const GoalPart& part) {
         const bool is_other_sphere = ground.kind == ContactModelKind::VirtualProxy &&
                                      std::abs(part.radius_m / ground.radius_m - 1.0) > kSame;

@@ -1,4 +1,4 @@
-// Whether a recording belongs to the map that it is replayed on.
+// Checks whether a recording matches the map it is replayed on.
 #pragma once
 
 #include "core/base/result.h"
@@ -15,25 +15,25 @@
 
 namespace marsview {
 
-/// Whether a recording can have been made on that map: it has as many samples, and the same body.
+/// Whether a recording may have been made on that map: same number of samples and same body.
 bool isRecordedOn(const GroundPart& part, const Georeference& map) noexcept;
 
-/// What there is to be known of a recording before it is replayed.
+/// What is known about a recording before it is replayed.
 struct ReplayFit {
     std::size_t goal_count = 0;
-    std::size_t beside_count = 0; // goals beside every map: the loop puts them to an edge
-    std::vector<GoalPart> parts;  // what they were aimed at with; none where the file does not say
+    std::size_t beside_count = 0; // goals outside all maps: the loop clamps them to an edge
+    std::vector<GoalPart> parts;  // maps and contact models; none if not stored
     bool is_cut_short = false;    // GoalRecording's
-    std::optional<GroundPart> other_map{}; // the first part's that was recorded on none of the maps
+    std::optional<GroundPart> other_map{}; // first part recorded on none of the maps
 
-    /// Nothing of it can be felt.
+    /// All goals are outside the map.
     bool isElsewhere() const noexcept { return goal_count > 0 && beside_count == goal_count; }
-    /// The first part that was not touched as `ground` is now, so that the proxy goes another way;
-    /// null where all was. Points into `parts`.
+    /// The first part whose contact settings differ from `ground`, so that the proxy would move
+    /// differently; null if none differ. Points into `parts`.
     const GoalPart* otherThan(const TouchedGround& ground) const noexcept;
 };
 
-/// Reads the file: not for the servo thread. What the file cannot be read for.
+/// Reads the file, so not for the servo thread. Returns the error of reading it.
 Result<ReplayFit> replayFit(const std::string& file,
                             std::span<const std::shared_ptr<const Georeference>> maps);
 

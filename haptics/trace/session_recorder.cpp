@@ -56,7 +56,7 @@ SessionRecorder::SessionRecorder(ServoLoop& loop,
     , file_(std::move(file))
     , first_serial_(first_serial)
 {
-    // A tick that ran while an earlier recording ended may have left one.
+    // A tick that ran while an earlier recording ended may have left a record.
     TickRecord left;
     while (loop_.takeRecord(left)) {
     }
@@ -86,8 +86,8 @@ Status SessionRecorder::finish()
     const std::uint64_t missing = loop_.state().counts.not_recorded - missing_before_;
     if (closed && missing > 0) {
         return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: {} of {} updates are missing, as they could not be written "
-                                 "fast enough; record again, onto another disk",
+                     fmt::format("{}: {} of {} updates are missing because the disk was too slow; "
+                                 "record again on a faster disk",
                                  path_, missing, missing + updates_)};
     }
     return closed;
@@ -109,8 +109,8 @@ void SessionRecorder::drain()
     TickRecord record;
     while (loop_.takeRecord(record)) {
         addGround(record.ground_records);
-        if (record.ground.serial < first_serial_) { // they only grow
-            continue; // an update of a model with a past that the file does not know
+        if (record.ground.serial < first_serial_) { // serial numbers only increase
+            continue; // an update of a model with a history that is not in the file
         }
         first_serial_ = 0;
         if (updates_ == 0) {
@@ -124,7 +124,8 @@ void SessionRecorder::drain()
     }
 }
 
-// Also where no update comes, as while the hand moves the map: there would be no room for more.
+// Also called without new updates, for instance while the hand moves the map: the queue would fill
+// up.
 void SessionRecorder::takeGround()
 {
     GroundRecord record;
@@ -133,8 +134,7 @@ void SessionRecorder::takeGround()
     }
 }
 
-// What the next `count` records of the ground say. That of updates which are left out counts as
-// well.
+// Collects the next `count` terrain records, including those of skipped updates.
 void SessionRecorder::addGround(std::uint32_t count)
 {
     if (ground_records_.size() < count) {

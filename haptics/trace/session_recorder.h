@@ -1,4 +1,4 @@
-// Writes what a servo loop does into a file, as long as it lasts.
+// Records a servo loop to a file while the loop runs.
 #pragma once
 
 #include "core/base/result.h"
@@ -15,35 +15,36 @@
 
 namespace marsview {
 
-/// A line a contact update. The first three columns are those of a file of goals: `trace --goals`
-/// gives the same proxies again, to the bit, and "replay:" aims at the same places. The last five
-/// tell what they were aimed at with: `map` and `part` are numbers of the program's, another map
-/// and another contact model having another one. A session's file has kGroundColumn behind them.
+/// One line per contact update. The first three columns are those of a file of goals: `trace
+/// --goals` gives the same proxies again, to the bit, and "replay:" aims at the same positions. The
+/// last five describe the map and the contact model: `map` and `part` are numbers that the program
+/// assigns, unique per map and per contact model. A session's file appends kGroundColumn.
 inline constexpr std::string_view kSessionColumns =
     "x,y,z,time_s,tick,contact,proxy_x,proxy_y,proxy_z,force_x_n,force_y_n,force_z_n,mode,reason,"
     "map,part,model,radius_m,exaggeration";
 
-/// One line with its end; times count from `begin_ns`.
+/// One line including its line break; times are relative to `begin_ns`.
 std::string sessionLine(const TickRecord& record, std::int64_t begin_ns);
 
-/// A thread of its own writes; the servo thread only hands over. Made and finished by the thread
-/// that owns the loop, before the loop ends.
+/// A separate thread writes; the servo thread only passes records to it. Created and finished by
+/// the thread that owns the loop, before the loop ends.
 class SessionRecorder {
 public:
-    /// Begins. The loop outlives the recorder. Unreadable where the file cannot be made.
+    /// Starts recording. The loop must outlive the recorder. Unreadable if the file cannot be
+    /// created.
     ///
-    /// A contact model's answer depends on all that it was asked before. So the first line has to
-    /// be the first update of a model: of a loop that runs, make the map anew, name its serial as
-    /// `first_serial`, and set() it once this has returned; what comes before its first update is
-    /// left out. 0 is for a loop that has not touched anything: all of it is recorded.
+    /// A contact model's result depends on all its earlier updates. So the first line has to be the
+    /// first update of a model: for a running loop, rebuild the map, pass its serial as
+    /// `first_serial`, and set() it after this call has returned; updates before its first one are
+    /// skipped. Pass 0 for a loop that has not touched anything: everything is recorded.
     static Result<std::unique_ptr<SessionRecorder>>
     begin(ServoLoop& loop, const std::string& path, std::uint64_t first_serial = 0);
     ~SessionRecorder();
     SessionRecorder(const SessionRecorder&) = delete;
     SessionRecorder& operator=(const SessionRecorder&) = delete;
 
-    /// Writes what there is and closes the file. Says where that failed, as on a full disk, and
-    /// where updates are missing because the disk was too slow for them.
+    /// Writes the remaining records and closes the file. Returns an error if writing failed, for
+    /// example on a full disk, or if updates are missing because the disk was too slow.
     Status finish();
     std::uint64_t updates() const noexcept { return updates_; } // after finish()
 
@@ -57,22 +58,22 @@ private:
     ServoLoop& loop_;
     std::string path_;
     TraceFile file_;
-    std::uint64_t first_serial_; // 0 from when it has come
+    std::uint64_t first_serial_; // 0 once it has arrived
     bool is_finished_ = false;
     std::uint64_t updates_ = 0;
-    std::uint64_t missing_before_ = 0; // in recordings before this
+    std::uint64_t missing_before_ = 0; // before this recording
     std::int64_t begin_ns_ = 0;
-    std::deque<GroundRecord> ground_records_; // taken, of updates that are still to come
-    std::string ground_;                      // of the next line
+    std::deque<GroundRecord> ground_records_; // taken, for updates that have not arrived yet
+    std::string ground_;                      // for the next line
     std::jthread thread_;
 };
 
-/// Ticks of a flight recorder, in the same columns but with the hand's place and the time that each
-/// tick took. Goals are nan where the contact model was not asked.
+/// Saves a flight recorder's ticks in the same columns, plus the stylus position and the duration
+/// of each tick. Goals are nan for ticks without a contact update.
 Status saveFlight(const std::vector<TickRecord>& records, const std::string& path);
-/// Any thread but the servo's; the loop may run on, and is not disturbed. A window keeps
-/// `flight.records()`, which takes a millisecond or two, and writes on another thread: then the
-/// loop may be gone as well.
+/// Any thread except the servo thread; the loop may run and is not disturbed. A window copies
+/// `flight.records()`, which takes a millisecond or two, and saves the copy on another thread, so
+/// that the loop may end in the meantime.
 Status saveFlight(const FlightRecorder& flight, const std::string& path);
 
 } // namespace marsview

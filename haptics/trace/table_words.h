@@ -1,4 +1,4 @@
-// The words of a line of a table, between its commas.
+// Splits a line of a table at its commas.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace marsview {
 /// Views into the line.
 using TableWords = std::vector<std::string_view>;
 
-/// Without blanks and carriage returns around it.
+/// Without leading and trailing blanks and carriage returns.
 inline std::string_view trimmed(std::string_view text)
 {
     constexpr std::string_view kBlanks = " \t\r";
@@ -20,7 +20,7 @@ inline std::string_view trimmed(std::string_view text)
                : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-/// All of them, trimmed, in `words`, which is emptied first.
+/// Splits the line into trimmed words; replaces the content of `words`.
 inline void splitWords(std::string_view line, TableWords& words)
 {
     words.clear();
@@ -34,7 +34,7 @@ inline void splitWords(std::string_view line, TableWords& words)
     }
 }
 
-/// As a message shows it: not too long.
+/// For messages: quoted and truncated.
 inline std::string quotedWord(std::string_view text)
 {
     constexpr std::size_t kQuotedMax = 60;

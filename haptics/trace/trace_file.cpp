@@ -16,14 +16,14 @@ Error refusal(const std::string& path, int system_error)
 {
     const char* what_to_do =
         system_error == ENOSPC || system_error == EDQUOT
-            ? "make room on the disk, or choose another file"
-            : "choose another file, in a folder that is there and may be written to";
+            ? "free disk space, or choose another file"
+            : "choose another file in an existing, writable folder";
     return {ErrorCode::Unreadable,
             fmt::format("{}: cannot be written ({}); {}", path,
                         std::generic_category().message(system_error), what_to_do)};
 }
 
-// Devices and pipes are nobody's.
+// Devices and pipes are not locked.
 bool isPlainFile(int descriptor)
 {
     struct stat about {};
@@ -44,14 +44,13 @@ TraceFile::TraceFile(std::string path, File file)
 
 Result<TraceFile> TraceFile::begin(const std::string& path, std::string_view first_line)
 {
-    // Emptied only once it is known to be nobody else's.
-    // A pipe that nobody reads is not waited for.
+    // Truncated only after it is locked. O_NONBLOCK: do not wait for a reader of a pipe.
     const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
     if (descriptor < 0) {
         return errno == ENXIO
                    ? Error{ErrorCode::Unreadable,
                            fmt::format(
-                               "{}: is a pipe that nobody reads; begin to read it first, or "
+                               "{}: is a pipe without a reader; start the reader first, or "
                                "choose another file",
                                path)}
                    : refusal(path, errno);
@@ -62,7 +61,7 @@ Result<TraceFile> TraceFile::begin(const std::string& path, std::string_view fir
             ::close(descriptor);
             return Error{
                 ErrorCode::Unreadable,
-                fmt::format("{}: is being recorded into already; choose another file", path)};
+                fmt::format("{}: is already being recorded to; choose another file", path)};
         }
         if (ftruncate(descriptor, 0) != 0) {
             const int system_error = errno;

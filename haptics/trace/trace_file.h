@@ -1,4 +1,4 @@
-// A file that a recording is written into.
+// An output file for a recording.
 #pragma once
 
 #include "core/base/result.h"
@@ -10,19 +10,19 @@
 
 namespace marsview {
 
-/// What is written after the first failure is lost; status() tells of that one. For one thread at a
-/// time.
+/// After the first failure all output is discarded; status() returns that first error. One thread
+/// at a time.
 class TraceFile {
 public:
-    /// Makes or empties the file, writes the first line, and keeps other recordings away from it as
-    /// long as it is open. Unreadable, with the cause, where that fails: as a folder that is not
-    /// there, a full disk, or a file that is being recorded into already.
+    /// Creates or truncates the file, writes the first line, and prevents other recordings into it
+    /// while it is open. On failure returns Unreadable with the cause: a missing folder, a full
+    /// disk, or a file that is already being recorded to.
     static Result<TraceFile> begin(const std::string& path, std::string_view first_line);
 
     void write(std::string_view text);
-    /// Hands what was written over to the system, so that a full disk shows.
+    /// Passes the buffered output to the system, which detects a full disk.
     void flush();
-    /// Also closes; anything that is written later is lost without a word.
+    /// Also closes the file; later output is discarded silently.
     Status close();
     Status status() const;
 
@@ -37,7 +37,7 @@ private:
 
     std::string path_;
     File file_;
-    int error_ = 0; // the first, as the system numbers them
+    int error_ = 0; // errno of the first error
 };
 
 } // namespace marsview

@@ -258,10 +258,10 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     const ProgramOutput millimetres = run("says_millimetres");
     EXPECT_THAT(millimetres.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
     const ProgramOutput lost = run("answers_nonsense");
-    EXPECT_THAT(lost.err, HasSubstr("its plugin answers 4711, which means nothing; "));
+    EXPECT_THAT(lost.err, HasSubstr("its plugin returned 4711, an unknown status; "));
     const ProgramOutput unready = run("says_unready");
-    EXPECT_THAT(unready.err, HasSubstr("did not become ready within 0.6 s: its plugin says that "
-                                       "it is not ready, but not why; "));
+    EXPECT_THAT(unready.err, HasSubstr("did not become ready within 0.6 s: its plugin reports that "
+                                       "it is not ready, without a reason; "));
     EXPECT_THAT(unready.out, HasSubstr("force off: device unready 0.600 s; last reason: device "
                                        "unready\n"));
     const ProgramOutput stopped = run("fails_starting");
@@ -313,7 +313,7 @@ TEST(LoopCommand, BlamesNoPluginWhereItIsEndedWhileItOpensADevice)
     RunningLoop loop(folder, "hangs_opening");
     ASSERT_TRUE(loop.waitUntil([&] { return loop.markers(".open-") == 1; }));
     EXPECT_EQ(loop.end(SIGTERM), 1);
-    EXPECT_THAT(readFile(loop.printed()), HasSubstr("did not come back from being opened"));
+    EXPECT_THAT(readFile(loop.printed()), HasSubstr("did not return from being opened"));
     EXPECT_EQ(loop.markers(), 0U);
 }
 

@@ -84,8 +84,8 @@ TEST(DeviceRegistry, NamesTheKnownSchemesWhereOneIsUnknownOrMissing)
               "three:x: no driver has the scheme \"three\"; the known schemes are one, two");
     EXPECT_EQ(registry.open("three:x").error().code, ErrorCode::Unsupported);
     EXPECT_EQ(registry.open("one").error().message,
-              "one: is not the URI of a device; one begins with a scheme and a colon, and the "
-              "known schemes are one, two");
+              "one: is not a device URI; a URI begins with a scheme and a colon; "
+              "the known schemes are one, two");
     EXPECT_EQ(registry.open("").error().code, ErrorCode::Invalid);
     EXPECT_EQ(registry.open(":x").error().code, ErrorCode::Unsupported);
 }

@@ -221,16 +221,16 @@ TEST(PluginDriver, KeepsWorkingWithPluginsWhoseStructsHaveGrown)
 TEST(PluginDriver, SaysWhyItRefusesALibrary)
 {
     EXPECT_THAT(foundOf("has_other_version").reason,
-                EndsWith("x.so: is made for version 2 of the plugin interface, and this program "
-                         "has version 1; get a build of it for this one"));
+                EndsWith("x.so: is built for version 2 of the plugin interface, but this program "
+                         "has version 1; get a build for this version"));
     EXPECT_THAT(foundOf("lacks_symbol").reason,
                 EndsWith("x.so: is not a device plugin: it has no function marsviewHapticPlugin"));
-    EXPECT_THAT(foundOf("lacks_table").reason, EndsWith("x.so: gave no table of functions"));
+    EXPECT_THAT(foundOf("lacks_table").reason, EndsWith("x.so: returned no function table"));
     EXPECT_THAT(foundOf("lacks_read").reason, HasSubstr("x.so: lacks the function \"read\";"));
     EXPECT_THAT(foundOf("has_small_table").reason,
-                HasSubstr("x.so: says that its MarsviewPlugin takes 40 bytes, where 96 to"));
+                HasSubstr("x.so: states that its MarsviewPlugin has 40 bytes, but 96 to"));
     EXPECT_THAT(foundOf("has_small_samples").reason,
-                HasSubstr("x.so: says that its MarsviewSample takes 24 bytes, where 48 to"));
+                HasSubstr("x.so: states that its MarsviewSample has 24 bytes, but 48 to"));
     EXPECT_FALSE(foundOf("has_other_version").isUsable());
 }
 
@@ -254,7 +254,7 @@ TEST(PluginDriver, SaysWhyItRefusesADevice)
 {
     EXPECT_THAT(refusalOf("fails_opening"),
                 EndsWith("x.so: could not be opened: the cover is open"));
-    EXPECT_THAT(refusalOf("is_nan"), HasSubstr("x.so: states a largest stiffness of "));
+    EXPECT_THAT(refusalOf("is_nan"), HasSubstr("x.so: states a maximum stiffness of "));
     EXPECT_THAT(refusalOf("is_negative"), HasSubstr("x.so: states a peak force of -3 N;"));
     EXPECT_THAT(refusalOf("is_empty"),
                 HasSubstr("x.so: states a workspace from -0.06 to -0.06 m along y;"));
@@ -275,7 +275,7 @@ TEST(PluginDriver, DropsADeviceWhoseSamplesAreNotFinite)
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
     EXPECT_EQ((*device)->write({1.0, 0.0, 0.0}), DeviceStatus::Lost);
     EXPECT_EQ(sample.position, last.position) << "withheld";
-    EXPECT_EQ((*device)->trouble(), "its samples hold numbers that are not finite");
+    EXPECT_EQ((*device)->trouble(), "its samples contain numbers that are not finite");
 }
 
 TEST(PluginDriver, DropsADeviceThatSpeaksInMillimetres)
@@ -299,7 +299,7 @@ TEST(PluginDriver, TakesUnknownAnswersForALostDevice)
     ASSERT_TRUE(device) << device.error().message;
     DeviceSample sample;
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
-    EXPECT_THAT((*device)->trouble(), HasSubstr("which means nothing"));
+    EXPECT_THAT((*device)->trouble(), HasSubstr("an unknown status"));
 }
 
 TEST(PluginDriver, LetsADeviceThatOwnsTheClockDriveTheTick)
@@ -344,8 +344,8 @@ TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItOpensADevice)
     const auto device = driver.open(file.string());
     ASSERT_FALSE(device);
     const std::string expected = "plugin:" + file.string() +
-                                 ": did not come back from being opened within 1.0 s; it is left "
-                                 "out until the program is started again";
+                                 ": did not return from being opened within 1.0 s; it is "
+                                 "skipped until the program restarts";
     EXPECT_EQ(device.error().message, expected);
     EXPECT_EQ(only(driver).reason, expected);
     EXPECT_EQ(driver.open(file.string()).error().message, expected) << "without another attempt";
@@ -356,7 +356,7 @@ TEST(PluginDriver, LeavesAPluginAloneThatHangsWhileItListsOrCloses)
     const PluginFolder folder(milliseconds(1000));
     folder.add("hangs_listing");
     PluginDriver driver(folder.options());
-    EXPECT_THAT(only(driver).reason, HasSubstr("did not come back from listing its devices"));
+    EXPECT_THAT(only(driver).reason, HasSubstr("did not return from listing its devices"));
 
     const PluginFolder other;
     PluginDriver other_driver(other.options());
@@ -402,8 +402,8 @@ TEST(PluginDriverDeathTest, LeavesOutWhatBroughtTheProgramDownUntilToldToTryAgai
         ASSERT_FALSE(refused);
         EXPECT_THAT(refused.error().message,
                     AllOf(StartsWith(file.string() + ": the program ended while this plugin was " +
-                                     crash.doing + " the last time"),
-                          EndsWith("tried again by marsview-cli devices --retry")));
+                                     crash.doing + " last time"),
+                          EndsWith("try it again with marsview-cli devices --retry")));
         EXPECT_EQ(only(driver).reason, refused.error().message);
         EXPECT_EQ(folder.markers(), 1U) << "not tried a second time in between";
 
@@ -538,14 +538,14 @@ TEST(PluginDriver, SaysWhatWentWrongTheLastTimeOfADeviceThatCanBeUsed)
     };
     for (const Trouble& trouble :
          {Trouble{"fails_opening", "could not be opened: the cover is open"},
-          Trouble{"hangs_opening", "did not come back from being opened"},
+          Trouble{"hangs_opening", "did not return from being opened"},
           Trouble{"is_empty",
                   "states a workspace from -0.06 to -0.06 m along y; report it "
                   "to the plugin's makers"},
-          Trouble{"says_nan", "its samples hold numbers that are not finite"},
+          Trouble{"says_nan", "its samples contain numbers that are not finite"},
           Trouble{"says_unready",
-                  "its plugin says that it is not ready, but not why; look whether it wants to be "
-                  "calibrated, and whether its emergency stop is pressed"}}) {
+                  "its plugin reports that it is not ready, without a reason; check whether it "
+                  "needs calibration and whether its emergency stop is pressed"}}) {
         SCOPED_TRACE(trouble.behaviour);
         const PluginFolder folder(milliseconds(1000));
         const fs::path file = folder.add(trouble.behaviour);
@@ -562,7 +562,7 @@ TEST(PluginDriver, SaysWhatWentWrongTheLastTimeOfADeviceThatCanBeUsed)
 
         PluginDriver after(folder.options()); // another program
         const FoundDevice found = only(after);
-        EXPECT_EQ(found.reason, std::string("the last time it was used: ") + trouble.said);
+        EXPECT_EQ(found.reason, std::string("last time it was used: ") + trouble.said);
         EXPECT_TRUE(found.isUsable());
     }
 }
@@ -605,7 +605,7 @@ TEST(PluginDriver, HasAReasonWhereThePluginGivesNone)
     EXPECT_EQ((*device)->trouble(), "");
     DeviceSample sample;
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
-    EXPECT_THAT((*device)->trouble(), StartsWith("its plugin says that it is not ready"));
+    EXPECT_THAT((*device)->trouble(), StartsWith("its plugin reports that it is not ready"));
 }
 
 TEST(PluginDriverDeathTest, ComesToAnEndAlthoughAPluginHangsAndTriesItAgainAtTheNextStart)
@@ -614,9 +614,9 @@ TEST(PluginDriverDeathTest, ComesToAnEndAlthoughAPluginHangsAndTriesItAgainAtThe
         const char* behaviour;
         const char* doing;
     };
-    for (const Hang& hang : {Hang{"hangs_loading", "did not come back from being loaded"},
-                             Hang{"hangs_listing", "did not come back from listing its devices"},
-                             Hang{"hangs_opening", "did not come back from being opened"},
+    for (const Hang& hang : {Hang{"hangs_loading", "did not return from being loaded"},
+                             Hang{"hangs_listing", "did not return from listing its devices"},
+                             Hang{"hangs_opening", "did not return from being opened"},
                              Hang{"hangs_reading", "read"}}) {
         SCOPED_TRACE(hang.behaviour);
         const PluginFolder folder(milliseconds(1000));

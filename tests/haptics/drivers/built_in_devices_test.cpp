@@ -197,13 +197,13 @@ TEST(RecordDevice, SaysWhereItCannotWrite)
 {
     const TempFolder folder;
     EXPECT_EQ(refusalOf("record:/dev/full,sim:"),
-              "record:/dev/full: cannot be written (No space left on device); make room on the "
-              "disk, or choose another file");
+              "record:/dev/full: cannot be written (No space left on device); free disk space, "
+              "or choose another file");
     EXPECT_NE(refusalOf("record:" + folder.path().string() + ",sim:").find("Is a directory"),
               std::string::npos);
     const std::string path = folder.file("a.csv");
     EXPECT_EQ(refusalOf("record:" + path + ",record:" + path + ",sim:"),
-              "record:" + path + ": is being recorded into already; choose another file");
+              "record:" + path + ": is already being recorded to; choose another file");
     {
         const auto first = opened("record:" + path + ",null:");
         EXPECT_NE(refusalOf("record:" + path + ",sim:"), "");
@@ -233,9 +233,9 @@ TEST(RecordDevice, TellsThatItsRecordingHasEndedAndFeelsOn)
     const std::string trouble = device->trouble();
     EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     std::signal(SIGXFSZ, old_handler);
-    EXPECT_EQ(trouble, "its recording has ended: " + path +
-                           ": cannot be written (File too large); choose another file, in a folder "
-                           "that is there and may be written to");
+    EXPECT_EQ(trouble, "recording stopped: " + path +
+                           ": cannot be written (File too large); choose another file in an "
+                           "existing, writable folder");
     EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
 }
 
@@ -250,7 +250,7 @@ TEST(RecordDevice, PassesOnWhatTroublesTheDevice)
     unsetenv("XDG_RUNTIME_DIR");
     DeviceSample sample;
     EXPECT_EQ(device->read(sample), DeviceStatus::Unready);
-    EXPECT_EQ(device->trouble().rfind("its plugin says that it is not ready", 0), 0U);
+    EXPECT_EQ(device->trouble().rfind("its plugin reports that it is not ready", 0), 0U);
 }
 
 TEST(BuiltInDevices, AreFoundWithoutHardware)

@@ -106,7 +106,7 @@ TEST(MouseDriver, OpensOneDeviceForAWindow)
     ASSERT_EQ(driver.find().size(), 1U);
     EXPECT_TRUE(driver.find()[0].isUsable());
     auto device = opened(link);
-    EXPECT_EQ(driver.open("").error().message, "mouse:: is in use already; close it there first");
+    EXPECT_EQ(driver.open("").error().message, "mouse:: is already in use; close it there first");
     device.reset();
     EXPECT_TRUE(driver.open(""));
     EXPECT_EQ(driver.open("x").error().code, ErrorCode::Invalid);
@@ -116,7 +116,7 @@ TEST(MouseDriver, SaysThatThereIsNoWindow)
 {
     MouseDriver driver(nullptr);
     EXPECT_EQ(driver.find()[0].reason,
-              "the mouse is moved in the program's window, and there is none");
+              "the mouse device needs the program's window, which is not open");
     EXPECT_EQ(driver.open("").error().code, ErrorCode::NotFound);
 }
 

@@ -370,7 +370,7 @@ TEST_F(OpenHapticsDriverTest, SaysWhyTheLibraryRefusesADevice)
     };
     for (const Case& c : {Case{0x0302, "openhaptics:Left Device: does not answer"},
                           Case{0x0301, "is in use by another program"},
-                          Case{0x0303, "run the vendor's setup program"}, Case{0x0600, "licence"},
+                          Case{0x0303, "run the vendor's setup program"}, Case{0x0600, "license"},
                           Case{0x0300, "error 0x0300 of OpenHaptics"}}) {
         hd().init_error = c.error;
         EXPECT_THAT(refusal(), HasSubstr(c.part));

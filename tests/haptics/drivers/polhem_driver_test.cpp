@@ -141,7 +141,7 @@ TEST_F(PolhemDriverTest, ListsArmsAndWhyOneMayNotBeOpened)
     EXPECT_EQ(found[0].name, "WoodenHaptics or Polhem (Fake)");
     EXPECT_TRUE(found[0].isUsable());
     EXPECT_EQ(found[1].reason,
-              "you may not open /dev/hidraw8; install "
+              "no permission to open /dev/hidraw8; install "
               "70-marsview-haptics.rules into /etc/udev/rules.d and plug the "
               "device in again");
     EXPECT_EQ(refusal("/dev/hidraw8"), "polhem:/dev/hidraw8: " + found[1].reason);
@@ -183,8 +183,10 @@ TEST_F(PolhemDriverTest, FindsAnArmAgainUnderAnotherPath)
         opened_.reset();
     }
     EXPECT_THAT(refusal("serial=4713"),
-                HasSubstr("polhem:serial=4713: no WoodenHaptics or Polhem arm is connected there"));
-    EXPECT_THAT(refusal("usb=16c0:0486"), HasSubstr("no WoodenHaptics")) << "these have numbers";
+                HasSubstr("polhem:serial=4713: no matching WoodenHaptics or Polhem device is "
+                          "connected"));
+    EXPECT_THAT(refusal("usb=16c0:0486"), HasSubstr("no matching WoodenHaptics"))
+        << "these have numbers";
 }
 
 TEST_F(PolhemDriverTest, TellsArmsApartByTheirPathsWhereNothingElseDoes)
@@ -220,9 +222,9 @@ TEST_F(PolhemDriverTest, OpensNoneOfTheArmsThatShareAName)
     another.path = "/dev/hidraw10";
     hid_.plugIn(another);
     EXPECT_THAT(refusal("serial=4711,home"),
-                testing::AnyOf("polhem:serial=4711,home: 2 arms answer to that name; choose one by "
+                testing::AnyOf("polhem:serial=4711,home: 2 devices match that name; choose one by "
                                "its path: polhem:/dev/hidraw7 or polhem:/dev/hidraw9",
-                               "polhem:serial=4711,home: 2 arms answer to that name; choose one by "
+                               "polhem:serial=4711,home: 2 devices match that name; choose one by "
                                "its path: polhem:/dev/hidraw9 or polhem:/dev/hidraw7"));
     EXPECT_THAT(refusal("usb=1234:0006"),
                 AllOf(HasSubstr("polhem:/dev/hidraw8"), HasSubstr("polhem:/dev/hidraw10")));
@@ -396,7 +398,7 @@ TEST_F(PolhemDriverTest, DoesNotBelieveThatItIsAtRestWhereItsEncodersSayOtherwis
     const std::size_t before = hid_.writes();
     ASSERT_TRUE(hid_.waitUntil([&] { return hid_.writes() > before + 20; }));
     EXPECT_EQ(device.read(sample_), DeviceStatus::Unready);
-    EXPECT_THAT(device.trouble(), HasSubstr("do not count as they do in its rest position"));
+    EXPECT_THAT(device.trouble(), HasSubstr("do not read the counts of its home position"));
     for (const FakeHid::Report& report : hid_.written()) {
         EXPECT_EQ(int16In(report, 3), 0) << "no command";
     }
@@ -481,17 +483,18 @@ TEST(PolhemUri, IsRememberedWithoutBeingAtHome)
 
 TEST_F(PolhemDriverTest, SaysWhatItCannotOpen)
 {
-    EXPECT_THAT(refusal(), HasSubstr("polhem:: no WoodenHaptics or Polhem arm is connected"));
+    EXPECT_THAT(refusal(),
+                HasSubstr("polhem:: no matching WoodenHaptics or Polhem device is connected"));
     hid_.plugIn(kTeensy);
-    EXPECT_THAT(refusal("/dev/hidraw9"), HasSubstr("no WoodenHaptics"));
+    EXPECT_THAT(refusal("/dev/hidraw9"), HasSubstr("no matching WoodenHaptics"));
     EXPECT_EQ(refusal("/dev/hidraw7,speed=3"),
-              "polhem:/dev/hidraw7,speed=3: \"speed=3\" is not understood; a path, "
-              "\"serial=NUMBER\", \"home\" and \"parameters=FILE\" are");
+              "polhem:/dev/hidraw7,speed=3: unknown part \"speed=3\"; use a path, "
+              "\"serial=NUMBER\", \"home\" or \"parameters=FILE\"");
     EXPECT_THAT(refusal("/dev/hidraw7,parameters=/nowhere.json"),
-                HasSubstr("/nowhere.json: the arm's parameters cannot be read"));
+                HasSubstr("/nowhere.json: the device's parameters cannot be read"));
     hid_.refuseToOpen();
     EXPECT_EQ(refusal(),
-              "polhem:: /dev/hidraw7 is there, but does not open as a HID device; plug "
+              "polhem:: /dev/hidraw7 is listed, but cannot be opened as a HID device; plug "
               "it in again");
 }
 

@@ -181,10 +181,10 @@ TEST(PolhemParameters, SayWhichNumberIsWrong)
               "\"body_length_m\" is not an array of 3 "
               "numbers");
     EXPECT_EQ(complaint("body_length_m", {0.1, "x", 0.2}),
-              "\"body_length_m\" holds \"x\", which is no number");
+              "\"body_length_m\" holds \"x\", which is not a number");
     EXPECT_EQ(complaint("angle_sign", {1, 0.5, 1}),
-              "\"angle_sign\" holds something else than 1 "
-              "and -1");
+              "\"angle_sign\" holds values other than 1 "
+              "and −1");
     EXPECT_THAT(complaint("home_encoders", {0, 0, 40000, 0, 0, 0}), HasSubstr("40000"));
     EXPECT_THAT(complaint("force_n_continuous", 6.0), HasSubstr("outside [0, 5]"));
 

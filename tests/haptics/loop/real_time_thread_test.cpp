@@ -44,7 +44,7 @@ TEST(RealTimeThread, CallsAtWholePeriodsUntilItIsToldToStop)
     // Periods missed during the last turn are not followed by a turn that would count them as
     // skipped.
     EXPECT_LE(periods - 199U, statistics.skipped);
-    EXPECT_EQ(thread.grants().locking_refusal, "not asked for");
+    EXPECT_EQ(thread.grants().locking_refusal, "not requested");
 }
 
 TEST(RealTimeThread, CountsATickThatTakesTooLong)

@@ -20,7 +20,7 @@ TEST(RealtimeKit, SaysWhyItCannotBeAsked)
     } else {
         unsetenv("DBUS_SYSTEM_BUS_ADDRESS"); // NOLINT(concurrency-mt-unsafe)
     }
-    EXPECT_EQ(reason.rfind("RealtimeKit cannot be asked: ", 0), 0U) << reason;
+    EXPECT_EQ(reason.rfind("RealtimeKit cannot be used: ", 0), 0U) << reason;
     EXPECT_GT(reason.size(), 32U);
 }
 

@@ -354,7 +354,7 @@ TEST(ServoLoopFaults, AClockThatStallsForGoodEndsTheLoop)
     loop->stop();
     EXPECT_EQ(c.bench->onMotors(), Vec3{});
     ASSERT_FALSE(loop->status());
-    EXPECT_THAT(loop->status().error().message, testing::StartsWith("Bench: it does not ask"));
+    EXPECT_THAT(loop->status().error().message, testing::StartsWith("Bench: it has stopped"));
     EXPECT_NE(loop->trouble(), "");
     loop.reset();
     EXPECT_TRUE(c.bench->is_closed);
@@ -412,7 +412,7 @@ void letItHang(const std::function<void(Bench&, const std::atomic<bool>&)>& arra
     EXPECT_FALSE(loop->isRunning());
     EXPECT_TRUE(loop->hasEnded());
     ASSERT_FALSE(loop->status());
-    EXPECT_THAT(loop->status().error().message, testing::HasSubstr("does not answer any more"));
+    EXPECT_THAT(loop->status().error().message, testing::HasSubstr("does not respond"));
     EXPECT_EQ(loop->device().name, "Bench");
     EXPECT_FALSE(loop->flight().records().empty());
     loop->set(c.settings); // the loop must not call the device again

@@ -172,7 +172,7 @@ TEST(SessionRecorder, SaysThatUpdatesAreMissing)
     ASSERT_FALSE(finished);
     EXPECT_THAT(finished.error().message,
                 testing::ContainsRegex(
-                    path + ": [0-9]+ of [0-9]+ updates are missing, as they could not be written"));
+                    path + ": [0-9]+ of [0-9]+ updates are missing because the disk was too slow"));
     drain.request_stop();
     drain.join();
     close(reader);
@@ -342,7 +342,7 @@ TEST(SessionRecorder, SaysWhereItCannotWrite)
     ASSERT_FALSE(recorder);
     EXPECT_EQ(recorder.error().message,
               "/nowhere/session.csv: cannot be written (No such file or directory); choose another "
-              "file, in a folder that is there and may be written to");
+              "file in an existing, writable folder");
 }
 
 } // namespace

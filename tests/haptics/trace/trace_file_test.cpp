@@ -34,7 +34,7 @@ TEST(TraceFile, DoesNotWaitForAPipeThatNobodyReads)
     const std::string path = folder.file("pipe");
     ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
     EXPECT_EQ(refusalOf(path), path +
-                                   ": is a pipe that nobody reads; begin to read it first, or "
+                                   ": is a pipe without a reader; start the reader first, or "
                                    "choose another file");
 }
 
@@ -58,12 +58,11 @@ TEST(TraceFile, NamesTheCauseAndWhatToDo)
     const TempFolder folder;
     EXPECT_EQ(refusalOf("/dev/full"),
               "/dev/full: cannot be written (No space left on device); "
-              "make room on the disk, or choose another file");
+              "free disk space, or choose another file");
     EXPECT_EQ(refusalOf(folder.file("no/a.csv")),
               folder.file("no/a.csv") +
                   ": cannot be written (No such file or directory); choose "
-                  "another file, in a folder that is there and may be "
-                  "written to");
+                  "another file in an existing, writable folder");
     EXPECT_THAT(refusalOf(folder.path().string()), HasSubstr("(Is a directory)"));
 }
 
@@ -76,7 +75,7 @@ TEST(TraceFile, BelongsToOneRecordingAndIsNotEmptiedByAnother)
         ASSERT_TRUE(file);
         file->write("1,2,3\n");
         file->flush();
-        EXPECT_THAT(refusalOf(path), EndsWith(": is being recorded into already; choose another "
+        EXPECT_THAT(refusalOf(path), EndsWith(": is already being recorded to; choose another "
                                               "file"));
     }
     EXPECT_EQ(readFile(path), "x,y,z\n1,2,3\n");
