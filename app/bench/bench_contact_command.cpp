@@ -37,10 +37,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// An int16 fractal has steps of this share of a cell.
+// The step of an int16 fractal, as a fraction of a cell.
 constexpr double kFractalStep = 1.0 / 64.0;
 
-// Mean errors below this, in cells, are drawn as none.
+// Mean errors below this, in cells, are plotted in the floor band.
 constexpr double kPlotFloor = 1e-6;
 
 struct Options {
@@ -55,7 +55,7 @@ struct Options {
     bool is_json = false;
 };
 
-// What the hand wanders over.
+// The terrain under the hand.
 struct Ground {
     std::string name;
     std::shared_ptr<const Map> map; // null: the fractal
@@ -71,7 +71,7 @@ struct Ground {
     }
 };
 
-// What casts skip by: a bound for each block and for each node above, one more where voids are.
+// The size of the bounds for ray casts: one per block and per node above, one more with voids.
 std::size_t hierarchyBytes(const MinMaxPyramid& bounds, bool has_voids)
 {
     std::size_t nodes = 0;
@@ -220,7 +220,7 @@ void printJson(const Options& options, const Ground& ground, const ContactBenchR
     marsview::printJson(withSchema(json));
 }
 
-// 0.0123 in few characters: lengths of errors span fifteen decades.
+// A short form of 0.0123: errors span fifteen decades.
 std::string asShort(double value)
 {
     if (value == 0.0) {
@@ -274,7 +274,7 @@ rowsOf(const ContactBenchResult& result, double scale, bool is_free)
             rows.push_back(&row);
         }
     }
-    // Speeds of a model together: that is how a table is read.
+    // Groups the speeds of a model, for readability.
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto* a, const auto* b) { return a->model < b->model; });
     return rows;
@@ -306,8 +306,8 @@ void printForPeople(const Options& options, const Ground& ground, const ContactB
                     return a->update_count < b->update_count;
                 });
             printLine(fmt::format(
-                "\nheights × {:g}, goals {} the surface; speeds in cells an update; {} updates a "
-                "row",
+                "\nheights × {:g}, goals {} the surface; speeds in cells per update; {} updates "
+                "per row",
                 scale, is_free ? "above" : "2 to 5 cells below",
                 (*least)->update_count == (*most)->update_count
                     ? fmt::format("{}", (*least)->update_count)
@@ -328,7 +328,7 @@ Plot plotOf(const Options& options, const Ground& ground, const ContactBenchResu
     const auto name =
         ground.map ? std::filesystem::path(ground.name).filename().string() : ground.name;
     plot.note = fmt::format("{}; {} triangles; {}", name, ground.triangleCount(), processorName());
-    plot.x_label = "mean time of an update, µs; speeds in cells an update at the ends of each line";
+    plot.x_label = "mean time per update, µs; speeds in cells per update at the ends of each line";
     plot.y_label = "mean distance from the ideal proxy, cells";
     plot.y_floor = kPlotFloor;
     plot.floor_label = "< 10⁻⁶";
@@ -452,14 +452,14 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
     for (const ContactModelKind kind : kContactModelKinds) {
         names.emplace_back(contactModelName(kind));
     }
-    command->add_option("--models", options->models, "with commas between; default all")
+    command->add_option("--models", options->models, "separated by commas; default all")
         ->delimiter(',')
         ->check(oneOf(names));
-    command->add_option("--speeds", options->bench.speeds, "of the goal, cells an update")
+    command->add_option("--speeds", options->bench.speeds, "of the goal, cells per update")
         ->delimiter(',')
         ->capture_default_str()
         ->check(positiveNumber());
-    command->add_option("--scales", options->bench.scales, "of heights")
+    command->add_option("--scales", options->bench.scales, "vertical scale factors")
         ->delimiter(',')
         ->capture_default_str()
         ->check(positiveNumber());
@@ -491,7 +491,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->check(positiveNumber());
     command->add_option("--plot", options->plot, "SVG file: run time against error")
         ->check(fileNameEndingIn({".svg"}));
-    command->add_flag("--json", options->is_json, "for machines");
+    command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runBenchContact(*options); }; });
 }
 

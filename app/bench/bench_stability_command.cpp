@@ -33,7 +33,7 @@ struct Options {
     bool is_json = false;
 };
 
-// A way of putting forces together, for which a table is made.
+// A way of combining forces; each gets a table.
 struct Variant {
     const char* name;
     ForceMixing mixing;
@@ -59,7 +59,7 @@ std::string cell(double n_per_m, double most)
     return n_per_m * 1.1 > most ? fmt::format("≥ {:.0f}", n_per_m) : fmt::format("{:.0f}", n_per_m);
 }
 
-// A model's worst over all scenes that there are of a variant.
+// A model's minimum over all measured scenes of a variant.
 std::vector<Row> worstOf(const std::vector<Row>& rows, const Variant& variant)
 {
     std::vector<Row> worst;
@@ -121,7 +121,7 @@ Status runBench(const Options& options)
     for (const Variant& variant : kVariants) {
         for (const ContactModelKind model : kContactModelKinds) {
             for (const StabilityScene scene : kStabilityScenes) {
-                // The mixing makes a difference at walls alone.
+                // The mixing only has an effect at walls.
                 if (variant.mixing == ForceMixing::Fade || scene == StabilityScene::WallCorner) {
                     rows.push_back({.variant = &variant, .model = model, .scene = scene});
                 }
@@ -172,8 +172,8 @@ void addBenchStabilityCommand(CLI::App& bench, CommandAction& run)
 {
     const auto options = std::make_shared<Options>();
     CLI::App* command = bench.add_subcommand(
-        "stability", "Press a simulated hand on what is hard to render, ever stiffer");
-    command->add_option("--most", options->most_n_per_m, "stiffness in N/m at which to stop")
+        "stability", "Press a simulated hand on difficult surfaces at increasing stiffness");
+    command->add_option("--most", options->most_n_per_m, "largest stiffness to test, N/m")
         ->capture_default_str()
         ->check(positiveNumber());
     command->add_option("--jitter-ms", options->jitter_ms, "of the loop's period")

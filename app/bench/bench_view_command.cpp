@@ -1,4 +1,4 @@
-// marsview-cli bench view: how fast and how exact the pictures of the window are.
+// marsview-cli bench view: speed and accuracy of the window's pictures.
 
 #include "app/bench/bench_commands.h"
 #include "app/bench/view_bench.h"
@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Columns of the course of the error threshold in the table for people.
+// Number of columns for the error threshold over time in the text table.
 constexpr std::size_t kCourseColumns = 12;
 
 struct Options {
@@ -40,7 +40,7 @@ double megabytes(std::size_t bytes)
     return static_cast<double>(bytes) / 1e6;
 }
 
-// What is said of the frames of a flight.
+// Summary of the frames of a flight.
 struct FrameSummary {
     double median_ms = 0.0;
     double p95_ms = 0.0;
@@ -79,7 +79,7 @@ FrameSummary summaryOf(const std::vector<FlownFrame>& frames)
     return summary;
 }
 
-// Of all frames of all flights.
+// Over all frames of all flights.
 double medianMilliseconds(const ViewBenchResult& result)
 {
     std::vector<double> wall_ms;
@@ -229,7 +229,7 @@ void printFlights(const ViewBenchResult& result)
     }
 }
 
-// The error threshold at moments of each flight.
+// The error threshold over time for each flight.
 void printCourses(const ViewBenchResult& result)
 {
     printLine("\nerror threshold in px, from start to end of each flight");
@@ -268,7 +268,7 @@ void printPoses(const ViewBenchResult& result, double error_px)
     }
 }
 
-// Of all poses of an exaggeration: medians and the largest.
+// Over all poses at an exaggeration: medians and maxima.
 void printColors(const ViewBenchResult& result)
 {
     if (result.colors.empty()) {
@@ -301,7 +301,7 @@ void printForPeople(const Options& options, const std::vector<ViewBenchResult>& 
     const ViewBenchOptions& bench = options.bench;
     printLine(fmt::format("{}, {} cores; {}", processorName(), std::thread::hardware_concurrency(),
                           results.front().driver));
-    printLine(fmt::format("{} × {} pixels, {} ms a frame, {} frames a flight", bench.viewport.width,
+    printLine(fmt::format("{} × {} pixels, {} ms/frame, {} frames/flight", bench.viewport.width,
                           bench.viewport.height, asText(options.target_ms), bench.frame_count));
     for (const ViewBenchResult& result : results) {
         printLine(fmt::format("\n{}", result.path));
@@ -357,11 +357,11 @@ Status runBenchView(const Options& given)
     } else {
         printForPeople(options, results);
     }
-    std::fflush(stdout); // before what is said about it
+    std::fflush(stdout); // before the messages about it
     for (const ViewBenchResult& result : results) {
         if (!options.bench.is_full && result.triangle_count > kFullTrianglesMax) {
             std::fprintf(stderr,
-                         "marsview-cli: %s: pictures of every sample are left out above %zu "
+                         "marsview-cli: %s: pictures of every sample are skipped above %zu "
                          "triangles; --full draws them\n",
                          asOneLine(result.path).c_str(), kFullTrianglesMax);
         }
@@ -378,8 +378,8 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
         "view", "Fly over maps and measure the time and the error of the window's pictures");
     command
         ->add_option("DEM", options->paths,
-                     "elevation maps, by default the one that comes with the program; the "
-                     "times of several are compared with the first's")
+                     "elevation maps, by default the bundled one; the times of several are "
+                     "compared with the first's")
         ->transform(mapName());
     options->map.addOverridesTo(*command);
     command->add_option("--size", options->size, "width and height in pixels")
@@ -389,32 +389,32 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
     command->add_option("--target-ms", options->target_ms, "time for a frame while moving")
         ->capture_default_str()
         ->check(positiveNumber());
-    command->add_option("--frames", options->bench.frame_count, "of each flight")
+    command->add_option("--frames", options->bench.frame_count, "frames per flight")
         ->capture_default_str()
         ->check(wholeNumberFrom(1, 100'000));
     command
         ->add_option("--poses", options->bench.pose_count,
-                     "of each flight at which the error of the picture at rest is measured")
+                     "poses per flight at which the error of the picture at rest is measured")
         ->capture_default_str()
         ->check(wholeNumberFrom(0, 1000));
     command
         ->add_option("--error-px", options->bench.error_px,
-                     "how far off the surface may be at rest, in pixels")
+                     "largest error of the surface at rest, in pixels")
         ->capture_default_str()
         ->check(positiveNumber());
     command
         ->add_option("--exaggeration", options->bench.exaggeration,
-                     "of heights, by default what suits each map")
+                     "vertical exaggeration; default chosen for each map")
         ->check(positiveNumber());
     command
         ->add_option("--color-exaggerations", options->bench.color_exaggerations,
-                     "at which the colors of pictures at rest are measured")
+                     "exaggerations at which the colors of pictures at rest are measured")
         ->capture_default_str()
         ->delimiter(',')
         ->check(positiveNumber());
     command->add_flag("--full", options->bench.is_full,
                       "compare with pictures of every sample even of large maps");
-    command->add_flag("--json", options->is_json, "for machines, with every frame");
+    command->add_flag("--json", options->is_json, "print JSON, with every frame");
     command->callback([options, &run] { run = [options] { return runBenchView(*options); }; });
 }
 

@@ -21,19 +21,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Where goals of contact and of free space are, in cells above the surface.
+// Heights of contact goals and free-space goals above the surface, in cells.
 constexpr double kDeepCells = -5.0;
 constexpr double kShallowCells = -2.0;
 constexpr double kLowCells = 20.0;
 constexpr double kHighCells = 60.0;
 
-// A cosine above this leads closer to the goal and not only away by rounding.
+// Cosines up to this are within rounding; larger ones lead closer to the goal.
 constexpr double kCosineMax = 1e-6;
 
-// Fewer updates say nothing, whatever time there is.
+// Fewer updates are not significant, regardless of the time limit.
 constexpr std::size_t kUpdatesMin = 50;
 
-// A way of the hand, with its ideal where it is below the surface.
+// A path of the hand, with its ideal if it is below the surface.
 struct Way {
     double speed = 0.0;
     double scale = 1.0;
@@ -98,7 +98,7 @@ public:
 private:
     HeightfieldSurface surfaceAt(double scale) const { return {terrain_, frame_, scale}; }
 
-    // Whether a stroke begins with that goal of a way.
+    // Whether a stroke begins with this goal of the path.
     bool isPlaced(std::size_t goal) const { return goal % (options_.stroke_count + 1) == 0; }
     std::size_t updatesOf(const Way& way) const
     {
@@ -129,7 +129,7 @@ private:
         return ways;
     }
 
-    // The slowest first, so that no core is left alone with one at the end.
+    // The slowest first, so that the cores finish at about the same time.
     void findIdeals(std::vector<Way>& ways)
     {
         std::vector<Way*> order;
@@ -158,7 +158,7 @@ private:
 
     std::uint64_t findIdeal(Way& way, double pieces) const
     {
-        // Of the time there is, the greater half, as the way is long.
+        // The larger part of the available time, since the path is long.
         constexpr double kShare = 0.6;
         const double cores =
             std::max(1.0, static_cast<double>(std::thread::hardware_concurrency()));
@@ -185,7 +185,7 @@ private:
         struct Runner {
             std::unique_ptr<ContactModel> model;
             ContactBenchRow row;
-            std::vector<std::uint64_t> ticks; // of each update, the least of all repeats
+            std::vector<std::uint64_t> ticks; // of each update, the minimum of all repeats
         };
         std::vector<Runner> runners;
         for (const ContactModelKind kind : options_.models) {
@@ -204,7 +204,7 @@ private:
             }
             runners.push_back(std::move(runner));
         }
-        // In turn, so that what else the machine does meets all of them.
+        // In turn, so that disturbances on the machine affect all models alike.
         for (int repeat = 0; repeat < options_.repeat_count && !monitor_.isCancelled(); ++repeat) {
             for (Runner& runner : runners) {
                 runner.row.ns_mean = std::min(runner.row.ns_mean, batchMean(*runner.model, way));
@@ -229,7 +229,7 @@ private:
         return rows;
     }
 
-    // What is counted, and how far the proxies are from the ideal.
+    // Computes the counts and the distances of the proxies from the ideal.
     void assess(ContactModel& model,
                 const HeightfieldSurface& surface,
                 const Way& way,
@@ -320,10 +320,10 @@ private:
         return meanOf(lags);
     }
 
-    // One reading of the clock at each end of a stroke.
+    // Reads the clock only at each end of a stroke.
     double batchMean(ContactModel& model, const Way& way) const
     {
-        double sum = 0.0; // so that nothing can be left out
+        double sum = 0.0; // keeps the compiler from removing the calls
         std::uint64_t ticks = 0;
         std::uint64_t begin = 0;
         for (std::size_t i = 0; i < way.goals.size();) {
@@ -378,7 +378,7 @@ std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
     const double cell_m = ReferenceProxy::cellMetres(frame);
     const double last_column = static_cast<double>(surface.terrain()->columns() - 1);
     const double last_row = static_cast<double>(surface.terrain()->rows() - 1);
-    constexpr double kMargin = 1.0 / 32.0; // of the map, in which the hand turns back
+    constexpr double kMargin = 1.0 / 32.0; // fraction of the map in which the hand turns back
     const auto is_inside = [&](const ScenePoint& p) {
         const GridPoint grid = frame.toGrid(p);
         return grid.column > kMargin * last_column && grid.row > kMargin * last_row &&

@@ -1,4 +1,4 @@
-// How fast contact models are and how far from the ideal: a hand that wanders over a map.
+// Speed and accuracy of contact models: a simulated hand wanders over a map.
 #pragma once
 
 #include "app/bench/reference/reference_proxy.h"
@@ -17,21 +17,21 @@ namespace marsview {
 struct ContactBenchOptions {
     std::vector<ContactModelKind> models{kContactModelKinds.begin(), kContactModelKinds.end()};
     std::vector<double> speeds{0.1, 1.0, 10.0, 20.0, 50.0}; // cells per update
-    std::vector<double> scales{0.1, 1.0, 5.0, 20.0};        // of heights
+    std::vector<double> scales{0.1, 1.0, 5.0, 20.0};        // vertical scale factors
     std::size_t update_count = 4000;
-    /// After so many updates the hand is lifted and put on the surface elsewhere.
+    /// Number of updates after which the hand is lifted and put down elsewhere.
     std::size_t stroke_count = 500;
-    /// Cuts rows short so that all takes about that long; 0 for no limit.
+    /// Shortens rows so that the whole run takes about this long; 0 for no limit.
     double seconds_max = 0.0;
     int repeat_count = 3;
     bool has_contact = true;   // rows with goals below the surface
     bool has_free = true;      // rows with goals above it
     double radius_cells = 0.1; // of the sphere of virtual-proxy
     double piece_cells = ReferenceProxy::kPieceCells;
-    std::uint64_t seed = 7; // of the ways of the hand
+    std::uint64_t seed = 7; // of the hand's paths
 };
 
-/// Against the ideal. Lengths in cells.
+/// Errors against the ideal. Lengths in cells.
 struct ContactErrors {
     double within_half_cell = 0.0; // share of updates
     double within_1e5_cell = 0.0;
@@ -40,22 +40,23 @@ struct ContactErrors {
     double position_max = 0.0;
     double force_mean_deg = 0.0; // between the directions from goal to proxy
     double force_p99_deg = 0.0;
-    double distance_mean = 0.0; // of what the distances to the goal differ by
-    /// How far the proxy would still go if the goal stood still.
+    double distance_mean = 0.0; // of the absolute difference of the distances to the goal
+    /// How far the proxy would still move if the goal stopped.
     double lag = 0.0;
-    /// Share of updates that end where no way leads closer to the goal; nothing for a model whose
-    /// proxy does not rest on the surface.
+    /// Fraction of updates that end at a local minimum of the distance to the goal; empty for a
+    /// model whose proxy does not rest on the surface.
     std::optional<double> at_minimum;
 };
 
-/// A model at a speed and a height scale. Counts are means an update; placing is none.
+/// One model at one speed and vertical scale. Counts are means per update, without placing the
+/// proxy.
 struct ContactBenchRow {
     ContactModelKind model = ContactModelKind::ProxyGraph;
     double speed = 0.0;
     double scale = 1.0;
     bool is_free = false;
     std::size_t update_count = 0;
-    double ns_mean = 0.0; // of all updates in one go, without reading a clock in between
+    double ns_mean = 0.0; // of all updates in one run, without reading the clock in between
     double ns_p50 = 0.0;  // of single updates
     double ns_p99 = 0.0;
     double ns_p999 = 0.0;
@@ -74,15 +75,15 @@ struct ContactBenchRow {
 
 struct ContactBenchResult {
     double cell_m = 1.0;
-    double clock_ns = 0.0; // what a reading costs; part of the times of single updates
+    double clock_ns = 0.0; // duration of one clock reading; included in the times of single updates
     std::vector<ContactBenchRow> rows;
-    /// Descents of the ideal that ended for their number of steps. Not 0: the errors are wrong.
+    /// Descents of the ideal that reached their step limit. If not 0, the errors are wrong.
     std::uint64_t unfinished_count = 0;
 };
 
-/// How a hand moves. Lengths in cells.
+/// The motion of a hand. Lengths in cells.
 struct StrokeOptions {
-    double speed = 1.0; // an update
+    double speed = 1.0; // per update
     double low = -5.0;  // above the surface; negative: below it
     double high = -2.0;
     std::size_t update_count = 1000;
@@ -90,14 +91,14 @@ struct StrokeOptions {
     std::uint64_t seed = 7;
 };
 
-/// The goals of strokes of a hand, each begun at a place of its own on the surface, or `low` above
-/// it: one goal to place the proxy, then one an update. The hand wanders at a constant speed, comes
-/// to its depth as fast, and turns back before the border.
+/// The goals of a hand's strokes. Each stroke begins at its own place on the surface, or `low`
+/// above it: one goal that places the proxy, then one per update. The hand wanders at a constant
+/// speed, approaches its depth at the same speed, and turns back before the border.
 std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
                                        const StrokeOptions& options);
 
-/// First the ideal of every way, on all cores; then all models in turn, on this thread. Only
-/// Cancelled can go wrong.
+/// First computes the ideal of every path, on all cores; then runs all models in turn, on this
+/// thread. The only possible error is Cancelled.
 Result<ContactBenchResult> benchContact(const std::shared_ptr<const FilledHeightfield>& terrain,
                                         const SceneFrame& frame,
                                         const ContactBenchOptions& options,

@@ -14,12 +14,12 @@
 namespace marsview {
 namespace {
 
-// A metre of the scene is a millimetre at the hand, and a sample.
+// A scene meter is a workspace millimeter, and one sample.
 constexpr std::size_t kSide = 241;
 constexpr double kScale = 1000.0;
 constexpr double kSeconds = 6.0;
 constexpr double kEventsEndS = 2.5;
-constexpr double kRestBeginS = 5.5; // by then what is slow and damped has died away
+constexpr double kRestBeginS = 5.5; // slow damped motion has decayed by then
 constexpr double kPeriodS = 1e-3;
 constexpr WorkspaceBox kWorkspace{{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
 
@@ -34,7 +34,7 @@ double heightAt(StabilityScene scene, std::size_t column, std::size_t row)
         return std::abs(x);
     case StabilityScene::Checkerboard:
         return (column + row) % 2 == 0 ? 2.0 : 0.0;
-    case StabilityScene::WallCorner: // down towards the corner of the walls, 2 : 1
+    case StabilityScene::WallCorner: // down toward the corner of the walls, 2 : 1
         return -1.4 * ((x - 80.0) + (y - 60.0));
     default:
         return 0.0;
@@ -62,7 +62,7 @@ std::shared_ptr<const FilledHeightfield> terrainOf(StabilityScene scene)
     return std::make_shared<const FilledHeightfield>(std::move(filled).value());
 }
 
-// Made once: they are the same in every run.
+// Created once: they are the same in every run.
 const std::shared_ptr<const FilledHeightfield>& terrainFor(StabilityScene scene)
 {
     static const auto terrains = [] {
@@ -85,11 +85,11 @@ mapFor(StabilityScene scene, const StabilityOptions& options, std::uint64_t id)
                         {.kind = options.model, .contact = {.radius_m = 0.5}, .map_id = id});
 }
 
-// What the hand does at a time.
+// The hand's intention at a time.
 struct Intent {
     WorkspacePoint aim{};
     bool is_grabbing = false;
-    int change = 0; // the map's number
+    int change = 0; // number of the map
 };
 
 Intent intentAt(StabilityScene scene, double seconds, double press_m)
@@ -120,7 +120,7 @@ Intent intentAt(StabilityScene scene, double seconds, double press_m)
     }
 }
 
-// Of values at equal times: how far they are spread around a straight line through them.
+// The range of equidistant values about a straight line through them.
 double rippleOf(const std::vector<double>& values)
 {
     const auto n = static_cast<double>(values.size());
@@ -183,7 +183,7 @@ HandOptions stabilityHand(double delay_s)
 
 StabilityResult runStability(StabilityScene scene, const StabilityOptions& options)
 {
-    constexpr double kPressM = 0.006; // the grip's spring then presses with 0.9 N at most
+    constexpr double kPressM = 0.006; // the grip's spring then presses with at most 0.9 N
     DeviceCapabilities device;
     device.workspace = kWorkspace;
     device.force_n_peak = 8.0;

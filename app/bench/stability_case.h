@@ -1,4 +1,4 @@
-// A simulated hand against what is hard to render: does it come to rest?
+// A simulated hand in situations that are hard to render: does it come to rest?
 #pragma once
 
 #include "core/contact/contact_model.h"
@@ -11,14 +11,14 @@
 
 namespace marsview {
 
-/// What the hand presses on, or what happens meanwhile.
+/// The surface under the hand, or the events during the run.
 enum class StabilityScene : std::uint8_t {
     Plane,
-    Ridge,        // a roof of 45°, beside its edge
-    Canyon,       // a valley of 45°, in its bottom
-    Checkerboard, // every other sample 2 mm high at the hand, stroked and then pressed
+    Ridge,        // a 45° roof, next to its edge
+    Canyon,       // a 45° valley, at its bottom
+    Checkerboard, // every other sample 2 mm high in the workspace, stroked and then pressed
     WallCorner,   // wedged between a steep slope and two walls
-    ModeSwitches, // grabbed and let go four times a second, then pressed
+    ModeSwitches, // grabbed and released four times a second, then pressed
     PanHold,      // grabbed in contact, and held
     ZoomHold,     // grabbed in free space, and held
     MapChange,    // another map and another place three times a second, then pressed
@@ -36,21 +36,21 @@ struct StabilityOptions {
     ContactModelKind model = kContactModelDefault;
     double stiffness_n_per_m = 500.0;
     double delay_s = 0.0;
-    double jitter_s = 2e-4; // ticks come so much too early or too late, evenly
+    double jitter_s = 2e-4; // ticks are early or late by up to this, uniformly distributed
     ForceMixing mixing = ForceMixing::Fade;
     bool is_passivity_kept = true;
     std::uint64_t seed = 1;
 };
 
-/// What the hand does in the last half second, when nothing happens any more.
+/// The hand's motion in the last half second, when it should be at rest.
 struct StabilityResult {
-    double ripple_m = 0.0;      // the widest of its ways along an axis, a steady drift taken out
-    double speed_m_per_s = 0.0; // root mean square, likewise
+    double ripple_m = 0.0;      // the largest range along an axis, without a linear drift
+    double speed_m_per_s = 0.0; // root mean square, without the drift
     double energy_j_max = 0.0;  // of the whole run
-    double contact_share = 0.0; // of ticks in which it touched the ground
+    double contact_share = 0.0; // fraction of ticks in contact
     bool isStable() const noexcept
     {
-        // Encoder steps of 20 um make ripples of some of them.
+        // Encoder steps of 20 um cause ripples of a few steps.
         return ripple_m <= 1.5e-4 && speed_m_per_s <= 0.01 && energy_j_max <= 0.1;
     }
 };
@@ -58,14 +58,14 @@ struct StabilityResult {
 /// Six seconds at 1 kHz. A pure function.
 StabilityResult runStability(StabilityScene scene, const StabilityOptions& options);
 
-/// The hand and the device of all scenes: `delay_s` is the run's.
+/// The hand and the device of all scenes, with this run's `delay_s`.
 HandOptions stabilityHand(double delay_s);
 
-/// What the device of these runs states as its stable stiffness.
+/// The stable stiffness that the device of these runs states.
 inline constexpr double kStatedStiffnessNPerM = 900.0;
 
-/// The largest stiffness, in steps of a tenth from 50 N/m to `most`, below which every step is
-/// stable. 0 where none is.
+/// The largest stiffness, in steps of a tenth from 50 N/m to `most`, up to which every step is
+/// stable; 0 if none is.
 double largestStable(StabilityScene scene, StabilityOptions options, double most);
 
 } // namespace marsview

@@ -20,7 +20,7 @@ constexpr double kTitleHeight = 58.0;
 constexpr double kLegendRow = 22.0;
 constexpr double kLegendColumn = 178.0;
 constexpr double kBottom = 56.0;
-constexpr double kFloorRow = 8.0; // of a series below the axis' lowest power of ten
+constexpr double kFloorRow = 8.0; // per series, below the axis's lowest power of ten
 constexpr double kMarker = 4.2;
 
 struct Tone {
@@ -28,7 +28,7 @@ struct Tone {
     const char* dark;
 };
 
-// Okabe and Ito's colours, told apart by the colour-blind; darker on light pages, lighter on dark.
+// Okabe and Ito's color-blind safe colors; darker on light pages, lighter on dark ones.
 constexpr std::array<Tone, 8> kTones{{{"#0072b2", "#4aa8e0"},
                                       {"#d55e00", "#f2864a"},
                                       {"#00855f", "#2fc99c"},
@@ -62,7 +62,7 @@ std::string escaped(std::string_view text)
     return result;
 }
 
-// 1, 10, 0.01; powers beyond as 10⁻⁶.
+// 1, 10, 0.01; other powers as 10⁻⁶.
 std::string powerOfTen(int exponent)
 {
     if (exponent >= -3 && exponent <= 4) {
@@ -84,7 +84,7 @@ struct Decades {
     double span() const { return high - low; }
 };
 
-// Beside the outermost points, for what is written there.
+// Space next to the outermost points, for their labels.
 constexpr double kRoomDecades = 0.3;
 
 class Writer {
@@ -209,7 +209,7 @@ private:
     {
         return left_ + (std::log10(value) - x_.low) / x_.span() * kPanelWidth;
     }
-    // Below the lowest power of ten: a row for each series, so that none hides another.
+    // Below the lowest power of ten: one row per series, so that none hides another.
     double floorBand() const
     {
         return has_floor_ ? kFloorRow * (static_cast<double>(series_count_) + 1.0) : 0.0;
@@ -240,7 +240,7 @@ private:
                 drawXLabel(x, powerOfTen(exponent));
             }
         }
-        // A label for each decade where there is room, every second one otherwise.
+        // A label for each decade if there is room, otherwise for every second one.
         constexpr double kLabelsMax = 9.0;
         const int every = y_.span() > kLabelsMax ? 2 : 1;
         const auto lowest = static_cast<int>(y_.low);
@@ -326,7 +326,7 @@ private:
             escaped(label));
     }
 
-    // A shape for each series: colours alone are not for everybody.
+    // A shape for each series: colors alone are not accessible to everyone.
     void drawMarker(std::size_t index, double x, double y)
     {
         const std::string style =

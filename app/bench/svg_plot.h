@@ -11,11 +11,11 @@ struct PlotPoint {
     double y = 0.0; // at or below the plot's floor: drawn in its band
 };
 
-/// Points joined by a line. Series of the same place in their panels share colour and marker.
+/// Points joined by a line. Series at the same index in their panels share color and marker.
 struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;
-    std::string first_label; // beside the first point and the last
+    std::string first_label; // next to the first and the last point
     std::string last_label;
 };
 
@@ -24,15 +24,15 @@ struct PlotPanel {
     std::vector<PlotSeries> series;
 };
 
-/// Panels beside and below each other, two in a row, with common axes; the legend, from the first
-/// panel, above them. Eight series at most.
+/// Panels in two columns, with common axes; the legend, taken from the first panel, is above them.
+/// At most eight series.
 struct Plot {
     std::string title;
     std::string note; // below the title
     std::string x_label;
     std::string y_label;
-    double y_floor = 1e-6;   // > 0; what is smaller lies in a band below the axis
-    std::string floor_label; // what the band is called
+    double y_floor = 1e-6;   // > 0; smaller values are drawn in a band below the axis
+    std::string floor_label; // label of the band
     std::vector<PlotPanel> panels;
 };
 

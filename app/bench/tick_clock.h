@@ -1,4 +1,4 @@
-// A clock for spans of nanoseconds that costs little to read.
+// A clock for nanosecond intervals that is cheap to read.
 #pragma once
 
 #include <chrono>
@@ -9,11 +9,11 @@
 
 namespace marsview {
 
-/// On x86-64 the processor's time stamp counter, elsewhere the system's steady clock. Spans are
-/// good to about 20 ns, as the processor may run ahead of a reading.
+/// On x86-64 the processor's time stamp counter, elsewhere the system's steady clock. Intervals are
+/// accurate to about 20 ns, since the processor may execute ahead of a reading.
 class TickClock {
 public:
-    /// Learns the length of a tick. Takes 20 ms.
+    /// Calibrates the tick length. Takes 20 ms.
     TickClock();
 
     static std::uint64_t now() noexcept
@@ -29,7 +29,7 @@ public:
     {
         return static_cast<double>(ticks) * ns_per_tick_;
     }
-    /// What reading it costs: it is part of every span.
+    /// The duration of one reading, which is included in every interval.
     double readingNanoseconds() const noexcept
     {
         return reading_ns_;

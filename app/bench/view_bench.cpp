@@ -23,13 +23,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A difference that the eye sees between neighbouring areas, of 255.
+// A visible difference between neighboring areas, of 255.
 constexpr int kVisibleLevels = 8;
 
-// Of the pixels at which colors are measured: every fourth.
+// One in four pixels is used for the color measurement.
 constexpr std::size_t kColorStride = 2;
 
-// The renderer's word from its threads that shading has come. It may outlive the bench.
+// Notified on the renderer's threads when shading is ready. It may outlive the bench.
 class News {
 public:
     void tell()
@@ -40,7 +40,7 @@ public:
         }
         has_come_.notify_all();
     }
-    // Waits until something was told since the last call, or the time is over.
+    // Waits for a notification since the last call, or until `end`.
     void waitUntil(Clock::time_point end)
     {
         std::unique_lock lock(mutex_);
@@ -132,7 +132,7 @@ public:
         return report;
     }
 
-    // Draws until all shading is there, as often as the window would.
+    // Draws until all shading is ready, as often as the window would.
     DrawReport paintWhole(const OrbitCamera& camera, PictureStage stage)
     {
         DrawReport report = paint(camera, stage);
@@ -229,7 +229,7 @@ public:
     }
 
 private:
-    // As large as that of a cursor in the middle of the picture.
+    // The area around a cursor in the center of the picture.
     PixelArea cursorArea() const
     {
         constexpr int kSide = 64;
@@ -250,7 +250,7 @@ private:
     const ViewBenchOptions& options_;
     News& news_;
     JobMonitor& monitor_;
-    FrameBuffer buffer_; // as that of the window
+    FrameBuffer buffer_; // like the window's
     GovernedPicture picture_;
     FlightGround ground_;
     DrawStyle style_;
@@ -307,7 +307,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     }
     result.peak_memory_flown_bytes = peakMemoryBytes();
     const auto pose_moment = [&](int pose) { return (pose + 0.5) / options.pose_count; };
-    // Last, as these pictures are no part of what the window draws.
+    // Last, since the window does not draw these pictures.
     for (FlightResult& flight : result.flights) {
         for (int i = 0; i < options.pose_count; ++i) {
             Result<RestingPose> pose = bench.rest(bench.camera(flight.flight, pose_moment(i)));

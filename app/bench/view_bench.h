@@ -1,4 +1,4 @@
-// How fast and how exact the window's pictures are: flights over a map, without a window.
+// Speed and accuracy of the window's pictures: flights over a map, without a window.
 #pragma once
 
 #include "app/bench/reference/color_error.h"
@@ -18,29 +18,29 @@ namespace marsview {
 struct ViewBenchOptions {
     Viewport viewport{1280, 800};
     Milliseconds target{33.0};
-    int frame_count = 120;              // of a flight
-    int pose_count = 5;                 // of a flight, at which the error is measured
+    int frame_count = 120;              // per flight
+    int pose_count = 5;                 // per flight, at which the error is measured
     double error_px = 1.0;              // at rest
-    std::optional<double> exaggeration; // by default what suits each map
-    std::vector<double> color_exaggerations{0.5, 1.0, 2.0, 10.0}; // at which colors are measured
-    bool is_full = false; // compare with pictures of every sample however many there are
+    std::optional<double> exaggeration; // default: chosen for each map
+    std::vector<double> color_exaggerations{0.5, 1.0, 2.0, 10.0}; // for the color measurement
+    bool is_full = false; // compare with pictures of every sample, however many there are
 };
 
-/// A frame of a flight.
+/// One frame of a flight.
 struct FlownFrame {
     Milliseconds wall{0.0};
-    Milliseconds processor{0.0}; // of all threads; counts in steps of the system's
+    Milliseconds processor{0.0}; // of all threads; counted in the system's steps
     std::size_t triangle_count = 0;
     FramePlan plan;
-    bool is_complete = true; // shading of its detail included
+    bool is_complete = true; // including the shading of its details
 };
 
-/// A picture in which every sample is drawn, against the one at rest.
+/// The picture at rest compared with a picture that draws every sample.
 struct ColorDifference {
     double mean_levels = 0.0; // of 255, over all pixels and channels
     int p99_levels = 0;
     int max_levels = 0;
-    double share_visible = 0.0; // of pixels of which a channel is off by more than 8 levels
+    double share_visible = 0.0; // of pixels with a channel that differs by more than 8 levels
     std::size_t full_triangle_count = 0;
 };
 
@@ -48,21 +48,21 @@ struct ColorDifference {
 struct RestingPose {
     OrbitCamera camera;
     std::size_t triangle_count = 0;
-    double error_bound_px = 0.0; // promised
+    double error_bound_px = 0.0; // the renderer's bound
     PictureError error;          // measured
     std::optional<ColorDifference> difference;
 };
 
-/// The colors of pictures at rest at one exaggeration, against those of the surface.
+/// The colors of pictures at rest at one exaggeration, compared with those of the surface.
 struct ColorResult {
     double exaggeration = 1.0;
-    std::vector<ColorError> poses; // those of all flights
+    std::vector<ColorError> poses; // of all flights
 };
 
 struct FlightResult {
     Flight flight = Flight::Orbit;
     std::vector<FlownFrame> frames;
-    /// Since the last frame in motion, the wait for stillness included.
+    /// Since the last frame in motion, including the delay before sharpening.
     Milliseconds sharp_after{0.0};
     Milliseconds smooth_after{0.0};
     std::size_t sharp_triangle_count = 0;
@@ -84,7 +84,7 @@ struct ViewBenchResult {
     std::vector<ColorResult> colors;
 };
 
-/// More triangles than this are not drawn one and all unless asked for.
+/// Pictures of every sample are drawn for more triangles than this only on request.
 inline constexpr std::size_t kFullTrianglesMax = 20'000'000;
 
 /// Opens the map, flies all flights as the window would draw them, and measures pictures at rest

@@ -1,4 +1,4 @@
-// The commands of marsview-cli. Each adds itself to the parser and sets `run` when it is chosen.
+// The commands of marsview-cli. Each registers itself with the parser and sets `run` when chosen.
 #pragma once
 
 #include "app/console/command_action.h"
@@ -14,8 +14,8 @@ void addInfoCommand(CLI::App& app, CommandAction& run);
 void addLoopCommand(CLI::App& app, CommandAction& run);
 void addPrepareCommand(CLI::App& app, CommandAction& run);
 void addRenderCommand(CLI::App& app, CommandAction& run);
-/// `has_stdin` tells beforehand whether `--stdin` is among the arguments: the position options then
-/// stand without numbers.
+/// `has_stdin` is true if `--stdin` is among the arguments: the position options then take no
+/// numbers.
 void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin);
 void addTraceCommand(CLI::App& app, CommandAction& run);
 

@@ -1,4 +1,4 @@
-// A contact model run over a list of goals, one update a line.
+// Runs a contact model over a list of goals, one update per line.
 #pragma once
 
 #include "core/base/result.h"
@@ -14,32 +14,33 @@
 
 namespace marsview {
 
-/// Between the points of the file and those that the model moves among.
+/// Converts between the points of the file and the coordinates of the model.
 struct TraceFrame {
     std::function<ScenePoint(const TracePoint& goal)> to_scene;
     std::function<TracePoint(const ContactState& state)> from_scene;
-    /// Whether the model aims at another point instead, on the border of the map.
+    /// Whether the model clamps the goal to the border of the map.
     std::function<bool(const TracePoint& goal)> is_clamped;
 };
 
-/// Of one of all goals, counted from 0, before the model is given it.
+/// Called with a goal's index, counted from 0 over all goals, before the model gets the goal.
 using BeforeGoal = std::function<Status(std::size_t goal)>;
 
 struct TraceUpdate {
-    TracePoint proxy; // to the digit the goal, where free
+    TracePoint proxy; // in free space exactly the goal
     ContactState state;
     double ns = 0.0;
 };
 
-/// Runs the model over some of the goals; the first of its first ones places it. Adds to `updates`,
-/// which has one for each goal before. What `before_goal` says.
+/// Runs the model over some of the goals; the first goal with `updates` empty places the proxy.
+/// Appends to `updates`, which has one entry for each earlier goal. Returns the error of
+/// `before_goal`.
 Status trace(ContactModel& model,
              const TraceFrame& frame,
              std::span<const TracePoint> goals,
              const BeforeGoal& before_goal,
              std::vector<TraceUpdate>& updates);
 
-/// The trace as CSV, with a column `ns` if asked for.
+/// The trace as CSV, optionally with a column `ns`.
 enum class TraceTiming { No, Yes };
 std::string asCsv(const std::vector<TraceUpdate>& updates, TraceTiming timing);
 

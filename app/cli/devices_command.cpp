@@ -1,4 +1,4 @@
-// marsview-cli devices: what can be touched with, and why something cannot.
+// marsview-cli devices: lists haptic devices, with the reason if one cannot be used.
 
 #include "app/cli/devices_command.h"
 
@@ -25,14 +25,14 @@ struct Options {
     bool tries_again = false;
 };
 
-// Names come from devices and files, and need not be UTF-8.
+// Names come from devices and files, and may not be valid UTF-8.
 std::string shown(const std::string& text)
 {
     const std::string valid = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
     return asOneLine(Json::parse(valid).get<std::string>());
 }
 
-// As fmt counts them for the width of a column.
+// As counted by fmt for column widths.
 std::size_t characters(const std::string& utf8)
 {
     return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) {
@@ -109,10 +109,10 @@ void addDevicesCommand(CLI::App& app, CommandAction& run)
     const auto options = std::make_shared<Options>();
     CLI::App* command =
         app.add_subcommand("devices", "List haptic devices and plugins, and why one is not usable");
-    command->add_flag("--json", options->is_json, "for machines");
+    command->add_flag("--json", options->is_json, "print JSON");
     command->add_flag("--retry", options->tries_again,
-                      "try plugins again that were left out because the program ended while it was "
-                      "inside them");
+                      "try plugins again that are skipped because the program ended during one of "
+                      "their calls");
     command->callback([options, &run] { run = [options] { return runDevices(*options); }; });
 }
 

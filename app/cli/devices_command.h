@@ -1,4 +1,4 @@
-// What `devices` prints of what was found.
+// Formats the output of `devices`.
 #pragma once
 
 #include "haptics/device/device_driver.h"
@@ -9,8 +9,8 @@
 
 namespace marsview {
 
-/// A heading and a line each: URI, name, and "ready", with what went wrong the last time, or
-/// why it cannot be used.
+/// A heading, and one line per device: URI, name, and either "ready", with the last problem if any,
+/// or the reason why it cannot be used.
 std::string devicesAsTable(const std::vector<FoundDevice>& devices);
 
 nlohmann::ordered_json devicesAsJson(const std::vector<FoundDevice>& devices,

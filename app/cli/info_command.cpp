@@ -1,4 +1,4 @@
-// marsview-cli info: what a raster is, where it lies and what its heights mean.
+// marsview-cli info: a raster's format, placement and elevation range.
 
 #include "app/cli/commands.h"
 #include "app/console/long_job.h"
@@ -220,7 +220,7 @@ Result<SampleStatistics> statisticsOf(OpenRaster raster, RasterInfo& info)
     return statistics;
 }
 
-// A raster with what --json prints of it.
+// A raster and its --json output.
 struct Description {
     RasterInfo info;
     Json json;
@@ -257,12 +257,12 @@ Result<Description> describe(const MapOptions& options, bool has_statistics)
     return Description{std::move(info), std::move(json)};
 }
 
-// Every file is described; of those that fail, all but the last are reported here.
+// Describes every file; if several fail, all errors but the last are printed here.
 Status runInfo(const Options& options)
 {
     const ErrorForm form = options.is_json ? ErrorForm::Json : ErrorForm::Line;
     Json array = Json::array();
-    std::vector<RasterInfo> infos; // of those in the array
+    std::vector<RasterInfo> infos; // the described rasters
     Status outcome = Done{};
     bool is_first = true;
     for (const std::string& path : options.paths) {
@@ -321,7 +321,7 @@ void addInfoCommand(CLI::App& app, CommandAction& run)
                       "print JSON: an object, or an array of objects for several files");
     command->add_flag_callback(
         "--no-statistics", [options] { options->has_statistics = false; },
-        "do not read the samples: minimum, maximum and voids are unknown then");
+        "do not read the samples: minimum, maximum and voids are then unknown");
     command->callback([options, &run] { run = [options] { return runInfo(*options); }; });
 }
 

@@ -1,4 +1,4 @@
-// marsview-cli loop: the real servo thread on a device, and how punctual it was.
+// marsview-cli loop: runs the real servo thread on a device and reports its timing.
 
 #include "app/cli/commands.h"
 #include "app/cli/loop_map.h"
@@ -48,9 +48,9 @@ struct Options {
     bool is_json = false;
 };
 
-// A program that is killed while it has a plugin's device blames the plugin at the next start. So
-// from before the device is opened until it is closed, what asks the program to end only ends the
-// loop. What is ignored, as by nohup, stays ignored.
+// If the program is killed while it uses a plugin's device, the next start blames the plugin. So
+// from before the device is opened until it is closed, termination signals only end the loop.
+// Ignored signals, as under nohup, stay ignored.
 class OrderlyEnd {
 public:
     OrderlyEnd()
@@ -66,7 +66,7 @@ public:
     OrderlyEnd(const OrderlyEnd&) = delete;
     OrderlyEnd& operator=(const OrderlyEnd&) = delete;
 
-    /// Again, where somebody else took some of them meanwhile.
+    /// Call it again after other code may have replaced some of the handlers.
     void takeSignals()
     {
         setAll([](int) { is_asked_ = 1; });
@@ -83,12 +83,12 @@ private:
         }
     }
 
-    // Where a recording goes into a pipe, its end is an error like a full disk.
+    // When a recording goes to a pipe, a closed pipe is an error like a full disk.
     void (*broken_pipe_)(int) = std::signal(SIGPIPE, SIG_IGN);
     static inline volatile std::sig_atomic_t is_asked_ = 0;
 };
 
-// What the hand reaches: the whole map, or the middle of it.
+// The frame in which the workspace covers the whole map, or the middle of it.
 WorkspaceFrame
 frameFor(const Options& options, const LoopMap& map, const DeviceCapabilities& device)
 {
@@ -139,10 +139,10 @@ openDevice(DeviceRegistry& registry, const Options& options, const LoopMap& map)
     return registry.open(fmt::format("{},cell_m={}", uri, map.cell_m / frame.scene_per_metre));
 }
 
-// Of a time that nobody lives to see the end of, as many as can be counted.
+// Saturates: a very long time gives the largest number of ticks that can be counted.
 std::uint64_t ticksWithin(double seconds, double rate_hz)
 {
-    constexpr double kTicksMax = 9e15; // whole numbers, in doubles too
+    constexpr double kTicksMax = 9e15; // whole numbers, also in doubles
     return static_cast<std::uint64_t>(std::min(std::ceil(seconds * rate_hz), kTicksMax));
 }
 
@@ -224,7 +224,7 @@ Status runLoop(const Options& options)
     }
     end.takeSignals();
     if (end.isAskedFor() && loop.state().tick == 0) {
-        return Error{ErrorCode::Cancelled, options.device + ": was ended before the loop began"};
+        return Error{ErrorCode::Cancelled, options.device + ": interrupted before the loop began"};
     }
     const Status verdict = watch.verdict(options.device);
     LoopReport report{.file = options.map.path,
@@ -293,23 +293,23 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
         ->check(oneOf(names));
     command
         ->add_option("--radius", options->loop.radius_m,
-                     "of the sphere of virtual-proxy, scene metres; default half a cell")
+                     "radius of the virtual-proxy sphere, scene meters; default half a cell")
         ->check(positiveNumber());
-    command->add_option("--exaggeration", options->loop.exaggeration, "of heights")
+    command->add_option("--exaggeration", options->loop.exaggeration, "vertical exaggeration")
         ->capture_default_str()
         ->check(positiveNumber());
     command
         ->add_option("--across", options->across_cells,
-                     "cells that the workspace is wide, around the map's middle; default the whole "
+                     "width of the workspace in cells, around the map's center; default the whole "
                      "map")
         ->check(positiveNumber());
     command
         ->add_option("--stiffness", options->stiffness_n_per_m,
-                     "of the ground in N/m; never more than the device is stable with")
+                     "surface stiffness in N/m; limited to the device's stable stiffness")
         ->capture_default_str()
         ->check(positiveNumber());
     command->add_option("--record", options->record,
-                        "CSV file for what happens; trace --goals and replay: read it");
+                        "CSV file for the recording; trace --goals and replay: read it");
     command->add_option("--flight", options->flight,
                         "CSV file for the last ten seconds of the flight recorder");
     command->add_flag("--json", options->is_json, "print JSON");

@@ -1,4 +1,4 @@
-// A map for a servo loop: in memory, or in tiles with the thread that brings them.
+// A map for a servo loop: in memory, or tiled with the thread that loads its tiles.
 #pragma once
 
 #include "app/console/map_options.h"
@@ -19,14 +19,14 @@ struct LoopMapOptions {
     std::optional<double> radius_m; // of virtual-proxy; default half a cell
 };
 
-/// Feeds while it lives. The map is the servo's until the loop has ended.
+/// Loads tiles during its lifetime. Until the loop has ended only the servo thread may use the map.
 struct LoopMap {
     std::shared_ptr<const Map> opened;
     std::unique_ptr<WindowFeeder> feeder; // null where the map is held
     std::shared_ptr<ServoMap> map;
     SceneBox box;          // of the whole map
-    double cell_m = 1.0;   // scene metres, the mean of both sides
-    double radius_m = 0.0; // that virtual-proxy has
+    double cell_m = 1.0;   // scene meters, the mean of both sides
+    double radius_m = 0.0; // of virtual-proxy
 };
 
 Result<LoopMap>

@@ -24,9 +24,9 @@ void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
             continue;
         }
         if (event.tick > ticks_max_) {
-            continue; // the orderly end: forces ramp down as if the device were unready
+            continue; // the normal end: the force ramps down as for an unready device
         }
-        // The tick of the event is the first with the new reason.
+        // The tick of the event is the first one with the new reason.
         of(ticks_by_reason_, reason_) += event.tick - 1 - since_tick_;
         since_tick_ = event.tick - 1;
         reason_ = event.reason;
@@ -59,7 +59,7 @@ std::array<std::uint64_t, kLetGoReasonCount> LoopWatch::letGoTicks() const noexc
 Status LoopWatch::verdict(const std::string& uri) const
 {
     const double ran_s = static_cast<double>(state_.tick) / rate_hz_;
-    // What a driver says mostly ends with what to do.
+    // A driver's message usually ends with the remedy.
     const auto said = [&](std::string_view otherwise) {
         if (trouble_.empty()) {
             return fmt::format("{}; {}", otherwise, kWhatToDo);
@@ -76,7 +76,7 @@ Status LoopWatch::verdict(const std::string& uri) const
     if (is_silent_ || (is_cut_short && !state_.is_finished)) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: fell silent after {:.1f} s: {}", uri, ran_s,
-                                 said("the device stopped answering"))};
+                                 said("the device stopped responding"))};
     }
     if (state_.is_finished && !is_finished) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: was lost after {:.1f} s: {}", uri,
@@ -91,11 +91,11 @@ Status LoopWatch::verdict(const std::string& uri) const
     if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceStale)] >=
         std::min(state_.tick, ticks_max_)) {
         return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: every sample was too old or dated ahead; its driver has to "
-                                 "date them by CLOCK_MONOTONIC",
+                     fmt::format("{}: every sample was too old or in the future; its driver must "
+                                 "use CLOCK_MONOTONIC time stamps",
                                  uri)};
     }
-    // What stopped working without taking the device along, such as a recording.
+    // Failures that did not affect the device, such as of a recording.
     if (!trouble_.empty() && last_reason_ != LetGoReason::DeviceUnready) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: {}", uri, trouble_)};
     }

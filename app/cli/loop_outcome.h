@@ -1,4 +1,4 @@
-// What became of a device in a loop: for how long its forces were let go, and whether it failed.
+// The outcome of a device in a loop: how long the force was off, and whether the device failed.
 #pragma once
 
 #include "core/base/result.h"
@@ -16,29 +16,29 @@ class LoopWatch {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// A device that has not called or answered the tick for so long does not work.
+    /// A device whose ticks have stopped for this long has failed.
     static constexpr std::chrono::seconds kSilenceMax{5};
 
-    /// `ticks_max` is the loop's: one that ends by itself before that has failed.
+    /// `ticks_max` is the loop's: a loop that ends by itself earlier has failed.
     LoopWatch(std::uint64_t ticks_max, Clock::time_point now)
         : ticks_max_(ticks_max)
         , ticked_(now)
     {}
 
-    /// Takes all events that there are. Call it several times a second, then once before the loop
-    /// is stopped: how that lets go counts as nothing that happened, and neither does how a loop
-    /// that has run for all its ticks does.
+    /// Takes all pending events. Call it several times a second, and once more before the loop is
+    /// stopped: the ramp-down at the stop does not count as an event, nor does the end of a loop
+    /// that has run for all its ticks.
     void look(ServoLoop& loop, Clock::time_point now);
 
-    /// Whether the last look was of a device that has been silent for kSilenceMax.
+    /// Whether the device has been silent for kSilenceMax at the last look().
     bool isSilent() const noexcept { return is_silent_; }
-    /// Up to the last look, by reason; NoTouch too.
+    /// Until the last look(), by reason, including NoTouch.
     std::array<std::uint64_t, kLetGoReasonCount> letGoTicks() const noexcept;
-    /// The last that was not NoTouch; None where forces were never let go.
+    /// The last reason other than NoTouch; None if the force was never off for another reason.
     LetGoReason lastReason() const noexcept { return last_reason_; }
-    /// Done, or what the device did instead of running to the end: it never ticked, never became
-    /// ready, never had a sample of now, was lost or fell silent; or, where it ran, what else went
-    /// wrong. Begins with `uri`.
+    /// Done, or how the device failed to run to the end: it never ticked, never became ready, never
+    /// delivered a current sample, was lost or fell silent; or, if it ran, what else went wrong.
+    /// Begins with `uri`.
     Status verdict(const std::string& uri) const;
 
 private:

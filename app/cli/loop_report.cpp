@@ -29,7 +29,7 @@ Json timesOf(const TimeHistogram& times)
             {"max", times.maximum().count()}};
 }
 
-// How many spans are at most so long, in steps of a doubling.
+// Counts the durations in bins of powers of two.
 std::map<int, std::uint64_t> doublings(const TimeHistogram& times)
 {
     std::map<int, std::uint64_t> counts;
@@ -71,7 +71,7 @@ std::string histogramOf(const TimeHistogram& times)
     return text;
 }
 
-// Why forces were off and for how long, the last reason at the end.
+// Why and for how long the force was off, with the last reason at the end.
 std::string letGoLine(const LoopReport& report)
 {
     std::string text;
@@ -155,9 +155,9 @@ std::string asText(const LoopReport& report)
                                    report.file, report.model, c.ticks, report.rate_hz);
     text += quantileLine("update time", s.tick) + histogramOf(s.tick);
     text += quantileLine("lateness", s.lateness);
-    text += fmt::format("missed deadlines {} by the tick, {} by late waking; {} turns skipped\n",
+    text += fmt::format("missed deadlines {} by the tick, {} by late wake-ups; {} turns skipped\n",
                         s.missed_by_tick, s.missed_by_waking, s.skipped);
-    text += fmt::format("in contact {}, cut short {}, without force {}, damped {}\n", c.in_contact,
+    text += fmt::format("in contact {}, cut short {}, force off {}, damped {}\n", c.in_contact,
                         c.cut_short, c.let_go, c.damped);
     text += letGoLine(report);
     text +=

@@ -1,4 +1,4 @@
-// What `marsview-cli loop` tells of a loop that has run.
+// The report of `marsview-cli loop` after a run.
 #pragma once
 
 #include "haptics/loop/servo_loop.h"
@@ -25,7 +25,7 @@ struct LoopReport {
     std::array<std::uint64_t, kLetGoReasonCount> let_go_ticks{}; // LoopWatch's
     LetGoReason last_reason = LetGoReason::None;
     std::optional<WindowFeederStatistics> feeder{};
-    std::optional<std::uint64_t> allocations{}; // nothing where nobody counted
+    std::optional<std::uint64_t> allocations{}; // empty if allocations are not counted
     std::uint64_t recorded = 0;                 // updates
 };
 

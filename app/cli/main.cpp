@@ -1,4 +1,4 @@
-// marsview-cli: the command line for scripts and benchmarks. No display and no Qt needed.
+// marsview-cli: the command line for scripts and benchmarks. Uses neither a display nor Qt.
 
 #include "app/bench/bench_commands.h"
 #include "app/cli/commands.h"
@@ -32,7 +32,7 @@ void addVersionTo(CLI::App& app)
     }
 }
 
-// Where no handler of main() can: an exception that leaves another thread.
+// For exceptions that main() cannot catch, because they leave another thread.
 [[noreturn]] void endWithOneLine()
 {
     std::string line = "marsview-cli: internal error: terminated; please report this\n";
@@ -44,7 +44,7 @@ void addVersionTo(CLI::App& app)
         line = std::string("marsview-cli: ") + std::string(kOutOfMemory) + "\n";
     } catch (const std::exception& error) {
         line = std::string("marsview-cli: internal error: ") + error.what() + "\n";
-    } catch (...) { // NOLINT(bugprone-empty-catch): the line says all that is known
+    } catch (...) { // NOLINT(bugprone-empty-catch): the line has all known details
     }
     const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
     (void)ignored;

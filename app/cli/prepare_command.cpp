@@ -1,5 +1,5 @@
-// marsview-cli prepare: makes of a raster that is too large to hold what can be looked at and
-// touched piece by piece.
+// marsview-cli prepare: converts a raster larger than memory to a map that can be viewed and
+// touched tile by tile.
 
 #include "app/cli/commands.h"
 #include "app/console/long_job.h"
@@ -41,7 +41,7 @@ struct Options {
 
 struct Work {
     PrepareJob job;
-    bool is_in_place = false; // the raster itself will do
+    bool is_in_place = false; // the raster itself can be used
 };
 
 std::uint64_t bytesOf(const std::string& path)
@@ -73,7 +73,7 @@ Result<Work> workFor(const Options& options, const OpenRaster& raster)
     job.raster_path = options.output;
     if (std::filesystem::is_directory(job.raster_path, ignored)) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: is a folder; name the file to write in it", options.output)};
+                     fmt::format("{}: is a folder; name a file in it", options.output)};
     }
     if (!may_be_in_place && bytesOf(options.output) > 0 &&
         bytesOf(LevelFile::pathFor(options.output)) == 0 &&
@@ -112,7 +112,7 @@ void print(const Json& json)
     line("level file", json["level_file"].get<std::string>());
     line("bytes", fmt::format("{}", json["bytes"].get<std::uint64_t>()));
     line("level bytes", fmt::format("{}", json["level_file_bytes"].get<std::uint64_t>()));
-    line("time", fmt::format("{:.1f} s, of it {:.1f} s for levels", seconds,
+    line("time", fmt::format("{:.1f} s, including {:.1f} s for levels", seconds,
                              json["level_seconds"].get<double>()));
     if (!json["samples_per_second"].is_null()) {
         line("throughput", fmt::format("{:.1f} million samples/s",
@@ -177,21 +177,21 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
         "prepare",
-        "Make of a map too large to hold one that opens at once: a tiled GeoTIFF with "
-        "overviews. Stopped, it goes on where it was when it is started again");
+        "Build overviews for a map larger than memory, so that it opens at once: a tiled "
+        "GeoTIFF and a level file. If interrupted, the next run resumes");
     options->map.addTo(*command);
     command
         ->add_option("-o,--output", options->output,
                      "GeoTIFF to write; by default one in the folder of prepared maps, or none "
-                     "where DEM is tiled and has overviews already")
+                     "if DEM is already tiled and has overviews")
         ->check(fileNameEndingIn({".tif", ".tiff"}));
     command->add_flag("--wait", options->is_waiting,
-                      "where another program prepares the same file, wait for it");
+                      "if another program prepares the same file, wait for it");
     command
-        ->add_option("--checkpoint", options->checkpoint_s, "seconds of work that a stop may cost")
+        ->add_option("--checkpoint", options->checkpoint_s, "seconds of work that a stop may lose")
         ->capture_default_str()
         ->check(numberFrom(0.0, 3600.0));
-    command->add_flag("--json", options->is_json, "for machines");
+    command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runPrepare(*options); }; });
 }
 

@@ -109,7 +109,7 @@ Status runRender(const Options& options)
         return picture.error();
     }
     if (const std::optional<Error>& problem = picture->report.problem) {
-        return *problem; // part of the ground would be coarser than asked for
+        return *problem; // a part of the terrain would be coarser than requested
     }
     const InterruptIgnored ignored;
     Status written = writePng(picture->colors, options.output);
@@ -137,11 +137,11 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->type_name("WxH")
         ->capture_default_str()
         ->check(pictureSize());
-    command->add_option("--look-at", options->look_at, "X,Y in the middle of the picture, map CRS")
+    command->add_option("--look-at", options->look_at, "X,Y at the center of the picture, map CRS")
         ->delimiter(',')
         ->expected(2)
         ->check(finiteNumber());
-    command->add_option("--distance", options->distance_m, "of the eye from there, metres")
+    command->add_option("--distance", options->distance_m, "of the camera from there, meters")
         ->check(positiveNumber());
     command
         ->add_option("--azimuth", options->azimuth_deg,
@@ -149,15 +149,15 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->check(finiteNumber());
     command->add_option("--tilt", options->tilt_deg, "0 looks straight down, at most 85 degrees")
         ->check(numberFrom(0.0, 85.0));
-    command->add_option("--exaggeration", options->exaggeration, "of heights")
+    command->add_option("--exaggeration", options->exaggeration, "vertical exaggeration")
         ->check(positiveNumber());
     auto* error = command
                       ->add_option("--error-px", options->error_px,
-                                   "how far off the surface may be, in pixels")
+                                   "largest error of the surface, in pixels")
                       ->capture_default_str()
                       ->check(positiveNumber());
     command->add_flag("--full", options->is_full, "draw every sample")->excludes(error);
-    command->add_option("--samples", options->samples, "a pixel, against jagged edges")
+    command->add_option("--samples", options->samples, "per pixel, for anti-aliasing")
         ->capture_default_str()
         ->check(wholeNumberFrom(1, 16));
     command->add_option("--shading", options->shading, "tint, hillshade or slope")
@@ -168,11 +168,11 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ramps.emplace_back(known.name);
     }
     command
-        ->add_option("--ramp", options->ramp, "color ramp; by default the one that suits the body")
+        ->add_option("--ramp", options->ramp, "color ramp; by default the one for the body")
         ->check(oneOf(ramps));
     command
         ->add_option("--light", options->light_deg,
-                     "azimuth,altitude where the light comes from, degrees")
+                     "azimuth,altitude of the light source, degrees")
         ->delimiter(',')
         ->expected(2)
         ->capture_default_str()

@@ -44,7 +44,7 @@ Result<std::string> replayNotice(const std::string& uri, const LoopMap& map)
         fmt::format("{} of {} goals are outside the map", fit->beside_count, fit->goal_count);
     if (fit->isElsewhere()) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: {}; give the map that they were recorded on", file, count)};
+                     fmt::format("{}: {}; use the map of the recording", file, count)};
     }
     std::vector<std::string> remarks;
     if (fit->beside_count > 0) {

@@ -1,4 +1,4 @@
-// What is to be said of a recording that a loop replays.
+// Messages about a recording that a loop replays.
 #pragma once
 
 #include "app/cli/loop_map.h"
@@ -10,15 +10,16 @@
 
 namespace marsview {
 
-/// Of a recording whose last line has no end, without a begin and an end.
+/// The message about an incomplete last line, without the file name and the final period.
 inline constexpr std::string_view kCutShortText =
-    "was cut short in its last line, which is left out";
+    "has an incomplete last line, which is skipped";
 
-/// That a recording was made on another map, without a begin and an end.
+/// The message that a recording was made on another map, without the file name and the final
+/// period.
 std::string otherMapText(const GroundPart& recorded);
 
-/// Of "replay:FILE" where it was not recorded on such a map, or touched it in another way; empty
-/// where all is the same, and for any other device. Invalid where every goal lies beside the map.
+/// The notice for "replay:FILE" if it was recorded on another map or with other contact settings;
+/// empty if they match, and for any other device. Invalid if all goals are outside the map.
 Result<std::string> replayNotice(const std::string& uri, const LoopMap& map);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// marsview-cli sample: heights of the surface at single positions.
+// marsview-cli sample: elevations of the surface at single positions.
 
 #include "app/cli/commands.h"
 #include "app/console/map_options.h"
@@ -134,7 +134,7 @@ private:
     bool is_json_;
 };
 
-// Two numbers, apart by blanks, a comma or a semicolon; "nan" is a number.
+// Two numbers separated by blanks, a comma or a semicolon; "nan" is a number.
 std::optional<Position> parsePosition(std::string line)
 {
     for (char& c : line) {
@@ -156,7 +156,7 @@ std::optional<Position> parsePosition(std::string line)
 
 Status sampleStdin(Sampler& sampler)
 {
-    std::ios::sync_with_stdio(false); // so that std::cin can say whether it has more
+    std::ios::sync_with_stdio(false); // so that in_avail() of std::cin works
     constexpr std::size_t kLineBytesMax = 4096;
     std::string line;
     for (std::size_t number = 1;; ++number) {
@@ -167,7 +167,7 @@ Status sampleStdin(Sampler& sampler)
         if (outcome == LineOutcome::TooLong) {
             return Error{ErrorCode::TooLarge,
                          fmt::format("--stdin: line {} is longer than {} bytes; write one position "
-                                     "a line",
+                                     "per line",
                                      number, kLineBytesMax)};
         }
         if (line.find_first_not_of(" \t\r") == std::string::npos) {
@@ -181,12 +181,12 @@ Status sampleStdin(Sampler& sampler)
             }
             return Error{
                 ErrorCode::Invalid,
-                fmt::format("--stdin: line {} is \"{}\"; two numbers are needed", number, line)};
+                fmt::format("--stdin: line {} is \"{}\"; two numbers are required", number, line)};
         }
         if (Status status = sampler.print(*position); !status) {
             return status;
         }
-        // A program at the other end of a pipe may wait for this answer before it asks again.
+        // A program at the other end of a pipe may wait for this result before it sends more.
         if (std::cin.rdbuf()->in_avail() <= 0) {
             std::fflush(stdout);
         }
@@ -233,7 +233,7 @@ void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
 {
     const auto options = std::make_shared<Options>();
     CLI::App* command =
-        app.add_subcommand("sample", "Print the elevation at a position, in metres");
+        app.add_subcommand("sample", "Print the elevation at a position, in meters");
     options->map.addTo(*command);
     const std::string group = "Position";
     struct FrameOption {
@@ -245,7 +245,7 @@ void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
     for (const FrameOption& entry :
          {FrameOption{"--map", "X Y", "map coordinates in the raster's CRS", PositionFrame::Map},
           FrameOption{"--lonlat", "LON LAT", "degrees, east-positive", PositionFrame::LonLat},
-          FrameOption{"--pixel", "C R", "column and row; integers are sample centres",
+          FrameOption{"--pixel", "C R", "column and row; integers are sample centers",
                       PositionFrame::Pixel}}) {
         const auto set_frame = [options, frame = entry.frame] { options->frame = frame; };
         if (has_stdin) {
@@ -260,16 +260,16 @@ void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
     }
     command->add_flag(
         "--stdin", options->is_stdin,
-        "read one position a line, print one height a line; the position options then "
-        "stand without numbers (default: --map)");
-    command->add_flag("--json", options->is_json, "for machines");
+        "read one position per line, print one elevation per line; the position options "
+        "then take no numbers (default: --map)");
+    command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, command, has_stdin, &run] {
         std::size_t count = 0;
         for (const char* name : {"--map", "--lonlat", "--pixel"}) {
             count += command->get_option(name)->count() > 0 ? 1U : 0U;
         }
         if (count > 1 || (count == 0 && !has_stdin)) {
-            throw CLI::ValidationError("--map, --lonlat, --pixel", "exactly one of them is needed");
+            throw CLI::ValidationError("--map, --lonlat, --pixel", "exactly one is required");
         }
         run = [options] { return runSample(*options); };
     });

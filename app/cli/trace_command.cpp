@@ -1,4 +1,4 @@
-// marsview-cli trace: a contact model over a list of goals, without clock or device.
+// marsview-cli trace: runs a contact model over a list of goals, without clock or device.
 
 #include "app/cli/commands.h"
 #include "app/cli/contact_trace.h"
@@ -33,7 +33,7 @@ namespace {
 struct Options {
     MapOptions map;
     std::string goals;
-    std::optional<std::string> model; // these three: a recording's, or else the default
+    std::optional<std::string> model; // these three: default from the recording, else the program's
     std::optional<double> radius_m;
     std::optional<double> exaggeration;
     bool has_timing = false;
@@ -41,7 +41,7 @@ struct Options {
     std::string output;
 };
 
-// What the command line says holds throughout; otherwise what a recording says.
+// Options on the command line apply throughout; otherwise the recording's settings apply.
 Result<std::vector<TraceTouch>>
 touchesOf(const Options& options, const GoalRecording& recording, const TraceSubject& subject)
 {
@@ -56,8 +56,8 @@ touchesOf(const Options& options, const GoalRecording& recording, const TraceSub
     for (const GoalPart& part : recording.parts) {
         if (part.map != recording.parts.front().map) {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: from line {} on it is a recording of another map; cut "
-                                     "it in two there",
+                         fmt::format("{}: is a recording of another map from line {} on; split "
+                                     "it there",
                                      options.goals, part.line)};
         }
         touches.push_back(
@@ -71,7 +71,7 @@ touchesOf(const Options& options, const GoalRecording& recording, const TraceSub
     return touches;
 }
 
-// One model after the other; one that comes back goes on where it was.
+// One model after the other; a model that occurs again continues in its last state.
 class Tracing {
 public:
     Tracing(const TraceSubject& subject, const GoalRecording& recording)
@@ -145,13 +145,13 @@ private:
     std::size_t next_ground_ = 0;
 };
 
-// Of how many updates something else came than when they were recorded; nothing where the file does
-// not tell, or it was asked for.
+// The number of updates whose result differs from the recorded one; empty if the file has no
+// results, or if options changed the settings.
 std::optional<std::size_t> differingCount(const Options& options,
                                           const GoalRecording& recording,
                                           const std::vector<TraceUpdate>& updates)
 {
-    // A flight record, which tells no ground, begins in the middle of a touch.
+    // A diagnostic log, which has no terrain data, begins in the middle of a touch.
     if (recording.updates.empty() || !recording.parts.front().ground || options.model ||
         options.radius_m || options.exaggeration) {
         return std::nullopt;
@@ -164,7 +164,7 @@ std::optional<std::size_t> differingCount(const Options& options,
     return count;
 }
 
-// What is odd about the goals; empty where nothing is.
+// Notices about the goals; empty if there are none.
 std::string noticeOf(const Options& options,
                      const GoalRecording& recording,
                      const TraceSubject& subject,
@@ -189,8 +189,8 @@ std::string noticeOf(const Options& options,
     }
     if (const auto count = differingCount(options, recording, updates); count && *count > 0) {
         remarks.push_back(
-            fmt::format("has {} of {} updates that come out otherwise now; was it "
-                        "edited, or the map another one, or opened with other options?",
+            fmt::format("has {} of {} updates with different results now; was the "
+                        "recording edited, or another map or other options used?",
                         *count, updates.size()));
     }
     return remarks.empty() ? std::string()
@@ -208,7 +208,7 @@ nlohmann::ordered_json touchJson(const TraceTouch& touch)
     return json;
 }
 
-// That of the first goals; "parts" has all, where there are several.
+// The summary of the first goals; "parts" has all, if there are several.
 nlohmann::ordered_json summaryOf(const Options& options,
                                  const GoalRecording& recording,
                                  const std::vector<TraceTouch>& touches,
@@ -240,8 +240,8 @@ Result<TraceSubject> openMesh(const Options& options, JobMonitor& monitor)
     }
     if (options.model == contactModelName(ContactModelKind::VirtualProxy) && !options.radius_m) {
         return Error{ErrorCode::Invalid,
-                     "--radius: is needed with virtual-proxy over a mesh, which has no cell to be "
-                     "half of"};
+                     "--radius: is required with virtual-proxy over a mesh, which has no "
+                     "cell size"};
     }
     return meshSubject(options.map, options.exaggeration.value_or(1.0), monitor);
 }
@@ -320,8 +320,8 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
         "trace",
-        "Run a contact model over a list of goals and print where the proxy goes. DEM may also be "
-        "a triangle mesh: OBJ, PLY or STL, in metres");
+        "Run a contact model over a list of goals and print the proxy's path. DEM may also be "
+        "a triangle mesh: OBJ, PLY or STL, in meters");
     options->map.addTo(*command);
     command
         ->add_option("--goals", options->goals,
@@ -336,17 +336,17 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     }
     command
         ->add_option("--model", options->model,
-                     fmt::format("contact model; default what a recording says, or else {}",
+                     fmt::format("contact model; default from the recording, else {}",
                                  contactModelName(kContactModelDefault)))
         ->check(oneOf(names));
     command
         ->add_option("--radius", options->radius_m,
-                     "of the sphere of virtual-proxy, scene metres; default what a recording says, "
-                     "or else half a cell")
+                     "radius of the virtual-proxy sphere, scene meters; default from the "
+                     "recording, else half a cell")
         ->check(positiveNumber());
     command
         ->add_option("--exaggeration", options->exaggeration,
-                     "of heights; default what a recording says, or else 1")
+                     "vertical exaggeration; default from the recording, else 1")
         ->check(positiveNumber());
     command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
     command->add_option("--summary", options->summary, "JSON file for totals, means and times");

@@ -14,7 +14,7 @@
 namespace marsview {
 namespace {
 
-// Over a map: heights are those of `sample`, x and y are the CRS'.
+// Over a map: heights are those of `sample`, x and y are in the CRS.
 TraceFrame frameOf(const GoalFrame& frame)
 {
     return {
@@ -24,7 +24,7 @@ TraceFrame frameOf(const GoalFrame& frame)
     };
 }
 
-// Over a mesh: coordinates are scene metres, but for the exaggeration.
+// Over a mesh: coordinates are scene meters, without the exaggeration.
 TraceFrame meshFrame(double exaggeration)
 {
     return {

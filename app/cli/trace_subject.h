@@ -1,4 +1,4 @@
-// What `trace` touches: a map or a mesh.
+// The map or mesh that `trace` touches.
 #pragma once
 
 #include "app/cli/contact_trace.h"
@@ -21,19 +21,19 @@
 
 namespace marsview {
 
-/// How it is touched by the goals from `first` on.
+/// The contact settings for the goals from `first` on.
 struct TraceTouch {
     std::size_t first = 0;
-    std::uint64_t part = 0; // of a recording: another number is another model
+    std::uint64_t part = 0; // of a recording: different for another model
     ContactModelKind kind = kContactModelDefault;
     double radius_m = 1.0;
     double exaggeration = 1.0;
-    std::optional<SceneFrame> frame{}; // of a map that lay in another one's scene
+    std::optional<SceneFrame> frame{}; // for a map placed in another map's scene
 };
 
 struct Toucher {
     std::unique_ptr<ContactModel> model;
-    MapContactModel* map_model = nullptr; // the same, of a map
+    MapContactModel* map_model = nullptr; // the same model, if over a map
     TraceFrame frame;
 };
 
@@ -46,14 +46,14 @@ struct TraceSubject {
     bool is_recorded_on = false;                   // what the recording says of its map holds
 };
 
-/// Whether a path is that of a mesh, by its ending.
+/// Whether a path has the extension of a mesh.
 bool isMesh(const std::string& path);
 
-/// `exaggeration` holds for all that touches it.
+/// `exaggeration` applies to all models over the subject.
 Result<TraceSubject>
 meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor);
 
-/// A map in tiles is as the recording felt it, where that was made on such a map.
+/// A tiled map has the tiles of the recording, if that was made on such a map.
 Result<TraceSubject>
 mapSubject(const MapOptions& options, const GoalRecording& recording, JobMonitor& monitor);
 

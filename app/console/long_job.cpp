@@ -81,7 +81,7 @@ void LongJob::showProgress(const std::stop_token& stop)
     std::condition_variable_any wake;
     std::unique_lock lock(mutex);
     bool has_shown = false;
-    // A job may go on with what an earlier one began: only what is done from now on tells its pace.
+    // A job may resume earlier work: only the progress made from now on gives the rate.
     std::optional<double> begin;
     std::chrono::steady_clock::time_point begin_time;
     while (!wake.wait_for(lock, stop, kInterval, [&stop] { return stop.stop_requested(); })) {

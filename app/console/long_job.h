@@ -10,9 +10,10 @@
 
 namespace marsview {
 
-/// While it lives, shows the monitor's progress on stderr if that is a terminal, with the time left
-/// where that is worth waiting for, and lets Ctrl-C cancel the job, the opening of rasters on this
-/// thread included, instead of killing the program; a second Ctrl-C kills it. One at a time.
+/// During its lifetime, shows the monitor's progress on stderr if that is a terminal, with the
+/// remaining time if it is long enough to be useful, and lets Ctrl-C cancel the job, including the
+/// opening of rasters on this thread, instead of killing the program; a second Ctrl-C kills it. One
+/// at a time.
 class LongJob {
 public:
     explicit LongJob(std::string what);
@@ -22,11 +23,11 @@ public:
 
     JobMonitor& monitor() noexcept { return monitor_; }
 
-    /// Whether there is one now.
+    /// Whether one exists.
     static bool isRunning() noexcept;
 
-    /// "about 3 min left" for a job that came from `begin` to `fraction` in `elapsed`; empty where
-    /// that is too early to say or hardly any time is left.
+    /// "about 3 min left" for a job that advanced from `begin` to `fraction` in `elapsed`; empty if
+    /// it is too early for an estimate or hardly any time is left.
     static std::string
     timeLeft(double begin, double fraction, std::chrono::duration<double> elapsed);
 

@@ -9,7 +9,7 @@
 namespace marsview {
 namespace {
 
-// What follows the name in a file of "name: value" lines; empty where there is none.
+// The value of the name in a file of "name: value" lines; empty if missing.
 std::string valueIn(const char* path, std::string_view name)
 {
     std::ifstream file(path);

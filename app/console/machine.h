@@ -1,4 +1,4 @@
-// What measurements say about the machine and about this process.
+// Information about the machine and this process, for benchmark results.
 #pragma once
 
 #include <chrono>
@@ -8,19 +8,19 @@
 
 namespace marsview {
 
-/// "Intel(R) Xeon(R) …"; "unknown" where the system does not say.
+/// "Intel(R) Xeon(R) …"; "unknown" if the system does not report it.
 std::string processorName();
 
-/// Processor time of all threads of this process so far, the system's on its behalf included.
+/// Processor time of all threads of this process so far, including system time.
 std::chrono::duration<double, std::milli> processorTime();
 
-/// The most memory that this process has held since the last call of forgetPeakMemory(), bytes; 0
-/// where the system does not say.
+/// The peak memory of this process since the last call of forgetPeakMemory(), in bytes; 0 if the
+/// system does not report it.
 std::size_t peakMemoryBytes();
-/// The peak counts from now on, where the system can.
+/// Resets the peak, if the system supports that.
 void forgetPeakMemory();
 
-/// The folder in which this executable lies; empty where the system does not say.
+/// The folder of this executable; empty if the system does not report it.
 std::filesystem::path programFolder();
 
 } // namespace marsview

@@ -81,8 +81,8 @@ void MapOptions::addTo(CLI::App& command)
 
 void MapOptions::addOverridesTo(CLI::App& command)
 {
-    const std::string group = "Instead of what the file says";
-    command.add_option("--band", band, "band to read, counted from 1")
+    const std::string group = "Overrides of the file's metadata";
+    command.add_option("--band", band, "band to read, starting at 1")
         ->group(group)
         ->check(wholeNumberFrom(1, std::numeric_limits<int>::max()));
     command.add_option("--crs", crs, "EPSG:… or IAU_2015:… code, PROJ string or WKT")
@@ -90,7 +90,7 @@ void MapOptions::addOverridesTo(CLI::App& command)
         ->check(knownCrs());
     command.add_option("--body", body, "Mars, Moon, Earth, …")->group(group)->check(knownBody());
     command
-        .add_option("--radii", radii_m, "equatorial and polar radius of the ellipsoid in metres")
+        .add_option("--radii", radii_m, "equatorial and polar radius of the ellipsoid in meters")
         ->expected(1, 2)
         ->group(group)
         ->check(positiveNumber());
@@ -115,14 +115,14 @@ void MapOptions::addOverridesTo(CLI::App& command)
         ->group(group);
     command
         .add_option("--vertical-datum", vertical_datum,
-                    "name of the surface that elevations count from: areoid, EGM96 geoid, …")
+                    "surface that elevations refer to: areoid, EGM96 geoid, …")
         ->group(group);
     command.add_option("--nodata", nodata, "raw value that marks nodata")
         ->group(group)
         ->check(anyNumber());
     command
         .add_option("--latitude", latitude,
-                    "how latitudes count: planetocentric (default; on the Earth: planetographic)")
+                    "kind of latitude: planetocentric (default; on the Earth: planetographic)")
         ->check(oneOf({"planetocentric", "planetographic"}));
 }
 

@@ -1,4 +1,4 @@
-// The options that say which map is meant and what the user knows better than its file.
+// The options that select a map and override what its file states.
 #pragma once
 
 #include "core/base/result.h"
@@ -30,29 +30,29 @@ struct MapOptions {
     std::optional<double> offset;
     std::string vertical_datum;
     std::optional<double> nodata;
-    std::string latitude; // "planetocentric", "planetographic", or empty for the body's custom
+    std::string latitude; // "planetocentric", "planetographic", or empty for the body's convention
 
     void addTo(CLI::App& command);
-    /// All but the map itself.
+    /// All options except the map itself.
     void addOverridesTo(CLI::App& command);
     RasterOverrides overrides() const;
     RasterSpec spec() const;
     /// The overrides as they were given: for another process.
     std::vector<std::string> overrideArguments() const;
-    /// Whether anything but the map itself was given.
+    /// Whether any option other than the map itself was given.
     bool hasOverrides() const;
-    /// How bare latitudes are meant for a map of that body (null: of no known one).
+    /// The kind of bare latitudes for a map of that body (null: unknown body).
     LatitudeKind latitudeKind(const Body* of_body) const;
 };
 
-/// For every option that names a map: "file://" addresses become paths.
+/// For every option that names a map: converts "file://" URLs to paths.
 CLI::Validator mapName();
 
 /// The raster that the options name, with their overrides. Shows progress where that takes long.
 Result<OpenRaster> openRaster(const MapOptions& options);
 
-/// Says on stderr what was noticed about the map: for when the result is out. A failure says only
-/// its own sentence.
+/// Prints the notices about the map to stderr; call it after the result has been printed. After an
+/// error only the error is printed.
 void printNotices(const RasterInfo& info);
 
 } // namespace marsview

@@ -18,7 +18,7 @@
 namespace marsview {
 namespace {
 
-// Refuses texts that are not numbers, and the numbers that `is_valid` refuses.
+// Rejects texts that are not numbers, and numbers for which `is_valid` is false.
 template <typename IsValid>
 CLI::Validator numberCheck(const IsValid& is_valid, const std::string& wanted)
 {

@@ -1,4 +1,4 @@
-// Checks of option values. Each refusal is half a sentence that follows the option's name.
+// Checks of option values. Each error message is phrased to follow the option's name.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ namespace marsview {
 // CLI11 reads "nan" and "inf" as numbers, lets NaN through its ranges, and writes the bounds of
 // CLI::PositiveNumber with 300 digits.
 
-/// NaN and infinities included.
+/// Including NaN and infinities.
 CLI::Validator anyNumber();
 CLI::Validator finiteNumber();
-/// Finite and more than 0.
+/// Finite and greater than 0.
 CLI::Validator positiveNumber();
 /// Finite and not 0.
 CLI::Validator nonZeroNumber();
 /// Both ends included.
 CLI::Validator numberFrom(double low, double high);
 CLI::Validator wholeNumberFrom(std::uint64_t low, std::uint64_t high);
-/// One of these words, case-sensitive; the refusal suggests the nearest one.
+/// One of these words, case-sensitive; the error suggests the nearest one.
 CLI::Validator oneOf(std::vector<std::string> words);
-/// A name that ends in one of these (".png"), whatever its case.
+/// A name with one of these extensions (".png"), case-insensitive.
 CLI::Validator fileNameEndingIn(std::vector<std::string> endings);
 
 } // namespace marsview

@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-/// While it lives, Ctrl-C is ignored: for the moment in which a file is written.
+/// Ignores Ctrl-C during its lifetime: for the moment in which a file is written.
 class InterruptIgnored {
 public:
     InterruptIgnored();
@@ -20,9 +20,9 @@ private:
     void (*before_)(int);
 };
 
-/// Writes `text` to `path`: whole or not at all. A regular file is written under another name in
-/// the same folder and then renamed; pipes and devices are written directly. Ctrl-C is ignored for
-/// that time. Unreadable with the system's reason where it fails.
+/// Writes `text` to `path`, completely or not at all. A regular file is written under another name
+/// in the same folder and then renamed; pipes and devices are written directly. Ctrl-C is ignored
+/// during the call. Unreadable, with the system's reason, on failure.
 Status writeOutputFile(const std::string& path, std::string_view text);
 
 } // namespace marsview

@@ -5,7 +5,7 @@
 
 namespace marsview {
 
-/// The value below which a share of the values lies; 0 of none.
+/// The value below which `share` of the values lies; 0 if there are no values.
 double quantile(std::vector<double> values, double share);
 
 } // namespace marsview

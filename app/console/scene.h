@@ -1,4 +1,4 @@
-// What commands that draw have in common: a map, a renderer without a window, a camera.
+// Shared by commands that draw: a map, a renderer without a window, a camera.
 #pragma once
 
 #include "app/console/map_options.h"
@@ -24,31 +24,31 @@ struct Scene {
     std::shared_ptr<const Map> map;
     double exaggeration = 1.0; // that suits the map
 
-    /// The ramp that suits the map's body.
+    /// The default ramp of the map's body.
     const ColorRamp& ramp() const;
     /// The box of the map at an exaggeration.
     SceneBox box(double with_exaggeration) const;
-    /// Which ground counts where tiles of the map are missing: what stands in for them now, or
-    /// their own, which is waited for.
+    /// The terrain to use where tiles of the map are missing: Now uses the coarser tiles that
+    /// replace them, Waiting loads the tiles themselves.
     enum class Ground { Now, Waiting };
 
-    /// Height of the ground in scene metres; NaN beside the map and in voids.
+    /// Height of the terrain in scene meters; NaN outside the map and in voids.
     double ground(double east_m,
                   double north_m,
                   double with_exaggeration,
                   Ground which = Ground::Now) const;
-    /// The camera within the bounds of navigation, above the ground.
+    /// The camera moved within the limits of navigation and above the terrain.
     OrbitCamera
     bounded(const OrbitCamera& camera, double with_exaggeration, Ground which = Ground::Now) const;
 };
 
-/// A renderer without a map; `notify` is TerrainRenderer's. This first, as it fails at once.
+/// A renderer without a map; `notify` is TerrainRenderer's. Call it first, since it fails early.
 Result<Scene> emptyScene(std::function<void()> notify = {});
 /// From now on the map is drawn. `ramp` is null for the one that suits the body.
 void showIn(Scene& scene, std::shared_ptr<const Map> map, const ColorRamp* ramp);
 
-/// Reads and analyses the map, showing progress. `ramp` is null for the one that suits the body;
-/// `notify` is TerrainRenderer's.
+/// Reads and analyzes the map, showing progress. `ramp` is null for the body's default; `notify` is
+/// TerrainRenderer's.
 Result<Scene>
 openScene(const MapOptions& options, const ColorRamp* ramp, std::function<void()> notify = {});
 

@@ -1,4 +1,4 @@
-// How results are written: independent of the locale, and exact.
+// Writes results: independent of the locale, and exact.
 #pragma once
 
 #include "core/base/plain_number.h" // IWYU pragma: export
@@ -8,8 +8,8 @@
 
 namespace marsview {
 
-/// The value of "schema" in everything that --json prints. It changes when a field is removed or
-/// changes its meaning; resources/guide/json.md lists the fields.
+/// The value of "schema" in all --json output. It changes when a field is removed or changes its
+/// meaning; resources/guide/json.md lists the fields.
 constexpr int kJsonSchema = 1;
 
 /// A number for JSON, which has no NaN: null instead.
@@ -23,7 +23,8 @@ enum class JsonLayout { Indented, OneLine };
 /// Writes JSON to stdout; bytes that are not UTF-8 are replaced.
 void printJson(const nlohmann::ordered_json& json, JsonLayout layout = JsonLayout::Indented);
 
-/// The text with spaces for line breaks and other control characters, which file names may contain.
+/// The text with spaces in place of line breaks and other control characters, which file names may
+/// contain.
 std::string asOneLine(std::string text);
 
 /// Writes the text and a newline to stdout.
@@ -31,8 +32,8 @@ void printLine(const std::string& text);
 
 enum class ErrorForm { Line, Json };
 
-/// Writes an error to stderr: as "marsview-cli: <message>", or as a JSON object in one line with
-/// what failed, why, and the exit status. `message` has the form "<file or option>: <why>".
+/// Writes an error to stderr: as "marsview-cli: <message>", or as a one-line JSON object with what
+/// failed, why, and the exit status. `message` has the form "<file or option>: <why>".
 void printError(const std::string& message, int exit_status, ErrorForm form);
 
 } // namespace marsview

@@ -26,7 +26,7 @@ bool isNumber(std::string_view word)
     return parseNumber(word).has_value();
 }
 
-// A word that stands for an option rather than a value: "-5" and "-" are values.
+// Whether a word is an option rather than a value: "-5" and "-" are values.
 bool looksLikeOption(const std::string& word)
 {
     return word.size() > 1 && word.front() == '-' && !isNumber(word) &&
@@ -34,8 +34,8 @@ bool looksLikeOption(const std::string& word)
             word[1] != ',');
 }
 
-// "1,2 3" in its parts; an empty part where two commas leave nothing between them. A comma at the
-// end is one before the next word.
+// The parts of "1,2 3"; an empty part between two adjacent commas. A comma at the end counts as one
+// before the next word.
 Words partsOf(const std::string& word)
 {
     Words parts{""};
@@ -151,7 +151,7 @@ private:
         return word == "--help" || word == "-h" || word == "--version";
     }
 
-    // Before "--", where file names follow.
+    // Before "--", after which file names follow.
     std::optional<std::string> helpOrVersion() const
     {
         for (std::size_t i = at_; i < given_.size() && given_[i] != "--"; ++i) {
@@ -282,7 +282,7 @@ private:
                 return usage(name, fmt::format("{} is not a finite number", text));
             }
             if (items_max > 1 && text.starts_with("-.")) {
-                text.insert(1, "0"); // the parser takes -.5 for an option
+                text.insert(1, "0"); // the parser would take -.5 for an option
             }
         }
         const int count = static_cast<int>(values.size());
@@ -328,8 +328,8 @@ private:
                                  count);
     }
 
-    // The first value with an equals sign, so that no minus sign is taken for an option. What ends
-    // an open list is eaten by the parser.
+    // Writes the first value with an equals sign, so that a minus sign is not parsed as an option.
+    // The parser consumes the end of an open list.
     void emit(const std::string& name, const CLI::Option& option, const Words& values)
     {
         const bool has_list = option.get_items_expected_max() > 1;

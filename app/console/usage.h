@@ -1,4 +1,4 @@
-// Wrong usage: what is refused before any file is opened.
+// Usage errors: checks before any file is opened.
 #pragma once
 
 #include "core/base/result.h"
@@ -13,18 +13,18 @@ class ParseError;
 
 namespace marsview {
 
-/// The arguments, without the program's name, in the form that the parser of `app` reads:
+/// Converts the arguments, without the program's name, to the form that the parser of `app` reads:
 /// numbers that belong together are separated, whether they were written with commas, blanks or
-/// both, and negative ones stay with their option; `--help` and `--version` count wherever they
-/// stand. Unknown commands and options, missing and superfluous values are errors that suggest the
-/// nearest name. The message has the form "<option>: <what and why>".
+/// both, and negative ones stay with their option; `--help` and `--version` are recognized at any
+/// position. Unknown commands and options, missing and superfluous values are errors that suggest
+/// the nearest name. The message has the form "<option>: <what and why>".
 Result<std::vector<std::string>> normalizedArguments(const CLI::App& app,
                                                      const std::vector<std::string>& arguments);
 
-/// What the parser refuses, as "<option>: <what and why>".
+/// The parser's error as "<option>: <what and why>".
 std::string usageMessage(const CLI::ParseError& error);
 
-/// "marsview-cli sample" for the arguments of that command, or of what comes nearest to it.
+/// "marsview-cli sample" for the arguments of that command, or the closest match.
 std::string commandName(const CLI::App& app, const std::vector<std::string>& arguments);
 
 } // namespace marsview

@@ -18,13 +18,13 @@ volatile std::sig_atomic_t EndBySignal::told_ = -1;
 EndBySignal::EndBySignal()
 {
     if (pipe2(pipe_.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
-        return; // then they end it as they always do
+        return; // then the signals have their default effect
     }
     told_ = pipe_[1];
-    std::signal(SIGPIPE, SIG_IGN); // a recording into a pipe fails like one onto a full disk
+    std::signal(SIGPIPE, SIG_IGN); // a recording to a closed pipe fails as on a full disk
     notifier_ = std::make_unique<QSocketNotifier>(pipe_[0], QSocketNotifier::Read);
     QObject::connect(notifier_.get(), &QSocketNotifier::activated, [this] {
-        notifier_->setEnabled(false); // once is enough
+        notifier_->setEnabled(false); // react only once
         QCoreApplication::quit();
     });
     for (const int number : kSignals) {

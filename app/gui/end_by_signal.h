@@ -1,4 +1,4 @@
-// The program ends in order where the system asks it to.
+// Ends the program normally when the system asks it to.
 #pragma once
 
 #include <QSocketNotifier>
@@ -9,10 +9,9 @@
 
 namespace marsview {
 
-/// While it lives, SIGTERM, SIGINT and SIGHUP quit the application as its menu does: devices are
-/// let go of and closed, recordings finished, and the next start finds nothing odd. Pipes that
-/// nobody reads any more end nothing. One at a time,
-/// in the GUI's thread.
+/// During its lifetime SIGTERM, SIGINT and SIGHUP quit the application like the menu does: devices
+/// are released and closed, recordings are finished, and the next start finds no trace of a crash.
+/// Writing to a pipe without a reader does not end the program. One at a time, in the GUI thread.
 class EndBySignal {
 public:
     EndBySignal();
@@ -23,7 +22,7 @@ public:
 private:
     static void tell(int number);
 
-    std::array<int, 2> pipe_{-1, -1}; // a handler may do no more than write
+    std::array<int, 2> pipe_{-1, -1}; // a signal handler may only write to it
     std::unique_ptr<QSocketNotifier> notifier_;
     static volatile std::sig_atomic_t told_;
 };

@@ -1,4 +1,4 @@
-// The program with the window: reads the command line and puts the parts together.
+// The program with the window: reads the command line and creates the parts.
 
 #include "app/gui/end_by_signal.h"
 #include "app/gui/window_arguments.h"
@@ -33,20 +33,19 @@ void printProblem(const QString& problem)
     std::fprintf(stderr, "marsview: %s\n", problem.toUtf8().constData());
 }
 
-// Qt stops the program with an advice of its own where it finds no display. While it starts, only
-// ours is to be read.
+// Without a display Qt aborts with its own advice. During startup, only our message is printed.
 void reportFatalOnly(QtMsgType type, const QMessageLogContext&, const QString&)
 {
     if (type == QtFatalMsg) {
         std::fputs(
-            "marsview: no display can be opened; start in a desktop session, or under "
+            "marsview: cannot open a display; start in a desktop session, or under "
             "xvfb-run\n",
             stderr);
         std::_Exit(kFailed);
     }
 }
 
-// Qt sees its own options alone, and takes them out of `arguments`.
+// Passes only Qt's own options to Qt, which removes them from `arguments`.
 std::unique_ptr<QApplication> makeApplication(int& argc, char** argv)
 {
     const QtMessageHandler handler = qInstallMessageHandler(reportFatalOnly);
@@ -130,7 +129,7 @@ int main(int argc, char** argv)
             std::fputs(arguments->answer->c_str(), stdout);
             return std::fflush(stdout) == 0 ? EXIT_SUCCESS : kFailed;
         }
-        // They have to outlive the application.
+        // These must outlive the application.
         std::vector<std::string> words{argc > 0 ? argv[0] : "marsview"};
         words.insert(words.end(), arguments->for_qt.begin(), arguments->for_qt.end());
         std::vector<char*> pointers;
@@ -141,14 +140,14 @@ int main(int argc, char** argv)
         int count = static_cast<int>(words.size());
         const std::unique_ptr<QApplication> application = makeApplication(count, pointers.data());
         if (count > 1) {
-            std::fprintf(stderr, "marsview: %s: not an option of this Qt\n", pointers[1]);
+            std::fprintf(stderr, "marsview: %s: not an option of this Qt version\n", pointers[1]);
             return kUsage;
         }
         QCoreApplication::setOrganizationName(QStringLiteral("MarsView"));
         QCoreApplication::setApplicationName(QStringLiteral("MarsView"));
         QCoreApplication::setApplicationVersion(QStringLiteral(MARSVIEW_VERSION));
         if (QLocale().language() == QLocale::C) {
-            QLocale::setDefault(QLocale(QLocale::English)); // digits in groups
+            QLocale::setDefault(QLocale(QLocale::English)); // with group separators
         }
         QGuiApplication::setDesktopFileName(QStringLiteral("org.marsview.MarsView"));
         return runWindow(*application, *arguments);

@@ -17,14 +17,15 @@ namespace {
 
 constexpr int kWidthMin = 320;
 constexpr int kHeightMin = 240;
-constexpr int kSideMax = 8192; // what every driver of OpenGL 3.3 draws
+constexpr int kSideMax = 8192; // supported by every OpenGL 3.3 driver
 
 struct QtOption {
-    std::string_view name; // with one dash; Qt takes two as well
+    std::string_view name; // with one dash; Qt also accepts two
     bool has_value;
 };
 
-// Those of QGuiApplication and QApplication (Qt 6), without the geometry, which is ours.
+// The options of QGuiApplication and QApplication (Qt 6), except the geometry, which is parsed
+// here.
 constexpr std::array kQtOptions{
     QtOption{"platform", true},      QtOption{"platformpluginpath", true},
     QtOption{"platformtheme", true}, QtOption{"plugin", true},
@@ -70,7 +71,7 @@ const QtOption* qtOption(std::string_view name)
     return found != kQtOptions.end() ? found : nullptr;
 }
 
-// A whole number with an optional sign, taken off the front of `text`.
+// Parses a whole number with an optional sign from the front of `text`, and removes it.
 std::optional<int> takeNumber(std::string_view& text)
 {
     std::string_view digits = text;
@@ -87,7 +88,7 @@ std::optional<int> takeNumber(std::string_view& text)
     return number;
 }
 
-// Nothing where it is not of the form.
+// Empty if the text does not have the form.
 std::optional<WindowGeometry> geometryFrom(std::string_view text)
 {
     WindowGeometry geometry;
@@ -196,7 +197,7 @@ private:
     std::optional<Error> takeScreenshot(const std::string& file)
     {
         if (file.empty()) {
-            return usage("--screenshot", "the name of the picture is empty");
+            return usage("--screenshot", "the file name is empty");
         }
         arguments_.screenshot = file;
         return std::nullopt;

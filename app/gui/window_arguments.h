@@ -9,8 +9,8 @@
 
 namespace marsview {
 
-/// Of a window, in pixels. From "WIDTHxHEIGHT", "WIDTHxHEIGHT+X+Y" or "+X+Y", as X11 programs have
-/// it.
+/// Window size and position in pixels. From "WIDTHxHEIGHT", "WIDTHxHEIGHT+X+Y" or "+X+Y", as in X11
+/// programs.
 struct WindowGeometry {
     struct Extent {
         int width;
@@ -25,18 +25,19 @@ struct WindowGeometry {
 };
 
 struct WindowArguments {
-    /// Maps to open in this order: the last one lies on top. "file://" addresses are paths here.
+    /// Maps to open in this order: the last one is on top. "file://" URLs have been converted to
+    /// paths.
     std::vector<std::string> maps;
     std::string screenshot; // file; empty: none
     WindowGeometry geometry;
     /// Qt's own ("-style", "fusion", …), for QApplication.
     std::vector<std::string> for_qt;
-    /// What --help or --version prints; the program ends after it.
+    /// The output of --help or --version; the program exits after printing it.
     std::optional<std::string> answer;
 };
 
-/// `arguments` without the program's name. Needs neither Qt nor a display. The error has the form
-/// "<option>: <what and why>".
+/// `arguments` without the program's name. Requires neither Qt nor a display. The error has the
+/// form "<option>: <what and why>".
 Result<WindowArguments> parseWindowArguments(const std::vector<std::string>& arguments,
                                              const std::string& version);
 

@@ -1,5 +1,5 @@
-// marsview-probe: opens a raster for marsview and marsview-cli, which read it only where this one
-// survives. Not meant to be run by people.
+// marsview-probe: opens a raster for marsview and marsview-cli, which read the raster only if this
+// process does not crash. Not intended for direct use.
 #include "core/files/open_probe.h"
 
 #include <csignal>
@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// Their shadow memory counts.
+// Sanitizers reserve shadow memory, which would count toward a limit.
 #define MARSVIEW_UNLIMITED_MEMORY 1 // NOLINT(cppcoreguidelines-macro-usage)
 #endif
 
@@ -26,13 +26,13 @@ void limit(__rlimit_resource_t resource, rlim_t most)
 
 } // namespace
 
-// marsview-probe BYTES SECONDS: what it may take at most.
+// marsview-probe BYTES SECONDS: limits of memory and time.
 int main(int argc, char** argv)
 {
     if (argc != 3) {
         return 2;
     }
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // with the thread that waits for it
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // when the thread that waits for it ends
     prctl(PR_SET_DUMPABLE, 0);
     close_range(STDERR_FILENO + 1, ~0U, 0);
     limit(RLIMIT_CORE, 0);
@@ -47,5 +47,5 @@ int main(int argc, char** argv)
         std::abort();
     }
     std::fflush(stdout);
-    _exit(status); // libraries may crash while they end, too
+    _exit(status); // skips exit handlers of libraries, which may crash
 }

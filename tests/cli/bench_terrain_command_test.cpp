@@ -180,7 +180,7 @@ TEST(BenchTerrainCommand, DrawsAPlotOfTheGrowth)
     EXPECT_THAT(output.out, testing::HasSubstr("growth at most"));
     const std::string plot = readFile(svg);
     EXPECT_TRUE(plot.starts_with("<svg "));
-    for (const char* word : {"triangles", "held", "tiles", "1 cells an update"}) {
+    for (const char* word : {"triangles", "held", "tiles", "1 cells per update"}) {
         EXPECT_THAT(plot, testing::HasSubstr(word));
     }
     EXPECT_THAT(plot, testing::Not(testing::HasSubstr("nan")));

@@ -186,11 +186,11 @@ TEST(LoopCommand, ARecordingThatWasCutShortIsReadUpToThere)
     EXPECT_EQ(traced.exit_status, 0) << traced.err;
     EXPECT_EQ(columnsOf(traced.out, {0}).size(), lines - 1);
     EXPECT_EQ(traced.err,
-              "marsview-cli: " + cut + ": was cut short in its last line, which is left out\n");
+              "marsview-cli: " + cut + ": has an incomplete last line, which is skipped\n");
     const ProgramOutput replayed =
         runCli({"loop", bundledMars(), "--device", "replay:" + cut, "--seconds", "10"});
     EXPECT_EQ(replayed.exit_status, 0) << replayed.err;
-    EXPECT_THAT(replayed.err, HasSubstr("was cut short in its last line"));
+    EXPECT_THAT(replayed.err, HasSubstr("has an incomplete last line"));
 }
 
 TEST(LoopCommand, WhatComesOutOtherwiseThanItWasRecordedIsToldOf)
@@ -212,7 +212,7 @@ TEST(LoopCommand, WhatComesOutOtherwiseThanItWasRecordedIsToldOf)
     };
     EXPECT_EQ(trace({}), "");
     EXPECT_EQ(differing(), 0);
-    EXPECT_THAT(trace({"--unit", "ft"}), HasSubstr(" updates that come out otherwise now"));
+    EXPECT_THAT(trace({"--unit", "ft"}), HasSubstr(" updates with different results now"));
     EXPECT_GT(differing(), 100);
     EXPECT_EQ(trace({"--model", "god-object"}), "") << "requested by the option";
     EXPECT_EQ(differing(), -1);
@@ -326,7 +326,7 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
     };
     const ProgramOutput none = run("1e9,0,0\n0,1e9,0\n");
     EXPECT_EQ(none.exit_status, 1);
-    EXPECT_THAT(none.err, HasSubstr(": 2 of 2 goals are outside the map; give the map"));
+    EXPECT_THAT(none.err, HasSubstr(": 2 of 2 goals are outside the map; use the map"));
     const ProgramOutput some = run("0,0,0\n0,1e9,0\n");
     EXPECT_EQ(some.exit_status, 0) << some.err;
     EXPECT_THAT(some.err,

@@ -30,22 +30,22 @@
 namespace marsview {
 namespace {
 
-// Of Mars at 200 m a sample.
+// Mars at 200 m per sample.
 constexpr const char* kSizeDefault = "106694x53347";
 
-// Each on its own, in a process of its own.
+// Each measurement runs in a separate process.
 using Measure = Result<BenchJson> (*)(const TerrainBenchOptions&);
 struct Measurement {
     const char* name;
     const char* title;
-    Measure measure; // null where it is made of others
+    Measure measure; // null if composed of others
 };
 constexpr std::array kMeasurements{
     Measurement{"prepare", "preparing the map", measurePrepare},
     Measurement{"open", "from opening to the first picture", nullptr},
     Measurement{"session", "memory of a session", measureSession},
-    Measurement{"swipes", "a hand that swipes across cold data in real time", measureSwipes},
-    Measurement{"identity", "the same swipes over the map held in memory", measureIdentity},
+    Measurement{"swipes", "swipes across cold data in real time", measureSwipes},
+    Measurement{"identity", "the same swipes over the map in memory", measureIdentity},
     Measurement{"growth", "cost of an update against the size of the map", measureGrowth},
     Measurement{"remote", "fetched by address", measureRemote},
     Measurement{"frames", "flying over the map", measureFrames},
@@ -88,15 +88,16 @@ CLI::Validator gridSize()
             ""};
 }
 
-// For the processes that measure.
+// For the measuring processes.
 void setCacheFolder(const std::string& folder)
 {
     std::error_code ignored;
     std::filesystem::create_directories(folder, ignored);
-    setenv("MARSVIEW_CACHE_DIR", folder.c_str(), 1); // NOLINT: there is one thread
+    setenv("MARSVIEW_CACHE_DIR", folder.c_str(), 1); // NOLINT: only one thread runs
 }
 
-// A folder beside the user's prepared maps, as there is room for such, that goes with the object.
+// A temporary folder next to the user's prepared maps, where there is enough space; removed by the
+// destructor.
 class ScratchFolder {
 public:
     ScratchFolder()
@@ -178,14 +179,14 @@ Status runMake(const Options& options)
                               size.rows, make.from, make.seed));
         printLine(fmt::format("{} octaves, differences over half the distance × {:.3f}",
                               made->octave_count, made->halving_ratio));
-        printLine(fmt::format("{:.1f} s, {:.1f} million samples a second, peak memory {:.0f} MB",
+        printLine(fmt::format("{:.1f} s, {:.1f} million samples per second, peak memory {:.0f} MB",
                               made->seconds, samples / made->seconds / 1e6,
                               static_cast<double>(made->peak_memory_bytes) / 1e6));
     }
     return Done{};
 }
 
-// The same options for a process that makes one measurement.
+// The same options for a process that runs one measurement.
 std::vector<std::string> argumentsFor(const Options& options, const char* measurement)
 {
     const TerrainBenchOptions& bench = options.bench;
@@ -228,7 +229,7 @@ Result<BenchJson> runChild(const std::vector<std::string>& arguments)
     return json;
 }
 
-// Cold and warm, with what was prepared and without.
+// Cold and warm, with the map prepared and not prepared.
 Result<BenchJson> measureOpen(const Options& options, const std::filesystem::path& empty)
 {
     BenchJson json{{"openings", BenchJson::array()}, {"left_out", BenchJson::array()}};
@@ -302,7 +303,7 @@ Status runMeasurements(const Options& options, const std::filesystem::path& empt
         if (!options.is_json) {
             printLine(fmt::format("\n{}\n{}", measurement.title,
                                   found ? terrainReport(measurement.name, *found)
-                                        : "left out: " + asOneLine(found.error().message)));
+                                        : "skipped: " + asOneLine(found.error().message)));
             std::fflush(stdout);
         }
         if (found && measurement.name == std::string_view("growth") && !options.plot.empty()) {
@@ -341,7 +342,7 @@ Status runTerrain(const Options& given)
             return printOne(options, kPicture);
         }
     }
-    // What is prepared lies in a folder that goes when all is done, unless one was named.
+    // Prepared maps are in a temporary folder, unless one was specified.
     const ScratchFolder scratch;
     if (!scratch.error().empty()) {
         return Error{ErrorCode::Unreadable, scratch.error()};
@@ -361,7 +362,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
     CLI::App* command = bench.add_subcommand("terrain", "Measure maps that are larger than memory");
     command
         ->add_option("DEM", options->bench.map.path,
-                     "elevation map, by default the one that comes with the program")
+                     "elevation map, by default the bundled one")
         ->transform(mapName());
     options->bench.map.addOverridesTo(*command);
     CLI::Option* make = command->add_option(
@@ -378,7 +379,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
     command
         ->add_option("--from", options->make.from,
-                     "the measured map, by default the one that comes with the program")
+                     "the measured map, by default the bundled one")
         ->needs(make);
     command->add_option("--layout", options->layout, "tiles or strips")
         ->capture_default_str()
@@ -397,34 +398,37 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->check(oneOf(names));
     command
         ->add_option("--folder", options->folder,
-                     "where prepared maps are kept; by default a new one that is removed again")
+                     "folder for prepared maps; by default a temporary one")
         ->excludes(make);
-    command->add_option("--seconds", options->bench.seconds, "of the swipes in real time, a speed")
+    command->add_option("--seconds", options->bench.seconds,
+                     "duration of the real-time swipes at each speed")
         ->capture_default_str()
         ->check(positiveNumber());
-    command->add_option("--speeds", options->bench.speeds_cells, "of swipes, cells an update")
+    command->add_option("--speeds", options->bench.speeds_cells, "of swipes, cells per update")
         ->delimiter(',')
         ->capture_default_str()
         ->check(positiveNumber());
-    command->add_option("--updates", options->bench.update_count, "of other swipes, a speed")
+    command->add_option("--updates", options->bench.update_count,
+                     "updates of the other swipes at each speed")
         ->capture_default_str()
         ->check(wholeNumberFrom(10, 100'000'000));
     command
         ->add_option("--held-mb", options->bench.held_mb_max,
-                     "the largest part of the map that is held in memory to be compared with")
+                     "largest part of the map to read into memory for comparison")
         ->capture_default_str()
         ->check(wholeNumberFrom(1, 1'000'000));
     command->add_option("--against", options->bench.against,
-                        "a smaller map whose frames are compared with");
-    command->add_option("--frames", options->bench.frame_count, "of each flight")
+                        "a smaller map to compare frame times with");
+    command->add_option("--frames", options->bench.frame_count, "frames per flight")
         ->capture_default_str()
         ->check(wholeNumberFrom(1, 100'000));
     command->add_option("--plot", options->plot, "draw the growth to this SVG file")
         ->check(fileNameEndingIn({".svg"}));
-    command->add_flag("--warm", options->bench.is_warm, "of the first picture: keep what is read");
+    command->add_flag("--warm", options->bench.is_warm,
+                      "draw the first picture with the file in the system's cache");
     command->add_flag("--here", options->is_here,
-                      "one measurement in this process, with what is prepared already");
-    command->add_flag("--json", options->is_json, "for machines");
+                      "run one measurement in this process, with the existing prepared maps");
+    command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runTerrain(*options); }; });
 }
 

@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <utility>
 
-extern char** environ; // NOLINT: as POSIX has it
+extern char** environ; // NOLINT: as in POSIX
 
 namespace marsview {
 namespace {
@@ -46,7 +46,7 @@ private:
     bool is_open_ = false;
 };
 
-// What comes out of both until both are closed.
+// Reads from both until both are closed.
 void readBoth(int out, int err, std::string& out_text, std::string& err_text)
 {
     std::array<pollfd, 2> ends{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}};
@@ -72,7 +72,7 @@ void readBoth(int out, int err, std::string& out_text, std::string& err_text)
     }
 }
 
-// The last line, without who says it.
+// The last line, without the program's name.
 std::string reasonIn(std::string text)
 {
     while (!text.empty() && text.back() == '\n') {
@@ -132,7 +132,7 @@ Result<ChildOutput> runSelf(const std::vector<std::string>& arguments)
     if (WIFSIGNALED(status)) {
         const int signal = WTERMSIG(status);
         return Error{signal == SIGINT ? ErrorCode::Cancelled : ErrorCode::Unreadable,
-                     fmt::format("it was ended by signal {}", signal)};
+                     fmt::format("terminated by signal {}", signal)};
     }
     if (WEXITSTATUS(status) != 0) {
         const std::string reason = reasonIn(std::move(said));

@@ -1,4 +1,4 @@
-// Running this program once more, so that what it holds at most is what one job holds.
+// Runs this program again, so that the peak memory of one job can be measured.
 #pragma once
 
 #include "core/base/result.h"
@@ -12,11 +12,11 @@ namespace marsview {
 struct ChildOutput {
     std::string out;
     double seconds = 0.0;
-    std::size_t peak_memory_bytes = 0; // the most that was resident
+    std::size_t peak_memory_bytes = 0; // peak resident memory
 };
 
-/// Runs this executable with the arguments and waits for it. An Error with what it said where it
-/// failed; Cancelled where it was interrupted.
+/// Runs this executable with the arguments and waits for it. Returns the child's error message if
+/// it failed, or Cancelled if it was interrupted.
 Result<ChildOutput> runSelf(const std::vector<std::string>& arguments);
 
 } // namespace marsview

@@ -9,7 +9,7 @@
 namespace marsview {
 namespace {
 
-// Of a file's bytes.
+// The number of a file's bytes in memory.
 double residentBytes(int file, std::size_t bytes)
 {
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
@@ -36,7 +36,7 @@ void evictFile(const std::filesystem::path& path, EvictedFiles& evicted)
     }
     struct stat status {};
     if (fstat(file, &status) == 0 && status.st_size > 0) {
-        fdatasync(file); // what is not yet written cannot be forgotten
+        fdatasync(file); // dirty pages cannot be dropped
         posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
         ++evicted.file_count;
         evicted.bytes += static_cast<double>(status.st_size);

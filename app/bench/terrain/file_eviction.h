@@ -1,4 +1,4 @@
-// Taking files out of the system's memory, for measuring from cold.
+// Removes files from the system's page cache, for measurements with cold data.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@ namespace marsview {
 struct EvictedFiles {
     std::size_t file_count = 0;
     double bytes = 0.0;
-    double resident_share = 0.0; // what the system kept all the same
+    double resident_share = 0.0; // the fraction that is still cached
 };
 
-/// Asks the system to forget the content of files and of all files below folders. It may decline.
+/// Asks the system to drop files, and all files below folders, from its cache. It may decline.
 EvictedFiles evict(const std::vector<std::filesystem::path>& paths);
 
 } // namespace marsview

@@ -12,7 +12,7 @@
 namespace marsview {
 namespace {
 
-// Of some of the samples: every tile of it is a copy.
+// Tiles of a part of the samples; every tile is a copy.
 class HeldTiles final : public TileSource {
 public:
     explicit HeldTiles(std::shared_ptr<const FilledHeightfield> filled)
@@ -125,7 +125,7 @@ Result<HeldMap> holdWindow(const MapOptions& options, const GridWindow& window, 
     }
     if (!loaded->statistics.hasSamples()) {
         return Error{ErrorCode::Unsupported,
-                     fmt::format("{}: all samples in its middle are void", options.path)};
+                     fmt::format("{}: all samples in its center are nodata", options.path)};
     }
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(loaded->grid)),
                                   loaded->statistics, opened->info.elevationScale());

@@ -1,4 +1,4 @@
-// A part of a map held in memory, for comparing with maps in tiles.
+// A part of a map in memory, for comparison with tiled maps.
 #pragma once
 
 #include "app/console/map_options.h"
@@ -15,12 +15,12 @@
 
 namespace marsview {
 
-/// Samples and what touching them needs. Copies share; any thread.
+/// Samples and the data needed to touch them. Copies share; any thread.
 struct HeldMap {
     std::shared_ptr<const FilledHeightfield> filled;
     std::shared_ptr<const SurfaceAnalysis> analysis;
     SampleStatistics statistics;
-    SceneFrame frame;  // of the whole map, so that a place has the same coordinates in every part
+    SceneFrame frame;  // of the whole map, so that coordinates are the same in every part
     GridWindow window; // of the whole map
 
     std::uint64_t triangleCount() const noexcept
@@ -29,17 +29,18 @@ struct HeldMap {
     }
 };
 
-/// Reads a window of the map, at least 2 × 2 samples of which some is not void, and analyses it.
+/// Reads and analyzes a window of the map: at least 2 × 2 samples, not all of them void.
 Result<HeldMap>
 holdWindow(const MapOptions& options, const GridWindow& window, JobMonitor& monitor);
 
-/// The window of `columns` × `rows` samples, or fewer where the map is smaller, in its middle.
+/// The window of `columns` × `rows` samples in the middle of the map, smaller if the map is
+/// smaller.
 GridWindow
 middleOf(std::size_t map_columns, std::size_t map_rows, std::size_t columns, std::size_t rows);
 
-/// Its samples at full resolution and at all coarser levels, in tiles. Shares the map.
+/// Tiles of the samples at full resolution and at all coarser levels. Shares the map.
 std::shared_ptr<const TileSource> tilesOf(const HeldMap& map);
-/// What reading these tiles needs.
+/// The metadata needed to read these tiles.
 std::shared_ptr<const TileHeights> tileHeightsOf(const HeldMap& map);
 
 } // namespace marsview

@@ -14,7 +14,7 @@
 namespace marsview {
 namespace {
 
-// The same extent in more samples.
+// The same extent with more samples.
 std::optional<GeoTransform> resized(const RasterInfo& info, const MakeTerrainOptions& options)
 {
     if (!info.transform) {
@@ -47,7 +47,7 @@ Result<MadeTerrain> makeTerrain(const MakeTerrainOptions& options)
     const RasterInfo& info = map.info();
     if (map.heightfield().samples().hasVoids()) {
         return Error{ErrorCode::Unsupported,
-                     fmt::format("{}: some of its samples are void; choose a map without voids",
+                     fmt::format("{}: some samples are nodata; choose a map without nodata",
                                  options.from)};
     }
     if (info.columns < 4 || info.rows < 4) {

@@ -1,4 +1,4 @@
-// Making a very large map that looks like a real one, for measuring.
+// Generates a very large, realistic map for measurements.
 #pragma once
 
 #include "app/bench/reference/computed_raster.h"
@@ -11,7 +11,7 @@ namespace marsview {
 
 struct MakeTerrainOptions {
     std::string path;
-    std::string from; // the measured map that it is made from
+    std::string from; // the measured map to start from
     std::size_t columns = 0;
     std::size_t rows = 0;
     std::uint64_t seed = 1;
@@ -26,8 +26,8 @@ struct MadeTerrain {
     std::size_t peak_memory_bytes = 0;
 };
 
-/// Reads the measured map whole and writes the larger one over the same extent, with progress. The
-/// same samples from the same options on every machine. Refuses maps with voids and those of fewer
+/// Reads the whole measured map and writes the larger one with the same extent, showing progress.
+/// The same options give the same samples on every machine. Rejects maps with voids or with fewer
 /// than 4 × 4 samples.
 Result<MadeTerrain> makeTerrain(const MakeTerrainOptions& options);
 

@@ -23,7 +23,7 @@ SwipePath::SwipePath(const SwipeArea& area, const SwipeOptions& options) noexcep
 
 GridPoint SwipePath::next() noexcept
 {
-    // A stroke bends one way for some hundred updates.
+    // A stroke curves one way for some hundred updates.
     constexpr double kUpdatesMin = 100.0;
     constexpr double kUpdatesMore = 400.0;
     constexpr double kTurnMost = 0.004;

@@ -1,5 +1,5 @@
-// What is measured of maps that are larger than memory, each in a process of its own, so that one
-// that cannot be measured leaves the others alone, and the most memory that it held is its own.
+// Measurements of maps larger than memory. Each runs in a separate process, so that a failed
+// measurement does not affect the others and the peak memory of each can be measured.
 #pragma once
 
 #include "app/console/map_options.h"
@@ -20,37 +20,36 @@ namespace marsview {
 
 struct TerrainBenchOptions {
     MapOptions map;
-    double seconds = 60.0;                                    // of the swipes at a speed
-    std::vector<double> speeds_cells{1.0, 10.0, 50.0, 200.0}; // an update
+    double seconds = 60.0;                                    // of the swipes at each speed
+    std::vector<double> speeds_cells{1.0, 10.0, 50.0, 200.0}; // per update
     std::uint64_t seed = 1;
-    std::size_t update_count = 20000; // of the swipes that are not in real time, at a speed
-    /// The largest part of the map that is held in memory to be compared with.
+    std::size_t update_count = 20000; // of the swipes that are not in real time, at each speed
+    /// The largest part of the map that is read into memory for comparison.
     std::size_t held_mb_max = 600;
-    std::string against;   // a smaller map, whose frames are compared with
-    int frame_count = 120; // of a flight
-    bool is_warm = false;  // the first picture is drawn from what the system has in memory
+    std::string against;   // a smaller map whose frame times are compared
+    int frame_count = 120; // per flight
+    bool is_warm = false;  // the first picture uses the system's page cache
 };
 
 using BenchJson = nlohmann::ordered_json;
 
-/// How long it takes to make what opening the map needs, and how much memory. Refuses a map that
-/// is prepared already.
+/// Time and memory for preparing the map. Rejects a map that is already prepared.
 Result<BenchJson> measurePrepare(const TerrainBenchOptions& options);
-/// From opening the map to its first picture, as the program does it: prepared or, where it is
-/// not, a preview of it.
+/// Time from opening the map to its first picture, as in the window: from the prepared map or,
+/// without one, from a preview.
 Result<BenchJson> measureFirstPicture(const TerrainBenchOptions& options);
-/// The most memory that is held while the map is flown over and swiped across.
+/// Peak memory while flying over and swiping across the map.
 Result<BenchJson> measureSession(const TerrainBenchOptions& options);
-/// Swipes across cold data at the real rate of the servo.
+/// Swipes across cold data in real time, at the servo rate.
 Result<BenchJson> measureSwipes(const TerrainBenchOptions& options);
-/// The same swipes over tiles and over the map, or its middle, held in memory: how many proxies
+/// The same swipes over tiles and over the map, or its middle, in memory: counts the proxies that
 /// differ in any bit.
 Result<BenchJson> measureIdentity(const TerrainBenchOptions& options);
-/// What an update costs in the middle of ever larger parts of the map, warm.
+/// The cost of an update in the middle of increasingly large parts of the map, warm.
 Result<BenchJson> measureGrowth(const TerrainBenchOptions& options);
-/// What is fetched of a map by address to open it, fly to a place and look at single samples.
+/// The data downloaded to open a remote map, fly to a place and look at single samples.
 Result<BenchJson> measureRemote(const TerrainBenchOptions& options);
-/// Times of frames while flying over the map, and over another.
+/// Frame times while flying over the map, and over another one.
 Result<BenchJson> measureFrames(const TerrainBenchOptions& options);
 
 /// The map in tiles however small it is, prepared first where it has to be.
@@ -59,7 +58,7 @@ Result<std::shared_ptr<const Map>> openInTiles(const TerrainBenchOptions& option
 /// Resources by which every map comes in tiles.
 MapResources tiledResources();
 
-/// A map in tiles as a hand touches it.
+/// A tiled map for touching.
 struct TouchedTiles {
     TiledRaster raster;
     std::shared_ptr<const TileHeights> heights;

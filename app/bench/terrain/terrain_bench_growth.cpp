@@ -20,7 +20,7 @@
 namespace marsview {
 namespace {
 
-// The smallest part: a million triangles. All swipes stay in its middle, on the same ground.
+// The smallest part: a million triangles. All swipes stay in its middle, on the same terrain.
 constexpr std::size_t kSideLeast = 708;
 constexpr std::size_t kMargin = 16;
 constexpr int kRounds = 7;
@@ -138,7 +138,7 @@ private:
             makeContactModel(kContactModelDefault, TiledHeightfieldSurface(terrain, frame, 1.0)));
     }
 
-    // The same ground for every size: scene coordinates are those of the whole map.
+    // The same terrain for every size: scene coordinates are those of the whole map.
     SwipeArea areaIn(const SceneFrame& frame) const
     {
         const GridWindow part = middleOf(columns_, rows_, kSideLeast, kSideLeast);
@@ -152,7 +152,7 @@ private:
         return {grid(kMargin, kMargin), grid(part.columns - 1 - kMargin, part.rows - 1 - kMargin)};
     }
 
-    // All sizes in turn in every round, so that what else the machine does hits all alike.
+    // All sizes in turn in every round, so that disturbances on the machine affect all alike.
     void measure()
     {
         for (int round = 0; round < kRounds; ++round) {
@@ -162,7 +162,7 @@ private:
                         return;
                     }
                     const double ns = swipe(size, options_.speeds_cells[s]);
-                    if (round > 0) { // the first one warms
+                    if (round > 0) { // the first one warms up
                         size.ns[s] = std::min(size.ns[s], ns);
                     }
                 }
@@ -171,7 +171,7 @@ private:
         }
     }
 
-    // Nanoseconds an update.
+    // Nanoseconds per update.
     double swipe(Size& size, double speed) const
     {
         SwipingHand hand(
@@ -193,7 +193,7 @@ private:
         BenchJson sizes = BenchJson::array();
         double worst = 0.0;
         for (const Size& size : sizes_) {
-            // Against the smallest part that is stored likewise.
+            // Compares with the smallest part of the same storage kind.
             const auto first = std::find_if(sizes_.begin(), sizes_.end(), [&](const Size& other) {
                 return std::string_view(other.storage) == size.storage;
             });

@@ -31,7 +31,7 @@ Result<BenchJson> measureIdentity(const TerrainBenchOptions& options)
     if (!opened) {
         return opened.error();
     }
-    // Analysing takes as much memory again, and half as much for a moment.
+    // Analysis takes as much memory again, and briefly half as much in addition.
     const double samples_max = static_cast<double>(options.held_mb_max) * 1e6 / 4.0;
     const auto side = static_cast<std::size_t>(std::sqrt(samples_max));
     const std::size_t all = opened->info.columns * opened->info.rows;
@@ -44,7 +44,7 @@ Result<BenchJson> measureIdentity(const TerrainBenchOptions& options)
     if (!held) {
         return held.error();
     }
-    // A cache so small that tiles come and go.
+    // A cache so small that tiles are evicted and reloaded.
     constexpr std::size_t kCacheBytes = std::size_t{4} << 20;
     TileCache cache({.bytes_max = kCacheBytes, .loader_threads = 1});
     std::optional<std::shared_ptr<const Map>> map;

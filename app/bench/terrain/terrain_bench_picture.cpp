@@ -13,7 +13,7 @@ namespace marsview {
 Result<BenchJson> measureFirstPicture(const TerrainBenchOptions& options)
 {
     using Clock = std::chrono::steady_clock;
-    // As many samples as the window's preview has.
+    // As many samples as in the window's preview.
     constexpr std::size_t kPreviewSamples = std::size_t{1} << 21U;
     const MapResources resources = tiledResources();
     EvictedFiles evicted;

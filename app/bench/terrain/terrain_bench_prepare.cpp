@@ -41,7 +41,7 @@ Result<BenchJson> measurePrepare(const TerrainBenchOptions& options)
     }
     if (opening->storage() != MapStorage::NeedsOverviews) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: there is nothing to prepare", options.map.path)};
+                     fmt::format("{}: nothing to prepare", options.map.path)};
     }
     const EvictedFiles evicted = evict({options.map.path});
     const double bytes_before = bytesBelow(resources.folder);

@@ -37,7 +37,7 @@ std::string preparing(const BenchJson& found)
 {
     std::string text;
     line(text,
-         "{:.1f} s, {:.1f} million samples a second, peak memory {:.0f} MB, {:.0f} MB written",
+         "{:.1f} s, {:.1f} million samples per second, peak memory {:.0f} MB, {:.0f} MB written",
          number(found, "seconds"), number(found, "samples_per_s") / 1e6,
          number(found, "peak_memory_mb"), number(found, "written_mb"));
     return text;
@@ -56,7 +56,7 @@ std::string pictures(const BenchJson& found)
              number(row, "peak_memory_mb"), 100.0 * number(row, "resident_share_at_begin"));
     }
     for (const BenchJson& reason : found.at("left_out")) {
-        line(text, "left out: {}", asOneLine(reason.get<std::string>()));
+        line(text, "skipped: {}", asOneLine(reason.get<std::string>()));
     }
     return text;
 }
@@ -68,7 +68,7 @@ std::string session(const BenchJson& found)
          "peak memory {:.0f} MB ({:.0f} MB once open) over {} frames and {} turns of the hand",
          number(found, "peak_memory_mb"), number(found, "opened_peak_memory_mb"),
          count(found, "frames"), count(found, "turns_of_hand"));
-    line(text, "tiles held at most {:.0f} MB of {:.0f} MB", number(found, "tile_cache_mb_most"),
+    line(text, "tile cache at most {:.0f} MB of {:.0f} MB", number(found, "tile_cache_mb_most"),
          number(found, "tile_cache_mb_max"));
     return text;
 }
@@ -78,7 +78,7 @@ std::string swipes(const BenchJson& found)
     std::string text;
     const std::string refusal = word(found, "scheduling_refusal");
     const std::string locking = word(found, "locking_refusal");
-    line(text, "{} µs a turn, {} s a speed; scheduling {}{}; memory {}{}",
+    line(text, "{} µs per turn, {} s per speed; scheduling {}{}; memory {}{}",
          number(found, "period_us"), number(found, "seconds"), word(found, "scheduling"),
          refusal.empty() ? "" : " (" + refusal + ")",
          found.at("memory_locked").get<bool>() ? "locked" : "not locked",
@@ -98,7 +98,7 @@ std::string swipes(const BenchJson& found)
              count(row, "page_faults_minor") + count(row, "page_faults_major"), count(row, "turns"),
              count(row, "turns_with_misses"), count(row, "worst_level"));
     }
-    line(text, "turns by the coarsest level that was felt, from full resolution on");
+    line(text, "turns by the coarsest level used, from full resolution on");
     for (const BenchJson& row : found.at("speeds")) {
         std::string levels;
         for (const BenchJson& turns : row.at("turns_by_coarsest_level")) {
@@ -132,7 +132,7 @@ std::string growth(const BenchJson& found)
     for (const BenchJson& speed : found.at("cells_per_update")) {
         head += fmt::format("{:>8} c{:>7}", speed.get<double>(), "×");
     }
-    line(text, "nanoseconds an update, at cells an update, and against the smallest part");
+    line(text, "nanoseconds per update, by cells per update, relative to the smallest part");
     line(text, "{}", head);
     for (const BenchJson& size : found.at("sizes")) {
         std::string row =
@@ -144,7 +144,7 @@ std::string growth(const BenchJson& found)
         line(text, "{}", row);
     }
     if (found.at("whole_map_left_out").is_string()) {
-        line(text, "the whole map is left out: {}", word(found, "whole_map_left_out"));
+        line(text, "the whole map is skipped: {}", word(found, "whole_map_left_out"));
     }
     line(text, "growth at most × {:.2f}", number(found, "growth_most"));
     return text;
@@ -213,13 +213,13 @@ std::string growthPlot(const BenchJson& found, const std::string& note)
     Plot plot{.title = "Cost of a contact update against the size of the map",
               .note = note,
               .x_label = "triangles",
-              .y_label = "µs an update",
+              .y_label = "µs per update",
               .y_floor = 0.01,
               .floor_label = "less",
               .panels = {}};
     const BenchJson& speeds = found.at("cells_per_update");
     for (std::size_t s = 0; s < speeds.size(); ++s) {
-        PlotPanel panel{.title = fmt::format("{} cells an update", speeds[s].get<double>()),
+        PlotPanel panel{.title = fmt::format("{} cells per update", speeds[s].get<double>()),
                         .series = {}};
         for (const char* storage : {"held", "tiles"}) {
             PlotSeries series{.name = storage, .points = {}, .first_label = "", .last_label = ""};

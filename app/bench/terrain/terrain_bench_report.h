@@ -1,4 +1,4 @@
-// What was measured of large maps, for people.
+// Text reports of measurements of large maps.
 #pragma once
 
 #include "app/bench/terrain/terrain_bench.h"
@@ -7,10 +7,10 @@
 
 namespace marsview {
 
-/// Lines, each ended, about what the measurement of that name found.
+/// A measurement's results as lines, each with a line break.
 std::string terrainReport(std::string_view measurement, const BenchJson& found);
 
-/// What an update costs against the size of the map, as SVG; `found` is measureGrowth's.
+/// The cost of an update against the size of the map, as SVG; `found` is from measureGrowth().
 std::string growthPlot(const BenchJson& found, const std::string& note);
 
 } // namespace marsview

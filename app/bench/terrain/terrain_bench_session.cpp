@@ -24,13 +24,13 @@ Result<BenchJson> measureSession(const TerrainBenchOptions& options)
     }
     (*stage)->show(*map);
     const double opened_mb = static_cast<double>(peakMemoryBytes()) / 1e6;
-    // The hand swipes all the while, faster from flight to flight.
+    // The hand swipes all the time, faster from flight to flight.
     const TouchedTiles tiles = touchedTiles(*map);
     std::uint64_t turns = 0;
     std::uint64_t frames = 0;
     std::size_t tile_bytes_most = 0;
     for (std::size_t i = 0; i < kFlights.size(); ++i) {
-        constexpr double kLong = 3600.0; // it is stopped before
+        constexpr double kLong = 3600.0; // it is stopped earlier
         const std::vector<double>& speeds = options.speeds_cells;
         Result<TileSwipe> swipe =
             TileSwipe::begin(tiles, {.speed_cells = speeds[std::min(i, speeds.size() - 1)],

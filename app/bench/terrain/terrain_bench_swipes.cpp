@@ -29,7 +29,7 @@ BenchJson asJson(const TimeHistogram& times)
 BenchJson asJson(double speed, const TileSwipeResult& swipe, const EvictedFiles& evicted)
 {
     const SwipeCounts& counts = swipe.counts;
-    BenchJson levels = BenchJson::array(); // turns in which this one was the coarsest felt
+    BenchJson levels = BenchJson::array(); // turns by the coarsest level used
     const auto last = std::find_if(counts.turns_at_level.rbegin(), counts.turns_at_level.rend(),
                                    [](std::uint64_t turns) { return turns > 0; });
     for (auto it = counts.turns_at_level.begin(); it != last.base(); ++it) {

@@ -1,4 +1,4 @@
-// Pictures of a map as the window draws them, and as many of them as it takes.
+// Draws pictures of a map as the window does, repeatedly until they are complete.
 #pragma once
 
 #include "app/bench/reference/flight.h"
@@ -13,7 +13,7 @@
 
 namespace marsview {
 
-/// A renderer that waits for news of what it lacked.
+/// A renderer, and a wait for newly loaded tiles.
 class TerrainStage {
 public:
     static Result<std::unique_ptr<TerrainStage>> create(const Viewport& viewport);
@@ -21,17 +21,17 @@ public:
     /// From now on this map is drawn.
     void show(std::shared_ptr<const Map> map);
     const Scene& scene() const noexcept { return scene_; }
-    /// On a flight over the map, within the bounds of navigation.
+    /// A camera on a flight over the map, within the limits of navigation.
     OrbitCamera camera(Flight flight, double t) const;
-    /// Straight above a place, as wide as the given distance.
+    /// A camera straight above a place, at the given distance.
     OrbitCamera above(GridPoint place, double distance_m) const;
 
     DrawReport paint(const OrbitCamera& camera, PictureStage stage);
-    /// Draws until everything of the camera's picture is there.
+    /// Draws until the camera's picture is complete.
     DrawReport paintWhole(const OrbitCamera& camera, JobMonitor& monitor);
 
 private:
-    // Told on the renderer's threads, which may outlive the stage.
+    // Notified on the renderer's threads, which may outlive the stage.
     struct News {
         std::mutex mutex;
         std::condition_variable has_come;

@@ -40,7 +40,7 @@ struct TileSwipe::Impl {
         , turn_count(kUncounted + static_cast<std::uint64_t>(options.seconds * 1e3))
     {}
 
-    // The servo's turn.
+    // The servo thread's turn.
     LoopOutcome turn(const LoopTick& tick) noexcept
     {
         if (tick.number == kUncounted) {
@@ -97,7 +97,7 @@ struct TileSwipe::Impl {
     GridPoint last;
     SwipeCounts counts;
     std::atomic<std::uint64_t> turns_done{0};
-    std::unique_ptr<RealTimeThread> thread; // last: it uses all the others
+    std::unique_ptr<RealTimeThread> thread; // last member: its thread uses all the others
 };
 
 TileSwipe::TileSwipe(std::unique_ptr<Impl> impl)

@@ -1,4 +1,4 @@
-// A hand that swipes across a map in tiles at the servo's rate.
+// A hand that swipes across a tiled map at the servo rate.
 #pragma once
 
 #include "app/bench/terrain/terrain_bench.h"
@@ -13,20 +13,20 @@
 namespace marsview {
 
 struct TileSwipeOptions {
-    double speed_cells = 1.0; // an update
-    double seconds = 60.0;    // at a thousand updates each
+    double speed_cells = 1.0; // per update
+    double seconds = 60.0;    // at a thousand updates per second
     std::uint64_t seed = 1;
 };
 
-/// Counts of turns, those before the counted ones left out.
+/// Counts of turns, without the initial, uncounted ones.
 struct SwipeCounts {
     static constexpr std::size_t kLevels = 32;
 
     std::uint64_t in_contact = 0;
     std::uint64_t cut_short = 0;
     std::uint64_t turns_with_misses = 0;
-    std::uint64_t samples_missed = 0;                    // read where full resolution was not there
-    std::array<std::uint64_t, kLevels> turns_at_level{}; // by the coarsest level felt
+    std::uint64_t samples_missed = 0;                    // reads at less than full resolution
+    std::array<std::uint64_t, kLevels> turns_at_level{}; // by the coarsest level used
 };
 
 struct TileSwipeResult {
@@ -34,11 +34,11 @@ struct TileSwipeResult {
     LoopStatistics loop;
     RealTimeGrants grants;
     WindowFeederStatistics feeder;
-    std::uint64_t tiles_loaded = 0; // by whoever counts them
+    std::uint64_t tiles_loaded = 0; // from the caller's counters
     std::uint64_t tiles_failed = 0;
 };
 
-/// Begins at once, on threads of its own.
+/// Starts at once, on its own threads.
 class TileSwipe {
 public:
     /// Waits for the tile of the coarsest level.
@@ -48,9 +48,9 @@ public:
     TileSwipe& operator=(TileSwipe&&) noexcept;
     ~TileSwipe();
 
-    /// Until its time is over, or it is cancelled.
+    /// Waits until its time is over or it is canceled.
     TileSwipeResult finish(JobMonitor& monitor);
-    /// At once.
+    /// Stops at once.
     TileSwipeResult stop();
 
 private:
