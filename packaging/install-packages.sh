@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# install-packages.sh SECTION...: installs what is missing of these sections of packages.txt.
+# install-packages.sh SECTION...: installs the missing packages of these sections of packages.txt.
 set -euo pipefail
 
 list=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/packages.txt
@@ -22,7 +22,7 @@ for section in "$@"; do
     grep -qxF "[$section]" "$list" || fail "$list has no section [$section]"
 done
 if ! command -v dpkg-query >/dev/null; then
-    echo "Not a Debian system: going on without installing the counterparts of $list" >&2
+    echo "Not a Debian system: continuing without installing the equivalents of $list" >&2
     exit 0
 fi
 
@@ -42,7 +42,7 @@ apt() {
         apt-get -qq --yes -o DPkg::Lock::Timeout=600 -o Dpkg::Use-Pty=0 "$@"
 }
 
-echo "Installing ${#missing[@]} missing packages and what they need: ${missing[*]}"
-# An unreachable source that has none of these packages is no reason to stop.
-apt update || echo "install-packages.sh: the package lists could not all be refreshed" >&2
+echo "Installing ${#missing[@]} missing packages and their dependencies: ${missing[*]}"
+# Continue if a source is unreachable: it may have none of these packages.
+apt update || echo "install-packages.sh: some package lists could not be refreshed" >&2
 apt install --no-install-recommends "${missing[@]}" >/dev/null

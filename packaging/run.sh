@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# run.sh [DEM]: installs what is missing, builds MarsView and starts it; without a display it draws
-# the window into a picture and says where that is.
+# run.sh [DEM]: installs missing packages, builds MarsView and starts it; without a display it
+# renders the window to a picture and prints its path.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -10,7 +10,7 @@ picture=$build/marsview.png
 
 "$root/packaging/install-packages.sh" run
 
-# A terminal gets ninja's one line of progress, a log only what went wrong.
+# On a terminal ninja shows one line of progress; a log gets only errors.
 quiet=()
 [ -t 1 ] || quiet=(-- --quiet)
 echo "Building MarsView (takes minutes the first time)"
@@ -24,4 +24,4 @@ fi
 rm -f "$picture"
 xvfb-run --auto-servernum --server-args='-screen 0 1600x1000x24' \
     "$program" --screenshot "$picture" "$@"
-echo "No display here: the window is drawn in $picture"
+echo "No display: the window was rendered to $picture"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# test.sh: installs what is missing, builds what users get with its tests, and runs them all.
+# test.sh: installs missing packages, builds the release preset with its tests, and runs them all.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 ./packaging/install-packages.sh run test
 cmake --preset release --log-level=WARNING
 cmake --build --preset release
-# One more than there are cores: some tests wait for a server or for a window.
+# One more than the number of cores: some tests wait for a server or for a window.
 exec ctest --preset release --parallel "$(($(nproc) + 1))"

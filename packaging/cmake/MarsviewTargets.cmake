@@ -13,7 +13,7 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
 endif()
 
-# Debian puts GeographicLib's find module beside, not on, CMake's path.
+# Debian installs GeographicLib's find module outside of CMake's module path.
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_INSTALL_PREFIX}/share/cmake/geographiclib"
   /usr/share/cmake/geographiclib)
 
@@ -24,7 +24,7 @@ target_include_directories(marsview_flags INTERFACE "${CMAKE_SOURCE_DIR}")
 target_compile_options(marsview_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wcast-align
   -Woverloaded-virtual -Wnon-virtual-dtor -Wformat=2
-  # clang's also means double to long double, in which the tests' oracles compute
+  # clang's version also warns about double to long double, which the tests' references use
   $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
   -ffp-contract=off # the same bits on every machine
   $<$<BOOL:${MARSVIEW_WERROR}>:-Werror>)
@@ -35,7 +35,7 @@ if(MARSVIEW_SANITIZE)
 endif()
 
 # marsview_library(NAME SOURCES … LINKS …): a static library of one layer. Its links are public
-# because our headers name the types of what they build on.
+# because our headers use types of the libraries below them.
 function(marsview_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;SYSTEM_INCLUDES" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
@@ -44,20 +44,20 @@ function(marsview_library name)
   target_include_directories(${name} SYSTEM PUBLIC ${ARG_SYSTEM_INCLUDES})
 endfunction()
 
-# marsview_compile_together(): the targets made below here are compiled several files at a time, which
-# takes a third of the time where most of it goes into headers. Not for what a compiler has to make
-# fast, nor for daily work: a change of one file compiles its neighbours too.
+# marsview_compile_together(): compiles the targets defined after this call several files at a time,
+# which takes a third of the time if headers dominate. Not for performance-critical code, nor for
+# daily work: a change in one file recompiles the others of its group.
 option(MARSVIEW_COMPILE_TOGETHER "Compile tests and window several files at a time" OFF)
 macro(marsview_compile_together)
   if(MARSVIEW_COMPILE_TOGETHER)
     set(CMAKE_UNITY_BUILD ON)
     set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
-    # It takes every file that is included for a header.
+    # The warning treats every included file as a header.
     add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
   endif()
 endmacro()
 
-# `format` and `tidy` work on the project's own sources. clang-tidy wants a database written for
+# `format` and `tidy` work on the project's own sources. clang-tidy needs a database written for
 # clang: build the target in the "clang" preset.
 file(GLOB_RECURSE MARSVIEW_OWN_SOURCES CONFIGURE_DEPENDS
   "${CMAKE_SOURCE_DIR}/app/*.cpp" "${CMAKE_SOURCE_DIR}/app/*.h"
