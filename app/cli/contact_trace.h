@@ -31,9 +31,8 @@ struct TraceUpdate {
     double ns = 0.0;
 };
 
-/// Runs the model over some of the goals; the first goal with `updates` empty places the proxy.
-/// Appends to `updates`, which has one entry for each earlier goal. Returns the error of
-/// `before_goal`.
+/// Runs the model over some of the goals; a new model's first goal places its proxy. Appends to
+/// `updates`, which has one entry for each earlier goal. Returns the error of `before_goal`.
 Status trace(ContactModel& model,
              const TraceFrame& frame,
              std::span<const TracePoint> goals,

@@ -5,7 +5,7 @@
 
 namespace marsview {
 
-/// The value below which `share` of the values lies; 0 if there are no values.
+/// The value below which `share` of the values lies; 0 if `values` is empty.
 double quantile(std::vector<double> values, double share);
 
 } // namespace marsview

@@ -86,7 +86,7 @@ public:
 
     /// Why the last status was Unready or Lost, as one sentence for people, phrased to follow the
     /// device's name and a colon; or another problem, such as a recording that stopped because the
-    /// disk is full. Empty if there is no problem or the cause is unknown. Any thread except the
+    /// disk is full. Empty without a problem or if the cause is unknown. Any thread except the
     /// tick's: it allocates.
     virtual std::string trouble() const { return {}; }
 

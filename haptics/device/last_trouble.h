@@ -20,7 +20,7 @@ public:
     /// `device` is a stable name of the device.
     LastTrouble(std::filesystem::path folder, std::string_view device);
 
-    /// One line, as passed to set(); empty if there was no trouble.
+    /// One line, as passed to set(); empty if the device worked.
     std::string get() const;
     /// Pass an empty string after a use without trouble.
     void set(std::string_view trouble) const;

@@ -32,7 +32,7 @@ public:
     ~PluginDevice() override;
 
     /// Reads the capabilities; call once, before anything else. `plugin_name` replaces a missing
-    /// device name. Returns what is wrong with them, phrased to follow the device's name.
+    /// device name. Returns the first invalid one, phrased to follow the device's name.
     std::optional<std::string> describe(const std::string& plugin_name);
 
     const DeviceCapabilities& capabilities() const noexcept override { return capabilities_; }

@@ -12,7 +12,7 @@ struct PanOptions {
     /// devices cannot render. > 0.
     double grip_n_per_m = 250.0;
     double grip_n_s_per_m = 2.0;
-    double drag_per_s = 0.7;        // fraction of the initial speed lost per second
+    double drag_per_s = 0.7;        // decay rate of the speed
     double speed_m_per_s_max = 0.5; // of a gliding map
 };
 

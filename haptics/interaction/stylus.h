@@ -37,8 +37,8 @@ public:
     void setModel(ContactModelKind kind);
     ContactModelKind model() const noexcept { return kind_; }
 
-    /// The pointer is over this point of the surface, where a screen point has the length `point_m`
-    /// > 0. While the map is grabbed, goal and proxy do not move.
+    /// The pointer is over this point of the surface, where a screen point has the positive
+    /// length `point_m`. While the map is grabbed, goal and proxy do not move.
     void aim(const GroundPoint& at, const StylusButtons& buttons, double point_m);
     /// Applies surface data loaded since the last call. Returns true if the proxy may have moved.
     /// Call it about thirty times a second while isWaiting().

@@ -24,7 +24,7 @@ public:
     /// Time without ticks after which the loop is considered ended.
     static constexpr std::chrono::milliseconds kDead{2000};
 
-    /// `waits_for_first`: there is no time limit for the first tick.
+    /// `waits_for_first`: the first tick has no time limit.
     LoopWatchdog(std::shared_ptr<ServoCore> core, bool waits_for_first);
     /// Returns within some milliseconds. If the thread hangs in the device, it is detached.
     ~LoopWatchdog();

@@ -308,7 +308,7 @@ bool ServoCore::takeRecording() noexcept
     return recording != 0;
 }
 
-// False if there is no room for them.
+// False if the queue is full.
 bool ServoCore::tellGround(bool was_told) noexcept
 {
     const auto& map = settings_.front().map;

@@ -33,8 +33,8 @@ public:
         maximum_ = other.maximum_ > maximum_ ? other.maximum_ : maximum_;
     }
 
-    /// What was recorded after `earlier`, a previous copy of this histogram. The maximum is that of
-    /// a bucket.
+    /// The durations recorded after `earlier`, a previous copy of this histogram. The maximum is
+    /// that of a bucket.
     TimeHistogram since(const TimeHistogram& earlier) const noexcept
     {
         TimeHistogram result;

@@ -216,7 +216,7 @@ Result<SoundPlayer> SoundPlayer::open()
                      "sound: this OpenAL has no thread-local contexts; install OpenAL Soft"};
     }
     ALCdevice* device = alcOpenDevice(nullptr);
-    // The device that OpenAL opens if there is no output.
+    // The device that OpenAL opens without an output.
     constexpr std::string_view kNowhere = "No Output";
     if (device != nullptr && alcIsExtensionPresent(nullptr, "ALC_ENUMERATE_ALL_EXT") != ALC_FALSE &&
         alcGetString(device, ALC_ALL_DEVICES_SPECIFIER) == kNowhere) {

@@ -37,7 +37,7 @@ private:
 /// amount: under a limit (RLIMIT_MEMLOCK without CAP_IPC_LOCK), locking everything would make the
 /// process's next large allocation or stack growth fail. In that case only `memory` is locked, one
 /// range after the other, up to the limit. When the last ProcessLock is destroyed, pages locked by
-/// a PageLock stay in memory but are no longer locked.
+/// a PageLock stay in memory but become unlocked.
 class ProcessLock {
 public:
     explicit ProcessLock(std::span<const MemoryRange> memory);
@@ -45,7 +45,7 @@ public:
     ProcessLock(const ProcessLock&) = delete;
     ProcessLock& operator=(const ProcessLock&) = delete;
 
-    /// Empty if the whole process is locked; otherwise the reason, and what is locked instead.
+    /// Empty if the whole process is locked; otherwise the reason, and the part that is locked.
     const std::string& refusal() const noexcept { return refusal_; }
 
 private:

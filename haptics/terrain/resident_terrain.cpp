@@ -26,7 +26,7 @@ ResidentTerrain::ResidentTerrain(const ResidentWindow& window,
 SampleBox ResidentTerrain::near(GridPoint hand) const noexcept
 {
     const auto along = [](double position, std::size_t count) {
-        const double inside = position >= 0.0 ? position : 0.0; // and where it is NaN
+        const double inside = position >= 0.0 ? position : 0.0; // also for NaN
         const std::size_t tile =
             static_cast<std::size_t>(std::min(inside, static_cast<double>(count - 1))) / kTileSide;
         return std::pair{(std::max<std::size_t>(tile, 1) - 1) * kTileSide,
@@ -44,7 +44,7 @@ void ResidentTerrain::remember() noexcept
     }
 }
 
-// Tiles that are blended are read where they are weighed.
+// Blended tiles are read together with their weights.
 void ResidentTerrain::putAtHand() noexcept
 {
     clearPlaces();
@@ -66,7 +66,7 @@ bool ResidentTerrain::show(const ResidentWindow& window, GridPoint hand) noexcep
     window_ = &window;
     const SampleBox box = near(hand);
     bool is_changed = false;
-    // What has left the window is forgotten; should it come back, it arrives.
+    // Tiles that have left the window are forgotten; if one returns, it counts as newly arrived.
     blend_.keepOnly([&](const TileId& id, const SampleBox&) { return window.has(id); });
     const double range_m = heights().range().maximum_m - heights().range().minimum_m;
     for (std::size_t k = 0; k < window.levelCount(); ++k) {
@@ -119,7 +119,7 @@ bool ResidentTerrain::advance(GridPoint hand, double seconds) noexcept
 double ResidentTerrain::sampleElsewhere(std::size_t column, std::size_t row) const noexcept
 {
     double height_m = 0.0;
-    double rest = 1.0; // of the weight that coarser levels share
+    double rest = 1.0; // weight that remains for coarser levels
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     ResidentWindow::Sources sources;
@@ -154,7 +154,7 @@ double ResidentTerrain::sampleElsewhere(std::size_t column, std::size_t row) con
             break;
         }
     }
-    // Rounding must not lift it above what casts skip by.
+    // Rounding must not exceed the maxima that ray casts use.
     return std::clamp(height_m, low, high);
 }
 

@@ -1,5 +1,5 @@
 // Notation. Sample i of level k is sample min(i · 2^k, count - 1) of the map, along either axis, so
-// that the last cell of a level is narrower than the others where 2^k does not divide count - 1.
+// that the last cell of a level is narrower than the others if 2^k does not divide count - 1.
 #include "haptics/terrain/resident_window.h"
 
 #include "core/base/check.h"
@@ -13,10 +13,10 @@
 namespace marsview {
 namespace {
 
-// Where a sample of the map lies among the samples of a level, along one axis.
+// The position of a map sample between the samples of a level, along one axis.
 struct AlongAxis {
     std::size_t index; // of the level's sample before it, or at it
-    double share;      // of the cell behind that sample, in [0, 1)
+    double share;      // fraction of the following cell, in [0, 1)
 };
 
 AlongAxis alongAxis(std::size_t level, std::size_t sample, std::size_t count) noexcept
@@ -177,7 +177,7 @@ std::optional<double> ResidentWindow::heightAtLevel(std::size_t level,
     if (sources != nullptr) {
         sources->count = 0;
     }
-    // A corner without weight is not asked for: beyond the last sample there is none.
+    // A corner with zero weight is not read: beyond the last sample there is no corner.
     if (!read(z.upper_left, c, r) || (u > v && !read(z.upper_right, c + 1, r)) ||
         (u < v && !read(z.lower_left, c, r + 1)) ||
         (std::min(u, v) > 0.0 && !read(z.lower_right, c + 1, r + 1))) {
@@ -213,16 +213,16 @@ bool ResidentWindow::isVoid(std::size_t column, std::size_t row) const noexcept
 }
 
 // The levels' triangles are nested, so that two levels differ most at a sample of the finer one.
-// But for the narrow cells at the end of a level, whose diagonals are not those of the finer
-// levels: there each of the two planes of a cell is held against all samples in the closed cell,
-// which bounds what differs between samples, whichever plane that is on.
+// The exception are the narrow cells at the end of a level, whose diagonals differ from those of
+// the finer levels: there, both planes of a cell are compared with all samples in the closed cell,
+// which bounds the difference between samples on either plane.
 double ResidentWindow::differenceFromCoarser(const TileId& id) const
 {
     const TileLayout& layout = heights_->layout();
     const std::size_t finer = id.level;
     const std::size_t last_i = layout.columnsAt(TileKind::Samples, finer) - 1;
     const std::size_t last_j = layout.rowsAt(TileKind::Samples, finer) - 1;
-    // A sample has a say in the cells before and behind it, which have samples of other tiles.
+    // A sample affects the cells before and after it, which have samples of other tiles.
     const auto before = [](std::size_t first) { return std::max<std::size_t>(first, 1) - 1; };
     const std::size_t left = before(id.column * kTileSide);
     const std::size_t upper = before(id.row * kTileSide);
@@ -241,7 +241,7 @@ double ResidentWindow::differenceFromCoarser(const TileId& id) const
     double most = 0.0;
     const auto hold = [&most](double here_m, double there_m) {
         const double difference_m = std::abs(there_m - here_m);
-        most = difference_m > most ? difference_m : most; // never what is missing
+        most = difference_m > most ? difference_m : most; // ignores missing samples (NaN)
     };
     const auto hold_cell = [&](std::size_t k, std::size_t c, std::size_t r, bool is_last) {
         const std::size_t shift = k - finer;
@@ -272,7 +272,7 @@ double ResidentWindow::differenceFromCoarser(const TileId& id) const
                     hold(here_m, upper_left + v * (lower_left - upper_left) +
                                      u * (lower_right - lower_left));
                 }
-                if (!is_whole) { // on edges, two corners are enough
+                if (!is_whole) { // on edges, two corners are sufficient
                     hold(here_m, heightAtLevel(k, column_of(i), row_of(j)).value_or(kMissing));
                 }
             }
@@ -290,7 +290,7 @@ double ResidentWindow::differenceFromCoarser(const TileId& id) const
             }
         }
     }
-    return most * (1.0 + 1e-12); // heights between samples are rounded
+    return most * (1.0 + 1e-12); // covers the rounding of heights between samples
 }
 
 } // namespace marsview

@@ -15,46 +15,47 @@
 
 namespace marsview {
 
-/// How many tiles a side a window has.
+/// The number of tiles per side of a window.
 struct WindowSides {
     std::size_t finest = 8;  // at level 0; 3 to ResidentWindow::kSideMax
     std::size_t coarser = 4; // at every other level; likewise
 };
 
-/// Which tiles of a level are there: a square of them, at most 8 x 8. A small value.
+/// The resident tiles of a level, within a square of at most 8 x 8. A small value.
 struct ShownTiles {
     std::uint32_t first_column = 0; // counted in tiles
     std::uint32_t first_row = 0;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    std::uint64_t is_there = 0; // a bit a tile, row by row, from the lowest on
+    std::uint64_t is_there = 0; // one bit per tile, row by row, starting at the lowest bit
 
     bool has(std::uint32_t tile_column, std::uint32_t tile_row) const noexcept
     {
-        const std::uint32_t c = tile_column - first_column; // wraps where it is less
+        const std::uint32_t c = tile_column - first_column; // wraps if less
         const std::uint32_t r = tile_row - first_row;
         return c < columns && r < rows && ((is_there >> (r * columns + c)) & 1U) != 0;
     }
     bool operator==(const ShownTiles&) const = default;
 };
 
-/// For every level of a map, a square of tiles around a place: those that are there. The coarsest
-/// level, which is one tile, always is, so that there is a height everywhere.
+/// For every level of a map, the resident tiles in a square around a position. The coarsest level,
+/// which is one tile, is always resident, so that every sample has a height.
 ///
-/// Where the tile of a sample is there at level 0, its height is that of FilledHeightfield, to the
-/// bit. Elsewhere it is that of the finest level whose samples around are there, on the triangles
-/// of that level, but never more than the maxima of the smallest nodes that the sample lies on:
-/// what may be skipped over the true surface may be skipped over this one.
+/// If the level 0 tile of a sample is resident, its height equals that of FilledHeightfield, to the
+/// bit. Otherwise it is the height on the triangles of the finest level whose surrounding samples
+/// are resident, limited to the maxima of the smallest nodes that contain the sample: a cast that
+/// may skip a part of the true surface may also skip it here.
 ///
-/// Filled by one thread; immutable from then on: any thread, the servo's too, for what is const.
+/// Filled by one thread, immutable afterwards. Const members: any thread, including the servo
+/// thread.
 class ResidentWindow {
 public:
     static constexpr std::size_t kSideMax = 8;
 
     struct Slot {
-        std::shared_ptr<const Tile> tile; // null where it is missing
-        /// No sample that this tile has a say in differs by more from what coarser tiles of the
-        /// window, those that were there when it came, make of it; in metres. Infinite: not known.
+        std::shared_ptr<const Tile> tile; // null if missing
+        /// An upper bound, in meters, of the difference between this tile's surface and that of the
+        /// coarser tiles that were in the window when it arrived. Infinite: unknown.
         double difference_m = 0.0;
     };
     /// The tiles of a level, row by row.
@@ -65,7 +66,7 @@ public:
         std::uint32_t rows = 0;
         std::vector<Slot> slots;
     };
-    /// The tiles that have a say in the height of a sample at a level, each once.
+    /// The tiles that determine the height of a sample at a level, each once.
     struct Sources {
         std::array<TileId, 3> tiles;
         std::size_t count = 0;
@@ -75,36 +76,37 @@ public:
         std::size_t level;
     };
 
-    /// Along an axis with `tiles` tiles at a level, the first of the `side` (<= tiles) around a
-    /// centre, which is in samples of the map.
+    /// Along an axis with `tiles` tiles at a level, the first of the `side` (<= tiles) tiles around
+    /// a center, which is given in samples of the map.
     static std::size_t
     firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side) noexcept;
 
-    /// Whether there can be such a square at a level of a map.
+    /// Whether such a square is valid at a level of a map.
     static bool
     fits(const TileLayout& layout, std::size_t level, const ShownTiles& square) noexcept;
 
-    /// `top` is the tile of the coarsest level. Level k lies around `centres[k]`, in samples of
-    /// the map; there are as many as levels.
+    /// `top` is the tile of the coarsest level. Level k is centered on `centres[k]`, in samples of
+    /// the map; there is one entry per level.
     ResidentWindow(std::shared_ptr<const TileHeights> heights,
                    std::shared_ptr<const Tile> top,
                    const std::vector<GridPoint>& centres,
                    const WindowSides& sides = {});
 
-    /// Around the squares that another window had, one a level, each within the map's tiles; of
-    /// their tiles there is but `top` until they are put.
+    /// With the squares of another window, one per level, each within the map's tiles. Only `top`
+    /// is resident until other tiles are put.
     ResidentWindow(std::shared_ptr<const TileHeights> heights,
                    std::shared_ptr<const Tile> top,
                    std::span<const ShownTiles> squares);
 
-    /// The window covers the tile, and its samples can all be touched (TileHeights::isTouchable).
+    /// Requires a tile within the window whose samples can all be touched
+    /// (TileHeights::isTouchable).
     void put(std::shared_ptr<const Tile> tile, double difference_m);
 
     const TileHeights& heights() const noexcept { return *heights_; }
     std::size_t levelCount() const noexcept { return levels_.size(); }
     const Level& level(std::size_t level) const noexcept { return levels_[level]; }
     ShownTiles shown(std::size_t level) const noexcept;
-    /// Null where the window does not cover the tile.
+    /// Null if the window does not cover the tile.
     const Slot* slot(const TileId& id) const noexcept { return slot(id.level, id.column, id.row); }
     bool has(const TileId& id) const noexcept
     {
@@ -112,20 +114,19 @@ public:
         return found != nullptr && found->tile != nullptr;
     }
 
-    /// In metres. Unchecked: inside the map.
+    /// In meters. Unchecked precondition: inside the map.
     Reading read(std::size_t column, std::size_t row) const noexcept;
     double height(std::size_t column, std::size_t row) const noexcept
     {
         return read(column, row).height_m;
     }
-    /// What one level makes of a sample of the map, whether or not a finer one is there. Nothing
-    /// where a tile is missing. Not bounded by maxima.
+    /// The height that one level gives for a sample of the map, whether or not a finer one is
+    /// resident. Empty if a tile is missing. Not limited by maxima.
     std::optional<double> heightAtLevel(std::size_t level,
                                         std::size_t column,
                                         std::size_t row,
                                         Sources* sources = nullptr) const noexcept;
-    /// Whether nothing was measured at the nearest sample, up and to the left, of the finest level
-    /// that is there.
+    /// Whether the nearest sample, up and to the left, of the finest resident level is void.
     bool isVoid(std::size_t column, std::size_t row) const noexcept;
 
     /// For Slot::difference_m of a tile that was put. Takes a millisecond or more: not for the
@@ -137,7 +138,7 @@ private:
     const Slot* slot(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
         const Level& l = levels_[level];
-        const std::size_t c = column - l.first_column; // wraps where it is less
+        const std::size_t c = column - l.first_column; // wraps if less
         const std::size_t r = row - l.first_row;
         return c < l.columns && r < l.rows ? &l.slots[r * l.columns + c] : nullptr;
     }

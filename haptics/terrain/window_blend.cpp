@@ -8,7 +8,7 @@ namespace marsview {
 
 SampleBox WindowBlend::reach(const TileLayout& layout, const TileId& tile) noexcept
 {
-    // A sample of a level has a say in the cells around it, up to the next samples of that level.
+    // A sample of a level affects the cells around it, up to the next samples of that level.
     const auto along = [&tile](std::size_t first, std::size_t width, std::size_t level_count,
                                std::size_t count) {
         const std::size_t behind = first + width;
@@ -40,15 +40,15 @@ void WindowBlend::add(const TileLayout& layout, const TileId& tile, double diffe
 void WindowBlend::put(const TileLayout& layout, const TileId& tile, double weight) noexcept
 {
     if (count_ < kTilesMax && !has(tile)) {
-        constexpr double kHeld = std::numeric_limits<double>::infinity(); // no rate moves it
+        constexpr double kHeld = std::numeric_limits<double>::infinity(); // not changed by any rate
         tiles_[count_++] = {tile, kHeld, weight, reach(layout, tile)};
     }
 }
 
 void WindowBlend::advance(double seconds, double rate_m_per_s) noexcept
 {
-    // While a finer tile is blended over it, a coarser one keeps its weight: what changes is then
-    // one difference at a time.
+    // While a finer tile is blended over it, a coarser one keeps its weight, so that only one
+    // difference changes at a time.
     std::array<bool, kTilesMax> is_held{};
     for (std::size_t i = 0; i < count_; ++i) {
         for (std::size_t j = 0; j < count_ && !is_held[i]; ++j) {

@@ -1,4 +1,4 @@
-// How tiles that arrive under the hand are made felt: not at once, but at a bounded rate.
+// Blends tiles that arrive under the hand into the surface at a bounded rate.
 #pragma once
 
 #include "core/tiles/tile.h"
@@ -9,7 +9,7 @@
 
 namespace marsview {
 
-/// Samples of the map, ends included.
+/// Samples of the map, inclusive bounds.
 struct SampleBox {
     std::size_t left = 0;
     std::size_t right = 0;
@@ -22,26 +22,26 @@ inline bool doOverlap(const SampleBox& a, const SampleBox& b) noexcept
     return a.left <= b.right && b.left <= a.right && a.upper <= b.lower && b.upper <= a.lower;
 }
 
-/// The weights of tiles that have arrived near the hand and are not yet felt in full: from 0, as if
-/// the tile were not there, to 1. A weight grows such that no height changes faster than the rate;
-/// one tile after the other where they lie upon each other, the finer first. All others have a
-/// weight of 1.
+/// The weights of newly arrived tiles near the hand, from 0 (as if the tile were missing) to 1. A
+/// weight grows such that no height changes faster than the rate; overlapping tiles are blended one
+/// after the other, the finer first. All other tiles have a weight of 1.
 ///
-/// Heights change by at most `rate_m_per_s`, so a hand that holds still feels a force that changes
-/// by at most the stiffness times the rate, times the exaggeration and the scale from the scene to
-/// the hand's workspace. A small value for the servo thread: allocates nothing.
+/// Heights change at most at `rate_m_per_s`, so the force on a hand at rest changes at most at the
+/// stiffness times the rate, times the exaggeration and the scale from the scene to the workspace.
+/// A small value for the servo thread: does not allocate.
 class WindowBlend {
 public:
-    /// Nine tiles at level 0 and four, at most nine, at each level above, of those that arrive
-    /// before the ones before them are felt. What does not fit is felt at once, and counted.
+    /// Nine tiles at level 0 and four, at most nine, at each level above, assuming that earlier
+    /// tiles have been blended before more arrive. Further tiles take effect at once, and are
+    /// counted.
     static constexpr std::size_t kTilesMax = 96;
 
-    /// A tile that has arrived; `difference_m` as in ResidentWindow::Slot, finite. One that makes
-    /// no difference is felt in full.
+    /// Adds a tile that has arrived; `difference_m` as in ResidentWindow::Slot, finite. A tile
+    /// without a difference gets the full weight at once.
     void add(const TileLayout& layout, const TileId& tile, double difference_m) noexcept;
-    /// A tile with the weight that it had in another blend, in [0, 1). It keeps it.
+    /// Adds a tile with its weight in another blend, in [0, 1). The weight does not change.
     void put(const TileLayout& layout, const TileId& tile, double weight) noexcept;
-    /// What `keep(tile, reach)` does not want is felt in full, at once.
+    /// Tiles for which `keep(tile, reach)` is false get the full weight at once.
     template <typename Keep>
     void keepOnly(Keep&& keep) noexcept
     {
@@ -54,7 +54,7 @@ public:
         count_ = kept;
     }
     void clear() noexcept { count_ = 0; }
-    /// Time goes on: `seconds` >= 0, `rate_m_per_s` > 0. Both are finite.
+    /// Advances the weights: `seconds` >= 0, `rate_m_per_s` > 0. Both are finite.
     void advance(double seconds, double rate_m_per_s) noexcept;
     template <typename F>
     void eachTile(F&& function) const noexcept
@@ -67,12 +67,12 @@ public:
     bool isEmpty() const noexcept { return count_ == 0; }
     std::size_t count() const noexcept { return count_; }
     bool has(const TileId& tile) const noexcept { return find(tile) != nullptr; }
-    /// In [0, 1]; 1 for tiles that are not blended.
+    /// In [0, 1]; 1 for tiles that are not being blended.
     double weight(const TileId& tile) const noexcept;
-    /// Of tiles that were felt at once because there were too many.
+    /// Number of tiles that took effect at once because there were too many.
     std::uint64_t overflowCount() const noexcept { return overflow_count_; }
 
-    /// The samples of the map that a tile has a say in.
+    /// The samples of the map that a tile affects.
     static SampleBox reach(const TileLayout& layout, const TileId& tile) noexcept;
 
 private:

@@ -20,7 +20,7 @@ struct WindowExchange {
     SeqLock<HandMotion> motion;                                  // the servo writes
     TripleBuffer<std::shared_ptr<const ResidentWindow>> windows; // the servo reads
     /// The feeder's last round, ns of the steady clock; 0: never. If it stops, the servo's window
-    /// is no longer valid terrain.
+    /// may be outdated.
     std::atomic<std::int64_t> fed_ns{0};
 };
 

@@ -14,7 +14,7 @@ constexpr double kShareOfLoaders = 0.7;
 // Width in tiles across the corridor, for turns of the hand.
 constexpr double kCorridorTiles = 3.0;
 constexpr int kPathPieces = 24;
-// Penalty per tile of distance from the path, in seconds.
+// Lower limit of the time until the hand reaches a tile other than its own, in seconds.
 constexpr double kBeside = 1e-3;
 // From this level on, all tiles that a window covers are requested: LevelFile keeps those levels.
 constexpr std::size_t kCheapLevel = 3;

@@ -18,7 +18,7 @@ namespace marsview {
 /// Whether a recording may have been made on that map: same number of samples and same body.
 bool isRecordedOn(const GroundPart& part, const Georeference& map) noexcept;
 
-/// What is known about a recording before it is replayed.
+/// Properties of a recording, determined before its replay.
 struct ReplayFit {
     std::size_t goal_count = 0;
     std::size_t beside_count = 0; // goals outside all maps: the loop clamps them to an edge

@@ -14,7 +14,7 @@
 namespace marsview {
 namespace {
 
-// Between the colors of a sampled ramp.
+// Interpolates between the colors of a sampled ramp.
 std::array<double, 3> colorAt(const std::array<Rgb8, 256>& colors, double share)
 {
     const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(colors.size() - 1);
@@ -81,7 +81,7 @@ ColorError measureColorError(const TintedScene& scene,
     if (errors.empty()) {
         return error;
     }
-    std::sort(errors.begin(), errors.end()); // also makes the sum independent of the threads
+    std::sort(errors.begin(), errors.end()); // also makes the sum independent of the thread order
     double sum = 0.0;
     for (const double e : errors) {
         sum += e;

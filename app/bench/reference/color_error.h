@@ -1,4 +1,4 @@
-// How far the colors of a picture are from those of the surface at full resolution.
+// The difference between the colors of a picture and those of the surface at full resolution.
 #pragma once
 
 #include "app/bench/reference/picture_error.h"
@@ -11,7 +11,7 @@
 
 namespace marsview {
 
-/// Over all channels of all pixels looked at, in levels of 255.
+/// Over all channels of all compared pixels, in levels of 255.
 struct ColorError {
     std::size_t pixel_count = 0;
     double mean_levels = 0.0;
@@ -19,12 +19,12 @@ struct ColorError {
     double max_levels = 0.0;
 };
 
-/// What a picture in the mode Tint shows.
+/// The content of a picture in the mode Tint.
 struct TintedScene {
     DrawnScene drawn;
     const MinMaxPyramid& bounds; // of the heightfield
     const ColorRamp& ramp;
-    HeightRange range; // over which the ramp is spread
+    HeightRange range; // the stretch of the ramp
 };
 
 /// Two pictures of the same view, width × height × 3 bytes from the top left.
@@ -34,10 +34,10 @@ struct ColorPictures {
     std::span<const double> depths_m;    // along the view axis, infinite in the sky
 };
 
-/// Compares colors with those of the ramp at the elevations where the rays through the centers of
-/// the pixels meet the surface at full resolution, in the light of the picture. Every `stride`-th
-/// pixel of every `stride`-th row. Pixels where either shows sky, and those whose light is too
-/// bright for a byte, are left out. On all cores.
+/// Compares colors with those of the ramp at the elevations where the rays through the pixel
+/// centers meet the surface at full resolution, in the light of the picture. Uses every `stride`-th
+/// pixel of every `stride`-th row. Skips pixels in which either shows sky, and those whose light
+/// exceeds a byte. Uses all cores.
 ColorError measureColorError(const TintedScene& scene,
                              const OrbitCamera& camera,
                              const Viewport& viewport,

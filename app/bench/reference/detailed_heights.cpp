@@ -8,27 +8,27 @@
 #include <cmath>
 #include <limits>
 
-// Noise is a sum of octaves. Octave k puts a random number at every point of a lattice of 2^k
-// samples and runs a cubic B-spline over them. As such a spline is also one over the lattice half
-// as wide, whose numbers follow from the wider one's by fixed weights, all octaves are summed from
-// the widest down: subdivide, add the octave's own numbers, subdivide … Every sample costs little
-// more than that of the last octave.
+// Noise is a sum of octaves. Octave k assigns a random number to every point of a lattice of 2^k
+// samples and interpolates them with a cubic B-spline. Such a spline is also a spline over the
+// lattice of half the width, whose numbers are fixed weighted sums of the wider lattice's numbers.
+// So all octaves are summed starting with the widest: subdivide, add the octave's own numbers,
+// subdivide, and so on. A sample costs little more than that of the last octave alone.
 //
-// Only +, -, ×, ÷ and square roots of single numbers decide about a height, all of them rounded the
-// same way on every machine; nothing is summed in an order that depends on the window.
+// A height depends only on +, -, ×, ÷ and square roots of single numbers, which are rounded the
+// same way on every machine; no sum depends on the window.
 
 namespace marsview {
 namespace {
 
-// Samples along a side of what is computed in one go: its buffers stay in the second-level cache.
+// Side of the blocks that are computed at once: their buffers fit into the second-level cache.
 constexpr std::size_t kBlockSide = 256;
 
-// Squares of halvingRatio() outside these are not believed: natural land has Hurst exponents of 0.5
-// to 0.95, and at 1 (0.25) noise of ever wider octaves would have to make up the differences.
+// Squares of halvingRatio() outside this range are clamped: natural terrain has Hurst exponents of
+// 0.5 to 0.95, and at 1 (0.25) noise of ever wider octaves would be needed for the differences.
 constexpr double kHalvingLeast = 0.268;
 constexpr double kHalvingMost = 0.5;
 
-// What is the same along a row of an octave's lattice.
+// The values that are constant along a row of an octave's lattice.
 struct RowKey {
     std::uint32_t before = 0;
     std::uint32_t within = 0;
@@ -41,7 +41,7 @@ RowKey rowKey(std::uint64_t seed, std::size_t octave, std::int64_t row)
     return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32U)};
 }
 
-// In [-1, 1), of variance 1/3.
+// A value in [-1, 1), of variance 1/3.
 float latticeValue(const RowKey& key, std::uint32_t column)
 {
     std::uint32_t x = (column * 0x9e3779b1U) ^ key.before;
@@ -54,7 +54,7 @@ float latticeValue(const RowKey& key, std::uint32_t column)
     return static_cast<float>(static_cast<std::int32_t>(x)) * 0x1p-31F;
 }
 
-// The cardinal B-spline of `degree`, centred, by its recursion.
+// The centered cardinal B-spline of `degree`, by its recursion.
 double bSpline(int degree, double x)
 {
     const double half = (degree + 1) / 2.0;
@@ -74,7 +74,7 @@ double squaredDifference(double distance)
     return 2.0 / 3.0 * still * (still - bSpline(7, std::min(distance, 4.0)));
 }
 
-// Four coefficients of the polynomial in the fraction, for values before, at, after and beyond.
+// Four polynomial coefficients in the fraction, for the values before, at, after and beyond.
 using Cubic = std::array<float, 4>;
 
 Cubic catmullRom(float a, float b, float c, float d)
@@ -111,14 +111,14 @@ std::size_t clamped(std::int64_t i, std::size_t count)
         std::clamp(i, std::int64_t{0}, static_cast<std::int64_t>(count) - 1));
 }
 
-// A rectangle of lattice points, whose first may lie before the map.
+// A rectangle of lattice points, which may begin before the map.
 struct Lattice {
     std::int64_t column = 0;
     std::int64_t row = 0;
     std::size_t columns = 0;
     std::size_t rows = 0;
 
-    // What of the lattice twice as wide this one follows from.
+    // The part of the lattice twice as wide that this one depends on.
     Lattice wider() const
     {
         const std::int64_t c = half(column) - 1;
@@ -129,7 +129,7 @@ struct Lattice {
     }
 };
 
-// A row of the wider lattice made twice as dense. `from` begins at lattice column `wide`.
+// Doubles the density of a row of the wider lattice. `from` begins at lattice column `wide`.
 void expandRow(const float* from, std::int64_t wide, std::int64_t column, std::span<float> to)
 {
     // Odd columns lie between two numbers, even ones at one.
@@ -153,9 +153,9 @@ void expandRow(const float* from, std::int64_t wide, std::int64_t column, std::s
 
 } // namespace
 
-// Buffers of a thread.
+// The buffers of a thread.
 struct DetailedHeights::Block {
-    std::vector<float> values; // noise in the end, row by row
+    std::vector<float> values; // finally the noise, row by row
     std::vector<float> wide;
     std::vector<float> expanded;
 };
@@ -167,7 +167,7 @@ DetailedHeights::Axis DetailedHeights::axisOf(std::size_t count, std::size_t sou
     axis.fraction.resize(count);
     const double ratio = static_cast<double>(source_count) / static_cast<double>(count);
     for (std::size_t i = 0; i < count; ++i) {
-        // Centres of pixels, over the same extent.
+        // Pixel centers, over the same extent.
         const double place = (static_cast<double>(i) + 0.5) * ratio - 0.5;
         const double before = std::floor(place);
         axis.index[i] = static_cast<std::int32_t>(before);
@@ -201,7 +201,7 @@ void DetailedHeights::measure()
     const auto height = [&](std::size_t c, std::size_t r) {
         return static_cast<double>(source_m_[r * columns + c]);
     };
-    // Along columns only: towards the poles of a geographic map its rows become shorter.
+    // Along columns only: rows get shorter toward the poles of a geographic map.
     double over_one = 0.0;
     double over_two = 0.0;
     std::vector<double> bends(columns * source_rows_); // squares of second differences
@@ -224,7 +224,7 @@ void DetailedHeights::measure()
         std::clamp(over_two > 0.0 ? over_one / over_two : 0.0, kHalvingLeast, kHalvingMost);
     halving_ratio_ = std::sqrt(squared_ratio);
 
-    // Means of the neighbourhood, twice with weights 1 4 6 4 1: what is rough is rough for a while.
+    // Local averages, twice with weights 1 4 6 4 1: roughness varies slowly.
     constexpr std::array kWeights{1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0};
     std::vector<double> smoothed(bends.size());
     for (int pass = 0; pass < 2; ++pass) {
@@ -260,8 +260,8 @@ void DetailedHeights::measure()
         return static_cast<float>(std::sqrt(bend * differences_per_bend));
     });
 
-    // Octaves narrower than the map's samples. All octaves together, without end to either side,
-    // would differ by the map's own differences over the distance of its samples.
+    // Octaves narrower than the map's samples. The infinite sum of all octaves would reproduce the
+    // map's own differences over the distance of its samples.
     const double sample = static_cast<double>(rows()) / static_cast<double>(source_rows_);
     std::size_t octaves = 0;
     while (static_cast<double>(std::size_t{1} << octaves) < 0.75 * sample) {
@@ -276,7 +276,8 @@ void DetailedHeights::measure()
         sum += term;
         gain /= squared_ratio;
     }
-    // From there on splines are parabolas, and the octaves' shares a geometric series.
+    // For wider lattices the splines are parabolas, and the octaves' contributions a geometric
+    // series.
     const double growth = 0.25 / squared_ratio;
     sum += term * growth / (1.0 - growth);
     constexpr int kNarrower = 40;
@@ -300,7 +301,7 @@ void DetailedHeights::noise(std::int64_t column,
                             std::size_t rows,
                             Block& block) const
 {
-    // The last step, from numbers to the spline through them, needs one more all around.
+    // The last step, from numbers to the spline, needs one more number on each side.
     constexpr std::size_t kOctavesMax = 32;
     std::array<Lattice, kOctavesMax> lattices{};
     lattices[0] = {column - 1, row - 1, columns + 2, rows + 2};
@@ -386,7 +387,7 @@ void DetailedHeights::block(std::size_t column,
         const auto c = static_cast<std::int64_t>(column);
         const auto r = static_cast<std::int64_t>(row);
         noise(c, r, columns, rows, buffers);
-        // Towards the last column of a map that goes around, its noise becomes that which comes
+        // Near the last column of a map that wraps around, its noise is blended into the noise
         // before the first column.
         const std::size_t seam = std::min(this->columns(), std::size_t{2} << octave_gain_.size());
         const std::size_t seam_begin = this->columns() - seam;
@@ -404,7 +405,7 @@ void DetailedHeights::block(std::size_t column,
             }
         }
     }
-    // The map's columns that the block needs, blended down the rows.
+    // The map's columns needed for the block, interpolated along the rows' axis.
     const std::int64_t first = across_.index[column] - std::int64_t{1};
     const auto needed =
         static_cast<std::size_t>(across_.index[column + columns - 1] + std::int64_t{2} - first + 1);
@@ -439,7 +440,7 @@ void DetailedHeights::block(std::size_t column,
         const float* noise_row = has_noise ? buffers.values.data() + r * columns : nullptr;
         const float* u = across_.fraction.data() + column;
         for (std::size_t begin = 0; begin < columns;) {
-            // Samples between the same two of the map.
+            // Samples between the same two samples of the map.
             const std::int32_t index = across_.index[column + begin];
             std::size_t end = begin + 1;
             while (end < columns && across_.index[column + end] == index) {
@@ -449,7 +450,7 @@ void DetailedHeights::block(std::size_t column,
             const Cubic z = catmullRom(base[i - 1], base[i], base[i + 1], base[i + 2]);
             const Cubic s = cubicBSpline(rough[i - 1], rough[i], rough[i + 1], rough[i + 2]);
             const auto write = [&](std::size_t c, float height) {
-                // Truncated after a shift, as that is the rounding that processors do in fours.
+                // Truncated after a shift, which vectorizes well.
                 const float bounded = std::min(std::max(height, kLow), kHigh);
                 to[c] = static_cast<std::int16_t>(static_cast<std::int32_t>(bounded + 32768.5F) -
                                                   32768);

@@ -1,4 +1,4 @@
-// A measured map made larger than it was measured, with made-up detail below its resolution.
+// Enlarges a measured map with synthetic detail below its resolution.
 #pragma once
 
 #include "core/base/grid_view.h"
@@ -17,13 +17,13 @@ struct DetailedHeightsOptions {
 };
 
 /// The surface through a map's samples (Catmull-Rom splines) at another size over the same extent,
-/// plus fractal noise narrower than a sample. The noise goes on where the map ends: its amplitudes
-/// follow the power law by which the map's own height differences shrink with distance, and it is
-/// as rough as the land around, by the map's second differences along columns: plains stay smooth,
-/// and so do straight slopes.
+/// plus fractal noise narrower than a sample. The noise continues the map's spectrum: its
+/// amplitudes follow the power law by which the map's own height differences decrease with
+/// distance, and its roughness follows the surrounding terrain, measured by the map's second
+/// differences along columns: plains stay smooth, and so do straight slopes.
 ///
-/// Every sample is a function of its place, the map and the seed: any window computed alone has the
-/// same bits, on every machine. Immutable; any thread.
+/// Every sample is a function of its position, the map and the seed: any window computed alone has
+/// the same bits, on every machine. Immutable; any thread.
 class DetailedHeights {
 public:
     /// `heights_m` has no NaN and at least 4 × 4 samples.
@@ -31,19 +31,21 @@ public:
 
     std::size_t columns() const noexcept { return across_.index.size(); }
     std::size_t rows() const noexcept { return down_.index.size(); }
-    /// Octaves of noise; none where the map is hardly made larger.
+    /// Octaves of noise; 0 if the map is hardly enlarged.
     std::size_t octaveCount() const noexcept { return octave_gain_.size(); }
-    /// Height differences over half the distance are this many times as large, root mean square.
+    /// The ratio of root mean square height differences over half a distance to those over the
+    /// distance.
     double halvingRatio() const noexcept { return halving_ratio_; }
 
-    /// Whole metres, within int16, from (column, row) on; the window lies on the map. Allocates.
+    /// Whole meters, within int16, from (column, row) on; the window must lie within the map.
+    /// Allocates.
     void window(std::size_t column, std::size_t row, GridView<std::int16_t> heights_m) const;
 
 private:
-    // Where the samples of an axis lie between those of the map.
+    // The positions of an axis's samples between those of the map.
     struct Axis {
-        std::vector<std::int32_t> index; // of the map's sample before; may be -1
-        std::vector<float> fraction;     // beyond it, in [0, 1)
+        std::vector<std::int32_t> index; // of the preceding map sample; may be -1
+        std::vector<float> fraction;     // distance from it, in [0, 1)
     };
     struct Block;
     static Axis axisOf(std::size_t count, std::size_t source_count);
@@ -65,7 +67,7 @@ private:
     Axis across_;
     Axis down_;
     double halving_ratio_ = 0.0;
-    std::vector<float> octave_gain_; // of roughness; octave k has a lattice of 2^k samples
+    std::vector<float> octave_gain_; // times the roughness; octave k has a lattice of 2^k samples
 };
 
 } // namespace marsview

@@ -8,22 +8,21 @@
 namespace marsview {
 namespace {
 
-// At the bottom of a dive a sample is so many pixels wide, in a sweep so many.
+// Width of a sample in pixels at the bottom of a dive, and in a sweep.
 constexpr double kDivePixels = 16.0;
 constexpr double kSweepPixels = 3.0;
 
-// The share of a dive that goes down, and how far back up the rest goes, in factors of distance:
-// half of those that led down.
+// The fraction of a dive that descends; the rest ascends by half of the factors of distance.
 constexpr double kDownShare = 0.7;
 constexpr double kBackUp = 0.5;
 constexpr Angle kDiveTilt = Angle::degrees(60.0);
 
 constexpr Angle kSweepTilt = Angle::degrees(70.0);
-constexpr Angle kSweepHeading = Angle::degrees(60.0); // so that no grid line is followed
+constexpr Angle kSweepHeading = Angle::degrees(60.0); // not along a grid line
 
-// How far a sweep goes in camera distances, at most: in four seconds about as fast as a hand drags.
+// Maximum length of a sweep in camera distances: in four seconds about the speed of a hand drag.
 constexpr double kSweepReach = 4.0;
-constexpr double kSweepShareMax = 0.8; // of the map's shorter side
+constexpr double kSweepShareMax = 0.8; // fraction of the map's shorter side
 
 ScenePoint onGround(const FlightGround& ground, double x, double y)
 {
@@ -31,8 +30,8 @@ ScenePoint onGround(const FlightGround& ground, double x, double y)
     return {x, y, std::isfinite(z) ? z : ground.box.centre().z};
 }
 
-// The distance at which a sample in the middle of the picture, seen face on, is so many pixels
-// wide.
+// The distance at which a sample in the center of the picture, seen face on, has this width in
+// pixels.
 double distanceFor(double sample_px,
                    const FlightGround& ground,
                    const OrbitCamera& camera,

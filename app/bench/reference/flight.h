@@ -1,4 +1,4 @@
-// Scripted flights over a map, for measuring: the same cameras every time, on any machine.
+// Scripted flights over a map, for measurements: the same cameras every time, on any machine.
 #pragma once
 
 #include "core/view/camera.h"
@@ -11,8 +11,8 @@ namespace marsview {
 
 enum class Flight {
     Orbit, // the whole map, once around
-    Dive,  // from the whole map down to single samples in its middle, and half the way back
-    Sweep, // low over the middle of the map
+    Dive,  // from the whole map down to single samples in its center, and halfway back
+    Sweep, // low over the center of the map
 };
 
 inline constexpr std::array kFlights{Flight::Orbit, Flight::Dive, Flight::Sweep};
@@ -24,11 +24,11 @@ std::string_view flightName(Flight flight);
 struct FlightGround {
     SceneBox box;
     double pixel_m = 1.0; // side of a sample; > 0
-    GroundQuery height;   // in scene metres
+    GroundQuery height;   // in scene meters
 };
 
-/// The camera at a moment of a flight, t in [0, 1]; two moments that are near have cameras that
-/// are. Not yet within the bounds of navigation, see constrained().
+/// The camera at a time of a flight, t in [0, 1]; continuous in t. Not yet within the limits of
+/// navigation, see constrained().
 OrbitCamera cameraOn(Flight flight, double t, const FlightGround& ground, const Viewport& viewport);
 
 } // namespace marsview

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kOctaves = 11;
 constexpr double kSlope = 0.3;
 
-// In [-1, 1), for a point of the lattice.
+// A value in [-1, 1) for a point of the lattice.
 double latticeValue(std::uint64_t seed, std::uint64_t octave, std::uint64_t c, std::uint64_t r)
 {
     const std::uint64_t x =
@@ -54,7 +54,7 @@ FractalHeights::FractalHeights(std::size_t columns, std::size_t rows, std::uint6
 void FractalHeights::unscaledRow(std::size_t row, std::span<double> heights) const
 {
     std::fill(heights.begin(), heights.end(), 0.0);
-    std::vector<double> across; // of a column within its cell of the lattice
+    std::vector<double> across; // position of a column within its lattice cell
     for (std::uint64_t octave = 0; octave < kOctaves; ++octave) {
         const std::size_t period = std::size_t{1} << octave;
         if (period > std::max(columns_, rows_)) {

@@ -1,4 +1,4 @@
-// Terrain made of noise: rough at every scale, the same on every machine.
+// Noise terrain: rough at every scale, the same on every machine.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace marsview {
 
 /// Up to eleven octaves of value noise, each half as high and half as wide as the one before,
-/// scaled to a root mean square slope of 0.3 a cell. Heights count in cells. Immutable; any thread.
+/// scaled to a root mean square slope of 0.3 per cell. Heights are in cells. Immutable; any thread.
 class FractalHeights {
 public:
     /// At least 2 × 2 samples. Computes every sample once, for the scale.
@@ -29,7 +29,7 @@ private:
     double scale_ = 1.0;
 };
 
-/// All of them in row-major order.
+/// All heights in row-major order.
 std::vector<float> fractalHeights(std::size_t columns, std::size_t rows, std::uint64_t seed);
 
 } // namespace marsview

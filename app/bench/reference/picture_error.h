@@ -1,4 +1,4 @@
-// How far a drawn surface is from the true one, in the pixels of the picture.
+// The difference between a drawn surface and the true one, in pixels of the picture.
 #pragma once
 
 #include "core/geo/scene_frame.h"
@@ -10,10 +10,10 @@
 
 namespace marsview {
 
-/// Of all pixels that show ground.
+/// Over all pixels that show terrain.
 struct PictureError {
     std::size_t pixel_count = 0;
-    double share_within = 1.0; // of pixels that are off by at most the threshold
+    double share_within = 1.0; // of pixels with an error of at most the threshold
     double mean_px = 0.0;
     double p99_px = 0.0;
     double max_px = 0.0;
@@ -26,10 +26,10 @@ struct DrawnScene {
     double exaggeration = 1.0;
 };
 
-/// Compares what was drawn with the surface at full resolution: each pixel's point is moved up or
-/// down to the true surface, and the way it moves in the picture is its error. `depths_m` are
-/// distances along the view axis, width × height from the top left, infinite in the sky. Points
-/// over voids or beside the map are left out.
+/// Compares a picture with the surface at full resolution: each pixel's point is moved vertically
+/// to the true surface, and its displacement in the picture is the error. `depths_m` are distances
+/// along the view axis, width × height from the top left, infinite in the sky. Points over voids or
+/// outside the map are skipped.
 PictureError measurePictureError(const DrawnScene& scene,
                                  const OrbitCamera& camera,
                                  const Viewport& viewport,
