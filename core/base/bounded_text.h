@@ -14,15 +14,15 @@ struct TextBounds {
     std::size_t line_bytes_max; // of each line, without its end
 };
 
-/// All of `in`, which `name` stands for in the messages. TooLarge as soon as a bound is exceeded,
-/// so that an endless stream ("/dev/zero", a pipe) is refused; Unreadable where reading fails.
+/// All of `in`; messages call it `name`. TooLarge as soon as a limit is exceeded, so that an
+/// endless stream ("/dev/zero", a pipe) is refused. Unreadable if reading fails.
 Result<std::string>
 readBoundedText(std::istream& in, const std::string& name, const TextBounds& bounds);
 
 enum class LineOutcome { Line, End, TooLong };
 
-/// The next line without its end, as std::getline, but of at most `bytes_max` bytes. After TooLong
-/// `line` holds the beginning.
+/// Reads the next line without its line ending, like std::getline, but at most `bytes_max` bytes.
+/// After TooLong, `line` holds the beginning of the line.
 LineOutcome readBoundedLine(std::istream& in, std::string& line, std::size_t bytes_max);
 
 } // namespace marsview

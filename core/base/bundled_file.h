@@ -1,17 +1,17 @@
-// Where files are that come with the program.
+// Finds the files installed with the program.
 #pragma once
 
 #include <filesystem>
 
 namespace marsview {
 
-/// `name` ("devices/polhem-v1.json") in what came with the program: beside the installed program
-/// (../share/marsview), or, for a program that runs from a build tree, in `resources` of a folder
-/// above it. Empty where there is none. `program_folder` is where the executable lies.
+/// Path of an installed file such as "devices/polhem-v1.json": in ../share/marsview next to the
+/// installed program, or, for a program run from a build tree, in `resources` in one of the parent
+/// folders. Empty if not found. `program_folder` is the folder of the executable.
 std::filesystem::path bundledFileFor(const std::filesystem::path& program_folder,
                                      const std::filesystem::path& name);
 
-/// Of this program.
+/// The same for the running program.
 std::filesystem::path bundledFile(const std::filesystem::path& name);
 
 } // namespace marsview

@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How soon a cancel is noticed.
+// How often the cancel flag is polled.
 constexpr std::chrono::milliseconds kPollInterval{50};
 
 class Descriptor {
@@ -67,7 +67,7 @@ Pipe makePipe()
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-// A file in memory that holds `text`, at its beginning.
+// An in-memory file that holds `text`, positioned at its beginning.
 Descriptor fileOf(const std::string& text)
 {
     Descriptor file(memfd_create("marsview-input", MFD_CLOEXEC));
@@ -109,7 +109,7 @@ public:
     posix_spawnattr_t attributes{};
 };
 
-// Reads what there is; closes at its end.
+// Reads what is available; closes the descriptor at end of file.
 void drain(Descriptor& from, std::string& to, std::size_t bytes_max)
 {
     std::array<char, 16384> buffer{};
@@ -177,7 +177,8 @@ Result<ChildOutcome> runChild(const ChildProgram& program)
             break;
         }
     }
-    // It has closed its output, so it ends now or, where it hangs in its exit, at the time's end.
+    // The child has closed its output: it exits now or, if it hangs on exit, when the time limit
+    // ends.
     int status = 0;
     while (waitpid(child, &status, outcome.end == ChildEnd::Exited ? WNOHANG : 0) != child) {
         if (outcome.end == ChildEnd::Exited && Clock::now() > end) {

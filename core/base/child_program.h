@@ -1,4 +1,4 @@
-// Running another program within limits, and stopping it.
+// Runs another program within limits and can stop it.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -14,32 +14,32 @@ namespace marsview {
 struct ChildProgram {
     std::string path;
     std::vector<std::string> arguments; // without the program's name
-    std::string input;                  // what it reads on stdin
+    std::string input;                  // the child's stdin
     std::chrono::milliseconds time_max{10'000};
-    /// Of stdout and of stderr; what is beyond is read and dropped.
+    /// For stdout and stderr each; further output is read and dropped.
     std::size_t output_bytes_max = std::size_t{4} << 20;
-    /// Where it is cancelled, the program is killed. May be null.
+    /// Cancelling the job kills the program. May be null.
     const JobMonitor* job = nullptr;
 };
 
 enum class ChildEnd {
     Exited,
-    Killed,    // by a signal that was not ours
+    Killed,    // by a signal we did not send
     TimedOut,  // and was killed
     Cancelled, // and was killed
 };
 
 struct ChildOutcome {
     ChildEnd end = ChildEnd::Exited;
-    int exit_status = 0; // where it exited
-    int signal = 0;      // where it was killed
+    int exit_status = 0; // if Exited
+    int signal = 0;      // if Killed
     std::string out;
     std::string err;
 };
 
-/// Starts the program and waits for its end. It gets a process group of its own, so that Ctrl-C in
-/// a terminal does not reach it, and no signal is blocked in it. Unreadable where it cannot be
-/// started. Any thread.
+/// Starts the program and waits for its end. It runs in its own process group, so that Ctrl-C in a
+/// terminal does not reach it, with no signals blocked. Unreadable if it cannot be started. Any
+/// thread.
 Result<ChildOutcome> runChild(const ChildProgram& program);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// Seeing to it that what was written outlives a power cut.
+// Makes written data survive a power failure.
 #pragma once
 
 #include <cstdio>
@@ -6,12 +6,12 @@
 
 namespace marsview {
 
-/// Has the system put all that was written on the disk, and waits for it. False where it could not.
-/// Where the system has no such thing it only writes.
+/// Flushes written data to the disk and waits for it. False on failure. On systems without such a
+/// call, the data is only written.
 bool flushToDisk(std::FILE* file);
 
-/// The name of a file is on the disk when its folder is. Some file systems cannot tell; content is
-/// safe in any case.
+/// Flushes a folder, so that the names of new files are on the disk too. Errors are ignored: some
+/// file systems do not support it, and the content is safe in any case.
 void flushFolderToDisk(const std::filesystem::path& folder);
 
 } // namespace marsview

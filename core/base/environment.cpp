@@ -8,7 +8,8 @@ namespace marsview {
 
 std::string environmentVariable(const char* name)
 {
-    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): nobody sets any
+    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): no thread sets
+                                           // variables
     return value != nullptr ? value : "";
 }
 

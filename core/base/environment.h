@@ -1,4 +1,4 @@
-// What the environment says about where things are.
+// Environment variables and user folders.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,11 @@
 
 namespace marsview {
 
-/// Empty where it is not set. Any thread, as long as none changes the environment.
+/// Empty if it is not set. Any thread, as long as no thread changes the environment.
 std::string environmentVariable(const char* name);
 
-/// One of the user's folders of the XDG base directory specification: what the variable says where
-/// that is an absolute path, else `below_home` in the home folder.
+/// One of the user's folders of the XDG base directory specification: the value of the variable if
+/// it is an absolute path, otherwise `below_home` in the home folder.
 std::filesystem::path userFolder(const char* variable, const char* below_home);
 
 } // namespace marsview

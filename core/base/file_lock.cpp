@@ -20,7 +20,7 @@ Error refusal(const std::string& path, int system_error)
                 "); choose another folder"};
 }
 
-// Whether the name still stands for what was opened: its last holder may have removed it.
+// Whether the path still names the opened file: the last holder may have removed it.
 bool isStillAt(const std::string& path, int descriptor)
 {
     struct stat opened {};
@@ -65,7 +65,8 @@ void FileLock::release() noexcept
         return;
     }
     if (kind_ == Kind::Exclusive) {
-        unlink(path_.c_str()); // while it is locked: whoever waits for it looks whether it is there
+        unlink(path_.c_str()); // while locked: waiting processes check whether the file still
+                               // exists
     }
     close(descriptor_);
     descriptor_ = -1;
@@ -97,14 +98,15 @@ Result<std::optional<FileLock>> FileLock::tryLock(const std::string& path, Kind 
         }
         FileLock lock(descriptor, path, kind);
         if (!isStillAt(path, descriptor)) {
-            lock.kind_ = Kind::Shared; // the name is another's now: leave it alone
+            lock.kind_ = Kind::Shared; // another process owns the path now: leave the file alone
             continue;
         }
         if (kind == Kind::Exclusive) {
             const std::string holder = std::to_string(getpid()) + "\n";
             if (ftruncate(descriptor, 0) != 0 ||
                 pwrite(descriptor, holder.data(), holder.size(), 0) < 0) {
-                // Nobody is told who holds it, as on a full disk; it is held all the same.
+                // The file does not name its holder, as on a full disk. The lock is held all the
+                // same.
             }
         }
         return std::optional<FileLock>(std::move(lock));

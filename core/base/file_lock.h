@@ -1,4 +1,4 @@
-// Telling other programs that a file is being worked on or is in use.
+// Locks that show other programs that a file is being worked on or is in use.
 #pragma once
 
 #include "core/base/result.h"
@@ -9,24 +9,24 @@
 
 namespace marsview {
 
-/// A lock on a file of its own, which is made where it is missing. The system releases it when the
-/// program ends, however it ends. Any thread, one at a time.
+/// A lock on a separate lock file, which is created if missing. The system releases the lock when
+/// the program ends, however it ends. Any thread, one at a time.
 class FileLock {
 public:
     enum class Kind : std::uint8_t {
-        Exclusive, // one holder; the lock's file says who, and goes when it is released
+        Exclusive, // one holder, named in the lock file; the file is removed on release
         Shared,    // any number of holders
     };
 
-    /// A shared lock whose file is there is had even where nothing may be written.
-    /// Nothing where somebody else holds it in a way that excludes this. An error where the lock's
-    /// file can be neither made nor opened.
+    /// A shared lock on an existing lock file works even in a read-only folder. Empty if another
+    /// holder excludes this kind of lock. An error if the lock file can be neither created nor
+    /// opened.
     static Result<std::optional<FileLock>> tryLock(const std::string& path, Kind kind);
 
-    /// Whether somebody holds it in either way. Makes no file.
+    /// Whether any process holds the lock, shared or exclusive. Creates no file.
     static bool isHeld(const std::string& path);
 
-    /// The process that holds the exclusive lock, as its file says; 0 where unknown.
+    /// The process that holds the exclusive lock, as named in the lock file; 0 if unknown.
     static long holder(const std::string& path);
 
     FileLock(FileLock&& other) noexcept;

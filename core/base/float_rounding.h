@@ -30,7 +30,7 @@ inline float roundedUp(double value) noexcept
 inline constexpr float kShortRounding = 1.0F / 128.0F;
 
 /// The smallest float of 8 significant bits that is not below `value` >= 0. The other bits are 0,
-/// so that an array of them takes half the room when compressed.
+/// so that an array of them compresses to half the size.
 inline float roundedUpShort(float value) noexcept
 {
     constexpr std::uint32_t kCutOff = 0xFFFF;

@@ -1,4 +1,4 @@
-// Giving memory back to the system.
+// Returns freed memory to the system.
 #pragma once
 
 #include <cstdlib>
@@ -8,8 +8,9 @@
 
 namespace marsview {
 
-/// Returns what the allocator holds back after a large job has freed its working memory. Does
-/// nothing where the C library has no way to. Takes milliseconds; any thread but the servo's.
+/// Returns memory that the allocator keeps after a large job has freed its working memory. Does
+/// nothing if the C library has no such call. Takes milliseconds; any thread except the servo
+/// thread.
 inline void returnFreeMemory() noexcept
 {
 #ifdef __GLIBC__

@@ -9,8 +9,8 @@
 
 namespace marsview {
 
-/// Columns × rows elements with a row stride, owned by somebody else. A view never outlives the
-/// call it is passed to.
+/// Columns × rows elements with a row stride, which the view does not own. A view never outlives
+/// the call it is passed to.
 template <typename T>
 class GridView {
 public:

@@ -1,4 +1,4 @@
-// How a long job tells its progress and learns that it is no longer wanted.
+// Progress and cancellation of a long job.
 #pragma once
 
 #include <atomic>
@@ -6,24 +6,23 @@
 namespace marsview {
 
 /// Shared between the thread that works and the threads that watch. The worker reports, watchers
-/// poll at display rate; anybody, a signal handler included, may cancel. All members are lock-free.
+/// poll at display rate; any thread and a signal handler may cancel. All members are lock-free.
 class JobMonitor {
 public:
-    /// The worker: `fraction` of the present stage in [0, 1] is done.
+    /// Worker: `fraction` in [0, 1] of the current stage is done.
     void report(double fraction) noexcept
     {
         fraction_.store(stage_begin_ + (stage_end_ - stage_begin_) * fraction,
                         std::memory_order_relaxed);
     }
-    /// The worker, before it starts helpers: what is reported next is about this part of the whole
-    /// work, or of the JobPart that it is in, 0 <= begin <= end <= 1. A job without stages is one
-    /// stage.
+    /// Worker, before it starts helpers: the following reports cover this part of the whole work,
+    /// or of the current JobPart, 0 <= begin <= end <= 1. A job without stages is one stage.
     void beginStage(double begin, double end) noexcept
     {
         stage_begin_ = part_begin_ + (part_end_ - part_begin_) * begin;
         stage_end_ = part_begin_ + (part_end_ - part_begin_) * end;
     }
-    /// Of the whole work.
+    /// Of the whole work, in [0, 1].
     double fraction() const noexcept { return fraction_.load(std::memory_order_relaxed); }
 
     /// Asks the worker to stop soon. Cannot be undone.
@@ -43,9 +42,9 @@ private:
     static_assert(std::atomic<bool>::is_always_lock_free);
 };
 
-/// While it lives, what the worker calls has a part of the work for itself: its stages are stages
-/// of that part, and the progress never goes back to where the part began. Parts nest; the
-/// worker's alone, as beginStage() is.
+/// Gives the worker a part of the job while it lives: stages begun then are stages of that part,
+/// and the progress never falls below the beginning of the part. Parts nest. For the worker only,
+/// like beginStage().
 class JobPart {
 public:
     /// 0 <= begin <= end <= 1, of the part around it.

@@ -10,9 +10,10 @@
 
 namespace marsview {
 
-/// Standard allocator that asks for large pages. Where a page of 4 KiB is dear to get, as on
-/// virtual machines, that is most of what making a large array costs. Elements that are given no
-/// first value have none, as those of RawArray: they are then touched first by who fills them.
+/// Standard allocator that asks for large pages. Where page faults for 4 KiB pages are expensive,
+/// as on virtual machines, they are most of the cost of creating a large array. Elements without an
+/// initial value stay uninitialized, as in RawArray, so that the thread that fills them touches
+/// them first.
 template <typename T>
 struct LargePageAllocator {
     // NOLINTNEXTLINE(readability-identifier-naming): the standard's name

@@ -9,11 +9,11 @@ namespace marsview {
 
 /// The word of `known` that differs from `word` by the fewest insertions, deletions, replacements
 /// and swaps of neighboring letters, case ignored; the first of several. A beginning of at least
-/// three letters counts as one edit. Empty where more than a third of the letters (at least one
-/// edit is always allowed) would change.
+/// three letters counts as one edit. Empty if more than a third of the letters (at least one edit
+/// is always allowed) would change.
 std::string nearestWord(std::string_view word, std::span<const std::string> known);
 
-/// ` Did you mean "X"?` for the nearest word, with the blank before it; empty where none is near.
+/// ` Did you mean "X"?` for the nearest word, with a leading space; empty if no word is near.
 std::string didYouMean(std::string_view word, std::span<const std::string> known);
 
 } // namespace marsview

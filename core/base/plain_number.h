@@ -1,4 +1,4 @@
-// Numbers as text for machines: exact, with a point, whatever the locale.
+// Numbers as text for machines: exact and with a decimal point in every locale.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,12 @@
 
 namespace marsview {
 
-/// The shortest digits that read back as the same double, always with a point ("1500.0"); "nan"
-/// where there is no number.
+/// The shortest digits that read back as the same double, always with a point ("1500.0"); "nan" for
+/// NaN.
 std::string asText(double value);
 
-/// The number that a word is; a plus before it and "nan" and "inf" are understood. Nothing where
-/// anything else is in it.
+/// Parses a whole word as a number; a leading plus, "nan" and "inf" are accepted. Empty if the word
+/// contains anything else.
 std::optional<double> parseNumber(std::string_view word);
 
 } // namespace marsview

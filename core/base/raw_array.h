@@ -1,4 +1,4 @@
-// Arrays that are filled right after they are made.
+// Arrays that are filled right after they are created.
 #pragma once
 
 #include "core/base/check.h"
@@ -15,8 +15,8 @@
 
 namespace marsview {
 
-/// Asks for large pages where an array is large: a page of 2 MiB is found, and first touched, for
-/// the price of one of 4 KiB. Advice only.
+/// Asks for large pages for a large array: a page fault for 2 MiB costs about as much as one for 4
+/// KiB. Advice only.
 inline void useLargePages([[maybe_unused]] std::byte* data,
                           [[maybe_unused]] std::size_t bytes) noexcept
 {
@@ -30,7 +30,7 @@ inline void useLargePages([[maybe_unused]] std::byte* data,
 #endif
 }
 
-/// A fixed number of elements without first values.
+/// A fixed number of uninitialized elements.
 template <typename T>
 class RawArray {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

@@ -1,4 +1,4 @@
-// The outcome of an operation that the world (a file, a device, a GPU) may refuse.
+// The outcome of an operation that can fail for outside reasons: a file, a device, a GPU.
 //
 // A Result holds a value or an Error, never both. Bugs are not Results: they stop the program
 // through MARSVIEW_CHECK (check.h).
@@ -14,18 +14,17 @@
 namespace marsview {
 
 enum class ErrorCode {
-    NotFound,    // there is nothing at that path or under that name
-    Unreadable,  // it is there, but reading it failed
-    Unsupported, // it can be read, but it is not something this program works with
-    Invalid,     // its content, or an argument, contradicts itself
+    NotFound,    // nothing has that path or name
+    Unreadable,  // it exists, but reading it failed
+    Unsupported, // it was read, but this program does not support it
+    Invalid,     // its content or an argument is inconsistent
     OutOfRange,  // a number lies outside the stated range
-    TooLarge,    // it would not fit in the memory granted
+    TooLarge,    // it does not fit in the memory limit
     Cancelled,   // the user stopped it
-    Damaged,     // it is not what it was, though nobody is known to have changed it
+    Damaged,     // its content has changed, although no program is known to have written to it
 };
 
-/// What went wrong, in one sentence for the user: which thing, what was found, what to do.
-/// Lower case, no full stop.
+/// One sentence for the user: what failed, why, and what to do. Lower case, no full stop.
 struct Error {
     ErrorCode code = ErrorCode::Invalid;
     std::string message;
@@ -35,7 +34,7 @@ struct Error {
 template <typename T>
 class [[nodiscard]] Result {
 public:
-    // Both conversions are meant: `return value;` and `return Error{…};` are how functions answer.
+    // Both conversions are intended: functions return with `return value;` and `return Error{…};`.
     // NOLINTNEXTLINE(google-explicit-constructor)
     Result(T value)
         : state_(std::in_place_index<0>, std::move(value))
@@ -84,7 +83,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-/// The Result of an operation that yields nothing but its success.
+/// The Result of an operation that has no value to return.
 struct Done {};
 using Status = Result<Done>;
 

@@ -1,14 +1,14 @@
-// Numbers that look random and are the same everywhere: the generator splitmix64.
+// The splitmix64 generator: pseudo-random numbers that are the same on every platform.
 #pragma once
 
 #include <cstdint>
 
 namespace marsview {
 
-/// By how much the state moves for each number: 2^64 over the golden ratio.
+/// Increment of the state for each number: 2^64 divided by the golden ratio.
 inline constexpr std::uint64_t kSplitMixStep = 0x9e3779b97f4a7c15U;
 
-/// The finaliser: every bit of `x` changes about half of the bits of the result. One to one.
+/// The finalizer: every bit of `x` changes about half of the bits of the result. Bijective.
 constexpr std::uint64_t splitMix(std::uint64_t x) noexcept
 {
     x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;

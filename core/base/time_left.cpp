@@ -10,16 +10,16 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// What was done before, and what lies in memory already, goes by in a moment and tells nothing.
+// Resumed work and cached data pass in a moment and say nothing about the rate.
 constexpr milliseconds kSettling{1000};
 
-// Of progress, before anything is told of it.
+// Time for which progress must be seen before the first estimate.
 constexpr seconds kSeenMin{3};
 
-// Reports closer than this are taken together.
+// Reports closer together than this are merged.
 constexpr milliseconds kStep{200};
 
-// What is older than this counts less than a third.
+// Reports older than this weigh less than a third.
 constexpr double kMemorySeconds = 40.0;
 
 } // namespace

@@ -1,4 +1,4 @@
-// How long something will go on, told from how it has gone so far.
+// Estimates the remaining time of a job from its progress so far.
 #pragma once
 
 #include <chrono>
@@ -6,15 +6,15 @@
 
 namespace marsview {
 
-/// The rate of progress, the recent minute counting most, carried on to the end. Pure: the caller
-/// says what time it is.
+/// Extrapolates the rate of progress, weighted towards the last minute. Pure: the caller supplies
+/// the time.
 class TimeLeft {
 public:
     /// `fraction` in [0, 1] of the work is done `now`, which counts from any moment and does not
     /// go back.
     void report(double fraction, std::chrono::nanoseconds now);
 
-    /// Nothing until a few seconds of progress have been seen, and while there is none.
+    /// Empty until a few seconds of progress have been seen, and while there is no progress.
     std::optional<std::chrono::seconds> left() const;
 
 private:
@@ -23,9 +23,9 @@ private:
         std::chrono::nanoseconds time{};
     };
 
-    std::optional<Point> begin_; // from which on progress counts
+    std::optional<Point> begin_; // where progress counts from
     Point last_;
-    double progress_ = 0.0; // sums with weights that fade with time
+    double progress_ = 0.0; // sums whose weights decay with time
     double seconds_ = 0.0;
     bool is_settled_ = false;
 };
