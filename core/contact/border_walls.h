@@ -1,4 +1,4 @@
-// The border of a surface as planes, for models that know no faces but those they meet.
+// The border of a surface as planes, for models that see only the faces that they meet.
 #pragma once
 
 #include "core/base/vec.h"
@@ -12,7 +12,7 @@
 
 namespace marsview {
 
-/// An upright plane that the proxy does not pass.
+/// A vertical plane that the proxy cannot cross.
 struct BorderWall {
     Vec3 normal; // inward, of length 1
     ScenePoint on;
@@ -24,7 +24,7 @@ struct BorderWall {
 struct BorderWalls {
     std::array<BorderWall, 4> walls;
     std::size_t count = 0;
-    double tolerance_m = 0.0; // what rounding makes of a place on a wall
+    double tolerance_m = 0.0; // rounding error of a position on a wall
 
     const BorderWall* begin() const noexcept { return walls.data(); }
     const BorderWall* end() const noexcept { return walls.data() + count; }

@@ -1,4 +1,4 @@
-// Any contact model over any surface: what a program holds that lets its user choose.
+// Any contact model over any surface, for programs that let the user choose.
 #pragma once
 
 #include "core/contact/contact.h"
@@ -37,10 +37,10 @@ struct ContactModelOptions {
     double radius_m = 1.0; // > 0, of VirtualProxy's sphere
 };
 
-/// The one that a program uses unless told otherwise. ARCHITECTURE.md says why.
+/// The default model of all programs. ARCHITECTURE.md explains the choice.
 inline constexpr ContactModelKind kContactModelDefault = ContactModelKind::ContinuousWalk;
 
-/// A contact model at work. For one thread at a time; `place` and `update` are for the servo
+/// A running contact model. For one thread at a time; `place` and `update` are for the servo
 /// thread.
 class ContactModel {
 public:
@@ -49,11 +49,12 @@ public:
     ContactModel& operator=(const ContactModel&) = delete;
 
     /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
-    /// it, and minimises from there. A goal that is not finite, or higher or deeper than 1e12 m
-    /// before exaggeration, changes nothing but is counted (ContactCounters::refused).
+    /// it, and minimizes the distance from there. A goal that is not finite, or whose elevation
+    /// before exaggeration is outside ±1e12 m, changes nothing and is counted in
+    /// ContactCounters::refused.
     virtual ContactState place(const ScenePoint& goal) noexcept = 0;
-    /// Moves the proxy towards the goal. The first update places it. What place() refuses
-    /// changes nothing but is counted.
+    /// Moves the proxy towards the goal. The first update places it. Goals that place() refuses
+    /// change nothing and are counted.
     virtual ContactState update(const ScenePoint& goal) noexcept = 0;
     /// Where the proxy is, with the counters of the last update.
     virtual ContactState state() const noexcept = 0;
@@ -66,15 +67,16 @@ protected:
 class MapContactModel : public ContactModel {
 public:
     /// The same terrain at another exaggeration. In contact, the proxy stays where it is on the map
-    /// and moves with it; a free one keeps its place, or is put onto the surface where it would be
-    /// below.
+    /// and moves with it; a free proxy keeps its position, or is put onto the surface if it would
+    /// be below.
     virtual void setExaggeration(double exaggeration) noexcept = 0;
-    /// Heights of the terrain have changed (ResidentTerrain). The proxy is treated likewise.
+    /// Heights of the terrain have changed (ResidentTerrain). The proxy is moved as in
+    /// setExaggeration().
     virtual void terrainChanged() noexcept = 0;
 };
 
-/// These allocate; the model shares what the surface shares. No height is read: the terrain may be
-/// in the hands of another thread, the one that is going to place the model.
+/// These allocate; the model shares what the surface shares. No height is read: another thread may
+/// own the terrain, the one that is going to place the model.
 std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const MeshSurface& surface,
                                                const ContactModelOptions& options = {});

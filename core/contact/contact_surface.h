@@ -1,4 +1,4 @@
-// What a contact model needs to know of a surface: a seamless mesh of triangles, and a cast.
+// The interface of a surface for contact models: a seamless triangle mesh and a segment cast.
 //
 // Models are templates over this concept, so that the heightfield, whose mesh is implied by its
 // samples, and any other mesh share them and the inner loops stay inlined. All of it is called from
@@ -15,9 +15,9 @@
 
 namespace marsview {
 
-/// A place on the surface, kept as a feature and the position on it, so that no drift can push it
-/// through: its coordinates are computed from the mesh whenever they are asked for. Only the fields
-/// that the feature names mean something.
+/// A position on the surface, stored as a feature and the position on it, so that no drift can push
+/// it through: its coordinates are computed from the mesh on every request. Only the fields that
+/// belong to the feature are meaningful.
 template <typename S>
 struct SurfaceContact {
     ContactFeature feature = ContactFeature::Vertex; // never Free
@@ -36,14 +36,14 @@ struct SurfaceSpoke {
 };
 
 /// The goal's foot on the plane of a facet (equation 2 of the paper) and the side of the plane on
-/// which the goal is. All of it is linear in the goal, with coefficients that are the face's alone:
-/// what holds at two goals holds at every goal between them.
+/// which the goal is. All of it is linear in the goal, with coefficients that depend only on the
+/// face: a condition that holds at two goals holds at every goal between them.
 struct SurfaceFoot {
     /// Of the face's corners, times the facet's `scale`; their sum is `scale`. Negative: the foot
     /// lies beyond the edge opposite the corner.
     std::array<double, 3> weights;
     /// Positive: the goal is in front of the plane, in free space; the distance from it in metres,
-    /// times a factor that is the face's.
+    /// times a factor that depends on the face.
     double above;
 
     bool isInside() const noexcept
@@ -56,25 +56,25 @@ struct SurfaceFoot {
 template <typename S>
 struct SurfaceWing {
     typename S::Face face;
-    int corner; // the one opposite the edge
+    int corner; // opposite the edge
 };
 
 /// The one or two faces of an edge, each with the corner opposite the edge first.
 template <typename S>
 struct SurfaceEdgeFacets {
     typename S::Facet left{};
-    typename S::Facet right{}; // where has_right
+    typename S::Facet right{}; // if has_right
     bool has_right = false;
 };
 
-/// What a segment through free space met.
+/// The first hit of a segment through free space.
 template <typename S>
 struct SurfaceCast {
-    std::optional<SurfaceContact<S>> contact; // nothing: the goal was reached
+    std::optional<SurfaceContact<S>> contact; // empty: the goal was reached
     std::uint32_t cells = 0;
 };
 
-/// What lies before the goal on its way: the ends of straight legs.
+/// The straight legs of the goal's path to its end.
 template <typename S>
 struct SurfaceLegs {
     static constexpr std::size_t kLegsMax = 5;
@@ -82,20 +82,21 @@ struct SurfaceLegs {
     std::size_t count = 0;
 };
 
-/// The mesh: vertices, edges and faces are small values. Vectors are in scene metres. A facet is a
-/// face that a walk is on, with what it needs of it read once:
+/// The mesh: vertices, edges and faces are small values. Vectors are in scene metres. A facet is
+/// the face that a walk is on, with the data that the walk needs, read once:
 ///   vertices           its corners, counter-clockwise seen from free space
 ///   foot(g), scale     the foot of the goal on its plane; `scale` > 0 is the square of the face's
 ///                      area times a factor that is the same for all faces
-///   error(g)           a weight of that foot that is less is nothing but rounding
+///   error(g)           a weight of that foot below this is rounding error
 ///
-///   kIsBorderWall      whether goals are kept above and below the mesh, so that its border stops
+///   kIsBorderWall      whether goals are clamped to above and below the mesh, so that its border
+///   stops
 ///                      the proxy; otherwise it falls off there
-///   goal(p)            what the models aim at for the point p; nothing where p cannot be aimed at
-///   goalPoint(g)       where that is
-///   isAbove(g)         whether it is in free space
-///   contactAt(g)       the place on the surface from where a model begins that is placed at g
-///   initialContact()   where it begins without a goal
+///   goal(p)            the goal that models use for the point p; empty if p cannot be used
+///   goalPoint(g)       the position of that goal
+///   isAbove(g)         whether the goal is in free space
+///   contactAt(g)       the position on the surface where a model placed at g begins
+///   initialContact()   where a model begins without a goal
 ///   point(c)           the coordinates of a place on the surface
 ///   toGoal(v, g)       from a vertex to the goal
 ///   between(a, b)      from one vertex to another of the same face
@@ -105,31 +106,35 @@ struct SurfaceLegs {
 ///   faceOf(t)          the face of a facet
 ///   edgeFacets(e)      the facets of an edge
 ///   hasBeyond(t, i)    whether there is a face beyond the edge opposite corner i of a facet
-///   beyond(t, i)       that face, if so; its first corner is opposite that edge, so that its
+///   beyond(t, i)       that face, if any; its first corner is opposite that edge, so that its
 ///                      second is corner i + 2 of the other
-///   bend(t, i)         how the surface bends there, if so. Positive: a valley, free space fills
+///   bend(t, i)         how the surface bends there, if it exists. Positive: a valley, free space
+///   fills
 ///                      less than half the angle around the edge; 0: flat, to rounding; negative:
 ///                      a ridge
 ///   ends(e)            the two vertices of an edge, in its order
 ///   edgeBetween(a, b)  the edge between two vertices of a face
 ///   wings(e)           the one or two faces of an edge
-///   fan(v)             what there is to know around a vertex, read once
+///   fan(v)             the neighborhood of a vertex, read once
 ///   eachSpoke(fan, fn) calls fn with each edge of a vertex, in a fixed order
 ///   eachSector(fan, fn) calls fn(f, a, b) with each face of a vertex and its two spokes
-///   wayOut(c, g)       the adjacent face over which the straight way from a place on the surface
-///                      to the goal leaves the surface, or nothing where an adjacent face is in the
-///                      way; to leave by less than rounding error is not to leave
-///   castFrom(c, f, g)  follows that way
-///   castFree(p, g)     the same from a goal reached before, which was above the surface
-///   along(g, h, t)     the goal at the share t of the straight way from g to h; g and h exactly at
+///   wayOut(c, g)       the adjacent face over which the straight path from a position on the
+///   surface
+///                      to the goal leaves the surface; empty if an adjacent face is in the way. A
+///                      path that leaves by less than rounding error does not count as leaving
+///   castFrom(c, f, g)  follows that path
+///   castFree(p, g)     the same from a goal reached earlier, which was above the surface
+///   along(g, h, t)     the goal at the fraction t of the straight path from g to h; g and h
+///   exactly at
 ///                      0 and 1
-///   legs(p, q)         how the goal moves while what is aimed at moves straight from p to q, both
-///                      of which can be aimed at: the ends of at most kLegsMax straight legs, the
+///   legs(p, q)         how the goal moves while the aimed-at point moves straight from p to q,
+///   both
+///                      of which must be valid: the ends of at most kLegsMax straight legs, the
 ///                      last of which is goal(q)
-///   stepsMax()         an update may take that many steps from feature to feature; several times
-///                      what crosses the whole mesh
-///   stepsAlong(w)      the same for a way of w scene metres; no more than stepsMax()
-// clang-format off: version 14 breaks compound requirements into a line a token.
+///   stepsMax()         the step limit of an update, in features; several times the number of steps
+///                      that cross the whole mesh
+///   stepsAlong(w)      the same for a path of w scene meters; at most stepsMax()
+// clang-format off: version 14 puts every token of a compound requirement on its own line.
 template <typename S>
 concept ContactSurface = requires(const S& s,
                                   const typename S::Goal& g,
@@ -283,8 +288,8 @@ concept ContactSurface = requires(const S& s,
 };
 // clang-format on
 
-/// A place within a face as the feature that it really is: a weight of 0 is an edge, two of them a
-/// vertex.
+/// Reduces a position within a face to its actual feature: one zero weight makes it an edge, two
+/// make it a vertex.
 template <typename S>
 SurfaceContact<S> contactOnFace(const S& surface,
                                 typename S::Face face,

@@ -1,18 +1,18 @@
-// The continuous-walk contact model: what infinitely many infinitely small updates would do.
+// The continuous-walk contact model: the limit of infinitely many, infinitely small updates.
 //
-// Notation. The goal moves straight from g to q. While the proxy rests on a feature, its place is
-// the foot of the goal on that feature, and every condition under which it rests there is a number
-// that is linear in the goal: it holds all the way where it holds at both ends; otherwise it ends
-// at the share of the way where the number is zero, an event. The earliest event tells where the
-// proxy goes on:
-// - from a face, over an edge: in a valley the proxy stays on the edge, over a flat one it goes on
-//   to the next face, over a ridge its minimum has become unstable;
+// Notation. The goal moves straight from g to q. While the proxy rests on a feature, its position
+// is the foot of the goal on that feature. Every condition for resting there is linear in the goal:
+// if it holds at both ends of the path, it holds everywhere on it; otherwise it ends at the
+// fraction of the path where its value is zero. This is an event. The earliest event determines
+// where the proxy continues:
+// - from a face, over an edge: in a valley the proxy stays on the edge, over a flat edge it
+//   continues on the next face, over a ridge its minimum has become unstable;
 // - from a valley's edge, to one of its ends or into one of its faces;
 // - from a vertex, to the edge that first leads closer; it can only be a valley;
 // - from a face below a goal that rises through its plane, into free space.
 // An unstable proxy falls, at once and while the goal rests, down the steepest way to another
-// minimum. It does so a little beyond the event, where the branch that the goal's motion takes can
-// be told from the others.
+// minimum. The fall begins slightly beyond the event, where the branch that the goal's motion takes
+// can be distinguished from the others.
 #pragma once
 
 #include "core/contact/contact.h"
@@ -31,12 +31,12 @@
 
 namespace marsview {
 
-/// Holds a proxy that cannot pass through a surface, at a local minimum of the distance to a goal
-/// that moves straight from each update's place to the next: the limit of cutting the motion into
-/// ever smaller updates. Differs from that limit only where its outcome hangs on rounding.
+/// Keeps a proxy, which cannot pass through a surface, at a local minimum of the distance to a goal
+/// that moves straight from one update's position to the next: the limit of cutting the motion into
+/// ever smaller updates. It differs from that limit only where rounding decides the outcome.
 ///
-/// Where the goal stays put, so does the proxy. Its place is computed from the feature it is on and
-/// the goal, so nothing drifts.
+/// While the goal does not move, neither does the proxy. Its position is computed from its feature
+/// and the goal, so nothing drifts.
 template <ContactSurface S>
 class ContinuousWalk : public SurfaceProxy<ContinuousWalk<S>, S> {
     using Base = SurfaceProxy<ContinuousWalk, S>;
@@ -49,7 +49,7 @@ public:
         , contact_(surface_.initialContact())
     {}
 
-    /// As PointProxy::setSurface. A proxy in contact descends anew in the next update.
+    /// As PointProxy::setSurface. A proxy in contact descends again in the next update.
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
@@ -67,7 +67,7 @@ public:
         is_at_rest_ = is_free_;
     }
 
-    /// Where the proxy touches; nothing while it is free.
+    /// Where the proxy touches; empty while it is free.
     std::optional<SurfaceContact<S>> contact() const noexcept
     {
         return is_free_ ? std::nullopt : std::optional(contact_);
@@ -85,17 +85,17 @@ private:
     using Base::counters_;
     using Base::surface_;
 
-    // A fall begins a little beyond its event, in motion of the goal: that much of an edge.
+    // A fall begins this fraction of an edge beyond its event, in motion of the goal.
     static constexpr double kNudge = 1e-9;
-    // After so many events in a row that are no more than rounding apart, the goal is nudged on,
+    // After this many consecutive events that are equal to rounding, the goal is nudged ahead,
     // twice as far each time, and the proxy falls.
     static constexpr int kStillMax = 24;
     static constexpr double kStill = 1e-11; // of the leg
 
-    // The earliest of the events before the end of a leg: where a number that must not be positive
-    // becomes so, or has become so before. Numbers are told at both ends of the leg, which is known
-    // before it is known where the last event was: the processor need not wait for one event to
-    // begin with the next.
+    // The earliest of the events before the end of a leg: where a value that must not be positive
+    // becomes positive, or already is. The values are given at both ends of the leg, which are
+    // known before the position of the last event: the processor can start on the next event before
+    // it has finished the last.
     class Event {
     public:
         void consider(double at_begin, double at_end, int index) noexcept
@@ -109,7 +109,7 @@ private:
                 }
             }
         }
-        // The share of the leg, not before `at`.
+        // The fraction of the leg, not before `at`.
         double share(double at) const noexcept { return std::max(held_ / (held_ + end_), at); }
 
         int which = -1;
@@ -138,7 +138,7 @@ private:
         if (!std::exchange(is_at_rest_, true)) {
             descend(); // to where the goal was
         }
-        // Between goals that are aimed at as they are, there is but one leg.
+        // Goals that need no clamping are joined by a single leg.
         if (surface_.goalPoint(goal_) == aimed_ && surface_.goalPoint(goal) == aimed) {
             follow(goal);
         } else {
@@ -190,7 +190,7 @@ private:
                 return;
             }
             if (events_ == 0) {
-                // Out of steps: straight to the end, as the surface walk.
+                // Out of steps: straight to the end, as in the surface walk.
                 counters_.cut_short = 1;
                 if (is_known_) {
                     locateGoal(end);
@@ -204,7 +204,8 @@ private:
         }
     }
 
-    // What a cast towards the end of the leg met. False where it met nothing: the goal is there.
+    // Applies the result of a cast towards the end of the leg. False if it hit nothing: the goal is
+    // there.
     bool take(const SurfaceCast<S>& cast, const Goal& end) noexcept
     {
         counters_.cells += cast.cells;
@@ -223,15 +224,15 @@ private:
         return true;
     }
 
-    // Lets go of the surface over `over`; contact_ is where.
+    // Leaves the surface over `over`, starting at contact_.
     bool leave(Face over, const Goal& end) noexcept
     {
         ++counters_.casts;
         return !take(surface_.castFrom(contact_, over, end), end);
     }
 
-    // Too many events too close to each other are rounding that goes around in circles. Then the
-    // proxy is to fall from a little farther on.
+    // Too many events close together mean that rounding causes an endless loop. The proxy then
+    // falls from slightly farther along.
     bool isStuck(double share) noexcept
     {
         still_ = share - at_ > kStill ? 0 : still_ + 1;
@@ -240,7 +241,7 @@ private:
 
     void locateGoal(const Goal& end) noexcept { goal_ = surface_.along(begin_, end, at_); }
 
-    // The goal goes on to that share of the leg and a little farther. `edge` is one close by.
+    // Moves the goal to that fraction of the leg and slightly farther. `edge` is a nearby edge.
     void advanceBeyond(double share, const Vec3& edge, const Goal& end) noexcept
     {
         if (nudge_ == 0.0) {
@@ -261,9 +262,9 @@ private:
         descend();
     }
 
-    // Each of these follows the goal while the proxy rests on that kind of feature, and over as
-    // many of the kind as it comes to. True where the goal is at the end, at a minimum; otherwise
-    // contact_.feature tells where to go on: where is_known_, on left() or the edge between left()
+    // Each of these follows the goal while the proxy rests on that kind of feature, and over
+    // further features of that kind. True if the goal is at the end, at a minimum; otherwise
+    // contact_.feature says where to continue: if is_known_, on left() or the edge between left()
     // and right(); else as contact_ says.
     bool onFacet(const Goal& end) noexcept
     {
@@ -292,7 +293,7 @@ private:
                     at_ = share;
                     return leave(*over, end);
                 }
-                // Above the plane by no more than rounding.
+                // Above the plane only by rounding error.
                 event = over_edge;
                 if (event.which < 0) {
                     goal_ = end;
@@ -311,7 +312,7 @@ private:
         }
     }
 
-    // What follows from that is purely geometric.
+    // The rest is purely geometric.
     template <std::size_t kCorner>
     bool crossTo(double share,
                  const SurfaceFoot& first,
@@ -397,8 +398,8 @@ private:
             restOnEdge(from, to, last_along / length_squared);
             if (last_left.above > 0.0 || last_right.above > 0.0 || !has_right_) {
                 if (const auto over = surface_.wayOut(contact_, end)) {
-                    // The goal has passed through the edge itself. It was nearest to it somewhere
-                    // on its way: there the proxy lets go.
+                    // The goal has passed through the edge itself. The proxy leaves the surface
+                    // where the goal's path is nearest to the edge.
                     locateGoal(end);
                     const double at = dot(surface_.toGoal(from, goal_), edge) / length_squared;
                     restOnEdge(from, to, std::clamp(at, 0.0, 1.0));
@@ -439,7 +440,7 @@ private:
         return false;
     }
 
-    // Tells contact_ where the proxy is that rests on what is known.
+    // Sets contact_ from the known feature of a proxy at rest.
     void rest() noexcept
     {
         if (contact_.feature == ContactFeature::Face) {
@@ -466,7 +467,7 @@ private:
         contact_.weights = Steps::weightsOnFace(surface_, contact_.face, left(), foot);
     }
 
-    // Along an edge: the vertex at its end may be no minimum, where the valley goes on downward.
+    // Along an edge: the vertex at its end may not be a minimum, if the valley continues downward.
     bool arriveAtVertex(const Vec3& edge, const Goal& end) noexcept
     {
         const auto fan = surface_.fan(contact_.vertex);
@@ -519,7 +520,7 @@ private:
             }
             goal_ = end;
             if (pulls) {
-                descend(); // between two edges of a sliver it may lead closer than along each
+                descend(); // between two edges of a sliver a path may lead closer than along either
             }
             return true;
         }
@@ -544,8 +545,8 @@ private:
                 between(first.above, last.above)};
     }
 
-    // The end of an update: the contact is told where it is. What lies within rounding of the
-    // border of its feature may not be a minimum; from there one last descent is made.
+    // The end of an update: sets contact_. A position within rounding of its feature's border may
+    // not be a minimum; one last descent starts from there.
     bool settleOnFacet(const SurfaceFoot& foot) noexcept
     {
         const auto& [first, second, third] = foot.weights;
@@ -567,22 +568,22 @@ private:
     }
 
     Goal goal_{};        // reached so far
-    ScenePoint aimed_{}; // what was last aimed at, before it was clamped to the map
+    ScenePoint aimed_{}; // the last requested goal, before it was clamped to the map
     Contact contact_;    // while not free
     bool is_free_ = false;
     bool is_at_rest_ = true; // at a minimum of the distance to goal_
-    // Of the leg that is followed:
-    std::uint32_t events_ = 0; // that the update may still take
+    // Of the current leg:
+    std::uint32_t events_ = 0; // remaining in this update
     Goal begin_{};
-    double at_ = 0.0;    // the share of the leg where the goal is
-    double nudge_ = 0.0; // another; 0: not yet known
+    double at_ = 0.0;    // the goal's fraction of the leg
+    double nudge_ = 0.0; // the next one; 0: not yet known
     int still_ = 0;      // events in a row that did not move the goal
-    // Where is_known_, also from one update to the next, the face or, with the edge opposite
+    // If is_known_, also from one update to the next, the face or, with the edge opposite
     // left_corner_, the faces of the contact.
     bool is_known_ = false;
     bool has_right_ = false;
     std::size_t left_corner_ = 0;
-    std::size_t left_at_ = 0; // in facets_; copies would cost more than events
+    std::size_t left_at_ = 0; // in facets_; copying would cost more than an event
     std::array<Facet, 2> facets_{};
 };
 

@@ -1,4 +1,4 @@
-// The faces of a surface near a place.
+// The faces of a surface near a box.
 #pragma once
 
 #include "core/contact/heightfield_surface.h"
@@ -58,7 +58,7 @@ public:
         right_ = static_cast<std::int32_t>(std::clamp(right + kSlack, 0.0, columns - 1.0));
         upper_ = static_cast<std::int32_t>(std::clamp(upper - kSlack, 0.0, rows - 1.0));
         lower_ = static_cast<std::int32_t>(std::clamp(lower + kSlack, 0.0, rows - 1.0));
-        // From the level at which the box is no wider than a node: four of them at most.
+        // From the level at which the box is at most as wide as a node: four nodes at most.
         std::size_t level = 0;
         while (level + 1 < terrain_.levelCount() &&
                ((right_ >> shift(level)) - (left_ >> shift(level)) > 1 ||
@@ -182,11 +182,11 @@ private:
     std::int32_t lower_ = 0;
 };
 
-/// Calls function(face, corners) with the faces that may meet the box, and with none that is wholly
-/// above or below it; the corners are in scene coordinates, in the order of S::corners. Looks at
-/// `looks` nodes and cells at most, and takes those it looked at off `looks`. False where it
-/// stopped, because those were not enough or because the function returned false. What lies wholly
-/// below the box is skipped by the hierarchy of maxima. Allocates nothing.
+/// Calls function(face, corners) with each face that may intersect the box, excluding faces
+/// entirely above or below it; the corners are in scene coordinates, in the order of S::corners.
+/// Visits at most `looks` nodes and cells and subtracts the number visited from `looks`. False if
+/// it stopped early, because the limit was reached or the function returned false. The hierarchy of
+/// maxima skips everything entirely below the box. Allocates nothing.
 template <typename Heights, typename F>
 bool eachFaceNear(const BasicHeightfieldSurface<Heights>& surface,
                   const SceneBounds& box,
@@ -196,8 +196,7 @@ bool eachFaceNear(const BasicHeightfieldSurface<Heights>& surface,
     return HeightfieldFacesNear<Heights, F>(surface, box, looks, function).search();
 }
 
-/// The same over a surface that knows the faces near a box itself, as
-/// eachFaceNear(low, high, function).
+/// The same over a surface with its own search, as eachFaceNear(low, high, function).
 template <typename S, typename F>
 requires requires(const S& surface, const ScenePoint& p)
 {

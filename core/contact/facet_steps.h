@@ -1,4 +1,4 @@
-// The steps that descents over a mesh are made of, and what they take for rounding error.
+// The steps of descents over a mesh, and their thresholds for rounding error.
 #pragma once
 
 #include "core/contact/contact_surface.h"
@@ -10,14 +10,14 @@
 
 namespace marsview {
 
-/// What is less than this share of an edge from its end is there: another face or edge may lead on
-/// from it, which would not be seen from beside it.
+/// A position closer to the end of an edge than this fraction is at the vertex: another face or
+/// edge may lead on from there, which would not be found from next to it.
 inline constexpr double kEdgeShareMin = 1e-12;
-/// An edge leads closer to the goal from a vertex where the cosine between its direction and the
+/// An edge leads closer to the goal from a vertex if the cosine between its direction and the
 /// goal's is more than this.
 inline constexpr double kEdgeCosineMin = 1e-13;
 
-/// Free functions over one kind of surface. Real-time.
+/// Free functions over one kind of surface. Real-time safe.
 template <ContactSurface S>
 struct FacetSteps {
     using Goal = typename S::Goal;
@@ -27,8 +27,8 @@ struct FacetSteps {
     using Contact = SurfaceContact<S>;
     using Weights = std::array<double, 3>; // of a face's corners
 
-    /// Whether a foot of that weight is inside the edge opposite, by more than rounding error. The
-    /// same number tells, seen from the next face, that the way into this one leads closer.
+    /// Whether a foot of that weight is inside the edge opposite, by more than rounding error. Seen
+    /// from the next face, the same number shows that the path into this one leads closer.
     static bool isInward(double weight, const Facet& facet, const Goal& goal) noexcept
     {
         constexpr double kClearly = 1e-6; // of the scale: far more than any rounding error
@@ -43,8 +43,9 @@ struct FacetSteps {
                towards * towards > kEdgeCosineMin * kEdgeCosineMin * goal_squared * length_squared;
     }
 
-    /// What is no farther than this share of an edge from its end is there, for a goal at that
-    /// distance from it. Half of what leads() asks for, so that the two cannot contradict.
+    /// A position within this fraction of an edge from its end is at the vertex, for a goal at that
+    /// distance from it. Half the threshold of leads(), so that the two cannot contradict each
+    /// other.
     static double endShare(double goal_squared, double length_squared) noexcept
     {
         return 0.5 *
@@ -54,9 +55,9 @@ struct FacetSteps {
     /// The edge of a vertex that leads closer fastest (the paper's least edge gradient).
     struct Steepest {
         SurfaceSpoke<S> spoke{};
-        double towards = 0.0; // its dot product with the way to the goal; 0: no edge leads closer
+        double towards = 0.0; // dot product with the vector to the goal; 0: no edge leads closer
         double length_squared = 1.0;
-        bool pulls = false; // an edge leads closer, if by no more than rounding
+        bool pulls = false; // an edge leads closer, possibly only by rounding
     };
     static Steepest steepestSpoke(const S& surface,
                                   const typename S::Fan& fan,
@@ -77,7 +78,7 @@ struct FacetSteps {
         return steepest;
     }
 
-    /// The weights of a face's corners at a foot; what is negative counts as 0.
+    /// The weights of a face's corners at a foot, with negative weights clamped to 0.
     static Weights weightsOnFace(const S& surface,
                                  const Face& face,
                                  const Facet& facet,
@@ -100,13 +101,13 @@ struct FacetSteps {
         return weights;
     }
 
-    /// The place of a foot inside a facet.
+    /// The position of a foot inside a facet.
     static Contact contactOn(const S& surface, const Facet& facet, const SurfaceFoot& foot) noexcept
     {
         const Face face = surface.faceOf(facet);
         return contactOnFace(surface, face, weightsOnFace(surface, face, facet, foot));
     }
-    /// The same; what is within rounding error of an edge is on it.
+    /// The same; a foot within rounding error of an edge is put on the edge.
     static Contact contactOnOrBeside(const S& surface,
                                      const Facet& facet,
                                      SurfaceFoot foot,
@@ -130,8 +131,9 @@ struct FacetSteps {
         contact.vertex = vertex;
     }
 
-    /// Where the straight way from a place on a facet to a foot outside leaves it: over the edge
-    /// opposite `corner`, at the share `share` from the corner after it to the one before it.
+    /// Where the straight path from a position on a facet to a foot outside leaves it: over the
+    /// edge opposite `corner`, at the fraction `share` from the corner after it to the one before
+    /// it.
     struct Exit {
         std::size_t corner;
         double share;
@@ -158,9 +160,9 @@ struct FacetSteps {
         return {i, before / (before + weight_at((i + 1) % 3))};
     }
 
-    /// The same from a place on the edge opposite the first corner, at the share `share` from the
-    /// second corner to the third, to a foot on the inner side of it: over one of the edges that
-    /// meet in the first corner, the one to the third or to the second.
+    /// The same from a position on the edge opposite the first corner, at the fraction `share` from
+    /// the second corner to the third, to a foot on the inner side of it: over one of the edges
+    /// that meet in the first corner, the one to the third or to the second.
     struct ExitAhead {
         bool is_to_third;
         double share; // from that corner to the first one
@@ -168,7 +170,7 @@ struct FacetSteps {
     static ExitAhead exitAhead(double share, const SurfaceFoot& foot) noexcept
     {
         const auto& [ahead, second, third] = foot.weights;
-        // The sign tells on which side of the first corner the way passes.
+        // The sign gives the side on which the path passes the first corner.
         const double side = (1.0 - share) * third - share * second;
         const bool is_to_third = side >= 0.0;
         const double of_first = (is_to_third ? 1.0 - share : share) * ahead;

@@ -27,7 +27,7 @@ ScenePoint GoalFrame::toScene(const TracePoint& goal) const noexcept
 TracePoint GoalFrame::fromScene(const ScenePoint& point) const noexcept
 {
     GridPoint grid = frame_.toGrid(point);
-    // On a sample: its place, without what rounding made of it on the way.
+    // At a sample, use its exact position, without the rounding error of the conversion.
     const GridPoint sample{std::round(grid.column), std::round(grid.row)};
     constexpr double kRounding = 1e-9; // columns and rows
     if (std::abs(sample.column - grid.column) < kRounding &&

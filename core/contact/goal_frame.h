@@ -1,4 +1,5 @@
-// Goals and proxies as files have them, in map coordinates, and as contact models have them.
+// Goals and proxies in map coordinates, as in files, and in scene coordinates, as in contact
+// models.
 #pragma once
 
 #include "core/contact/contact.h"
@@ -8,7 +9,7 @@
 
 namespace marsview {
 
-/// A goal or a proxy as files have it: x and y in map coordinates, z in metres, not exaggerated.
+/// A goal or a proxy as in files: x and y in map coordinates, z in metres, not exaggerated.
 struct TracePoint {
     double x = 0.0;
     double y = 0.0;
@@ -17,22 +18,22 @@ struct TracePoint {
     constexpr bool operator==(const TracePoint&) const = default;
 };
 
-/// Between the two. A goal that was written down and is read again aims at the same place to the
-/// bit, whoever reads it: a servo loop or a batch. A value; all but making it is arithmetic, for
-/// any thread.
+/// Converts between the two. A goal that is written to a file and read back aims at the same
+/// position to the bit, in a servo loop and in a batch. A value; all functions except the
+/// constructors are arithmetic, for any thread.
 class GoalFrame {
 public:
-    /// A map alone in its scene. `georeference` is shared, not copied.
+    /// A single map in its own scene. `georeference` is shared, not copied.
     GoalFrame(std::shared_ptr<const Georeference> georeference, double exaggeration);
-    /// A map in another one's scene, where its grid lies as `frame` says.
+    /// A map in another map's scene, with its grid placed by `frame`.
     GoalFrame(std::shared_ptr<const Georeference> georeference,
               const SceneFrame& frame,
               double exaggeration);
 
     ScenePoint toScene(const TracePoint& goal) const noexcept;
-    /// Without what rounding made of places on samples.
+    /// Removes rounding errors of positions on samples.
     TracePoint fromScene(const ScenePoint& point) const noexcept;
-    /// Whether a model aims at another point instead, on the border of the map.
+    /// Whether a model replaces the goal by a point on the border of the map.
     bool isClamped(const TracePoint& goal) const noexcept;
 
     const Georeference& georeference() const noexcept { return *georeference_; }

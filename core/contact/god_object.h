@@ -39,17 +39,17 @@ enum class GodObjectConstraints : std::uint8_t {
 };
 
 /// A point that cannot pass through a surface. Within an update it moves straight to the goal, or
-/// to the constrained goal, the place closest to the goal on the planes of the faces that stopped
-/// it. Constraints do not last beyond an update: the next begins with those of the faces that are
-/// then touched and in the way.
+/// to the constrained goal, the point closest to the goal on the planes of the faces that stopped
+/// it. Constraints end with the update: the next update begins with those of the faces that the
+/// proxy then touches and that are in the way.
 ///
 /// With constraints kept, an update may end off the surface and short of the goal. It is then
-/// reported as in contact, with the feature that the constraints stand for: one plane a face, two
-/// an edge. Free means, with either, that the proxy is at the goal.
+/// reported as in contact, with the feature that matches the constraints: a face for one plane, an
+/// edge for two. In both modes, Free means that the proxy is at the goal.
 ///
-/// With constraints released, each slide, within a face or along a valley, is followed by a cast
-/// of its own, as in the paper. On a mesh whose faces do not intersect the cast meets nothing; it
-/// is the price of an algorithm that does not rely on that, and what the proxy graph saves.
+/// With constraints released, each slide within a face or along a valley is followed by a separate
+/// cast, as in the paper. On a mesh without intersecting faces the cast never hits; it is the cost
+/// of an algorithm that does not rely on that, and the proxy graph saves it.
 template <ContactSurface S>
 class GodObject : public SurfaceProxy<GodObject<S>, S> {
     using Base = SurfaceProxy<GodObject, S>;
@@ -66,8 +66,8 @@ public:
 
     /// Another surface with the same mesh, such as another exaggeration. In contact, the proxy
     /// stays where it is on the mesh and moves with it; where it floats, it is put onto the surface
-    /// straight above or below. A free one keeps its scene coordinates; if it would be below the
-    /// surface, it is put onto it, straight above.
+    /// straight above or below. A free proxy keeps its scene coordinates; if it would be below the
+    /// surface, it is moved straight up onto it.
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
@@ -81,7 +81,7 @@ public:
         }
     }
 
-    /// Where the proxy touches; nothing while it is free or floats.
+    /// Where the proxy touches; empty while it is free or floats.
     std::optional<SurfaceContact<S>> contact() const noexcept
     {
         return off_ ? std::nullopt : std::optional(contact_);
@@ -96,11 +96,12 @@ private:
     using Base::counters_;
     using Base::surface_;
 
-    // A plane stops what goes into it by more than this, as the sine of the angle.
+    // A plane stops motion into it above this sine of the angle.
     static constexpr double kSineMin = 1e-9;
     static constexpr double kNormalError = 1e-12; // of the way to the goal
     static constexpr double kCoordinateError = 8.0 * std::numeric_limits<double>::epsilon();
-    // So many steps that bring nothing but rounding end an update: enough to turn around a vertex.
+    // This many steps without progress beyond rounding end an update: enough to turn around a
+    // vertex.
     static constexpr int kStallsMax = 32;
     static constexpr int kKeptStallsMax = 4;
 
@@ -145,18 +146,19 @@ private:
         }
     }
 
-    // --- directions of the surface around a place
+    // --- directions of the surface around a position
 
     // A direction on the surface, from a vertex: within a face, or along the edge to `end`.
     struct Way {
-        double rate = -std::numeric_limits<double>::infinity(); // of getting on in the direction
+        double rate = -std::numeric_limits<double>::infinity(); // progress in the direction
         bool is_edge = true;
         Face face{};
         Vertex end{};
         double length_squared = 1.0; // of the edge
     };
 
-    // The way nearest to a direction, which is the steepest descent if it leads to the goal.
+    // The surface direction nearest to a given direction; it is the steepest descent if that leads
+    // to the goal.
     template <typename Fan>
     Way nearestWay(const Fan& fan, const Vec3& direction) const noexcept
     {
@@ -201,8 +203,8 @@ private:
         Vec3 normal;
     };
 
-    // The face that lies under a direction: it is in the way if the direction leads below its
-    // plane, and else the one over which the way leaves.
+    // The face below a direction. It blocks the direction if that leads below its plane; otherwise
+    // the path leaves over it.
     Side sideUnder(const Vec3& direction) const noexcept
     {
         if (contact_.feature == ContactFeature::Face) {
@@ -240,14 +242,14 @@ private:
         if (count == 1) {
             return sides[0];
         }
-        // In a valley the face that is more in the way, on a ridge the nearer one.
+        // In a valley the face that blocks more, on a ridge the nearer one.
         const bool is_second =
             rise > 0.0 ? dot(sides[1].normal, direction) < dot(sides[0].normal, direction)
                        : dot(inward[1], direction) > dot(inward[0], direction);
         return sides[is_second ? 1 : 0];
     }
 
-    // Of the faces touched, the one that is most in the way.
+    // Of the touched faces, the one that blocks the direction most.
     std::optional<Side> sideAgainst(const Vec3& direction) const noexcept
     {
         std::optional<Side> most;
@@ -288,7 +290,7 @@ private:
                 return to_goal;
             }
             if (count == 1) {
-                // Twice, or what is left of a steep way has a part along the normal.
+                // Twice, or the remainder of a steep path keeps a component along the normal.
                 const Vec3 once = to_goal - normals[0] * dot(normals[0], to_goal);
                 return once - normals[0] * dot(normals[0], once);
             }
@@ -306,9 +308,8 @@ private:
         Planes planes;
         int stalls = 0;
         bool is_done = false;
-        // Where faces lie in one plane but for rounding, as between the samples of coarse ground,
-        // it may come forward by next to nothing each time: across the largest maps that would be
-        // seconds.
+        // Where faces are coplanar up to rounding, as between the samples of coarse terrain, each
+        // step may be tiny: across the largest maps the steps would take seconds.
         const double way = length(surface_.goalPoint(goal) - position());
         for (std::uint32_t steps = surface_.stepsAlong(way); steps > 0 && !is_done; --steps) {
             is_done = planes.count == 3 || stalls > kKeptStallsMax || advance(goal, planes, stalls);
@@ -321,15 +322,15 @@ private:
         }
     }
 
-    // One turn of the algorithm of section 2.3: towards the constrained goal, or one constraint
-    // more. True where the constrained goal is reached.
+    // One iteration of the algorithm of section 2.3: a move towards the constrained goal, or one
+    // more constraint. True if the constrained goal is reached.
     bool advance(const Goal& goal, Planes& planes, int& stalls) noexcept
     {
         const ScenePoint end = surface_.goalPoint(goal);
         const ScenePoint here = position();
         const Vec3 step = planes.constrained(end - here);
         const double size = length(step);
-        // Nothing may be left but the errors of the normals and of the coordinates.
+        // Only the errors of the normals and of the coordinates may remain.
         const double error =
             kNormalError * length(end - here) +
             kCoordinateError * (std::abs(here.x) + std::abs(here.y) + std::abs(here.z));
@@ -348,7 +349,7 @@ private:
                 return false;
             }
         }
-        // The border of the map is as good as a face.
+        // The border of the map counts as a face.
         double share = 1.0;
         const BorderWall* wall = nullptr;
         for (const BorderWall& each : walls_) {
@@ -386,8 +387,8 @@ private:
         }
         const Vec3 moved = position() - here;
         if (under && length(moved) <= kNormalError * size) {
-            // Something is in the way from the beginning, although it is not nearest, as faces of
-            // a vertex may be. Or it is rounding, and the next turn begins from the face hit.
+            // Something blocks from the start although it is not nearest, as faces at a vertex may.
+            // Or it is rounding, and the next iteration begins from the face that was hit.
             if (const auto side = sideAgainst(step)) {
                 ++counters_.faces;
                 planes.add(side->normal);
@@ -398,8 +399,8 @@ private:
         return false;
     }
 
-    // Along the line of the planes where that is an edge of the mesh, from which rounding would
-    // stray. False where it is not.
+    // Along the line of the planes if that is an edge of the mesh; rounding would stray from it.
+    // False if it is not.
     bool slideAlongEdge(const Vec3& step) noexcept
     {
         if (contact_.feature != ContactFeature::Edge) {
@@ -425,8 +426,7 @@ private:
         return dot(moved, moved) > 1e-24 * dot(step, step);
     }
 
-    // A slide that ended in free space by no more than rounding, within the face on whose plane it
-    // went, ended on it.
+    // Puts a slide that ended above the face only by rounding onto that face.
     void settle(const Face& face, const Goal& goal) noexcept
     {
         const auto foot = footOn(face, goal);
@@ -462,7 +462,7 @@ private:
         return foot;
     }
 
-    // Ends an update in which the distance no longer gets less.
+    // Ends an update when the distance stops decreasing.
     struct Progress {
         double distance_squared = std::numeric_limits<double>::infinity();
         ScenePoint point;
@@ -479,8 +479,8 @@ private:
                 stalls = 0;
                 return false;
             }
-            // The squares of a far goal are the same everywhere; the step from the last place is
-            // not.
+            // For a far goal the squared distances are equal everywhere; the step from the last
+            // position is not.
             const double rounding =
                 kCoordinateError * (std::abs(now.x) + std::abs(now.y) + std::abs(now.z));
             return !(dot(step, towards) > rounding * length(towards)) && ++stalls > kStallsMax;
@@ -514,7 +514,7 @@ private:
         counters_.cut_short = 1;
     }
 
-    // Without constraints, if the way to the goal is free.
+    // Removes the constraints if the path to the goal is free.
     bool leaves(const std::optional<Face>& over, const Goal& goal) noexcept
     {
         if (over) {
@@ -523,7 +523,7 @@ private:
         return over.has_value();
     }
 
-    // To the place `end` of the same face, along its plane.
+    // Slides to `end` of the same face, along its plane.
     void slide(const Face& face, const Contact& end) noexcept
     {
         if (const auto target = surface_.goal(surface_.point(end))) {
@@ -534,9 +534,9 @@ private:
         contact_ = end;
     }
 
-    // Each of these takes one step and tells whether the update is over.
+    // Each of these takes one step and returns whether the update is complete.
 
-    // One constraint: to its foot, or as far as the face goes. `weights` are those of the proxy.
+    // One constraint: to its foot, or to the border of the face. `weights` are those of the proxy.
     bool slideOn(const Face& face, const std::array<double, 3>& weights, const Foot& foot) noexcept
     {
         ++counters_.faces;
@@ -581,7 +581,7 @@ private:
             return false;
         }
         // A foot on the inner side of a face means that the way into it leads closer: the same
-        // number decides it as decides, within that face, whether its foot is outside.
+        // number decides within that face whether its foot is outside.
         const auto [from, to] = surface_.ends(contact_.edge);
         std::optional<SurfaceWing<S>> into;
         std::optional<SurfaceWing<S>> any;
@@ -626,7 +626,8 @@ private:
             end.vertex = along > 0.5 ? to : from;
         }
         slide(any->face, end);
-        // What leads on from an edge depends on the goal alone, not on where on the edge one is.
+        // The next feature after an edge depends on the goal alone, not on the position on the
+        // edge.
         return end.feature == ContactFeature::Edge;
     }
 
@@ -655,7 +656,7 @@ private:
                 return slideOn(way.face, weights, foot);
             }
             if (one <= 0.0 && other <= 0.0) {
-                return true; // by no more than rounding
+                return true; // only by rounding
             }
             return startAlong(here, corners[(at + (one > 0.0 ? 1 : 2)) % 3]);
         }
@@ -666,7 +667,7 @@ private:
         return true;
     }
 
-    // What leads on from the edge is the same all along it.
+    // The next feature is the same all along the edge.
     bool startAlong(const Vertex& here, const Vertex& end) noexcept
     {
         contact_.feature = ContactFeature::Edge;
@@ -677,9 +678,10 @@ private:
 
     BorderWalls walls_;
     GodObjectConstraints constraints_;
-    std::optional<Goal> off_;                       // where the proxy is while it does not touch
-    Contact contact_;                               // where it is otherwise
-    ContactFeature held_by_ = ContactFeature::Free; // what keeps it from the goal meanwhile
+    std::optional<Goal> off_;                       // the proxy's position while it does not touch
+    Contact contact_;                               // the proxy's position otherwise
+    ContactFeature held_by_ = ContactFeature::Free; // the feature that meanwhile keeps it from the
+                                                    // goal
 };
 
 } // namespace marsview

@@ -1,10 +1,10 @@
 // One segment cast over the heightfield of a contact surface.
 //
-// Notation. A place is (u, v) in its cell. The surface's height is affine over a triangle, and so
-// is f(t) = z(t) - surface(t) along a segment: one sign change decides hit and release together.
-// What is known exactly stays exact: a place on an edge has the edge's coordinate as 0 or 1, one on
-// a diagonal has u = v, and crossings of grid lines are snapped to them, where only the two samples
-// of the line count, so that neighbouring cells see the same f.
+// Notation. A position is (u, v) in its cell. The surface's height is affine over a triangle, and
+// so is f(t) = z(t) - surface(t) along a segment: one sign change decides hit and release together.
+// Exact values stay exact: a position on an edge has the edge's coordinate as 0 or 1, one on a
+// diagonal has u = v, and crossings of grid lines are snapped to them, where only the two samples
+// of the line count, so that neighboring cells see the same f.
 #pragma once
 
 #include "core/contact/heightfield_surface.h"
@@ -17,8 +17,8 @@
 
 namespace marsview {
 
-// One segment over the grid, cell after cell from its start. Over blocks, and over larger nodes of
-// the hierarchy, that lie below it, it goes in one step.
+// One segment over the grid, cell by cell from its start. It skips blocks and larger nodes of the
+// hierarchy that lie entirely below it in one step.
 template <typename Heights>
 class HeightfieldCast {
 public:
@@ -27,8 +27,8 @@ public:
     using Goal = typename Surface::Goal;
     using Cast = typename Surface::Cast;
 
-    // `over` is the half of the start's cell over which the segment leaves the surface; nothing
-    // where the start is above the surface.
+    // `over` is the half of the start's cell over which the segment leaves the surface; empty if
+    // the start is above the surface.
     HeightfieldCast(const Surface& surface,
                     const InCell& start,
                     double start_z,
@@ -49,13 +49,13 @@ public:
         , up_(goal.scene.z - start_z)
         , over_(over)
     {
-        // Less than this is nothing, and its inverse would not be finite.
+        // Smaller values count as 0; their inverse would not be finite.
         constexpr double kLeast = 1e-300;
         columns_ = std::abs(columns_) < kLeast ? 0.0 : columns_;
         rows_ = std::abs(rows_) < kLeast ? 0.0 : rows_;
         per_column_ = columns_ == 0.0 ? 0.0 : 1.0 / columns_;
         per_row_ = rows_ == 0.0 ? 0.0 : 1.0 / rows_;
-        // On a grid line, going to smaller coordinates: the cell before it.
+        // On a grid line, heading to smaller coordinates: the cell before it.
         if (u_ == 0.0 && columns_ < 0.0 && column_ > 0 && !over_) {
             --column_;
         }
@@ -70,7 +70,7 @@ public:
             return result_;
         }
         std::size_t level = 0;
-        // Every turn passes a cell, or a node that no later turn comes back to.
+        // Every iteration passes a cell, or a node that no later iteration returns to.
         while (true) {
             while (level > 0 && !isClear(level)) {
                 --level;
@@ -168,7 +168,7 @@ private:
         return lowest > highest;
     }
 
-    // Goes to the cell behind an exit. True where the segment ends before.
+    // Moves to the cell behind an exit. True if the segment ends before it.
     bool advance(const Node& node, const Exit& exit) noexcept
     {
         t_ = exit.t;
@@ -197,7 +197,7 @@ private:
     bool passNode(std::size_t level) noexcept
     {
         const Node node = nodeAt(level);
-        return advance(node, exitFrom(node)); // above the maximum: the end is free
+        return advance(node, exitFrom(node)); // above the maximum: the end is in free space
     }
 
     bool walkBlock() noexcept
@@ -212,7 +212,7 @@ private:
         return false;
     }
 
-    // Looks at one cell and goes on to the next. True where the cast is over.
+    // Processes one cell and moves to the next. True when the cast is complete.
     bool stepInCell() noexcept
     {
         ++result_.cells;
@@ -259,8 +259,8 @@ private:
                 std::clamp(rowAt(t) - static_cast<double>(row_), 0.0, 1.0)};
     }
 
-    // True with the contact in result_ where the segment goes below the surface in this cell, or
-    // ends on it.
+    // True with the contact in result_ if the segment enters the surface in this cell, or ends on
+    // it.
     bool castInCell(const CellHeights& z,
                     const InCell& begin,
                     const InCell& end,
@@ -270,7 +270,7 @@ private:
     {
         const double f_begin =
             leaving ? 0.0 : std::max(heightAt(t_) - heightInCell(z, begin.u, begin.v), 0.0);
-        // At the goal, as isAbove() sees it.
+        // At the goal, computed as in isAbove().
         const double f_end = is_end ? goal_.scene.z - surface_.height(goal_.grid)
                                     : heightAt(t_end) - heightInCell(z, end.u, end.v);
         const double w_begin = begin.u - begin.v;
@@ -289,7 +289,7 @@ private:
         if (leaving && !is_end) {
             return false; // the only piece, over the face that it was found to leave
         }
-        // On the diagonal, the half is told by where the segment comes from or goes to.
+        // On the diagonal, the origin or direction of the segment determines the half.
         const bool is_upper = leaving          ? *leaving
                               : w_begin == 0.0 ? (w_end != 0.0 ? w_end > 0.0 : columns_ >= rows_)
                                                : w_begin > 0.0;

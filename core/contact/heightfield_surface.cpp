@@ -37,8 +37,8 @@ BasicHeightfieldSurface<Heights>::BasicHeightfieldSurface(std::shared_ptr<const 
     metric_ = {{{dot(column_, column_) * by_area, -dot(diagonal, row_) * by_area},
                 {dot(row_, row_) * by_area, -dot(diagonal, column_) * by_area},
                 {dot(diagonal, diagonal) * by_area, dot(column_, row_) * by_area}}};
-    // A straight way across the map meets three features a cell: four times that, and what short
-    // ways from one peak of a checkerboard to the next may need.
+    // A straight path across the map crosses three features per cell: four times that, plus what
+    // short paths from one peak of a checkerboard to the next may need.
     const auto across = static_cast<std::uint32_t>(terrain_->columns() + terrain_->rows());
     steps_max_ = 4096U + 12U * std::min(across, 1U << 27U);
 }
@@ -65,7 +65,7 @@ auto BasicHeightfieldSurface<Heights>::initialContact() const noexcept -> Contac
     return contact;
 }
 
-// Clamped to the grid, a straight way bends where it crosses the lines on which the border lies.
+// A straight path that is clamped to the grid bends where it crosses the lines of the border.
 template <typename Heights>
 auto BasicHeightfieldSurface<Heights>::legs(const ScenePoint& from,
                                             const ScenePoint& to) const noexcept
@@ -121,7 +121,7 @@ template <typename Heights>
 auto BasicHeightfieldSurface<Heights>::castFree(const Goal& from, const Goal& to) const noexcept
     -> Cast
 {
-    // High above all that there is, nothing needs to be looked at.
+    // High above the whole terrain nothing needs to be checked.
     if (std::min(from.scene.z, to.scene.z) >
         exaggeration_ * terrain_->maximum(terrain_->levelCount() - 1, 0, 0)) {
         return {};

@@ -47,7 +47,7 @@ struct HeightfieldFan {
     std::array<bool, 6> exists;
 };
 
-/// A face as walks see it: which corner comes first is theirs to say (contact_surface.h).
+/// A face as walks see it; the walk chooses the first corner (contact_surface.h).
 ///
 /// Notation. a and b lead from the first corner to the second and third, horizontally, and rise by
 /// `a_up` and `b_up`; M is the inverse of the matrix of their dot products; f = M (a_up, b_up).
@@ -116,9 +116,10 @@ class HeightfieldCast;
 /// sheared or mirrored. Beyond the outermost samples goals are clamped, horizontally and in grid
 /// coordinates, to the grid.
 ///
-/// A small immutable value that shares the terrain: cheap to copy and to make anew for another
-/// exaggeration. Any thread; allocates nothing once made. `Heights` reads the samples
-/// (scene_heights.h); a model over PlainHeights moves as one over FilledHeights does, faster.
+/// A small immutable value that shares the terrain: cheap to copy and to rebuild for another
+/// exaggeration. Any thread; allocates nothing after construction. `Heights` reads the samples
+/// (scene_heights.h); a model over PlainHeights moves exactly as one over FilledHeights, but
+/// faster.
 template <typename Heights>
 class BasicHeightfieldSurface {
 public:
@@ -138,8 +139,8 @@ public:
     using Facet = HeightfieldFacet;
 
     static constexpr bool kIsBorderWall = true;
-    /// Heights beyond this, in metres and not exaggerated, are not aimed at, like what is not
-    /// finite. Horizontally every goal is clamped.
+    /// Heights beyond this, in metres and not exaggerated, are refused as goals, like values that
+    /// are not finite. Horizontally every goal is clamped.
     static constexpr double kGoalMaxM = 1e12;
 
     /// `exaggeration` > 0 and finite; the frame is invertible. The terrain has fewer than 2^30
@@ -152,9 +153,9 @@ public:
     const SceneFrame& frame() const noexcept { return frame_; }
     double exaggeration() const noexcept { return exaggeration_; }
 
-    /// Height of the surface in scene metres at a grid position; the nearest one inside is taken.
+    /// Height of the surface in scene metres at a grid position, which is clamped to the grid.
     double height(GridPoint grid) const noexcept { return heightAt(cellOf(grid)); }
-    /// Whether a void sample has a say in the surface below or at `point`.
+    /// Whether a void sample contributes to the surface at or below `point`.
     bool isOverVoid(const ScenePoint& point) const noexcept;
 
     std::optional<Goal> goal(const ScenePoint& point) const noexcept
@@ -329,7 +330,7 @@ public:
     std::uint32_t stepsAlong(double way) const noexcept
     {
         constexpr double kStepsMin = 4096.0;
-        constexpr double kStepsACell = 24.0; // eight times what a straight way meets
+        constexpr double kStepsACell = 24.0; // eight times the features on a straight path
         const double cell = std::sqrt(std::min(dot(column_, column_), dot(row_, row_)));
         const double steps = kStepsMin + kStepsACell * way / cell;
         return steps < static_cast<double>(steps_max_) ? static_cast<std::uint32_t>(steps)
@@ -337,7 +338,7 @@ public:
     }
 
 private:
-    // A place in a cell: fractions of a column and of a row in [0, 1].
+    // A position in a cell: fractions of a column and of a row in [0, 1].
     struct InCell {
         std::int32_t column;
         std::int32_t row;
@@ -391,7 +392,7 @@ private:
     }
     bool isInside(Vertex v) const noexcept
     {
-        // Unsigned, so that what is negative is too large.
+        // Unsigned, so that negative values are too large.
         return static_cast<std::uint32_t>(v.column) <= static_cast<std::uint32_t>(last_column_) &&
                static_cast<std::uint32_t>(v.row) <= static_cast<std::uint32_t>(last_row_);
     }
@@ -539,7 +540,7 @@ template <typename Heights>
 auto BasicHeightfieldSurface<Heights>::contactIn(const InCell& at, bool is_upper) const noexcept
     -> Contact
 {
-    // Zero exactly where the place is on an edge. Rounding may have put it beyond the diagonal.
+    // Zero exactly if the position is on an edge. Rounding may have put it beyond the diagonal.
     const double upper_left = 1.0 - (is_upper ? at.u : at.v);
     const double lower_right = is_upper ? at.v : at.u;
     const double third = std::max(is_upper ? at.u - at.v : at.v - at.u, 0.0);
@@ -655,7 +656,7 @@ auto BasicHeightfieldSurface<Heights>::fan(Vertex v) const noexcept -> Fan
             return within;
         }
     }
-    // What does not exist is read from inside and not used.
+    // Neighbors that do not exist are read from inside the grid and not used.
     const std::int32_t right = v.column + (has_right ? 1 : 0);
     const std::int32_t below = v.row + (has_below ? 1 : 0);
     const std::int32_t left = v.column - (has_left ? 1 : 0);
@@ -672,8 +673,8 @@ template <typename Heights>
 auto BasicHeightfieldSurface<Heights>::wayOut(const Fan& fan, const Goal& goal) const noexcept
     -> std::optional<Face>
 {
-    // The face over which the way begins, from above, tells the quadrant and the side of the
-    // diagonal. Along an edge either face will do, straight up any will.
+    // The face over which the path begins. Seen from above, the direction gives the quadrant and
+    // the side of the diagonal. Along an edge either face will do; straight up, any face.
     const auto [column, row] = fan.vertex;
     const double columns = goal.grid.column - static_cast<double>(column);
     const double rows = goal.grid.row - static_cast<double>(row);
@@ -733,12 +734,12 @@ auto BasicHeightfieldSurface<Heights>::wayOut(const Contact& contact,
                                                                   : std::nullopt;
 }
 
-// Compiled once, in heightfield_surface.cpp and heightfield_cast.cpp.
+// Instantiated once, in heightfield_surface.cpp and heightfield_cast.cpp.
 extern template class BasicHeightfieldSurface<FilledHeights>;
 extern template class BasicHeightfieldSurface<PlainHeights<std::int16_t>>;
 extern template class BasicHeightfieldSurface<PlainHeights<float>>;
 
-/// Any terrain. PlainHeightfieldSurface is faster where PlainHeights<T>::canRead(terrain).
+/// Any terrain. PlainHeightfieldSurface is faster if PlainHeights<T>::canRead(terrain).
 using HeightfieldSurface = BasicHeightfieldSurface<FilledHeights>;
 template <typename T>
 using PlainHeightfieldSurface = BasicHeightfieldSurface<PlainHeights<T>>;

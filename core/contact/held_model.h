@@ -1,4 +1,4 @@
-// Contact models behind the interfaces of contact_model.h, for the files that make them.
+// Adapts contact models to the interfaces of contact_model.h, for the files that create them.
 #pragma once
 
 #include "core/base/check.h"
@@ -68,7 +68,7 @@ makeHeld(ContactModelKind kind, const S& surface, const ContactModelOptions& opt
     MARSVIEW_CHECK(false);
 }
 
-/// Over the surface S of the same terrain, which reads its samples faster than `surface` does.
+/// Over a surface S of the same terrain, which reads its samples faster than `surface`.
 template <typename S, typename Surface>
 std::unique_ptr<MapContactModel>
 makeHeldOverMap(ContactModelKind kind, const Surface& surface, const ContactModelOptions& options)

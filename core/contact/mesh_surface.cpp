@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// From a vertex or out of a valley, a way that rises less than this over a face, as a sine, does
-// not leave it: rounding the corners of neighbours could turn it into the surface.
+// From a vertex or out of a valley, a path that rises less than this over a face, as a sine, does
+// not leave it: rounding of the neighbors' corners could turn it into the surface.
 constexpr double kRiseMin = 1e-13;
 
-// A way that leaves a face or an edge begins by this share of its size above it, so that rounding
-// cannot let it begin below. mesh_cast.cpp counts on it.
+// A path that leaves a face or an edge begins by this share of its size above it, so that rounding
+// cannot let it begin below. mesh_cast.cpp relies on it.
 constexpr double kLift = 64.0 * kEpsilon;
 
 } // namespace
@@ -26,7 +26,7 @@ MeshSurface::MeshSurface(std::shared_ptr<const TriangleMesh> mesh)
     : mesh_(std::move(mesh))
 {
     MARSVIEW_CHECK(mesh_ && mesh_->faceCount() > 0);
-    // A straight way could meet all faces and edges.
+    // A straight path could meet all faces and edges.
     const auto faces =
         static_cast<std::uint32_t>(std::min(mesh_->faceCount(), std::size_t{1} << 28U));
     steps_max_ = 4096U + 8U * faces;
@@ -85,11 +85,11 @@ MeshSurface::Edge MeshSurface::edgeBetween(Vertex a, Vertex b) const noexcept
             return edgeOpposite(next);
         }
     }
-    return {}; // not of one face
+    return {}; // not edges of one face
 }
 
-// Whether the edge opposite a corner, which is not at the border, is a valley, or flat. Without
-// rounding error, as which side of its faces the goal is on: together they tell what is free.
+// Whether the edge opposite a corner, which is not at the border, is a valley or flat. Exact, like
+// the side of its faces on which the goal is: together they decide what counts as free space.
 bool MeshSurface::isValley(std::uint32_t corner) const noexcept
 {
     return sideOf(*mesh_, TriangleMesh::faceOf(corner),
@@ -98,7 +98,7 @@ bool MeshSurface::isValley(std::uint32_t corner) const noexcept
 
 std::optional<Face> MeshSurface::wayOut(const Fan& fan, const Goal& goal) const noexcept
 {
-    // In front of all faces is free, behind all is not. In between the nearest decides.
+    // In front of all faces is free space, behind all is not. In between, the nearest face decides.
     const Vec3 to_goal = goal.from(fan.point);
     const double goal_squared = dot(to_goal, to_goal);
     bool is_over_all = true;
@@ -125,8 +125,8 @@ std::optional<Face> MeshSurface::wayOut(const Fan& fan, const Goal& goal) const 
     return wayOutOfMixed(fan, goal);
 }
 
-// Which face, edge or the vertex itself is nearest to the goal, if the faces of the vertex went on
-// without end.
+// Whether a face, an edge or the vertex itself is nearest to the goal if the faces of the vertex
+// extended without end.
 std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal) const noexcept
 {
     struct Sector {
@@ -158,7 +158,7 @@ std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal)
             over = face;
         }
     };
-    // The distance from a spoke, where the goal is not beyond the vertex.
+    // The distance from a spoke, if the goal is not beyond the vertex.
     const auto from_spoke = [&](const Vec3& spoke) {
         return dot(spoke, to_goal) > 0.0 ? length(cross(spoke, to_goal)) / length(spoke)
                                          : kInfinity;
@@ -194,7 +194,7 @@ std::optional<Face> MeshSurface::wayOutOfMixed(const Fan& fan, const Goal& goal)
         return is_at_border || dot(pseudonormal, to_goal) > rise_min ? std::optional(over)
                                                                      : std::nullopt;
     }
-    // Between the walls of a narrow crack rounding cannot tell which of them is nearer.
+    // Between the walls of a narrow crack, rounding hides which of them is nearer.
     return nearest_free + 16.0 * kEpsilon * goal_length < nearest_blocked ? std::optional(over)
                                                                           : std::nullopt;
 }
@@ -216,7 +216,7 @@ std::optional<Face> MeshSurface::wayOut(const Contact& contact, const Goal& goal
         if (above_here > 0) {
             return here;
         }
-        // Falls off where the face does not lead closer, as onto its own foot.
+        // Falls off if the face does not lead closer, for example onto its own foot.
         const Facet facet = facetAt(corner);
         const double weight = facet.foot(goal).weights[0];
         const double error = facet.error(goal);
@@ -270,7 +270,7 @@ MeshSurface::castFrom(const Contact& contact, Face over, const Goal& goal) const
             start.skipped_faces[1] = there;
             start.size_m = std::max(start.size_m, size_of(there));
             const Vec3 other = normalized(mesh_->normal(there));
-            // By as much above both, unless they fold onto each other.
+            // By the same amount above both, unless they fold onto each other.
             lift = (normal + other) * (1.0 / std::max(1.0 + dot(normal, other), 1e-6));
         }
         start.offset = between(from, to) * contact.along + lift * (kLift * start.size_m);

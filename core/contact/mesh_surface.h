@@ -30,9 +30,9 @@ struct MeshSide {
     std::uint32_t face = 0;
     bool operator==(const MeshSide&) const = default;
 };
-/// At `scene` + `rest`: between two goals, what their coordinates cannot tell is kept, or the
-/// events on a way of nanometres far from the origin would be told wrongly. Nothing rests of what
-/// is aimed at.
+/// The position is `scene` + `rest`. Between two goals, `rest` keeps what the coordinates cannot
+/// resolve; otherwise events on a path of nanometers far from the origin would be misjudged. `rest`
+/// is zero for a goal given by the caller.
 struct MeshGoal {
     ScenePoint scene;
     Vec3 rest{};
@@ -45,8 +45,8 @@ struct MeshFan {
     std::span<const std::uint32_t> corners; // TriangleMesh::fan
 };
 
-/// A face that a walk is on. Weights are dot products with `inward`, counted from a corner on their
-/// own edge, so that they are exact where the goal is near it.
+/// The face that a walk is on. Weights are dot products with `inward`, counted from a corner on
+/// their own edge, so that they are exact where the goal is near it.
 struct MeshFacet {
     std::array<MeshVertex, 3> vertices; // counter-clockwise seen from free space
     double scale;                       // |normal|²
@@ -72,8 +72,8 @@ struct MeshFacet {
     }
 
 private:
-    // What may be rounding error is 0, so that a goal on the edge between two flat faces is within
-    // one of them.
+    // Weights within rounding error are 0, so that a goal on the edge between two flat faces is
+    // within one of them.
     static double weight(const Vec3& to_goal, const Vec3& inward) noexcept
     {
         constexpr double kTolerance = 8.0 * std::numeric_limits<double>::epsilon();
@@ -86,12 +86,12 @@ private:
 };
 
 /// One-sided: the proxy passes through the back of faces. Goals are scene points, nowhere clamped:
-/// at the border of an open mesh the proxy falls off where no face leads closer. Placing counts as
-/// above the surface what is not behind the nearest place of the mesh (J. A. Baerentzen and H.
-/// Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE TVCG 11,
-/// 2005).
+/// at the border of an open mesh the proxy falls off where no face leads closer. Placing treats a
+/// point as above the surface if it is not behind the nearest point of the mesh (J. A. Baerentzen
+/// and H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE TVCG
+/// 11, 2005).
 ///
-/// A small immutable value that shares the mesh. Any thread; allocates nothing once made.
+/// A small immutable value that shares the mesh. Any thread; allocates nothing after construction.
 class MeshSurface {
 public:
     using Vertex = MeshVertex;
@@ -107,7 +107,7 @@ public:
     using Wing = SurfaceWing<MeshSurface>;
 
     static constexpr bool kIsBorderWall = false;
-    /// Coordinates beyond this, in metres, are not aimed at, like those that are not finite.
+    /// Coordinates beyond this, in meters, are refused as goals, like those that are not finite.
     static constexpr double kGoalMaxM = TriangleMesh::kCoordinateMaxM;
 
     explicit MeshSurface(std::shared_ptr<const TriangleMesh> mesh);
@@ -125,7 +125,7 @@ public:
     {
         return wayOut(contactAt(goal), goal).has_value();
     }
-    /// The nearest place.
+    /// The nearest point.
     Contact contactAt(const Goal& goal) const noexcept;
     /// A corner of the first face.
     Contact initialContact() const noexcept;
@@ -238,8 +238,8 @@ public:
     Cast castFrom(const Contact& contact, Face over, const Goal& goal) const noexcept;
     Cast castFree(const Goal& from, const Goal& to) const noexcept;
 
-    /// Calls function(face, corners counter-clockwise) with each face whose box meets the box from
-    /// `low` to `high`; now and then also with one whose box is a rounding error beside it.
+    /// Calls function(face, corners counter-clockwise) with each face whose box intersects the box
+    /// from `low` to `high`; occasionally also with one whose box misses it by a rounding error.
     template <typename F>
     void eachFaceNear(const ScenePoint& low, const ScenePoint& high, F&& function) const noexcept
     {

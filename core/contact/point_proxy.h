@@ -1,4 +1,4 @@
-// What the contact models with a point for a proxy have in common.
+// The common base of contact models whose proxy is a point.
 #pragma once
 
 #include "core/contact/contact.h"
@@ -11,8 +11,8 @@
 
 namespace marsview {
 
-/// The way from a place on the surface to a local minimum, one update long. `descend` is true where
-/// it ended at the goal, in free space; otherwise the contact is the minimum.
+/// The path from a position on the surface to a local minimum, within one update. `descend` returns
+/// true if it ended at the goal, in free space; otherwise the contact is the minimum.
 template <typename D, typename S>
 concept SurfaceDescent = requires(D descent,
                                   const S& surface,
@@ -27,9 +27,9 @@ concept SurfaceDescent = requires(D descent,
     noexcept->std::same_as<bool>;
 };
 
-/// Holds a proxy that cannot pass through a surface. Each update moves it straight through free
-/// space to the goal, and from where it meets the surface, or from where it was on it, by `Descent`
-/// to a local minimum of the distance to the goal.
+/// A proxy that cannot pass through a surface. Each update moves it straight through free space to
+/// the goal. From where it meets the surface, or from its position on it, `Descent` moves it to a
+/// local minimum of the distance to the goal.
 template <ContactSurface S, SurfaceDescent<S> Descent>
 class PointProxy : public SurfaceProxy<PointProxy<S, Descent>, S> {
     using Base = SurfaceProxy<PointProxy, S>;
@@ -44,7 +44,7 @@ public:
 
     /// Another surface with the same mesh, such as another exaggeration. In contact, the proxy
     /// stays where it is on the mesh and moves with it. A free proxy keeps its scene coordinates;
-    /// if it would be below the surface, it is put onto it, straight above.
+    /// if it would be below the surface, it is moved straight up onto it.
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
@@ -57,7 +57,7 @@ public:
         }
     }
 
-    /// Where the proxy touches; nothing while it is free.
+    /// Where the proxy touches; empty while it is free.
     std::optional<SurfaceContact<S>> contact() const noexcept
     {
         return free_ ? std::nullopt : std::optional(contact_);
@@ -112,8 +112,8 @@ private:
         }
     }
 
-    std::optional<Goal> free_;  // where the proxy is while free
-    SurfaceContact<S> contact_; // where it is otherwise
+    std::optional<Goal> free_;  // the proxy's position while free
+    SurfaceContact<S> contact_; // the proxy's position otherwise
 };
 
 } // namespace marsview

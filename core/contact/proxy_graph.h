@@ -18,13 +18,13 @@ namespace marsview {
 
 /// Moves the proxy as close to the goal as it gets without ever moving away: down the distance
 /// along the mesh's edges, from vertex to vertex, to a minimum on a vertex, edge or face, and
-/// straight through free space where the way to the goal leaves the surface.
+/// straight through free space where the path to the goal leaves the surface.
 ///
-/// Differences from the paper, all of which make it follow the goal more closely:
+/// Differences from the paper, which all make it follow the goal more closely:
 /// - A descent that begins within a face or edge (where a cast landed, or where the last update
 ///   ended) walks across faces to the first vertex it meets, instead of jumping to the nearest
 ///   vertex, which may lie farther from the goal, in another basin.
-/// - A vertex is left for the next one only where the goal projects beyond the whole edge.
+/// - The proxy leaves a vertex for the next one only if the goal projects beyond the whole edge.
 /// - A loop of far-edge steps ends with such a walk from the far edge, so that the end is a
 ///   minimum. Far-edge steps are thus the only ones that may increase the distance to the goal.
 template <ContactSurface S>
@@ -53,18 +53,18 @@ private:
     using Facet = typename S::Facet;
     using Steps = FacetSteps<S>;
 
-    // Vertices from which far-edge steps were taken within this update. More than this are treated
-    // as a loop; in a million updates on fractals not more than a handful are met.
+    // Vertices from which far-edge steps were taken within this update. More than this count as a
+    // loop; a million updates on fractals use only a handful.
     static constexpr std::size_t kFarListMax = 64;
-    // A descent whose distance no longer gets less, to rounding, ends after so many steps: enough
-    // to turn around a vertex through steps of length zero.
+    // A descent whose distance stops decreasing, to rounding, ends after this many steps: enough to
+    // turn around a vertex through steps of length zero.
     static constexpr int kStallsMax = 32;
-    // What one update remembers while it descends.
+    // The state of one descent.
     struct FarList {
         std::array<Vertex, kFarListMax> vertices;
         std::size_t count = 0;
 
-        // False where it is in the list, or the list is full.
+        // False if it is in the list already or the list is full.
         bool add(Vertex vertex) noexcept
         {
             const auto end = vertices.begin() + static_cast<std::ptrdiff_t>(count);
@@ -76,7 +76,7 @@ private:
         }
     };
     struct Descent {
-        std::optional<FarList> far_list; // made for the first of them, which is seldom
+        std::optional<FarList> far_list; // created for the first far-edge step, which is rare
         bool walks_only = false;         // after a loop of far-edge steps
         std::optional<Vertex> origin;    // the vertex whose steepest edge the proxy is on
         double distance_squared = std::numeric_limits<double>::infinity();
@@ -108,8 +108,8 @@ private:
         counters_.cut_short = 1;
     }
 
-    // The paper's free-space test: only the adjacent faces can obstruct the beginning of the way.
-    // True where the proxy left the place it was at.
+    // The paper's free-space test: only the adjacent faces can block the beginning of the path.
+    // True if the proxy has left its position.
     bool leaves(const std::optional<Face>& over, const Goal& goal) noexcept
     {
         if (!over) {
@@ -123,7 +123,7 @@ private:
         return true;
     }
 
-    // Each of these moves the proxy one step and tells whether the update is over.
+    // Each of these moves the proxy one step and returns whether the update is complete.
     bool atVertex(const Goal& goal, Descent& descent) noexcept
     {
         ++counters_.vertices;
@@ -170,7 +170,7 @@ private:
             leaves(surface_.wayOut(contact_, goal), goal)) {
             return is_free_;
         }
-        // The steeper of the ways into the faces.
+        // The steeper of the paths into the faces.
         const bool is_left = Steps::isInward(left.weights[0], facets.left, goal);
         const bool is_right =
             facets.has_right && Steps::isInward(right.weights[0], facets.right, goal) &&
@@ -202,10 +202,10 @@ private:
         return false;
     }
 
-    // The paper's far-edge crossing (section 3.3): goes on from the end of the far edge that is
-    // closer to the goal, although that may be farther than the vertex from which the trace came.
-    // A second crossing from one vertex would go on for ever: then the proxy stays on the far edge,
-    // closer than all before, and walks.
+    // The paper's far-edge crossing (section 3.3): continues from the end of the far edge that is
+    // closer to the goal, although it may be farther than the vertex from which the trace came. A
+    // second crossing from the same vertex would loop forever: the proxy then stays on the far
+    // edge, closer than every position before, and walks.
     void
     crossFarEdge(const Goal& goal, Vertex opposite, Vertex a, Vertex b, Descent& descent) noexcept
     {

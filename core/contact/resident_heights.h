@@ -11,8 +11,8 @@
 
 namespace marsview {
 
-/// Heights of tiles (scene_heights.h): the same as FilledHeights has on the map in memory, to the
-/// bit, where the terrain has them. T is the type of the samples, or void for any type, slower.
+/// Heights from tiles (scene_heights.h): the same as FilledHeights over the map in memory, to the
+/// bit, where the tiles are resident. T is the sample type, or void for any type, which is slower.
 template <typename T>
 class ResidentHeights {
 public:
@@ -48,7 +48,7 @@ public:
     }
 
     /// The same at the corners of a cell, and around a sample within the map, in the order of
-    /// HeightfieldFan: found once where they lie in one tile.
+    /// HeightfieldFan: with one lookup if they lie in one tile.
     [[gnu::always_inline]] CellHeights cell(std::int32_t column, std::int32_t row) const noexcept
     {
         if constexpr (!std::is_void_v<T>) {
@@ -100,14 +100,14 @@ private:
     double exaggeration_;
 };
 
-// Compiled once, in heightfield_surface.cpp.
+// Instantiated once, in heightfield_surface.cpp.
 extern template class BasicHeightfieldSurface<ResidentHeights<void>>;
 extern template class BasicHeightfieldSurface<ResidentHeights<std::int16_t>>;
 extern template class BasicHeightfieldSurface<ResidentHeights<float>>;
 
-/// A map in tiles. The surface is as fixed as its terrain: see MapContactModel::terrainChanged.
+/// A map in tiles. The surface is as constant as its terrain: see MapContactModel::terrainChanged.
 using TiledHeightfieldSurface = BasicHeightfieldSurface<ResidentHeights<void>>;
-/// The same, faster, where ResidentHeights<T>::canRead(terrain).
+/// The same, faster, if ResidentHeights<T>::canRead(terrain).
 template <typename T>
 using TypedTiledSurface = BasicHeightfieldSurface<ResidentHeights<T>>;
 

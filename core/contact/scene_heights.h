@@ -1,8 +1,8 @@
-// How a heightfield surface reads its samples: as heights in scene metres.
+// How a heightfield surface reads its samples: as heights in scene meters.
 //
-// Such a policy names the Terrain that it reads (core/terrain/touch_terrain.h), is made from it and
-// an exaggeration, and has at(column, row). One for which it is quicker to find several samples at
-// once also has cell() and around(), as in resident_heights.h, for terrain in tiles.
+// A policy names the Terrain that it reads (core/terrain/touch_terrain.h), is constructed from it
+// and an exaggeration, and has at(column, row). A policy that reads several samples faster at once
+// also has cell() and around(), as in resident_heights.h, for terrain in tiles.
 #pragma once
 
 #include "core/terrain/filled_heightfield.h"
@@ -34,8 +34,8 @@ private:
     double exaggeration_;
 };
 
-/// Samples of type T without voids. The same heights as FilledHeights to the bit, in a third of the
-/// time.
+/// Samples of type T without voids. The same heights as FilledHeights, to the bit, in a third of
+/// the time.
 template <typename T>
 class PlainHeights {
 public:

@@ -1,4 +1,5 @@
-// The way down: from a place on the surface to a local minimum of the distance to a goal at rest.
+// Steepest descent from a position on the surface to a local minimum of the distance to a fixed
+// goal.
 #pragma once
 
 #include "core/contact/contact.h"
@@ -17,11 +18,12 @@ namespace marsview {
 /// Follows the gradient of the distance to the goal over faces, along edges and through vertices,
 /// exactly and by adjacency: straight across a face towards the foot of the goal on its plane;
 /// along an edge where both faces lead towards it (a valley); from a vertex in the steepest of all
-/// directions, along its edges and within its faces. Where the straight way to the goal leaves the
-/// surface it is followed through free space, which takes a segment cast. The distance never grows.
+/// directions, along its edges and within its faces. Where the straight path to the goal leaves the
+/// surface, the descent follows it through free space with a segment cast. The distance never
+/// increases.
 ///
-/// A helper of the models for one update: cheap to make. Real-time: allocates nothing, bounded by
-/// S::stepsMax(), which is counted as cut short.
+/// A helper for one update of a model: cheap to construct. Real-time: allocates nothing and is
+/// bounded by S::stepsMax(); reaching the bound is counted as cut_short.
 template <ContactSurface S>
 class SteepestDescent {
 public:
@@ -38,8 +40,8 @@ public:
         , steps_(surface.stepsMax())
     {}
 
-    /// Moves `contact` to a local minimum. True where the way ended at the goal itself, in free
-    /// space; then the contact means nothing.
+    /// Moves `contact` to a local minimum. True if the descent ended at the goal itself, in free
+    /// space; the contact is then meaningless.
     bool descend(Contact& contact, const Goal& goal) noexcept
     {
         const bool is_free = run(contact, goal, Step::Goes);
@@ -49,16 +51,16 @@ public:
         return is_free;
     }
 
-    /// The same, beginning with a walk over `facet` from its edge opposite its first corner, at
-    /// the share `share` of the way from its second corner to its third. Where the minimum is
-    /// within a face, facet() tells which, and `contact` means nothing.
+    /// The same, beginning with a walk over `facet` from its edge opposite its first corner, at the
+    /// fraction `share` from its second corner to its third. If the minimum is within a face,
+    /// facet() returns that face and `contact` is meaningless.
     bool descendOver(Contact& contact, const Facet& facet, double share, const Goal& goal) noexcept
     {
         const SurfaceFoot foot = facet.foot(goal);
         if (foot.above <= 0.0) {
             return run(contact, goal, cross(contact, facet, share, foot, goal));
         }
-        // Over a sharp ridge, the proxy may let go.
+        // Over a sharp ridge, the proxy may leave the surface.
         Steps::restOnEdge(surface_, contact, facet.vertices[1], facet.vertices[2], share);
         return run(contact, goal, Step::Goes);
     }
@@ -73,8 +75,8 @@ private:
         Free, // the goal was reached through free space
     };
 
-    // After so many visits of vertices that are no closer to the goal than the one before, to
-    // rounding, the last of them is a minimum, to rounding.
+    // After this many visits of vertices that are not closer to the goal than the one before, to
+    // rounding, the last of them counts as a minimum.
     static constexpr int kStallsMax = 8;
 
     bool run(Contact& contact, const Goal& goal, Step step) noexcept
@@ -109,7 +111,8 @@ private:
             return Step::Free;
         }
         contact = *cast.contact;
-        // A goal that is above the surface by rounding alone is left and met again for ever.
+        // For a goal above the surface only by rounding, the descent would leave and meet the
+        // surface forever.
         const ScenePoint rest = surface_.goalPoint(goal) - surface_.point(contact);
         const double squared = dot(rest, rest);
         if (squared >= flight_squared_ * (1.0 - 1e-15) && ++stalls_ > kStallsMax) {
@@ -129,7 +132,8 @@ private:
         }
         const Vec3 to_goal = surface_.toGoal(fan, goal);
         const double squared = dot(to_goal, to_goal);
-        // The squares of a far goal are the same at every vertex; the step from the last is not.
+        // For a far goal the squared distances are equal at every vertex; the step from the last is
+        // not.
         if (squared >= vertex_squared_ * (1.0 - 1e-15) && !isCloser(here, to_goal) &&
             ++stalls_ > kStallsMax) {
             return Step::Ends;
@@ -140,10 +144,10 @@ private:
 
         const auto steepest = Steps::steepestSpoke(surface_, fan, to_goal, squared);
         if (!steepest.pulls) {
-            // Within a face, no direction leads closer where neither of its edges does.
+            // Within a face, no direction leads closer if neither of its edges does.
             return Step::Ends;
         }
-        // The squares of how fast the distance falls, times `squared`.
+        // The squared rates of decrease of the distance, times `squared`.
         double best_rate = steepest.towards > 0.0
                                ? steepest.towards * steepest.towards / steepest.length_squared
                                : 1e-26 * squared;
@@ -182,7 +186,7 @@ private:
         if (!(steepest.towards > 0.0)) {
             return Step::Ends;
         }
-        // Along an edge of which no face leads away.
+        // Along an edge that no face leads away from.
         const double share = steepest.towards / steepest.length_squared;
         if (share >= 1.0 - Steps::endShare(squared, steepest.length_squared)) {
             Steps::restOnVertex(contact, steepest.spoke.end);
@@ -214,8 +218,7 @@ private:
             }
         }
         // A foot on the inner side of a face means that the way into it leads closer: the same
-        // number decides it as decides, within that face, whether its foot is outside. The steeper
-        // way is taken.
+        // number decides within that face whether its foot is outside. The steeper path is taken.
         const auto [from, to] = surface_.ends(contact.edge);
         const bool is_left = Steps::isInward(left.weights[0], facets.left, goal);
         const bool is_right =
@@ -252,7 +255,7 @@ private:
         return walk(contact, facet, contact.weights, foot, goal);
     }
 
-    // From a place on a facet straight towards the foot.
+    // From a position on a facet straight towards the foot.
     Step walk(Contact& contact,
               const Facet& facet,
               const std::array<double, 3>& at,
@@ -307,8 +310,8 @@ private:
                 --steps_;
                 facet = exit.is_to_third ? surface_.beyond(facet, 1) : surface_.beyond(facet, 2);
                 foot = facet.foot(goal);
-                // The next facet's second corner is the one ahead, or the one beside. Above its
-                // plane, over a sharp ridge, the proxy may let go.
+                // The next facet's second corner is the one ahead, or the one to the side. Above
+                // its plane, over a sharp ridge, the proxy may leave the surface.
                 if (foot.above <= 0.0 && Steps::isInward(foot.weights[0], facet, goal)) {
                     share = exit.is_to_third ? 1.0 - exit.share : exit.share;
                     continue;

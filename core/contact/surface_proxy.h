@@ -1,4 +1,4 @@
-// What all contact models have in common: placing, moving, refusing and telling.
+// The common base of all contact models: placing, moving, refusing goals and reporting.
 #pragma once
 
 #include "core/contact/contact.h"
@@ -9,21 +9,21 @@
 namespace marsview {
 
 /// The base of a contact model over a surface. `Model` derives from it, makes it a friend and has
-///   placeAt(g, p)   the first update of a model: the goal is g, aimed at was p
-///   moveTo(g, p)    every other
-///   feature()       what the proxy rests on
-///   position()      where it is
+///   placeAt(g, p)   the first update of a model: the goal is g, computed from p
+///   moveTo(g, p)    every later update
+///   feature()       the feature that the proxy rests on
+///   position()      the proxy's position
 ///
 /// A value, for one thread at a time. `update` and `place` allocate, lock and throw nothing and are
-/// bounded by S::stepsMax(): they are for the servo thread.
+/// bounded by S::stepsMax(): they are safe on the servo thread.
 template <typename Model, ContactSurface S>
 class SurfaceProxy {
 public:
     const S& surface() const noexcept { return surface_; }
 
     /// Puts the proxy at the goal if that is above the surface, else on the surface straight above
-    /// the goal, and minimises from there. A goal that is not finite, or that the surface cannot
-    /// aim at (S::goal), changes nothing and is counted as refused.
+    /// the goal, and minimizes the distance from there. A goal that is not finite, or that S::goal
+    /// refuses, changes nothing and is counted as refused.
     ContactState place(const ScenePoint& goal) noexcept
     {
         counters_ = {};
@@ -36,9 +36,9 @@ public:
         return state();
     }
 
-    /// Moves the proxy towards the goal. The first update places it. What place() refuses
-    /// changes nothing and is counted as refused: the proxy, and whether it is in contact, are
-    /// those of the last update.
+    /// Moves the proxy towards the goal. The first update places it. Goals that place() refuses
+    /// change nothing and are counted as refused: the proxy and its contact state are those of the
+    /// last update.
     ContactState update(const ScenePoint& goal) noexcept
     {
         if (!is_placed_) {

@@ -1,4 +1,4 @@
-// The surface-walk contact model: exact descent to the goal, once an update.
+// The surface-walk contact model: exact descent to the goal, once per update.
 #pragma once
 
 #include "core/contact/point_proxy.h"
@@ -6,8 +6,8 @@
 
 namespace marsview {
 
-/// Each update takes the steepest way over the surface to a local minimum, as if the goal had
-/// jumped to where it is.
+/// Each update takes the steepest descent over the surface to a local minimum, as if the goal had
+/// jumped to its new position.
 template <ContactSurface S>
 using SurfaceWalk = PointProxy<S, SteepestDescent<S>>;
 

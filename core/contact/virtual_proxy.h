@@ -1,17 +1,17 @@
 // The virtual-proxy contact model (Ruspini, Kolarov and Khatib, "The haptic display of complex
 // graphical environments", SIGGRAPH 1997): a sphere that cannot pass through a surface.
 //
-// The sphere's centre moves as a point in configuration space, among obstacles that are the faces,
+// The sphere's center moves as a point in configuration space, among obstacles that are the faces,
 // edges and vertices grown by its radius. A grown triangle is convex, so:
-// - The distance from a triangle is a convex function along any straight way. A sphere that touches
-//   it and does not move towards it never enters it on that way.
-// - Where the centre touches, the grown triangle lies behind one tangent plane, and the free
-//   directions are those in front of all tangent planes, a convex cone. The place in it closest to
-//   the goal, with one, two or three tangent planes active, is the constrained goal; where that is
-//   the centre itself, the centre is at a local minimum.
-// - What is touched is told by sweeps that it stops, not by its distance: a sphere that rolls over
-//   a flat edge is within rounding error of the face ahead long before it is over it, beside it,
-//   and the tangent plane there would lean against the motion by the square root of that error.
+// - The distance from a triangle is a convex function along any straight path. A sphere that
+//   touches it and does not move towards it never enters it on that path.
+// - Where the center touches, the grown triangle lies behind one tangent plane, and the free
+//   directions are those in front of all tangent planes, a convex cone. The point in it closest to
+//   the goal, with one, two or three tangent planes active, is the constrained goal. If that is the
+//   center itself, the center is at a local minimum.
+// - A face counts as touched if it stops a sweep, not by its distance. A sphere that rolls over a
+//   flat edge is within rounding error of the face ahead long before it is above it; there, still
+//   next to it, the tangent plane would lean against the motion by the square root of that error.
 #pragma once
 
 #include "core/base/check.h"
@@ -33,28 +33,27 @@
 namespace marsview {
 
 /// Within an update the sphere is swept straight to the goal, then from touch to touch to the
-/// constrained goals, until none is closer. The proxy that is reported is its centre; it is in
-/// contact where the surface keeps it from the goal, and the feature is the one nearest to the
-/// centre.
+/// constrained goals, until none is closer. The reported proxy is its center. It is in contact if
+/// the surface keeps it from the goal; the feature is the one nearest to the center.
 ///
-/// The centre is never closer to a triangle than the radius by more than tolerance(), and in
-/// contact it is not farther by more. That is 1e-9 of the radius, where square roots of rounding
-/// errors in nearly tangent sweeps end, and what double coordinates can tell apart. Goals are
-/// clamped to the map, and so is the centre; the sphere may reach beyond.
+/// The distance of the center from a triangle is never below the radius by more than tolerance();
+/// in contact it is not above it by more. The tolerance is 1e-9 of the radius, the square roots of
+/// rounding errors in nearly tangent sweeps, plus the resolution of double coordinates. Goals and
+/// the center are clamped to the map; the sphere may reach beyond.
 ///
-/// Placing puts the centre at the goal if the sphere is free there, else straight above it where
-/// the sphere comes to rest from above. The time of an update grows with the number of faces that
-/// the sphere covers. A bound that is met is counted (ContactCounters::cut_short). Counters:
-/// `casts` are sweeps, `cells` what was looked at to find the faces near the way, `faces` those
-/// held against the sphere or its sweep, `vertices` tangent planes.
+/// Placing puts the center at the goal if the sphere is free there, otherwise straight above it
+/// where the sphere comes to rest from above. The time of an update grows with the number of faces
+/// that the sphere covers. Reaching a bound is counted in ContactCounters::cut_short. Counters:
+/// `casts` are sweeps, `cells` the nodes and cells visited to find the faces near the path, `faces`
+/// the faces tested against the sphere or its sweep, `vertices` tangent planes.
 template <ContactSurface S>
 class VirtualProxy : public SurfaceProxy<VirtualProxy<S>, S> {
     using Base = SurfaceProxy<VirtualProxy, S>;
     friend Base;
 
 public:
-    /// `radius_m` > 0 and finite. The first update places the sphere; until then it is said to be
-    /// at S::initialContact().
+    /// `radius_m` > 0 and finite. The first update places the sphere; until then it is reported at
+    /// S::initialContact().
     VirtualProxy(S surface, double radius_m)
         : Base(std::move(surface))
         , walls_(borderWalls(surface_))
@@ -67,8 +66,8 @@ public:
     double radius() const noexcept { return radius_m_; }
 
     /// Another surface with the same mesh, such as another exaggeration. In contact, the sphere is
-    /// put onto it straight above or below. A free one keeps its scene coordinates; if it would be
-    /// in the surface, it is lifted straight up until it touches.
+    /// moved straight up or down onto it. A free sphere keeps its scene coordinates; if it would
+    /// penetrate the surface, it is lifted straight up until it touches.
     void setSurface(S surface) noexcept
     {
         surface_ = std::move(surface);
@@ -85,7 +84,7 @@ public:
         }
     }
 
-    /// In metres, for a centre at `p`.
+    /// In meters, for a center at `p`.
     double tolerance(const ScenePoint& p) const noexcept { return 1e-9 * radius_m_ + ulps(p); }
 
 private:
@@ -93,26 +92,26 @@ private:
     using Base::counters_;
     using Base::surface_;
 
-    // More tangent planes than this stop the sphere at one place on no terrain. Then some are left
-    // out, and the update is cut short.
+    // No terrain stops the sphere at one position with more tangent planes than this. Further ones
+    // are ignored, and the update is cut short.
     static constexpr std::size_t kPlanesMax = 32;
-    // Two tangent planes meet in a line where the square of the sine between them is more.
+    // Two tangent planes meet in a line if the squared sine between them exceeds this.
     static constexpr double kSineSquaredMin = 1e-26;
-    // Of the way to the goal: rounding errors across a tangent direction.
+    // Fraction of the distance to the goal: rounding errors across a tangent direction.
     static constexpr double kTangentError = 4e-15;
-    static constexpr double kSweepError = 2.0 * kTangentError; // more, so that the two agree
-    // A step to a constrained goal is no longer than so many radii, lest rounding errors across it
-    // become more than the tolerance.
+    static constexpr double kSweepError = 2.0 * kTangentError; // larger, so that the two agree
+    // A step to a constrained goal is at most this many radii, or rounding errors across it would
+    // exceed the tolerance.
     static constexpr double kStepRadii = 1e4;
     static constexpr double kDistanceError = 8e-15; // of the radius
-    // A touch no farther beyond the end of an edge, in radii, is on it: the distance is the same to
-    // rounding.
+    // A touch at most this far beyond the end of an edge, in radii, is on it: the distance is the
+    // same to rounding.
     static constexpr double kBeside = 3e-8;
-    // A sweep that comes no farther, in radii, was stopped where it began.
+    // A sweep that moves at most this far, in radii, was stopped where it began.
     static constexpr double kAtOnce = 1e-12;
-    // Of the way to the goal: a constrained goal that is nearer is reached.
+    // Fraction of the distance to the goal: a constrained goal nearer than this is reached.
     static constexpr double kStill = 1e-9;
-    // So many steps no longer than lean() of the way to the goal end an update.
+    // This many steps of at most lean() times the distance to the goal end an update.
     static constexpr int kLeansMax = 6;
     static constexpr double kSlowRatio = 0.5;
     static constexpr double kLeapRadii = 0.5;
@@ -124,12 +123,12 @@ private:
     static constexpr std::uint32_t kLooksAll = std::numeric_limits<std::uint32_t>::max();
 
     struct Nearest {
-        Vec3 to; // from the centre
+        Vec3 to; // from the center
         double squared;
         ContactFeature feature;
     };
 
-    // The tangent planes that stopped the sphere where it is, by their normals towards its centre.
+    // The tangent planes that stopped the sphere where it is, by their normals towards its center.
     struct Planes {
         std::array<Vec3, kPlanesMax> normals;
         std::size_t count = 0;
@@ -143,19 +142,19 @@ private:
     };
 
     struct Touch {
-        double distance = std::numeric_limits<double>::infinity(); // from the centre
+        double distance = std::numeric_limits<double>::infinity(); // from the center
         Vec3 normal;                                               // towards it
         ContactFeature feature = ContactFeature::Free;
     };
 
     // The end of a sweep.
     struct Swept {
-        double share;     // of the way
-        Touch stopped_by; // seen from there; Free where nothing was
+        double share;     // of the sweep
+        Touch stopped_by; // seen from there; Free if nothing did
         bool is_at_once;  // stopped where it began
     };
 
-    // A triangle seen from the centre.
+    // A triangle seen from the center.
     struct Triangle {
         Vec3 a;
         Vec3 b;
@@ -178,7 +177,7 @@ private:
         }
         // Times the length of the normal.
         double above() const noexcept { return -dot(normal, a); }
-        // Whether the foot of the centre lies inside.
+        // Whether the foot of the center lies inside.
         bool isBelow() const noexcept
         {
             return dot(cross(b - a, -a), normal) >= 0.0 && dot(cross(c - b, -b), normal) >= 0.0 &&
@@ -205,21 +204,21 @@ private:
         return Base::isPlaced() ? centre_ : surface_.point(surface_.initialContact());
     }
 
-    // What double coordinates can tell apart, several times.
+    // The resolution of double coordinates, times a small factor.
     static double ulps(const ScenePoint& p) noexcept
     {
         constexpr double kUlps = 32.0 * std::numeric_limits<double>::epsilon();
         return kUlps * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
     }
 
-    // No farther than this is the radius, to rounding, for a centre at `p`.
+    // Distances up to this equal the radius, to rounding, for a center at `p`.
     double touching(const ScenePoint& p) const noexcept
     {
         return radius_m_ * (1.0 + kDistanceError) + 0.125 * ulps(p);
     }
 
-    // By how much a tangent plane may lean the wrong way: beside an edge, as far as the square root
-    // of the rounding error of the distance.
+    // How far a tangent plane may lean the wrong way: next to an edge, by the square root of the
+    // rounding error of the distance.
     double lean() const noexcept { return 1e-7 + std::sqrt(ulps(centre_) / radius_m_); }
 
     SceneBounds around(const ScenePoint& p, const ScenePoint& q) const noexcept
@@ -271,7 +270,7 @@ private:
         return best;
     }
 
-    // What is nearest to the centre, if it is within reach.
+    // The nearest feature to the center, if it is within reach.
     Touch touchAt(const ScenePoint& centre) noexcept
     {
         Touch touch;
@@ -295,9 +294,9 @@ private:
         return {distance, at.to * (-1.0 / distance), at.feature};
     }
 
-    // The place closest to `to_goal` in front of all tangent planes: of those that one, two or
-    // three active planes give and that are in front of the others, the one with the longest way,
-    // since each is `to_goal` projected.
+    // The point closest to `to_goal` in front of all tangent planes. One, two or three active
+    // planes give the candidates; of those in front of the other planes, it is the longest vector,
+    // since each is a projection of `to_goal`.
     static Vec3 constrained(const Planes& planes, const Vec3& to_goal) noexcept
     {
         const double tolerance = kTangentError * length(to_goal);
@@ -334,8 +333,8 @@ private:
         }
         for (std::size_t i = 0; i < planes.count; ++i) {
             for (std::size_t j = 0; j < i; ++j) {
-                // Not along the cross product, of which little is right where the planes are nearly
-                // the same.
+                // Not along the cross product, which is inaccurate where the planes are nearly the
+                // same.
                 const Vec3& n = planes.normals[i];
                 Vec3 m = planes.normals[j] - n * dot(n, planes.normals[j]);
                 const double squared = dot(m, m);
@@ -354,12 +353,13 @@ private:
         return best;
     }
 
-    // The share of `way` after which the sphere touches a triangle and begins to enter it, if less
-    // than `share`. A way may enter by `slack` what the sphere touches when it begins.
+    // The fraction of `way` after which the sphere touches a triangle and begins to enter it, if
+    // less than `share`. The sweep may enter a triangle that the sphere touches at its beginning by
+    // `slack`.
     double enters(
         const Triangle& t, const Vec3& way, double share, double slack, double touch) const noexcept
     {
-        // Most faces stay beyond their planes.
+        // For most faces the sphere does not reach the plane.
         const double start = t.above();
         const double least = std::min(start, start + share * dot(t.normal, way));
         if (least > 0.0 && least * least > radius_m_ * radius_m_ * t.normal_squared) {
@@ -435,9 +435,8 @@ private:
         return where >= -slack && where <= 1.0 + slack ? at : share;
     }
 
-    // Sweeps the sphere from `from` along `way` until it begins to enter something. Long ways are
-    // gone in pieces, each as long as the faces near it are few, so that no sweep looks at a whole
-    // map.
+    // Sweeps the sphere from `from` along `way` until it begins to enter something. Long sweeps are
+    // split into pieces with few faces near each, so that no sweep visits a whole map.
     Swept sweep(const ScenePoint& from, const Vec3& way, double slack) noexcept
     {
         ++counters_.casts;
@@ -470,7 +469,7 @@ private:
             if (hit) {
                 hit->move(part * -share);
                 const double total = done + share * piece;
-                // The next sweep will not go much farther.
+                // The next sweep will not be much longer.
                 reach_m_ = std::clamp(2.0 * total * size, 0.25 * radius_m_, reach_m_);
                 return {total, touchOf(nearest(*hit)), total * size <= at_once};
             }
@@ -490,17 +489,17 @@ private:
         double leap_m; // the longest leap to try
     };
 
-    // A leap that has to prove itself.
+    // A trial leap.
     struct Trial {
         ScenePoint from;
-        double enough; // squared distance from the goal that is less than steps would bring
+        double enough; // the squared distance from the goal that normal steps would not reach
         std::size_t pace;
-        int sweeps; // left
+        int sweeps; // remaining
     };
 
-    // What one update remembers.
+    // The state of one update.
     struct Descent {
-        Planes planes; // touched where the centre is
+        Planes planes; // touched at the center's position
         std::array<Pace, 3> paces;
         std::optional<Trial> trial;
         int stalls = 0;
@@ -529,7 +528,7 @@ private:
         rest();
     }
 
-    // One sweep towards the goal or the constrained goal. True where there is nowhere to go.
+    // One sweep towards the goal or the constrained goal. True if no direction is left.
     bool advance(const ScenePoint& goal, Descent& descent) noexcept
     {
         Planes& planes = descent.planes;
@@ -554,7 +553,7 @@ private:
         }
         double within = 1.0;
         if (!is_free) {
-            // Planes not yet met make the step shorter still.
+            // Planes not met yet shorten the step further.
             const double size = length(step);
             if (size <= kStill * length(to_goal) + ulps(centre_) ||
                 (size <= lean() * length(to_goal) && ++descent.leans > kLeansMax)) {
@@ -565,7 +564,7 @@ private:
                 rest();
                 return true;
             }
-            // The goal is within the walls, constrained goals need not be.
+            // The goal is within the walls, but constrained goals need not be.
             const WallStop stop = wallStop(step, slack);
             if (stop.wall != nullptr && stop.share * size <= walls_.tolerance_m) {
                 planes.add(stop.wall->normal);
@@ -592,7 +591,7 @@ private:
             planes.count = 0;
             descent.stalls = 0;
         }
-        // After a long way rounding may have left a gap, for the next sweep to close.
+        // After a long sweep rounding may leave a gap for the next sweep to close.
         if (is_stopped && (swept.is_at_once || swept.stopped_by.distance <= touching(centre_))) {
             planes.add(swept.stopped_by.normal);
             const double depth = radius_m_ - swept.stopped_by.distance;
@@ -603,10 +602,10 @@ private:
         return false;
     }
 
-    // Where planes lean over the goal nearly as far as they hold it, as around an edge that the
-    // goal is close to, steps are short, each nearly the same part of the one before. Where that
-    // leads is foreseen, up to a part of a turn, and tried. The step would bring `size`² less of
-    // squared distance, since it is at a right angle to the rest of the way.
+    // Around an edge close to the goal, the planes make steps short, each nearly the same fraction
+    // of the one before. The limit is extrapolated, up to a fraction of a turn, and tried. The step
+    // would reduce the squared distance by `size`², since it is at a right angle to the remaining
+    // vector.
     bool
     leapAlong(const ScenePoint& goal, const Vec3& step, double slack, Descent& descent) noexcept
     {
@@ -616,7 +615,7 @@ private:
         const double ratio = size / pace.step_m;
         pace.step_m = size;
         const double far = ratio < 1.0 ? 1.0 / (1.0 - ratio) : kFar;
-        // Lest it enters what it touches by more than a part of the tolerance.
+        // Otherwise it would enter a touched face by more than a fraction of the tolerance.
         const double most = 0.01 * tolerance(centre_) / slack;
         const double longer = std::min({far, pace.leap_m / size, most});
         if (!(ratio > kSlowRatio && ratio < 1.0 / kSlowRatio && longer > 1.0 / kSlowRatio)) {
@@ -648,7 +647,7 @@ private:
     }
 
     struct WallStop {
-        double share; // of the way
+        double share; // of the sweep
         const BorderWall* wall;
     };
 
@@ -664,7 +663,7 @@ private:
         return stop;
     }
 
-    // The sphere has come to rest. Rounding may have brought it closer than it may be.
+    // The sphere has come to rest. Corrects a distance that rounding has made too small.
     void rest() noexcept
     {
         Touch touch = touchAt(centre_);
@@ -677,7 +676,7 @@ private:
         feature_ = touch.feature;
     }
 
-    // Rounding may lead out.
+    // Rounding may lead outside.
     ScenePoint withinWalls(const ScenePoint& p) const noexcept
     {
         for (const BorderWall& wall : walls_) {
@@ -696,8 +695,8 @@ private:
                touchAt(p).distance >= radius_m_ - 0.5 * tolerance(p);
     }
 
-    // `p` if the sphere is free there, else where a sphere that comes down onto it from above all
-    // faces comes to rest.
+    // `p` if the sphere is free there, otherwise where a sphere lowered from above all faces comes
+    // to rest above it.
     ScenePoint lifted(const ScenePoint& p) noexcept
     {
         if (isFreeAt(p)) {
@@ -724,7 +723,7 @@ private:
 
     BorderWalls walls_;
     double radius_m_;
-    double reach_m_; // the piece of a sweep to begin with
+    double reach_m_; // the initial length of a sweep's piece
     ScenePoint centre_;
     ContactFeature feature_ = ContactFeature::Free;
 };

@@ -22,8 +22,8 @@ double steepestCosine(const HeightfieldSurface& surface,
     const FilledHeightfield& terrain = *surface.terrain();
     const GridPoint grid = surface.frame().toGrid(proxy);
     const Vec3 to_goal = goal - proxy;
-    // The tangent cone is the union, over the triangles that hold the proxy, of what the ways to
-    // their corners and the way up span.
+    // The tangent cone is the union, over the triangles that contain the proxy, of the spans of the
+    // directions to their corners and the upward direction.
     double steepest = cosine(to_goal, {0.0, 0.0, 1.0});
     constexpr double kOn = 1e-10; // cells: on the border of a triangle
     const int near_c = static_cast<int>(std::floor(grid.column));
@@ -50,7 +50,8 @@ double steepestCosine(const HeightfieldSurface& surface,
                                            {static_cast<double>(column), static_cast<double>(row)},
                                            height * surface.exaggeration()) -
                                        proxy;
-                    // A corner where the proxy is gives no direction, only rounding error.
+                    // A corner at the proxy itself gives only rounding error instead of a
+                    // direction.
                     if (std::hypot(column - grid.column, row - grid.row) > 1e-7) {
                         steepest = std::max(steepest, cosine(to_goal, along));
                     }

@@ -12,27 +12,27 @@ namespace {
 
 using Real = long double;
 
-// A way on which the cosine with the goal is no larger than this leads nowhere: far more than what
-// rounding makes of 0. From a goal 10 cells off the minimum is missed by 1e-13 cell.
+// Directions whose cosine with the goal is at most this lead nowhere: far above the rounding error
+// of 0. From a goal 10 cells away, the minimum is missed by 1e-13 cell.
 constexpr Real kCosineLeast = 1e-14L;
 
-// What rounding makes of a length of 1 in a few operations.
+// Rounding error of a length of 1 after a few operations.
 constexpr Real kRounding = 64.0L * std::numeric_limits<Real>::epsilon();
 
-// Cells. Shorter parts of a cast than this are passed without a look: which triangle they lie in
-// would be decided by rounding, and the next part sees the same.
+// Cells. Parts of a cast shorter than this are skipped: rounding would decide in which triangle
+// they lie, and the next part covers the same terrain.
 constexpr Real kPartLeast = 1e-14L;
 
-// A motion across a continent would take hours otherwise.
+// Otherwise a motion across a continent would take hours.
 constexpr Real kPiecesMax = 16777216.0L;
 
 constexpr int kStepsMax = 100'000;
 
-// Cells. What is closer than this to an edge or a vertex is on it: feet of goals at regular places
-// fall on features exactly, but for rounding, and have to see what is beyond.
+// Cells. A position closer than this to an edge or a vertex is on it: feet of goals at regular
+// positions lie on features exactly, up to rounding, and the features beyond must be considered.
 constexpr Real kOn = 1e-12L;
 
-// Steps in a row that may be no longer than what kOn undoes.
+// Number of consecutive steps that may be as short as the snapping by kOn.
 constexpr int kTinyStepsMax = 16;
 
 } // namespace
@@ -81,7 +81,7 @@ ReferenceProxy::Place ReferenceProxy::onFeature(Place place)
     return place;
 }
 
-// Whether a way from the place in the triangle leads into it, or along its border.
+// Whether a direction from the position in the triangle leads into it or along its border.
 bool ReferenceProxy::Triangle::holds(Real du, Real dv) const
 {
     if (u == v && (is_upper ? du < dv : du > dv)) {
@@ -112,7 +112,7 @@ ReferenceProxy::Triangle ReferenceProxy::triangleAt(
             is_upper ? lower_right - third : third - upper_left};
 }
 
-// All triangles that the place is part of.
+// All triangles that contain the position.
 ReferenceProxy::Around ReferenceProxy::around(const Place& place) const
 {
     Around result;
@@ -155,8 +155,9 @@ Real ReferenceProxy::heightAt(Real column, Real row) const
     return triangleAt(at.column, at.row, at.u >= at.v, at.u, at.v).height(at.u, at.v);
 }
 
-// The first place where the straight way from `from`, which is on or above the surface, goes below
-// it; nothing where `to` is reached. `cells` is how far that was, horizontally or else upward.
+// The first position where the straight path from `from`, which is on or above the surface, goes
+// below it; empty if `to` is reached. `cells` is the distance to it, horizontal or, for a vertical
+// path, upward.
 std::optional<ReferenceProxy::Place>
 ReferenceProxy::cast(Aim from, const Aim& to, Real& cells) const
 {
@@ -164,7 +165,7 @@ ReferenceProxy::cast(Aim from, const Aim& to, Real& cells) const
     const Real rows = to.row - from.row;
     const Real up = to.z - from.z;
     cells = std::max({std::abs(columns), std::abs(rows), std::abs(up) / cell_m_});
-    // The lines at which the way may come to another triangle: whole columns, rows, diagonals.
+    // The lines where the path may enter another triangle: whole columns, rows, diagonals.
     struct Lines {
         Real start;
         Real change;
@@ -225,7 +226,7 @@ ReferenceProxy::cast(Aim from, const Aim& to, Real& cells) const
     return std::nullopt;
 }
 
-// From the place in the triangle by (du, dv), or as far as the triangle goes.
+// Moves by (du, dv) from the position in the triangle, or up to its border.
 ReferenceProxy::Place ReferenceProxy::alongFace(const Triangle& triangle, Real du, Real dv)
 {
     Real share = 1.0L;
@@ -259,7 +260,7 @@ ReferenceProxy::Place ReferenceProxy::alongFace(const Triangle& triangle, Real d
     return onFeature(to);
 }
 
-// What rounding does, in metres, to the way from the place to the goal.
+// Rounding error, in meters, of the vector from the position to the goal.
 Real ReferenceProxy::rounding(const Around& around) const
 {
     Real size = std::abs(aim_.z) + cell_m_;
@@ -271,7 +272,7 @@ Real ReferenceProxy::rounding(const Around& around) const
     return kRounding * size;
 }
 
-// Leaves the surface where the straight way to the goal is free, and follows it.
+// Leaves the surface if the straight path to the goal is free, and follows it.
 bool ReferenceProxy::release(const Around& around, const Vector& to_goal)
 {
     const Real columns = (aim_.column - static_cast<Real>(place_.column)) - place_.u;
@@ -299,7 +300,7 @@ bool ReferenceProxy::release(const Around& around, const Vector& to_goal)
     return false;
 }
 
-// One step of the steepest way at the present goal. False at a minimum.
+// One step of steepest descent for the current goal. False at a minimum.
 bool ReferenceProxy::stepDown()
 {
     const Around around = this->around(place_);
@@ -314,7 +315,7 @@ bool ReferenceProxy::stepDown()
     const Real determinant = column_.x * row_.y - column_.y * row_.x;
     for (int i = 0; i < around.count; ++i) {
         const Triangle& triangle = around.triangles[i];
-        // The foot of the goal on the plane, and the way to it in columns and rows.
+        // The foot of the goal on the plane, and the vector to it in columns and rows.
         const Vector along{column_.x, column_.y, triangle.per_column};
         const Vector down{row_.x, row_.y, triangle.per_row};
         const Vector normal{along.y * down.z - along.z * down.y,

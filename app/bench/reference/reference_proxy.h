@@ -1,4 +1,4 @@
-// The ideal that contact models are measured against: slow, plain, and sharing no code with them.
+// The reference that contact models are compared with: slow, plain, and without shared code.
 #pragma once
 
 #include "core/contact/heightfield_surface.h"
@@ -9,18 +9,18 @@
 namespace marsview {
 
 /// The proxy that follows the goal's straight motion continuously. The motion since the last update
-/// is cut into small pieces; after each the proxy goes down the steepest way to a local minimum of
-/// the distance to the goal, which stands still meanwhile: straight through free space, over faces,
-/// along edges. The shorter the pieces, the closer to the limit of infinitely many.
+/// is cut into small pieces; after each the proxy takes the steepest descent to a local minimum of
+/// the distance to the goal, which is fixed in the meantime: straight through free space, over
+/// faces, along edges. The shorter the pieces, the closer to the limit of infinitely many.
 ///
-/// Every step is geometry in long double on the triangles around the proxy, which is kept as a cell
-/// and the place in it. Of the surface only its samples, its frame and its exaggeration are used:
-/// no casts, no hierarchy, no adjacency.
+/// Every step is geometry in long double on the triangles around the proxy, which is stored as a
+/// cell and a position in it. It uses only the samples, the frame and the exaggeration of the
+/// surface: no casts, no hierarchy, no adjacency.
 ///
-/// A few tenths of a microsecond a piece. One thread at a time; allocates nothing.
+/// A few tenths of a microsecond per piece. One thread at a time; allocates nothing.
 class ReferenceProxy {
 public:
-    /// 1/128 of a cell is what facts and bounds about other models are quoted against.
+    /// Measurements and error bounds of the other models are quoted against 1/128 of a cell.
     static constexpr double kPieceCells = 1.0 / 128.0;
 
     struct State {
@@ -28,7 +28,8 @@ public:
         bool is_in_contact = false;
     };
 
-    /// `piece_cells` > 0: the longest piece of the motion, in means of a cell's two sides.
+    /// `piece_cells` > 0: the longest piece of the motion, in units of the mean of a cell's two
+    /// sides.
     explicit ReferenceProxy(const HeightfieldSurface& surface, double piece_cells = kPieceCells);
 
     /// As ContactModel: the goal is clamped to the grid; one that HeightfieldSurface::goal refuses
@@ -36,10 +37,11 @@ public:
     State place(const ScenePoint& goal);
     State update(const ScenePoint& goal);
 
-    /// Descents that ended for their number of steps and not in a minimum. Not 0: an error here.
+    /// Descents that ended at the step limit instead of a minimum. A nonzero count is an error of
+    /// this class.
     std::uint64_t unfinishedCount() const noexcept { return unfinished_count_; }
 
-    /// Length of a cell in metres as it is counted here: the mean of its two sides.
+    /// Length of a cell in meters, as used here: the mean of its two sides.
     static double cellMetres(const SceneFrame& frame);
 
 private:
@@ -56,7 +58,7 @@ private:
         Real row;
         Real z;
     };
-    // Fractions of a column and of a row in [0, 1]; 0, 1 and equal ones are meant exactly.
+    // Fractions of a column and of a row in [0, 1]; 0, 1 and equal values are exact.
     struct Place {
         std::int32_t column;
         std::int32_t row;
@@ -67,7 +69,7 @@ private:
         std::int32_t column; // of its cell
         std::int32_t row;
         bool is_upper;
-        Real u; // where the proxy is in that cell
+        Real u; // the proxy's position in that cell
         Real v;
         Real z; // of the plane at the cell's corner
         Real per_column;
@@ -81,7 +83,7 @@ private:
         int count = 0;
     };
     struct Move {
-        Real gain_squared = 0.0L; // of the goal's way, what lies along this one
+        Real gain_squared = 0.0L; // the part of the distance to the goal along this direction
         Place to{};
     };
 
@@ -117,7 +119,7 @@ private:
     ScenePoint goal_{}; // as given
     Aim aim_{};         // as clamped
     bool is_free_ = true;
-    Place place_{}; // where not free
+    Place place_{}; // if not free
     std::uint64_t unfinished_count_ = 0;
 };
 
