@@ -19,8 +19,8 @@ constexpr Body planet(std::string_view name, double equatorial_km, double polar_
 }
 
 // Radii: Archinal et al. (2018), Report of the IAU Working Group on Cartographic Coordinates and
-// Rotational Elements: 2015, Celest. Mech. Dyn. Astron. 130:22, tables 4 to 6. Where the body is
-// triaxial the equatorial radius is the mean of the two. Earth: WGS 84.
+// Rotational Elements: 2015, Celest. Mech. Dyn. Astron. 130:22, tables 4 to 6. For triaxial bodies
+// the equatorial radius is the mean of the two. Earth: WGS 84.
 constexpr std::array kBodies{
     planet("Mercury", 2440.53, 2438.26),
     planet("Venus", 6051.8, 6051.8),
@@ -64,7 +64,7 @@ struct Alias {
     std::string_view body;
 };
 
-// Words in CRS names that mean a body without naming it.
+// Words in CRS names that imply a body without its name.
 constexpr std::array kAliases{
     Alias{"Lunar", "Moon"},   Alias{"Luna", "Moon"},      Alias{"Terra", "Earth"},
     Alias{"WGS84", "Earth"},  Alias{"WGS", "Earth"},      Alias{"NAD27", "Earth"},

@@ -1,4 +1,4 @@
-// The bodies whose maps people open, and the ellipsoids that stand for them.
+// Bodies with published maps, and their reference ellipsoids.
 #pragma once
 
 #include "core/base/angle.h"
@@ -10,7 +10,7 @@
 
 namespace marsview {
 
-/// An ellipsoid of revolution. Radii in metres; equatorial_m > 0, polar_m > 0.
+/// An ellipsoid of revolution. Radii in meters; equatorial_m > 0, polar_m > 0.
 struct Ellipsoid {
     double equatorial_m = 0.0;
     double polar_m = 0.0;
@@ -19,47 +19,48 @@ struct Ellipsoid {
     double flattening() const noexcept { return (equatorial_m - polar_m) / equatorial_m; }
     bool operator==(const Ellipsoid&) const = default;
 
-    /// Planetocentric latitude of a planetographic (geodetic) one, and back. Angles in
+    /// Planetocentric latitude from a planetographic (geodetic) one, and the inverse. Angles in
     /// [-90°, 90°]; the poles and the equator are fixed points; error below 8 ulp.
     Angle planetocentric(Angle planetographic_latitude) const;
     Angle planetographic(Angle planetocentric_latitude) const;
 
-    /// Metres on the surface for one radian of longitude, and for one radian of planetocentric
-    /// or planetographic latitude, at a planetographic latitude.
+    /// Meters on the surface for one radian of longitude, and for one radian of planetocentric or
+    /// planetographic latitude, at a planetographic latitude.
     double metresPerRadianOfLongitude(Angle planetographic_latitude) const;
     double metresPerRadianOfPlanetographicLatitude(Angle planetographic_latitude) const;
     double metresPerRadianOfPlanetocentricLatitude(Angle planetographic_latitude) const;
 };
 
-/// How latitudes are counted where people read or write them. Inside, a GeographicPoint is always
+/// The kind of latitude that people read and write. In the program, a GeographicPoint is always
 /// planetocentric.
 enum class LatitudeKind { Planetocentric, Planetographic };
 
-/// The range in which people of that body's trade write longitudes.
+/// The range in which longitudes on the body are usually written.
 enum class LongitudeRange { From0To360, From180WestTo180East };
 
 struct Body {
     std::string_view name; // English, as the IAU writes it
     Ellipsoid ellipsoid;   // IAU 2015 best-fit ellipsoid of revolution (Earth: WGS 84)
-    LatitudeKind latitude; // what a bare number means: planetographic on Earth, else planetocentric
+    LatitudeKind latitude; // the kind of an unqualified latitude: planetographic on Earth,
+                           // otherwise planetocentric
     LongitudeRange longitude;
 };
 
-/// All bodies known, the larger planets' moons included, in order from the Sun.
+/// All known bodies, the larger planets' moons included, in order from the Sun.
 std::span<const Body> knownBodies();
 
 /// The body of that name, case-insensitive; also understands older names such as "Terra".
 const Body* bodyNamed(std::string_view name);
 
-/// The body that a text from a file speaks of ("GCS_Mars_2000_Sphere", "D_Moon_2000"): the longest
-/// body name in it that stands as a word of its own. Null where there is none.
+/// The body mentioned in a text from a file ("GCS_Mars_2000_Sphere", "D_Moon_2000"): the longest
+/// body name that is a whole word of the text. Null if none is.
 const Body* bodyMentioned(std::string_view text);
 
-/// The body whose equatorial radius is nearest, if within 1 %. Null where none is, or where
+/// The body whose equatorial radius is nearest, if within 1 %. Null if none is, or if
 /// `equatorial_m` is not positive.
 const Body* bodyOfRadius(double equatorial_m);
 
-/// `longitude` wrapped into the range, as people of that body's trade write it.
+/// `longitude` wrapped into the range.
 Angle wrapLongitude(Angle longitude, LongitudeRange range);
 
 } // namespace marsview

@@ -26,7 +26,7 @@ struct Token {
 
 constexpr const char* kExample = "write for example 18.65 N 226.2 E";
 
-// What people and word processors put for the signs of ASCII.
+// Typographic characters that people and word processors use in place of ASCII.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 21> kSigns{{
     {"\u2212", "-"},  // minus
     {"\u2013", "-"},  // en dash
@@ -87,8 +87,8 @@ std::optional<TokenKind> markOf(char c)
     }
 }
 
-// The number that begins at `text`, and how long it is. A comma counts as a point where told so and
-// digits stand on both sides. No number where the length is 0.
+// The number that begins at `text`, and how long it is. With `has_decimal_comma`, a comma between
+// digits counts as a decimal point. A length of 0 means that there is no number.
 std::pair<Token, std::size_t> numberAt(std::string_view text, bool has_decimal_commas)
 {
     std::string plain;
@@ -147,8 +147,8 @@ Result<std::vector<Token>> tokensOf(std::string_view ascii, bool has_decimal_com
 }
 
 // Whether commas between digits are decimal commas in a text without letters: a semicolon
-// separates, or there are two such commas and something else separates. One alone may separate, as
-// in "18,226".
+// separates, or there are two such commas and something else separates. A single comma may be the
+// separator, as in "18,226".
 bool hasDecimalCommas(std::string_view ascii)
 {
     std::size_t commas = 0;
@@ -175,7 +175,7 @@ std::size_t countOf(std::span<const Token> tokens, TokenKind kind)
         tokens.begin(), tokens.end(), [kind](const Token& token) { return token.kind == kind; }));
 }
 
-// An angle as it is written on one side of the pair.
+// The written angle on one side of the pair.
 struct WrittenAngle {
     double degrees = 0.0;
     char letter = 0;

@@ -22,7 +22,7 @@ std::int64_t powerOfTen(int exponent)
     return power;
 }
 
-// Angles are counted in whole units, so that a carry needs no case of its own.
+// Angles are counted in whole units, so that carries need no special case.
 std::int64_t unitsInDegree(AngleNotation notation, int digits)
 {
     if (notation == AngleNotation::DecimalDegrees) {
@@ -189,7 +189,7 @@ std::string angleText(const AngleParts& parts)
         text += fmt::format(" {:02}′", parts.minutes);
     }
     if (parts.digits > kMinutesOnly) {
-        // Two places before the point.
+        // Two digits before the point.
         const int width = parts.digits == 0 ? 2 : parts.digits + 3;
         text += fmt::format(" {:0{}.{}f}″", parts.seconds, width, parts.digits);
     }

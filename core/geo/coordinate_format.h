@@ -1,4 +1,4 @@
-// Positions as people read them: what they choose, and angles rounded for display.
+// Coordinate formats: the user's settings, and angles rounded for display.
 #pragma once
 
 #include "core/base/angle.h"
@@ -22,32 +22,32 @@ enum class AngleNotation {
 enum class LongitudeNotation {
     East360,     // 0° E to 360° E
     EastWest180, // 180° W to 180° E
-    West360      // 0° W to 360° W, as planetographic maps of many bodies count
+    West360      // 0° W to 360° W, as on planetographic maps of many bodies
 };
 
 /// How the user reads and writes positions.
 struct CoordinateFormat {
     PositionSystem system = PositionSystem::Geographic;
     AngleNotation angles = AngleNotation::DecimalDegrees;
-    /// Nothing for what is usual on the body.
+    /// Empty: the usual notation for the body.
     std::optional<LongitudeNotation> longitudes{};
-    /// By the body's name, where it differs from what is usual there: a choice on Mars must not
-    /// change latitudes on the Earth. The empty name is for unknown bodies.
+    /// By body name, if different from the body's usual kind: a choice on Mars must not change
+    /// latitudes on Earth. The empty name is for unknown bodies.
     std::map<std::string, LatitudeKind, std::less<>> latitudes{};
 
     bool operator==(const CoordinateFormat&) const = default;
 
-    /// `body` may be null where it is unknown.
+    /// `body` is null if unknown.
     LatitudeKind latitudesOn(const Body* body) const;
     LongitudeNotation longitudesOn(const Body* body) const;
     void setLatitudesOn(const Body* body, LatitudeKind kind);
 };
 
-/// An angle rounded to what is written. Rounding carries: 59.9996″ becomes the next minute.
+/// An angle rounded as written. Rounding carries: 59.9996″ becomes the next minute.
 struct AngleParts {
     AngleNotation notation = AngleNotation::DecimalDegrees;
-    /// Decimals of a degree, from 0 to 8; or of a second, from 0 to 5, where -1 ends with minutes
-    /// and -2 with degrees.
+    /// Decimals of a degree, from 0 to 8; or of a second, from 0 to 5, where -1 means whole minutes
+    /// and -2 whole degrees.
     int digits = 0;
     double degrees = 0.0; // at least 0; a whole number unless decimal
     int minutes = 0;      // 0 to 59
@@ -57,20 +57,19 @@ struct AngleParts {
     bool operator==(const AngleParts&) const = default;
 };
 
-/// The fewest digits whose unit is not larger than `step`; the most that there are where `step` is
-/// not positive.
+/// The fewest digits whose unit is not larger than `step`; the maximum if `step` is not positive.
 int digitsFor(AngleNotation notation, Angle step);
 
-/// `latitude` in [-90°, 90°]; what is beyond is put to the pole. The equator is north.
+/// `latitude` in [-90°, 90°]; values beyond are clamped to the pole. The equator counts as north.
 AngleParts latitudeParts(Angle latitude, AngleNotation notation, int digits);
 
-/// `longitude` is east-positive, of any turn.
+/// `longitude` is east-positive, in any turn.
 AngleParts
 longitudeParts(Angle longitude, LongitudeNotation range, AngleNotation notation, int digits);
 
 /// The western and the eastern end of a span, `east` from 0 to 360° east of `west`. A full turn
-/// runs from one end of the notation to the other, and an end at the seam is written as the end of
-/// the span: 350° E to 360° E.
+/// covers the whole range of the notation. An end at the seam is written as an end of the span:
+/// 350° E to 360° E.
 std::pair<AngleParts, AngleParts> longitudeSpanParts(
     Angle west, Angle east, LongitudeNotation range, AngleNotation notation, int digits);
 

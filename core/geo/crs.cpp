@@ -27,7 +27,8 @@ struct TransformationDeleter {
 };
 using Transformation = std::unique_ptr<OGRCoordinateTransformation, TransformationDeleter>;
 
-// PROJ reports every point outside a projection's domain; the caller gets that as an empty result.
+// PROJ reports an error for every point outside a projection's domain; callers get an empty result
+// instead.
 class QuietErrors {
 public:
     QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler); }
@@ -59,7 +60,7 @@ std::string exportWkt(const OGRSpatialReference& srs)
     return wkt;
 }
 
-// Readers of formats without CRS names leave a placeholder; say what the system is instead.
+// Formats without CRS names leave a placeholder; describe the system instead.
 std::string nameOf(const OGRSpatialReference& srs)
 {
     std::string name = srs.GetName() != nullptr ? srs.GetName() : "";
@@ -76,7 +77,7 @@ std::string nameOf(const OGRSpatialReference& srs)
     return method != nullptr ? fmt::format("{} / {}", base, method) : base;
 }
 
-// Which of the first two axes is x, and which way both point.
+// Which of the first two axes is x, and the direction of each.
 struct AxisLayout {
     bool is_swapped = false; // the first axis is y
     double east_sign = 1.0;
@@ -95,13 +96,13 @@ AxisLayout layoutOf(const OGRSpatialReference& srs)
     const auto is_zonal = [](OGRAxisOrientation o) { return o == OAO_East || o == OAO_West; };
     AxisLayout layout;
     // Polar systems call both axes "north" or "south", along two meridians; of these, UPS
-    // (EPSG:32661 and 32761) counts its northing first, and OGR knows.
+    // (EPSG:32661 and 32761) lists its northing first, and OGR reports that.
     layout.is_swapped =
         (is_meridional(first) && is_zonal(second)) ||
         (is_meridional(first) && is_meridional(second) && srs.EPSGTreatsAsNorthingEasting() != 0);
     const OGRAxisOrientation x_axis = layout.is_swapped ? second : first;
     const OGRAxisOrientation y_axis = layout.is_swapped ? first : second;
-    // The two axes of a polar system grow as they stand.
+    // The two axes of a polar system keep their direction.
     if (is_zonal(x_axis) && is_meridional(y_axis)) {
         layout.east_sign = x_axis == OAO_West ? -1.0 : 1.0;
         layout.north_sign = y_axis == OAO_South ? -1.0 : 1.0;
@@ -145,7 +146,7 @@ bool isCylindrical(const OGRSpatialReference& srs)
 
 struct Crs::Impl {
     OGRSpatialReference srs;
-    OGRSpatialReference base; // the geographic system underneath, x = longitude, y = latitude
+    OGRSpatialReference base; // the underlying geographic system, x = longitude, y = latitude
     std::string name;
     std::string wkt;
     CrsKind kind = CrsKind::Local;
@@ -156,13 +157,13 @@ struct Crs::Impl {
     std::string unit_name;
     AxisLayout axes;
     std::optional<double> turn;
-    double south_pole_y = -std::numeric_limits<double>::infinity(); // where x is periodic
+    double south_pole_y = -std::numeric_limits<double>::infinity(); // if x is periodic
     double north_pole_y = std::numeric_limits<double>::infinity();
     std::optional<VerticalUnit> vertical_unit;
     std::string vertical_datum_name;
     std::vector<std::string> notices;
 
-    // How the base system counts: radians per unit, its meridian, its axes.
+    // The base system: radians per unit, prime meridian, axes.
     double base_unit_rad = std::numbers::pi / 180.0;
     double base_meridian_rad = 0.0;
     double base_east_sign = 1.0;
@@ -171,7 +172,7 @@ struct Crs::Impl {
     Transformation to_base;
     Transformation from_base;
 
-    // Base coordinates, still in the base system's own unit, to the frame of the program.
+    // Converts base coordinates, in the base system's unit, to the frame of the program.
     GeographicPoint fromBase(double x, double y) const
     {
         const Angle longitude =
@@ -182,8 +183,8 @@ struct Crs::Impl {
                                : latitude};
     }
 
-    // The same for the map coordinates of a geographic system. Nothing beyond the poles, except for
-    // what rounding of a geotransform puts there.
+    // The same for the map coordinates of a geographic system. Empty beyond the poles, except
+    // within the rounding error of a geotransform.
     std::optional<GeographicPoint> fromAngles(MapPoint map) const
     {
         constexpr double kSlack = 1.0 + 1e-12;
@@ -228,7 +229,7 @@ struct Crs::Impl {
 // equations.
 std::optional<MapPoint> Crs::Impl::inverse(MapPoint map) const
 {
-    // Labels round their scale, which puts the edge of a global map a little beyond the pole.
+    // Labels round their scale, which puts the edge of a global map slightly beyond the pole.
     constexpr double kBeyondPoleShareMax = 1e-4;
     const double pole_y = std::clamp(map.y, south_pole_y, north_pole_y);
     if (std::abs(map.y - pole_y) <= kBeyondPoleShareMax * std::abs(pole_y)) {
@@ -247,7 +248,7 @@ std::optional<MapPoint> Crs::Impl::inverse(MapPoint map) const
         if (!image) {
             return std::nullopt;
         }
-        // A cylindrical map may run on beyond its first turn.
+        // A cylindrical map may extend beyond its first turn.
         const double dx = map.x - image->x;
         return Residual{turn ? std::remainder(dx, *turn) : dx, map.y - image->y};
     };
@@ -256,7 +257,8 @@ std::optional<MapPoint> Crs::Impl::inverse(MapPoint map) const
         2.0 * std::numeric_limits<double>::epsilon() * std::hypot(map.x, map.y);
     std::optional<Residual> error = residual(*best);
     for (int step = 0; step < kStepsMax && error && error->size() > good_enough; ++step) {
-        // Derivatives by differences. The step is a few metres on the ground, away from the pole.
+        // Derivatives by finite differences. The step is a few meters on the ground, away from the
+        // pole.
         const double h = 1e-6 / base_unit_rad;
         const double h_y = best->y > 0.0 ? -h : h;
         const auto east = residual({best->x + h, best->y});
@@ -272,7 +274,7 @@ std::optional<MapPoint> Crs::Impl::inverse(MapPoint map) const
         const MapPoint next{best->x + (error->x * yy - error->y * xy) / determinant,
                             best->y + (error->y * xx - error->x * yx) / determinant};
         if (!std::isfinite(next.x) || !std::isfinite(next.y)) {
-            break; // at a pole, where longitude means nothing
+            break; // at a pole, where longitude is undefined
         }
         const auto next_error = residual(next);
         if (!next_error || next_error->size() >= error->size()) {
@@ -281,13 +283,14 @@ std::optional<MapPoint> Crs::Impl::inverse(MapPoint map) const
         best = next;
         error = next_error;
     }
-    // Where the way back leads elsewhere, the position is beyond the edge of the projection.
+    // If the forward projection of the result is elsewhere, the position is beyond the edge of the
+    // projection.
     constexpr double kAstrayShareOfRadius = 1e-6;
     const double astray = kAstrayShareOfRadius * ellipsoid->equatorial_m / unit;
     return error && error->size() < astray ? best : std::nullopt;
 }
 
-// The geographic system underneath: what its numbers mean.
+// Reads the unit, meridian and axes of the underlying geographic system.
 void Crs::Impl::readBase()
 {
     const AxisLayout base_axes = layoutOf(base);
@@ -295,7 +298,7 @@ void Crs::Impl::readBase()
     base_east_sign = base_axes.east_sign;
     base_unit_rad = base.GetAngularUnits();
     if (hasSphericalAxes(base)) {
-        // OGR does not report the unit of a spherical system; the registries only have degrees.
+        // OGR does not report the unit of a spherical system; the registries contain only degrees.
         base_unit_rad = std::numbers::pi / 180.0;
         latitude_kind = LatitudeKind::Planetocentric;
     }
@@ -362,7 +365,7 @@ Status Crs::Impl::readHorizontal()
         kind = CrsKind::Geographic;
         base = srs;
         readBase();
-        // GeoTIFF keeps the name of IAU_2015:49902 and the like, but not their spherical axes.
+        // GeoTIFF stores the name of IAU_2015:49902 and the like, but not their spherical axes.
         if (containsText(name, "ocentric")) {
             latitude_kind = LatitudeKind::Planetocentric;
         }
@@ -375,14 +378,15 @@ Status Crs::Impl::readHorizontal()
         const char* linear_unit = nullptr;
         unit = srs.GetTargetLinearUnits("PROJCS", &linear_unit);
         unit_name = linear_unit != nullptr ? linear_unit : "metre";
-        // Old planetary products write a scale factor of 0 where they mean "none".
+        // Old planetary products write a scale factor of 0 to mean "none".
         if (srs.IsProjected() != 0 && srs.FindProjParm(SRS_PP_SCALE_FACTOR) >= 0 &&
             srs.GetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0) == 0.0) {
             srs.SetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0);
             notices.emplace_back("the projection's scale factor is 0, which cannot be; 1 is used");
         }
         if (srs.IsDerivedGeographic() != 0) {
-            // OGR gives no way to the system underneath: it calls the rotated one its own base.
+            // OGR has no access to the underlying system: it reports the rotated one as its own
+            // base.
             return Error{ErrorCode::Unsupported,
                          fmt::format("CRS \"{}\" has a rotated pole, which is not supported; warp "
                                      "the map to a plain geographic or projected CRS",
@@ -495,7 +499,7 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
         impl_->kind == CrsKind::Geographic && impl_->latitude_kind == LatitudeKind::Planetocentric;
     const std::string geographic_name = body_name + (is_centric ? " / Ocentric" : " / Ographic");
     const double inverse_flattening = ellipsoid.isSphere() ? 0.0 : 1.0 / ellipsoid.flattening();
-    // In degrees whatever the unit of the system.
+    // In degrees for every unit of the system.
     const double meridian_deg = impl_->base_meridian_rad * 180.0 / std::numbers::pi;
     const QuietErrors quiet;
     bool is_moved =
@@ -503,7 +507,7 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
                       ellipsoid.equatorial_m, inverse_flattening, nullptr, meridian_deg,
                       angularUnitName(impl_->base).c_str(), impl_->base_unit_rad) == OGRERR_NONE;
     if (is_moved && impl_->kind == CrsKind::Geographic && impl_->base_east_sign < 0.0) {
-        // A geographic system takes new axes with its new datum; a projected one keeps its own.
+        // A geographic system gets new axes with its new datum; a projected one keeps its own.
         is_moved =
             srs.SetAxes(nullptr, "Latitude", OAO_North, "Longitude", OAO_West) == OGRERR_NONE;
     }
@@ -594,7 +598,7 @@ std::optional<MapPoint> Crs::toMap(GeographicPoint geographic) const
         return impl_->toBase(geographic);
     case CrsKind::Projected: {
         MapPoint base = impl_->toBase(geographic);
-        // PROJ refuses longitudes beyond 10 rad, and callers may count any number of turns.
+        // PROJ refuses longitudes beyond 10 rad, and callers may pass any number of turns.
         base.x = std::remainder(base.x, 2.0 * std::numbers::pi / impl_->base_unit_rad);
         return impl_->transform(*impl_->from_base, base.x, base.y);
     }

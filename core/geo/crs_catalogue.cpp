@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-// What people write, and the words of the database's names.
+// Words that people type, and the matching words of the database's names.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSynonyms{{
     {"lunar", "moon"},
     {"martian", "mars"},
@@ -30,7 +30,7 @@ std::string lowerCase(std::string_view text)
     return lower;
 }
 
-// Runs of letters, digits and what is not ASCII, in lower case.
+// Runs of letters, digits and non-ASCII characters, in lower case.
 std::vector<std::string> wordsOf(std::string_view text)
 {
     std::vector<std::string> words;
@@ -147,7 +147,8 @@ CrsCatalogue::search(std::string_view query, std::size_t count_max, const Body* 
     };
     std::vector<Hit> hits;
     for (const Record& record : records_) {
-        // The sum over the words: 0 for a word of the name, more for a beginning or the area.
+        // The sum over the words: 0 for a word of the name, more for a prefix or a word of the
+        // area.
         int penalty = 0;
         bool is_match = true;
         for (const std::string& word : words) {
@@ -170,7 +171,7 @@ CrsCatalogue::search(std::string_view query, std::size_t count_max, const Body* 
                               isInList(words, record.number);
         penalty += is_exact ? -100 : 0;
         penalty += body != nullptr && record.entry.body != body ? 20 : 0;
-        // Systems in present-day use before those of one mapping agency.
+        // Systems in general use come before those of a single mapping agency.
         const std::string_view code = record.entry.code;
         penalty += code.starts_with("EPSG") || code.starts_with("IAU") ? 0 : 4;
         penalty += record.entry.body == bodyNamed("Earth") && !record.name.starts_with("wgs 84") &&

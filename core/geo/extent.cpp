@@ -60,13 +60,13 @@ std::optional<GeographicExtent> geographicExtent(const Georeference& georeferenc
     double south = west;
     double north = -west;
     std::optional<double> before;
-    // Longitude as it runs on around the raster, from wherever the first corner has it.
+    // Longitude is continued around the raster from the turn of the first corner.
     for (std::size_t side = 0; side < corners.size(); ++side) {
         for (int step = 0; step <= kStepsPerSide; ++step) {
             const GridPoint edge = between(corners[side], corners[(side + 1) % corners.size()],
                                            static_cast<double>(step) / kStepsPerSide);
             auto place = georeference.toGeographic(edge);
-            if (!place) { // of a sample at a pole, half a pixel lies beyond it
+            if (!place) { // half a pixel of a sample at a pole lies beyond the pole
                 place = georeference.toGeographic(clampedToSamples(georeference, edge));
             }
             if (!place) {

@@ -1,4 +1,4 @@
-// How far a raster reaches.
+// The extent of a raster.
 #pragma once
 
 #include "core/geo/georeference.h"
@@ -16,8 +16,8 @@ struct MapExtent {
 /// Of the pixels' outer corners, rotated rasters included.
 MapExtent mapExtent(const Georeference& georeference);
 
-/// A span of longitude and of planetocentric latitude. East is at least west and at most a turn
-/// more; either may be beyond ±180°.
+/// A span of longitude and of planetocentric latitude. East is between west and west plus one turn;
+/// either may be beyond ±180°.
 struct GeographicExtent {
     Angle west;
     Angle east;
@@ -25,10 +25,10 @@ struct GeographicExtent {
     Angle north;
 };
 
-/// Of the pixels' outer edges; a pole inside the raster counts, and with it every longitude. The
-/// edges are walked in steps, so a curved one may reach further by 1e-4 of its length. Nothing
-/// where the map has no longitudes, or its outer samples lie outside its projection (a whole disk,
-/// for example). Asks PROJ some 260 times.
+/// Of the pixels' outer edges; a pole inside the raster is included, with all longitudes. The edges
+/// are sampled in steps, so a curved edge may extend further by 1e-4 of its length. Empty if the
+/// map has no longitudes, or its outer samples lie outside its projection (a whole disk, for
+/// example). Calls PROJ some 260 times.
 std::optional<GeographicExtent> geographicExtent(const Georeference& georeference);
 
 } // namespace marsview

@@ -1,13 +1,13 @@
-// The frames of reference, once and for all. Points of different frames are different types.
+// Definitions of the frames of reference. Points of different frames are different types.
 //
 //   frame       unit      axes                                              type
-//   grid        sample    column right, row down; (c, r) is a pixel centre  GridPoint
+//   grid        sample    column right, row down; (c, r) is a pixel center  GridPoint
 //   map         CRS unit  the raster's CRS as its geotransform writes it    MapPoint
 //   geographic  angle     planetocentric latitude, east-positive longitude  GeographicPoint
-//   scene       metre     x east, y north, z up; origin: dataset's centre   ScenePoint
+//   scene       meter     x east, y north, z up; origin: dataset's center   ScenePoint
 //
 // The grid differs from GDAL's pixel/line by half a pixel: GDAL counts from the outer corner of the
-// first pixel, the grid from its centre. GeoTransform and Georeference do that shift; nobody else.
+// first pixel, the grid from its center. Only GeoTransform and Georeference apply that shift.
 #pragma once
 
 #include "core/base/angle.h"
@@ -15,7 +15,7 @@
 
 namespace marsview {
 
-/// A position on the sample grid. Integer coordinates are sample centres.
+/// A position on the sample grid. Integer coordinates are sample centers.
 struct GridPoint {
     double column = 0.0;
     double row = 0.0;
@@ -29,15 +29,15 @@ struct MapPoint {
     constexpr bool operator==(const MapPoint&) const = default;
 };
 
-/// A position on a body: planetocentric latitude in [-90°, 90°], east-positive longitude.
-/// The longitude's range is whatever the producer says; consumers take any.
+/// A position on a body: planetocentric latitude in [-90°, 90°], east-positive longitude. The
+/// producer determines the longitude's range; consumers must accept any.
 struct GeographicPoint {
     Angle longitude;
     Angle latitude;
     constexpr bool operator==(const GeographicPoint&) const = default;
 };
 
-/// A position in the scene: metres east, north and up (height × exaggeration) of the origin.
+/// A position in the scene: meters east, north and up (height × exaggeration) of the origin.
 using ScenePoint = Vec3;
 
 } // namespace marsview

@@ -7,14 +7,14 @@
 namespace marsview {
 namespace {
 
-// Metres in one unit of map x and map y, signed so that positive is east and north.
+// Meters in one unit of map x and map y, signed so that positive is east and north.
 struct MetresPerUnit {
     double x = 1.0;
     double y = 1.0;
 };
 
-// A geographic raster is laid flat with the scale of its centre: one degree is worth there, in both
-// directions, what it is worth on the ellipsoid at that latitude.
+// A geographic raster is flattened with the scale at its center: there, one degree has the same
+// length in both directions as on the ellipsoid at that latitude.
 MetresPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
 {
     if (!crs) {
@@ -36,8 +36,8 @@ MetresPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
             north * crs->unit() * crs->northSign()};
 }
 
-// The way from a sample to the map or to longitude and latitude and back rounds by up to 3e-10
-// sample. Nobody means to be outside, or beside a void, by so little.
+// A round trip from a sample to map coordinates, or to longitude and latitude, rounds by up to
+// 3e-10 sample. A position that is outside the grid or next to a void by less is never intended.
 constexpr double kRounding = 1e-9;
 
 double withoutRounding(double position)
@@ -116,9 +116,9 @@ std::optional<GridPoint> Georeference::toGrid(GeographicPoint geographic) const
         return std::nullopt;
     }
     if (const auto& turn = crs_->turn()) {
-        // Among the positions that differ by whole turns, the one nearest to the centre is on the
-        // raster if any is, because no raster is wider than its neighbourhood of half a turn; one
-        // that goes all around is cut there, at its seam.
+        // Among the positions that differ by whole turns, the one nearest to the center is on the
+        // raster if any is, because no raster extends more than half a turn from its center; a
+        // global raster is cut there, at its seam.
         const double centre_x = toMap(scene_frame_.origin).x;
         map->x += *turn * std::round((centre_x - map->x) / *turn);
     }

@@ -7,10 +7,10 @@
 namespace marsview {
 namespace {
 
-// The grid counts from pixel centres, the terms from pixel corners.
+// The grid counts from pixel centers, the terms from pixel corners.
 constexpr double kCentreOfPixel = 0.5;
 
-// Sine of the smallest angle between the two pixel axes that still counts as two axes.
+// The smallest sine of the angle between the two pixel axes that counts as independent axes.
 constexpr double kSineOfAxesMin = 1e-9;
 
 } // namespace

@@ -8,8 +8,8 @@
 
 namespace marsview {
 
-/// GDAL's six geotransform terms with GDAL's meaning: the terms place the outer corner of pixel
-/// (0, 0), and x = t0 + t1·pixel + t2·line, y = t3 + t4·pixel + t5·line. All six are honoured.
+/// GDAL's six geotransform terms as GDAL defines them: the terms place the outer corner of pixel
+/// (0, 0), and x = t0 + t1·pixel + t2·line, y = t3 + t4·pixel + t5·line. All six are used.
 class GeoTransform {
 public:
     using Terms = std::array<double, 6>;
@@ -23,7 +23,7 @@ public:
 
     const Terms& terms() const noexcept { return terms_; }
 
-    /// Exact up to rounding: at most 3 ulp of the largest term met.
+    /// Exact up to rounding: at most 3 ulp of the largest term.
     MapPoint toMap(GridPoint grid) const noexcept;
     /// Inverse of toMap; round trips within 1e-9 sample for coordinates up to 1e7 samples.
     GridPoint toGrid(MapPoint map) const noexcept;

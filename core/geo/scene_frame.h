@@ -7,18 +7,19 @@
 
 namespace marsview {
 
-/// Grid to scene and back: an affine map in the plane; heights pass unchanged except for the
-/// exaggeration, which the caller chooses. All of it is arithmetic on values: any thread, the
-/// servo thread included.
+/// Grid to scene and back: an affine map in the plane; heights are unchanged except for the
+/// exaggeration, which the caller chooses. Pure arithmetic on values: any thread, the servo thread
+/// included.
 struct SceneFrame {
-    GridPoint origin;             // the grid position that becomes x = y = 0: the raster's centre
-    double east_per_column = 1.0; // metres
+    GridPoint origin;             // the grid position that becomes x = y = 0: the raster's center
+    double east_per_column = 1.0; // meters
     double east_per_row = 0.0;
     double north_per_column = 0.0;
     double north_per_row = -1.0;
     constexpr bool operator==(const SceneFrame&) const = default;
 
-    /// Whether a map can lie so: numbers, cells of 1e-9 to 1e9 m that are no lines.
+    /// Whether the frame is usable: finite, with cells of 1e-9 to 1e9 m that do not collapse to a
+    /// line.
     bool isSound() const noexcept
     {
         constexpr double kCellMMax = 1e9;

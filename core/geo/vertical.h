@@ -1,4 +1,4 @@
-// Vertical units, and what heights are counted from.
+// Vertical units and vertical datums.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace marsview {
 
-/// A unit of height. `name` is what people read ("m", "ft", "US survey ft", "km").
+/// A unit of height. `name` is for display ("m", "ft", "US survey ft", "km").
 struct VerticalUnit {
     std::string name = "m";
     double metres = 1.0;
