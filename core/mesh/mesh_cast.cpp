@@ -1,13 +1,13 @@
 // Notation. Points are sheared along the segment's longest axis so that it becomes a point, the
 // origin, in the plane of the two other axes (S. Woop, C. Benthin, I. Wald, "Watertight
-// ray/triangle intersection", Journal of Computer Graphics Techniques 2, 2013). The place of a
-// vertex there depends on the vertex alone, and on which side of an edge the origin is, is decided
-// without rounding error; so the sheared mesh has no gaps, and a segment that is inside a closed
-// object has met one of its faces.
+// ray/triangle intersection", Journal of Computer Graphics Techniques 2, 2013). The sheared
+// position of a vertex depends only on the vertex, and the side of an edge on which the origin lies
+// is decided without rounding error. So the sheared mesh has no gaps, and a segment that ends
+// inside a closed object has hit one of its faces.
 //
-// A vertex is seen from the nearer end of the segment: seen from a far start, rounding would move
-// it by more than the goal may be above it. Whether the goal is behind a face is decided from its
-// own coordinates, so that the end of this segment, which is the start of the next, is in free
+// A vertex is taken relative to the nearer end of the segment: relative to a far start, rounding
+// would move it by more than the goal may be above it. The goal's own coordinates decide whether it
+// is behind a face, so that the end of this segment, which is the start of the next, is in free
 // space for both.
 
 #include "core/mesh/mesh_cast.h"
@@ -22,8 +22,8 @@ namespace marsview {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// A start is on a face that it is nearer to than this share of the sizes of both. Four times by how
-// much MeshSurface lifts starts off their faces.
+// A start is on a face if it is nearer to it than this fraction of the sizes of both. Four times
+// the lift that MeshSurface gives to starts.
 constexpr double kOnFace = 256.0 * kEpsilon;
 
 class SegmentCast {
@@ -105,7 +105,7 @@ private:
         const Vec3 b = p2 - p0;
         const Vec3 normal = cross(a, b);
         const Vec3 v0 = (p0 - start_.base) - start_.offset;
-        // What doubles make of the plane of a sliver is worth little.
+        // Doubles represent the plane of a sliver poorly.
         const double error = 8.0 * kEpsilon * sizeOf(a) * sizeOf(b);
         const double facing = dot(normal, along_);
         if (facing > error * along_size_) {
@@ -152,8 +152,8 @@ private:
         if (w0 < 0.0 || w1 < 0.0 || w2 < 0.0 || !(sum > 0.0)) {
             return;
         }
-        // From the place in the face, not from the distances to its plane. Near the goal the rest
-        // of the way tells more digits than the way so far.
+        // Computed from the position in the face, not from the distances to its plane. Near the
+        // goal the remaining distance has more digits than the distance covered.
         const double per_sum = 1.0 / (sum * turn(along_).z);
         const auto share = [&](double Sheared::*depth) {
             const double at = w0 * s0.*depth + w1 * s1.*depth + w2 * s2.*depth;
@@ -169,7 +169,7 @@ private:
         result_.hit = MeshPlace{index, {w0 / sum, w1 / sum, w2 / sum}};
     }
 
-    // Whether the start is on the face, as far as can be told; then that is the hit.
+    // Whether the start is on the face, as far as rounding allows; then that is the hit.
     bool beginsOn(std::uint32_t index,
                   const Vec3& v0,
                   const Vec3& v1,
@@ -182,8 +182,8 @@ private:
         if (dot(nearest, nearest) > 4.0 * near_m * near_m) {
             return false;
         }
-        // What is as near to an edge or a corner is there: around a ridge the way may lead off
-        // along the other face, which is then known to be left too.
+        // A position this near to an edge or a corner is on it: around a ridge the path may leave
+        // along the other face, which then also counts as left.
         const std::array<Vec3, 3> edges{v2 - v1, v0 - v2, v1 - v0};
         double sum = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -270,12 +270,12 @@ std::array<double, 3> nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c
     }
     const double sum = std::max(wa, 0.0) + std::max(wb, 0.0) + std::max(wc, 0.0);
     if (!(sum > 0.0)) {
-        return {1.0, 0.0, 0.0}; // all of it is rounding error
+        return {1.0, 0.0, 0.0}; // the whole triangle is within rounding error
     }
     wb = std::max(wb, 0.0) / sum;
     wc = std::max(wc, 0.0) / sum;
-    // On slivers the normal is known badly; what is left of the way within the plane is small, and
-    // so is its error.
+    // On slivers the normal is inaccurate; the remaining vector within the plane is small, and so
+    // is its error.
     const Vec3 rest = a + ab * wb + ac * wc;
     const double area_squared = dot(normal, normal);
     wb = std::clamp(wb - dot(cross(rest, ac), normal) / area_squared, 0.0, 1.0);

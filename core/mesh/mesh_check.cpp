@@ -13,7 +13,7 @@
 namespace marsview {
 namespace {
 
-// Faces are dealt out to threads, and cancelling is looked for, in parts of this many.
+// Faces are distributed to threads, and cancellation is checked, in parts of this many.
 constexpr std::size_t kGrain = 4096;
 
 struct HalfEdge {
@@ -40,11 +40,11 @@ bool isDegenerate(const ScenePoint& a, const ScenePoint& b, const ScenePoint& c)
     const Vec3 bc = c - b;
     const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
     const double area = length(cross(ab, ac));
-    // Below the last, products of normals underflow.
+    // Below the last threshold, products of normals underflow.
     return !(area > 1e-12 * longest) || !(area > 1e-140) || areCollinear(a, b, c);
 }
 
-// Two axes along which a face is seen best.
+// The two axes with the largest projection of a face.
 std::array<int, 2> bestAxes(const Vec3& normal) noexcept
 {
     const double x = std::abs(normal.x);
@@ -253,7 +253,7 @@ private:
             }
         }
         std::sort(found.begin(), found.end());
-        // A copy would make all its edges faulty too.
+        // A duplicate would also make all its edges faulty.
         std::vector<std::uint32_t> copies;
         for (const auto& pair : found) {
             add(MeshFaultKind::Duplicate, pair, middle(pair[0]));
@@ -309,8 +309,8 @@ private:
         crowded_ = std::move(crowded);
     }
 
-    // The faces of a vertex, joined where they share an edge at it, are one. Vertices of edges with
-    // more than two faces have been told.
+    // The faces of a vertex, joined at shared edges, must form one fan. Vertices of edges with more
+    // than two faces have been reported already.
     void checkFans()
     {
         std::vector<std::uint32_t> begins(vertices_.size() + 1, 0);
@@ -332,8 +332,8 @@ private:
             is_crowded[ends[0]] = true;
             is_crowded[ends[1]] = true;
         }
-        // Each face at the vertex by the two neighbours it links; links are followed by sorting.
-        std::vector<std::array<std::uint32_t, 2>> links; // neighbour, position of the face
+        // Each face at the vertex as the two neighbors it links; links are followed by sorting.
+        std::vector<std::array<std::uint32_t, 2>> links; // neighbor, position of the face
         std::vector<std::uint32_t> root;
         const auto find = [&root](std::uint32_t i) {
             while (root[i] != i) {
@@ -375,7 +375,7 @@ private:
 
     void checkGaps(const TriangleTree& tree)
     {
-        // The shortest border edge at each vertex decides what is near it.
+        // The shortest border edge at each vertex determines what counts as near it.
         std::vector<double> shortest(vertices_.size(), std::numeric_limits<double>::infinity());
         std::vector<std::array<bool, 3>> is_border(faces_.size(), std::array<bool, 3>{});
         for (const HalfEdge& edge : borders_) {
@@ -483,7 +483,7 @@ private:
             }
             return false;
         case 1: {
-            // Whatever else they have in common reaches from the corner to an edge opposite.
+            // Anything else in common extends from the corner to an opposite edge.
             const std::size_t i = in_f[0];
             const std::size_t j = in_g[0];
             return with_q.meet(p[(i + 1) % 3], p[(i + 2) % 3]) ||
@@ -507,7 +507,7 @@ private:
             return side(c) * side(d) > 0;
         }
         default:
-            return false; // duplicates have been told
+            return false; // duplicates have been reported
         }
     }
 
@@ -559,7 +559,7 @@ private:
     JobMonitor& monitor_;
     std::vector<MeshFault> faults_;
     std::vector<std::uint32_t> sound_;  // faces that take part
-    std::vector<std::uint32_t> copies_; // faces that were there already
+    std::vector<std::uint32_t> copies_; // duplicates of earlier faces
     std::vector<HalfEdge> half_edges_;
     std::vector<HalfEdge> borders_;
     std::vector<std::array<std::uint32_t, 2>> crowded_;

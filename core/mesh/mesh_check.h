@@ -1,4 +1,4 @@
-// What is wrong with triangles that are to be touched.
+// Faults of triangle meshes that prevent touching them.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"
@@ -14,18 +14,18 @@ namespace marsview {
 
 enum class MeshFaultKind : std::uint8_t {
     BadCoordinate,   // not finite, or farther than TriangleMesh::kCoordinateMaxM; a vertex
-    MissingVertex,   // a face names a vertex that is not there
+    MissingVertex,   // a face names a vertex that does not exist
     Degenerate,      // a face without area: its height is below 1e-12 of its longest edge
     Duplicate,       // two faces with the same corners
     NonManifoldEdge, // an edge of more than two faces; two vertices
-    TurnedFace,      // two neighbours of which one shows its back; two vertices of their edge
+    TurnedFace,      // two neighbors with opposite orientation; two vertices of their edge
     BowTie,          // a vertex at which several fans of faces meet
     Gap,             // a border vertex on another border, without being part of it: an unwelded
                      // seam or a T-junction; the vertex and one of the other border
-    Intersection,    // two faces that meet other than in what they share
+    Intersection,    // two faces that intersect outside their shared corners and edges
 };
 
-/// One place where a kind of fault was found.
+/// The location of one fault.
 struct MeshFaultPlace {
     std::array<std::uint32_t, 2> numbers{}; // of faces or vertices, counted from 0
     ScenePoint at;
@@ -39,11 +39,11 @@ struct MeshFault {
     std::vector<MeshFaultPlace> first; // kFirstMax at most, in ascending order
 };
 
-/// Faults in the order of their kinds, none of a kind that was not found. Faces with bad
-/// coordinates, missing vertices or without area take no further part. Two borders are one where
-/// they are nearer than 1e-4 of the shortest border edge at the vertex; intersections are found
-/// without rounding error. Where `monitor` cancels, what is returned is incomplete.
-/// `tree`, if given, becomes the hierarchy over the faces that took part.
+/// Faults grouped by kind, in the order of MeshFaultKind; only kinds that occur. Faces with bad
+/// coordinates, missing vertices or no area are excluded from the further checks. Two borders
+/// coincide if they are nearer than 1e-4 of the shortest border edge at the vertex; intersections
+/// are found without rounding error. If `monitor` cancels, the result is incomplete. `tree`, if
+/// given, becomes the hierarchy over the checked faces.
 std::vector<MeshFault> findMeshFaults(std::span<const ScenePoint> vertices,
                                       std::span<const MeshFace> faces,
                                       JobMonitor& monitor,

@@ -1,4 +1,4 @@
-// Numbers are read by std::from_chars, which knows no locale.
+// Numbers are parsed with std::from_chars, which ignores the locale.
 
 #include "core/mesh/mesh_file.h"
 
@@ -21,7 +21,7 @@
 namespace marsview {
 namespace {
 
-// Progress is told, and cancelling looked for, at every so many lines or elements.
+// Progress is reported, and cancellation checked, after this many lines or elements.
 constexpr std::size_t kReportEvery = 1U << 14U;
 
 bool isBlank(char c) noexcept
@@ -29,7 +29,7 @@ bool isBlank(char c) noexcept
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// What a message shows of a file: short and printable.
+// A short, printable excerpt of a file for messages.
 std::string shown(std::string_view text)
 {
     constexpr std::size_t kMost = 40;
@@ -47,7 +47,7 @@ public:
         : text_(text)
     {}
 
-    // The next line that holds words other than a comment; false at the end.
+    // Moves to the next line with words other than a comment; false at the end.
     bool next(char comment)
     {
         while (at_ < text_.size()) {
@@ -106,7 +106,7 @@ std::optional<T> parsed(std::string_view word)
     T value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if constexpr (std::is_floating_point_v<T>) {
-        // Too large becomes infinite, too small nothing: the check of the mesh decides.
+        // Overflow becomes infinite, underflow 0: the check of the mesh decides.
         if (error == std::errc::result_out_of_range && end == word.data() + word.size()) {
             return word.find("e-") != std::string_view::npos ||
                            word.find("E-") != std::string_view::npos
@@ -142,7 +142,7 @@ public:
     }
 
 protected:
-    // Nothing where all is well.
+    // Empty on success.
     using Problem = std::optional<Error>;
 
     virtual Problem parse() = 0;
@@ -159,7 +159,7 @@ protected:
     {
         return Error{ErrorCode::Invalid, fmt::format("{}: {}", path_, what)};
     }
-    // To be asked once for each line or element.
+    // Call once for each line or element.
     Problem cancelled(std::size_t position)
     {
         if (++asked_ % kReportEvery != 0) {
@@ -217,7 +217,7 @@ private:
             "vt",     "vn",     "o",      "g",     "s",   "l",        "p",       "usemtl",
             "mtllib", "usemap", "maplib", "bevel", "lod", "d_interp", "c_interp"};
         Lines lines(text_);
-        // Faces may name vertices that come later only by absolute numbers; those are checked last.
+        // Faces may refer to later vertices only by absolute numbers; those are checked last.
         std::uint64_t highest = 0;
         std::size_t highest_line = 0;
         while (lines.next('#')) {
@@ -424,7 +424,7 @@ private:
         return std::nullopt;
     }
 
-    // One number; nothing where there is none. Integers of 32 bits are exact as doubles.
+    // One number; empty if missing. Integers of 32 bits are exact as doubles.
     std::optional<double> number(Type type)
     {
         if (encoding_ == Encoding::Ascii) {
@@ -575,9 +575,9 @@ private:
     Encoding encoding_ = Encoding::Ascii;
     std::vector<Element> elements_;
     std::uint64_t vertex_count_ = 0;
-    std::size_t at_ = 0;      // of what is binary
-    Lines lines_{text_};      // of what is ascii
-    std::string_view word_{}; // that was no number
+    std::size_t at_ = 0;      // in binary data
+    Lines lines_{text_};      // in ascii data
+    std::string_view word_{}; // that is not a number
 };
 
 // 3D Systems, "StereoLithography interface specification", 1989.
@@ -586,12 +586,12 @@ public:
     using Reader::Reader;
 
 private:
-    static constexpr std::size_t kHeader = 84; // the number of triangles is its end
+    static constexpr std::size_t kHeader = 84; // ends with the number of triangles
     static constexpr std::size_t kTriangle = 50;
 
     Problem parse() override
     {
-        // Binary files may begin with "solid" too, but only they have just this size.
+        // Binary files may begin with "solid" too, but only they have exactly this size.
         const bool has_count = text_.size() >= kHeader;
         const std::uint64_t count = has_count ? littleEndian(kHeader - 4) : 0;
         if (has_count && text_.size() == kHeader + kTriangle * count) {
@@ -692,7 +692,7 @@ private:
                    : atLine(lines.number(), "the file ends before \"endsolid\"");
     }
 
-    // Vertices are their coordinates; -0 is 0.
+    // Equal coordinates mean the same vertex; -0 equals 0.
     std::uint32_t welded(const ScenePoint& p)
     {
         const std::array<std::uint64_t, 3> key{std::bit_cast<std::uint64_t>(p.x + 0.0),

@@ -11,15 +11,16 @@
 namespace marsview {
 
 /// Reads the triangles of an OBJ, PLY (ascii, binary of either byte order) or STL (ascii, binary)
-/// file; which one, its ending tells, in either case. Coordinates are taken as scene metres.
+/// file; the file extension, in either case, selects the format. Coordinates are taken as scene
+/// meters.
 /// - Polygons are cut into fans from their first corner, which is right for planar convex ones;
-///   others are likely to be refused as intersecting by TriangleMesh::build.
-/// - STL has no shared vertices: corners with equal coordinates become one. Others are taken as
-///   they are.
-/// - Normals, colours, textures, groups and materials are skipped; so are OBJ's lines and points,
-///   while its curves and free-form surfaces are refused.
-/// A file that cannot be read, or ends early, or holds something else gives one sentence with the
-/// file, the line or byte, and what was found there.
+///   TriangleMesh::build is likely to refuse others as intersecting.
+/// - STL has no shared vertices: corners with equal coordinates become one. Other formats keep
+///   their vertices.
+/// - Normals, colors, textures, groups and materials are skipped, and so are OBJ's lines and
+///   points. Its curves and free-form surfaces are refused.
+/// If a file cannot be read, ends early or has other content, the error names the file, the line or
+/// byte, and the content found there.
 Result<TriangleSoup> readTriangles(const std::string& path, JobMonitor& monitor);
 
 /// Reads, multiplies z by the exaggeration and checks: a mesh that can be touched, or why not.

@@ -1,5 +1,5 @@
 // Notation as in Shewchuk's paper: an expansion is a sum of doubles that do not overlap, of
-// increasing magnitude, so that its sign is that of the last. Zeros are left out.
+// increasing magnitude, so that its sign is that of the last one. Zeros are dropped.
 
 #include "core/mesh/predicates.h"
 
@@ -119,7 +119,7 @@ int signOf(double value) noexcept
     return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
 }
 
-// `difference` gives the coordinates of a corner, seen from the point.
+// `difference` gives the coordinates of a corner, relative to the point.
 template <typename Difference>
 int exactSideOfPlane(const Vec3& a,
                      const Vec3& b,
@@ -141,7 +141,7 @@ int exactSideOfPlane(const Vec3& a,
     return -sum(sum(from_a, from_b), from_c).sign();
 }
 
-// The side of the origin, where doubles can tell; otherwise 0.
+// The side of the origin if doubles can decide it; otherwise 0.
 int quickSideOfPlane(const Vec3& ap, const Vec3& bp, const Vec3& cp, double bound) noexcept
 {
     const double bxcy = bp.x * cp.y;

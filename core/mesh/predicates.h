@@ -1,4 +1,4 @@
-// On which side a point is, without rounding error.
+// Orientation tests without rounding error.
 //
 // Computed in doubles where an error bound proves the sign, else in expansions of doubles
 // (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
@@ -10,15 +10,15 @@
 
 namespace marsview {
 
-/// 1 where `p` is on the side of the plane through a, b and c from which these are seen
-/// counter-clockwise, -1 on the other, 0 on the plane or where a, b and c are collinear.
+/// 1 if `p` is on the side of the plane through a, b and c from which these are seen
+/// counter-clockwise, -1 on the other, 0 on the plane or if a, b and c are collinear.
 int sideOfPlane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept;
 
 /// The same for the point `p` + `rest`, whose sum need not be a double.
 int sideOfPlane(
     const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, const Vec3& rest) noexcept;
 
-/// 1 where (px, py) is to the left of the line from a to b, -1 to the right, 0 on it.
+/// 1 if (px, py) is to the left of the line from a to b, -1 to the right, 0 on it.
 int sideOfLine(double ax, double ay, double bx, double by, double px, double py) noexcept;
 
 /// The sign of a·d - b·c.

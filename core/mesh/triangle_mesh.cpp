@@ -59,7 +59,7 @@ void TriangleMesh::connect()
     for (std::uint32_t corner = 0; corner < corner_count; ++corner) {
         fan_corners_[fill[vertexAt(corner)]++] = corner;
     }
-    // The face beyond an edge is among those of its end: there the edge begins.
+    // The face beyond an edge is among the faces of the edge's end, where its own edge begins.
     across_.assign(corner_count, kNone);
     for (std::uint32_t corner = 0; corner < corner_count; ++corner) {
         const std::uint32_t from = vertexAt(nextCorner(corner));

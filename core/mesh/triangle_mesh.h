@@ -1,4 +1,4 @@
-// A general triangle mesh that is sound, and who neighbours whom in it.
+// A sound general triangle mesh with its adjacency.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -14,27 +14,28 @@
 
 namespace marsview {
 
-/// Triangles that may be anything, such as what a file holds.
+/// Unchecked triangles, such as the content of a file.
 struct TriangleSoup {
-    std::vector<ScenePoint> vertices; // scene metres
+    std::vector<ScenePoint> vertices; // scene meters
     std::vector<MeshFace> faces;      // indices of vertices, counter-clockwise seen from free space
 };
 
 /// Seamless triangles in which mesh_check.h finds no fault: open or closed, of any number of
-/// objects, one-sided. Vertices without a face may be among them.
+/// objects, one-sided. Vertices without a face are allowed.
 ///
 /// A *corner* is 3 × face + i: corner i of a face, and also the edge opposite, from corner i + 1 to
-/// corner i + 2. Immutable, any thread, allocates nothing once made. About 70 bytes a face.
+/// corner i + 2. Immutable, any thread, allocates nothing after construction. About 70 bytes per
+/// face.
 class TriangleMesh {
 public:
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    /// More are refused, so that corners can be counted.
+    /// More are refused, so that corner indices fit.
     static constexpr std::size_t kFacesMax = std::size_t{1} << 30U;
-    /// Farther coordinates, in metres, are refused.
+    /// Farther coordinates, in meters, are refused.
     static constexpr double kCoordinateMaxM = 1e12;
 
-    /// Refused where a fault is found; the message counts each kind and names the first places.
-    /// Cancelled through `monitor`. Takes about 3 µs a face, on all cores.
+    /// Refuses triangles with faults; the message counts each kind and names the first locations.
+    /// `monitor` can cancel it. Takes about 3 µs per face, on all cores.
     static Result<std::shared_ptr<const TriangleMesh>> build(TriangleSoup soup,
                                                              JobMonitor& monitor);
 
@@ -60,7 +61,7 @@ public:
     std::uint32_t across(std::uint32_t corner) const noexcept { return across_[corner]; }
     /// The corners at a vertex, counter-clockwise seen from free space, each beginning where the
     /// last one ended. At the border the first begins there; elsewhere the last ends where the
-    /// first begins. Empty where no face has the vertex.
+    /// first begins. Empty if no face has the vertex.
     std::span<const std::uint32_t> fan(std::uint32_t vertex) const noexcept
     {
         return {fan_corners_.data() + fan_begins_[vertex],

@@ -49,7 +49,7 @@ struct Item {
 
 constexpr std::size_t kBins = 16;
 constexpr std::size_t kLeafMax = 8;
-constexpr double kVisitCost = 1.2; // of looking at a node's children, in faces
+constexpr double kVisitCost = 1.2; // of visiting a node's children, in faces
 
 } // namespace
 
@@ -113,7 +113,8 @@ private:
         return node;
     }
 
-    // Puts the items of the first child before those of the second. `begin` where a leaf is better.
+    // Puts the items of the first child before those of the second. Returns `begin` if a leaf is
+    // better.
     std::size_t
     split(std::size_t begin, std::size_t end, std::size_t depth, const Box& box, const Box& centres)
     {

@@ -1,5 +1,5 @@
-// A hierarchy of boxes around triangles: what is near a segment, a point or a box is found without
-// looking at the rest.
+// A hierarchy of boxes around triangles, for finding the triangles near a segment, a point or a box
+// without visiting the rest.
 #pragma once
 
 #include "core/geo/frames.h"
@@ -20,13 +20,13 @@ using MeshFace = std::array<std::uint32_t, 3>;
 
 /// Binary, split by the surface-area heuristic over bins (I. Wald, "On fast construction of
 /// SAH-based bounding volume hierarchies", 2007). Boxes are floats, rounded outward, relative to
-/// the middle of all: 32 bytes a node, about 25 bytes a face. Immutable, any thread. Visits
-/// allocate nothing and are bounded; they may name a face whose triangle is not met, never leave
-/// out one that is.
+/// the middle of all: 32 bytes per node, about 25 bytes per face. Immutable, any thread. Visits
+/// allocate nothing and are bounded. They may include a face whose triangle is not hit, but never
+/// omit one that is.
 class TriangleTree {
 public:
     TriangleTree() = default;
-    /// Over the faces `which`. Their indices are valid and their coordinates finite.
+    /// A tree over the faces `which`, with valid indices and finite coordinates.
     TriangleTree(std::span<const ScenePoint> vertices,
                  std::span<const MeshFace> faces,
                  std::vector<std::uint32_t> which);
@@ -36,21 +36,21 @@ public:
     {
         return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t);
     }
-    /// The middle of all boxes, from which `alongSegment` counts.
+    /// The middle of all boxes, the origin for `alongSegment`.
     const ScenePoint& middle() const noexcept { return middle_; }
-    /// No box reaches farther from the middle, along an axis.
+    /// The largest distance of a box from the middle along an axis.
     double reach() const noexcept { return reach_; }
 
-    /// Calls visit(face, t_max) with faces whose boxes, grown by `slack`, the segment
-    /// middle() + from + t · along meets for t in [0, t_max], about in the order in which it meets
-    /// them; `t_max` begins as 1 and visit may lessen it.
+    /// Calls visit(face, t_max) with faces whose boxes, grown by `slack`, the segment middle() +
+    /// from + t · along hits for t in [0, t_max], approximately in the order of the hits; `t_max`
+    /// begins as 1 and visit may reduce it.
     template <typename F>
     void alongSegment(const Vec3& from, const Vec3& along, double slack, F&& visit) const noexcept;
-    /// Calls visit(face, limit) with faces whose boxes are within sqrt(limit) of `point`, about
-    /// nearest first; `limit` begins as infinity and visit may lessen it.
+    /// Calls visit(face, limit) with faces whose boxes are within sqrt(limit) of `point`,
+    /// approximately nearest first; `limit` begins as infinity and visit may reduce it.
     template <typename F>
     void nearestFirst(const ScenePoint& point, F&& visit) const noexcept;
-    /// Calls visit(face) with each face whose box meets the box from `low` to `high`.
+    /// Calls visit(face) with each face whose box intersects the box from `low` to `high`.
     template <typename F>
     void inBox(const ScenePoint& low, const ScenePoint& high, F&& visit) const noexcept;
 
@@ -62,7 +62,7 @@ private:
         std::uint32_t count; // of its faces; 0: it has children
     };
     static_assert(sizeof(Node) == 32);
-    // The first levels are split where it pays most, those below in halves, so 32 more are enough.
+    // The first levels are split at the lowest cost, those below in halves, so 32 more are enough.
     static constexpr std::size_t kLevelsOfChoice = 48;
     static constexpr std::size_t kLevelsMax = kLevelsOfChoice + 33;
     static constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -108,7 +108,7 @@ void TriangleTree::alongSegment(const Vec3& from,
         end_shift[i] = origin[i] + (is_forward[i] ? -grown : grown);
     }
     double t_max = 1.0;
-    // Where the segment comes into the box; infinite where it does not.
+    // Where the segment enters the box; infinite if it does not.
     const auto enters = [&](const Node& node) {
         double begin = 0.0;
         double end = t_max;
