@@ -43,7 +43,7 @@ private:
         {
             Result<Tile> tile = reader_->read(id);
             if (!tile && isDamageToKept(tile.error(), source_->map_.is_copy) && isStillSo(id)) {
-                // Where it cannot be noted, the sentence alone has to do.
+                // If it cannot be noted, the message alone has to suffice.
                 static_cast<void>(
                     source_->map_.folder.noteDamage(source_->map_.path, tile.error().message));
             }
@@ -51,7 +51,7 @@ private:
         }
 
     private:
-        // A moment's lack of memory or files is no damage.
+        // A temporary lack of memory or files is not damage.
         bool isStillSo(const TileId& id) const
         {
             const Result<std::unique_ptr<TileReader>> again = source_->source_->open();
@@ -62,8 +62,8 @@ private:
         std::shared_ptr<const KeptSource> source_;
     };
 
-    // Readers that are open go on with the files that were there; what they check tiles by is still
-    // right. New ones do not fit the new files, and open neither.
+    // Open readers continue with the old files, and their checksums are still valid. New readers
+    // would not match the rebuilt files, so opening one is an error.
     Error anew() const
     {
         return {ErrorCode::Invalid,
@@ -80,7 +80,7 @@ private:
 
     std::shared_ptr<const TileSource> source_;
     KeptMap map_;
-    std::filesystem::file_time_type made_; // the level file, when this was opened
+    std::filesystem::file_time_type made_; // of the level file, when this was opened
 };
 
 } // namespace
@@ -92,7 +92,7 @@ std::shared_ptr<const TileSource> keptSource(std::shared_ptr<const TileSource> s
 
 bool isDamageToKept(const Error& error, bool is_copy)
 {
-    // Levels are Invalid where they are damaged; a raster is Unreadable.
+    // Damaged levels report Invalid, a damaged raster Unreadable.
     return error.code == ErrorCode::Invalid || (is_copy && error.code == ErrorCode::Unreadable);
 }
 

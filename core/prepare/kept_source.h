@@ -1,4 +1,4 @@
-// Tiles of a map that lies in the folder of prepared maps.
+// Tiles of a map in the folder of prepared maps.
 #pragma once
 
 #include "core/prepare/map_folder.h"
@@ -13,18 +13,18 @@ namespace marsview {
 
 struct KeptMap {
     MapFolder folder;
-    std::string path;             // as MapFolder::pathFor() has it
-    std::optional<FileLock> lock; // keeps it there as long as the source lives
-    /// Whether the raster is a copy that lies there too, and not one that is used in place.
+    std::string path;             // from MapFolder::pathFor()
+    std::optional<FileLock> lock; // protects the map while the source lives
+    /// Whether the raster is a copy in that folder rather than one used in place.
     bool is_copy = true;
 };
 
-/// The same tiles. Where what lies in the folder turns out to be damaged, that is noted there, so
-/// that it is made anew when the map is opened next.
+/// Returns the same tiles. If the prepared map turns out to be damaged, this is noted in the
+/// folder, so that the map is rebuilt when it is opened next.
 std::shared_ptr<const TileSource> keptSource(std::shared_ptr<const TileSource> source, KeptMap map);
 
-/// Whether an error of reading or opening such a map is about what was prepared, rather than about
-/// a raster of the user's.
+/// Whether an error of reading or opening such a map concerns the prepared files rather than the
+/// user's raster.
 bool isDamageToKept(const Error& error, bool is_copy);
 
 } // namespace marsview

@@ -1,8 +1,8 @@
-// Layers by the body they are on: how a list presents them.
+// Layers grouped by body, as lists present them.
 //
 // The order of a session is one list, top first. Layers on different bodies are never in the
-// picture together, so people see one list for each body; the order within a group is that of the
-// session.
+// picture together, so the user sees one list for each body; the order within a group is that of
+// the session.
 #pragma once
 
 #include "core/session/session.h"
@@ -22,13 +22,13 @@ struct LayerGroup {
 std::vector<LayerGroup> layerGroups(const Session& session);
 
 /// The index to give to moved() so that the layer has `place` other layers of its group above it;
-/// beyond the end is the end. Nothing if there is no such layer or it is alone in its group.
+/// values beyond the end mean the end. Empty if the layer does not exist or is alone in its group.
 std::optional<std::size_t> indexForPlace(const Session& session, LayerId id, std::size_t place);
 
 enum class GroupStep { Up, Down };
 
 /// The index to give to moved() so that the layer changes places with its neighbor in its group.
-/// Nothing if there is no neighbor on that side.
+/// Empty if it has no neighbor on that side.
 std::optional<std::size_t> indexBeside(const Session& session, LayerId id, GroupStep step);
 
 } // namespace marsview

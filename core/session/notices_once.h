@@ -1,4 +1,4 @@
-// Sentences for the user that are to be told once.
+// Notices that are shown to the user once.
 #pragma once
 
 #include <mutex>
@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-/// Whoever takes them first tells them. Any thread.
+/// The first caller to take them shows them. Any thread.
 class NoticesOnce {
 public:
     void add(std::string notice)
@@ -17,7 +17,7 @@ public:
         notices_.push_back(std::move(notice));
     }
 
-    /// All that nobody has taken yet.
+    /// All notices not taken yet.
     std::vector<std::string> take()
     {
         const std::lock_guard lock(mutex_);

@@ -1,4 +1,4 @@
-// Which maps of a scene the picture shows, and which of their elevations.
+// The maps of a scene that the picture shows, and the elevation range of each.
 #pragma once
 
 #include "core/session/scene_surface.h"
@@ -14,10 +14,9 @@ struct PictureProbes {
     int rows = 64;    // at least 2
 };
 
-/// One entry a map of `ground`, top first: the lowest and highest elevation, in metres and not
-/// exaggerated, of its surface at probes that are spread evenly over the picture, corners included.
-/// Nothing for a map that no probe meets. Maps in tiles answer with the tiles that are loaded. A
-/// ray takes some 5 µs.
+/// One entry per map of `ground`, top first: the lowest and highest elevation, in meters without
+/// exaggeration, at probes spread evenly over the picture, corners included. Empty for a map that
+/// no probe hits. Tiled maps use the tiles that are loaded. A ray takes some 5 µs.
 std::vector<std::optional<HeightRange>> rangesInPicture(const SceneSurface& ground,
                                                         const OrbitCamera& camera,
                                                         const Viewport& viewport,

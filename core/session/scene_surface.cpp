@@ -10,11 +10,11 @@ namespace {
 // A ray may pass this many covered surfaces of one map: more than a picture has columns.
 constexpr int kCoveredMax = 4096;
 
-// Behind a covered hit the ray starts again this share of its way further on.
+// Behind a covered hit the ray restarts this fraction of its length further along.
 constexpr double kStep = 1e-9;
 
-// What to add to the map coordinate x of `map` to come to the turn of longitude on which `scene`
-// has the same place.
+// The offset to add to the map coordinate x of `map` to reach the turn of longitude on which
+// `scene` has the same position.
 double turnsBetween(const Georeference& scene, const Georeference& map, GridPoint centre)
 {
     const auto turn = scene.crs() ? scene.crs()->turn() : std::nullopt;
@@ -35,7 +35,7 @@ SceneFrame frameWithin(const Georeference& scene, const Georeference& map)
         // Not Georeference::toGrid(), which rounds: samples of the map may be much smaller.
         return scene.sceneFrame().toScene(scene.transform().toGrid({at.x + turns_x, at.y}), 0.0);
     };
-    // Slopes over all of the map, as their errors are multiplied by its columns.
+    // Computed over the whole map, because errors are multiplied by its columns.
     const double last_column = static_cast<double>(map.columns() - 1);
     const double last_row = static_cast<double>(map.rows() - 1);
     const ScenePoint first = onto_scene({0.0, 0.0});
@@ -46,7 +46,7 @@ SceneFrame frameWithin(const Georeference& scene, const Georeference& map)
                       .east_per_row = row.x,
                       .north_per_column = column.y,
                       .north_per_row = row.y};
-    // The centre lies where the scene has it.
+    // The center keeps its position in the scene.
     const ScenePoint at = onto_scene(centre);
     const GridPoint back = result.toGrid({-at.x, -at.y, 0.0});
     result.origin = {centre.column + back.column, centre.row + back.row};

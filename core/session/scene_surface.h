@@ -1,4 +1,4 @@
-// The ground of a scene: the surfaces of the maps that are shown together.
+// The terrain of a scene: the surfaces of the maps that are shown together.
 #pragma once
 
 #include "core/session/map.h"
@@ -18,7 +18,7 @@ struct SceneMap {
     SceneFrame frame; // from its grid to the scene
 };
 
-/// A point of the ground.
+/// A point of the terrain.
 struct GroundPoint {
     std::size_t index = 0;   // of the map, counted from the top
     GridPoint grid;          // of that map
@@ -26,8 +26,9 @@ struct GroundPoint {
     double distance_m = 0.0; // along the ray
 };
 
-/// Maps on top of each other: at each place the ground is the uppermost map that has a surface
-/// there. The uppermost map's scene frame is the scene's. Immutable; copies share; any thread.
+/// Maps on top of each other: at each position the terrain is that of the uppermost map with a
+/// surface there. The scene uses the scene frame of the uppermost map. Immutable; copies share; any
+/// thread.
 class SceneSurface {
 public:
     SceneSurface() = default;
@@ -37,17 +38,17 @@ public:
     bool isEmpty() const noexcept { return maps_.empty(); }
     const std::vector<SceneMap>& maps() const noexcept { return maps_; }
 
-    /// Where a ray first meets the ground, at full resolution; of a map in tiles, at the finest
-    /// that is there.
+    /// The first hit of a ray on the terrain, at full resolution; for a tiled map, at the finest
+    /// resident level.
     std::optional<GroundPoint> cast(const Ray& ray, double exaggeration) const;
-    /// Height of the ground in metres, of a map in tiles by what is there; NaN where there is none.
-    /// The outermost samples are ground, whatever rounding makes of a place on them.
+    /// Height of the terrain in meters, for a tiled map from the resident tiles; NaN outside the
+    /// maps and in voids. The outermost samples belong to the terrain regardless of rounding.
     double height(double east_m, double north_m) const;
-    /// The map whose surface that is; nothing where there is no ground.
+    /// The map with that surface; empty where there is no terrain.
     std::optional<std::size_t> mapAt(double east_m, double north_m) const;
     /// Around all maps.
     SceneBox box(double exaggeration) const;
-    /// The smallest side of a pixel in metres.
+    /// The smallest pixel side in meters.
     double pixelMetres() const;
 
 private:
@@ -57,7 +58,7 @@ private:
     std::vector<SceneMap> maps_;
 };
 
-/// The frame that takes the grid of `map` into the scene of `scene`: through their common map
+/// The frame that maps the grid of `map` into the scene of `scene`: through their common map
 /// coordinates, on the turn of longitude that brings the two together.
 SceneFrame frameWithin(const Georeference& scene, const Georeference& map);
 

@@ -11,8 +11,8 @@
 namespace marsview {
 namespace {
 
-// Places at which two systems are compared, as shares of a raster. Uneven, so that no symmetry of a
-// projection hides a difference; none on an edge, where projections end.
+// Positions at which two systems are compared, as fractions of a raster. Uneven, so that no
+// symmetry of a projection hides a difference; none on an edge, where projections end.
 constexpr std::array<std::array<double, 2>, 6> kProbes{{
     {0.5, 0.5},
     {0.07, 0.11},
@@ -43,7 +43,7 @@ LayerState stateBeside(const Map& scene, const Map& map)
         return LayerState::UnknownPlace;
     }
     if (info.body != scene.info().body) {
-        return LayerState::OtherCrs; // only one of the two is on a body that we know
+        return LayerState::OtherCrs; // only one of the two is on a known body
     }
     return isSameCrs(*scene.info().crs, *info.crs, map.georeference()) ? LayerState::Shown
                                                                        : LayerState::OtherCrs;
@@ -55,7 +55,7 @@ bool isShownIn(const std::vector<const Layer*>& shown, LayerId id)
                        [id](const Layer* layer) { return layer->id == id; });
 }
 
-// `after` with the exaggeration of `before` where a layer stayed in the picture.
+// `after` with the exaggeration of `before` if a layer stayed in the picture.
 Session withPictureKept(const Session& before, Session after)
 {
     const std::vector<const Layer*> then = shownLayers(before);
@@ -248,7 +248,7 @@ bool isSameCrs(const Crs& a, const Crs& b, const Georeference& sample)
                           row_share * static_cast<double>(sample.rows() - 1)});
         const auto place = b.toGeographic(here);
         if (!place) {
-            continue; // outside the projection: says nothing
+            continue; // outside the projection: inconclusive
         }
         const auto there = a.toMap(*place);
         if (!there) {

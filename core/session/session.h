@@ -1,4 +1,4 @@
-// The document as a value: which maps are open, in what order, and how they look.
+// The document as a value: the open maps, their order and their appearance.
 //
 // Every change is a pure function from one session to the next, so undo is keeping the one before.
 // Sessions share their maps; a copy costs a few words a layer.
@@ -18,7 +18,7 @@
 
 namespace marsview {
 
-/// Names a layer for as long as its session and all that follow from it live. Never reused.
+/// Identifies a layer in a session and in all sessions derived from it. Never reused.
 enum class LayerId : std::uint32_t { None = 0 };
 
 struct Layer {
@@ -39,7 +39,7 @@ struct Layer {
 
 struct Session {
     std::vector<Layer> layers; // top first
-    /// The layer that panels and status bar speak of; None only where there is no layer.
+    /// The layer that panels and the status bar describe; None only without layers.
     LayerId active = LayerId::None;
     TerrainLook look;
     std::uint32_t next_id = 1;
@@ -47,65 +47,66 @@ struct Session {
     bool operator==(const Session&) const = default;
 };
 
-/// Null where there is no such layer.
+/// Null if the layer does not exist.
 const Layer* layerOf(const Session& session, LayerId id);
 inline const Layer* activeLayer(const Session& session)
 {
     return layerOf(session, session.active);
 }
-/// Counted from the top; the number of layers where there is no such layer.
+/// Counted from the top; the number of layers if it does not exist.
 std::size_t indexOf(const Session& session, LayerId id);
 
 /// The layer on top, under a new id, and active. Samples make room for what is none. An empty name
 /// becomes the last part of the map's path.
 ///
-/// Where a change of layers leaves a layer in the picture that was there before, the picture keeps
-/// its exaggeration: all layers that are shown take it over.
+/// If a layer stays in the picture through a change of layers, the picture keeps its exaggeration:
+/// all layers that are shown adopt it.
 Session added(Session session, Layer layer);
 
-// The following leave a session as it is where there is no such layer.
+// The following leave the session unchanged if the layer does not exist.
 
-/// Where the active layer goes, the one that takes its place becomes active, or else the one above.
+/// If the active layer is removed, the layer that takes its place becomes active, or else the one
+/// above.
 Session removed(Session session, LayerId id);
-/// To `index` in the order that results; beyond the end is the end.
+/// To `index` in the resulting order; values beyond the end mean the end.
 Session moved(Session session, LayerId id, std::size_t index);
 Session activated(Session session, LayerId id);
 Session withVisibility(Session session, LayerId id, bool is_visible);
 Session withRamp(Session session, LayerId id, std::string ramp);
 Session withStretch(Session session, LayerId id, const ColorStretch& stretch);
-/// Nothing: the range that suits the map.
+/// Empty: the default range for the map.
 Session withSlopeRange(Session session, LayerId id, const std::optional<SlopeRange>& range);
 Session withName(Session session, LayerId id, std::string name);
 /// A layer whose exaggeration suited the old map gets the one that suits the new map.
 Session withMap(Session session, LayerId id, std::shared_ptr<const Map> map);
 Session withLook(Session session, const TerrainLook& look);
 
-/// Whether a layer is in the picture, and if not, why not.
+/// Whether a layer is in the picture, and if not, the reason.
 enum class LayerState {
     Shown,
     Hidden,      // by the user
     OtherBody,   // than the scene's
     OtherCrs,    // than the scene's
-    UnknownPlace // it or the scene has no CRS, so that nobody knows how they lie to each other
+    UnknownPlace // it or the scene has no CRS, so their relative position is unknown
 };
 
-/// One state a layer, in the order of the layers. The topmost visible layer is the scene: it is
-/// shown, and with it the visible layers of the same body and CRS (see isSameCrs). Nothing is ever
-/// bent into another CRS on the way to the screen.
+/// One state per layer, in the order of the layers. The topmost visible layer defines the scene: it
+/// is shown together with the visible layers of the same body and CRS (see isSameCrs). Layers are
+/// never reprojected for display.
 std::vector<LayerState> placement(const Session& session);
 
-/// The layers in the picture, top first; empty where all are hidden.
+/// The layers in the picture, top first; empty if all are hidden.
 std::vector<const Layer*> shownLayers(const Session& session);
 
-/// Vertical exaggeration of the picture; 1 where all layers are hidden.
+/// Vertical exaggeration of the picture; 1 if all layers are hidden.
 double exaggerationOf(const Session& session);
 /// For all layers in the picture; `exaggeration` is positive.
 Session withExaggeration(Session session, double exaggeration);
 
-/// True where map coordinates of `a` mean the same places as those of `b`, so that the grids of
-/// rasters in them differ by an affine map: the same system under whatever name, up to whole turns
-/// of longitude. `sample` is a raster that lies in `b`; its places are compared, to a thousandth of
-/// its pixels. Asks PROJ some ten times.
+/// True if map coordinates in `a` mean the same positions as in `b`, so that the grids of rasters
+/// in them differ by an affine map: the same system under any name, up to whole turns of longitude.
+/// `sample` is a raster in `b`; positions on it are compared to a thousandth of its pixels. Calls
+/// PROJ some ten times.
 bool isSameCrs(const Crs& a, const Crs& b, const Georeference& sample);
 
 } // namespace marsview
