@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kEntriesMax = 64;
 
-// What comes with rasters, and is opened through them or not at all.
+// Files that accompany rasters and are opened only through them.
 bool isCompanion(const std::string& name)
 {
     static constexpr std::array<std::string_view, 22> kExtensions{
@@ -38,8 +38,8 @@ bool isCompanion(const std::string& name)
                        [&lower](std::string_view extension) { return lower.ends_with(extension); });
 }
 
-// Opening costs a child process for each: only what a driver recognises by its beginning, and raw
-// data, which has none.
+// Opening costs a child process for each: only files whose beginning a driver recognizes, and raw
+// data, which has no header.
 bool mayBeRaster(const std::string& name)
 {
     static constexpr std::array<std::string_view, 8> kRaw{".bil", ".bip", ".bsq", ".flt",
@@ -54,7 +54,7 @@ struct Candidate {
     ArchiveRaster raster;
     bool is_picture = false;
     bool has_bytes = false;
-    std::vector<std::string> parts; // other files that it is read from
+    std::vector<std::string> parts; // other files that it reads
 };
 
 // The largest files that may be rasters: opening thousands takes minutes.
@@ -159,7 +159,7 @@ std::vector<ArchiveRaster> findRasters(const std::string& archive)
     return rasters;
 }
 
-// When the archive was last written to; empty where it is not on a disk.
+// When the archive was last written to; empty if it is not on a disk.
 std::string stampOf(const std::string& archive)
 {
     struct stat status {};
@@ -192,7 +192,7 @@ std::string archiveNameFor(const std::string& path)
 std::vector<ArchiveRaster> rastersInArchive(const std::string& archive)
 {
     ensureGdal();
-    // One opening of a map asks several times.
+    // Opening a map calls this several times.
     static std::mutex mutex;
     static std::map<std::string, std::vector<ArchiveRaster>> known;
     constexpr std::size_t kKnownMax = 16;

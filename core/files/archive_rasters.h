@@ -1,4 +1,4 @@
-// Archives with several rasters: which one is opened.
+// Chooses the raster to open in an archive with several.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@ struct ArchiveRaster {
     std::size_t rows = 0;
 };
 
-/// The name under which GDAL reads what is in an archive: of .zip, .tar, .tgz and .tar.gz, and of
-/// such a name itself ("/vsizip/maps.zip"). Empty for everything else.
+/// GDAL's name for the contents of an archive: for .zip, .tar, .tgz and .tar.gz files, and for such
+/// names themselves ("/vsizip/maps.zip"). Empty for everything else.
 std::string archiveNameFor(const std::string& path);
 
 /// The rasters with elevations in an archive, from archiveNameFor, the one to open first: samples
 /// of more than 8 bits before bytes, which are mostly pictures, masks and counts; then the larger
-/// one; then by name. Files that belong to another raster, as the data of a label, are left out,
-/// and so are color pictures unless there is nothing else. Opens the 64 largest files, if GDAL
-/// recognizes them, each behind the guard of open_guard.h. Remembers the last few archives. Any
+/// one; then by name. Files that belong to another raster, such as the data of a label, are
+/// skipped, and so are color pictures unless there is nothing else. Opens the 64 largest files that
+/// GDAL recognizes, each through open_guard.h. Caches the results of the last few archives. Any
 /// thread.
 std::vector<ArchiveRaster> rastersInArchive(const std::string& archive);
 
-/// Says which of several was opened and by which names the others are; empty for one.
+/// A notice that names the opened raster and the others; empty if there is only one.
 std::string archiveNotice(const std::vector<ArchiveRaster>& rasters, const std::string& opened);
 
 } // namespace marsview

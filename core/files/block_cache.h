@@ -1,12 +1,12 @@
-// What GDAL holds of decoded blocks.
+// The size of GDAL's cache of decoded blocks.
 #pragma once
 
 #include <cstddef>
 
 namespace marsview {
 
-/// How many bytes of decoded blocks GDAL may hold: what the user set as GDAL_CACHEMAX, in the
-/// environment or in GDAL's configuration file, else 32 MiB, or more after allowLargeBlockCache().
+/// The limit of GDAL's block cache in bytes: GDAL_CACHEMAX from the environment or GDAL's
+/// configuration file, otherwise 32 MiB, or more after allowLargeBlockCache().
 std::size_t blockCacheBytes();
 
 } // namespace marsview

@@ -28,7 +28,7 @@ std::optional<unsigned> hexDigit(char c)
                                         : std::nullopt;
 }
 
-// Nothing where a percent sign is not followed by two hexadecimal digits, or they mean a zero byte.
+// Empty if a percent sign is not followed by two hexadecimal digits, or if they encode a zero byte.
 std::optional<std::string> percentDecoded(std::string_view text)
 {
     std::string decoded;

@@ -1,4 +1,4 @@
-// "file://" addresses, as file managers and browsers give them.
+// "file://" addresses, as used by file managers and browsers.
 #pragma once
 
 #include "core/base/result.h"
@@ -7,9 +7,9 @@
 
 namespace marsview {
 
-/// The local path that a "file:" address names (RFC 8089: "file:///a%20b.tif",
-/// "file://localhost/a.tif", "file:/a.tif"), percent-decoded. Any other text is returned as it is.
-/// Invalid where the address names another computer, a relative path, or is badly encoded.
+/// The local path of a "file:" address (RFC 8089: "file:///a%20b.tif", "file://localhost/a.tif",
+/// "file:/a.tif"), percent-decoded. Any other text is returned as it is. Invalid if the address
+/// names another computer or a relative path, or is badly encoded.
 Result<std::string> localPathOf(const std::string& address);
 
 } // namespace marsview

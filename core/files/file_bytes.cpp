@@ -12,9 +12,9 @@ namespace marsview {
 
 namespace {
 
-// A server sends these bytes and no more. GDAL 3.6 does so for several pieces alone, and asks for
-// two that meet in one request; a single one it reads in blocks, ever more of them at once, which
-// is twice the bytes.
+// Requests exactly these bytes from a server. GDAL 3.6 does so only for several ranges, and merges
+// two adjoining ones into one request. It reads a single range in ever larger blocks, which doubles
+// the bytes.
 bool readExactly(VSILFILE* file, std::uint64_t offset, RawArray<std::byte>& bytes)
 {
     if (bytes.size() < 2) {
@@ -44,7 +44,7 @@ Result<FileBytes> FileBytes::open(const std::string& path)
     if (!bytes.file_) {
         VSIStatBufL stat{};
         const bool is_there = VSIStatExL(path.c_str(), &stat, VSI_STAT_EXISTS_FLAG) == 0;
-        // A server that answers with anything but "not found" may have the file.
+        // If a server's error is not "not found", it may have the file.
         const std::string reason = messages.firstFailure("");
         if (is_there || (!reason.empty() && reason.find("404") == std::string::npos)) {
             return Error{ErrorCode::Unreadable,
@@ -73,7 +73,7 @@ Result<RawArray<std::byte>> FileBytes::read(std::uint64_t offset, std::uint64_t 
     const GdalMessages messages;
     auto* file = static_cast<VSILFILE*>(file_.get());
     RawArray<std::byte> bytes(count);
-    // An answer of a server that is cut short is asked for again.
+    // Truncated responses of a server are requested again.
     constexpr int kAttemptsAtServer = 3;
     bool is_read = false;
     for (int i = 0; !is_read && i < (has_exact_ranges_ ? kAttemptsAtServer : 1); ++i) {

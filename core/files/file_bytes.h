@@ -15,15 +15,15 @@ namespace marsview {
 /// one thread at a time.
 class FileBytes {
 public:
-    /// NotFound where there is nothing, Unreadable where it cannot be opened.
+    /// NotFound if it does not exist, Unreadable if it cannot be opened.
     static Result<FileBytes> open(const std::string& path);
 
     const std::string& path() const noexcept { return path_; }
-    /// As it was when opened.
+    /// The size when the file was opened.
     std::uint64_t size() const noexcept { return size_; }
 
-    /// All `count` bytes from `offset` on; Unreadable where there are fewer. Nothing is allocated
-    /// that the file is too short for.
+    /// All `count` bytes from `offset` on; Unreadable if there are fewer; then no buffer is
+    /// allocated.
     Result<RawArray<std::byte>> read(std::uint64_t offset, std::uint64_t count) const;
 
 private:
@@ -35,8 +35,8 @@ private:
 
     std::string path_;
     std::uint64_t size_ = 0;
-    bool has_exact_ranges_ = false;     // it is at a server
-    std::unique_ptr<void, Close> file_; // GDAL's
+    bool has_exact_ranges_ = false;     // for a file on a server
+    std::unique_ptr<void, Close> file_; // GDAL's file handle
 };
 
 } // namespace marsview

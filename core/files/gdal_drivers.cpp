@@ -13,7 +13,7 @@ namespace {
 
 // Formats without elevations. A user who needs one of them converts it with gdal_translate.
 constexpr std::array kLeftOut{
-    // Web services and databases: not files, and slow or without end to ask.
+    // Web services and databases: not files, and slow or endless to query.
     "WCS",
     "WMS",
     "WMTS",
@@ -30,7 +30,7 @@ constexpr std::array kLeftOut{
     "Rasterlite",
     "MBTiles",
     "ESRIC",
-    // Documents, drawings, and pictures for people.
+    // Documents, drawings, and images without elevations.
     "PDF",
     "CAD",
     "KMLSUPEROVERLAY",
@@ -80,7 +80,7 @@ constexpr std::array kLeftOut{
     "IRIS",
 };
 
-// README.md, "What it reads". Their files name other files in ways that OpenGuard looks for.
+// README.md, "What it reads". OpenGuard checks the ways in which their files refer to other files.
 constexpr std::array<const char*, 15> kPlain{
     "GTiff", "SRTMHGT", "DTED", "USGSDEM", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
     "ISIS3", "ISIS2",   "PDS",  "PDS4",    "VICAR",   "GSBG",           nullptr};

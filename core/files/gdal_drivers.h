@@ -1,4 +1,4 @@
-// Which of GDAL's drivers this program uses, and how far each is trusted.
+// The GDAL drivers that this program uses, and how far each is trusted.
 #pragma once
 
 #include <optional>
@@ -6,12 +6,12 @@
 
 namespace marsview {
 
-/// Leaves out drivers of formats that hold no elevations: web services, radar and optical imagery,
+/// Deregisters drivers of formats without elevations: web services, radar and optical imagery,
 /// scanned charts, documents, pictures for the web. The list in the .cpp is the only one.
 void leaveOutDrivers();
 
-/// Names, ended by a null pointer, of drivers that read simple formats with code of GDAL's own:
-/// they open files in this process. What any other driver opens is tried in a child process first.
+/// A null-terminated list of drivers that read simple formats with GDAL's own code: they open files
+/// in this process. Files of any other driver are tried in a child process first.
 const char* const* plainDrivers();
 
 /// Whether damaged files of that format have been read in numbers without a crash: plain drivers,
@@ -22,7 +22,7 @@ bool isWellTested(const std::string& driver);
 /// The name of a driver that recognises the file by its beginning, without opening it.
 std::optional<std::string> recognisingDriverFor(const std::string& name);
 
-/// The name of the driver that was left out, where it recognises the file; for a sentence.
+/// The deregistered driver that recognizes the file, if any; for messages.
 std::optional<std::string> leftOutDriverFor(const std::string& name);
 
 /// The version of GDAL in use, "3.6.2".

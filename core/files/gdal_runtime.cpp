@@ -14,13 +14,12 @@ namespace marsview {
 namespace {
 
 // Enough for a row of 256² int16 tiles across 100 000 columns; GDAL's default, 5 % of the memory,
-// would hold whole maps twice. Scattered reads need more (allowLargeBlockCache()).
+// would keep a second copy of whole maps. Scattered reads need more (allowLargeBlockCache()).
 constexpr GIntBig kBlockCacheBytes = GIntBig{32} << 20;
 
-// What servers need to be read from with patience, but not for ever: most of these concern HTTP
-// alone. The user's own settings stay. GDAL's pieces of 16 KiB are right as they are: with 32 or
-// 64 KiB a map of 16384² samples opened with its first tile in as many requests, and 1.5 and 2
-// times the bytes.
+// Retries and timeouts for reading from servers; most concern only HTTP. The user's settings take
+// precedence. GDAL's chunks of 16 KiB are kept: with 32 or 64 KiB, opening a map of 16384² samples
+// and reading its first tile took as many requests and 1.5 or 2 times the bytes.
 void setDefaults()
 {
     struct Option {
@@ -31,7 +30,7 @@ void setDefaults()
         {"GDAL_PAM_ENABLED", "YES"},
         {"GDAL_NUM_THREADS", "ALL_CPUS"},   // compressed tiles decode in parallel
         {"GDAL_HTTP_CONNECTTIMEOUT", "10"}, // seconds
-        // Slower than this many bytes a second for so many seconds counts as no answer.
+        // Fewer bytes per second than this, for this many seconds, count as a timeout.
         {"GDAL_HTTP_LOW_SPEED_LIMIT", "100"},
         {"GDAL_HTTP_LOW_SPEED_TIME", "10"},
         {"GDAL_HTTP_MAX_RETRY", "3"}, // after 0.25, some 0.5 and 1.2 seconds
@@ -45,7 +44,7 @@ void setDefaults()
     }
 }
 
-// GDAL's texts end in full stops and may run over several lines.
+// GDAL's messages end in a full stop and may span several lines.
 std::string asOneLine(const char* text)
 {
     std::string line(text);
@@ -68,7 +67,7 @@ void ensureGdal()
     static std::once_flag once;
     std::call_once(once, [] {
         CPLSetErrorHandler(CPLQuietErrorHandler);
-        GDALAllRegister(); // which reads the user's configuration file
+        GDALAllRegister(); // also reads the user's configuration file
         leaveOutDrivers();
         setDefaults();
         if (!hasUserOption("GDAL_CACHEMAX")) {

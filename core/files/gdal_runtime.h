@@ -10,13 +10,14 @@ namespace marsview {
 
 /// Registers the drivers (gdal_drivers.h) and bounds GDAL's block cache, once. Any thread; cheap
 /// after the first call. Silences GDAL's own printing to stderr: messages are collected by
-/// GdalMessages. Settings of the user, in the environment or in GDAL's configuration file, stay.
+/// GdalMessages. Settings of the user, in the environment or in GDAL's configuration file, take
+/// precedence.
 void ensureGdal();
 
-/// Whether the user set an option of GDAL's. After ensureGdal().
+/// Whether the user set a GDAL option. Call after ensureGdal().
 bool hasUserOption(const char* name);
 
-/// Collects what GDAL reports on this thread while it lives.
+/// Collects GDAL's messages on this thread during its lifetime.
 class GdalMessages {
 public:
     GdalMessages();
@@ -25,7 +26,7 @@ public:
     GdalMessages& operator=(const GdalMessages&) = delete;
 
     bool hasFailed() const noexcept { return !failures_.empty(); }
-    /// The first failure as one line without a full stop; `otherwise` where there was none.
+    /// The first failure as one line without a full stop; `otherwise` if there was none.
     std::string firstFailure(const std::string& otherwise) const;
     const std::vector<std::string>& failures() const noexcept { return failures_; }
     const std::vector<std::string>& warnings() const noexcept { return warnings_; }

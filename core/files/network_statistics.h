@@ -1,4 +1,4 @@
-// What has been fetched of files that are read by address.
+// Statistics of network reads.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@ namespace marsview {
 
 struct NetworkStatistics {
     std::uint64_t request_count = 0;
-    std::uint64_t downloaded_bytes = 0; // content, without what the protocol adds
+    std::uint64_t downloaded_bytes = 0; // content, without protocol overhead
 };
 
-/// Counting begins with the first call. Any thread.
+/// Starts counting on the first call. Any thread.
 void countNetworkUse();
 /// Since counting began.
 NetworkStatistics networkStatistics();

@@ -58,7 +58,7 @@ bool isTiff(std::string_view beginning)
     return beginning.starts_with("II") || beginning.starts_with("MM");
 }
 
-// A label may say that its samples are in a file of another format.
+// A label may refer to samples in a file of another format.
 bool namesOtherFormat(std::string_view label)
 {
     constexpr std::array<std::string_view, 5> kWords{"JP2", "JPEG", "TIFF", "ENCODING_TYPE",
@@ -67,7 +67,7 @@ bool namesOtherFormat(std::string_view label)
                        [label](std::string_view word) { return holds(label, word); });
 }
 
-// Overviews and masks beside a raster are opened with it, by any driver.
+// GDAL also opens overviews and masks next to a raster, with any driver.
 bool hasStrangeCompanions(const std::string& path)
 {
     std::error_code none;
@@ -96,8 +96,8 @@ std::uintmax_t bytesOf(const std::string& path)
     return failure ? 0 : bytes;
 }
 
-// GDAL 3.6 takes time without end for a row beyond the last one of a text grid: each row that is
-// missing is looked for twice, by way of all rows before it.
+// GDAL 3.6 takes practically forever for a row beyond the end of a text grid: it searches for each
+// missing row twice, through all rows before it.
 Status checkTextHolds(GDALDataset& dataset, const std::string& path)
 {
     const std::string_view driver = dataset.GetDriverName();
@@ -116,8 +116,8 @@ Status checkTextHolds(GDALDataset& dataset, const std::string& path)
                              columns, bytes, bytesOf(path))};
 }
 
-// ENVI and EHdr open any file that has a header of its name next to it, as a netCDF file, which
-// GDAL leaves to its own driver.
+// ENVI and EHdr open any file that has a header of its name next to it, even a netCDF file, which
+// has its own driver in GDAL.
 bool isOfAnotherDriver(const std::string& name)
 {
     const std::optional<std::string> driver = recognisingDriverFor(name);
@@ -168,7 +168,7 @@ PlainAttempt openPlain(const std::string& name)
     return attempt;
 }
 
-// What a driver of GDAL did to the child, for people.
+// A message about what a GDAL driver did to the child process.
 Error refusalOf(const ProbeAnswer& answer, const std::vector<std::string>& names, double seconds)
 {
     const std::string which = answer.name == 0 ? std::string("this file")
@@ -253,7 +253,7 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
 struct Silence {
     std::mutex mutex;
     int count = 0;
-    std::array<int, 2> kept{-1, -1}; // stdout and stderr as they were
+    std::array<int, 2> kept{-1, -1}; // the original stdout and stderr
 };
 
 constexpr std::array<int, 2> kOutputs{STDOUT_FILENO, STDERR_FILENO};
@@ -316,7 +316,7 @@ QuietOutput::QuietOutput(bool is_needed)
     Silence& shared = silence();
     const std::lock_guard lock(shared.mutex);
     if (shared.count++ == 0) {
-        std::fflush(stdout); // what is the program's own
+        std::fflush(stdout); // the program's own output
         const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
         for (std::size_t i = 0; i < kOutputs.size() && nowhere >= 0; ++i) {
             shared.kept[i] = fcntl(kOutputs[i], F_DUPFD_CLOEXEC, 3);
@@ -338,7 +338,7 @@ QuietOutput::~QuietOutput()
     Silence& shared = silence();
     const std::lock_guard lock(shared.mutex);
     if (--shared.count == 0) {
-        std::fflush(stdout); // what is the library's
+        std::fflush(stdout); // the library's output
         for (std::size_t i = 0; i < kOutputs.size(); ++i) {
             if (shared.kept[i] >= 0) {
                 dup2(shared.kept[i], kOutputs[i]);

@@ -1,8 +1,8 @@
 // The one door through which GDAL is let at files.
 //
 // A plain file (plainDrivers(), on a disk, naming no other files) is opened in this process, after
-// checks of our own. Anything else is opened by a child process first (open_probe.h), unless that
-// was done before (open_memory.h); then here, by the same driver alone.
+// our own checks. Anything else is opened by a child process first (open_probe.h), unless that was
+// done before (open_memory.h); then in this process, by the same driver only.
 #pragma once
 
 #include "core/base/result.h"
@@ -18,21 +18,21 @@ namespace marsview {
 
 struct GuardedDataset {
     GDALDatasetUniquePtr dataset;
-    std::size_t name = 0;       // of those that were asked for
+    std::size_t name = 0;       // index into the requested names
     std::string opening_driver; // which may differ from the dataset's
     bool prints = false;        // a library prints lines: read within a QuietOutput
 };
 
 /// Opens the first of the names, at least one, that GDAL opens. The error is a sentence without the
-/// path, empty where no driver recognises any name; Unreadable where the file cannot hold what it
-/// promises or a driver does not survive it, TooLarge where that takes too much memory, Cancelled
-/// where the thread's OpeningJob is cancelled. Any thread.
+/// path, empty if no driver recognizes any name. Unreadable if the file is shorter than its header
+/// requires or a driver crashes on it, TooLarge if opening takes too much memory, Cancelled if the
+/// thread's OpeningJob is cancelled. Any thread.
 Result<GuardedDataset> openFirst(const std::vector<std::string>& names);
 
-/// The same raster once more, by the driver that opened it.
+/// Opens the same raster again, with the driver that opened it.
 GDALDatasetUniquePtr reopen(const std::string& name, const GuardedDataset& opened);
 
-/// While one lives, what is printed to stdout and stderr in this process is lost.
+/// Discards all output to stdout and stderr of this process during its lifetime.
 class QuietOutput {
 public:
     explicit QuietOutput(bool is_needed);

@@ -26,7 +26,7 @@ using Json = nlohmann::json;
 // Another number where drivers, limits or what is read of a file change.
 constexpr int kFormat = 2;
 
-// Of the folder: a few hundred bytes each.
+// Limit for the folder: a few hundred bytes each.
 constexpr std::size_t kFilesMax = 4096;
 constexpr std::size_t kHeldMax = 1024;
 constexpr std::uintmax_t kFileBytesMax = std::uintmax_t{16} << 20;
@@ -39,7 +39,7 @@ fs::path folder()
     return userFolder("XDG_CACHE_HOME", ".cache") / "marsview" / "opened";
 }
 
-// Relative names are of this working folder.
+// Relative names depend on the working folder.
 std::string keyOf(const std::vector<std::string>& names)
 {
     std::error_code none;
@@ -118,7 +118,7 @@ void makeRoom(const fs::path& in)
     }
 }
 
-// A failure costs the next opening a child process, and no more.
+// A failure only costs a child process at the next opening.
 void save(const std::string& key, const Remembered& remembered)
 {
     const fs::path path = fileFor(key);

@@ -23,8 +23,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kProgram = "marsview-probe";
 
-// Beside the program, in libexec of its prefix, or in a build tree's bin; empty where it is
-// missing.
+// Next to the program, in libexec of its prefix, or in a build tree's bin; empty if it is missing.
 fs::path findProbe()
 {
     std::error_code none;
@@ -50,7 +49,7 @@ double numberFrom(const char* variable, double otherwise)
     return number && *number > 0.0 && *number < 1e9 ? *number : otherwise;
 }
 
-// What the child wrote last, and where it was before.
+// The child's last output and its last known state.
 struct Report {
     std::optional<Json> answer;
     std::size_t name = 0;

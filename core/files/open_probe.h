@@ -1,4 +1,4 @@
-// Opening a raster in a child process, to find out whether GDAL survives it.
+// Opens a raster in a child process, to find out whether GDAL survives it.
 //
 // Drivers of GDAL hand files to libraries that abort, overflow the stack, never end or take all
 // memory on some of them. Such an end is the child's alone. Used inside core/files and by
@@ -17,32 +17,33 @@ namespace marsview {
 struct ProbeAnswer {
     enum class Kind {
         Opened,    // `driver` opens `name`, and its first samples can be read
-        NotOpened, // no driver opens any name; `message` of the one that recognised it, or empty
-        Crashed,   // of `driver`, on `name`, as are the following
+        NotOpened, // no driver opens any name; `message` is from the one that recognized it, or
+                   // empty
+        Crashed,   // `driver` crashed on `name`; the following likewise
         TimedOut,
         OutOfMemory,
     };
     Kind kind = Kind::NotOpened;
-    std::size_t name = 0; // of those that were asked for
+    std::size_t name = 0; // index into the requested names
     std::string driver;
-    std::vector<std::string> files; // where Opened: all that it is made of, as GDAL lists them
+    std::vector<std::string> files; // if Opened: all files of the raster, as GDAL lists them
     std::string message;
     bool prints = false; // a library prints lines to stderr
 };
 
-/// Has a child open the first of the names that GDAL opens, and read samples for a moment. Bounds:
-/// probeMemoryBytes(), and probeSeconds() for files of `bytes` together. Cancelled where the job,
-/// which may be null, is cancelled; Unreadable where the child cannot be started.
+/// Lets a child open the first of the names that GDAL opens and read samples for a moment. Limits:
+/// probeMemoryBytes(), and probeSeconds() for files of `bytes` in total. Cancelled if the job,
+/// which may be null, is cancelled; Unreadable if the child cannot be started.
 Result<ProbeAnswer>
 probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMonitor* job);
 
-/// What a child may take at most: 1 GiB, or MARSVIEW_OPEN_MB in the environment.
+/// The memory limit of a child: 1 GiB, or MARSVIEW_OPEN_MB in the environment.
 std::size_t probeMemoryBytes();
-/// 10 s and one more for every 10 MB, or MARSVIEW_OPEN_SECONDS in the environment.
+/// The time limit: 10 s plus 1 s for every 10 MB, or MARSVIEW_OPEN_SECONDS in the environment.
 double probeSeconds(std::size_t bytes);
 
-/// The child's own part: reads names from stdin, ended by zero bytes each, answers on stdout.
-/// Returns its exit status.
+/// The child's own part: reads zero-terminated names from stdin and answers on stdout. Returns its
+/// exit status.
 int runProbe();
 
 } // namespace marsview

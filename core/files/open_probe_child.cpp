@@ -36,7 +36,7 @@ constexpr std::chrono::milliseconds kLongReadingTime{2000};
 // Larger blocks are left to the reader of the samples, who bounds them.
 constexpr double kBlockBytesMax = 256e6;
 
-int answers = -1; // stdout as it was before libraries were kept from printing there
+int answers = -1; // the original stdout, before it was redirected away from libraries
 
 void send(const Json& line)
 {
@@ -58,8 +58,8 @@ void onOutOfMemory()
     _exit(ignored > 0 ? 3 : 4);
 }
 
-// Some libraries make files while they look at one: HDF5 made 20 000 next to a damaged one. Where
-// the kernel has no Landlock, nothing is forbidden.
+// Some libraries create files while they open one: HDF5 created 20 000 next to a damaged one.
+// Without Landlock in the kernel, writing is not restricted.
 void forbidWriting()
 {
     landlock_ruleset_attr rules{};
@@ -100,7 +100,7 @@ struct Attempt {
     std::string failure;
 };
 
-// As GDAL goes through its drivers, but says which one before it is let at the file.
+// Tries the drivers in GDAL's order, but reports each before it opens the file.
 Attempt open(const std::string& name, std::size_t index)
 {
     GDALDriverManager& manager = *GetGDALDriverManager();
@@ -148,7 +148,7 @@ void readSamples(GDALRasterBand& band, Clock::time_point end)
                              GDT_Float64, 0, 0, nullptr) == CE_None &&
                Clock::now() < end;
     };
-    // In order: going back or far ahead takes seconds in archives and in text.
+    // In order: seeking back or far ahead takes seconds in archives and text.
     for (int row = 0; row < band.GetYSize(); row += rows) {
         for (int column = 0; column < band.GetXSize(); column += columns) {
             if (!read_at(column, row)) {
@@ -164,7 +164,7 @@ void readSamples(GDALRasterBand& band, Clock::time_point end)
     }
 }
 
-// What RasterFile asks for.
+// Makes the same calls as RasterFile.
 std::vector<std::string> use(GDALDataset& dataset)
 {
     const GdalMessages messages;
@@ -203,7 +203,7 @@ std::vector<std::string> use(GDALDataset& dataset)
     return {listed.List(), listed.List() + listed.Count()};
 }
 
-// Of a file at a server, on the conditions that it is read on later.
+// For a file on a server, under the conditions of later reads.
 Json answerFor(const std::string& name, std::size_t index, std::string& failure)
 {
     std::optional<RemoteScope> scope;
@@ -229,13 +229,13 @@ Json answerFor(const std::string& name, std::size_t index, std::string& failure)
 int runProbe()
 {
     answers = dup(STDOUT_FILENO);
-    // What libraries print there counts as printed to stderr.
+    // Output of libraries to stdout is redirected to stderr.
     if (answers < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
         return 1;
     }
     forbidWriting();
-    // Memory that a library uses before it was written to: a pointer in it is then wrong here, and
-    // not by chance in the program that opens the file next.
+    // Fills allocated memory: a library that uses an uninitialized pointer then fails here, rather
+    // than by chance in the program that opens the file next.
     mallopt(M_PERTURB, 0xa5);
     std::set_new_handler(onOutOfMemory);
     const std::vector<std::string> names = readNames();

@@ -1,12 +1,12 @@
-// Which job the rasters of a thread are opened for.
+// The job for which a thread opens rasters.
 #pragma once
 
 #include "core/base/job_monitor.h"
 
 namespace marsview {
 
-/// While it lives, a raster that is being opened on this thread is given up, with the error
-/// Cancelled, when the job is cancelled. The innermost counts.
+/// During its lifetime, cancelling the job aborts the opening of a raster on this thread with the
+/// error Cancelled. The innermost object counts.
 class OpeningJob {
 public:
     /// `job`, which may be null, outlives this object.
@@ -19,7 +19,7 @@ public:
     OpeningJob(const OpeningJob&) = delete;
     OpeningJob& operator=(const OpeningJob&) = delete;
 
-    /// Null where there is none.
+    /// Null if there is none.
     static const JobMonitor* current() noexcept { return current_; }
 
 private:

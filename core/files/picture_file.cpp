@@ -34,7 +34,7 @@ write(const Picture& picture, const std::string& path, const char* driver_name, 
     }
     const GDALDatasetUniquePtr source(
         memory->Create("", picture.width, picture.height, 3, GDT_Byte, nullptr));
-    // GDAL's interface for reading and writing is one and takes no pointer to const.
+    // GDAL uses one function for reading and writing, with a pointer to non-const.
     auto* pixels = const_cast<std::uint8_t*>(picture.rgb.data()); // NOLINT
     if (!source || source->RasterIO(GF_Write, 0, 0, picture.width, picture.height, pixels,
                                     picture.width, picture.height, GDT_Byte, 3, nullptr, 3,
@@ -47,7 +47,7 @@ write(const Picture& picture, const std::string& path, const char* driver_name, 
         const GDALDatasetUniquePtr written(
             driver->CreateCopy(unfinished.c_str(), source.get(), FALSE, options, nullptr, nullptr));
         if (!written) {
-            std::filesystem::remove(unfinished, error); // of a full disk, say
+            std::filesystem::remove(unfinished, error); // for example, after a full disk
             return refusal();
         }
     }

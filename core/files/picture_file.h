@@ -16,10 +16,10 @@ struct Picture {
     std::vector<std::uint8_t> rgb;
 };
 
-/// Writes a PNG file, in place of one of that name only when it is whole. Unreadable where it
-/// cannot be written.
+/// Writes a PNG file, and replaces an existing file only when the new one is complete. Unreadable
+/// if it cannot be written.
 Status writePng(const Picture& picture, const std::string& path);
-/// The same as a TIFF file, compressed without loss.
+/// The same as a TIFF file, with lossless compression.
 Status writeTiff(const Picture& picture, const std::string& path);
 
 } // namespace marsview

@@ -100,8 +100,7 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
     std::error_code failure;
     const fs::file_status status = fs::status(path, failure);
     if (status.type() == fs::file_type::not_found) {
-        // GDAL's own connection strings ("NETCDF:file:variable") look like files that are not
-        // there.
+        // GDAL's own connection strings ("NETCDF:file:variable") look like missing files.
         if (path.find(':') != std::string::npos) {
             return names;
         }
@@ -116,7 +115,7 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
                                  std::strerror(errno))}; // NOLINT(concurrency-mt-unsafe)
     }
     if (status.type() == fs::file_type::directory) {
-        return names; // some formats are directories; GDAL knows
+        return names; // some formats are directories; GDAL decides
     }
     if (status.type() != fs::file_type::regular) {
         return Error{ErrorCode::Unsupported,
@@ -131,7 +130,7 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
     } else if (extension == ".hdr") {
         appendSiblings(path, kDataExtensions, names);
     } else if (extension == ".prj") {
-        // GDAL would take the text of a projection beside a header for its samples.
+        // GDAL would take the projection text next to a header for its samples.
         std::vector<std::string> data;
         appendSiblings(path, kDataExtensions, data);
         names.insert(names.begin(), data.begin(), data.end());

@@ -1,4 +1,4 @@
-// From the path that a user gives to the name that GDAL opens.
+// Converts a user's path to the names that GDAL opens.
 #pragma once
 
 #include "core/base/result.h"
@@ -9,11 +9,11 @@
 namespace marsview {
 
 /// The names to try in turn for `path`: the path itself, then its companions: the label of bare
-/// data (.img → .lbl, .xml), the data of a header (.hdr → .dem,
-/// .flt, …), the rasters in an archive in the order of rastersInArchive(). Companions are found
-/// whatever the case of their extension. NotFound or Unreadable where the path is a file name and
-/// there is no such readable, non-empty file. Addresses ("https://…", "s3://…") become the name
-/// that reads them in pieces; other names with a scheme ("NETCDF:…") pass unchecked.
+/// data (.img → .lbl, .xml), the data of a header (.hdr → .dem, .flt, …), the rasters in an archive
+/// in the order of rastersInArchive(). The case of a companion's extension is ignored. NotFound or
+/// Unreadable if the path is a file name without a readable, non-empty file. Addresses
+/// ("https://…", "s3://…") become the name that reads them in pieces; other names with a scheme
+/// ("NETCDF:…") pass unchecked.
 Result<std::vector<std::string>> rasterNamesFor(const std::string& path);
 
 bool isFolder(const std::string& path);

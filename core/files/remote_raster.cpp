@@ -20,7 +20,7 @@ namespace {
 struct Scheme {
     std::string_view address;
     std::string_view name;
-    bool is_kept; // the address follows the name as it is
+    bool is_kept; // the address follows unchanged
 };
 
 constexpr std::array<Scheme, 4> kSchemes{{{"https://", "/vsicurl/", true},
@@ -36,7 +36,7 @@ bool startsWithIgnoringCase(std::string_view text, std::string_view prefix)
     return text.size() >= prefix.size() && EQUALN(text.data(), prefix.data(), prefix.size());
 }
 
-// The version of each file that this process has asked for last: pieces that GDAL keeps are of it.
+// The last version of each file that this process asked for: GDAL's cached chunks belong to it.
 std::mutex known_mutex;
 
 std::map<std::string, RemoteVersion>& knownVersions()
@@ -50,7 +50,7 @@ void dropKept(const std::string& remote_name)
     VSICurlPartialClearCache(remote_name.c_str());
 }
 
-// The number after `words` in `text`; 0 where there is none.
+// The number after `words` in `text`; 0 if there is none.
 int numberAfter(std::string_view text, std::string_view words)
 {
     const std::size_t at = text.find(words);
@@ -92,7 +92,7 @@ Error statusFailure(const std::string& remote_name, int status)
     }
 }
 
-// After a request for the headers failed: GDAL tells why where a file is opened.
+// After a request for the headers failed: opening the file makes GDAL report the reason.
 Error reasonOfSilence(const std::string& remote_name)
 {
     dropKept(remote_name);
@@ -129,8 +129,8 @@ Error reasonOfSilence(const std::string& remote_name)
                         addressOf(remote_name), text)};
 }
 
-// A strong ETag tells every change. A weak one never meets the condition (RFC 9110, 13.1.1); then
-// the time has to do.
+// A strong ETag shows every change. A weak one never satisfies the condition (RFC 9110, 13.1.1);
+// then the time is used.
 std::string conditionOf(const RemoteVersion& version)
 {
     if (!version.etag.empty() && !version.etag.starts_with("W/")) {
@@ -142,7 +142,7 @@ std::string conditionOf(const RemoteVersion& version)
     return "";
 }
 
-// GDAL_HTTP_HEADERS is a list with commas, of texts that may be quoted.
+// GDAL_HTTP_HEADERS is a comma-separated list of texts that may be quoted.
 std::string quoted(const std::string& text)
 {
     std::string result = "\"";
@@ -164,7 +164,7 @@ bool says(const GdalMessages& messages, std::string_view words)
            std::any_of(messages.warnings().begin(), messages.warnings().end(), has);
 }
 
-// The status of the answer that GDAL gave up on, or 0.
+// The status of the response on which GDAL gave up, or 0.
 int lastStatus(const GdalMessages& messages)
 {
     for (const std::vector<std::string>& texts : {messages.failures(), messages.warnings()}) {

@@ -61,7 +61,7 @@ std::streamoff endOfHeader(std::ifstream& stream)
     }
 }
 
-// Up to `count`; nothing where the job was cancelled.
+// Up to `count`; empty if the job was cancelled.
 std::optional<std::uint64_t> wordsIn(const std::string& path, std::uint64_t count)
 {
     std::ifstream stream(path, std::ios::binary);
@@ -90,7 +90,7 @@ std::optional<std::uint64_t> wordsIn(const std::string& path, std::uint64_t coun
 }
 
 std::mutex mutex;
-// Of files that are complete: how they were then.
+// Stamps of files known to be complete.
 std::map<std::string, std::string>& complete()
 {
     static std::map<std::string, std::string> stamps;
@@ -111,7 +111,7 @@ Status checkTextGrid(const std::string& path, std::uint64_t count)
     }
     std::error_code failure;
     const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
-    // A digit and a blank each: so many need not be counted.
+    // Each number takes at least a digit and a space: beyond this size counting is unnecessary.
     const std::optional<std::uint64_t> words =
         bytes / 2 + 1 < count ? bytes / 2 + 1 : wordsIn(path, count);
     if (!words) {

@@ -1,4 +1,4 @@
-// Whether an ASCII grid has as many numbers as its header promises.
+// Checks that an ASCII grid has as many numbers as its header declares.
 #pragma once
 
 #include "core/base/result.h"
@@ -8,9 +8,9 @@
 
 namespace marsview {
 
-/// For ESRI and GRASS ASCII grids: Unreadable, a sentence without the path, where fewer than
-/// `count` words follow the header. A zero byte ends the words, as for GDAL. Reads the file, a
-/// gigabyte in a second or two; the answer is remembered until the file changes. Any thread.
+/// For ESRI and GRASS ASCII grids: Unreadable, a sentence without the path, if fewer than `count`
+/// words follow the header. A zero byte ends the words, as in GDAL. Reads the file, a gigabyte in a
+/// second or two; the result is cached until the file changes. Any thread.
 Status checkTextGrid(const std::string& path, std::uint64_t count);
 
 } // namespace marsview

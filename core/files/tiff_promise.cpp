@@ -1,5 +1,5 @@
 // Notation as in TIFF 6.0 and BigTIFF: a file is a chain of directories (IFDs), a directory a list
-// of entries (tag, type, count, value or the place of the values). The lists StripOffsets and
+// of entries (tag, type, count, value or the offset of the values). The lists StripOffsets and
 // StripByteCounts, or TileOffsets and TileByteCounts, have an entry for each block.
 #include "core/files/tiff_promise.h"
 
@@ -62,7 +62,7 @@ std::uint64_t bytesOfType(std::uint16_t type)
     }
 }
 
-// How many bytes a stored byte can become at most; nothing where there is no useful bound.
+// The maximum number of bytes that a stored byte can expand to; empty without a useful bound.
 std::optional<std::uint64_t> growthOf(std::uint64_t compression)
 {
     switch (compression) {
@@ -89,7 +89,7 @@ bool isPlainCompression(std::uint64_t compression)
 struct Entry {
     std::uint16_t type = 0;
     std::uint64_t count = 0;
-    std::uint64_t place = 0; // of the values in the file
+    std::uint64_t place = 0; // offset of the values in the file
 };
 
 using Directory = std::map<std::uint16_t, Entry>;
@@ -106,7 +106,7 @@ public:
 
     std::uint64_t bytes() const { return bytes_; }
 
-    // Zeros beyond the end.
+    // Returns zeros beyond the end.
     std::vector<unsigned char> read(std::uint64_t place, std::uint64_t count)
     {
         std::vector<unsigned char> data(count, 0);
@@ -190,7 +190,7 @@ Blocks blocksOf(Reader& reader, const Directory& directory, bool is_tiled)
                  : std::min(length, value(kRowsPerStrip, std::uint64_t{0xffffffff}));
     Blocks blocks;
     if (block_width == 0 || block_length == 0) {
-        return blocks; // the library refuses it
+        return blocks; // the library rejects it
     }
     const auto parts = [](std::uint64_t whole, std::uint64_t part) {
         return whole / part + (whole % part != 0 ? 1 : 0);
@@ -218,7 +218,7 @@ Status checkBlocks(Reader& reader, const Directory& directory)
     const Entry* const sizes = list(kStripByteCounts, kTileByteCounts);
     const Blocks blocks = blocksOf(reader, directory, is_tiled);
     if (offsets == nullptr || blocks.count == 0) {
-        return Done{}; // as the library sees it
+        return Done{}; // as the library treats it
     }
     for (const Entry* entry : {offsets, sizes}) {
         if (entry != nullptr && entry->count < blocks.count) {
@@ -235,7 +235,7 @@ Status checkBlocks(Reader& reader, const Directory& directory)
     const auto growth = valueOf(reader, directory, kPhotometric, 1) == kYCbCr
                             ? std::nullopt
                             : growthOf(compression);
-    // The library finds the length of a single block without compression by itself.
+    // The library computes the length of a single uncompressed block itself.
     const bool is_length_known = compression == 1 && blocks.count == 1 && growth;
     constexpr std::uint64_t kAtOnce = 65536;
     for (std::uint64_t first = 0; first < blocks.count; first += kAtOnce) {
@@ -251,7 +251,7 @@ Status checkBlocks(Reader& reader, const Directory& directory)
                     ? blocks.bytes_in_last
                     : reader.number(lengths.data() + i * size_bytes, size_bytes);
             if (place == 0 || length == 0) {
-                continue; // left out: all nodata
+                continue; // omitted: all nodata
             }
             if (!reader.isWithin(place, length)) {
                 return cutShort(
@@ -300,7 +300,7 @@ std::optional<TiffPromise> tiffPromiseOf(const std::string& path)
         return std::nullopt;
     }
     reader.is_big_tiff = version == 43;
-    const std::uint64_t word = reader.is_big_tiff ? 8 : 4;        // bytes of places and counts
+    const std::uint64_t word = reader.is_big_tiff ? 8 : 4;        // bytes of offsets and counts
     const std::uint64_t count_bytes = reader.is_big_tiff ? 8 : 2; // of a directory's entries
     const std::uint64_t entry_bytes = 4 + 2 * word;
     TiffPromise promise;
@@ -314,7 +314,7 @@ std::optional<TiffPromise> tiffPromiseOf(const std::string& path)
         const std::uint64_t entries = reader.number(place, count_bytes);
         if (!reader.isWithin(place, count_bytes) || entries > kEntriesMax ||
             !reader.isWithin(place + count_bytes, entries * entry_bytes)) {
-            // Of later directories, overviews and masks, the library makes do without.
+            // Later directories, overviews and masks, are optional for the library.
             if (seen.size() == 1) {
                 promise.fits = cutShort("its directory is beyond the end of the file");
             }

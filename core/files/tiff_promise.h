@@ -1,5 +1,4 @@
-// Whether a TIFF can hold what its header promises, found without a library and before any reads
-// it.
+// Checks that a TIFF is as long as its header requires, without and before using a library.
 #pragma once
 
 #include "core/base/result.h"
@@ -10,17 +9,18 @@
 namespace marsview {
 
 struct TiffPromise {
-    /// Done, or why the file cannot hold what its first directories say: Unreadable, a sentence
-    /// without the path. Judged by what no valid file breaks: lists and blocks end within the file,
-    /// every block has an entry in the lists, and no block grows by more than its compression can.
+    /// Done, or why the file is too short for its first directories: Unreadable, a sentence without
+    /// the path. Uses rules that every valid file satisfies: lists and blocks end within the file,
+    /// every block has an entry in the lists, and no block expands by more than its compression
+    /// allows.
     Status fits = Done{};
-    /// Whether its blocks are stored in ways that GDAL decodes with code of its own or with general
-    /// compression libraries, not with those of picture formats.
+    /// Whether GDAL decodes the blocks with its own code or general compression libraries, not with
+    /// libraries of picture formats.
     bool is_plain = true;
 };
 
-/// Nothing where the file on disk is not a TIFF. Takes memory for one list of blocks, and only as
-/// much as the file has. Any thread.
+/// Empty if the file on disk is not a TIFF. Memory: one list of blocks, at most the size of the
+/// file. Any thread.
 std::optional<TiffPromise> tiffPromiseOf(const std::string& path);
 
 } // namespace marsview

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is needed is rounded up and what is there down, so that the two never read the same.
+// The needed size is rounded up and the free space down, so that the two texts always differ.
 std::string sizeText(double bytes, double (*rounded)(double))
 {
     const double megabytes = bytes / 1e6;
@@ -27,7 +27,7 @@ Status checkRoom(const RoomWanted& wanted)
     const fs::path folder = fs::absolute(wanted.path).parent_path();
     const fs::space_info space = fs::space(folder, failure);
     if (failure) {
-        return Done{}; // writing will tell
+        return Done{}; // writing reports the error
     }
     const std::uint64_t missing = wanted.bytes - std::min(wanted.written, wanted.bytes);
     if (space.available >= missing) {

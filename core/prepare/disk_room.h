@@ -1,4 +1,4 @@
-// Whether what is to be written fits on its disk, before hours are spent on it.
+// Checks for free disk space before hours of work.
 #pragma once
 
 #include "core/base/result.h"
@@ -11,13 +11,13 @@ namespace marsview {
 struct RoomWanted {
     std::string path;          // of the file to write
     std::uint64_t bytes = 0;   // at most
-    std::uint64_t written = 0; // of them, by an attempt that was stopped
+    std::uint64_t written = 0; // of these, by an interrupted attempt
 };
 
-/// TooLarge, with both numbers, where the disk has less. Fine where it does not tell.
+/// TooLarge, with both numbers, if the disk has less space. Succeeds if the free space is unknown.
 Status checkRoom(const RoomWanted& wanted);
 
-/// Bytes of a file; 0 where there is none.
+/// Bytes of a file; 0 if it does not exist.
 std::uint64_t bytesOnDisk(const std::string& path);
 
 } // namespace marsview

@@ -28,7 +28,7 @@ namespace {
 constexpr const char* kKey = "MADE_FROM";
 constexpr const char* kSource = "SOURCE";
 
-// Older readers know no differences of 64-bit whole numbers.
+// Older readers do not support differencing of 64-bit integers.
 const char* predictorFor(SampleType type)
 {
     return dispatchSampleType(type, [](auto zero) {
@@ -37,7 +37,7 @@ const char* predictorFor(SampleType type)
     });
 }
 
-// Options of GDAL's that hold for this thread and this while.
+// GDAL options set for this thread during the object's lifetime.
 class ThreadOption {
 public:
     ThreadOption(const char* name, const char* value)
@@ -53,8 +53,8 @@ private:
     const char* name_;
 };
 
-// GDAL 3.6 fails to lay out overviews of 64-bit whole numbers with nodata ("Sanity check on tag
-// count failed"); it succeeds where nodata is told afterwards.
+// GDAL 3.6 fails to create overviews of 64-bit integers with nodata ("Sanity check on tag count
+// failed"); it succeeds if nodata is set afterwards.
 bool isWide(SampleType type)
 {
     return type == SampleType::Int64 || type == SampleType::UInt64;
@@ -69,7 +69,7 @@ CPLErr setNodata(GDALRasterBand& band, SampleType type, double nodata)
     if (type == SampleType::UInt64 && nodata >= 0.0 && nodata < 2.0 * kTwoTo63) {
         return band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(nodata));
     }
-    // Of 64-bit samples none has any other value.
+    // 64-bit samples cannot have any other value.
     return isWide(type) ? CE_None : band.SetNoDataValue(nodata);
 }
 
@@ -88,7 +88,7 @@ bool describe(GDALDataset& dataset, const RasterInfo& info, const GeoTiffOrigin&
         is_written &= reference.importFromWkt(info.crs->wkt().c_str()) == OGRERR_NONE;
         expect(dataset.SetSpatialRef(&reference));
     }
-    // The transform places pixels by their corners, as GDAL gives it, whatever the source meant.
+    // The transform places pixel corners, as in GDAL, whatever the convention of the source.
     expect(dataset.SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_AREA));
     if (info.nodata && !isWide(info.type)) {
         expect(setNodata(band, info.type, *info.nodata));
@@ -157,11 +157,11 @@ writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoT
         (info.needsVoidMask() && dataset->CreateMaskBand(GMF_PER_DATASET) != CE_None)) {
         return refusal();
     }
-    // Opened anew, GDAL reads the CRS as other programs will.
+    // After reopening, GDAL reads the CRS as other programs will.
     const auto reopen = [&path, &dataset] {
         CPLStringList open_options;
         open_options.SetNameValue("SPARSE_OK", "TRUE");
-        dataset.reset(); // first: it writes
+        dataset.reset(); // first: closing writes the file
         dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE, nullptr,
                                         open_options.List()));
         return dataset != nullptr;

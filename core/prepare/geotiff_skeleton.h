@@ -1,4 +1,4 @@
-// A tiled GeoTIFF with everything but its tiles.
+// A tiled GeoTIFF complete except for its tiles.
 #pragma once
 
 #include "core/base/result.h"
@@ -8,19 +8,19 @@
 
 namespace marsview {
 
-/// What the samples of a prepared file are made from.
+/// The source of the samples of a prepared file.
 struct GeoTiffOrigin {
     std::string key;    // compared as a whole
-    std::string source; // the path, for people
+    std::string source; // the path, for display
 };
 
-/// Lays out a deflated BigTIFF in tiles of kTileSide for one band as `info` describes it: type,
-/// placement, CRS, nodata, scale, offset, unit, vertical datum, a mask where the raster has one,
-/// and all overviews. No tile is there yet. Replaces what was at `path`.
+/// Creates a deflated BigTIFF in tiles of kTileSide for one band as described by `info`: type,
+/// placement, CRS, nodata, scale, offset, unit, vertical datum, a mask if the raster has one, and
+/// all overviews. It has no tiles yet. Replaces any file at `path`.
 Status
 writeGeoTiffSkeleton(const std::string& path, const RasterInfo& info, const GeoTiffOrigin& origin);
 
-/// Empty for files that did not begin as a skeleton, and where there is none.
+/// Empty for files not created from a skeleton, and if the file does not exist.
 GeoTiffOrigin readGeoTiffOrigin(const std::string& path);
 
 } // namespace marsview

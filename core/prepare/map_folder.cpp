@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kBytesMax = 100'000'000'000;
 constexpr std::uint64_t kDiskShare = 5;
 constexpr const char* kMapEnding = ".map.tif"; // no other file in the folder has it in its name
-constexpr const char* kUseEnding = ".use";     // its time is that of the last use
+constexpr const char* kUseEnding = ".use";     // its modification time is the last use
 constexpr const char* kWorkEnding = ".lock";   // see writeTiledGeoTiff
 constexpr const char* kDamageEnding = ".damaged";
 
@@ -38,7 +38,7 @@ Error folderError(const fs::path& folder, const std::string& why)
                         folder.string(), why)};
 }
 
-// The readable part of a name: letters and digits of what the user called it.
+// The readable part of a name: letters and digits of the user's file name.
 std::string readableName(const std::string& path)
 {
     std::string name;
@@ -50,7 +50,7 @@ std::string readableName(const std::string& path)
     return name.substr(0, kLengthMax);
 }
 
-// Both are free, and stay so while the locks live.
+// Locks that keep both files unused.
 struct RemovalLocks {
     FileLock use;
     FileLock work;
@@ -94,7 +94,7 @@ bool isMerelyLock(const fs::path& file)
     return name.ends_with(kUseEnding) || name.ends_with(kWorkEnding);
 }
 
-// Of a raster that is used in place there are only levels.
+// A raster that is used in place has only a level file.
 bool hasFiles(const std::string& path)
 {
     std::error_code failure;
@@ -144,7 +144,8 @@ bool MapFolder::hasMaps() const
 std::string
 MapFolder::pathFor(const SourceIdentity& source, int band, const std::string& settings) const
 {
-    // The whole identity: two maps may have the same samples at the places that the digest knows.
+    // The whole identity: two maps may have the same samples at the positions that the digest
+    // covers.
     const std::string all = fmt::format("{} {} {} {} {}", source.bytes, source.modified_s,
                                         source.digest, band, settings);
     const std::uint32_t checksum = crc32Of(std::as_bytes(std::span(all)));
@@ -157,7 +158,7 @@ Result<FileLock> MapFolder::use(const std::string& path) const
 {
     Result<std::optional<FileLock>> lock =
         FileLock::tryLock(path + kUseEnding, FileLock::Kind::Shared);
-    // Whoever lists the folder asks for the lock too, and gives it back at once.
+    // A program that lists the folder also takes the lock, and releases it at once.
     constexpr int kAttempts = 20;
     for (int attempt = 1; lock && !*lock && attempt < kAttempts; ++attempt) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -169,7 +170,7 @@ Result<FileLock> MapFolder::use(const std::string& path) const
     if (!*lock || !hasFiles(path)) {
         if (*lock) {
             *lock = std::nullopt;
-            lockForRemoval(path); // which takes the lock's own file away
+            lockForRemoval(path); // also removes the lock file
         }
         return Error{ErrorCode::NotFound, fmt::format("{}: there is no such prepared map", path)};
     }
@@ -213,14 +214,14 @@ Result<std::vector<PreparedMap>> MapFolder::list() const
     std::vector<PreparedMap> maps;
     for (const auto& [name, files] : files_by_map) {
         if (std::all_of(files.begin(), files.end(), isMerelyLock)) {
-            continue; // what a killed program leaves of a map that was removed
+            continue; // left by a killed program while removing a map
         }
         PreparedMap map;
         map.name = name;
         map.path = (folder_ / name).string();
         map.last_used = fs::file_time_type::min();
         for (const fs::path& file : files) {
-            std::error_code ignored; // it may go while we look
+            std::error_code ignored; // it may disappear meanwhile
             const std::uintmax_t bytes = fs::file_size(file, ignored);
             map.bytes += ignored ? 0 : bytes;
             const fs::file_time_type time = fs::last_write_time(file, ignored);
@@ -294,7 +295,7 @@ Result<std::vector<PreparedMap>> MapFolder::makeRoom(std::uint64_t bytes,
     std::vector<PreparedMap> removed;
     const auto available = [&] {
         const fs::space_info space = fs::space(folder_, failure);
-        return failure ? bytes : space.available; // writing will tell
+        return failure ? bytes : space.available; // writing reports the error
     };
     if (available() >= bytes) {
         return removed;

@@ -1,4 +1,4 @@
-// The folder of prepared maps: made once from rasters that are too large, kept for the next time.
+// The folder of prepared maps: built once from large rasters and kept for later.
 #pragma once
 
 #include "core/base/file_lock.h"
@@ -13,29 +13,29 @@
 
 namespace marsview {
 
-/// A prepared map in the folder, with all files that belong to it: levels, notes of an attempt that
-/// was stopped.
+/// A prepared map in the folder, with its other files: the level file and the journal of an
+/// interrupted attempt.
 struct PreparedMap {
     std::string name;   // of its file, unique in the folder
     std::string path;   // of its GeoTIFF, which may still be unfinished
-    std::string source; // what it was made from; empty where that is not known
+    std::string source; // the source raster; empty if unknown
     std::uint64_t bytes = 0;
     std::filesystem::file_time_type last_used;
-    bool is_in_use = false; // opened or being prepared by some program
+    bool is_in_use = false; // opened or being prepared by a program
 };
 
-/// Several programs may use the folder at a time. Any thread.
+/// Several programs may use the folder at the same time. Any thread.
 class MapFolder {
 public:
     /// $MARSVIEW_CACHE_DIR, else $XDG_CACHE_HOME/marsview/maps, else ~/.cache/marsview/maps.
     static std::filesystem::path defaultPath();
 
-    /// Makes the folder where it is missing. Says what is wrong where it can be neither made nor
-    /// written to, and what to set instead.
+    /// Creates the folder if it is missing. If it can be neither created nor written to, the error
+    /// says why and which variable to set.
     static Result<MapFolder> open(const std::filesystem::path& folder = defaultPath());
 
-    /// To look for what was prepared: makes nothing, and asks for no permission to write. It may
-    /// not even be there.
+    /// For finding prepared maps: creates nothing and needs no write permission. The folder need
+    /// not exist.
     static MapFolder at(const std::filesystem::path& folder);
 
     const std::filesystem::path& path() const noexcept { return folder_; }
@@ -48,16 +48,16 @@ public:
     std::string
     pathFor(const SourceIdentity& source, int band, const std::string& settings = "") const;
 
-    /// Marks a prepared map as used now, and keeps it from being removed as long as the lock lives.
-    /// NotFound where there is no such map.
+    /// Marks a prepared map as used now and prevents its removal while the lock lives. NotFound if
+    /// the map does not exist.
     Result<FileLock> use(const std::string& path) const;
 
-    /// Notes on the disk that a map was found damaged, for whoever opens it next. False where that
-    /// cannot be written. Any thread.
+    /// Records on disk that a map was found damaged, for the program that opens it next. False if
+    /// that cannot be written. Any thread.
     bool noteDamage(const std::string& path, const std::string& what) const;
-    /// What was found damaged; nothing where nobody noted anything.
+    /// The recorded damage; empty if none was recorded.
     std::optional<std::string> damage(const std::string& path) const;
-    /// When it has been made anew.
+    /// Call after the map has been rebuilt.
     void forgetDamage(const std::string& path) const;
 
     /// The most recently used first.
@@ -66,17 +66,17 @@ public:
     /// Refuses maps that are in use.
     Status remove(const std::string& name) const;
 
-    /// Removes the least recently used maps until all take at most `bytes_max`; those in use stay
-    /// whatever they take. Returns what was removed.
+    /// Removes the least recently used maps until all take at most `bytes_max`; those in use are
+    /// kept regardless of size. Returns the removed maps.
     Result<std::vector<PreparedMap>> trim(std::uint64_t bytes_max) const;
 
-    /// Removes the least recently used maps until the disk has `bytes` to spare, but none where all
-    /// of them would not make room enough. Those in use stay, and so does the one at `but_for`.
-    /// Returns what was removed.
+    /// Removes the least recently used maps until the disk has `bytes` free, but none if removing
+    /// all would not suffice. Maps in use and the one at `but_for` are kept. Returns the removed
+    /// maps.
     Result<std::vector<PreparedMap>> makeRoom(std::uint64_t bytes,
                                               const std::string& but_for) const;
 
-    /// 100 GB, or a fifth of the disk where that is less.
+    /// 100 GB, or a fifth of the disk if that is less.
     std::uint64_t defaultBytesMax() const;
 
 private:

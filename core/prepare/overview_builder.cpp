@@ -14,7 +14,7 @@
 namespace marsview {
 namespace {
 
-// Whole numbers of up to 32 bits add up exactly: 2^40 of them at most.
+// Integers of up to 32 bits are summed exactly: at most 2^40 of them.
 template <typename T>
 using SumOf = std::conditional_t<std::is_integral_v<T> && sizeof(T) <= 4, std::int64_t, double>;
 
@@ -60,7 +60,7 @@ T meanOf(Sum sum, std::uint64_t count)
     }
 }
 
-// Halves a field of sums in place; an odd last column or row stands alone.
+// Halves a field of sums in place; an odd last column or row is kept alone.
 template <typename Sum>
 void halve(Sum* sums, std::uint64_t* counts, std::size_t& width, std::size_t& height)
 {
@@ -76,7 +76,7 @@ void halve(Sum* sums, std::uint64_t* counts, std::size_t& width, std::size_t& he
                     count += counts[v * width + u];
                 }
             }
-            sums[y * half_width + x] = sum; // never beyond what is still to be read
+            sums[y * half_width + x] = sum; // never overwrites sums still to be read
             counts[y * half_width + x] = count;
         }
     }
@@ -290,7 +290,7 @@ void OverviewBuilder::forEachPending(std::size_t tile_rows, Function&& function)
 std::vector<std::uint8_t> OverviewBuilder::save(std::size_t tile_rows) const
 {
     std::vector<std::uint8_t> saved;
-    // One list of parts for both ways; here they are only read.
+    // Saving and restoring share one list of parts; here they are only read.
     const_cast<OverviewBuilder*>(this)->forEachPending( // NOLINT
         tile_rows, [&saved](const void* data, std::size_t bytes) {
             const auto* begin = static_cast<const std::uint8_t*>(data);

@@ -1,4 +1,4 @@
-// The means that become a raster's overviews, taken tile by tile while the raster streams by.
+// Computes a raster's overviews as means, tile by tile, in a single pass.
 #pragma once
 
 #include "core/raster/sample_grid.h"
@@ -11,23 +11,23 @@
 
 namespace marsview {
 
-/// Levels of overviews until a single tile is enough: level k has a pixel for every 2^k × 2^k
-/// samples.
+/// The number of overview levels until a single tile is enough: level k has a pixel for every 2^k ×
+/// 2^k samples.
 std::size_t overviewCount(std::size_t columns, std::size_t rows);
 
-/// Takes the raster's tiles, a row of tiles after the other, and gives whole rows of tiles of the
-/// levels. A pixel is the mean of the samples of its block that are not void, rounded once (halves
-/// away from zero) from sums that are exact for whole numbers of up to 32 bits; it never has the
-/// value that stands for void. Blocks of voids alone are void: nodata where there is one, else NaN
-/// where the type has it, else 0 under a mask.
+/// Takes the raster's tiles row by row and returns complete rows of tiles of the levels. A pixel is
+/// the mean of the valid samples of its block, rounded once (halves away from zero) from sums that
+/// are exact for integers of up to 32 bits; it never equals the nodata value. Blocks without valid
+/// samples are void: nodata if declared, otherwise NaN if the type has it, otherwise 0 under a
+/// mask.
 ///
-/// Holds a row of tiles of every level: as much as one of the raster itself.
+/// Memory: one row of tiles of every level, together as much as one row of the raster's tiles.
 class OverviewBuilder {
 public:
     /// Up to this level a pixel lies within one tile of the raster.
     static constexpr std::size_t kStreamedLevels = 8;
 
-    /// `has_mask`: validity is kept pixel by pixel.
+    /// `has_mask`: validity is stored for each pixel.
     OverviewBuilder(std::size_t columns,
                     std::size_t rows,
                     SampleType type,
@@ -37,13 +37,13 @@ public:
     std::size_t levelCount() const noexcept { return levels_.size(); }
 
     /// Tile (`tile_column`, `tile_row`) of the raster, whose first row is row `grid_row` of `grid`,
-    /// which is as wide as the raster. Tiles of one row may be added by several threads at a time.
+    /// which is as wide as the raster. Several threads may add tiles of one row at the same time.
     void addTile(const SampleGrid& grid,
                  std::size_t grid_row,
                  std::size_t tile_column,
                  std::size_t tile_row);
 
-    /// The row of tiles of a level (1 …) that is complete, or was begun last.
+    /// The row of tiles of a level (1 …) that is complete or was started last.
     struct Rows {
         const std::byte* samples = nullptr;  // columns × rows
         const std::uint8_t* valid = nullptr; // 1 or 0 each; null without mask
@@ -56,9 +56,9 @@ public:
     /// After all tiles: a level beyond kStreamedLevels, whole. Ascending, each once.
     Rows makeLevel(std::size_t level);
 
-    /// What has to be kept to go on later behind the first `tile_rows` rows of tiles.
+    /// The state needed to resume after the first `tile_rows` rows of tiles.
     std::vector<std::uint8_t> save(std::size_t tile_rows) const;
-    /// False, changing nothing that matters, where `saved` is not of such a builder.
+    /// False if `saved` is not from such a builder; the builder then stays usable.
     bool restore(std::size_t tile_rows, const std::vector<std::uint8_t>& saved);
 
 private:
@@ -92,8 +92,8 @@ private:
     std::size_t rows_;
     std::size_t tile_columns_;
     std::vector<Level> levels_; // [0] is level 1
-    // The blocks of level kStreamedLevels, one a tile of the raster, where coarser levels need
-    // them. Sums are whole numbers or doubles, by type.
+    // The blocks of level kStreamedLevels, one per tile of the raster, if coarser levels need them.
+    // Sums are integers or doubles, depending on the type.
     std::vector<std::uint64_t> sum_bits_;
     std::vector<std::uint64_t> counts_;
     std::size_t made_level_ = kStreamedLevels;

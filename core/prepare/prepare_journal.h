@@ -1,4 +1,4 @@
-// How far a map's preparation has come, for the next attempt after this one was stopped.
+// The progress of a map's preparation, for resuming after an interruption.
 #pragma once
 
 #include "core/base/result.h"
@@ -10,10 +10,10 @@
 
 namespace marsview {
 
-/// What the file that is being written holds for certain.
+/// The guaranteed content of the unfinished file.
 struct PrepareJournal {
-    std::string key; // source, settings and form: whether it is the same work
-    /// SourceStamp::text of what was read; empty where an earlier version wrote the journal.
+    std::string key; // source, settings and format: identifies the job
+    /// SourceStamp::text of the source; empty if an earlier version wrote the journal.
     std::string source_stamp;
     std::uint64_t tile_rows = 0; // of the raster, complete
     std::uint64_t tile_rows_all = 0;
@@ -22,10 +22,10 @@ struct PrepareJournal {
     bool operator==(const PrepareJournal&) const = default;
 };
 
-/// Takes the place of what was there in one step; on the disk when it returns.
+/// Replaces the journal atomically; it is on the disk when the function returns.
 Status writeJournal(const std::string& path, const PrepareJournal& journal);
 
-/// Nothing where there is none, or where it is damaged.
+/// Empty if there is none or it is damaged.
 std::optional<PrepareJournal> readJournal(const std::string& path);
 
 } // namespace marsview

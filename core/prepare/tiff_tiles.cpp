@@ -29,7 +29,7 @@ struct OptionsFreer {
     void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
 };
 
-// The library's own words, and the system's number at that moment.
+// The library's message and the value of errno at that time.
 struct Complaint {
     std::string text;
     int system_error = 0;
@@ -45,7 +45,7 @@ int noteError(TIFF*, void* complaint, const char* module, const char* format, va
         noted.text = fmt::format("{}: {}", module != nullptr ? module : "TIFF", text.data());
         noted.system_error = system_error;
     }
-    return 1; // the process-wide handlers need not hear of it
+    return 1; // do not call the process-wide handlers
 }
 
 int dropWarning(TIFF*, void*, const char*, const char*, va_list)
@@ -83,7 +83,7 @@ T tagOf(TIFF* file, std::uint32_t tag, T otherwise)
 struct TiffTiles::Impl {
     std::string path;
     std::unique_ptr<Complaint> complaint = std::make_unique<Complaint>();
-    std::vector<TiffHandle> handles; // one a page, so that none is turned to another's directory
+    std::vector<TiffHandle> handles; // one per page, so that none switches directories
     std::vector<TiffPage> pages;
 
     Error failure() const
@@ -146,10 +146,10 @@ Status TiffTiles::append(std::size_t page, std::size_t tile, std::span<const std
     *impl_->complaint = {};
     errno = 0;
     const auto bytes = static_cast<tmsize_t>(encoded.size());
-    // The library's interface takes no pointer to const, but leaves the data alone.
+    // The library takes a pointer to non-const but does not change the data.
     void* data = const_cast<std::byte*>(encoded.data()); // NOLINT
-    // Otherwise a tile that was written before, and not noted, would be taken for the beginning of
-    // this one. Now it is written where it was if it fits, else at the file's end.
+    // Otherwise a tile that was written before but not recorded would be taken for the beginning of
+    // this one. Now it is written in its old location if it fits, otherwise at the end of the file.
     TIFFSetWriteOffset(impl_->handles.at(page).get(), 0);
     if (TIFFWriteRawTile(impl_->handles.at(page).get(), static_cast<std::uint32_t>(tile), data,
                          bytes) != bytes) {
@@ -207,7 +207,7 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
         for (std::size_t tile = begin; tile < end && are_whole; ++tile) {
             const auto index = static_cast<std::uint32_t>(tile);
             const std::uint64_t bytes = TIFFGetStrileByteCount(file, index);
-            // Deflate never makes twice as much of anything.
+            // Deflate never doubles the size of its input.
             if (bytes > 2 * std::uint64_t{decoded_bytes}) {
                 are_whole = false;
                 return;
@@ -226,8 +226,8 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
 
 Status TiffTiles::trim(std::uint64_t file_bytes)
 {
-    // A kill between flush and note leaves tiles beyond the noted ones, in places of their own;
-    // they will be written again where they are if they fit. So these places stay theirs.
+    // A kill between flush and journal leaves unrecorded tiles in the file; they will be rewritten
+    // in their locations if they fit. So these locations stay reserved.
     for (std::size_t page = 0; page < impl_->pages.size(); ++page) {
         TIFF* file = impl_->handles[page].get();
         const std::size_t tiles = impl_->pages[page].tile_columns * impl_->pages[page].tile_rows;

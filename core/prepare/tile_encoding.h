@@ -1,4 +1,4 @@
-// Tiles as a GeoTIFF stores them.
+// Encodes tiles for a GeoTIFF.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace marsview {
 
-/// TIFF's tag 317: what is done to a row of samples so that it compresses better.
+/// TIFF tag 317: the transformation of a row of samples for better compression.
 enum class TiffPredictor : std::uint16_t {
     None = 1,
-    Horizontal = 2,    // differences of neighbours; whole numbers
-    FloatingPoint = 3, // differences of bytes, the samples' like bytes side by side
+    Horizontal = 2,    // differences of neighbors; integers
+    FloatingPoint = 3, // differences of bytes, with corresponding bytes of the samples grouped
 };
 
 /// Deflates a tile of rows of `row_samples` samples of `sample_bytes` bytes (1, 2, 4 or 8) in the
-/// machine's byte order. `tile` is used up. Empty where there is no memory. Any thread.
+/// machine's byte order. `tile` is overwritten. Empty if memory allocation fails. Any thread.
 std::vector<std::byte> encodeTile(std::span<std::byte> tile,
                                   std::size_t row_samples,
                                   std::size_t sample_bytes,

@@ -35,16 +35,16 @@ using Clock = std::chrono::steady_clock;
 
 // What is being read while the rows before are written takes at most this, together.
 constexpr std::size_t kWindowBytes = std::size_t{230} << 20;
-// A row of blocks that is taller than tiles is read at once up to this.
+// A row of blocks taller than a tile is read at once up to this size.
 constexpr std::size_t kWindowBytesWanted = std::size_t{16} << 20;
 
-// Coarser levels are kept in the journal, finer ones are in the file at such rows of tiles: 3 % of
-// a row of tiles in all.
+// At these rows of tiles, finer levels are in the file and coarser ones in the journal: 3 % of a
+// row of tiles in total.
 constexpr std::size_t kTileRowsPerCheckpoint = 8;
-// Of the time, noting takes at most this part.
+// Checkpoints take at most one part in this many of the time.
 constexpr int kCheckpointShare = 20;
 
-// Deflate never makes more of noise; overviews add a third.
+// Upper bound even for noise; overviews add a third.
 constexpr double kBytesPerRawByte = 1.34;
 
 constexpr const char* kFormVersion = "tiled GeoTIFF 1";
@@ -54,7 +54,7 @@ std::size_t tilesAlong(std::size_t samples)
     return (samples + kTileSide - 1) / kTileSide;
 }
 
-// What makes two preparations the same work. The place of the source does not.
+// Identifies a preparation. The location of the source is not part of it.
 std::string keyOf(const RasterInfo& info, const SourceIdentity& source)
 {
     const auto terms = info.transform ? info.transform->terms() : GeoTransform::Terms{};
@@ -70,7 +70,7 @@ std::string keyOf(const RasterInfo& info, const SourceIdentity& source)
         info.crs ? info.crs->wkt() : "none");
 }
 
-// Rows to read at once: whole rows of tiles and, where they fit, whole rows of the source's blocks.
+// Rows to read at once: whole rows of tiles and, if they fit, whole rows of the source's blocks.
 struct Windows {
     std::size_t rows = kTileSide;
     bool reads_ahead = true;
@@ -97,7 +97,7 @@ Windows windowsFor(const RasterFile& source, const RasterInfo& info)
     return windows;
 }
 
-// Copies what of a tile lies within the grid, and repeats its last column and row beyond.
+// Copies the part of a tile within the grid and repeats the last column and row beyond.
 std::vector<std::byte> tileBytes(const std::byte* rows,
                                  std::size_t columns,
                                  std::size_t row_count,
@@ -122,7 +122,7 @@ std::vector<std::byte> tileBytes(const std::byte* rows,
     return tile;
 }
 
-// A mask's tile as the file keeps it: a bit or a byte a sample, all ones where valid.
+// A mask's tile in the file's format: one bit or byte per sample, all ones if valid.
 template <typename IsValid>
 std::vector<std::byte>
 maskBytes(const TiffPage& page, std::size_t width, std::size_t height, IsValid&& is_valid)
@@ -150,7 +150,7 @@ std::vector<std::byte> encodeMask(const TiffPage& page, std::vector<std::byte> t
 
 using EncodedTiles = std::vector<std::vector<std::byte>>;
 
-// One preparation, from its skeleton or a stopped attempt to the whole file.
+// One preparation, from its skeleton or an interrupted attempt to the complete file.
 class Preparation {
 public:
     Preparation(const TiledGeoTiffJob& job,
@@ -161,9 +161,9 @@ public:
                 std::string source_stamp,
                 TiledGeoTiffReport& report);
 
-    /// Goes on with what is there, or lays the file out.
+    /// Resumes an interrupted attempt, or creates the file.
     Status begin();
-    /// Reads, encodes and writes what is missing.
+    /// Reads, encodes and writes the missing tiles.
     Status copy(JobMonitor& monitor);
     bool hasCheckpoint() const { return tile_rows_noted_ > 0; }
     void discard() const;
@@ -251,7 +251,7 @@ bool Preparation::findPages()
            std::all_of(mask_pages_.begin(), mask_pages_.end(), is_found);
 }
 
-// As any program would open it.
+// Opens the file as any program would.
 bool Preparation::opensAsTheMap() const
 {
     const Result<RasterFile> part = RasterFile::open(part_path_);
@@ -557,7 +557,7 @@ Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
     return Done{};
 }
 
-// How far the program that holds the lock has come.
+// Reports the progress of the program that holds the lock.
 void reportOthersProgress(const std::string& path, JobMonitor& monitor)
 {
     const std::optional<PrepareJournal> journal = readJournal(path + ".part.journal");
@@ -607,7 +607,7 @@ Status publish(const TiledGeoTiffJob& job, const Preparation& preparation)
         return writeError(job.path, failure.value(), "cannot be written");
     }
     if (is_replaced) {
-        // They were about the file that was there, and would be taken for this one's.
+        // These belong to the previous file and would be taken for this one's.
         for (const char* ending : {".aux.xml", ".ovr", ".msk"}) {
             fs::remove(job.path + ending, failure);
         }
@@ -657,7 +657,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     Preparation preparation(job, *source, *info, key, before->path, stamp.text, report);
     if (job.when_there == TiledGeoTiffJob::WhenThere::Keep && fs::exists(job.path, failure) &&
         readGeoTiffOrigin(job.path).key == key) {
-        preparation.discard(); // as after a kill in the moment of publishing
+        preparation.discard(); // as after a kill during publishing
         report.is_there = true;
         report.notes.push_back(
             fmt::format("{}: is up to date with its source{}", job.path,

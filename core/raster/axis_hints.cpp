@@ -32,7 +32,7 @@ bool isLetter(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// A collection's name where no letter stands before it: "ETOPO1", but not "Angola".
+// A collection's name if no letter precedes it: "ETOPO1", but not "Angola".
 const Body* bodyOfCollection(const std::string& text)
 {
     const std::string lower = lowerCase(text);
@@ -46,7 +46,7 @@ const Body* bodyOfCollection(const std::string& text)
     return nullptr;
 }
 
-// Io is left out: in metadata it is more often input and output.
+// Io is left out: in metadata it usually means input and output.
 const Body* bodyIn(const std::string& text)
 {
     const Body* const body = bodyMentioned(text);
@@ -54,7 +54,7 @@ const Body* bodyIn(const std::string& text)
 }
 
 struct Item {
-    std::string key; // in lower case, without what stands before '#'
+    std::string key; // in lower case, without the part before '#'
     std::string axis;
     std::string value;
 };

@@ -44,18 +44,18 @@ Extent sampleExtentOf(const RasterInfo& info)
     return extentOf(info, 0.5);
 }
 
-// Around the body once, over most latitudes or up to a pole.
+// A full turn of longitude, over most latitudes or up to a pole.
 bool isGlobal(const RasterInfo& info)
 {
     const Extent extent = extentOf(info);
     const double pixel = info.transform->pixelWidth();
-    constexpr double kLatitudesMin = 100.0; // maps of a whole body may leave out its poles
+    constexpr double kLatitudesMin = 100.0; // global maps may omit the poles
     const double to_pole = kPole - std::max(std::abs(extent.south), std::abs(extent.north));
     return std::abs(extent.width() - kTurn) < 1.5 * pixel &&
            (extent.north - extent.south > kLatitudesMin || std::abs(to_pole) <= pixel);
 }
 
-// Of less than a centimetre, if the grid were in metres: no elevations of a body are so fine.
+// Pixels below a centimeter if the grid were in meters: no planetary elevation data is that fine.
 bool hasTinyPixels(const RasterInfo& info)
 {
     constexpr double kFinePixel = 0.01;
@@ -64,12 +64,12 @@ bool hasTinyPixels(const RasterInfo& info)
 
 bool isWhole(double value)
 {
-    constexpr double kTolerance = 1e-3; // files write 0.000833333
+    constexpr double kTolerance = 1e-3; // files round to 0.000833333
     return value > 0.5 && std::abs(value - std::round(value)) < kTolerance * value;
 }
 
-// Grids in degrees have a whole number of samples a degree, as 1200 or 12, or of seconds a sample.
-// Grids in metres that small begin at 0 or lie around it.
+// Grids in degrees have a whole number of samples per degree, such as 1200 or 12, or of arc seconds
+// per sample. Such small grids in meters begin at 0 or are centered on it.
 bool looksLikeDegrees(const RasterInfo& info)
 {
     const Extent extent = extentOf(info);
@@ -93,7 +93,7 @@ std::string longitudeRange(const Extent& extent)
 {
     const auto text = [&extent](double degrees) {
         const double shown = std::round(degrees * 1e4) / 1e4;
-        if (extent.west >= -0.1) { // of a sample placed at 0, the edge lies before it
+        if (extent.west >= -0.1) { // a sample placed at 0 has its edge before 0
             return fmt::format("{}°", shown == 0.0 ? 0.0 : shown);
         }
         return fmt::format("{}°{}", std::abs(shown), shown < 0.0 ? " W" : shown > 0.0 ? " E" : "");
@@ -110,7 +110,7 @@ std::string latitudeRange(const Extent& extent)
     return text(extent.south) + " – " + text(extent.north);
 }
 
-// Latitudes count as `--body` has them: planetocentric but on the Earth.
+// Latitudes as with `--body`: planetocentric except on Earth.
 CrsChoice choiceFor(const Body& body)
 {
     struct Code {

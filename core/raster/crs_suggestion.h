@@ -1,4 +1,4 @@
-// Grids in degrees whose file has no CRS, and CRSs that cannot be meant for a grid.
+// Suggests a CRS for grids in degrees without one, and finds CRSs that do not fit their grid.
 #pragma once
 
 #include "core/geo/body.h"
@@ -12,10 +12,10 @@ namespace marsview {
 
 struct RasterInfo;
 
-/// What a file says about its axes and its body other than by a CRS.
+/// Information on axes and body from sources other than a CRS.
 struct AxisHints {
-    std::string degree_axes;    // how the file declares degrees; empty where it does not
-    const Body* body = nullptr; // named by the file's metadata or its name; null where unknown
+    std::string degree_axes;    // how the file declares degrees; empty if it does not
+    const Body* body = nullptr; // named by the file's metadata or its name; null if unknown
     bool operator==(const AxisHints&) const = default;
 };
 
@@ -30,17 +30,18 @@ struct CrsChoice {
 struct CrsSuggestion {
     /// Why: "its extent is 0° – 360°, 90° S – 90° N".
     std::string reason;
-    /// One where the file names a body, otherwise the likely ones, Earth first. Never empty.
+    /// A single choice if the file names a body, otherwise the likely ones, Earth first. Never
+    /// empty.
     std::vector<CrsChoice> choices;
-    /// False where only the look of the numbers speaks for degrees: they could be a few metres.
+    /// False if only the numbers suggest degrees: they could be a few meters.
     bool is_certain = false;
     bool operator==(const CrsSuggestion&) const = default;
 };
 
-/// Nothing for a raster with a CRS, without georeferencing, or whose extent is not one in degrees.
+/// Empty for a raster with a CRS or without georeferencing, or whose extent cannot be in degrees.
 std::optional<CrsSuggestion> suggestCrs(const RasterInfo& info);
 
-/// The sentence for it in RasterInfo::notices.
+/// The corresponding sentence in RasterInfo::notices.
 std::string noticeOf(const CrsSuggestion& suggestion);
 /// The same for the command line, which sets a CRS with --crs and a body with --body.
 std::string optionNoticeOf(const CrsSuggestion& suggestion);
@@ -49,11 +50,11 @@ std::string optionNoticeOf(const CrsSuggestion& suggestion);
 /// full turn of longitude: at most two turns from 0 and at most half a sample beyond the poles.
 bool canBeAngles(const RasterInfo& info, double turn = 360.0);
 
-/// Why the CRS of `info`, which counts in angles, cannot be meant for its grid. Empty where it can.
+/// Why the geographic CRS of `info` does not fit its grid. Empty if it fits.
 std::string angularMisfit(const RasterInfo& info);
 
-/// Why the CRS of `info`, a map projection, cannot be meant for its grid, which `as_read`, the same
-/// raster as its file describes it, has in degrees. Empty where it can.
+/// Why the projected CRS of `info` does not fit its grid: `as_read`, the raster as its file
+/// describes it, has the grid in degrees. Empty if it fits.
 std::string projectedMisfit(const RasterInfo& info, const RasterInfo& as_read);
 
 } // namespace marsview

@@ -20,17 +20,17 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-// The longer side of the coarsest look: Mars can be told from the Moon, and a file on a slow server
-// whose every block is a request is through with it in seconds.
+// The longer side of the coarsest preview: enough to distinguish Mars from the Moon, and done in
+// seconds on a slow server where every block is a request.
 constexpr std::size_t kCoarsestSide = 32;
 
-// A finer look has to be so much finer along each side.
+// The minimum refinement of a finer preview along each side.
 constexpr double kStepMin = 1.25;
 
 // An overview with a longer side below this shows less than picked samples would.
 constexpr std::size_t kOverviewSideMin = 256;
 
-// More samples than these are not read at once for the few that are picked from them.
+// The limit on samples read at once to pick a few of them.
 constexpr std::size_t kWindowSamplesMax = std::size_t{1} << 22;
 
 GridSize sizeWithin(GridSize whole, std::size_t samples_max)
@@ -52,7 +52,7 @@ GridSize sizeWithin(GridSize whole, std::size_t samples_max)
     return size;
 }
 
-// The finest look, with `share` in (0, 1] of its samples along each side.
+// The finest preview, with the fraction `share` in (0, 1] of its samples along each side.
 GridSize partOf(GridSize finest, double share)
 {
     const auto part = [share](std::size_t count) {
@@ -94,7 +94,7 @@ public:
         , block_(file.blockSize())
     {}
 
-    /// How many blocks a look touches.
+    /// The number of blocks that a preview reads.
     double cost(GridSize look) const
     {
         const auto touched = [](std::size_t parts, std::size_t count, std::size_t block) {
@@ -104,7 +104,7 @@ public:
                touched(look.rows, whole_.rows, block_.rows);
     }
 
-    /// Nothing where `is_late`, asked on any thread now and then, became true.
+    /// Empty if `is_late`, polled on any thread, became true.
     Result<std::optional<LoadedSamples>> pick(GridSize look, const std::function<bool()>& is_late)
     {
         Result<SampleGrid> grid = SampleGrid::create(file_.info().type, look.columns, look.rows);
@@ -114,7 +114,7 @@ public:
         const std::vector<BlockRun> rows = blockRuns(look.rows, whole_.rows, block_.rows);
         const std::vector<BlockRun> columns =
             blockRuns(look.columns, whole_.columns, block_.columns);
-        // A byte a sample: several threads cannot set bits of one word.
+        // One byte per sample: several threads cannot set bits of one word.
         std::vector<std::uint8_t> is_void(look.columns * look.rows);
         std::atomic<bool> is_stopped{false};
         std::atomic<std::size_t> done{0};
@@ -252,7 +252,7 @@ private:
     GridSize block_;
 };
 
-// The largest overview that is not too large; nothing where there is none to speak of.
+// The largest overview that is not too large; empty if there is no useful one.
 std::optional<std::size_t> suitableOverview(const RasterFile& file, std::size_t samples_max)
 {
     std::optional<std::size_t> best;
@@ -269,7 +269,7 @@ std::optional<std::size_t> suitableOverview(const RasterFile& file, std::size_t 
     return best;
 }
 
-// The largest share up to 1 that `is_affordable`, which `share` is.
+// The largest fraction up to 1 that is affordable; `share` is affordable.
 template <typename IsAffordable>
 double finestAffordable(double share, const IsAffordable& is_affordable)
 {
@@ -320,14 +320,14 @@ Result<DecimatedSamples> readDecimated(RasterFile& file,
     std::optional<LoadedSamples> best;
     while (true) {
         const nanoseconds started = now();
-        // Something to show there has to be, however long it takes.
+        // A first result is required, however long it takes.
         const auto is_late = [&] { return best && now() - begin > 2 * limits.time_max; };
         auto picked = picker.pick(partOf(finest, share), is_late);
         if (!picked) {
             return std::move(picked).error();
         }
         if (!*picked) {
-            break; // best is what there is
+            break; // keep the best result so far
         }
         best = *std::move(*picked);
         if (!best->statistics.hasSamples() && share < 1.0) {

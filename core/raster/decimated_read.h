@@ -1,4 +1,4 @@
-// A first look at a raster of any size: some of its samples, evenly spread over all of it.
+// A quick preview of a raster of any size: some of its samples, spread evenly over all of it.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -13,34 +13,35 @@ namespace marsview {
 
 struct DecimationLimits {
     std::size_t samples_max = std::size_t{1} << 20; // at least 4
-    /// Something finer is begun only where it looks like ending within this time, and given up
-    /// where it takes twice as long. The coarsest look is taken in any case, and finer
-    /// ones as long as nothing but voids was seen.
+    /// A finer preview is started only if it is expected to end within this time, and abandoned if
+    /// it takes twice as long. The coarsest preview is always read, and finer ones as long as all
+    /// samples were void.
     std::chrono::nanoseconds time_max = std::chrono::milliseconds(700);
-    /// The time since some moment; empty: that of the clock.
+    /// The current time since any epoch; empty: the system clock.
     std::function<std::chrono::nanoseconds()> now{};
 };
 
-/// Sample (i, j) of the grid lies in the middle of its share of the raster: the outer corners of
-/// the two are the same.
+/// Sample (i, j) of the grid lies in the middle of its part of the raster: both have the same outer
+/// corners.
 struct DecimatedSamples {
     LoadedSamples loaded; // the statistics are of these samples alone
-    /// An overview that the file brings along: means, most likely. Otherwise each sample is that of
-    /// the raster in whose pixel it lies.
+    /// The samples are an overview of the file, which usually holds means. Otherwise each is the
+    /// raster's sample in whose pixel it lies.
     bool is_overview = false;
     bool is_finest = true; // more time would not give more samples
 };
 
 /// At most `samples_max` samples of the file, from an overview if there is a suitable one,
-/// otherwise picked from blocks all over it, coarsely first and finer as long as there is time.
-/// Voids are those of `voids` and of the file's mask. On all cores, with files of their own; `file`
-/// stays the caller's. Cancelled within the time of reading one row of blocks.
+/// otherwise picked from blocks all over it, coarsely first and finer while time allows. Voids
+/// follow `voids` and the file's mask. Runs on all cores, which open the file again; `file` stays
+/// with the caller. A cancel takes effect within the time of reading one row of blocks.
 Result<DecimatedSamples> readDecimated(RasterFile& file,
                                        const VoidRule& voids,
                                        const DecimationLimits& limits,
                                        JobMonitor& monitor);
 
-/// The sample in whose pixel lies the middle of part `i` of `count` samples cut into `parts`.
+/// The sample whose pixel contains the middle of part `i` when `count` samples are divided into
+/// `parts`.
 constexpr std::size_t decimatedPlace(std::size_t i, std::size_t parts, std::size_t count) noexcept
 {
     return (2 * i + 1) * count / (2 * parts);

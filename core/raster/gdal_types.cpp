@@ -10,7 +10,7 @@
 namespace marsview {
 namespace {
 
-// No raster that exists comes near: the Earth at 2.4 m has this many columns.
+// Far above any existing raster: the Earth at 2.4 m has this many columns.
 constexpr std::size_t kSideMax = std::size_t{1} << 24;
 constexpr std::uint64_t kSamplesMax = std::uint64_t{1} << 40;
 

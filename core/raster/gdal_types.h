@@ -13,10 +13,10 @@ class GDALRasterBand;
 
 namespace marsview {
 
-/// Before GDAL 3.7, signed bytes are bytes with a remark (PIXELTYPE).
+/// Before GDAL 3.7, signed bytes are bytes with the metadata item PIXELTYPE.
 GDALDataType gdalTypeOf(SampleType type);
 
-/// Nothing for complex numbers.
+/// Empty for complex numbers.
 std::optional<SampleType> sampleTypeOf(GDALRasterBand& band);
 
 /// TooLarge, without a path in the message, where no map has so many samples; Unreadable for none.

@@ -84,7 +84,7 @@ std::optional<double> numberFrom(std::string text)
     return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-// The value for one band: of a list its item, of a single value that.
+// The value for one band: the band's item of a list, or a single value.
 std::optional<std::string> itemIn(const OdlStatement& group, std::string_view name, int band)
 {
     const OdlStatement* const statement = statementIn(group, name);
@@ -174,7 +174,7 @@ LabelElevation elevationIn(const OdlStatement& group, const Names& names, int ba
     return label;
 }
 
-// The object with the samples: IMAGE, in whatever it is nested, or one such as HEIGHT_IMAGE.
+// The object with the samples: IMAGE at any depth, or one such as HEIGHT_IMAGE.
 const OdlStatement* imageIn(const OdlStatement& group)
 {
     if (const OdlStatement* const image = groupNamed(group, "IMAGE")) {
@@ -536,7 +536,7 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
         note("nodata", numbersAsText(label.nodata),
              nodata_before ? fmt::format("{}", *nodata_before) : std::string("none"));
     }
-    // What GDAL takes for void in the same samples of an .IMG without a constant of its own.
+    // The void value that GDAL uses for such samples in an .IMG without a MISSING_CONSTANT.
     constexpr double kNull = -32768.0;
     if (label.nodata.empty() && info.driver.starts_with("JP2") && info.type == SampleType::Int16 &&
         !info.nodata) {
@@ -620,8 +620,8 @@ std::string labelNextTo(const std::string& data_path)
             of_same_name = path;
         }
     }
-    // A TIFF of the same name may have been made of the product, with its elevations in metres.
-    // JPEG2000 holds whole numbers.
+    // A TIFF of the same name may be derived from the product, with elevations in meters. JPEG2000
+    // holds integers.
     return isJpeg2000Name(data_name) ? of_same_name : std::string();
 }
 

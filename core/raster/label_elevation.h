@@ -1,8 +1,8 @@
-// How the label of a product turns its samples into elevations, read from the label itself.
+// Reads from a product's label how its samples become elevations.
 //
-// GDAL 3.6 leaves a part of it out: everything of PDS3 products in JPEG2000 or TIFF, units of PDS3,
-// numbers in quotes, lists or other bases, missing constants under other names, and labels next to
-// a data file that is opened without them.
+// GDAL 3.6 ignores some of this: everything for PDS3 products in JPEG2000 or TIFF, PDS3 units,
+// numbers in quotes, lists or other bases, void constants under other names, and labels next to a
+// data file that is opened without them.
 #pragma once
 
 #include "core/raster/raster_info.h"
@@ -16,7 +16,7 @@ class GDALDataset;
 
 namespace marsview {
 
-/// What a label says of the samples; nothing where it does not say.
+/// The label's description of the samples; empty fields if it has none.
 struct LabelElevation {
     std::string path;            // of the label
     std::optional<double> scale; // value = raw × scale + offset, in `unit`
@@ -27,7 +27,7 @@ struct LabelElevation {
     bool is_understood = true; // false for a label without a description of samples
 };
 
-/// Of a PDS3, ISIS 2, ISIS 3 or PDS4 label in `text`, for samples of that type.
+/// From a PDS3, ISIS 2, ISIS 3 or PDS4 label in `text`, for samples of that type.
 std::optional<LabelElevation> labelElevationIn(const std::string& text, int band, SampleType type);
 
 /// Of the label that `dataset` was opened through, or, for a TIFF or JPEG2000, of the label at
@@ -36,8 +36,8 @@ std::optional<LabelElevation> labelElevationIn(const std::string& text, int band
 std::optional<LabelElevation>
 labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string& label_path);
 
-/// Puts what the label says in place of what GDAL says, which `info` has, with one notice that
-/// names what differs.
+/// Replaces GDAL's values in `info` by those of the label and adds one notice that names the
+/// differences.
 void applyLabel(RasterInfo& info, const LabelElevation& label);
 
 /// Where the TIFF with the samples of an ISIS 3 label has another scale or offset of its own, which
@@ -51,9 +51,9 @@ bool isJpeg2000Name(const std::string& path);
 /// letter case of the data file's own are tried, with one request each. Empty where there is none.
 std::string labelNextTo(const std::string& data_path);
 
-/// Of a PDS3 label: the TIFF or JPEG2000 with the samples, in whatever case it is named. GDAL 3.6
-/// finds a compressed file only in the same case, and reads one that the label declares as a plain
-/// image as if its bytes were samples. Empty for other products, and where the file is not there.
+/// The TIFF or JPEG2000 with the samples of a PDS3 label; the case of its name is ignored. GDAL 3.6
+/// finds a compressed file only with the exact case, and reads one that the label declares as a
+/// plain image as if its bytes were samples. Empty for other products, and if the file is missing.
 std::string encodedImageOf(const std::string& label_path);
 
 } // namespace marsview

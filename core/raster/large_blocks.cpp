@@ -11,9 +11,9 @@
 namespace marsview {
 namespace {
 
-// Smaller blocks are read as they are.
+// Smaller blocks are read normally.
 constexpr std::uint64_t kLargeBytes = std::uint64_t{16} << 20;
-// Of larger ones people are told.
+// Larger blocks are reported to the user.
 constexpr std::uint64_t kNotableBytes = std::uint64_t{256} << 20;
 
 struct Block {
@@ -65,7 +65,7 @@ bool hasLargePlainStrips(GDALDataset& dataset)
 std::optional<TiffStrips> largeStripsOf(GDALRasterBand& band, const RasterInfo& info)
 {
     GDALDataset& dataset = *band.GetDataset();
-    // GDAL's own names say which part of a file is meant; a plain path is its first.
+    // GDAL's names select a part of a file; a plain path means the first.
     const bool is_plain =
         !info.path.starts_with("/vsi") && info.path.find(':') == std::string::npos;
     if (!is_plain || !isCompressed(dataset) || !hasLargeStrips(dataset, band)) {

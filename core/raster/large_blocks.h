@@ -1,4 +1,4 @@
-// Rasters of which GDAL would hold large blocks, and how they are read instead. Used inside
+// Rasters whose large blocks GDAL would keep in memory, and another way to read them. Used inside
 // core/raster only.
 #pragma once
 
@@ -15,10 +15,11 @@ class GDALRasterBand;
 namespace marsview {
 
 /// Whether these are large strips of an uncompressed TIFF: rows of them are read without the block
-/// cache where the dataset is opened within a DirectReads scope.
+/// cache if the dataset is opened within a DirectReads scope.
 bool hasLargePlainStrips(GDALDataset& dataset);
 
-/// What this thread opens while it lives, unless the user's own settings say otherwise.
+/// Applies to datasets opened on this thread during its lifetime, unless the user's settings
+/// differ.
 class DirectReads {
 public:
     DirectReads();
@@ -31,11 +32,10 @@ private:
     std::unique_ptr<Setting> setting_;
 };
 
-/// Large compressed strips of a TIFF on disk, to be read row by row; nothing where it has none.
+/// Large compressed strips of a TIFF on disk, to be read row by row; empty if it has none.
 std::optional<TiffStrips> largeStripsOf(GDALRasterBand& band, const RasterInfo& info);
 
-/// How much memory a single block takes, where that is so much that people should know: a sentence
-/// about the map.
+/// A notice about the memory that a single block takes, if it is very large.
 std::optional<std::string> noticeOfLargeBlock(GDALRasterBand& band);
 
 } // namespace marsview

@@ -31,12 +31,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// With less of the rectangle around them covered, rasters are not neighbours.
+// Rasters that cover less than this fraction of the rectangle around them do not adjoin.
 constexpr double kCoveredMin = 0.02;
 
 constexpr std::size_t kRememberedMax = 8;
 
-// Never rasters themselves, though GDAL opens some of them as such.
+// Never rasters, although GDAL opens some of them as such.
 constexpr std::array<std::string_view, 12> kCompanionEndings{
     ".aux.xml", ".ovr", ".msk", ".marsview", ".prj",  ".tfw",
     ".wld",     ".txt", ".md",  ".pdf",      ".html", ".csv"};
@@ -64,7 +64,7 @@ Result<Listing> list(const std::string& folder)
     std::error_code failure;
     for (fs::directory_iterator it(folder, failure), end; !failure && it != end;
          it.increment(failure)) {
-        std::error_code ignored; // a file that has just gone
+        std::error_code ignored; // for a file that has just been removed
         if (it->is_regular_file(ignored) && !isCompanion(it->path())) {
             listing.push_back(
                 {it->path().string(), it->file_size(ignored), it->last_write_time(ignored)});
@@ -78,7 +78,7 @@ Result<Listing> list(const std::string& folder)
     return listing;
 }
 
-// What is kept of a raster once it is closed: thousands cannot be open at once.
+// The data kept of a closed raster: thousands cannot be open at once.
 struct Part {
     RasterInfo info;
     GridSize block;
@@ -112,13 +112,13 @@ std::string nameOf(const Part& part)
     return fs::path(part.info.path).filename().string();
 }
 
-// Other files lie beside maps without a word.
+// Other files next to maps are ignored silently.
 bool isRaster(const std::string& path)
 {
     return recognisingDriverFor(path).has_value();
 }
 
-// The rasters among the files, each once: a label and its data are the same one.
+// The rasters among the files, each once: a label and its data count as one.
 Result<Parts> openParts(const std::string& folder, const Listing& listing, int band)
 {
     std::vector<Opened> opened(listing.size());
@@ -131,7 +131,7 @@ Result<Parts> openParts(const std::string& folder, const Listing& listing, int b
     });
     std::vector<Part> parts;
     std::vector<std::string> left_out;
-    std::set<std::string> names;   // of GDAL
+    std::set<std::string> names;   // in GDAL
     std::set<std::string> endings; // of rasters
     std::set<std::string> files;   // that belong to one
     for (std::size_t i = 0; i < opened.size(); ++i) {
@@ -181,7 +181,7 @@ bool isSameCrs(const std::optional<Crs>& a, const std::optional<Crs>& b)
            first.IsSame(&second, options) != 0;
 }
 
-// Why the part cannot be on one map with the first; empty where it can.
+// Why the part cannot be combined with the first; empty if it can.
 std::string mismatch(const RasterInfo& part, const RasterInfo& first, const std::string& first_name)
 {
     if (!isSameCrs(part.crs, first.crs)) {
@@ -202,8 +202,8 @@ std::string mismatch(const RasterInfo& part, const RasterInfo& first, const std:
     return {};
 }
 
-// A type that also has room for a void, where samples may have every value of `type`. The virtual
-// rasters of GDAL 3.6 know no voids in 64-bit whole numbers.
+// A type with a spare value for voids, for samples that may have every value of `type`. Virtual
+// rasters of GDAL 3.6 do not support voids in 64-bit integers.
 SampleType withRoomForVoids(SampleType type)
 {
     switch (type) {
@@ -216,7 +216,7 @@ SampleType withRoomForVoids(SampleType type)
     case SampleType::UInt64:
         return SampleType::Float64;
     default:
-        return type; // its lowest value is no height of anything
+        return type; // its lowest value is never an elevation
     }
 }
 
@@ -295,7 +295,7 @@ void addSource(CPLXMLNode* band, const Part& part, const GridWindow& place, bool
         CPLCreateXMLElementAndValue(source, "SourceFilename", part.info.path.c_str());
     setAttributes(name, {{"relativeToVRT", "0"}});
     CPLCreateXMLElementAndValue(source, "SourceBand", fmt::format("{}", part.info.band).c_str());
-    // With these GDAL opens a part when it is first read, and closes it again when it has too many.
+    // With these GDAL opens a part on first read, and closes it again when too many are open.
     setAttributes(CPLCreateXMLNode(source, CXT_Element, "SourceProperties"),
                   {{"RasterXSize", fmt::format("{}", part.info.columns)},
                    {"RasterYSize", fmt::format("{}", part.info.rows)},
@@ -430,7 +430,7 @@ makeMosaic(const std::string& folder, const Listing& listing, int band)
     return std::shared_ptr<const Mosaic>(std::move(mosaic));
 }
 
-// A map is opened several times over, once for each thread that reads it: its parts only once.
+// A map is opened once for each thread that reads it, but its parts only once.
 class Remembered {
 public:
     std::shared_ptr<const Mosaic> find(const std::string& key, const Listing& listing)
@@ -454,7 +454,8 @@ private:
     std::map<std::string, std::pair<Listing, std::shared_ptr<const Mosaic>>> mosaics_;
 };
 
-// What of `place` lies within `window`, counted from the former's corner; empty where nothing does.
+// The part of `place` within `window`, relative to the corner of `place`; empty if they do not
+// overlap.
 GridWindow overlap(const GridWindow& place, const GridWindow& window)
 {
     const std::size_t column = std::max(place.column, window.column);

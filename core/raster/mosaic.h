@@ -1,4 +1,4 @@
-// A folder of adjoining rasters, such as the tiles that SRTM and MOLA are handed out in, as one.
+// A mosaic of the adjoining rasters in a folder, such as the tiles of SRTM and MOLA.
 #pragma once
 
 #include "core/base/result.h"
@@ -19,25 +19,25 @@ struct MosaicRaster {
     GridWindow place; // in the whole
 };
 
-/// Adjoining rasters as one.
+/// Adjoining rasters as one raster.
 struct Mosaic {
-    std::string vrt;                // text that GDAL opens as one raster with one band
+    std::string vrt;                // XML that GDAL opens as one raster with one band
     RasterInfo info;                // of the whole; its path is the folder
-    std::vector<std::string> files; // all that belong to the parts, sorted
+    std::vector<std::string> files; // all files of the parts, sorted
     std::vector<MosaicRaster> parts;
 
-    /// Where reading a window of the whole has failed: the message of the part that is to blame,
-    /// found by reading each on its own. Empty where all can be read.
+    /// After reading a window of the mosaic has failed: the message of the failing part, found by
+    /// reading each part separately. Empty if all can be read.
     std::string failureIn(const GridWindow& window) const;
 };
 
-/// The rasters that lie in the folder itself, not those in folders within it. They have to be of
-/// one kind: sample type, unit, scale, CRS, and one grid. Where parts overlap the last by name is
-/// seen, its voids excepted; what none covers is void. Other files are passed over, rasters among
-/// them with a notice; those that are named like a part and cannot be read are an error: they would
-/// leave a hole without a word.
+/// The rasters in the folder itself, not in its subfolders. They must have the same sample type,
+/// unit, scale, CRS and grid. Where parts overlap, the last by name is used, except for its voids;
+/// uncovered samples are void. Other files are skipped, with a notice if they are rasters. Files
+/// that are named like a part but cannot be read are an error, because they would leave a silent
+/// gap.
 ///
-/// Opens every raster, on all cores; asked again, only looks whether any file has changed. Any
+/// Opens every raster, on all cores; later calls only check whether any file has changed. Any
 /// thread. Errors begin with the folder and name the raster that does not fit.
 Result<std::shared_ptr<const Mosaic>> mosaicOf(const std::string& path, int band);
 

@@ -71,8 +71,8 @@ Extent columnsOf(const std::vector<MosaicPart>& parts, const std::vector<Offset>
     return all;
 }
 
-// Moves parts by a turn so that the widest gap on the circle comes to lie outside, where that makes
-// the whole narrower.
+// Moves parts by a turn so that the widest gap on the circle lies outside, if that makes the mosaic
+// narrower.
 void closeAcrossSeam(const std::vector<MosaicPart>& parts,
                      std::int64_t turn_columns,
                      std::vector<Offset>& offsets)
@@ -90,7 +90,7 @@ void closeAcrossSeam(const std::vector<MosaicPart>& parts,
     };
     std::int64_t end = end_of(order.front());
     std::int64_t widest = 0;
-    std::int64_t seam = 0; // parts that begin before it move to the other side
+    std::int64_t seam = 0; // parts that begin before it move by a turn
     for (const std::size_t i : order) {
         if (moved[i].column - end > widest) {
             widest = moved[i].column - end;
@@ -111,7 +111,7 @@ void closeAcrossSeam(const std::vector<MosaicPart>& parts,
     }
 }
 
-// The share of the rectangle that some window covers: counted on the pattern of all their edges.
+// The fraction of the rectangle covered by windows, counted on the pattern of all their edges.
 double coveredShare(const std::vector<GridWindow>& windows, const GridSize& size)
 {
     std::vector<std::size_t> columns{0, size.columns};
@@ -128,7 +128,7 @@ double coveredShare(const std::vector<GridWindow>& windows, const GridSize& size
     const std::size_t down = rows.size() - 1;
     const double all = static_cast<double>(size.columns) * static_cast<double>(size.rows);
     double covered = 0.0;
-    if (across * down > kPatternMax) { // no regular pattern: as if none overlapped
+    if (across * down > kPatternMax) { // no regular pattern: assume no overlap
         for (const GridWindow& window : windows) {
             covered += static_cast<double>(window.columns) * static_cast<double>(window.rows);
         }
@@ -194,7 +194,7 @@ Result<MosaicGrid> layOutMosaic(const std::vector<MosaicPart>& parts, std::optio
         grid.places.push_back({static_cast<std::size_t>(offsets[i].column - columns.first),
                                static_cast<std::size_t>(offsets[i].row - first_row),
                                parts[i].size.columns, parts[i].size.rows});
-        // Corners as some file has them, rather than with the rounding of a product.
+        // Corners as stored in a file, without the rounding of a product.
         if (grid.places[i].column == 0) {
             const double turns =
                 turn ? std::round((terms[0] - parts[i].transform.terms()[0]) / *turn) * *turn : 0.0;

@@ -1,4 +1,4 @@
-// Where adjoining rasters lie on the one grid that they share.
+// The common grid of adjoining rasters.
 #pragma once
 
 #include "core/base/result.h"
@@ -24,14 +24,14 @@ struct MosaicGrid {
     GeoTransform transform;
     GridSize size;
     std::vector<GridWindow> places; // of the parts, in their order
-    double covered = 1.0;           // share of the samples that some part has, (0, 1]
+    double covered = 1.0;           // fraction of the samples that a part covers, (0, 1]
 };
 
-/// Lays out the parts, of which there is at least one. Neighbours may share columns and rows, or
-/// leave gaps. Where `turn` is the map's length around the body and a whole number of samples,
-/// parts on both sides of the antimeridian come to lie side by side. Invalid where the parts are
-/// rotated, or their samples do not lie on one grid to a twentieth of a pixel: the message names
-/// the first part that does not fit, and what it does not fit to.
+/// Lays out the parts; at least one. Neighbors may share columns and rows, or leave gaps. If `turn`
+/// is the map's length around the body and a whole number of samples, parts on both sides of the
+/// antimeridian are placed side by side. Invalid if the parts are rotated, or their samples do not
+/// share a grid to a twentieth of a pixel: the message names the first part that does not fit and
+/// the part it was compared with.
 Result<MosaicGrid> layOutMosaic(const std::vector<MosaicPart>& parts, std::optional<double> turn);
 
 } // namespace marsview

@@ -11,12 +11,12 @@
 namespace marsview {
 namespace {
 
-// Headers are a few kilobytes; what is longer is not worth understanding.
+// Headers are a few kilobytes; longer ones are not parsed.
 constexpr std::size_t kHeaderBytesMax = std::size_t{1} << 20;
 constexpr std::uint64_t kPaddingMax = 3;
 constexpr std::uint64_t kUnknownSize = 0xFFFFFFFF; // CDF-1 and 2: larger than can be written
 
-// Reads big-endian numbers one after the other; stops giving any after the first that is missing.
+// Reads successive big-endian numbers; returns none after the first missing one.
 class Reader {
 public:
     Reader(const std::vector<unsigned char>& bytes, int version)

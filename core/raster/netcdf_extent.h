@@ -1,5 +1,5 @@
-// How long a classic netCDF file has to be. GDAL and the netCDF library read what lies beyond the
-// end of such a file as zeros, without a word.
+// The required length of a classic netCDF file. GDAL and the netCDF library silently read zeros
+// beyond the end of such a file.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,10 @@
 
 namespace marsview {
 
-/// The bytes up to which the header places the variables (of records, the first), less the padding
-/// that writers may leave out at the end. Nothing where the file is no classic netCDF (CDF-1, 2 or
-/// 5) or its header is not understood. Format: "The NetCDF Classic Format Specification", Unidata.
+/// The end of the variables according to the header (for record variables, of the first record),
+/// without the final padding that writers may omit. Empty if the file is not a classic netCDF
+/// (CDF-1, 2 or 5) or its header cannot be parsed. Format: "The NetCDF Classic Format
+/// Specification", Unidata.
 std::optional<std::uint64_t> classicNetcdfBytes(const std::string& path);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// The nodata value of a raster, as its samples' type holds it.
+// The nodata value of a raster in its sample type.
 #pragma once
 
 #include <cmath>
@@ -8,9 +8,9 @@
 
 namespace marsview {
 
-/// Nodata is declared as a double, but means the value that the samples' type can hold: a float32
-/// map with nodata -3.4028234663852886e38 or 1e-34 compares in float. Does not exist where none is
-/// declared, where it is NaN (void in any case), and where no sample can have it.
+/// Nodata is declared as a double, but means the nearest value of the sample type: a float32 map
+/// with nodata -3.4028234663852886e38 or 1e-34 compares in float. Empty if none is declared, if it
+/// is NaN (always void), and if no sample can have it.
 template <typename T>
 struct Nodata {
     bool exists = false;

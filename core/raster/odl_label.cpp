@@ -224,7 +224,7 @@ std::optional<OdlStatement> readOdlLabel(const std::string& path)
     if (!file) {
         return std::nullopt;
     }
-    // A file of samples is not read as a text.
+    // Files of samples are not parsed as text.
     constexpr std::size_t kHeadBytes = 4096;
     std::string text(kHeadBytes, '\0');
     text.resize(VSIFReadL(text.data(), 1, text.size(), file.get()));

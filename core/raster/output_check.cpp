@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Also of files that are not there yet.
+// Also for files that do not exist yet.
 bool isSameFile(const std::string& a, const std::string& b)
 {
     std::error_code none;
@@ -43,11 +43,11 @@ Status checkOutputs(const FilesInUse& files)
         if (path.empty() || (is_there && !fs::is_regular_file(path, none))) {
             continue; // a terminal or /dev/null loses nothing
         }
-        if (!has_sources && is_there) { // otherwise it is part of no map
+        if (!has_sources && is_there) { // otherwise it cannot be part of a map
             has_sources = true;
             for (const std::string& map : files.maps) {
                 if (!fs::exists(map, none)) {
-                    continue; // at a server: nothing here is a part of it
+                    continue; // on a server: no local file is part of it
                 }
                 const std::vector<std::string> sources = sourceFilesOf(map);
                 map_files.insert(map_files.end(), sources.begin(), sources.end());

@@ -1,4 +1,4 @@
-// Whether what is going to be written would take something away.
+// Checks whether output files would overwrite input files.
 #pragma once
 
 #include "core/base/result.h"
@@ -8,15 +8,15 @@
 
 namespace marsview {
 
-/// What somebody reads and writes; empty paths are none, and devices lose nothing.
+/// The files that a command reads and writes; empty paths and devices are ignored.
 struct FilesInUse {
-    std::vector<std::string> maps; // each with all the files that it is made of
+    std::vector<std::string> maps; // each with all its files
     std::vector<std::string> read;
     std::vector<std::string> written;
 };
 
-/// Invalid where something that is written is something that is read, by whatever name and link, or
-/// is written twice. To be asked before anything is written. Any thread.
+/// Invalid if an output file is also an input file, under any name or link, or is written twice.
+/// Call before anything is written. Any thread.
 Status checkOutputs(const FilesInUse& files);
 
 } // namespace marsview

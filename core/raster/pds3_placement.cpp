@@ -24,11 +24,11 @@
 namespace marsview {
 namespace {
 
-// A label's numbers are rounded (MAP_SCALE to five digits), which is worth 1 % of a pixel at the
+// A label's numbers are rounded (MAP_SCALE to five digits), which amounts to 1 % of a pixel at the
 // far edge of a global map; a real shift is a whole pixel.
 constexpr double kPixelTolerance = 0.1;
 
-// Numbers stand bare or with their unit: 90.0, or {"value": 90.0, "unit": "DEGREE"}.
+// Numbers are plain or have a unit: 90.0, or {"value": 90.0, "unit": "DEGREE"}.
 std::optional<double> numberAt(const nlohmann::json& object, const char* key)
 {
     const auto entry = object.find(key);
@@ -52,7 +52,7 @@ int wholePixels(double pixels)
                : 0;
 }
 
-// Names of raw images, which GDAL opens before it looks at the rest of the label.
+// Names of raw images, which GDAL opens before it reads the rest of the label.
 void appendPointers(const OdlStatement& group, std::vector<std::string>& names)
 {
     for (const OdlStatement& statement : group.statements) {
@@ -64,7 +64,7 @@ void appendPointers(const OdlStatement& group, std::vector<std::string>& names)
     }
 }
 
-// Without objects of compressed files, and with an image under the name that GDAL looks for.
+// Without objects of compressed files, and with an image under the name that GDAL expects.
 std::string asOfRawImage(std::string text)
 {
     constexpr std::string_view kEnd = "_IMAGE";
@@ -228,7 +228,7 @@ pds3PlacementShift(const nlohmann::json& label, const GeoTransform& transform, c
     const MapPoint actual = transform.toMap(kOuterCorner);
     const double turn = *crs.turn();
     double dx = expected->x - actual.x;
-    dx -= turn * std::round(dx / turn); // the label may count longitudes in another turn
+    dx -= turn * std::round(dx / turn); // the label may use another turn of longitude
     const GeoTransform::Terms& t = transform.terms();
     return {.columns = wholePixels(dx / t[1]),
             .rows = wholePixels((expected->y - actual.y) / t[5])};

@@ -1,4 +1,4 @@
-// Where PDS3 products lie, against what GDAL makes of their labels.
+// Corrects GDAL's placement of PDS3 products.
 #pragma once
 
 #include "core/geo/crs.h"
@@ -13,7 +13,7 @@ class GDALDataset;
 
 namespace marsview {
 
-/// Whole pixels by which a raster has to be moved to lie where its label says.
+/// Whole pixels by which a raster must be shifted to match its label.
 struct PixelShift {
     int columns = 0; // positive: eastward for a north-up raster
     int rows = 0;    // positive: southward
@@ -21,10 +21,9 @@ struct PixelShift {
 };
 
 /// Compares the outer corner of the first pixel with the label's MAXIMUM_LATITUDE and
-/// WESTERNMOST_LONGITUDE. MOLA labels count the projection offset from another pixel than LOLA
-/// labels do, and GDAL 3.6 reads both alike, which moves MOLA grids by one pixel. Only a
-/// disagreement of one whole pixel in a cylindrical projection is taken for that; anything else
-/// is left alone.
+/// WESTERNMOST_LONGITUDE. MOLA and LOLA labels count the projection offset from different pixels,
+/// but GDAL 3.6 reads both alike, which shifts MOLA grids by one pixel. Only a difference of one
+/// whole pixel in a cylindrical projection is corrected.
 ///
 /// `label` is the PDS3 label as JSON (GDAL's "json:PDS" domain).
 PixelShift

@@ -33,8 +33,8 @@
 namespace marsview {
 namespace {
 
-// Samples are read in bands of whole rows of about this size: large enough that the call costs
-// nothing, small enough that progress and cancel feel immediate.
+// Samples are read in bands of whole rows of about this size: large enough that the cost of the
+// call is negligible, small enough for prompt progress and cancellation.
 constexpr std::size_t kBandBytes = std::size_t{8} << 20;
 
 // A row of blocks larger than this is read in parts, though its blocks are then decoded again.
@@ -60,7 +60,7 @@ std::string listOfSubdatasets(GDALDataset& dataset)
     return list;
 }
 
-// A raster of several bands with colours, or one band of palette entries, is a picture.
+// A raster of several color bands, or with one palette band, is a picture.
 bool isPicture(GDALDataset& dataset, GDALRasterBand& band)
 {
     if (band.GetColorTable() != nullptr) {
@@ -97,13 +97,13 @@ std::string refusalOfPicture(GDALDataset& dataset, int band)
 struct OpenedDataset {
     Dataset dataset;
     std::string name;
-    std::optional<RemoteVersion> remote{};  // of a raster at a server
+    std::optional<RemoteVersion> remote{};  // for a raster on a server
     std::shared_ptr<const Mosaic> mosaic{}; // of a folder of rasters
     std::string label{};                    // of a product whose samples are in a TIFF or JPEG2000
     bool prints = false;                    // a library prints lines to stderr
 };
 
-// The first of GDAL's names that opens; errors as of openFirst().
+// Opens the first possible of GDAL's names; errors as for openFirst().
 Result<OpenedDataset> openLocal(const std::vector<std::string>& names)
 {
     Result<GuardedDataset> opened = openFirst(names);
@@ -133,8 +133,8 @@ Result<Dataset> openMosaic(const Mosaic& mosaic)
     return dataset;
 }
 
-// What a label describes, where the samples are in a TIFF or JPEG2000, which GDAL would take for
-// raw ones. Nothing for everything else.
+// The raster of a label with samples in a TIFF or JPEG2000, which GDAL would read as raw samples.
+// Empty for everything else.
 std::optional<Result<OpenedDataset>> openEncodedImage(const std::string& name)
 {
     const std::string image =
@@ -164,7 +164,7 @@ Result<OpenedDataset> openFolder(const std::string& path, int band)
         .dataset = std::move(dataset).value(), .name = path, .mosaic = std::move(mosaic).value()};
 }
 
-// On the condition that it is of `version`.
+// Opens it on the condition that its version is `version`.
 Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version)
 {
     const GdalMessages messages;
@@ -202,8 +202,8 @@ Result<OpenedDataset> openRemoteOnce(const std::string& name)
         .dataset = std::move(dataset).value(), .name = name, .remote = std::move(version).value()};
 }
 
-// A connection that breaks off is tried again, which GDAL does for some answers alone; a server
-// that takes its time to fail is not.
+// Retries a lost connection, which GDAL does only for some responses, but not a server that is slow
+// to fail.
 Result<OpenedDataset> openRemote(const std::string& name)
 {
     using Clock = std::chrono::steady_clock;
@@ -276,7 +276,7 @@ nlohmann::json jsonDomain(GDALDataset& dataset, const char* domain)
     return parsed.is_discarded() ? nlohmann::json{} : parsed;
 }
 
-// A text in an object of a PDS3 label; empty where there is none, or something else than a text.
+// A text value in an object of a PDS3 label; empty if missing or not a text.
 std::string labelText(const nlohmann::json& label, const char* object, const char* key)
 {
     const auto parent = label.find(object);
@@ -325,7 +325,7 @@ void readVertical(GDALDataset& dataset,
         info.unit = *info.crs->verticalUnit();
         info.is_unit_declared = true;
     }
-    // What heights are counted from, where the product tells.
+    // The vertical datum, if the product declares it.
     if (info.crs && !info.crs->verticalDatumName().empty()) {
         info.vertical_datum = info.crs->verticalDatumName();
     } else if (const char* dted = dataset.GetMetadataItem("DTED_VerticalDatum")) {
@@ -448,7 +448,8 @@ void readNodata(GDALRasterBand& band, RasterInfo& info)
     if (has_nodata != 0) {
         info.nodata = nodata;
     }
-    // ISIS3 and PDS4 have several special values, others a mask file: those only the mask tells.
+    // ISIS3 and PDS4 have several special values, other formats a mask file: only the mask shows
+    // those.
     const int flags = band.GetMaskFlags();
     info.has_mask_band = (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
 }
@@ -475,13 +476,13 @@ struct RasterFile::Impl {
     Dataset dataset;
     GDALRasterBand* band = nullptr;
     std::optional<NetcdfExtent> netcdf;   // for classic netCDF files
-    std::optional<RemoteVersion> remote;  // of a raster at a server
+    std::optional<RemoteVersion> remote;  // for a raster on a server
     std::shared_ptr<const Mosaic> mosaic; // of a folder of rasters
     RasterInfo info;
-    // Its whole rows are read through these, where it has any.
+    // If present, whole rows are read through these.
     mutable std::optional<TiffStrips> strips;
-    bool has_plain_strips = false; // of which nobody holds more than is asked for
-    // After a read that failed, GDAL 3.6 returns other samples without a word.
+    bool has_plain_strips = false; // read without caching more than requested
+    // After a read that failed, GDAL 3.6 silently returns wrong samples.
     mutable bool is_spoilt = false;
     bool prints = false; // a library prints lines to stderr
 
@@ -651,8 +652,8 @@ Status RasterFile::checkComplete() const
     return impl_->checkExtent({0, 0, impl_->info.columns, impl_->info.rows});
 }
 
-// One sample that is not void, from a few rows: enough to tell radii from heights. Only asked where
-// the type can hold a radius in metres.
+// One sample that is not void, from a few rows: enough to distinguish radii from heights. Only
+// called if the type can hold a radius in meters.
 std::optional<double> RasterFile::Impl::findTypicalSample()
 {
     const bool can_hold_radius = sampleBytes(info.type) >= 4 || info.scale != 1.0 ||
@@ -661,7 +662,7 @@ std::optional<double> RasterFile::Impl::findTypicalSample()
         return std::nullopt;
     }
     if (const int overviews = band->GetOverviewCount(); remote && overviews > 0) {
-        // The smallest: whole rows of a map at a server take hundreds of requests.
+        // The smallest: whole rows of a map on a server take hundreds of requests.
         GDALRasterBand& smallest = *band->GetOverview(overviews - 1);
         const auto loaded =
             readFrom(smallest,
@@ -679,7 +680,7 @@ std::optional<double> RasterFile::Impl::findTypicalSample()
         }
         const GridWindow window{0, row, info.columns, 1};
         if (!readRows(*band, *grid, window, 0)) {
-            return std::nullopt; // reading the samples proper will tell
+            return std::nullopt; // reading the samples reports the error
         }
         grid->markValues(info.other_nodata, 0, 1);
         const SampleStatistics statistics = grid->applyRule({info.nodata}, 0, 1);
@@ -708,7 +709,7 @@ std::size_t RasterFile::Impl::rowsPerBand() const
     return std::min(rows, info.rows);
 }
 
-// Which rows of a part are meant is no news behind those of the whole.
+// The rows of a part add nothing to the rows of the whole.
 static std::string withoutRows(const std::string& failure)
 {
     constexpr std::string_view kEnd = " failed: ";
@@ -735,7 +736,7 @@ Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWind
         window);
 }
 
-// Opens it once more where a read has failed.
+// Reopens the dataset after a failed read.
 Status RasterFile::Impl::renew()
 {
     if (!is_spoilt) {
@@ -779,7 +780,8 @@ Status RasterFile::Impl::renew()
         same->GetYSize() != band->GetYSize() ||
         same->GetRasterDataType() != band->GetRasterDataType() ||
         same->GetOverviewCount() != band->GetOverviewCount()) {
-        if (remote && remote->isNamed()) { // and is still of that name: the answer was cut short
+        if (remote && remote->isNamed()) { // and the version is unchanged: the response was
+                                           // truncated
             const GdalMessages none;
             return remoteFailure(info.path, *remote, none, "the connection broke off; try again");
         }
@@ -800,7 +802,7 @@ Error RasterFile::Impl::readFailure(const std::string& why, const GridWindow& wi
                              window.row, window.row + window.rows - 1, why)};
 }
 
-// GDAL reads what lies beyond the end of raw data as zeros, in some of its paths without a word.
+// GDAL reads zeros beyond the end of raw data, in some of its code paths silently.
 Status RasterFile::Impl::checkExtent(const GridWindow& window) const
 {
     const auto cut_short = [&](std::int64_t present, std::int64_t promised) {
@@ -1009,7 +1011,7 @@ Result<GridSize> RasterFile::Impl::scanStep() const
     band->GetBlockSize(&block_columns, &block_rows);
     const std::size_t sample_bytes = sampleBytes(info.type);
     if (strips || has_plain_strips) {
-        // Each read starts at the last of some hundred places where an archive can be entered.
+        // Each read restarts at one of some hundred seek points in an archive.
         const std::size_t bytes = info.path.starts_with("/vsi") ? kBandBytesMax : kBandBytes;
         const std::size_t row_bytes = info.columns * sample_bytes;
         return GridSize{info.columns, std::clamp<std::size_t>(bytes / row_bytes, 1, info.rows)};

@@ -14,7 +14,7 @@
 
 namespace marsview {
 
-/// Samples in memory, and what they hold.
+/// Samples in memory with their statistics.
 struct LoadedSamples {
     SampleGrid grid;
     SampleStatistics statistics;
@@ -24,13 +24,13 @@ struct LoadedSamples {
 /// never written to.
 class RasterFile {
 public:
-    /// Opens anything that holds elevations and that GDAL understands: files, labels, headers,
-    /// archives (archive_rasters.h), folders of adjoining rasters (mosaic.h), GDAL's connection
-    /// strings. Scale, offset, unit and nodata are those of the product's label where there is one
-    /// (label_elevation.h). Refuses pictures (colour, indexed), complex numbers and what is
-    /// absurdly large. `band` counts from 1. What is not a plain file is opened in a child process
+    /// Opens any elevation raster that GDAL supports: files, labels, headers, archives
+    /// (archive_rasters.h), folders of adjoining rasters (mosaic.h), GDAL's connection strings.
+    /// Scale, offset, unit and nodata come from the product's label if there is one
+    /// (label_elevation.h). Refuses pictures (color, indexed), complex numbers and implausibly
+    /// large rasters. `band` counts from 1. Anything but a plain file is opened in a child process
     /// first, within limits of time and memory (open_guard.h); the thread's OpeningJob cancels
-    /// that. A file that cannot hold what its header promises is refused.
+    /// that. A file shorter than its header requires is refused.
     ///
     /// Error messages begin with the path.
     static Result<RasterFile> open(const std::string& path, int band = 1);
@@ -41,24 +41,24 @@ public:
 
     const RasterInfo& info() const noexcept;
 
-    /// The files that it is made of, as GDAL names them, with overviews and statistics that lie
-    /// beside it; at a server none.
+    /// The files of the raster, as GDAL lists them, with overviews and statistics next to it; empty
+    /// on a server.
     std::vector<std::string> files() const;
-    /// Whether raw data is as long as its header promises: the message that reading would fail
-    /// with. Of other formats only reading can tell.
+    /// Checks that raw data is as long as its header requires; fails with the message of a read.
+    /// For other formats only reading can show this.
     Status checkComplete() const;
 
     /// All samples. Reports progress after every few megabytes and stops within one such step when
-    /// cancelled. TooLarge where they need more than `memory_bytes_max`.
+    /// cancelled. TooLarge if they need more than `memory_bytes_max`.
     ///
-    /// `voids` replaces the file's nodata value, masks apply in any case.
+    /// `voids` replaces the file's nodata value; masks always apply.
     Result<LoadedSamples>
     readAll(JobMonitor& monitor, const VoidRule& voids, std::size_t memory_bytes_max);
 
     /// The samples of a window that lies within the raster.
     Result<LoadedSamples> readWindow(const GridWindow& window, const VoidRule& voids);
 
-    /// Smaller versions of the band that the file brings along, the largest first; most files have
+    /// Overviews in the file: smaller versions of the band, the largest first; most files have
     /// none.
     std::size_t overviewCount() const noexcept;
     GridSize overviewSize(std::size_t overview) const;
@@ -67,11 +67,12 @@ public:
     readOverview(std::size_t overview, const GridWindow& window, const VoidRule& voids);
     /// How the file stores its samples: columns and rows that are decoded together.
     GridSize blockSize() const;
-    /// Whole rows, read one after the other, take no more than they are, however large the blocks.
+    /// Whether reading consecutive whole rows takes only the memory of the rows, whatever the block
+    /// size.
     bool hasCheapRows() const noexcept;
 
     /// Range and void count without keeping the samples: less than 300 MB on a raster of any size.
-    /// TooLarge where a single block of it takes more.
+    /// TooLarge if a single block takes more.
     Result<SampleStatistics> scan(JobMonitor& monitor, const VoidRule& voids);
 
 private:
@@ -81,12 +82,12 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Half of the machine's memory: what a single map may take by default.
+/// Half of the machine's memory: the default limit for a single map.
 std::size_t defaultMemoryBudget();
 
-/// Lets GDAL hold its default share of the memory, 5 %, in decoded blocks, unless the user set
-/// GDAL_CACHEMAX: for reads that come back to blocks in any order. Otherwise it holds 32 MB. Before
-/// the first raster is opened or after.
+/// Lets GDAL cache decoded blocks in its default share of the memory, 5 %, unless the user set
+/// GDAL_CACHEMAX: for reads that revisit blocks in any order. Without this call the cache holds 32
+/// MB. May be called before or after the first raster is opened.
 void allowLargeBlockCache();
 
 } // namespace marsview

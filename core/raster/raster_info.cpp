@@ -8,11 +8,11 @@
 namespace marsview {
 namespace {
 
-// Heights of a planetary raster are radii where they are this near to the body's radius.
+// Values of a planetary raster count as radii if they are this near to the body's radius.
 constexpr double kRadiusShareMax = 0.2;
 
-// Below this radius a height may well be as large as the radius, so that nothing can be concluded
-// from a sample; an offset in the file's header still can.
+// Below this radius a height may be as large as the radius, so a sample is not conclusive; an
+// offset in the file's header still is.
 constexpr double kBodyRadiusMinM = 10e3;
 
 bool isOblate(const Ellipsoid& e)
@@ -71,7 +71,7 @@ Error refusal(OverrideField field, const std::string& why, ErrorCode code = Erro
     const auto* const known =
         std::find_if(kFieldNames.begin(), kFieldNames.end(),
                      [field](const FieldName& name) { return name.field == field; });
-    // Sentences of other parts may begin with the name already.
+    // Messages from other modules may begin with the name already.
     const std::string name = std::string(known->name) + " ";
     return {code, fmt::format("{}: {}", known->name,
                               why.starts_with(name) ? why.substr(name.size()) : why)};
@@ -151,7 +151,7 @@ Status applyCrs(RasterInfo& info, const RasterOverrides& overrides)
     return Done{};
 }
 
-// Small bodies are irregular: radii may differ by so much from the body's and still be its own.
+// Small bodies are irregular: their radii may differ this much from the body's.
 bool areRadiiOf(const Body& body, const Ellipsoid& ellipsoid)
 {
     constexpr double kFactorMax = 1.3;
@@ -265,7 +265,7 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
                                          -3.4028234663852886e38};
     const bool is_usual_mark = std::find(kUsualVoidMarks.begin(), kUsualVoidMarks.end(),
                                          statistics.raw_minimum) != kUsualVoidMarks.end();
-    constexpr double kHeightMaxM = 1e6; // where no body is known
+    constexpr double kHeightMaxM = 1e6; // if the body is unknown
     const double height_max_m = bodyRadius(info).value_or(kHeightMaxM);
     for (const double raw : {statistics.raw_minimum, statistics.raw_maximum}) {
         const double height_m = info.elevationScale().height(raw);
@@ -303,7 +303,7 @@ void notePlacement(RasterInfo& info)
 
 std::optional<OverrideField> refusedField(const Error& error)
 {
-    // The sentence follows the last path, which may have any words in it.
+    // The sentence follows the last path, which may contain any words.
     const std::string& message = error.message;
     for (std::size_t at = 0; at != std::string::npos;) {
         const std::string_view rest = std::string_view(message).substr(at);
@@ -320,7 +320,7 @@ std::optional<OverrideField> refusedField(const Error& error)
 
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides)
 {
-    std::optional<RasterInfo> as_read; // where what it says of itself matters
+    std::optional<RasterInfo> as_read; // if the file's own description matters
     if (overrides.crs && !overrides.transform) {
         as_read = info;
         as_read->crs_suggestion = suggestCrs(info);

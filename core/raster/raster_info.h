@@ -1,4 +1,4 @@
-// What a raster file says about itself, and what the user says instead.
+// The description of a raster file, and the user's overrides.
 #pragma once
 
 #include "core/base/result.h"
@@ -27,11 +27,11 @@ struct ElevationScale {
 
 /// The description of one band of a raster file.
 struct RasterInfo {
-    std::string path; // what was opened; may differ from what was asked for (a label for its data)
-    /// Of a raster at a server: tells it from another that is put in its place. Empty for files.
+    std::string path; // the opened file; may differ from the requested one (a label for its data)
+    /// For a raster on a server: identifies its version. Empty for files.
     std::string remote_version;
-    /// The server names versions, by ETag or time, so that what was fetched may be kept and known
-    /// to be of this one later. Otherwise a change shows in nothing but perhaps the size.
+    /// The server identifies versions by ETag or time, so that cached data can be matched to this
+    /// version later. Otherwise at most the size shows a change.
     bool has_named_version = false;
     std::string driver; // GDAL's short name, "GTiff"
     std::size_t columns = 0;
@@ -47,22 +47,22 @@ struct RasterInfo {
     double scale = 1.0; // value = raw × scale + offset, in `unit`
     double offset = 0.0;
     VerticalUnit unit;
-    bool is_unit_declared = false;     // otherwise metres are assumed
-    std::optional<double> typical_raw; // some sample that is not void, where one was looked for
-    /// Where the values are distances from the body's centre: the radius in metres that is
+    bool is_unit_declared = false;     // otherwise meters are assumed
+    std::optional<double> typical_raw; // a valid sample, if one was searched for
+    /// For values that are distances from the body's center: the radius in meters that is
     /// subtracted to get heights.
     std::optional<double> reference_radius_m;
-    std::string vertical_datum; // what heights are counted from; empty where unknown
+    std::string vertical_datum; // empty if unknown
 
-    /// Nothing where the file has none, or one that cannot be inverted.
+    /// Empty if the file has none, or one that cannot be inverted.
     std::optional<GeoTransform> transform;
     std::optional<Crs> crs;
-    const Body* body = nullptr; // of the CRS, or told by the user; null where unknown
-    AxisHints axis_hints;       // what the file says of its axes and its body without a CRS
-    /// Of a grid without a CRS that looks like one in degrees.
+    const Body* body = nullptr; // of the CRS, or set by the user; null if unknown
+    AxisHints axis_hints;       // axes and body from metadata other than a CRS
+    /// For a grid without a CRS that appears to be in degrees.
     std::optional<CrsSuggestion> crs_suggestion;
 
-    /// What was noticed, assumed or corrected; whole sentences for the user.
+    /// Observations, assumptions and corrections, as sentences for the user.
     std::vector<std::string> notices;
 
     ElevationScale elevationScale() const noexcept;
@@ -75,24 +75,23 @@ struct RasterInfo {
     std::uint64_t triangleCount() const noexcept;
 };
 
-/// What the user knows better than the file. The file itself is never changed.
+/// Values set by the user in place of the file's. The file itself is never changed.
 struct RasterOverrides {
     std::optional<std::string> crs{};     // text as for Crs::fromText
     std::optional<std::string> body{};    // name as for bodyNamed
-    std::optional<Ellipsoid> ellipsoid{}; // radii in metres
+    std::optional<Ellipsoid> ellipsoid{}; // radii in meters
     std::optional<GeoTransform::Terms> transform{};
     std::optional<std::string> vertical_unit{}; // spelling as for verticalUnitFrom
     std::optional<double> scale{};  // value = raw × scale + offset, in the vertical unit
-    std::optional<double> offset{}; // finite, as the scale, which is not 0 either
-    std::optional<std::string> vertical_datum{}; // a name for people
+    std::optional<double> offset{}; // finite, like the scale, which also must not be 0
+    std::optional<std::string> vertical_datum{}; // a name for display
     std::optional<double> nodata{};              // raw
 
     bool operator==(const RasterOverrides&) const = default;
     bool isEmpty() const { return *this == RasterOverrides{}; }
 };
 
-/// Adds a notice where there is no CRS, or where the placement cannot be meant in the CRS. Sets the
-/// suggestion of a CRS.
+/// Adds a notice if the CRS is missing or does not fit the placement. Sets the CRS suggestion.
 void notePlacement(RasterInfo& info);
 
 /// One of RasterOverrides, for errors.
@@ -108,22 +107,21 @@ enum class OverrideField {
     Nodata,
 };
 
-/// What an error of withOverrides() is about: for showing it next to the field. Nothing for other
-/// errors. A path before the sentence is skipped.
+/// The field that an error of withOverrides() concerns, for showing it next to that field. Empty
+/// for other errors. A path before the sentence is skipped.
 std::optional<OverrideField> refusedField(const Error& error);
 
-/// `info` as the file describes it, with the overrides in place of what it says. Errors begin with
-/// the name of the option ("scale: …"; see refusedField) and say why it cannot be used. A CRS in
-/// degrees is refused for a grid that cannot be in degrees, and a map projection for a grid that
-/// must be.
+/// `info` as the file describes it, with the overrides applied. Errors begin with the name of the
+/// option ("scale: …"; see refusedField) and say why it cannot be used. A CRS in degrees is refused
+/// for a grid that cannot be in degrees, and a map projection for a grid that must be.
 Result<RasterInfo> withOverrides(RasterInfo info, const RasterOverrides& overrides);
 
-/// Adds a notice where the samples look as if the file forgot to declare its voids, has nothing but
-/// voids, or holds numbers that are no heights.
+/// Adds a notice if the file seems to have undeclared voids, has only voids, or has values that
+/// cannot be elevations.
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics);
 
 /// Decides whether values are heights or radii (see RasterInfo::reference_radius_m) and names the
-/// datum accordingly. Called whenever scale, unit, CRS or body changed.
+/// datum accordingly. Call whenever scale, unit, CRS or body changed.
 void deduceHeightReference(RasterInfo& info);
 
 /// Refuses, with `path` in the sentence, what has fewer than 2 × 2 samples.

@@ -15,7 +15,7 @@
 
 namespace marsview {
 
-/// What a scan over samples found, in raw units (before scale, offset and unit).
+/// Statistics of samples, in raw units (before scale, offset and unit).
 struct SampleStatistics {
     double raw_minimum = std::numeric_limits<double>::infinity(); // over samples that are not void
     double raw_maximum = -std::numeric_limits<double>::infinity();
@@ -26,24 +26,24 @@ struct SampleStatistics {
     void merge(const SampleStatistics& other) noexcept;
 };
 
-/// Which raw values stand for "nothing was measured here".
+/// The raw values that mean nodata.
 struct VoidRule {
-    std::optional<double> nodata; // NaN and infinities are void in any case
+    std::optional<double> nodata; // NaN and infinities are always void
 };
 
-/// Columns × rows samples in row-major order, kept in the raster's own type: an int16 map costs
-/// two bytes a sample, plus one bit where the map has voids. Row 0 is the raster's first.
+/// Columns × rows samples in row-major order, kept in the raster's own type: an int16 map takes two
+/// bytes per sample, plus one bit if the map has voids. Row 0 is the raster's first.
 ///
 /// Reading concurrently is safe; writing is for the one thread that fills the grid.
 class SampleGrid {
 public:
-    /// Uninitialised samples, none void. TooLarge where the memory cannot be had.
+    /// Uninitialized samples, none void. TooLarge if the memory cannot be allocated.
     static Result<SampleGrid> create(SampleType type, std::size_t columns, std::size_t rows);
 
     SampleType type() const noexcept { return type_; }
     std::size_t columns() const noexcept { return columns_; }
     std::size_t rows() const noexcept { return rows_; }
-    /// Memory held, the void mask included.
+    /// Memory used, including the void mask.
     std::size_t bytes() const noexcept;
 
     /// The raw value, void or not. Unchecked: column < columns(), row < rows().
@@ -76,7 +76,7 @@ public:
         });
     }
 
-    /// Where the samples of a row begin, for filling: columns() × sampleBytes(type()) bytes.
+    /// The beginning of a row's samples, for writing: columns() × sampleBytes(type()) bytes.
     std::byte* rowData(std::size_t row) noexcept
     {
         return samples_.get() + row * columns_ * sampleBytes(type_);
@@ -98,7 +98,7 @@ private:
     std::size_t rows_ = 0;
     std::unique_ptr<std::byte[]> samples_;
     std::size_t words_per_row_ = 0;
-    std::vector<std::uint64_t> voids_; // a bit a sample, rows padded to words; empty: none is void
+    std::vector<std::uint64_t> voids_; // one bit per sample, rows padded to words; empty: no voids
 };
 
 } // namespace marsview

@@ -58,7 +58,7 @@ constexpr std::size_t sampleBytes(SampleType type)
     return dispatchSampleType(type, [](auto zero) { return sizeof(zero); });
 }
 
-/// The name that GDAL's tools print: "Byte", "Int16", "Float32", …
+/// The name used by GDAL's tools: "Byte", "Int16", "Float32", …
 std::string_view sampleTypeName(SampleType type);
 
 } // namespace marsview

@@ -21,15 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Statistics and overviews that other programs leave beside a raster change none of its samples.
+// Statistics and overviews that other programs leave next to a raster do not change its samples.
 bool isSidecar(std::string_view name, OverviewFiles overviews)
 {
     return name.ends_with(".aux.xml") ||
            (overviews == OverviewFiles::Ignored && name.ends_with(".ovr"));
 }
 
-// The file itself, or one beside it of the same name in other letters: GDAL lists a header as .hdr
-// that it found as .HDR. Empty where there is neither.
+// The file itself, or one in the same folder whose name differs only in case: GDAL lists a header
+// as .hdr that it found as .HDR. Empty if neither exists.
 std::string asOnDisk(const std::string& file)
 {
     VSIStatBufL status{};
@@ -46,7 +46,7 @@ std::string asOnDisk(const std::string& file)
     return {};
 }
 
-// As GDAL lists them, or the parts of a mosaic; none where GDAL does not open it.
+// As GDAL lists them, or the parts of a mosaic; empty if GDAL does not open it.
 std::vector<std::string> listedFilesOf(const std::string& path)
 {
     const Result<std::vector<std::string>> names = rasterNamesFor(path);

@@ -1,4 +1,4 @@
-// Which files a raster is made of.
+// The files that make up a raster.
 #pragma once
 
 #include "core/raster/source_identity.h"
@@ -9,7 +9,7 @@
 namespace marsview {
 
 /// Sorted: a label's data, a mosaic's parts and the file itself; statistics that other programs
-/// leave beside it do not count. Empty where GDAL does not open it. Any thread.
+/// leave next to it are excluded. Empty if GDAL does not open it. Any thread.
 std::vector<std::string> sourceFilesOf(const std::string& path,
                                        OverviewFiles overviews = OverviewFiles::Ignored);
 

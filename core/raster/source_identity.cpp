@@ -25,21 +25,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Headers, directories and offsets of tiles stand at either end of most formats.
+// Most formats have headers, directories and tile offsets at either end of the file.
 constexpr std::uint64_t kEndBytes = std::uint64_t{64} << 10;
 constexpr std::uint64_t kBlockBytes = std::uint64_t{4} << 10;
 constexpr std::uint64_t kBlocks = 16;
-// A mosaic may name thousands of files: of those beyond the first, size and time have to do.
+// A mosaic may name thousands of files: for those beyond the first, only size and time are used.
 constexpr std::size_t kSampledFilesMax = 64;
-// What is fetched over the network is not asked for its companions unless it is as small as a
-// label.
+// For files on a server, companions are looked up only if the file is as small as a label.
 constexpr std::uint64_t kLabelBytesMax = std::uint64_t{1} << 20;
 
 struct FileCloser {
     void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 
-// Two checksums side by side: together they miss a change in one of 10^19.
+// Two independent checksums: together they miss one change in 10^19.
 class Digest {
 public:
     void add(const void* data, std::size_t size)
@@ -76,14 +75,14 @@ std::string nameForVsi(const std::string& path)
     return path.starts_with("http://") || path.starts_with("https://") ? "/vsicurl/" + path : path;
 }
 
-// Of a folder without a slash at its end.
+// For a folder, without a trailing slash.
 std::string absolutePath(const std::string& path)
 {
     const fs::path absolute = fs::absolute(path).lexically_normal();
     return (absolute.has_filename() ? absolute : absolute.parent_path()).string();
 }
 
-// The head, some blocks in ascending order, as archives like it, and the tail.
+// The head, some blocks in ascending order, which is fast in archives, and the tail.
 Status addSamples(const std::string& file, std::uint64_t bytes, Digest& digest)
 {
     const std::unique_ptr<VSILFILE, FileCloser> stream(VSIFOpenL(file.c_str(), "rb"));
@@ -172,7 +171,8 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
             digest.add(static_cast<std::uint64_t>(modified_s));
         }
         if (!VSI_ISDIR(status.st_mode) && ++sampled <= kSampledFilesMax) {
-            // Going to and fro within an archive unpacks it again and again: its own bytes do.
+            // Seeking within an archive unpacks it repeatedly, so the bytes of the archive itself
+            // are used.
             const std::string archive = file.starts_with("/vsi") ? fileHolding(file) : "";
             const Status added = archive.empty()
                                      ? addSamples(file, bytes, digest)
@@ -188,7 +188,7 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
 
 bool isSameContent(const SourceIdentity& then, const SourceIdentity& now)
 {
-    // A file that went to a server has the time at which it came there.
+    // A file on a server has its upload time.
     const bool is_at_server = remoteNameFor(now.path).has_value();
     return then.bytes == now.bytes && (is_at_server || then.modified_s == now.modified_s) &&
            then.digest == now.digest;

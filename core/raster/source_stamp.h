@@ -1,4 +1,4 @@
-// Telling whether somebody wrote to a raster's files while they were read.
+// Detects writes to a raster's files during reading.
 #pragma once
 
 #include <string>
@@ -6,20 +6,20 @@
 
 namespace marsview {
 
-/// What the file system says of a raster's files: finer than SourceIdentity, which has to stand a
-/// move to another disk, and of no meaning there.
+/// File-system metadata of a raster's files: finer than SourceIdentity, which must survive a move
+/// to another disk, but valid only on this disk.
 struct SourceStamp {
     std::vector<std::string> files;
-    /// Of each: number, size and when content and entry were last changed, in nanoseconds. Equal
-    /// where nobody wrote to any of them, as finely as the file system keeps time (mostly a few
-    /// milliseconds). Empty where the raster lies on no disk.
+    /// For each file: inode number, size and the times of the last change of content and inode, in
+    /// nanoseconds. Equal if none of them was written to, to the time resolution of the file system
+    /// (usually a few milliseconds). Empty if the raster is not on a disk.
     std::string text;
 };
 
-/// To be taken before the first byte is read. Reads no samples. Any thread.
+/// Take it before the first byte is read. Reads no samples. Any thread.
 SourceStamp stampOf(const std::string& path);
 
-/// Whether the same files still are as they were then.
+/// Whether the same files are unchanged since then.
 bool isUntouched(const SourceStamp& then);
 
 } // namespace marsview

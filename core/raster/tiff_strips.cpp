@@ -33,7 +33,7 @@ int noteError(TIFF*, void* complaint, const char*, const char* format, va_list a
         std::vsnprintf(text.data(), text.size(), format, arguments);
         noted = text.data();
     }
-    return 1; // the process-wide handlers need not hear of it
+    return 1; // do not call the process-wide handlers
 }
 
 int dropWarning(TIFF*, void*, const char*, const char*, va_list)
@@ -49,7 +49,7 @@ TiffHandle openToRead(const std::string& path, std::string& complaint)
     }
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), noteError, &complaint);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), dropWarning, nullptr);
-    // Not mapped: a file that is cut short meanwhile would end the program.
+    // Not mapped: truncating the file during reading would crash the program.
     return TiffHandle(TIFFOpenExt(path.c_str(), "rm", options.get()));
 }
 
@@ -70,7 +70,7 @@ std::uint16_t formatOf(SampleType type)
     });
 }
 
-// GDAL leaves out strips of voids alone; libtiff takes those for damage.
+// GDAL omits strips with only voids; libtiff treats those as damage.
 bool hasAllStrips(TIFF* file)
 {
     const std::uint32_t count = TIFFNumberOfStrips(file);
@@ -100,7 +100,7 @@ struct TiffStrips::Impl {
     TiffHandle file; // open while rows are left to read
     std::size_t strip_rows = 0;
     std::size_t row_bytes = 0;
-    std::size_t next_row = 0; // that costs no more than its own decoding
+    std::size_t next_row = 0; // the row that needs no extra decoding
     std::vector<std::byte> skipped;
 
     bool open();
@@ -141,7 +141,7 @@ Status TiffStrips::Impl::readRow(std::size_t row, std::byte* to)
 {
     if (TIFFReadScanline(file.get(), to, static_cast<std::uint32_t>(row),
                          static_cast<std::uint16_t>(layout.band - 1)) < 0) {
-        file.reset(); // the next read begins afresh
+        file.reset(); // the next read starts over
         return Error{
             ErrorCode::Unreadable,
             complaint.empty()

@@ -1,4 +1,4 @@
-// Reading TIFFs whose samples lie in large compressed strips, without holding a strip.
+// Reads TIFFs with large compressed strips without decoding whole strips into memory.
 #pragma once
 
 #include "core/base/result.h"
@@ -11,7 +11,7 @@
 
 namespace marsview {
 
-/// What is expected of a TIFF's first directory.
+/// The expected content of a TIFF's first directory.
 struct TiffStripsLayout {
     std::size_t columns = 0;
     std::size_t rows = 0;
@@ -19,23 +19,23 @@ struct TiffStripsLayout {
     int band = 1;
 };
 
-/// Decodes strips row by row. GDAL decodes a strip as a whole and keeps it: a map stored as one
-/// strip takes its own size in memory there, and that of the compressed bytes. Here those alone are
-/// held, from the first row of a strip to its last. For one thread at a time.
+/// Decodes strips row by row. GDAL decodes and caches whole strips: a map stored as one strip takes
+/// its full size in memory, plus the compressed bytes. Here only the compressed bytes are in
+/// memory, from the first row of a strip to its last. For one thread at a time.
 class TiffStrips {
 public:
-    /// Nothing where the file is something else, or compressed in ways that are not known here.
+    /// Empty if the file does not match or its compression is not supported here.
     static std::optional<TiffStrips> of(const std::string& path, const TiffStripsLayout& layout);
     TiffStrips(TiffStrips&&) noexcept;
     TiffStrips& operator=(TiffStrips&&) noexcept;
     ~TiffStrips();
 
-    /// Whole rows of samples, in the machine's byte order, to `to`. Rows that follow those read
-    /// before cost their own decoding; others that of the strip from its beginning. The error is a
-    /// sentence without the path.
+    /// Reads whole rows of samples, in the machine's byte order, into `to`. Rows that follow the
+    /// last read only need their own decoding; other rows need decoding from the beginning of the
+    /// strip. The error is a sentence without the path.
     Status read(std::size_t first_row, std::size_t row_count, std::byte* to);
 
-    /// Gives back what is held for the row that comes next.
+    /// Releases the memory kept for reading the next row.
     void rest() noexcept;
 
 private:

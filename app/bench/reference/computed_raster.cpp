@@ -22,11 +22,11 @@
 namespace marsview {
 namespace {
 
-// For the file's directory, and for what others write meanwhile.
+// Reserve for the file's directory and for writes of other programs.
 constexpr std::uintmax_t kSpareBytes = std::uintmax_t{64} << 20;
 
-// A band of whole rows of tiles. As tiles, each lies in one piece of kTileSide² samples, padded
-// with zeros, which is how the file wants it; as strips, the rows follow each other.
+// A band of whole rows of tiles. In tiled form, each tile is one block of kTileSide² samples,
+// padded with zeros, as the file requires; in strip form, the rows are contiguous.
 struct Band {
     std::size_t row = 0;
     std::size_t rows = 0;
@@ -84,7 +84,7 @@ private:
         if (error) {
             return refusal(error.message());
         }
-        // How much smaller a compressed one would be shows only as it is written.
+        // The compressed size is known only after writing.
         const std::uintmax_t needed =
             raster_.compression == RasterCompression::None
                 ? std::uintmax_t{2} * raster_.columns * raster_.rows + kSpareBytes
@@ -187,7 +187,7 @@ private:
                                        band.samples.data() + r * raster_.columns) == CE_None;
             }
         }
-        // Written compressed by threads of GDAL's own, errors may only be told by a message.
+        // GDAL's compression threads may report errors only as messages.
         if (!is_written || messages.hasFailed()) {
             return refusal(messages.firstFailure("unknown reason"));
         }

@@ -18,14 +18,14 @@ namespace marsview {
 enum class RasterBlocks : std::uint8_t { Tiles, Strips };
 enum class RasterCompression : std::uint8_t { None, Deflate };
 
-/// An elevation map in whole metres, to be written as GeoTIFF.
+/// An elevation map in whole meters, to be written as GeoTIFF.
 struct ComputedRaster {
     std::string path;
     std::size_t columns = 0; // at least 1 × 1
     std::size_t rows = 0;
     std::optional<GeoTransform> transform;
     std::optional<Crs> crs;
-    std::string vertical_datum; // what heights are counted from; empty where unknown
+    std::string vertical_datum; // empty if unknown
     RasterBlocks blocks = RasterBlocks::Tiles;
     RasterCompression compression = RasterCompression::None;
 };
@@ -34,10 +34,10 @@ struct ComputedRaster {
 using SampleComputer =
     std::function<void(std::size_t column, std::size_t row, GridView<std::int16_t> samples)>;
 
-/// Computes the samples in windows of a tile or less, on all cores, and writes them as they come,
-/// one band of 256 rows while the next is computed: two bands are in memory. The file takes the
-/// place of one of that name only when it is whole. Refuses what the disk has no room for;
-/// `compute` must not throw.
+/// Computes the samples in windows of a tile or less, on all cores, and writes one band of 256 rows
+/// while the next is computed: two bands are in memory. An existing file of that name is replaced
+/// only when the new one is complete. Refuses rasters that do not fit on the disk; `compute` must
+/// not throw.
 Status writeComputedRaster(const ComputedRaster& raster,
                            const SampleComputer& compute,
                            JobMonitor& monitor);
