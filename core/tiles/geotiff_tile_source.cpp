@@ -13,10 +13,10 @@
 namespace marsview {
 namespace {
 
-// Of a tile whose answer was cut short.
+// Repeated requests for a tile whose response was truncated.
 constexpr int kRepeatsMax = 2;
 
-// Overviews are rounded up or, by some programs, down.
+// Overview sizes are rounded up or, by some programs, down.
 bool isAlmost(const GridSize& size, const GridSize& wanted)
 {
     const auto is_close = [](std::size_t a, std::size_t b) { return a == b || a + 1 == b; };
@@ -41,7 +41,7 @@ public:
             samples = readOnce(id);
         }
         if (!samples) {
-            // Of what was whole when it was prepared, on a disk.
+            // A local raster that was intact when it was prepared.
             const bool is_damage = raster_.checksums && raster_.remote_version.empty() &&
                                    samples.error().code == ErrorCode::Unreadable;
             return is_damage ? damaged(id, "cannot be decoded any more") : samples.error();
@@ -59,8 +59,7 @@ private:
         return id.kind == TileKind::Means ? readMeans(id) : readSamples(id);
     }
 
-    // GDAL asks again by itself where a server says that it is in trouble, but not where an answer
-    // ends too early.
+    // GDAL retries when a server reports an error, but not when a response is truncated.
     bool isCutShort(const Error& error) const
     {
         return !raster_.remote_version.empty() && error.code == ErrorCode::Unreadable &&
@@ -109,13 +108,13 @@ private:
         const std::size_t step = std::size_t{1} << id.level;
         const std::size_t width = raster_.layout.tileWidth(id);
         const std::size_t height = raster_.layout.tileHeight(id);
-        // The last sample of a level is the raster's last, however far from the one before; it may
-        // have a tile of its own.
+        // The last sample of a level is the raster's last, whatever its distance from the one
+        // before; it may be alone in a tile.
         const std::size_t first_column =
             std::min(id.column * kTileSide * step, raster_.layout.columns - 1);
         const std::size_t first_row = std::min(id.row * kTileSide * step, raster_.layout.rows - 1);
         GridWindow window{first_column, first_row, (width - 1) * step + 1, (height - 1) * step + 1};
-        if (raster_.checksums) { // which are of whole tiles
+        if (raster_.checksums) { // checksums cover whole tiles
             window = {first_column / kTileSide * kTileSide, first_row / kTileSide * kTileSide,
                       kTileSide * step, kTileSide * step};
         }
@@ -134,7 +133,7 @@ private:
                        step);
     }
 
-    // Of the level-0 tiles that the window is made of.
+    // The first damaged one of the window's level-0 tiles.
     std::optional<TileId> firstDamaged(const SampleGrid& samples, const GridWindow& window) const
     {
         for (std::size_t row = 0; row < window.rows; row += kTileSide) {
@@ -154,8 +153,8 @@ private:
         return std::nullopt;
     }
 
-    // From the part's first sample on every `step`-th, as many as it has columns and rows, and
-    // where there are no more, the last.
+    // Every `step`-th sample from the part's first on, as many as it has columns and rows; beyond
+    // the end, the last sample.
     static Result<SampleGrid>
     thinned(const SampleGrid& all, const GridWindow& part, std::size_t step)
     {
@@ -234,7 +233,7 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
         raster.overviews.push_back(overview);
         layout.mean_levels = level;
     }
-    // A picture of all of it has to be cheap.
+    // A picture of the whole raster must be cheap to read.
     constexpr std::size_t kCoarsestMax = 1024;
     if (std::max(layout.columnsAt(TileKind::Means, layout.mean_levels),
                  layout.rowsAt(TileKind::Means, layout.mean_levels)) > kCoarsestMax) {

@@ -1,4 +1,4 @@
-// Tiles straight from a raster file that is stored in tiles and has overviews.
+// Tiles directly from a tiled raster file with overviews.
 #pragma once
 
 #include "core/raster/raster_file.h"
@@ -11,22 +11,21 @@
 
 namespace marsview {
 
-/// A raster file that can be read in pieces without reading much more than these: blocks of at most
+/// A raster file in which a tile can be read without reading much more: blocks of at most
 /// kBlockSideMax a side, with overviews by powers of two.
 class GeotiffTileSource final : public TileSource {
 public:
     static constexpr std::size_t kBlockSideMax = 1024;
-    /// Samples exist at levels up to this: each further one is four times as much to read for the
-    /// same tile.
+    /// Samples exist at levels up to this: each further level reads four times as much per tile.
     static constexpr std::size_t kLastLevel = 2;
 
-    /// Looks at `file`, which stays the caller's. Unsupported, with the reason, where it cannot be
-    /// read in pieces. `nodata` counts in place of the file's.
+    /// Inspects `file`, which the caller keeps. Unsupported, with the reason, if it cannot be read
+    /// in tiles. `nodata` replaces the file's.
     static Result<std::shared_ptr<const GeotiffTileSource>> of(const RasterFile& file,
                                                                const VoidRule& voids);
 
-    /// The same raster, whose tiles are errors where they are not those that `checksums` were taken
-    /// of. `remedy` ends the sentences that say so.
+    /// The same raster; tiles that do not match `checksums` are errors. `remedy` ends their
+    /// messages.
     std::shared_ptr<const GeotiffTileSource>
     checkedBy(std::shared_ptr<const TileChecksums> checksums,
               const std::string& remedy = "prepare the map again") const;
@@ -37,17 +36,17 @@ public:
     Result<std::unique_ptr<TileReader>> open() const override;
 
 private:
-    // What its readers need to know.
+    // Shared data of its readers.
     struct Raster {
         TileLayout layout;
         std::string path;
-        std::string name;           // as the user knows it
-        std::string remote_version; // RasterInfo's; all readers read the same
+        std::string name;           // for messages
+        std::string remote_version; // from RasterInfo; all readers read this version
         int band = 1;
         VoidRule voids;
-        std::vector<std::size_t> overviews; // of the file, by level; [0] means nothing
-        std::shared_ptr<const TileChecksums> checksums = nullptr; // null: nobody knows
-        std::string remedy{};                                     // with checksums
+        std::vector<std::size_t> overviews; // of the file, by level; [0] is unused
+        std::shared_ptr<const TileChecksums> checksums = nullptr; // null: unknown
+        std::string remedy{};                                     // for checksum errors
     };
     class Reader;
 

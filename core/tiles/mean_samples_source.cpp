@@ -16,11 +16,11 @@
 namespace marsview {
 namespace {
 
-// Tiles of means that a reader remembers: a tile of samples needs up to four, and the next one two
-// of these again. At levels coarser than all means it is up to sixteen.
+// Tiles of means that a reader caches: a tile of samples needs up to four, and the next one two of
+// these again. At levels coarser than all means it needs up to sixteen.
 constexpr std::size_t kRememberedMax = 20;
 
-// Where a sample lies between the centres of blocks.
+// Where a sample lies between the centers of blocks.
 struct Between {
     std::size_t before = 0;
     std::size_t after = 0;
@@ -42,8 +42,8 @@ T sampleFrom(double value)
     if constexpr (std::is_floating_point_v<T>) {
         return static_cast<T>(value);
     } else {
-        // Means of the type's own values: only rounding, and 64-bit numbers beyond the doubles,
-        // can lead outside.
+        // Means of values of the type: only rounding, and 64-bit numbers beyond the precision of
+        // doubles, can exceed its range.
         const double rounded = std::round(value);
         if (rounded >= static_cast<double>(std::numeric_limits<T>::max())) {
             return std::numeric_limits<T>::max();
@@ -203,7 +203,7 @@ private:
     std::unique_ptr<TileReader> reader_;
     TileLayout layout_;
     std::size_t exact_levels_;
-    std::list<Tile> remembered_; // of Means, those used last first
+    std::list<Tile> remembered_; // of Means, most recently used first
 };
 
 class MeanSamplesSource final : public TileSource {

@@ -1,4 +1,4 @@
-// Coarser samples of a raster that nobody has prepared, from its overviews.
+// Coarse samples of an unprepared raster, computed from its overviews.
 #pragma once
 
 #include "core/tiles/tile_source.h"
@@ -7,13 +7,13 @@
 
 namespace marsview {
 
-/// Where the finer Samples of a source end that are read as they are; coarser ones are made of
-/// Means: sample i of level k is what lies between the means of the blocks around i · 2^k, by
-/// bilinear interpolation between their centres. These are about right, cost one to four tiles to
-/// read at any level, and are not nested: good to look at until somebody looks closely.
+/// The first `exact_levels` levels of Samples are read from the source unchanged. Coarser Samples
+/// are computed from Means: sample i of level k is interpolated at i · 2^k, bilinearly between the
+/// centers of the blocks around it. They are approximate, cost one to four tiles to read at any
+/// level, and are not nested: sufficient for display until exact values are needed.
 ///
-/// Voids are where all blocks around are void. Where the source has no Means, all its Samples are
-/// read as they are.
+/// A sample is void if all blocks around it are void. If the source has no Means, all its Samples
+/// are read unchanged.
 std::shared_ptr<const TileSource> samplesFromMeans(std::shared_ptr<const TileSource> source,
                                                    std::size_t exact_levels = 1);
 

@@ -1,4 +1,4 @@
-// Pieces of a raster that is too large to hold.
+// Tiles of a raster that is larger than memory.
 #pragma once
 
 #include "core/raster/sample_grid.h"
@@ -15,19 +15,19 @@ namespace marsview {
 /// Samples along a side of a tile.
 inline constexpr std::size_t kTileSide = 256;
 
-/// What the samples of a tile are. In either kind a tile owns its samples alone: sample i of a
-/// level lies in tile i / kTileSide, so that there is one truth for every sample.
+/// The kind of a tile's samples. In both kinds tiles do not overlap: sample i of a level is in tile
+/// i / kTileSide, so every sample is stored once.
 enum class TileKind : std::uint8_t {
     /// Level k holds every 2^k-th sample of every 2^k-th row, and the last column and row: sample i
-    /// of a level is sample min(i · 2^k, count - 1) of the raster. Levels are nested: what one has,
-    /// all finer ones have, to the bit.
+    /// of a level is sample min(i · 2^k, count - 1) of the raster. Levels are nested: all finer
+    /// levels have the samples of a level, to the bit.
     Samples,
-    /// Level k >= 1 holds means over blocks of 2^k × 2^k samples, those that are not void. To be
-    /// looked at, never to be touched or quoted.
+    /// Level k >= 1 holds means over blocks of 2^k × 2^k samples, excluding voids. For display
+    /// only, never for touching or for values shown to people.
     Means,
 };
 
-/// Names a tile of one raster.
+/// Identifies a tile of a raster.
 struct TileId {
     TileKind kind = TileKind::Samples;
     std::uint8_t level = 0;
@@ -47,14 +47,14 @@ struct TileIdHash {
     }
 };
 
-/// How a raster of columns × rows samples (at least 2 × 2) is cut into tiles.
+/// How a raster of columns × rows samples (at least 2 × 2) is divided into tiles.
 struct TileLayout {
     std::size_t columns = 0;
     std::size_t rows = 0;
     SampleType type = SampleType::Int16;
-    bool has_voids = false;      // some tile may have some
+    bool has_voids = false;      // tiles may have voids
     std::size_t mean_levels = 0; // Means exist at levels 1 … mean_levels
-    bool is_remote = false;      // every tile costs a request to a server: few are to be wanted
+    bool is_remote = false;      // every tile costs a request to a server: request few
 
     /// Samples of a level along an axis with `count` samples.
     static constexpr std::size_t
@@ -89,7 +89,7 @@ struct TileLayout {
         }
         return level;
     }
-    /// Samples of a tile: kTileSide, or what is left at the last column and row.
+    /// The width and height of a tile: kTileSide, or less at the last column and row.
     std::size_t tileWidth(const TileId& id) const noexcept
     {
         return std::min(kTileSide, columnsAt(id.kind, id.level) - id.column * kTileSide);
@@ -106,12 +106,12 @@ struct TileLayout {
     }
 };
 
-/// A decoded tile. Immutable once made; any thread.
+/// A decoded tile. Immutable after construction; any thread.
 struct Tile {
     TileId id;
     SampleGrid samples; // tileWidth × tileHeight, raw; void samples are marked
-    /// Of Samples with voids: heights in metres that void samples are filled with, row by row as
-    /// the samples; what stands at other samples means nothing. Empty where none is void.
+    /// For Samples with voids: the fill heights of void samples in meters, in the order of the
+    /// samples; values at other samples are meaningless. Empty without voids.
     std::vector<float> filled_m;
 
     std::size_t bytes() const noexcept { return samples.bytes() + filled_m.size() * sizeof(float); }

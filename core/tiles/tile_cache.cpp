@@ -21,8 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A tile that could not be read is tried again after this long, then after twice as long, and so
-// on: a server that stumbles is back soon, a broken disk is not to be hammered.
+// A failed tile is retried after this long, then after twice as long, and so on: a server usually
+// recovers soon, and a failing disk must not be hammered.
 constexpr std::chrono::milliseconds kFirstPause{100};
 constexpr std::chrono::milliseconds kLongestPause{10'000};
 
@@ -47,7 +47,7 @@ struct Failure {
 
 } // namespace
 
-// What the cache knows of one raster. Lives as long as a TiledRaster of it does.
+// The state of one raster in the cache. Lives as long as a TiledRaster refers to it.
 struct TiledRasterState {
     std::shared_ptr<TileCache::Impl> cache;
     std::uint64_t number = 0;
@@ -66,12 +66,12 @@ struct TileWishes::Impl {
     std::function<void()> notify;
     // The following are guarded by the cache's mutex.
     std::vector<TileId> wanted;
-    std::size_t first_open = 0; // all wanted before this one are there
-    int notifications = 0;      // under way
+    std::size_t first_open = 0; // all requested tiles before this one are resident
+    int notifications = 0;      // running
 };
 
 struct TileCache::Impl {
-    // A raster's readers that nobody uses at the moment.
+    // The idle readers of a raster.
     struct Source {
         std::shared_ptr<const TileSource> source;
         std::vector<std::unique_ptr<TileReader>> readers;
@@ -91,12 +91,12 @@ struct TileCache::Impl {
     std::uint64_t next_raster = 1;
     std::unordered_map<std::uint64_t, Source> sources;
     std::unordered_map<Key, Entry, KeyHash> entries;
-    std::list<Key> uses; // the last used first
+    std::list<Key> uses; // most recently used first
     std::unordered_set<Key, KeyHash> in_work;
     std::unordered_map<Key, Failure, KeyHash> failures;
     std::vector<TileWishes::Impl*> wishes;
 
-    // All of the following are called with the mutex locked.
+    // Call all of the following with the mutex locked.
 
     std::shared_ptr<const Tile> use(const Key& key)
     {
@@ -124,7 +124,7 @@ struct TileCache::Impl {
         entries.erase(entry);
     }
 
-    // Tiles that somebody holds stay: forgetting them would free nothing.
+    // Tiles in use elsewhere stay: evicting them would free no memory.
     void evict()
     {
         auto oldest = uses.end();
@@ -141,8 +141,8 @@ struct TileCache::Impl {
         }
     }
 
-    // The most urgent tile that can be loaded now, at least as urgent as `least`. Otherwise
-    // `wake_at` is when the next failed one may be tried again.
+    // The most urgent tile that can be loaded now, at least as urgent as `least`. If there is none,
+    // `wake_at` is the time of the next retry.
     std::optional<Key> next(TileUrgency least, std::optional<Clock::time_point>& wake_at)
     {
         const Clock::time_point now = Clock::now();
@@ -179,8 +179,8 @@ struct TileCache::Impl {
         return std::nullopt;
     }
 
-    // Reads one tile, unlocked meanwhile, and keeps it or notes why it failed. The tile is not in
-    // work yet.
+    // Reads one tile with the mutex unlocked, and stores it or its error. No other thread may be
+    // loading the tile.
     Result<std::shared_ptr<const Tile>> load(const Key& key, std::unique_lock<std::mutex>& lock)
     {
         Source& source = sources.at(key.raster);
@@ -195,7 +195,7 @@ struct TileCache::Impl {
         Result<std::shared_ptr<const Tile>> outcome = readTile(*opened, reader, key.id);
         lock.lock();
         in_work.erase(key);
-        // The raster may be gone by now.
+        // The raster may have been removed meanwhile.
         const auto known = sources.find(key.raster);
         if (outcome) {
             ++statistics.loaded;
@@ -221,7 +221,8 @@ struct TileCache::Impl {
         return outcome;
     }
 
-    // Without the mutex. A reader that failed is not used again: what it has open may be broken.
+    // Call without the mutex. A reader that failed is not reused, because its open file may be in a
+    // bad state.
     static Result<std::shared_ptr<const Tile>>
     readTile(const TileSource& source, std::unique_ptr<TileReader>& reader, const TileId& id)
     {
@@ -279,7 +280,7 @@ struct TileCache::Impl {
             std::optional<Clock::time_point> wake_at;
             const std::optional<Key> key = next(least, wake_at);
             if (key) {
-                // Nobody waits for the outcome: it is in the cache, or among the failures.
+                // The result is in the cache or among the failures.
                 static_cast<void>(load(*key, lock));
                 notifyWishes(*key, lock);
             } else if (wake_at) {
@@ -311,7 +312,7 @@ TiledRasterState::TiledRasterState(std::shared_ptr<TileCache::Impl> shared,
 
 TiledRasterState::~TiledRasterState()
 {
-    std::vector<std::unique_ptr<TileReader>> closed; // without the lock
+    std::vector<std::unique_ptr<TileReader>> closed; // destroyed without the lock
     const std::lock_guard lock(cache->mutex);
     for (auto entry = cache->entries.begin(); entry != cache->entries.end();) {
         const auto next = std::next(entry);
@@ -326,19 +327,19 @@ TiledRasterState::~TiledRasterState()
     cache->sources.erase(number);
 }
 
-// The threads of a cache.
+// The loader threads of a cache.
 struct TileCache::Loaders {
     Loaders(const std::shared_ptr<Impl>& impl, std::size_t count)
     {
         for (std::size_t i = 0; i < count; ++i) {
             start(impl, TileUrgency::Ahead);
         }
-        // One more for the hand alone: all others may wait for a slow server when it asks.
+        // One more for TileUrgency::Hand only: all others may be waiting for a slow server.
         if (count > 1) {
             start(impl, TileUrgency::Hand);
         }
     }
-    // All at once: each thread's own end would wait before it asks the next one to stop.
+    // Stops all threads at once: their destructors alone would stop and join them one by one.
     ~Loaders()
     {
         for (std::jthread& thread : threads_) {
@@ -474,7 +475,7 @@ void TileWishes::want(std::span<const TileId> tiles)
         }
         impl_->wanted.assign(tiles.begin(), tiles.end());
         impl_->first_open = 0;
-        // The most urgent are used last, so that they stay the longest.
+        // The most urgent are marked as used last, so that they stay the longest.
         for (auto id = tiles.rbegin(); id != tiles.rend(); ++id) {
             MARSVIEW_CHECK(impl_->raster.layout().contains(*id));
             cache.use({impl_->raster.number_, *id});

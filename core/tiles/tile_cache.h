@@ -1,4 +1,4 @@
-// The one cache of decoded tiles that view and hand share.
+// The cache of decoded tiles that rendering and haptics share.
 #pragma once
 
 #include "core/base/result.h"
@@ -17,37 +17,37 @@ namespace marsview {
 
 struct TiledRasterState;
 
-/// Who wants a tile. Loaders serve the first kind first.
+/// The urgency of a tile request. Loaders serve the first kind first.
 enum class TileUrgency : std::uint8_t {
-    Hand,  // is touched now, or within a moment
-    View,  // is in the picture
-    Ahead, // may be wanted soon
+    Hand,  // touched now or very soon
+    View,  // in the picture
+    Ahead, // may be needed soon
 };
 
 struct TileCacheOptions {
-    std::size_t bytes_max = std::size_t{1} << 30; // of decoded tiles that nobody holds on to
-    /// Two or more have one beside them that serves the hand alone, so that it never waits for what
-    /// others are reading.
+    std::size_t bytes_max = std::size_t{1} << 30; // limit for decoded tiles not in use elsewhere
+    /// With two or more, an extra thread serves only TileUrgency::Hand, so that these requests
+    /// never wait for other reads.
     std::size_t loader_threads = 2;
 };
 
-/// Counts since the cache was made; bytes_held is of now.
+/// Counts since construction; bytes_held is the current value.
 struct TileCacheStatistics {
     std::uint64_t loaded = 0;
     std::uint64_t failed = 0;    // attempts
-    std::uint64_t cancelled = 0; // wishes withdrawn before a loader took them
+    std::uint64_t cancelled = 0; // requests canceled before a loader took them
     std::uint64_t evicted = 0;
     std::size_t bytes_held = 0;
 };
 
-/// Keeps what was used last within its bound, and loads what is wanted on threads of its own.
-/// Tiles in use by others live on however full the cache is. All members are for any thread but
-/// the servo's: they lock, briefly, and never while something is read.
+/// Keeps the most recently used tiles within its limit and loads requested tiles on its own
+/// threads. Tiles in use elsewhere stay alive when the cache is full. All members are for any
+/// thread except the servo thread: they lock briefly, never during a read.
 class TileCache {
 public:
     explicit TileCache(const TileCacheOptions& options);
-    /// The loaders go on as long as there is a TiledRaster; the last of both waits for what is
-    /// being read.
+    /// The loaders run as long as a TiledRaster exists; whichever is destroyed last waits for the
+    /// current reads.
     ~TileCache();
     TileCache(const TileCache&) = delete;
     TileCache& operator=(const TileCache&) = delete;
@@ -55,7 +55,7 @@ public:
     std::size_t bytesMax() const;
     void setBytesMax(std::size_t bytes_max);
     TileCacheStatistics statistics() const;
-    /// Forgets every tile, as if the cache had just been made; for measuring from cold.
+    /// Evicts every tile, for measuring with a cold cache.
     void clear();
 
 private:
@@ -68,7 +68,7 @@ private:
     std::shared_ptr<Loaders> loaders_;
 };
 
-/// A raster read through a cache. Copies share everything; any thread but the servo's.
+/// A raster read through a cache. Copies share everything; any thread except the servo thread.
 class TiledRaster {
 public:
     TiledRaster(const TileCache& cache, std::shared_ptr<const TileSource> source);
@@ -76,12 +76,13 @@ public:
     const TileLayout& layout() const noexcept { return source_->layout(); }
     const std::string& name() const noexcept { return source_->name(); }
 
-    /// The tile if it is there, which counts as a use; null otherwise. Does not ask for it.
+    /// The tile if resident, which counts as a use; null otherwise. Does not request it.
     std::shared_ptr<const Tile> find(const TileId& id) const;
-    /// The tile, read on this thread unless it is there or a loader is at it: for batch work.
+    /// The tile, read on this thread unless it is resident or a loader is reading it: for batch
+    /// work.
     Result<std::shared_ptr<const Tile>> get(const TileId& id) const;
-    /// Why the last attempt to load the tile failed; nothing where it did not. It is tried again
-    /// as long as it is wanted, after growing pauses.
+    /// Why the last attempt to load the tile failed; empty if it did not. The load is retried at
+    /// growing intervals as long as the tile is requested.
     std::optional<Error> failure(const TileId& id) const;
     /// Grows with every tile of this raster that arrives.
     std::uint64_t generation() const noexcept;
@@ -96,25 +97,23 @@ private:
     std::shared_ptr<TiledRasterState> state_;
 };
 
-/// What one part of the program wants of a raster at present. What it no longer wants, and nobody
-/// else does, is not loaded. The wishes end with the object.
+/// The current tile requests of one client for a raster. Tiles that no client requests any longer
+/// are not loaded. The requests end with the object.
 class TileWishes {
 public:
-    /// `notify`, which may be empty, is called on a loader's thread after each wanted tile that
-    /// arrived or failed. It must not be what lets go of the last TiledRaster: that waits for the
-    /// loaders.
+    /// `notify`, which may be empty, is called on a loader thread after each requested tile that
+    /// arrived or failed. It must not destroy the last TiledRaster, which waits for the loaders.
     TileWishes(const TiledRaster& raster, TileUrgency urgency, std::function<void()> notify = {});
-    /// Returns when no call of `notify` is under way.
+    /// Returns when no call of `notify` is running.
     ~TileWishes();
     TileWishes(const TileWishes&) = delete;
     TileWishes& operator=(const TileWishes&) = delete;
 
-    /// Takes the place of what was wanted before; the most urgent first. Tiles that are there
-    /// count as used.
+    /// Replaces the previous requests; the most urgent first. Resident tiles count as used.
     void want(std::span<const TileId> tiles);
-    /// Waits until all that is wanted is there or has failed.
+    /// Waits until every requested tile is resident or has failed.
     void waitForAll() const;
-    /// Of what is wanted, how many are neither there nor failed.
+    /// The number of pending requests.
     std::size_t missingCount() const;
 
 private:

@@ -1,4 +1,4 @@
-// Telling damaged tiles of a raster by checksums that were taken when they were first read.
+// Checksums, computed when tiles are first read, that detect damaged tiles of a raster.
 #pragma once
 
 #include "core/raster/grid_window.h"
@@ -12,18 +12,18 @@
 
 namespace marsview {
 
-/// A checksum for every tile that is stored in a raster: Samples at level 0, and Means. Written by
-/// any threads, each tile once; afterwards immutable.
+/// A checksum for every tile that is stored in a raster: Samples at level 0, and Means. Any threads
+/// may write, each tile once; immutable afterwards.
 ///
-/// Of a compressed tile with a few wrong bytes GDAL may decode other samples without a word.
+/// GDAL may silently decode wrong samples from a compressed tile with a few wrong bytes.
 class TileChecksums {
 public:
-    /// All are 0.
+    /// All checksums are 0.
     explicit TileChecksums(const TileLayout& layout);
 
-    /// How many tiles of a raster have one.
+    /// The number of tiles of a raster that have a checksum.
     static std::size_t countFor(const TileLayout& layout);
-    /// Whether there is one for this tile.
+    /// Whether this tile has a checksum.
     static bool covers(const TileId& id) noexcept
     {
         return id.kind == TileKind::Means || id.level == 0;
@@ -50,7 +50,7 @@ private:
 /// CRC-32 of the raw samples.
 std::uint32_t sampleChecksum(const SampleGrid& samples);
 
-/// As above of a part of the samples; the same as if it were a grid of its own.
+/// The same for a part of the samples, as if it were a separate grid.
 std::uint32_t sampleChecksum(const SampleGrid& samples, const GridWindow& part);
 
 } // namespace marsview

@@ -26,11 +26,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".tile";
 constexpr const char* kUnfinished = ".part";
-// A file that nobody has finished in this time is left over from a program that ended.
+// A temporary file older than this is left over from a program that ended.
 constexpr std::chrono::hours kUnfinishedFor{1};
-// After the disk refused, so many tiles pass before it is tried again.
+// After a write error, this many tiles are skipped before the next attempt.
 constexpr int kPause = 64;
-// How long a tile counts as just used: a mark for every use would be a write for every read.
+// How long a tile counts as recently used: marking every use would write on every read.
 constexpr std::chrono::minutes kUseResolution{1};
 
 class File {
@@ -63,7 +63,7 @@ public:
         }
         return true;
     }
-    /// Shorter than asked for only at the end of the file.
+    /// Shorter than requested only at the end of the file.
     std::size_t read(std::span<std::byte> bytes) const
     {
         std::size_t done = 0;
@@ -100,7 +100,7 @@ struct KeptFile {
     std::uint64_t bytes = 0;
 };
 
-// Tiles, finished or not, of all programs. What goes meanwhile does not count.
+// Tiles of all programs, finished or not. Files that disappear meanwhile are skipped.
 std::vector<KeptFile> filesIn(const std::string& folder)
 {
     std::vector<KeptFile> files;
@@ -124,7 +124,7 @@ std::vector<KeptFile> filesIn(const std::string& folder)
     return files;
 }
 
-// And its folder, where it was the last one there.
+// Removes the file, and its folder if it becomes empty.
 bool removeFile(const fs::path& path, std::error_code& failure)
 {
     const bool is_removed = fs::remove(path, failure);
@@ -147,17 +147,17 @@ struct TileDiskCache::Impl {
     std::atomic<std::uint64_t> damaged{0};
     std::atomic<std::uint64_t> written{0};
     std::atomic<std::uint64_t> removed{0};
-    std::atomic<int> pause{0};               // tiles that are not written yet
+    std::atomic<int> pause{0};               // tiles to skip before the next write
     std::atomic<std::uint64_t> temporary{0}; // for names
 
-    mutable std::mutex settings_mutex; // for the next two; never held for long
+    mutable std::mutex settings_mutex; // for the next two; held only briefly
     TileDiskCacheOptions options_now;
     std::optional<std::string> trouble;
 
-    std::mutex count_mutex;          // for what follows; held while old files are removed
-    std::string counted_folder;      // empty: none yet
-    std::uint64_t bytes_counted = 0; // in the folder, when it was looked at last
-    std::uint64_t bytes_since = 0;   // written since
+    std::mutex count_mutex;          // for the following; held while old files are removed
+    std::string counted_folder;      // empty: not counted yet
+    std::uint64_t bytes_counted = 0; // in the folder at the last count
+    std::uint64_t bytes_since = 0;   // written since then
 
     TileDiskCacheOptions options() const
     {
@@ -207,7 +207,7 @@ std::optional<Tile> TileDiskCache::Impl::load(const std::string& path,
     const auto age = std::chrono::system_clock::now() -
                      std::chrono::system_clock::from_time_t(status.st_mtim.tv_sec);
     if (age > kUseResolution) {
-        futimens(file.get(), nullptr); // now; where that is forbidden, files go by when they came
+        futimens(file.get(), nullptr); // now; if not permitted, files age by creation
     }
     return std::move(decoded.tile);
 }
@@ -247,7 +247,7 @@ void TileDiskCache::Impl::store(const std::string& folder,
     {
         const File file(unfinished, O_WRONLY | O_CREAT | O_EXCL);
         if (!file.isOpen()) {
-            // Somebody may have removed the folder just now: that is no trouble.
+            // Another program may have removed the folder just now: that is harmless.
             return errno == ENOENT ? void() : refuse(errno);
         }
         if (!file.write(bytes)) {
@@ -282,14 +282,14 @@ void TileDiskCache::Impl::countIn(std::uint64_t bytes)
     }
 }
 
-// Looks at all files, other programs' too, and removes those used longest ago. The caller holds the
-// lock.
+// Counts all files, including those of other programs, and removes the least recently used ones.
+// The caller holds the lock.
 void TileDiskCache::Impl::trim(const TileDiskCacheOptions& options)
 {
     std::vector<KeptFile> files = filesIn(options.folder);
     const fs::file_time_type now = fs::file_time_type::clock::now();
     std::uint64_t bytes = 0;
-    std::error_code gone; // by another program
+    std::error_code gone; // if another program removed it
     std::erase_if(files, [&](const KeptFile& file) {
         if (file.path.extension() == kExtension) {
             bytes += file.bytes;
@@ -303,7 +303,7 @@ void TileDiskCache::Impl::trim(const TileDiskCacheOptions& options)
     if (bytes > options.bytes_max) {
         std::sort(files.begin(), files.end(),
                   [](const KeptFile& a, const KeptFile& b) { return a.used < b.used; });
-        // Some room for what comes, so that not every tile leads here.
+        // Some spare room, so that not every tile causes a trim.
         const std::uint64_t wanted = options.bytes_max - options.bytes_max / 8;
         for (const KeptFile& file : files) {
             if (bytes <= wanted) {
@@ -428,7 +428,7 @@ private:
     std::shared_ptr<TileDiskCache> cache_;
     std::string key_;
     std::string folder_name_;
-    std::unique_ptr<TileReader> reader_; // null as long as the disk had everything
+    std::unique_ptr<TileReader> reader_; // null as long as all tiles were on disk
 };
 
 namespace {

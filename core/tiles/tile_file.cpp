@@ -1,10 +1,10 @@
 // Layout of a file, numbers in the machine's byte order (files stay on the machine that wrote them,
-// and the magic number is another in the other order):
+// and the magic number differs in the other byte order):
 //
-//   Header, the key's text, what zlib makes of: samples, void bits, fills
+//   header, the key's text, then compressed with zlib: samples, void bits, fills
 //
-// Samples are stored as differences from the one to their left, as whole numbers of their size:
-// terrain then compresses to about half of what it does without.
+// Samples are stored as differences from the sample to their left, as integers of their size:
+// terrain then compresses to about half the size.
 
 #include "core/tiles/tile_file.h"
 
@@ -213,7 +213,7 @@ DecodedTileFile decodeTileFile(std::span<const std::byte> file,
             return {};
         }
         std::optional<Tile> tile = tileFrom(plain, id, header, layout.type, sizes);
-        // Without memory it is as if it were not there; the file may stay.
+        // Without memory the tile counts as missing; the file may stay.
         return {tile ? TileFileState::Good : TileFileState::OfAnother, std::move(tile)};
     } catch (const std::bad_alloc&) {
         return {TileFileState::OfAnother, std::nullopt};

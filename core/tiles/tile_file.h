@@ -1,4 +1,4 @@
-// One tile as a file.
+// The file format of one tile.
 #pragma once
 
 #include "core/tiles/tile.h"
@@ -11,25 +11,25 @@
 
 namespace marsview {
 
-/// Larger than any tile's file.
+/// An upper bound on the size of a tile's file.
 inline constexpr std::size_t kTileFileBytesMax = std::size_t{4} << 20;
 
-/// The tile with the key of its source, compressed, with a checksum over all of it. Empty where
-/// there is no memory. Any thread.
+/// The tile with the key of its source, compressed, with a checksum of everything. Empty if memory
+/// allocation fails. Any thread.
 std::vector<std::byte> encodeTileFile(const Tile& tile, const std::string& key);
 
 enum class TileFileState {
     Good,
     Damaged,
-    OfAnother, // whole, but of another source or place
+    OfAnother, // intact, but of another source or position
 };
 
 struct DecodedTileFile {
     TileFileState state = TileFileState::Damaged;
-    std::optional<Tile> tile; // there where Good
+    std::optional<Tile> tile; // present if Good
 };
 
-/// Believes nothing: any bytes may be given.
+/// Safe for arbitrary bytes.
 DecodedTileFile decodeTileFile(std::span<const std::byte> file,
                                const TileId& id,
                                const TileLayout& layout,

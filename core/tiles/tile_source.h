@@ -1,4 +1,4 @@
-// Where the tiles of a raster come from.
+// Interfaces for reading the tiles of a raster.
 #pragma once
 
 #include "core/base/result.h"
@@ -9,7 +9,7 @@
 
 namespace marsview {
 
-/// Reads and decodes tiles. For one thread at a time, and that is a loader's: it waits for disk or
+/// Reads and decodes tiles. For one thread at a time, a loader thread: it waits for disk or
 /// network.
 class TileReader {
 public:
@@ -17,7 +17,7 @@ public:
     TileReader(const TileReader&) = delete;
     TileReader& operator=(const TileReader&) = delete;
 
-    /// The layout contains `id`. A whole tile or an error, never a part of one.
+    /// `id` must be in the layout. Returns a complete tile or an error.
     virtual Result<Tile> read(const TileId& id) = 0;
 
 protected:
@@ -32,9 +32,9 @@ public:
     TileSource& operator=(const TileSource&) = delete;
 
     virtual const TileLayout& layout() const noexcept = 0;
-    /// For messages: the path or address that the user knows.
+    /// The user's path or address, for messages.
     virtual const std::string& name() const noexcept = 0;
-    /// A reader for one more thread.
+    /// A new reader for another thread.
     virtual Result<std::unique_ptr<TileReader>> open() const = 0;
 
 protected:
