@@ -1,18 +1,18 @@
 // Notation: the overview has level K, so its means stand for blocks of 2^K samples a side. e(k) is
-// the error of the surface drawn at level k, as DetailErrors defines it. Terrain is rough in the
-// same way at many scales: e(k) = a · 2^(H k), with H between a half and one. Seen from the
-// overview, whose samples are 2^K apart, only what lies between the levels is measured:
+// the error of the surface drawn at level k, as DetailErrors defines it. Terrain is self-similar
+// over many scales: e(k) = a · 2^(H k), with H between 0.5 and 1. From the overview, whose samples
+// are 2^K apart, only differences between levels can be measured:
 //
 //     E(j)² = e(K + j)² - e(K)² = a² 2^(2 H K) (2^(2 H j) - 1)
 //
-// since detail of different sizes is independent. Hence H from two levels, over all of the map,
+// since detail of different sizes is independent. Hence H from two levels, over the whole map,
 //
 //     E(2)² / E(1)² = 2^(2 H) + 1,
 //
-// and e(K + j) = E(j) / sqrt(1 - 2^(-2 H j)), node by node. How smooth terrain is below the
-// overview it does not tell: maps may be made from coarser data. So a few tiles at full resolution
-// are read, where E(1) is small, middling and large, and what they have for e(1), e(2) and e(3) in
-// units of E(1) there goes for all nodes; the levels between lie on a power law.
+// and e(K + j) = E(j) / sqrt(1 - 2^(-2 H j)), node by node. The overview does not show how smooth
+// the terrain is at finer scales: maps may be made from coarser data. So a few tiles are read at
+// full resolution, where E(1) is small, medium and large. Their e(1), e(2) and e(3), in units of
+// the local E(1), are used for all nodes; the levels between follow a power law.
 
 #include "core/levels/estimated_levels.h"
 
@@ -36,34 +36,34 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Bounds are widened by this many times the largest step between means around, and by a share of
-// the map's mean step, for peaks in plains.
+// Bounds are widened by this many times the largest step between neighboring means, and by a
+// fraction of the map's mean step, for peaks in plains.
 constexpr double kStepsBeyond = 1.0;
 constexpr double kMeanStepsBeyond = 1.0;
 
-// Levels are cut from samples, overviews from means, which are smoother; and the error of a node is
-// that of its worst block of 32 × 32 cells at full resolution, of which an overview's blocks hold
-// many. The second is as measured on maps of the Moon, Mars and the Earth.
+// Levels consist of samples, overviews of means, which are smoother. The error of a node is that of
+// its worst block of 32 × 32 cells at full resolution, of which an overview's block contains many.
+// The second factor was measured on maps of the Moon, Mars and the Earth.
 constexpr double kRougherThanMeans = 1.25;
 constexpr double kWorstBlockPerLevel = 0.2;
 
-// A node that seems flat has at least this share of the mean error.
+// A node that seems flat gets at least this fraction of the mean error.
 constexpr double kErrorShareMin = 0.05;
 
-// Where the nodes whose tiles are read stand among all, by their errors.
+// The ranks, by error among all nodes, of the nodes whose tiles are read.
 constexpr std::array<double, 5> kRanks{0.1, 0.3, 0.5, 0.7, 0.9};
 
 constexpr double kHurstMin = 0.5;
 constexpr double kHurstMax = 1.0;
 constexpr double kHurstTypical = 0.85;
 
-// One level of a source, all of it.
+// One complete level of a source.
 struct Overview {
     std::size_t level = 0;
     SampleGrid samples;
 };
 
-// Copies a piece, with its voids.
+// Copies a part with its voids.
 void putInto(SampleGrid& grid, const SampleGrid& part, std::size_t left, std::size_t upper)
 {
     const std::size_t sample_bytes = sampleBytes(grid.type());
@@ -113,7 +113,7 @@ readAll(const TileSource& source, TileKind kind, std::size_t level, JobMonitor& 
     return Overview{level, std::move(grid).value()};
 }
 
-// Numbers by block of the overview.
+// One number per block of the overview.
 struct BlockNumbers {
     std::size_t columns = 0;
     std::size_t rows = 0;
@@ -124,7 +124,7 @@ struct BlockNumbers {
         return values[row * columns + column];
     }
 
-    // A grid as large with function(column, row).
+    // A grid of the same size with function(column, row).
     template <typename F>
     BlockNumbers map(const F& function) const
     {
@@ -137,7 +137,7 @@ struct BlockNumbers {
         return result;
     }
 
-    // Calls function(value) with what stands at a block and at those around it.
+    // Calls function(value) with the values of a block and its neighbors.
     template <typename F>
     void around(std::size_t column, std::size_t row, const F& function) const
     {
@@ -150,7 +150,7 @@ struct BlockNumbers {
         }
     }
 
-    // Of what is not NaN; -infinity where all of it is.
+    // Ignores NaN; -infinity if all values are NaN.
     BlockNumbers largestAround() const
     {
         return map([this](std::size_t column, std::size_t row) {
@@ -170,7 +170,7 @@ BlockNumbers rawMeans(const SampleGrid& samples)
     });
 }
 
-// A raw value that the type can hold.
+// A raw value rounded to the type.
 template <typename T>
 T held(double value)
 {
@@ -187,7 +187,7 @@ RawRanges estimatedRanges(const TileLayout& layout, const Overview& overview)
 {
     const BlockNumbers means = rawMeans(overview.samples);
     const BlockNumbers steps = means.map([&means](std::size_t column, std::size_t row) {
-        double largest = 0.0; // where void, too
+        double largest = 0.0; // also if void
         const double mean = means(column, row);
         means.around(column, row, [&](double other) {
             const double step = std::abs(other - mean);
@@ -204,7 +204,7 @@ RawRanges estimatedRanges(const TileLayout& layout, const Overview& overview)
     const BlockNumbers negative =
         means.map([&](std::size_t column, std::size_t row) { return -means(column, row); });
     const BlockNumbers highest = means.largestAround();
-    const BlockNumbers lowest = negative.largestAround(); // negative
+    const BlockNumbers lowest = negative.largestAround(); // negated
     RawRanges ranges(layout.type, layout.columns, layout.rows);
     ranges.visit([&](auto nodes) {
         using Range = std::remove_cvref_t<decltype(nodes(0, 0))>;
@@ -247,7 +247,7 @@ estimatedMeans(const TileLayout& layout, const Overview& overview, const Elevati
             grid.means_m[i] = is_void ? std::numeric_limits<float>::quiet_NaN()
                                       : static_cast<float>(scale.height(samples.raw(column, row)));
             if (!grid.shares.empty()) {
-                grid.shares[i] = is_void ? 0.0F : 1.0F; // an overview does not tell
+                grid.shares[i] = is_void ? 0.0F : 1.0F; // an overview has no shares
             }
         }
     }
@@ -289,8 +289,8 @@ double meanSquare(const DetailErrors& errors, std::size_t level)
 
 double hurstExponent(const DetailErrors& measured)
 {
-    // Nodes of the second level have the worst of four blocks for their error, and so on: with a
-    // handful of them the power law drowns in that.
+    // The error of a second-level node is that of the worst of four blocks, and so on: with only a
+    // few nodes, this hides the power law.
     if (measured.levelCount() < 4) {
         return kHurstTypical;
     }
@@ -302,7 +302,8 @@ double hurstExponent(const DetailErrors& measured)
     return std::clamp(0.5 * std::log2(second / first - 1.0), kHurstMin, kHurstMax);
 }
 
-// The errors of the first levels, in units of E(1) of the node around: element k - 1 of level k.
+// The errors of the first levels, in units of E(1) of the surrounding node: element k - 1 is for
+// level k.
 using FineErrors = std::vector<double>;
 
 double meanError(const DetailErrors& errors, std::size_t level)
@@ -384,7 +385,8 @@ DetailErrors estimatedErrors(const TileLayout& layout,
 {
     DetailErrors::NodeErrors errors = DetailErrors::noErrors(layout.columns, layout.rows);
     if (measured.levelCount() < 2) {
-        return DetailErrors::from(std::move(errors)); // a map of a single node is drawn whole
+        return DetailErrors::from(std::move(errors)); // a map of a single node is always drawn at
+                                                      // level 0
     }
     const double hurst = hurstExponent(measured);
     const double rougher =
@@ -392,7 +394,7 @@ DetailErrors estimatedErrors(const TileLayout& layout,
     const auto seen_from_samples = [&](std::size_t j) {
         return rougher / std::sqrt(1.0 - std::exp2(-2.0 * hurst * static_cast<double>(j)));
     };
-    // e(level) in units of E(1), below the first level that the overview tells.
+    // e(level) in units of E(1), below the first level that the overview determines.
     const std::size_t first_told = overview_level + 1;
     const auto below = [&](std::size_t level) {
         const double last = seen_from_samples(1);
@@ -410,7 +412,7 @@ DetailErrors estimatedErrors(const TileLayout& layout,
     const auto least = static_cast<float>(kErrorShareMin * meanError(measured, 1));
     for (std::size_t level = 1; level < errors.size(); ++level) {
         DetailErrors::NodeLevel& nodes = errors[level];
-        // The measured level that tells: this one, or the nearest.
+        // The measured level to use: this one or the nearest.
         const std::size_t j = std::clamp<std::size_t>(
             level > overview_level ? level - overview_level : 1, 1, measured.levelCount() - 1);
         const std::size_t told = overview_level + j;
@@ -420,7 +422,7 @@ DetailErrors estimatedErrors(const TileLayout& layout,
                 : seen_from_samples(j) * std::exp2(hurst * static_cast<double>(level - told));
         for (std::size_t row = 0; row < nodes.rows; ++row) {
             for (std::size_t column = 0; column < nodes.columns; ++column) {
-                // The overview's last node may end where the map's has just begun.
+                // The overview's last node may end shortly after the map's last node begins.
                 const auto place = [&](std::size_t node, std::size_t count) {
                     return std::min(told >= level ? node >> (told - level) : node << (level - told),
                                     count - 1);
@@ -435,7 +437,7 @@ DetailErrors estimatedErrors(const TileLayout& layout,
     return DetailErrors::from(std::move(errors));
 }
 
-// No fill is higher than the means that it is interpolated between.
+// A fill is never higher than the means between which it is interpolated.
 std::vector<std::vector<float>>
 filledMaxima(const TileLayout& layout, const MinMaxPyramid& bounds, const BlockMeans& means)
 {
@@ -477,7 +479,7 @@ filledMaxima(const TileLayout& layout, const MinMaxPyramid& bounds, const BlockM
     return maxima;
 }
 
-// Of guessed bounds some sample is higher, and what is touched must not fall through it: casts skip
+// Some samples exceed estimated bounds, and the proxy must not fall through them: casts skip
 // nothing.
 std::vector<std::vector<float>> unknownMaxima(const MinMaxPyramid& bounds)
 {
@@ -505,7 +507,7 @@ MapLevels levelsOf(const TileLayout& layout,
     return levels;
 }
 
-// A map so small that its samples themselves are read.
+// A map small enough to read all its samples.
 Result<MapLevels>
 measuredLevels(const TileSource& source, const ElevationScale& scale, JobMonitor& monitor)
 {

@@ -32,7 +32,7 @@ std::span<std::byte> bytesOf(std::vector<T, Allocator>& values)
     return std::as_writable_bytes(std::span<T>(values));
 }
 
-// The three next to one another: of a map of 5.7 billion samples they take tens of milliseconds.
+// Computes the three in parallel: for a map of 5.7 billion samples they take tens of milliseconds.
 std::shared_ptr<const SurfaceAnalysis> analysisFrom(RawRanges ranges,
                                                     const ElevationScale& scale,
                                                     BlockGrid blocks,
@@ -67,8 +67,8 @@ bool isSameKey(const LevelFileKey& stored, const LevelFileKey& expected)
            isSameNodata(stored.nodata, expected.nodata);
 }
 
-// Whoever changes a raster changes its time with it, if only after the second in which the level
-// file was made.
+// A change of a raster also changes its time, unless it falls in the second in which the level file
+// was written.
 bool isDamaged(const SourceIdentity& then, const SourceIdentity& now, const std::string& level_path)
 {
     SourceIdentity as_it_was = now;
@@ -77,7 +77,7 @@ bool isDamaged(const SourceIdentity& then, const SourceIdentity& now, const std:
         then.digest == now.digest) {
         return false;
     }
-    std::error_code elsewhere; // at a server
+    std::error_code elsewhere; // if on a server
     const auto made = std::filesystem::last_write_time(level_path, elsewhere);
     return !elsewhere &&
            std::chrono::seconds(then.modified_s) <
@@ -85,7 +85,7 @@ bool isDamaged(const SourceIdentity& then, const SourceIdentity& now, const std:
                    .time_since_epoch();
 }
 
-// Heights in one scale as heights in another.
+// Converts heights from one scale to another.
 class Conversion {
 public:
     Conversion(const ElevationScale& from, const ElevationScale& to)
@@ -148,13 +148,13 @@ struct LevelFile::Impl {
 
     const std::string& path() const { return file.path(); }
 
-    // Some of the file's bytes, from an offset on.
+    // A range of the file's bytes.
     struct Region {
         std::uint64_t offset = 0;
         RawArray<std::byte> bytes;
     };
 
-    // A plane, and where it goes.
+    // A plane and its destination.
     struct Wanted {
         const LevelPlane* plane = nullptr;
         std::span<std::byte> values;
@@ -253,7 +253,7 @@ const LevelPlane& LevelFile::Impl::plane(std::string_view name) const
 {
     const auto at = std::find_if(header.planes.begin(), header.planes.end(),
                                  [name](const LevelPlane& p) { return p.name == name; });
-    MARSVIEW_CHECK(at != header.planes.end()); // planesOf() lists them all
+    MARSVIEW_CHECK(at != header.planes.end()); // planesOf() lists all planes
     return *at;
 }
 
@@ -432,7 +432,7 @@ Result<std::shared_ptr<const TileChecksums>> LevelFile::readChecksums() const
     MARSVIEW_CHECK(!plane.chunks.empty());
     const std::uint64_t begin = plane.chunks.front().offset;
     const std::uint64_t end = plane.chunks.back().offset + plane.chunks.back().bytes;
-    auto bytes = impl_->file.read(begin, end - begin); // refuses what is beyond the file
+    auto bytes = impl_->file.read(begin, end - begin); // fails beyond the end of the file
     if (!bytes) {
         return std::move(bytes).error();
     }
@@ -462,7 +462,7 @@ Result<SampleGrid> LevelFile::readSamples(const TileId& id) const
 
 Status LevelFile::check(const JobMonitor& monitor) const
 {
-    // Arrays are checked on the way.
+    // Reading checks the arrays.
     if (const Result<MapLevels> levels = readLevels(impl_->header.scale); !levels) {
         return levels.error();
     }

@@ -1,9 +1,9 @@
-// The small file beside a tiled raster that makes it a multi-resolution one: the nested levels of
-// its samples, and everything that is measured once over a whole map.
+// The file next to a tiled raster with its multi-resolution data: the nested levels of its samples
+// and the analysis of the whole map.
 //
 // The raster itself is a tiled GeoTIFF with overviews (means), which other programs read. Levels 1
-// and 2 are cheap to take from its samples; from kFirstLevel on they are kept here, a fiftieth of
-// the raster.
+// and 2 are cheap to read from its samples; levels from kFirstLevel on are stored here, a fiftieth
+// of the raster.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -24,36 +24,36 @@
 
 namespace marsview {
 
-/// What a level file is made from. One that was made from something else is not used.
+/// The source of a level file. A level file with a different key is not used.
 struct LevelFileKey {
-    SourceIdentity raster; // the tiled raster that it belongs to
+    SourceIdentity raster; // the tiled raster
     int band = 1;
     std::optional<double> nodata; // raw
     bool operator==(const LevelFileKey&) const = default;
 };
 
-/// What is known of the whole map as soon as the file is open.
+/// The data of the whole map that is available once the file is open.
 struct MapLevels {
     TileLayout layout;
     SampleStatistics statistics;
-    std::shared_ptr<const SurfaceAnalysis> analysis; // heights in metres by the scale asked for
-    /// No sample of a node is higher, once filled; a level each as in the analysis' bounds, in
-    /// metres. Empty where these bounds tell: where they are measured and no sample is void.
+    std::shared_ptr<const SurfaceAnalysis> analysis; // heights in meters at the requested scale
+    /// Upper bounds of the filled samples of each node, in meters, one array per level as in the
+    /// analysis' bounds. Empty if those bounds suffice: if they are measured and no sample is void.
     std::vector<std::vector<float>> filled_maxima_m;
-    std::shared_ptr<const TileChecksums> checksums; // of the raster; null where nobody took them
+    std::shared_ptr<const TileChecksums> checksums; // of the raster; null if there are none
 };
 
 /// An open level file. For one thread at a time; open it again for another.
 class LevelFile {
 public:
-    /// The coarsest levels of samples are kept from here on.
+    /// The first level of samples stored in the file.
     static constexpr std::size_t kFirstLevel = 3;
 
-    /// Where the level file of a raster lies: beside it.
+    /// The path of a raster's level file, next to the raster.
     static std::string pathFor(const std::string& raster_path);
 
-    /// NotFound where there is none. Invalid, with the reason, where it is damaged, cut short, of
-    /// another version, or made from something else than `expected`. Paths may be GDAL's
+    /// NotFound if it does not exist. Invalid, with the reason, if it is damaged, truncated, of
+    /// another version, or made from another source than `expected`. Accepts GDAL paths
     /// (/vsicurl/…).
     static Result<LevelFile> open(const std::string& path, const LevelFileKey& expected);
 
@@ -61,25 +61,24 @@ public:
     LevelFile& operator=(LevelFile&&) noexcept;
     ~LevelFile();
 
-    /// Reads what is measured; some 1/200 of a byte a sample. The same bits as analyse() on the map
-    /// held in memory (means: from the level up at which they are kept) where `scale` is the one
-    /// the file was made with. Otherwise bounds are of the same bits still, and the rest is
-    /// converted.
+    /// Reads the analysis; some 1/200 of a byte per sample. The same bits as analyse() on the map
+    /// in memory (means: from the stored level up) if `scale` is the scale of the file. Otherwise
+    /// bounds still have the same bits, and the rest is converted.
     Result<MapLevels> readLevels(const ElevationScale& scale) const;
 
-    /// The checksums of the raster's tiles alone: 4 bytes a tile are read.
+    /// Only the checksums of the raster's tiles: reads 4 bytes per tile.
     Result<std::shared_ptr<const TileChecksums>> readChecksums() const;
 
     /// The samples of a Samples tile at a level >= kFirstLevel. Checked against its checksum.
     Result<SampleGrid> readSamples(const TileId& id) const;
 
-    /// What the void samples of a tile at level 0, or >= kFirstLevel, are filled with
-    /// (Tile::filled_m); empty where none of them is void. Where `scale` is the one the file was
-    /// made with, the same bits as FilledHeightfield on the map held in memory.
+    /// The fill heights of a tile's void samples at level 0 or >= kFirstLevel (Tile::filled_m);
+    /// empty without voids. The same bits as FilledHeightfield on the map in memory if `scale` is
+    /// the scale of the file.
     Result<std::vector<float>> readFilled(const TileId& id, const ElevationScale& scale) const;
 
-    /// Reads everything that is in the file and holds it against its checksums: Invalid or
-    /// Unreadable where it is damaged, Cancelled. Levels of samples are a fiftieth of the raster.
+    /// Reads the whole file and verifies its checksums. Errors: Invalid or Unreadable if it is
+    /// damaged, Cancelled. The levels of samples are a fiftieth of the raster.
     Status check(const JobMonitor& monitor) const;
 
 private:

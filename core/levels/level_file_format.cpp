@@ -152,7 +152,7 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
                                 .bytes = wholeNumberFrom(chunk.at(1), file_bytes),
                                 .checksum = static_cast<std::uint32_t>(wholeNumberFrom(
                                     chunk.at(2), std::numeric_limits<std::uint32_t>::max()))};
-            // What is to be allocated is bounded by what is there.
+            // Allocations are bounded by the size of the packed data.
             const std::size_t raw_bytes = plane.chunkShape(plane.chunks.size()).bytes();
             if (part.bytes > file_bytes - part.offset || raw_bytes / kPackRatioMax > part.bytes) {
                 throw std::invalid_argument("the array \"" + plane.name +
@@ -250,7 +250,7 @@ std::vector<LevelPlane> planesOf(const LevelFileHeader& header)
                    .rows = rows,
                    .element_bytes = sampleBytes(layout.type),
                    .interleaved = 2});
-    // Nodes of a level are twice as wide as those of the one below.
+    // Nodes of a level are twice as wide as those of the level below.
     std::size_t node_columns = columns;
     std::size_t node_rows = rows;
     for (std::size_t level = 1; node_columns * node_rows > 1; ++level) {
@@ -327,7 +327,7 @@ readHeader(std::span<const std::byte> json_bytes, std::uint64_t file_bytes, cons
     try {
         const auto* text = reinterpret_cast<const char*>(json_bytes.data());
         return headerFrom(json::parse(text, text + json_bytes.size()), file_bytes);
-    } catch (const std::exception& problem) { // of the library, and ours of this file
+    } catch (const std::exception& problem) { // from the library and from this file
         return damaged(path, fmt::format("has a header that makes no sense ({})", problem.what()));
     }
 }

@@ -1,44 +1,45 @@
-// The bytes of a level file.
+// The file format of level files.
 //
 //   preamble   64 bytes, below
 //   tiles      nested samples of levels >= LevelFile::kFirstLevel; fills of tiles with voids
-//   planes     what is measured over the whole map, in chunks
-//   tail       planes that tell where the tiles are, and the header
+//   planes     arrays measured over the whole map, in chunks
+//   tail       planes that locate the tiles, and the header
 //
 // Numbers are little-endian. The preamble:
 //
 //    0  8 bytes  \x89 M V L \r \n \x1a \n
 //    8  u32      version
 //   12  u32      CRC-32 of the header
-//   16  u64      bytes of the file
-//   24  u64      where the planes begin; they end where the tail begins
-//   32  u64      where the tail begins; it ends with the file
-//   40  u64      where the header begins; it ends with the file
+//   16  u64      size of the file in bytes
+//   24  u64      offset of the planes, which end at the tail
+//   32  u64      offset of the tail, which ends at the end of the file
+//   40  u64      offset of the header, which ends at the end of the file
 //   48  u64, u32 0
-//   60  u32      CRC-32 of the 60 bytes before
+//   60  u32      CRC-32 of the preceding 60 bytes
 //
-// The header is JSON: what the file was made from (LevelFileKey), the layout, the statistics, the
-// scale that heights in metres were made with, and for every plane the chunks it is in, each
-// [offset, bytes, CRC-32]. Numbers that JSON cannot write are strings: "nan", "inf", "-inf".
+// The header is JSON: the source (LevelFileKey), the layout, the statistics, the scale of the
+// heights in meters, and for every plane its chunks, each [offset, bytes, CRC-32]. Numbers that
+// JSON cannot represent are strings: "nan", "inf", "-inf".
 //
 // A plane is an array of numbers, in chunks of whole rows, about 1 MiB before packing
-// (core/levels/packing.h). There are, in this order:
+// (core/levels/packing.h). The planes, in this order:
 //
-//   ranges           RawRanges: smallest and largest raw value by turns
-//   errors 1, 2, …   DetailErrors of the nodes of each level, float metres
-//   means            BlockMeans of blocks of `block_samples`, float metres; NaN where all is void
-//   shares           of samples that are not void; only with voids
-//   fills            smallest and largest fill of the void samples of each block of RawRanges by
-//                    turns, float metres, inf and -inf where none is void; only with voids
+//   ranges           RawRanges: smallest and largest raw value, alternating
+//   errors 1, 2, …   DetailErrors of the nodes of each level, float meters
+//   means            BlockMeans of blocks of `block_samples`, float meters; NaN if all samples are
+//   void
+//   shares           fraction of valid samples; only with voids
+//   fills            smallest and largest fill of the void samples of each block of RawRanges,
+//                    alternating, float meters, inf and -inf without voids; only with voids
 //   checksums        TileChecksums of the raster, u32
 //   samples index    three rows, u64: offset, bytes, CRC-32 of every tile of samples, level by
 //   level fills index      four rows, u64: number, offset, bytes, CRC-32 of every level-0 tile with
 //   voids coarse index     the same of the tiles that samples index lists
 //
-// What can be derived is not stored. A tile of samples is one byte, 1 where a mask follows, and the
-// packed samples with the mask: a bit a sample, rows padded to bytes, lowest bit first. The fill of
-// a level-0 tile is the packed means, gaps filled, of its blocks of 8 × 8 samples and of those
-// around them, as far as they are on the map. The fill of a coarser tile is its packed heights.
+// Derivable data is not stored. A tile of samples is one byte, 1 if a mask follows, and the packed
+// samples with the mask: one bit per sample, rows padded to bytes, lowest bit first. The fill of a
+// level-0 tile is the packed means, with gaps filled, of its blocks of 8 × 8 samples and of the
+// neighboring blocks on the map. The fill of a coarser tile is its packed heights.
 #pragma once
 
 #include "core/base/result.h"
@@ -69,11 +70,11 @@ struct LevelFilePreamble {
 };
 
 std::array<std::byte, kPreambleBytes> writtenPreamble(const LevelFilePreamble& preamble);
-/// Invalid, with a sentence, where it is none, or not of a file of `file_bytes`.
+/// Invalid, with a message, if it is not a preamble, or not that of a file of `file_bytes`.
 Result<LevelFilePreamble>
 readPreamble(std::span<const std::byte> bytes, std::uint64_t file_bytes, const std::string& path);
 
-/// Where something packed lies in the file.
+/// The location of packed data in the file.
 struct FilePart {
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
@@ -88,7 +89,7 @@ struct LevelPlane {
 
     std::size_t rowsPerChunk() const noexcept;
     std::size_t chunkCount() const noexcept;
-    /// Of the rows in a chunk.
+    /// The shape of the rows in a chunk.
     PackShape chunkShape(std::size_t chunk) const noexcept;
 };
 
@@ -97,9 +98,9 @@ struct LevelFileHeader {
     TileLayout layout;
     SampleStatistics statistics;
     ElevationScale scale;
-    std::size_t block_samples = 8; // along a side of the finest blocks whose means are kept
+    std::size_t block_samples = 8; // along a side of the finest blocks with stored means
     std::size_t fill_tiles = 0;    // level-0 tiles with voids
-    std::size_t coarse_tiles = 0;  // of those with samples here
+    std::size_t coarse_tiles = 0;  // of the tiles with samples in the file
     std::vector<LevelPlane> planes;
 
     bool hasVoids() const noexcept { return statistics.void_count > 0; }
@@ -108,34 +109,35 @@ struct LevelFileHeader {
 
 /// The planes that a file with this header has, without their chunks.
 std::vector<LevelPlane> planesOf(const LevelFileHeader& header);
-/// How many of them are in the tail.
+/// The number of planes in the tail.
 inline constexpr std::size_t kTailPlanes = 3; // the last ones
 
 std::string writtenHeader(const LevelFileHeader& header);
-/// Invalid where anything is missing, out of its range, or not what planesOf() says.
+/// Invalid if anything is missing, out of range, or inconsistent with planesOf().
 Result<LevelFileHeader>
 readHeader(std::span<const std::byte> json, std::uint64_t file_bytes, const std::string& path);
 
-/// The finest blocks of which there are no more than `blocks_max`, which is at least 1.
+/// The finest blocks with a count of at most `blocks_max`, which is at least 1.
 BlockExtent finestBlocks(const TileLayout& layout, std::size_t blocks_max);
 
-/// How many tiles of samples are kept, and which of them a tile is, level by level and row by row.
+/// The number of stored tiles of samples, and the index of a tile among them, level by level and
+/// row by row.
 std::size_t keptTileCount(const TileLayout& layout);
 std::size_t keptTileNumber(const TileLayout& layout, const TileId& id);
 
-/// The blocks of 8 × 8 samples that the fill of a level-0 tile is kept by: its own and those
-/// around.
+/// The blocks of 8 × 8 samples stored for the fill of a level-0 tile: its own and the neighboring
+/// ones.
 struct FillWindow {
-    std::size_t first_column = 0; // of blocks of the map
+    std::size_t first_column = 0; // in blocks of the map
     std::size_t first_row = 0;
     std::size_t columns = 0;
     std::size_t rows = 0;
 };
 FillWindow fillWindow(const TileLayout& layout, const TileId& id);
 
-/// A tile of samples as the file has it.
+/// A tile of samples in the file's format.
 std::vector<std::byte> packedSamples(const SampleGrid& samples);
-/// Nothing where `bytes` is none.
+/// Empty if `bytes` is not such a tile.
 std::optional<SampleGrid> unpackSamples(std::span<const std::byte> bytes,
                                         SampleType type,
                                         std::size_t columns,

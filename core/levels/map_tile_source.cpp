@@ -50,7 +50,8 @@ private:
         return Tile{.id = id, .samples = std::move(samples).value(), .filled_m = {}};
     }
 
-    // With the means that are always in memory: coarser ones than at full resolution.
+    // Fills from the means that are always in memory, which are coarser than those for full
+    // resolution.
     void fill(Tile& tile) const
     {
         const TileLayout& layout = tiles_->layout;

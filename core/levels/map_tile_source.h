@@ -1,4 +1,4 @@
-// The tiles of a large map: from the raster itself, and what it lacks from its level file.
+// The tiles of a large map: from the raster, and the missing levels from its level file.
 #pragma once
 
 #include "core/levels/level_file.h"
@@ -11,7 +11,7 @@
 
 namespace marsview {
 
-/// Where the finer and the coarser levels of a map come from.
+/// The sources of the finer and coarser levels of a map.
 struct MapTiles {
     /// Samples at the finest levels, and Means.
     std::shared_ptr<const TileSource> raster;
@@ -21,7 +21,7 @@ struct MapTiles {
     LevelFileKey level_key;
     std::shared_ptr<const SurfaceAnalysis> analysis; // to fill voids at coarser levels
     ElevationScale scale;
-    TileLayout layout; // as the level file tells it
+    TileLayout layout; // from the level file
 };
 
 /// One source of all tiles, void samples filled.

@@ -16,7 +16,7 @@ namespace {
 constexpr std::byte kStored{0};
 constexpr std::byte kDeflated{1};
 
-// Beyond, deflating takes twice as long for 2 % on elevation.
+// Higher levels take twice as long and save 2 % on elevations.
 constexpr int kEffort = 5;
 
 template <typename F>
@@ -44,12 +44,12 @@ T load(const std::byte* from)
     return value;
 }
 
-// Numbers are told apart from the mean of those to the left and above: of two equally noisy
-// neighbours the mean is the better guess. Differences of either sign become small numbers without
-// one, 0, -1, 1, -2 …, so that their upper bytes are alike. Against plain differences to the left
-// this makes tiles of noisy elevation a fifth shorter, and their extremes by blocks a seventh.
+// Numbers are predicted as the mean of those to the left and above: of two equally noisy neighbors
+// the mean is the better prediction. Differences are mapped to small unsigned numbers in the order
+// 0, -1, 1, -2 …, so that their upper bytes are alike. Compared with plain differences to the left,
+// tiles of noisy elevations become a fifth smaller, and their block extremes a seventh.
 
-// As signed numbers, whatever they stand for: floats of one sign are in order, too.
+// Treated as signed integers, whatever the type: floats of one sign keep their order, too.
 template <typename T>
 T mean(T a, T b)
 {
@@ -71,7 +71,7 @@ T unfolded(T code)
     return static_cast<T>(static_cast<T>(code >> 1) ^ static_cast<T>(T{} - (code & 1U)));
 }
 
-// What the number at `i` is thought to be, by those before it in `numbers`.
+// The prediction of the number at `i` from the earlier ones in `numbers`.
 template <typename T>
 T guess(const PackShape& shape, const std::byte* numbers, std::size_t row, std::size_t column)
 {
@@ -100,7 +100,7 @@ void difference(const PackShape& shape, const std::byte* numbers, std::byte* sor
     }
 }
 
-// What each number of a row is told to differ from its guess, of `count` numbers in all.
+// The differences of a row's numbers from their predictions, of `count` numbers in total.
 template <typename T>
 void readDifferences(const std::byte* sorted, std::size_t count, std::span<T> differences)
 {
@@ -114,8 +114,8 @@ void readDifferences(const std::byte* sorted, std::size_t count, std::span<T> di
     }
 }
 
-// The next number. Each one waits for the one before it: as a wider number, where there is one,
-// their mean and the difference are but an addition and a shift away.
+// The next number. Each one depends on the one before it: in a wider type, if there is one, mean
+// and difference take only an addition and a shift.
 template <typename T>
 T next(T left, T above, T difference)
 {
@@ -128,7 +128,7 @@ T next(T left, T above, T difference)
     }
 }
 
-// Differences of a row after the first as numbers, `kApart` of them side by side.
+// Converts the differences of a row after the first to numbers, in `kApart` interleaved sequences.
 template <std::size_t kApart, typename T>
 void addUp(std::span<T> row, std::span<const T> above)
 {
@@ -157,7 +157,7 @@ void sum(const PackShape& shape, const std::byte* sorted, std::byte* numbers)
     for (std::size_t begin = 0; begin < count; begin += shape.columns) {
         readDifferences<T>(sorted + begin, count, row);
         for (std::size_t i = 0; i < apart; ++i) {
-            row[i] = static_cast<T>(row[i] + above[i]); // which is 0 in the first row
+            row[i] = static_cast<T>(row[i] + above[i]); // `above` is 0 in the first row
         }
         if (begin == 0) {
             for (std::size_t i = apart; i < shape.columns; ++i) {

@@ -33,7 +33,8 @@ double TileHeights::sample(const Tile& tile, std::size_t column, std::size_t row
 
 double TileHeights::ceiling(std::size_t column, std::size_t row) const noexcept
 {
-    // A node has the samples at both ends of its cells: on the line between two, it is on both.
+    // A node includes the samples at both ends of its cells: a sample on the line between two nodes
+    // belongs to both.
     constexpr std::size_t kBlock = MinMaxPyramid::kBlock;
     const auto first = [](std::size_t sample) {
         return (std::max<std::size_t>(sample, 1) - 1) / kBlock;

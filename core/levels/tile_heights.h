@@ -13,28 +13,28 @@
 
 namespace marsview {
 
-/// What is known of a whole map that is read in tiles. Immutable; any thread, the servo's too.
+/// The data of a whole tiled map. Immutable; any thread, including the servo thread.
 class TileHeights {
 public:
-    /// `levels` have an analysis whose heights are by `scale`.
+    /// The heights of the analysis in `levels` use `scale`.
     TileHeights(std::shared_ptr<const MapLevels> levels, const ElevationScale& scale);
 
     const TileLayout& layout() const noexcept { return levels_->layout; }
     const ElevationScale& scale() const noexcept { return scale_; }
     const HeightRange& range() const noexcept { return range_; }
 
-    /// Whether what stands in place of void samples is there for all of them.
+    /// Whether all void samples have a fill height.
     static bool isTouchable(const Tile& tile) noexcept
     {
         return !tile.samples.hasVoids() ||
                tile.filled_m.size() == tile.samples.columns() * tile.samples.rows();
     }
-    /// In metres, of a sample of a tile that isTouchable; counted from the tile's first.
+    /// In meters. The tile must be touchable (isTouchable); indices are relative to the tile.
     double sample(const Tile& tile, std::size_t column, std::size_t row) const noexcept;
 
     /// The nodes of the hierarchy are those of MinMaxPyramid.
     std::size_t levelCount() const noexcept { return levels_->analysis->bounds.levelCount(); }
-    /// No filled sample of the node is higher; in metres.
+    /// Upper bound of the node's filled samples, in meters.
     double maximum(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
         const MinMaxPyramid& bounds = levels_->analysis->bounds;
@@ -49,8 +49,8 @@ public:
     {
         return levels_->filled_maxima_m;
     }
-    /// The least maximum of the smallest nodes that a sample of the map lies on: no stand-in for
-    /// its height may be higher, lest a cast pass through it.
+    /// The smallest maximum of the smallest nodes that contain a sample of the map. A substitute
+    /// for its height must not be higher, or a cast could pass through it.
     double ceiling(std::size_t column, std::size_t row) const noexcept;
 
 private:

@@ -1,5 +1,5 @@
-// A map larger than memory as contact models see it: its full-resolution tiles at hand, and a way
-// to the heights that are not.
+// A map larger than memory for contact models: its resident full-resolution tiles, and an interface
+// for the other heights.
 #pragma once
 
 #include "core/levels/tile_heights.h"
@@ -13,8 +13,8 @@
 
 namespace marsview {
 
-/// Reads a sample of a full-resolution tile at hand about as fast as a map in memory is read; what
-/// else there is, is for those who derive from it. A TouchTerrain. For one thread at a time.
+/// Reads a sample of a resident full-resolution tile about as fast as from a map in memory; derived
+/// classes provide the other heights. A TouchTerrain. For one thread at a time.
 class TiledTerrain {
 public:
     virtual ~TiledTerrain() = default;
@@ -26,7 +26,7 @@ public:
     const TileHeights& heights() const noexcept { return *heights_; }
 
     virtual bool isVoid(std::size_t column, std::size_t row) const noexcept = 0;
-    /// In metres, never NaN. Unchecked: inside the map.
+    /// In meters, never NaN. Unchecked: inside the map.
     double sample(std::size_t column, std::size_t row) const noexcept
     {
         if (const Tile* tile = tileAtHand(column, row)) {
@@ -43,16 +43,16 @@ public:
                 : (*filled_maxima_m_)[level][row * bounds_->columns(level) + column]);
     }
 
-    /// The sample, of the type of the layout; null where its tile is not at hand, has voids, or is
-    /// not felt as it is. The coordinates are those of a sample, so none is negative.
+    /// The sample, in the type of the layout; null if its tile is not resident, has voids, or is
+    /// being blended. The coordinates are those of a sample, so they are not negative.
     template <typename T>
     [[gnu::always_inline]] const T* plainSample(std::int32_t column,
                                                 std::int32_t row) const noexcept
     {
         const auto c = static_cast<std::uint32_t>(column);
         const auto r = static_cast<std::uint32_t>(row);
-        // Nearly always it is the tile of the last one: where that lies does not depend on where
-        // this one is, so the processor need not wait for it.
+        // Nearly always it is the last sample's tile. Its address does not depend on the new
+        // position, so the processor need not wait for it.
         const Place* place = &last_;
         if (((c - last_.column) | (r - last_.row)) >= kTileSide) [[unlikely]] {
             place = findPlain(c, r);
@@ -64,9 +64,9 @@ public:
                ((r - place->row) * place->stride + (c - place->column));
     }
 
-    /// A sample in whose tile are those kBefore columns and rows before it, and those one behind
-    /// it, too; a row is `stride` samples long. Null where that is not the tile of the last sample
-    /// that was found: each may still be found for itself. There are such samples.
+    /// A sample whose tile also contains the samples up to kBefore columns and rows before it and
+    /// one after it; a row is `stride` samples long. Null if that is not the tile of the last
+    /// sample found: each sample may still be found separately. All these samples must exist.
     template <typename T, std::uint32_t kBefore>
     [[gnu::always_inline]] const T*
     plainPatch(std::int32_t column, std::int32_t row, std::ptrdiff_t& stride) const noexcept
@@ -84,12 +84,12 @@ public:
 protected:
     explicit TiledTerrain(std::shared_ptr<const TileHeights> heights);
 
-    /// A sample whose tile is not at hand.
+    /// A sample whose tile is not resident.
     virtual double sampleElsewhere(std::size_t column, std::size_t row) const noexcept = 0;
 
-    /// A tile has a place of its own among 8 × 8, which it shares with every eighth.
+    /// A tile has a fixed slot among 8 × 8, which it shares with every eighth tile.
     static constexpr std::uint32_t kPlacesASide = 8;
-    /// Takes the place of what was there; the tile lives until the place is cleared or taken.
+    /// Replaces the tile in the slot; the tile must live until its slot is cleared or reused.
     void setAtHand(const Tile& tile) const noexcept;
     void clearPlace(std::uint32_t tile_column, std::uint32_t tile_row) const noexcept;
     void clearPlaces() const noexcept;
@@ -115,14 +115,14 @@ private:
 
     static constexpr std::uint32_t kNowhere = ~std::uint32_t{0} - 0xFFFF; // far from any sample
 
-    // A tile without voids: where its first sample is, and where that is kept.
+    // A tile without voids: the position of its first sample, and its address.
     struct Place {
         std::uint32_t column = kNowhere;
         std::uint32_t row = kNowhere;
         const void* samples = nullptr;
         std::size_t stride = 0;
     };
-    // The place of a sample's tile, which is the last one from now on; null where it has none.
+    // The slot of a sample's tile, which becomes the last one; null if it has none.
     const Place* findPlain(std::uint32_t column, std::uint32_t row) const noexcept;
 
     struct Held {
@@ -130,7 +130,7 @@ private:
         const Tile* tile = nullptr;
     };
     // A batch terrain fetches tiles while it is read.
-    const MinMaxPyramid* bounds_; // of heights_; every cast asks them
+    const MinMaxPyramid* bounds_; // of heights_; used by every cast
     const std::vector<std::vector<float>>* filled_maxima_m_;
     mutable Place last_; // one of the following
     mutable std::array<Place, std::size_t{kPlacesASide} * kPlacesASide> places_;

@@ -28,7 +28,7 @@ const Tile* WaitingTerrain::fetch(std::size_t column, std::size_t row) const noe
     const TileId id{TileKind::Samples, 0, static_cast<std::uint32_t>(column / kTileSide),
                     static_cast<std::uint32_t>(row / kTileSide)};
     if (error_ && std::find(failed_.begin(), failed_.end(), id) != failed_.end()) {
-        return nullptr; // asked for over and over, it would be read as often
+        return nullptr; // otherwise every request would read it again
     }
     auto tile = raster_.get(id);
     if (!tile) {

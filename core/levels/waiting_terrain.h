@@ -1,5 +1,5 @@
 // A map larger than memory that waits for its tiles: for batch work, whose results must not depend
-// on how fast a disk is.
+// on the speed of the disk.
 #pragma once
 
 #include "core/base/result.h"
@@ -16,24 +16,24 @@
 
 namespace marsview {
 
-/// The heights of FilledHeightfield to the bit, at full resolution, always. A tile that is not at
-/// hand is fetched while the height is read. For one thread at a time, and never the servo's: it
-/// locks, allocates and reads from disk.
+/// The heights of FilledHeightfield to the bit, at full resolution, always. A missing tile is
+/// fetched while the height is read. For one thread at a time, never the servo thread: it locks,
+/// allocates and reads from disk.
 class WaitingTerrain final : public TiledTerrain {
 public:
     static constexpr std::size_t kTilesMax = std::size_t{kPlacesASide} * kPlacesASide;
 
-    /// `heights` have the layout of the raster. Holds on to `tiles_max` tiles, 1 to kTilesMax.
+    /// `heights` have the layout of the raster. Keeps `tiles_max` tiles, 1 to kTilesMax.
     WaitingTerrain(TiledRaster raster,
                    std::shared_ptr<const TileHeights> heights,
                    std::size_t tiles_max = kTilesMax);
 
     bool isVoid(std::size_t column, std::size_t row) const noexcept override;
 
-    /// Why the first tile that could not be had is missing. From then on heights there are made
-    /// up, so what was computed is worth nothing.
+    /// The error of the first tile that could not be read. From then on its heights are invented,
+    /// so the results must be discarded.
     const std::optional<Error>& error() const noexcept { return error_; }
-    /// Tiles that were not at hand.
+    /// The number of tiles that had to be fetched.
     std::uint64_t fetchCount() const noexcept { return fetch_count_; }
 
 private:
@@ -43,7 +43,7 @@ private:
     TiledRaster raster_;
     std::size_t tiles_max_;
     mutable std::array<std::shared_ptr<const Tile>, kTilesMax> tiles_; // by place
-    mutable std::deque<std::size_t> places_; // that are taken, in the order of their taking
+    mutable std::deque<std::size_t> places_; // occupied slots, in the order of occupation
     mutable std::vector<TileId> failed_;
     mutable std::optional<Error> error_;
     mutable std::uint64_t fetch_count_ = 0;
