@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Work between checkpoints takes at least as many times what saving one does.
+// The work between checkpoints takes at least this many times as long as saving one.
 constexpr int kWorkPerSave = 20;
 
 } // namespace
@@ -63,7 +63,7 @@ Status BuildCheckpoints::run(const Stage& stage,
     return Done{};
 }
 
-// One that cannot be written is no reason to stop: the file itself will say why.
+// A failed checkpoint does not stop the build: writing the level file will report the cause.
 void BuildCheckpoints::save(const Stage& stage, std::size_t row, LevelFileWriter& writer)
 {
     const std::optional<LevelFileWriter::Written> written = writer.flush();

@@ -1,4 +1,4 @@
-// How a level file that was begun goes on after the program was killed.
+// Checkpoints for resuming the build of a level file after the program was killed.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -15,32 +15,32 @@
 
 namespace marsview {
 
-/// What is worked on, in this order.
+/// The stages of a build, in this order.
 enum class BuildStage : std::uint8_t { Survey, Means, Errors };
 
-/// Where a build was when its last checkpoint was written.
+/// The position of a build at its last checkpoint.
 struct BuildPlace {
     BuildStage stage = BuildStage::Survey;
-    std::uint64_t row = 0;            // the first that is not done
+    std::uint64_t row = 0;            // the first row that is not done
     LevelFileWriter::Written written; // of the file
 };
 
 /// Checkpoints of one build: the file `path`. For one thread.
 class BuildCheckpoints {
 public:
-    /// `subject` says what is built, and how: a checkpoint of anything else is not taken. One is
-    /// saved after `interval`, later where saving takes long.
+    /// `subject` identifies the build and its settings: checkpoints with another subject are
+    /// ignored. Saves a checkpoint after each `interval`, or later if saving takes long.
     BuildCheckpoints(std::string path, std::string subject, std::chrono::milliseconds interval);
 
-    /// Where the last one is, and the state that was saved there. Nothing where there is none.
+    /// The position and the saved state of the last checkpoint. Empty if there is none.
     struct Found {
         BuildPlace place;
         CheckpointReader state;
     };
     std::optional<Found> find() const;
 
-    /// Works on rows [first, end) of a stage, and saves now and then what `save` puts. False from
-    /// `save` leaves the checkpoint before.
+    /// Processes rows [first, end) of a stage and regularly saves the state written by `save`. If
+    /// `save` returns false, the previous checkpoint is kept.
     struct Stage {
         BuildStage stage = BuildStage::Survey;
         std::size_t first = 0;
@@ -53,9 +53,9 @@ public:
                LevelFileWriter& writer,
                const JobMonitor& monitor);
 
-    /// Whether the build can go on after it was stopped.
+    /// Whether the build can be resumed.
     bool hasCheckpoint() const noexcept { return is_there_; }
-    /// The one that was found is good.
+    /// Accepts the checkpoint that was found.
     void adopt() noexcept { is_there_ = true; }
     void remove();
 

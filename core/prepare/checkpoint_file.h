@@ -1,4 +1,4 @@
-// A file that keeps how far a long job is, for the case that the program is killed.
+// A file with the state of a long job, for resuming after the program was killed.
 #pragma once
 
 #include "core/base/raw_array.h"
@@ -15,9 +15,9 @@
 
 namespace marsview {
 
-/// Writes PATH.new, and moves it to PATH when it is whole and on the disk: whoever is killed
-/// meanwhile leaves the checkpoint before. Failing is remembered, and told once, by finish(). For
-/// one thread.
+/// Writes PATH.new and renames it to PATH when it is complete and on the disk, so that a kill
+/// leaves the previous checkpoint. Errors are stored and reported once, by finish(). For one
+/// thread.
 class CheckpointWriter {
 public:
     explicit CheckpointWriter(const std::string& path);
@@ -41,7 +41,7 @@ public:
     }
     void putGrid(const SampleGrid& samples);
 
-    /// False where it could not be written; then PATH is what it was.
+    /// False if the file could not be written; PATH is then unchanged.
     bool finish();
 
 private:
@@ -57,10 +57,10 @@ private:
     bool has_failed_ = false;
 };
 
-/// Reads back what was put, in the same order. What does not fit fails, and so does all after it.
+/// Reads the values back in the order of writing. A mismatch fails, and so do all later reads.
 class CheckpointReader {
 public:
-    /// Nothing where there is no such file, or where it is damaged. Held in memory whole.
+    /// Empty if the file does not exist or is damaged. Reads the whole file into memory.
     static std::optional<CheckpointReader> open(const std::string& path);
 
     template <typename T>
@@ -69,7 +69,7 @@ public:
         static_assert(std::is_arithmetic_v<T>);
         return getBytes(std::as_writable_bytes(std::span(&value, 1)));
     }
-    /// An array of the length that `values` has.
+    /// An array of the length of `values`.
     template <typename Range>
     bool getArray(Range&& values)
     {

@@ -1,7 +1,8 @@
-// Two passes over the tiles of level 0. The first finds everything but errors, and keeps what the
-// second needs of other tiles: the first row of each row of tiles, and every 64th sample of every
-// 64th row, which are the vertices of levels coarser than a block. The second compares every sample
-// with every level, tile by tile, the tile to the right being read ahead for its first column.
+// Two passes over the tiles of level 0. The first finds everything except errors, and stores the
+// data of other tiles that the second needs: the first row of each row of tiles, and every 64th
+// sample of every 64th row, which are the vertices of levels coarser than a block. The second
+// compares every sample with every level, tile by tile; the tile to the right is read ahead for its
+// first column.
 
 #include "core/prepare/level_builder.h"
 
@@ -25,7 +26,7 @@
 namespace marsview {
 namespace {
 
-// Shares of the time, as measured.
+// Measured fractions of the total time.
 constexpr double kSurveyShare = 0.3;
 constexpr double kErrorsShare = 0.67;
 
@@ -44,8 +45,8 @@ std::vector<std::uint64_t> indexOf(const std::vector<FilePart>& parts)
     return rows;
 }
 
-// What a thread needs besides what all share: two tiles, one as floats twice, and its part of the
-// bands of nested levels that are not yet whole.
+// The memory of a thread in addition to shared memory: two tiles, two float copies of one, and its
+// part of the incomplete bands of nested levels.
 std::size_t threadsFor(const TileLayout& layout, std::size_t memory_bytes_max)
 {
     constexpr std::size_t kSamples = (kTileSide + 1) * (kTileSide + 1);
@@ -55,7 +56,7 @@ std::size_t threadsFor(const TileLayout& layout, std::size_t memory_bytes_max)
     return std::max<std::size_t>(1, memory_bytes_max / 2 / thread_bytes);
 }
 
-// What makes two builds the same, so that one can go on where the other was killed.
+// Identifies a build, so that it can be resumed only with the same source and settings.
 std::string subjectOf(const LevelBuild& build)
 {
     const LevelFileHeader header{.key = build.key,
@@ -67,7 +68,7 @@ std::string subjectOf(const LevelBuild& build)
                        build.mean_blocks_max, writtenHeader(header));
 }
 
-// A build from its first file to the last.
+// A complete build of a level file.
 class LevelFileBuild {
 public:
     LevelFileBuild(const LevelBuild& build, JobMonitor& monitor)
@@ -82,7 +83,7 @@ public:
     Status run()
     {
         Status done = make();
-        // What stopped it may be over when it is tried again; a changed raster never fits again.
+        // Other causes of failure may be temporary, but a changed raster never matches again.
         const bool can_go_on =
             !done && checkpoints_.hasCheckpoint() && done.error().code != ErrorCode::Invalid;
         if (can_go_on) {
@@ -160,7 +161,7 @@ private:
         return finish(survey, errors);
     }
 
-    // Where the last build was stopped, or anew.
+    // Resumes an interrupted build, or starts a new one.
     Status begin()
     {
         if (auto found = checkpoints_.find()) {
@@ -242,7 +243,7 @@ private:
         return Done{};
     }
 
-    // Which may be larger than those of the survey.
+    // These blocks may be larger than those of the survey.
     static BlockGrid blocksOf(const LevelSurvey& survey, std::size_t block_samples)
     {
         BlockGrid blocks = survey.blocks;
@@ -261,8 +262,8 @@ private:
     TileReaders readers_;
     std::unique_ptr<LevelFileWriter> writer_;
     std::optional<LevelSurveyPass> survey_;
-    BuildPlace place_;                      // where to begin
-    std::optional<CheckpointReader> state_; // of the second pass, where it was begun
+    BuildPlace place_;                      // where to start
+    std::optional<CheckpointReader> state_; // of the second pass, if it was started
 };
 
 } // namespace
@@ -290,7 +291,7 @@ std::uint64_t levelFileBytesMax(const TileLayout& layout, std::size_t mean_block
         kept_samples +=
             layout.columnsAt(TileKind::Samples, level) * layout.rowsAt(TileKind::Samples, level);
     }
-    // Packing does not make noise larger. Checkpoints keep what is measured, twice while the next
+    // Packing does not enlarge noise. Checkpoints contain the measured data, twice while the next
     // one is written, and the first row of each row of tiles.
     const std::uint64_t sample_bytes = sampleBytes(layout.type);
     std::uint64_t bytes = kept_samples * sample_bytes + 3 * planes +

@@ -1,4 +1,4 @@
-// Writing the level file of a tiled raster.
+// Builds the level file of a tiled raster.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -15,29 +15,29 @@
 namespace marsview {
 
 struct LevelBuild {
-    const TileSource* source = nullptr; // level 0 is read, in bands of whole rows of tiles
+    const TileSource* source = nullptr; // its level 0 is read in rows of tiles
     ElevationScale scale;
     LevelFileKey key;
-    std::string path; // written beside itself and moved there when whole
-    std::size_t memory_bytes_max = std::size_t{1} << 30; // fewer threads work where it is little
-    /// The means of no more blocks than this are kept: those of blocks of 8 samples a side, or
-    /// twice as many until they are few enough.
+    std::string path; // written to a temporary file and renamed when complete
+    std::size_t memory_bytes_max = std::size_t{1} << 30; // with little memory, fewer threads work
+    /// The maximum number of block means to store: blocks have 8 samples a side, doubled until the
+    /// number fits.
     std::size_t mean_blocks_max = 4'000'000;
-    /// Asked when all is written, before anybody can see it: an error is that of the build.
+    /// Called when everything is written, before the file is published: its error becomes that of
+    /// the build.
     std::function<Status()> confirm{};
-    /// How far a build that is stopped may fall back; more where saving takes long.
+    /// The work that an interruption may lose; more if saving takes long.
     std::chrono::milliseconds checkpoint_interval{3'000};
 };
 
-/// No level file of such a raster takes more bytes on the disk while it is made.
+/// An upper bound on the disk space used while building the level file of such a raster.
 std::uint64_t levelFileBytesMax(const TileLayout& layout,
                                 std::size_t mean_blocks_max = LevelBuild{}.mean_blocks_max);
 
-/// Looks for room on the disk beforehand.
-/// Reads the raster twice, on all cores, and writes its level file. What was at `path` before stays
-/// when it fails: when cancelled, when a tile cannot be read, when the disk is full. Stopped by one
-/// of these, or by the death of the program, the next call for the same build goes on from the last
-/// checkpoint; before the first, nothing is left behind.
+/// Checks for free disk space, reads the raster twice, on all cores, and writes its level file. On
+/// failure an existing file at `path` is kept. After a cancel, a read error, a full disk or a
+/// crash, the next call for the same build resumes from the last checkpoint. A failure before the
+/// first checkpoint leaves no files.
 Status buildLevelFile(const LevelBuild& build, JobMonitor& monitor);
 
 } // namespace marsview

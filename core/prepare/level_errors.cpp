@@ -178,7 +178,7 @@ public:
     const TileParts& coarseFills() const { return coarse_fill_parts_; }
 
 private:
-    // What one thread works with.
+    // The working memory of one thread.
     struct Scratch {
         std::vector<float> heights; // of a tile and the first column and row after it
         std::vector<float> drawn;
@@ -293,7 +293,7 @@ private:
                    : Status(Done{});
     }
 
-    // The tile's heights over the base, with the first column and row of what follows.
+    // The tile's heights over the base, with the first column and row of the following tiles.
     void readPart(const SampleGrid& samples,
                   const SampleGrid* right,
                   const DetailPart& part,
@@ -314,7 +314,7 @@ private:
         }
     }
 
-    // Fills the gaps for drawing, and notes the range of fills of each block.
+    // Fills the gaps for drawing and records the range of fills of each block.
     void fillPart(const TileFill& fill, const DetailPart& part, Scratch& scratch)
     {
         scratch.drawn = scratch.heights;
@@ -335,7 +335,7 @@ private:
         }
     }
 
-    // Blocks share their sides.
+    // Adjacent blocks share their sides.
     void noteFill(const DetailPart& part, std::size_t column, std::size_t row, float height_m)
     {
         const auto blocks_of = [](std::size_t i, std::size_t count) {
@@ -385,7 +385,7 @@ private:
         return Done{};
     }
 
-    // The fills of the samples that coarser levels have; where there are any, marked as void.
+    // The fills of the samples of coarser levels; filled samples are marked as void.
     SampleGrid coarseHeights(const Tile& tile, const TileFill& fill) const
     {
         constexpr std::size_t kStep = std::size_t{1} << LevelFile::kFirstLevel;

@@ -1,4 +1,4 @@
-// The second pass over a map larger than memory: errors, and what voids are filled with.
+// The second pass over a map larger than memory: errors and fills of voids.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -18,7 +18,7 @@
 
 namespace marsview {
 
-/// Some of the tiles of a map, by their numbers, and where they lie in the file. Any thread.
+/// Some tiles of a map, by number, and their locations in the file. Any thread.
 class TileParts {
 public:
     void add(std::uint64_t number, const FilePart& part)
@@ -27,7 +27,7 @@ public:
         parts_.emplace_back(number, part);
     }
     std::size_t size() const { return parts_.size(); }
-    /// As the file has them, in ascending order: four rows.
+    /// The plane of the file, in ascending order: four rows.
     std::vector<std::uint64_t> index() const;
     bool restore(std::vector<std::uint64_t> index);
 
@@ -36,13 +36,13 @@ private:
     std::vector<std::pair<std::uint64_t, FilePart>> parts_;
 };
 
-/// What the second pass finds.
+/// The results of the second pass.
 struct LevelErrors {
     DetailErrors errors;
     std::vector<float> fills_m; // the plane "fills"
 };
 
-/// The second pass. Its rows are worked on by any threads; all else by one, meanwhile.
+/// The second pass. Any threads may process rows; everything else is for one thread.
 class LevelErrorPass {
 public:
     LevelErrorPass(const TileSource& source,
@@ -54,18 +54,18 @@ public:
     LevelErrorPass(const LevelErrorPass&) = delete;
     LevelErrorPass& operator=(const LevelErrorPass&) = delete;
 
-    /// Before anything else.
+    /// Call first.
     Status begin();
-    /// Then, where some rows are done already: what save() wrote.
+    /// Call next if some rows are done already, with the state from save().
     bool restore(CheckpointReader& from);
     void save(CheckpointWriter& to) const;
 
     /// Compares the samples of a row of level-0 tiles with every level.
     Status measureRow(TileReader& reader, std::size_t tile_row);
 
-    /// When all rows are done; once.
+    /// Call once, when all rows are done.
     LevelErrors finish();
-    /// Tiles with voids at level 0 and at the levels that are kept.
+    /// Tiles with voids at level 0 and at the stored levels.
     const TileParts& tileFills() const;
     const TileParts& coarseFills() const;
 

@@ -24,8 +24,8 @@
 namespace marsview {
 namespace {
 
-// A file that nobody else writes to, cut to no more than `bytes_max` that a killed program left,
-// and to be written to behind these; null, with errno, where that cannot be.
+// Opens a file that no other process writes to, truncates the rest of an interrupted attempt to
+// `bytes_max`, and positions at its end; null, with errno, on failure.
 std::FILE* openForWriting(const std::string& path, std::uint64_t bytes_max)
 {
 #ifdef __unix__
@@ -38,7 +38,7 @@ std::FILE* openForWriting(const std::string& path, std::uint64_t bytes_max)
         struct stat named = {};
         const bool is_ours =
             flock(descriptor, LOCK_EX | LOCK_NB) == 0 && fstat(descriptor, &opened) == 0;
-        // Between opening and locking it may have got its final name.
+        // Between opening and locking it may have been renamed to its final name.
         const bool is_named = is_ours && stat(path.c_str(), &named) == 0 &&
                               named.st_ino == opened.st_ino && named.st_dev == opened.st_dev;
         const auto length = static_cast<off_t>(
@@ -71,7 +71,7 @@ LevelFileWriter::~LevelFileWriter()
 {
     if (!is_published_ && !is_kept_ && file_) {
 #ifndef __unix__
-        file_.reset(); // where open files cannot be removed
+        file_.reset(); // some systems cannot remove open files
 #endif
         std::remove(part_path_.c_str());
     }
@@ -228,10 +228,10 @@ Status LevelFileWriter::writeFront(std::span<const std::byte> bytes)
 Status LevelFileWriter::publish()
 {
 #ifndef __unix__
-    file_.reset(); // where open files cannot be moved
+    file_.reset(); // some systems cannot rename open files
 #endif
-    // All of it is on the disk. Whoever waits to write the same file sees that it is no longer the
-    // one of that name.
+    // The whole file is on the disk. A process that waits to write the same file sees that the name
+    // now refers to another file.
     std::error_code problem;
     std::filesystem::rename(part_path_, path_, problem);
     if (problem) {

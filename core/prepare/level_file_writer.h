@@ -1,4 +1,4 @@
-// Writing a level file piece by piece.
+// Writes a level file in parts.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -17,18 +17,18 @@
 
 namespace marsview {
 
-/// Writes PATH.part, and moves it to PATH when it is whole. Without finish() or keep() nothing
-/// stays.
+/// Writes PATH.part and renames it to PATH when it is complete. Without finish() or keep() the file
+/// is removed.
 class LevelFileWriter {
 public:
     static Result<std::unique_ptr<LevelFileWriter>> create(const std::string& path);
-    /// How far one has written, and what by: the CRC-32 of all but the preamble.
+    /// The number of bytes written, and the CRC-32 of all bytes after the preamble.
     struct Written {
         std::uint64_t bytes = 0;
         std::uint32_t checksum = 0;
     };
-    /// Goes on behind what another one has written, which is read once. Invalid where it is not
-    /// there any more.
+    /// Continues after the bytes of an interrupted writer, which are read once. Invalid if they no
+    /// longer exist.
     static Result<std::unique_ptr<LevelFileWriter>> resume(const std::string& path,
                                                            const Written& written);
     ~LevelFileWriter();
@@ -37,10 +37,9 @@ public:
 
     /// Any thread.
     Result<FilePart> append(std::span<const std::byte> bytes);
-    /// What was appended is on the disk from now on, whatever becomes of the machine. Nothing where
-    /// it cannot be written. While nobody appends.
+    /// Flushes all appended data to the disk. Empty on failure. Do not call during append().
     std::optional<Written> flush();
-    /// What was written stays, to be resumed.
+    /// Keeps the written data for resuming.
     void keep() noexcept { is_kept_ = true; }
 
     /// An array to be written as a plane.
@@ -48,8 +47,8 @@ public:
         std::string name;
         std::span<const std::byte> values;
     };
-    /// Writes the arrays, which are those of planesOf(header) in their order, and the header; sees
-    /// to it that all is on the disk, and, where `confirm` agrees, gives the file its name.
+    /// Writes the arrays, which are those of planesOf(header) in their order, and the header;
+    /// flushes everything to the disk and, if `confirm` succeeds, renames the file.
     struct Finish {
         const JobMonitor& monitor;
         const std::function<Status()>& confirm; // may be empty
@@ -70,7 +69,7 @@ private:
 
     std::string path_;
     std::string part_path_;
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // guards the following
     std::unique_ptr<std::FILE, Close> file_;
     Written written_;
     bool is_published_ = false;

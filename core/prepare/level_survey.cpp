@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kTileBlocks = kTileSide / BlockMeans::kBlock;
 constexpr std::size_t kTileRanges = kTileSide / RawRanges::kBlock;
 
-// A tile has no less than one of these blocks, so that tiles can be measured on their own.
+// A block is at most as large as a tile, so that tiles can be measured separately.
 BlockExtent surveyedBlocks(const TileLayout& layout, std::size_t blocks_max)
 {
     BlockExtent extent = finestBlocks(layout, blocks_max);
@@ -251,7 +251,7 @@ private:
         }
     }
 
-    // A tile is cut into blocks as the map is, and reduced on its own.
+    // A tile is divided into the blocks of the map and reduced separately.
     void measureMeans(const TileId& id, const SampleGrid& samples, std::vector<BlockRows>& fine)
     {
         BlockExtent extent{samples.columns(), samples.rows(), BlockMeans::kBlock};
@@ -333,7 +333,7 @@ private:
     std::size_t tile_rows_;
     std::size_t top_level_;
     NestedLevels nested_;
-    std::mutex mutex_; // of what tiles of several rows share in found_
+    std::mutex mutex_; // guards the data in found_ that tiles of several rows share
     LevelSurvey found_;
     std::atomic<std::uint64_t> void_count_{0};
     std::atomic<std::uint64_t> done_{0}; // tiles

@@ -1,4 +1,4 @@
-// The first pass over a map larger than memory: everything but errors.
+// The first pass over a map larger than memory: everything except errors.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -19,16 +19,16 @@
 
 namespace marsview {
 
-/// What the first pass finds.
+/// The results of the first pass.
 struct LevelSurvey {
     SampleStatistics statistics;
     RawRanges ranges;
-    BlockGrid blocks; // of `kept`; shares only where something is void
-    BlockExtent kept; // no larger than a tile, even where that makes too many
+    BlockGrid blocks; // of `kept`; shares only if there are voids
+    BlockExtent kept; // no larger than a tile, even if that gives too many
     FineMeans fine_means;
     std::vector<std::uint8_t> has_voids; // by level-0 tile
     std::shared_ptr<TileChecksums> checksums;
-    std::optional<SampleGrid> first_rows; // of each row of tiles but the first
+    std::optional<SampleGrid> first_rows; // of each row of tiles except the first
     std::optional<SampleGrid> sparse;     // the samples of DetailMeasure::kSparseLevel
     std::vector<FilePart> samples_index;  // of the tiles that were written
 };
@@ -36,11 +36,11 @@ struct LevelSurvey {
 struct SurveyOptions {
     const TileSource* source = nullptr;
     ElevationScale scale;
-    std::string means_path; // of the file that FineMeans needs meanwhile
+    std::string means_path; // of the temporary file of FineMeans
     std::size_t mean_blocks_max = 4'000'000;
 };
 
-/// The first pass. Its rows are worked on by any threads; all else by one, meanwhile.
+/// The first pass. Any threads may process rows; everything else is for one thread.
 class LevelSurveyPass {
 public:
     LevelSurveyPass(const SurveyOptions& options, LevelFileWriter& writer, JobMonitor& monitor);
@@ -48,22 +48,23 @@ public:
     LevelSurveyPass(const LevelSurveyPass&) = delete;
     LevelSurveyPass& operator=(const LevelSurveyPass&) = delete;
 
-    /// Before any row, of a map of which nothing is known yet.
+    /// Call before any row to start from the beginning.
     Status begin();
-    /// Instead, of a map of which some rows are done. False where it is not what save() wrote of
-    /// such a map.
+    /// Call instead of begin() if some rows are done. False if `from` is not from save() for such a
+    /// map.
     bool restore(CheckpointReader& from);
-    /// What the rows that are done have given; also after finish(). False where it is not safe.
+    /// Writes the results of the completed rows; also after finish(). False if data could not be
+    /// flushed to the disk.
     bool save(CheckpointWriter& to) const;
 
-    /// All but errors of a row of level-0 tiles, and its part of the levels.
+    /// Measures everything except errors for a row of level-0 tiles, and its part of the levels.
     Status surveyRow(TileReader& reader, std::size_t tile_row);
-    /// Rows of tiles of means, of all levels.
+    /// The number of rows of tiles of means, over all levels.
     std::size_t meanRowCount() const;
-    /// Takes the checksums of one of them.
+    /// Computes the checksums of one of them.
     Status surveyMeanRow(TileReader& reader, std::size_t row);
 
-    /// When all rows are done.
+    /// Call when all rows are done.
     const LevelSurvey& finish();
 
 private:

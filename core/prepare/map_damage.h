@@ -1,4 +1,4 @@
-// Whether a prepared map still is what it was when it was prepared: all of it is read.
+// Checks a whole prepared map for damage.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -16,7 +16,7 @@ struct PreparedFiles {
     const GeotiffTileSource* raster = nullptr;
     std::string level_path;
     LevelFileKey level_key;
-    std::string remedy; // ends the sentence about a damaged raster
+    std::string remedy; // ends the message about a damaged raster
 };
 
 struct MapDamage {
@@ -25,9 +25,9 @@ struct MapDamage {
     Error error;
 };
 
-/// The first damage found, or nothing. Decodes every tile once, on all cores: a fifth of the time
-/// that preparing took. Errors are those that tell nothing: Cancelled, no memory, a level file that
-/// is of another raster.
+/// The first damage found, or empty. Decodes every tile once, on all cores, in a fifth of the time
+/// of preparing. Errors mean that the check is inconclusive: Cancelled, out of memory, a level file
+/// of another raster.
 Result<std::optional<MapDamage>> findDamage(const PreparedFiles& files, JobMonitor& monitor);
 
 } // namespace marsview

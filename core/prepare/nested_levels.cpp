@@ -6,7 +6,7 @@
 namespace marsview {
 namespace {
 
-// A sample of a tile, and which one of a level it is.
+// A sample's index in a tile and in a level.
 struct Nested {
     std::size_t from = 0; // within the tile
     std::size_t to = 0;   // within the level
@@ -30,7 +30,8 @@ nestedAlong(std::size_t first, std::size_t end, std::size_t count, std::size_t l
 
 SampleGrid zeros(SampleType type, std::size_t columns, std::size_t rows)
 {
-    // A fraction of a level that is small: as any other allocation of the standard library.
+    // A small fraction of a level: failing to allocate it is treated like any failed allocation of
+    // the standard library.
     SampleGrid grid = SampleGrid::create(type, columns, rows).value();
     std::memset(grid.rowData(0), 0, columns * rows * sampleBytes(type));
     return grid;

@@ -1,4 +1,4 @@
-// Gathering the samples of coarser levels from tiles of the finest.
+// Collects the samples of coarser levels from tiles of the finest.
 #pragma once
 
 #include "core/prepare/checkpoint_file.h"
@@ -14,35 +14,35 @@
 
 namespace marsview {
 
-/// A row of tiles of a level: kTileSide rows of samples, or what is left, of all columns.
+/// A row of tiles of a level: kTileSide rows of samples, or fewer at the end, with all columns.
 struct LevelBand {
     std::size_t level = 0;
     std::size_t tile_row = 0;
     SampleGrid samples;
 };
 
-/// Takes level-0 tiles in any order and gives bands of the levels as they are complete. Holds the
-/// bands that were begun: few, where tiles come about row by row. Any thread.
+/// Takes level-0 tiles in any order and returns bands of the levels as they become complete.
+/// Incomplete bands stay in memory: few if tiles arrive roughly row by row. Any thread.
 class NestedLevels {
 public:
-    /// Levels first … last. Samples of `type`; those that nobody sets are 0.
+    /// Levels first … last. Samples of `type`; samples that are not set are 0.
     NestedLevels(const TileLayout& layout, SampleType type, std::size_t first, std::size_t last);
 
-    /// Puts the tile's samples where they belong, with their voids. Null: there is nothing in this
-    /// tile. Returns what is complete with it.
+    /// Copies the tile's samples and voids into the bands. Null means an empty tile. Returns the
+    /// bands that this tile completes.
     std::vector<LevelBand> add(const TileId& id, const SampleGrid* samples);
 
-    /// The bands that were begun. While nobody adds.
+    /// Writes the incomplete bands. Do not call during add().
     void save(CheckpointWriter& to) const;
     bool restore(CheckpointReader& from);
 
 private:
     struct Band {
-        std::optional<SampleGrid> samples; // none before the first that is something
+        std::optional<SampleGrid> samples; // empty before the first nonempty tile
         std::size_t missing = 0;           // samples
     };
 
-    std::mutex mutex_; // of bands_
+    std::mutex mutex_; // guards bands_
     TileLayout layout_;
     SampleType type_;
     std::size_t first_;

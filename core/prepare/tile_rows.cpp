@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-// Hands out rows until there is no reason to go on.
+// Distributes rows until the end, an error or a cancel.
 class RowQueue {
 public:
     RowQueue(const RowSpan& rows, const JobMonitor& monitor)
@@ -36,7 +36,7 @@ public:
             failure_ = std::move(error);
         }
     }
-    // When no thread takes any more.
+    // Call when no thread takes rows any more.
     Result<std::size_t> outcome() &&
     {
         if (monitor_.isCancelled()) {
@@ -93,7 +93,7 @@ TileReaders::eachRow(const RowSpan& rows, const Work& work, const JobMonitor& mo
         const std::lock_guard lock(mutex_);
         idle_.push_back(std::move(reader).value());
     };
-    // One part a thread; rows are shared out by the queue.
+    // One part per thread; the queue distributes the rows.
     parallelRanges(std::min(rows.end - rows.first, threads_max_), 1, run, threads_max_);
     return std::move(queue).outcome();
 }

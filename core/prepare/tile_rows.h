@@ -1,4 +1,4 @@
-// Reading a raster row of tiles by row of tiles, on all cores.
+// Reads a raster by rows of tiles, on all cores.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -14,14 +14,14 @@
 
 namespace marsview {
 
-/// Which rows are worked on, and until when one may be begun.
+/// The rows to process, and the time until which a row may be started.
 struct RowSpan {
     std::size_t first = 0;
     std::size_t end = 0;
     std::chrono::steady_clock::time_point until = std::chrono::steady_clock::time_point::max();
 };
 
-/// Readers for as many threads as ask, opened when needed. Any thread.
+/// Readers for any number of threads, opened when needed. Any thread.
 class TileReaders {
 public:
     TileReaders(const TileSource& source, std::size_t threads_max)
@@ -30,9 +30,9 @@ public:
     {}
 
     using Work = std::function<Status(TileReader& reader, std::size_t row)>;
-    /// Calls `work` for rows in ascending order as threads get free, at least for one, until one
-    /// fails: its error, or Cancelled. Returns the first row that was not begun; all before it are
-    /// done.
+    /// Calls `work` for rows in ascending order as threads become free, for at least one row, until
+    /// one fails. Returns the first row that was not started; all rows before it are done. Errors:
+    /// that of `work`, or Cancelled.
     Result<std::size_t> eachRow(const RowSpan& rows, const Work& work, const JobMonitor& monitor);
 
 private:
@@ -40,11 +40,11 @@ private:
 
     const TileSource& source_;
     std::size_t threads_max_;
-    std::mutex mutex_; // of idle_
+    std::mutex mutex_; // guards idle_
     std::vector<std::unique_ptr<TileReader>> idle_;
 };
 
-/// The tile, or an error: what reading says, Cancelled, or that the reader gave something else.
+/// The tile. Errors: those of the reader, Cancelled, or a tile of an unexpected kind or size.
 Result<Tile>
 readTile(TileReader& reader, const TileSource& source, const TileId& id, const JobMonitor& monitor);
 

@@ -124,7 +124,7 @@ Result<BlockRows> filledRows(const FineMeans& fine, const BlockMeans& kept, std:
     const auto rows_of = [&](std::size_t level) {
         return level < fine.levelCount() ? fine.extent(level).blockRows() : coarsest.rows();
     };
-    // What is needed of each level, from the finest up.
+    // The rows needed of each level, from the finest up.
     std::vector<RowRange> needed;
     needed.push_back({tile_row * kTileBlocks - (tile_row > 0 ? 1 : 0),
                       std::min((tile_row + 1) * kTileBlocks + 1, rows_of(0))});

@@ -1,4 +1,4 @@
-// What voids are filled with on maps whose finest means do not fit in memory.
+// Fills of voids on maps whose finest means do not fit in memory.
 #pragma once
 
 #include "core/base/result.h"
@@ -16,14 +16,14 @@
 
 namespace marsview {
 
-/// The means of blocks of 8 × 8 samples and of those up to the blocks that are kept in memory, in a
-/// file that goes with the object, but stays where the program is killed. Any thread.
+/// The means of blocks of 8 × 8 samples, and of larger blocks up to those in memory, in a file. The
+/// file is removed with the object, but stays if the program is killed. Any thread.
 class FineMeans {
 public:
     enum class Content : std::uint8_t { Empty, AsItWas };
 
-    /// `kept` are the blocks that are not in here. The file is `path`; there is none where no
-    /// blocks are finer than those.
+    /// `kept` are the blocks in memory. The file is `path`; it is not created if there are no finer
+    /// blocks.
     static Result<FineMeans>
     open(const BlockExtent& kept, const std::string& path, Content content);
     FineMeans() = default;
@@ -34,12 +34,11 @@ public:
     const BlockExtent& extent(std::size_t level) const noexcept { return levels_[level]; }
     /// Whole rows of a level.
     Status write(std::size_t level, const BlockRows& rows);
-    /// Fills rows.heights_m, which has the size of what is wanted, from rows.first_row on.
+    /// Reads rows.heights_m, whose size is the requested one, from rows.first_row on.
     Status read(std::size_t level, BlockRows& rows) const;
-    /// All that was written is on the disk from here on, whatever becomes of the machine, and `to`
-    /// tells it from anything else. False where that cannot be.
+    /// Flushes all written data to the disk and writes its checksums to `to`. False on failure.
     bool save(CheckpointWriter& to) const;
-    /// Whether the file holds what it held at save(). Reads it.
+    /// Whether the file is the same as at save(). Reads the whole file.
     bool restore(CheckpointReader& from);
 
 private:
@@ -51,17 +50,17 @@ private:
 
     std::string name_; // for messages
     std::vector<BlockExtent> levels_;
-    // Of each row of each level: 0 where it was not written, else one more than its CRC-32.
+    // For each row of each level: 0 if it was not written, otherwise its CRC-32 plus 1.
     std::vector<std::vector<std::uint64_t>> row_checksums_;
     std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
-    std::unique_ptr<std::FILE, Close> file_; // none where there are no levels
+    std::unique_ptr<std::FILE, Close> file_; // null without levels
 };
 
-/// The rows of the finest blocks around a row of level-0 tiles, gaps filled as BlockMeans does.
+/// The rows of the finest blocks around a row of level-0 tiles, with gaps filled as in BlockMeans.
 /// `kept` continues where `fine` ends.
 Result<BlockRows> filledRows(const FineMeans& fine, const BlockMeans& kept, std::size_t tile_row);
 
-/// What a tile of that row needs of them.
+/// The part of them that a tile of that row needs.
 TileFill tileFill(const BlockRows& filled, const TileLayout& layout, const TileId& id);
 
 } // namespace marsview
