@@ -15,7 +15,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 template <typename T>
 using Sum = std::conditional_t<sizeof(T) <= 2, std::int32_t, double>;
 
-// Adds up the samples of a row of blocks column by column, for vectors of the processor.
+// Adds up the samples of a row of blocks column by column, which vectorizes.
 template <typename T>
 class ColumnSums {
 public:
@@ -46,7 +46,7 @@ public:
         }
     }
 
-    // The sum over columns [begin, end), and how many samples are in it.
+    // The sum over columns [begin, end), and the number of samples in it.
     struct Block {
         double sum = 0.0;
         double count = 0.0;
@@ -67,7 +67,7 @@ public:
 private:
     const SampleGrid& samples_;
     std::vector<Sum<T>> sums_;
-    std::vector<std::int32_t> counts_; // empty: no sample is void
+    std::vector<std::int32_t> counts_; // empty: no voids
 };
 
 } // namespace

@@ -1,5 +1,5 @@
-// One level of mean heights of blocks, and filling its gaps from a coarser one: what BlockMeans is
-// made of, for whole maps and for pieces alike.
+// One level of mean heights of blocks, and the filling of its gaps from a coarser level: the parts
+// of BlockMeans, for whole maps and for parts of maps.
 #pragma once
 
 #include "core/base/grid_view.h"
@@ -17,11 +17,11 @@ namespace marsview {
 struct BlockGrid {
     std::size_t columns = 0;
     std::size_t rows = 0;
-    LargeVector<float> means_m; // NaN where all samples are void
-    LargeVector<float> shares;  // of samples that are not void, in [0, 1]; empty: all 1
+    LargeVector<float> means_m; // NaN if all samples are void
+    LargeVector<float> shares;  // fractions of valid samples, in [0, 1]; empty: all 1
 };
 
-/// Samples that blocks are cut from.
+/// The samples that blocks cover.
 struct BlockExtent {
     std::size_t columns = 0; // of samples
     std::size_t rows = 0;
@@ -29,7 +29,7 @@ struct BlockExtent {
 
     std::size_t blockColumns() const { return (columns + block_samples - 1) / block_samples; }
     std::size_t blockRows() const { return (rows + block_samples - 1) / block_samples; }
-    /// Of a block, void or not.
+    /// The number of samples of a block, void or not.
     float sampleCount(std::size_t column, std::size_t row) const
     {
         return static_cast<float>(std::min(block_samples, columns - column * block_samples)) *
@@ -46,7 +46,7 @@ BlockGrid emptyBlocks(const BlockExtent& extent, BlockShares shares);
 BlockGrid blocksToBeFilled(const BlockExtent& extent, BlockShares shares);
 
 /// Measures rows [begin, end) of blocks of `block_samples` a side, all of whose samples are in
-/// `samples`. `grid` has all rows of blocks; parts may be measured at the same time.
+/// `samples`. `grid` has all rows of blocks; parts may be measured concurrently.
 void measureBlocks(const SampleGrid& samples,
                    std::size_t block_samples,
                    const ElevationScale& scale,
@@ -54,8 +54,7 @@ void measureBlocks(const SampleGrid& samples,
                    std::size_t end,
                    BlockGrid& grid);
 
-/// Means over four blocks each. `extent` is that of `finer`. Blocks that hold fewer samples weigh
-/// less.
+/// Means over four blocks each. `extent` is that of `finer`. Blocks with fewer samples weigh less.
 BlockGrid reduced(const BlockGrid& finer, const BlockExtent& extent);
 
 /// Some rows of one level's means.
@@ -72,14 +71,14 @@ struct BlockRows {
     }
 };
 
-/// Where a position in blocks, 0 being the centre of the first, lies between the centres around.
+/// A position in blocks, 0 being the center of the first, relative to the neighboring centers.
 struct BlockPlace {
     std::size_t before = 0;
     std::size_t after = 0;
     float share = 0.0F; // of `after`
 };
 
-/// Beyond the outermost centres the outermost ones count. `position` counts blocks.
+/// Positions beyond the outermost centers are clamped to them. `position` is in blocks.
 inline BlockPlace blockPlace(double position, std::size_t count)
 {
     const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
@@ -88,7 +87,7 @@ inline BlockPlace blockPlace(double position, std::size_t count)
             static_cast<float>(inside - static_cast<double>(before))};
 }
 
-/// Where a sample lies between blocks of `block_samples`.
+/// The position of a sample between blocks of `block_samples`.
 inline BlockPlace placeOfSample(std::size_t sample, std::size_t block_samples, std::size_t count)
 {
     return blockPlace(
@@ -100,8 +99,8 @@ inline float interpolated(float before, float after, float share)
     return before * (1.0F - share) + after * share;
 }
 
-/// Replaces NaN by what the level above, whose gaps are filled, has there. `coarser` holds the rows
-/// around.
+/// Replaces NaN by the value of the next coarser level, whose gaps are filled. `coarser` has the
+/// surrounding rows.
 void fillGaps(BlockRows& rows, const BlockRows& coarser);
 
 /// The rows of the next coarser level, which has `coarser_rows`, that filling rows [first, end) of

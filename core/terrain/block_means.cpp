@@ -42,8 +42,7 @@ BlockMeans BlockMeans::from(BlockGrid blocks, const BlockExtent& extent)
     return means;
 }
 
-// From the single block of the top, which has a mean, down: a gap takes what the level above has
-// there.
+// From the single top block, which has a mean, down: a gap takes the value of the level above.
 void BlockMeans::fill()
 {
     const auto rows_of = [](const BlockGrid& level) {

@@ -1,4 +1,4 @@
-// Mean heights of blocks of samples: a small picture of a map of any size.
+// Mean heights of blocks of samples: a small version of a map of any size.
 #pragma once
 
 #include "core/base/grid_view.h"
@@ -13,33 +13,33 @@
 namespace marsview {
 
 /// Means over square blocks of samples, over four such blocks, and so on up to one block for all.
-/// For drawing and for filling voids, never for numbers that people read. Immutable; any thread.
-/// With blocks of kBlock it takes 1/12 of a byte a sample, twice that where the map has voids.
+/// For drawing and for filling voids, never for values shown to people. Immutable; any thread. With
+/// blocks of kBlock it takes 1/12 of a byte per sample, twice that if the map has voids.
 class BlockMeans {
 public:
-    /// The smallest blocks, which are those of a map held in memory.
+    /// The smallest blocks, used for a map in memory.
     static constexpr std::size_t kBlock = 8;
 
-    /// Reads every sample once, on all cores. Only Cancelled can go wrong.
+    /// Reads every sample once, on all cores. The only error is Cancelled.
     static Result<BlockMeans> build(const Heightfield& heightfield, JobMonitor& monitor);
-    /// From the means of a map's finest blocks that are kept; the same bits as build() from there
-    /// up. `extent` is the map's, and its block_samples kBlock times a power of two.
+    /// From the means of a map's finest stored blocks; the same bits as build() from there up.
+    /// `extent` is the map's, and its block_samples kBlock times a power of two.
     static BlockMeans from(BlockGrid blocks, const BlockExtent& extent);
 
     /// Samples along a side of level 0's blocks: kBlock, or more for a map larger than memory.
     std::size_t blockSamples() const noexcept { return extent_.block_samples; }
     /// Each level above 0 has blocks of twice as many samples a side.
     std::size_t levelCount() const noexcept { return levels_.size(); }
-    /// Mean heights in metres of a level's blocks; NaN where all samples are void.
+    /// Mean heights in meters of a level's blocks; NaN if all samples are void.
     GridView<const float> means(std::size_t level) const;
-    /// Share of a block's samples that are not void, in [0, 1].
+    /// Fraction of a block's samples that are valid, in [0, 1].
     float share(std::size_t level, std::size_t column, std::size_t row) const noexcept;
 
-    /// A height for every sample of the map, void or not: interpolated between the means around,
-    /// and where these are void between those of larger blocks. Metres; continuous; a function of
-    /// the position alone. No allocation.
+    /// A height for every sample of the map, void or not: interpolated between the surrounding
+    /// means, or between those of larger blocks where they are void. In meters; continuous; depends
+    /// only on the position. No allocation.
     float filled(std::size_t column, std::size_t row) const noexcept;
-    /// Level 0 without gaps: what filled() interpolates between.
+    /// Level 0 without gaps: the values that filled() interpolates.
     GridView<const float> filledMeans() const;
 
 private:
@@ -47,7 +47,7 @@ private:
 
     BlockExtent extent_;
     std::vector<BlockGrid> levels_;
-    LargeVector<float> filled_m_; // level 0 without gaps; empty where it has none
+    LargeVector<float> filled_m_; // level 0 without gaps; empty if it has no gaps
 };
 
 } // namespace marsview

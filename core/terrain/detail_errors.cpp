@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-// Rows of corners that a thread takes at once: of small maps all.
+// Rows of corners that a thread takes at once: all of a small map.
 constexpr std::size_t kCornerRows = 128;
 
 std::size_t nodeCount(std::size_t samples, std::size_t level)
@@ -143,7 +143,7 @@ CornerGrid largestAtCorners(std::size_t columns, std::size_t rows, std::span<con
 void growCorners(const CornerGrid& finer, CornerGrid& coarser)
 {
     parallelRanges(coarser.rows + 1, kCornerRows, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> largest(finer.columns + 1); // of the rows that a corner's nodes reach
+        std::vector<float> largest(finer.columns + 1); // over the rows that a corner's nodes reach
         for (std::size_t row = begin; row < end; ++row) {
             // The nodes that meet at a corner reach two finer nodes from it to either side.
             const std::size_t upper = 2 * std::max<std::size_t>(row, 1) - 2;

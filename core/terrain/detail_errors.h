@@ -1,7 +1,7 @@
-// How far the surface drawn with fewer samples is from the surface with all of them.
+// The error of the surface drawn with fewer samples.
 //
 // Detail comes in levels: level k takes every 2^k-th sample of every 2^k-th row, and the last
-// column and row, and cuts its cells by the same diagonal (triangulation.h). Nodes are those of
+// column and row, and divides its cells by the same diagonal (triangulation.h). Nodes are those of
 // MinMaxPyramid: node (k, i, j) covers kNodeCells × kNodeCells cells of level k.
 #pragma once
 
@@ -31,33 +31,32 @@ struct CornerGrid {
     LargeVector<float> values;
 };
 
-/// The measured errors, node by node. Immutable; any thread. Takes about 1/384 of a
-/// byte a sample.
+/// The measured error of each node. Immutable; any thread. Takes about 1/384 of a byte per sample.
 class DetailErrors {
 public:
     static constexpr std::size_t kNodeCells = 32;
 
-    /// No sample is further off than kPeak times the error of its node.
+    /// The error of a sample is at most kPeak times the error of its node.
     static constexpr float kPeak = 4.0F;
 
-    /// How much a corner's error grows at least from one level to the next. See cornerError.
+    /// The minimum growth factor of a corner's error from one level to the next. See cornerError.
     static constexpr float kGrowth = 1.5F;
 
-    /// Compares every sample with every level, on all cores. Only Cancelled can go wrong.
+    /// Compares every sample with every level, on all cores. The only error is Cancelled.
     static Result<DetailErrors> build(const DrawnSurface& surface, JobMonitor& monitor);
 
-    /// The errors of a level's nodes, row by row; those of level 0 are 0 and not kept.
+    /// The errors of a level's nodes, row by row; those of level 0 are 0 and not stored.
     struct NodeLevel {
         std::size_t columns = 0;
         std::size_t rows = 0;
         LargeVector<float> errors_m;
     };
     using NodeErrors = std::vector<NodeLevel>; // by level
-    /// Of a map of columns × rows samples: 0 for every node.
+    /// For a map of columns × rows samples: 0 for every node.
     static NodeErrors noErrors(std::size_t columns, std::size_t rows);
     /// The same without values.
     static NodeErrors errorsToBeFilled(std::size_t columns, std::size_t rows);
-    /// From what was measured, with the levels of noErrors(); the same bits as build().
+    /// From measured errors, with the levels of noErrors(); the same bits as build().
     static DetailErrors from(NodeErrors errors);
     const NodeErrors& nodeErrors() const noexcept { return nodes_; }
 
@@ -65,12 +64,11 @@ public:
     std::size_t columns(std::size_t level) const noexcept { return nodes_[level].columns; }
     std::size_t rows(std::size_t level) const noexcept { return nodes_[level].rows; }
 
-    /// How far the surface drawn at the node's level is from its samples, in metres. Vertical
-    /// distances are taken at the samples that are not void, within each block of kNodeCells ×
-    /// kNodeCells cells of level 0, its sides included. A block's error is 1.25 times their root
-    /// mean square, or a kPeak-th of the largest where that is more; the node's is that of its
-    /// worst block, rounded up to 8 bits (roundedUpShort). Errors below 1e-6 of the map's range are
-    /// rounding. 0 at level 0.
+    /// The error of the surface drawn at the node's level, in meters. Vertical distances are taken
+    /// at the valid samples within each block of kNodeCells × kNodeCells cells of level 0,
+    /// including its sides. A block's error is 1.25 times their root mean square, or 1/kPeak of the
+    /// largest if that is more; the node's is that of its worst block, rounded up to 8 bits
+    /// (roundedUpShort). Errors below 1e-6 of the map's range are rounding errors. 0 at level 0.
     float nodeError(const DetailNode& node) const noexcept
     {
         const NodeLevel& l = nodes_[node.level];
@@ -78,9 +76,9 @@ public:
     }
 
     /// Bounds of the error at the corners of a level >= 1's nodes: columns + 1 times rows + 1 of
-    /// them. A corner's is no less than the errors of the nodes that meet there, so interpolated
-    /// between the corners of a node it is no less than the node's; and no less than kGrowth times
-    /// those of the finer level's corners in these nodes.
+    /// them. A corner's bound is at least the errors of the nodes that meet there, so its
+    /// interpolation between the corners of a node is at least the node's error. It is also at
+    /// least kGrowth times the bounds of the finer level's corners in these nodes.
     float cornerError(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
         return corners_[level].values[row * (nodes_[level].columns + 1) + column];
@@ -93,7 +91,7 @@ private:
     std::vector<CornerGrid> corners_; // by level >= 1
 };
 
-/// At every corner the largest value of the nodes that meet there, of columns × rows nodes.
+/// At every corner of columns × rows nodes, the largest value of the nodes that meet there.
 CornerGrid largestAtCorners(std::size_t columns, std::size_t rows, std::span<const float> nodes);
 
 /// Raises `coarser` to at least DetailErrors::kGrowth times the values of `finer`, the next finer

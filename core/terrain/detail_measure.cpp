@@ -1,12 +1,12 @@
 // Notation: a cell of level k has its upper left sample at (X, Y) and is W columns wide and H rows
-// high (2^k, less at the border), u = (x - X) / W and v = (y - Y) / H. Over its triangles
+// high (2^k, fewer at the border), u = (x - X) / W and v = (y - Y) / H. Over its triangles
 //
 //   upper, u >= v:  z = z00 + u (z10 - z00) + v (z11 - z10)
 //   lower, u <= v:  z = z00 + v (z01 - z00) + u (z11 - z01)
 //
-// so along a row of samples everything but v is fixed per column, and one multiplication a sample
-// and level is left. A column belongs to the cell to its right, the map's last one to the last
-// cell, wherever parts begin and end.
+// so along a row of samples only v varies, and one multiplication per sample and level remains. A
+// column belongs to the cell to its right, the map's last one to the last cell, regardless of the
+// parts.
 
 #include "core/terrain/detail_measure.h"
 
@@ -22,11 +22,11 @@ namespace {
 
 constexpr std::size_t kNodeCells = DetailErrors::kNodeCells;
 
-// Root mean squares that count as the error. Measured on maps of the Moon, Mars and the Earth at
-// exaggerations 1 to 20: 99 % of the pixels of a picture are then within what was asked for.
+// The error in units of the root mean square. Measured on maps of the Moon, Mars and the Earth at
+// exaggerations 1 to 20: 99 % of the pixels of a picture are then within the requested error.
 constexpr float kDeviations = 1.25F;
 
-// Columns that are worked on at a time: few enough for their 33 rows to stay in the first cache.
+// Columns processed at a time: few enough for their 33 rows to stay in the L1 cache.
 constexpr std::size_t kStripCells = 256;
 
 constexpr std::size_t kSparseStep = std::size_t{1} << DetailMeasure::kSparseLevel;
@@ -34,7 +34,7 @@ static_assert(kSparseStep == 2 * kNodeCells, "finer cells lie within a node");
 
 } // namespace
 
-// Some nodes of a row of level-0 nodes: how far each level is from their samples.
+// The errors of each level on some nodes of a row of level-0 nodes.
 class DetailMeasure::Worker::Strip {
 public:
     explicit Strip(const DetailMeasure& measure)
@@ -92,7 +92,7 @@ public:
     }
 
 private:
-    // The samples of each node that are not void.
+    // Counts the valid samples of each node.
     void countSamples()
     {
         const std::size_t last = columns_ - 1;
@@ -115,8 +115,8 @@ private:
         for (std::size_t begin = first_row_ / step * step; begin < end_row; begin += step) {
             const std::size_t end = std::min(begin + step, last_row);
             if (step <= kNodeCells) {
-                // Only the first column of the cell right of the strip is needed, where its right
-                // side counts nothing.
+                // Only the first column of the cell to the right of the strip is needed; its right
+                // side has no weight there.
                 const auto heights_of = [this](std::size_t row) {
                     const float* heights = drawn_ + (row - first_row_) * stride_;
                     return [this, heights](std::size_t column) {

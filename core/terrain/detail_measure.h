@@ -1,4 +1,4 @@
-// Measuring what drawing with fewer samples is off by, piece by piece.
+// Measures the error of drawing with fewer samples, in parts.
 #pragma once
 
 #include "core/terrain/detail_errors.h"
@@ -10,30 +10,30 @@
 
 namespace marsview {
 
-/// A rectangle of samples: whole blocks of DetailErrors::kNodeCells × kNodeCells cells, their sides
-/// included.
+/// A rectangle of samples: whole blocks of DetailErrors::kNodeCells × kNodeCells cells, including
+/// their sides.
 struct DetailPart {
     std::size_t first_column = 0; // of the map; multiples of kNodeCells
     std::size_t first_row = 0;
     std::size_t columns = 0; // of samples; one more than of cells
     std::size_t rows = 0;
-    const float* heights = nullptr; // over the map's base; row by row; NaN where void
-    const float* drawn = nullptr;   // the same without gaps; null: there are none
+    const float* heights = nullptr; // over the map's base; row by row; NaN for voids
+    const float* drawn = nullptr;   // the same without gaps; null: no gaps
 };
 
-/// Collects the errors of a map, whose parts come in any order and from any thread. The result does
-/// not depend on how the map is cut.
+/// Collects the errors of a map, whose parts arrive in any order and from any thread. The result
+/// does not depend on the division into parts.
 class DetailMeasure {
 public:
-    /// Every how many-th sample of every how many-th row, and the last column and row, are asked of
-    /// the caller beforehand. Levels that are coarser than a part take their vertices from there.
+    /// The level whose samples, with the last column and row, the caller must supply in advance.
+    /// Levels coarser than a part take their vertices from there.
     static constexpr std::size_t kSparseLevel = 6;
 
     /// A map of columns × rows samples. `sparse` has the drawn heights of level kSparseLevel, over
     /// the map's base.
     DetailMeasure(std::size_t columns, std::size_t rows, std::vector<float> sparse);
 
-    /// Memory of one thread that measures.
+    /// Working memory of one measuring thread.
     class Worker {
     public:
         explicit Worker(DetailMeasure& measure);
@@ -50,11 +50,11 @@ public:
         std::vector<float> errors_; // of a row of nodes, level by level
     };
 
-    /// Once every part was measured.
+    /// Call when every part has been measured.
     DetailErrors finish() &&;
 
-    /// What was measured so far, for checkpoints: measuring continues from values that are written
-    /// back. Not while a worker measures.
+    /// The errors measured so far, for checkpoints: measuring continues from restored values. Do
+    /// not call while a worker measures.
     const DetailErrors::NodeErrors& errors() const noexcept { return errors_; }
     DetailErrors::NodeErrors& errors() noexcept { return errors_; }
 
@@ -69,7 +69,7 @@ private:
     std::vector<float> sparse_;
     std::size_t sparse_columns_;
     DetailErrors::NodeErrors errors_;
-    std::mutex mutex_; // of errors_
+    std::mutex mutex_; // guards errors_
 };
 
 } // namespace marsview

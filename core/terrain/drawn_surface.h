@@ -1,4 +1,4 @@
-// The heights that drawing uses: those of the samples, and something smooth where there is none.
+// The heights used for drawing: those of the samples, and smooth fills for voids.
 #pragma once
 
 #include "core/terrain/block_means.h"
@@ -12,10 +12,10 @@
 
 namespace marsview {
 
-/// Heights as floats relative to the middle of the map's range, so that they keep millimetres.
-/// Void samples have the height that BlockMeans fills in: triangles along the rim of a hole, which
-/// are cut there, need one. A function of the sample alone, whatever the detail it is drawn in.
-/// A view of both: neither is owned. Any thread.
+/// Heights as floats relative to the middle of the map's range, so that they resolve millimeters.
+/// Void samples have the fill height of BlockMeans, because triangles clipped at the rim of a hole
+/// need one. The height depends only on the sample, not on the level of detail. A view of both
+/// objects: owns neither. Any thread.
 class DrawnSurface {
 public:
     DrawnSurface(const Heightfield& heightfield, const BlockMeans& means)
@@ -27,17 +27,18 @@ public:
     }
 
     const Heightfield& heightfield() const noexcept { return heightfield_; }
-    /// What heights are relative to, in metres.
+    /// The base of the relative heights, in meters.
     double baseMetres() const noexcept { return base_m_; }
 
-    /// Metres over the base; never NaN. Only where the samples are held.
+    /// Meters over the base; never NaN. Only if the samples are in memory.
     float height(std::size_t column, std::size_t row) const noexcept
     {
         return heightfield_.samples().isVoid(column, row)
                    ? filled(column, row)
                    : static_cast<float>(heightfield_.sample(column, row) - base_m_);
     }
-    /// The heights of heights.size() samples of a row; NaN where void. Only where they are held.
+    /// The heights of heights.size() samples of a row; NaN for voids. Only if the samples are in
+    /// memory.
     void read(std::size_t first_column, std::size_t row, std::span<float> heights) const
     {
         readHeights(heightfield_, first_column, row, base_m_, heights);

@@ -1,4 +1,4 @@
-// The heights that voids may be filled with.
+// The allowed range of fill heights.
 #pragma once
 
 #include "core/base/float_rounding.h"
@@ -8,8 +8,8 @@
 
 namespace marsview {
 
-/// Means are rounded, and what is filled in must not leave the range of the map. Fills are floats,
-/// so that tiles keep them to the bit.
+/// Means are rounded, but fills must stay within the range of the map. Fills are floats, so that
+/// tiles store them to the bit.
 class FillRange {
 public:
     explicit FillRange(const std::optional<HeightRange>& range)
@@ -21,7 +21,7 @@ public:
         }
     }
 
-    /// 0 where the map has no heights at all, and with them no means.
+    /// 0 if the map has no heights and hence no means.
     float clamped(float mean_m) const noexcept
     {
         return mean_m > low_m_ ? (mean_m < high_m_ ? mean_m : high_m_) : low_m_;

@@ -23,7 +23,7 @@ float FilledHeightfield::fillAt(std::size_t column, std::size_t row) const noexc
     return range_.clamped(analysis_->means.filled(column, row));
 }
 
-// What is filled may be higher than what was measured nearby, and a cast must not pass through it.
+// A fill may be higher than the measured samples nearby, and a cast must not pass through it.
 bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
 {
     const MinMaxPyramid& pyramid = analysis_->bounds;

@@ -1,4 +1,4 @@
-// The surface without holes: what a hand can touch everywhere.
+// The surface without holes, which can be touched everywhere.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -13,19 +13,19 @@
 
 namespace marsview {
 
-/// A heightfield whose void samples have a height too: that which BlockMeans fills in, within the
-/// range of the map, so that the hand finds what the eye sees at the rim of a hole. Samples that
-/// are not void keep theirs to the bit. Immutable; any thread. Shares the samples and the analysis;
-/// with voids it holds a bound for each node besides.
+/// A heightfield whose void samples have the fill height of BlockMeans, within the range of the
+/// map, so that the touched and the drawn surface agree at the rim of a hole. Valid samples keep
+/// their height to the bit. Immutable; any thread. Shares the samples and the analysis; with voids
+/// it also stores a bound for each node.
 class FilledHeightfield {
 public:
-    /// `analysis` was made from `heightfield`. Looks at every sample once, if any is void. Only
-    /// Cancelled can go wrong.
+    /// `analysis` must be that of `heightfield`. Reads every sample once if any is void. The only
+    /// error is Cancelled.
     static Result<FilledHeightfield> build(const Heightfield& heightfield,
                                            std::shared_ptr<const SurfaceAnalysis> analysis,
                                            JobMonitor& monitor);
 
-    /// Bounds of all levels of the pyramid's nodes from those of its blocks.
+    /// Computes the bounds of all levels of the pyramid's nodes from those of its blocks.
     static std::vector<std::vector<float>> maximaFrom(std::vector<float> blocks_m,
                                                       const MinMaxPyramid& pyramid);
 
@@ -37,7 +37,7 @@ public:
     {
         return heightfield_.samples().isVoid(column, row);
     }
-    /// In metres, never NaN. Unchecked: column < columns(), row < rows(). Allocates nothing.
+    /// In meters, never NaN. Unchecked: column < columns(), row < rows(). Allocates nothing.
     double sample(std::size_t column, std::size_t row) const noexcept
     {
         return isVoid(column, row)
@@ -52,7 +52,7 @@ public:
 
     /// The nodes of the hierarchy are those of MinMaxPyramid.
     std::size_t levelCount() const noexcept { return analysis_->bounds.levelCount(); }
-    /// No filled sample of the node is higher; in metres.
+    /// Upper bound of the node's filled samples, in meters.
     double maximum(std::size_t level, std::size_t column, std::size_t row) const noexcept
     {
         return static_cast<double>(
@@ -74,7 +74,7 @@ private:
     Heightfield heightfield_;
     std::shared_ptr<const SurfaceAnalysis> analysis_;
     FillRange range_;
-    // A level each, as in the analysis' bounds; empty where no sample is void.
+    // One array per level, as in the analysis' bounds; empty without voids.
     std::vector<std::vector<float>> maxima_;
 };
 

@@ -13,8 +13,7 @@ std::size_t dividedUp(std::size_t count, std::size_t stride)
     return (count + stride - 1) / stride;
 }
 
-// Strides that are equal both ways: a stride along the samples as they are stored could keep to a
-// few columns.
+// Equal strides along both axes: a stride in storage order could select only a few columns.
 std::size_t strideFor(std::size_t columns, std::size_t rows, std::size_t sample_count_max)
 {
     const double share = static_cast<double>(columns) * static_cast<double>(rows) /
@@ -34,7 +33,7 @@ public:
         , bins_per_metre_(perMetre(histogram))
     {}
 
-    // NaN counts nothing.
+    // NaN is ignored.
     void add(double height_m)
     {
         if (std::isnan(height_m)) {
@@ -58,7 +57,7 @@ private:
     double bins_per_metre_;
 };
 
-// One level of the samples, the finest with few enough. Tiles that cannot be read count nothing.
+// One level of the samples, the finest with few enough. Tiles that cannot be read are ignored.
 void countTiles(const Heightfield& heights,
                 const HistogramOptions& options,
                 HeightHistogram& histogram)

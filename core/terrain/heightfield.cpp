@@ -10,7 +10,7 @@
 namespace marsview {
 namespace {
 
-// The cell that a place lies in, and where in it.
+// The cell of a position, and the position in it.
 struct CellPlace {
     std::size_t column = 0;
     std::size_t row = 0;
@@ -18,7 +18,7 @@ struct CellPlace {
     double v = 0.0;
 };
 
-// Nothing outside the outermost samples.
+// Empty outside the outermost samples.
 std::optional<CellPlace> cellPlace(GridPoint grid, std::size_t columns, std::size_t rows)
 {
     const double last_column = static_cast<double>(columns - 1);

@@ -15,19 +15,19 @@
 
 namespace marsview {
 
-/// The range of heights in metres.
+/// The range of heights in meters.
 struct HeightRange {
     double minimum_m = 0.0;
     double maximum_m = 0.0;
 };
 
-/// The heights of what a scan found; nothing where every sample is void.
+/// The height range of the scanned samples; empty if every sample is void.
 std::optional<HeightRange> heightRange(const SampleStatistics& statistics,
                                        const ElevationScale& scale);
 
-/// A triangulated surface (triangulation.h) over samples that are held in memory, or over tiles of
-/// which some are. Any thread but the servo's where it is tiled. Immutable, but that a tiled one
-/// answers from coarser levels until the finest tiles are there. Copies share the samples.
+/// A triangulated surface (triangulation.h) over samples in memory, or over tiles of which some are
+/// in memory. Any thread; a tiled one not on the servo thread. Immutable, except that a tiled one
+/// uses coarser levels until the finest tiles are resident. Copies share the samples.
 class Heightfield {
 public:
     /// The grid has at least 2 × 2 samples.
@@ -57,25 +57,25 @@ public:
     {
         return samples_ ? samples_->hasVoids() : tiles_->layout().has_voids;
     }
-    /// Whether the samples come in tiles.
+    /// Whether the samples are tiled.
     bool isTiled() const noexcept { return samples_ == nullptr; }
-    /// All samples. Only where isTiled() is false.
+    /// All samples. Only if isTiled() is false.
     const SampleGrid& samples() const noexcept
     {
         MARSVIEW_CHECK(samples_ != nullptr);
         return *samples_;
     }
-    /// Only where isTiled().
+    /// Only if isTiled().
     const std::shared_ptr<const TiledSamples>& tiles() const noexcept
     {
         MARSVIEW_CHECK(tiles_ != nullptr);
         return tiles_;
     }
     const ElevationScale& scale() const noexcept { return scale_; }
-    /// Nothing where every sample is void.
+    /// Empty if every sample is void.
     const std::optional<HeightRange>& range() const noexcept { return range_; }
 
-    /// Height of a sample in metres; NaN where void. Unchecked: column < columns(), row < rows().
+    /// Height of a sample in meters; NaN if void. Unchecked: column < columns(), row < rows().
     double sample(std::size_t column, std::size_t row) const
     {
         if (!samples_) {
@@ -91,21 +91,21 @@ public:
                 sample(column + 1, row + 1)};
     }
 
-    /// Height in metres of the surface at full resolution. NaN outside the outermost samples, in
-    /// voids, and for NaN. Where it is tiled, what is missing is asked for; see isExact().
+    /// Height in meters of the surface at full resolution. NaN outside the outermost samples, in
+    /// voids, and for NaN. On a tiled map, missing tiles are requested; see isExact().
     double height(GridPoint grid) const;
-    /// As height(), without asking for what is missing: for what is looked at in passing.
+    /// As height(), but without requesting missing tiles: for transient queries.
     double heightNow(GridPoint grid) const;
-    /// Whether they answer from full resolution now: always, where the samples are held.
+    /// Whether these functions use full resolution now: always true for samples in memory.
     bool isExact(GridPoint grid) const;
-    /// As height(), waiting for what is missing. NaN where it cannot be read; the reason is then
-    /// at tiles()->raster().failure().
+    /// As height(), but waits for missing tiles. NaN if they cannot be read;
+    /// tiles()->raster().failure() then gives the reason.
     double heightWaiting(GridPoint grid) const;
 
 private:
     double tiledSample(std::size_t column, std::size_t row) const;
 
-    std::shared_ptr<const SampleGrid> samples_; // null where tiles_ is not
+    std::shared_ptr<const SampleGrid> samples_; // null if tiles_ is set
     std::shared_ptr<const TiledSamples> tiles_;
     ElevationScale scale_;
     std::optional<HeightRange> range_;

@@ -39,7 +39,7 @@ MinMaxPyramid MinMaxPyramid::from(RawRanges ranges, const ElevationScale& scale)
     pyramid.scale_ = scale;
     pyramid.levels_.push_back(
         {.columns = pyramid.blocks_.columns(), .rows = pyramid.blocks_.rows(), .bounds = {}});
-    // Every node is merged from the four below it, which at the far edges are fewer.
+    // Every node is merged from the four below it, or fewer at the far edges.
     const auto add_level = [&pyramid](auto&& merged) {
         const Level& finer = pyramid.levels_.back();
         const std::size_t columns = (finer.columns + 1) / 2;
@@ -64,7 +64,7 @@ MinMaxPyramid MinMaxPyramid::from(RawRanges ranges, const ElevationScale& scale)
     };
     if (has_more()) {
         pyramid.blocks_.visit([&](auto blocks) {
-            // Merged as they were measured: scaling and rounding keep the order.
+            // Merged as raw values: scaling and rounding keep the order.
             add_level(
                 [&](std::size_t upper, std::size_t lower, std::size_t left, std::size_t right) {
                     auto range = blocks(left, upper);

@@ -1,4 +1,4 @@
-// The range of heights in every part of a map: what lets a cast skip what it cannot hit.
+// The range of heights in every part of a map, so that casts can skip parts that they cannot hit.
 #pragma once
 
 #include "core/base/float_rounding.h"
@@ -16,25 +16,25 @@
 namespace marsview {
 
 /// A quadtree over blocks of kBlock × kBlock cells, each level half of the one below. Immutable;
-/// any thread. Takes about 1/300 of the memory of int16 samples: the blocks stay as they were
-/// measured, since memory that is first touched is most of what opening a large map costs.
+/// any thread. Takes about 1/300 of the memory of int16 samples: the blocks keep their raw values,
+/// because first touches of memory are most of the cost of opening a large map.
 class MinMaxPyramid {
 public:
     static constexpr std::size_t kBlock = RawRanges::kBlock;
 
-    /// Bounds of all samples of a node, rounded outward; minimum_m > maximum_m where all are void.
+    /// Bounds of all samples of a node, rounded outward; minimum_m > maximum_m if all are void.
     struct Bounds {
         float minimum_m;
         float maximum_m;
         bool isEmpty() const noexcept { return !(minimum_m <= maximum_m); }
     };
 
-    /// Reads every sample once, on all cores. Only Cancelled can go wrong.
+    /// Reads every sample once, on all cores. The only error is Cancelled.
     static Result<MinMaxPyramid> build(const Heightfield& heightfield, JobMonitor& monitor);
-    /// Of a map whose blocks have these ranges; the same bits as build().
+    /// For a map whose blocks have these ranges; the same bits as build().
     static MinMaxPyramid from(RawRanges ranges, const ElevationScale& scale);
 
-    /// Level 0 holds the blocks; the last level is a single node.
+    /// Level 0 has the blocks; the last level is a single node.
     std::size_t levelCount() const noexcept { return levels_.size(); }
     std::size_t columns(std::size_t level) const noexcept { return levels_[level].columns; }
     std::size_t rows(std::size_t level) const noexcept { return levels_[level].rows; }
@@ -52,7 +52,7 @@ private:
     struct Level {
         std::size_t columns = 0;
         std::size_t rows = 0;
-        RawArray<Bounds> bounds; // none at level 0
+        RawArray<Bounds> bounds; // empty at level 0
     };
 
     static constexpr Bounds kEmpty{std::numeric_limits<float>::infinity(),

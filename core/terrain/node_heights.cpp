@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-// The samples that a node has along one axis.
+// The indices of a node's samples along one axis.
 std::array<std::size_t, kNodeSide> placesOf(std::size_t level, std::size_t node, std::size_t count)
 {
     std::array<std::size_t, kNodeSide> places{};
@@ -40,7 +40,8 @@ void addTiles(const TiledRaster& raster, const DetailNode& node, std::vector<Til
                                 .level = static_cast<std::uint8_t>(level),
                                 .column = static_cast<std::uint32_t>(column),
                                 .row = static_cast<std::uint32_t>(row)};
-                // What is there is used: finer tiles must not outlive the coarser ones around.
+                // Marks resident tiles as used: finer tiles must not outlive the coarser ones
+                // around them.
                 if (raster.find(id) == nullptr &&
                     std::find(missing.begin(), missing.end(), id) == missing.end()) {
                     missing.push_back(id);

@@ -14,13 +14,13 @@ namespace marsview {
 /// Samples along a side of a node.
 inline constexpr std::size_t kNodeSide = DetailErrors::kNodeCells + 1;
 
-/// Whether heights are those of the node's level, or coarser ones have to do for now.
+/// Whether the heights are those of the node's level or still of coarser levels.
 enum class NodeState { Complete, Coarser };
 
-/// The heights of a node's samples in metres over the surface's base, row by row; beyond the map
-/// those of its last column and row. Of a tiled map, the tiles that are missing are added to
-/// `missing`, coarser ones first. A sample has the same height in every node that has it, as long
-/// as no tile comes or goes; so nodes that meet have no crack between them.
+/// The heights of a node's samples in meters over the surface's base, row by row; beyond the map
+/// those of its last column and row. For a tiled map, missing tiles are added to `missing`, coarser
+/// ones first. A sample has the same height in every node as long as no tile is loaded or evicted,
+/// so there are no cracks between nodes.
 NodeState readNode(const DrawnSurface& surface,
                    const DetailNode& node,
                    std::span<float, kNodeSide * kNodeSide> heights,

@@ -1,5 +1,4 @@
-// The range of raw values in every block of a map: what bounds of heights are made from, by
-// whatever scale.
+// The range of raw values in every block of a map: the source of height bounds at any scale.
 #pragma once
 
 #include "core/base/grid_view.h"
@@ -15,9 +14,8 @@
 
 namespace marsview {
 
-/// Smallest and largest raw value of the samples that are not void in each block of kBlock × kBlock
-/// cells. Samples on the side of two blocks count in both. In the type of the samples, so that they
-/// are exact.
+/// Smallest and largest raw value of the valid samples in each block of kBlock × kBlock cells.
+/// Samples on a shared side belong to both blocks. Stored in the type of the samples, so exact.
 class RawRanges {
 public:
     static constexpr std::size_t kBlock = 32;
@@ -42,16 +40,16 @@ public:
     }
 
     RawRanges() = default;
-    /// Of a map of that many samples; every block is empty.
+    /// For a map of that many samples; every block is empty.
     RawRanges(SampleType type, std::size_t sample_columns, std::size_t sample_rows);
-    /// As above, for being filled by bytes(): the ranges have no values yet.
+    /// As above, but uninitialized, to be filled through bytes().
     static RawRanges
     toBeFilled(SampleType type, std::size_t sample_columns, std::size_t sample_rows);
 
-    /// Of all samples of a map, on all cores. Not whole where cancelled.
+    /// Of all samples of a map, on all cores. Incomplete if canceled.
     static RawRanges of(const SampleGrid& samples, JobMonitor& monitor);
 
-    /// What a part of a map adds. Its first sample is the upper left one of a block.
+    /// The ranges of a part of a map. Its first sample must be the upper left one of a block.
     class Part {
     public:
         explicit Part(const SampleGrid& samples);
@@ -59,8 +57,8 @@ public:
     private:
         friend class RawRanges;
         SampleType type_;
-        std::size_t columns_; // of blocks, the ones to the left included
-        std::size_t rows_;    // the ones above included
+        std::size_t columns_; // of blocks, including the ones to the left
+        std::size_t rows_;    // including the ones above
         RawArray<std::byte> ranges_;
     };
     /// The part's first sample is the first of block (column, row).
@@ -91,7 +89,7 @@ public:
         });
     }
 
-    /// The ranges, row by row: smallest and largest value by turns.
+    /// The ranges, row by row: smallest and largest value, alternating.
     std::span<std::byte> bytes() noexcept { return {ranges_.data(), ranges_.size()}; }
     std::span<const std::byte> bytes() const noexcept { return {ranges_.data(), ranges_.size()}; }
 

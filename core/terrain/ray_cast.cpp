@@ -1,8 +1,8 @@
-// Notation. The ray is (c, r, z)(t) = origin + t · direction in columns, rows and metres. Over one
+// Notation. The ray is (c, r, z)(t) = origin + t · direction in columns, rows and meters. Over one
 // triangle the surface is affine in (c, r), hence g(t) = z(t) - surface(t) is affine in t and a
 // sign change is the hit. Heights at the ends of a piece are evaluated at coordinates snapped to
 // the line that is crossed; there only the two samples of that line count (triangulation.h), so
-// neighbouring pieces see the same g and no ray slips through between them.
+// neighboring pieces see the same g and no ray slips through between them.
 
 #include "core/terrain/ray_cast.h"
 
@@ -23,8 +23,8 @@ struct Interval {
     bool isEmpty() const noexcept { return !(begin <= end); }
 };
 
-// The part of `interval` in which origin + t · slope is within [low, high]. Widened by rounding
-// error, so that what touches is never lost; what comes in too much is sorted out by the cells.
+// The part of `interval` in which origin + t · slope is within [low, high]. Widened by the rounding
+// error, so that no contact is lost; the cells reject the excess.
 Interval clipped(Interval interval, double origin, double slope, double low, double high)
 {
     if (slope == 0.0) {
@@ -57,7 +57,7 @@ struct HeldCells {
     }
 };
 
-// Cells of whatever tiles are there.
+// Cells of the resident tiles.
 struct TiledCells {
     mutable TileCursor cursor;
 
@@ -99,7 +99,7 @@ public:
                 }
                 continue;
             }
-            // Children come in between those already on the stack, the nearest on top.
+            // Children are inserted above the nodes on the stack, the nearest on top.
             const std::size_t base = count;
             const std::size_t level = node.level - 1;
             for (std::size_t row = 2 * node.row;
@@ -128,7 +128,7 @@ private:
         double order = 0.0;
     };
 
-    // The node if the ray passes through its box, or else nothing.
+    // The node if the ray passes through its box, otherwise empty.
     std::optional<Node> enter(std::size_t level, std::size_t column, std::size_t row) const
     {
         const MinMaxPyramid::Bounds bounds = pyramid_.bounds(level, column, row);
@@ -161,7 +161,7 @@ private:
     double columnAt(double t) const { return ray_.origin.column + t * ray_.columns_per_t; }
     double rowAt(double t) const { return ray_.origin.row + t * ray_.rows_per_t; }
 
-    // The cell on the side of `position` where the ray goes on.
+    // The cell on the side of `position` where the ray continues.
     static std::size_t cellAt(double position, double slope, std::size_t low, std::size_t high)
     {
         const double floor = std::floor(position);
@@ -266,7 +266,7 @@ private:
         const double surface_end = heightInCell(cell, end.u, end.v);
         const double g_begin = rayHeight(begin.t) - surface_begin;
         const double g_end = rayHeight(end.t) - surface_end;
-        // An end on an edge of the hole's rim is solid although the piece is not.
+        // An endpoint on the rim of a hole is solid although the piece is not.
         if (g_begin == 0.0) {
             return hitAt(column, row, begin, surface_begin);
         }
@@ -320,7 +320,7 @@ GridRay gridRay(const ScenePoint& origin,
                 double exaggeration)
 {
     const GridPoint start = frame.toGrid(origin);
-    // The linear part alone, so that a long way off the origin nothing cancels.
+    // Only the linear part, to avoid cancellation far from the origin.
     SceneFrame linear = frame;
     linear.origin = {};
     const GridPoint slope = linear.toGrid(direction);

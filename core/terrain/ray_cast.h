@@ -1,4 +1,4 @@
-// Where a ray first meets the surface at full resolution.
+// The first hit of a ray on the surface at full resolution.
 #pragma once
 
 #include "core/geo/frames.h"
@@ -19,7 +19,7 @@ struct GridRay {
     double height_per_t_m = 0.0;
 };
 
-/// A ray of the scene seen from the grid, with the same parameter: grid and height are affine in
+/// A ray of the scene in grid coordinates, with the same parameter: grid and height are affine in
 /// scene coordinates. `exaggeration` > 0.
 GridRay gridRay(const ScenePoint& origin,
                 const Vec3& direction,
@@ -33,12 +33,12 @@ struct RayHit {
 };
 
 /// The first point with t >= 0 that the ray shares with the surface, from either side. Rays find no
-/// gap between triangles; triangles with a void corner are holes. Edges and corners count where
-/// their own samples are not void, as in Heightfield::height. A ray that lies in the surface hits
-/// where it enters it.
+/// gap between triangles; triangles with a void corner are holes. Edges and corners count if their
+/// own samples are valid, as in Heightfield::height. A ray that lies in the surface hits where it
+/// enters it.
 ///
-/// Error against exact arithmetic: 1e-9 of a cell and 8 ulp of the largest height met, for grid
-/// coordinates up to 1e6. Cost: logarithmic in the length that passes clear of the terrain, linear
+/// Error against exact arithmetic: 1e-9 of a cell and 8 ulp of the largest height, for grid
+/// coordinates up to 1e6. Cost: logarithmic in the length of the ray clear of the terrain, linear
 /// in the number of cells whose blocks (MinMaxPyramid) it grazes. No allocation.
 ///
 /// `pyramid` was built from `heightfield`.

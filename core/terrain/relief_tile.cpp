@@ -1,8 +1,8 @@
 // Notation. A texel covers the samples [x0, x1) × [y0, y1). Along a row of samples, the slopes
 // between x0 - 1/2 and x1 - 1/2 sum up to the difference of the heights there, each the mean of its
-// two neighbours. So only the samples on either side of texel borders count along a row, and
-// likewise along a column; beyond the map and in voids the next sample that is there takes their
-// place. For the mean elevation all samples count.
+// two neighbors. So only the samples on either side of texel borders count along a row, and
+// likewise along a column; beyond the map and in voids the next valid sample replaces them. For the
+// mean elevation all samples count.
 
 #include "core/terrain/relief_tile.h"
 
@@ -27,7 +27,7 @@ double middleOf(const Heightfield& heightfield)
     return (range.minimum_m + range.maximum_m) / 2.0;
 }
 
-// The height at a border between two samples, and where it was taken, in samples after the border.
+// The height at a border between two samples, and its position, in samples after the border.
 struct BorderHeight {
     float height = kNan;
     float position = 0.0F;
@@ -44,7 +44,7 @@ BorderHeight between(float before, float after)
 
 // Sums over a texel.
 struct Sums {
-    float per_column = 0.0F; // slopes, metres a sample
+    float per_column = 0.0F; // slopes, meters per sample
     float column_count = 0.0F;
     float per_row = 0.0F;
     float row_count = 0.0F;
@@ -52,7 +52,7 @@ struct Sums {
     double height_m = 0.0; // over the base
 };
 
-// The texels of a tile that touch the map, in one direction.
+// The texels of a tile that overlap the map, along one axis.
 struct TexelSpan {
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -61,7 +61,7 @@ struct TexelSpan {
 TexelSpan texelsOnMap(std::size_t tile, std::size_t level, std::size_t samples)
 {
     const std::size_t step = std::size_t{1} << level;
-    const std::size_t count = (samples + step - 1) / step; // texels that the whole map has
+    const std::size_t count = (samples + step - 1) / step; // texels of the whole map
     const std::size_t first = tile * ReliefTile::kTexels;  // of them, without the border
     const std::size_t border = ReliefTile::kBorder;
     MARSVIEW_CHECK(first < count);
@@ -69,7 +69,7 @@ TexelSpan texelsOnMap(std::size_t tile, std::size_t level, std::size_t samples)
             .end = std::min(ReliefTile::kSide, count - first + border)};
 }
 
-// Texels beside the map are like the nearest on it, so that filters do not fade out there.
+// Texels outside the map copy the nearest one on it, so that filters do not fade out there.
 void extend(ReliefTile::Level& level, const TexelSpan& columns, const TexelSpan& rows)
 {
     for (std::size_t j = 0; j < level.side; ++j) {
@@ -83,7 +83,7 @@ void extend(ReliefTile::Level& level, const TexelSpan& columns, const TexelSpan&
     }
 }
 
-// Four at a time, which processors add in one instruction.
+// Four at a time, for vector instructions.
 float sumOf(const float* values, std::ptrdiff_t count)
 {
     std::array<float, 4> sums{};
@@ -121,7 +121,7 @@ private:
     double base_m_;
 };
 
-// A window of one level of a tiled map, put together from its tiles.
+// A window of one level of a tiled map, assembled from its tiles.
 class WindowRows {
 public:
     // The level's samples [first_column, first_column + columns) × likewise.
@@ -134,7 +134,7 @@ public:
         rows.columns_ = layout.columnsAt(kind, level);
         rows.rows_ = layout.rowsAt(kind, level);
         rows.window_ = window;
-        // Of the map, not of the window: every tile of a map with voids says where it has none.
+        // Of the map, not of the window: every tile of a map with voids has a void mask.
         rows.has_voids_ = layout.has_voids;
         rows.heights_.resize(window.columns * window.rows);
         rows.base_m_ = middleOf(heightfield);
@@ -200,7 +200,7 @@ private:
     GridWindow window_;
     bool has_voids_ = false;
     double base_m_ = 0.0;
-    std::vector<float> heights_; // over the base; NaN where void
+    std::vector<float> heights_; // over the base; NaN for voids
 };
 
 template <typename Rows>
@@ -248,7 +248,7 @@ private:
                step_;
     }
 
-    // The samples of a row from the one before the tile to the one after it; NaN beside the map.
+    // The samples of a row from the one before the tile to the one after it; NaN outside the map.
     void readRow(std::ptrdiff_t row, std::vector<float>& heights) const
     {
         const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(first_column_ - 1, 0);
@@ -292,7 +292,7 @@ private:
         row_height_ = static_cast<float>(y1 - std::max<std::ptrdiff_t>(y0, 0));
     }
 
-    // One row of samples of one texel; samples[-1] and samples[width] are its neighbours'.
+    // One row of samples of one texel; samples[-1] and samples[width] belong to its neighbors.
     void addRow(const float* samples, std::ptrdiff_t width, Sums& sums) const
     {
         const BorderHeight left = between(samples[-1], samples[0]);
@@ -363,7 +363,7 @@ std::int16_t snorm16(float share)
     return static_cast<std::int16_t>(std::lrintf(std::clamp(share, -1.0F, 1.0F) * 32767.0F));
 }
 
-// Half as many texels a side.
+// Computes the level with half as many texels per side.
 void halve(const ReliefTile::Level& finer, ReliefTile::Level& level)
 {
     level.side = finer.side / 2;
@@ -385,7 +385,7 @@ void halve(const ReliefTile::Level& finer, ReliefTile::Level& level)
     }
 }
 
-// Mean elevations over the base of a tile's texels, and the texels that they belong to.
+// Mean elevations over the base of a tile's texels, and the corresponding texels.
 class TexelHeights {
 public:
     explicit TexelHeights(std::size_t count)
@@ -399,7 +399,7 @@ public:
         high_m_ = std::max(high_m_, height_m);
     }
 
-    // Spreads them over the 16 bits, weighted by the texels' shares.
+    // Scales them to 16 bits, weighted by the texels' shares.
     void writeTo(ReliefTile& tile, double base_m) const
     {
         if (low_m_ < high_m_) {
@@ -441,7 +441,7 @@ tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, do
     const bool has_voids = source.hasVoids();
     const TexelSpan columns = texelsOnMap(id.column, id.level, source.columns());
     const TexelSpan rows = texelsOnMap(id.row, id.level, source.rows());
-    // Of a texel, the samples on the map: fewer at its last column and row.
+    // The number of a texel's samples on the map: fewer at its last column and row.
     const auto samples_of = [&](std::size_t texel, std::size_t tile, std::size_t samples) {
         const std::size_t step = std::size_t{1} << id.level;
         const std::size_t first = (tile * ReliefTile::kTexels + texel - ReliefTile::kBorder) * step;
@@ -484,7 +484,7 @@ tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, do
     return tile;
 }
 
-// The samples that a tile is made from, of those that there are: its own and one more on all sides.
+// The existing samples for a tile: its own and one more on all sides.
 GridWindow windowOf(const ReliefTileId& id, std::size_t columns, std::size_t rows)
 {
     const std::size_t step = std::size_t{1} << id.level;
@@ -510,8 +510,8 @@ ReliefTile makeReliefTile(const Heightfield& heightfield,
     return tileFrom(HeldRows(heightfield), frame, id, slope_max);
 }
 
-// Sixteen means, or four, stand for the samples of a texel: what lies within them cancels in a
-// texel's slope, but for half a mean at either end.
+// Sixteen or four means replace the samples of a texel: detail within a mean cancels in the texel's
+// slope, except for half a mean at either end.
 Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
                                   const SceneFrame& frame,
                                   const ReliefTileId& id,
@@ -531,7 +531,7 @@ Result<ReliefTile> loadReliefTile(const Heightfield& heightfield,
     if (!rows) {
         return rows.error();
     }
-    // Slopes do not depend on where the frame begins.
+    // Slopes do not depend on the origin of the frame.
     const auto step = static_cast<double>(std::size_t{1} << level);
     SceneFrame coarse = frame;
     coarse.east_per_column *= step;

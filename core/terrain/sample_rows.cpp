@@ -24,7 +24,7 @@ void readHeights(const SampleGrid& samples,
         const auto* raw = view.row(row).data() + first_column;
         using Raw = std::remove_cvref_t<decltype(*raw)>;
         if constexpr (sizeof(Raw) <= 2) {
-            // Two bytes are exact in float, and four of these sums fit in one instruction.
+            // Two-byte samples are exact in float, and float arithmetic vectorizes in fours.
             const auto gain = static_cast<float>(scale.gain);
             const auto offset = static_cast<float>(scale.offset_m - base_m);
             for (std::size_t i = 0; i < heights.size(); ++i) {

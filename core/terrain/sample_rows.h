@@ -1,4 +1,4 @@
-// Rows of heights as floats: what passes over all samples work on.
+// Rows of heights as floats, for passes over all samples.
 #pragma once
 
 #include "core/terrain/heightfield.h"
@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-/// As below, of a grid on its own.
+/// As below, for a single grid.
 void readHeights(const SampleGrid& samples,
                  const ElevationScale& scale,
                  std::size_t first_column,
@@ -16,8 +16,8 @@ void readHeights(const SampleGrid& samples,
                  double base_m,
                  std::span<float> heights);
 
-/// Writes the heights of the samples [first_column, first_column + heights.size()) of a row, less
-/// `base_m`, in metres; NaN where void. All columns lie on the grid.
+/// Writes the heights of the samples [first_column, first_column + heights.size()) of a row, minus
+/// `base_m`, in meters; NaN for voids. All columns lie on the grid.
 void readHeights(const Heightfield& heightfield,
                  std::size_t first_column,
                  std::size_t row,

@@ -7,7 +7,7 @@ namespace marsview {
 Result<std::shared_ptr<const SurfaceAnalysis>> analyse(const Heightfield& heightfield,
                                                        JobMonitor& monitor)
 {
-    // Shares as measured on a map of 34 million samples.
+    // Fractions of the time, measured on a map of 34 million samples.
     monitor.beginStage(0.0, 0.15);
     Result<MinMaxPyramid> bounds = MinMaxPyramid::build(heightfield, monitor);
     if (!bounds) {

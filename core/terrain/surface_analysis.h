@@ -1,4 +1,4 @@
-// Everything that is measured once over a whole map.
+// The analysis of a whole map, computed once.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -11,16 +11,16 @@
 
 namespace marsview {
 
-/// What rays, contact and drawing need to know of a surface to skip what does not matter.
-/// Immutable; any thread.
+/// The data that ray casts, contact models and drawing use to skip parts of a surface. Immutable;
+/// any thread.
 struct SurfaceAnalysis {
     MinMaxPyramid bounds;
     BlockMeans means;
     DetailErrors errors;
 };
 
-/// Reads every sample a few times, on all cores: not for the GUI thread. Only Cancelled can go
-/// wrong.
+/// Reads every sample a few times, on all cores: not for the GUI thread. The only error is
+/// Cancelled.
 Result<std::shared_ptr<const SurfaceAnalysis>> analyse(const Heightfield& heightfield,
                                                        JobMonitor& monitor);
 

@@ -1,4 +1,4 @@
-// Heights of the surface straight from the file, for rasters of any size.
+// Heights of the surface read directly from the file, for rasters of any size.
 #pragma once
 
 #include "core/base/result.h"
@@ -16,26 +16,25 @@ namespace marsview {
 
 /// Evaluates the triangulated surface at single positions by reading the cell around each one, so
 /// that the first answer costs the same on a map of any size. Same bits as Heightfield::height on
-/// the same map held in memory. For one thread.
+/// the same map in memory. For one thread.
 class SurfaceReader {
 public:
-    /// `info` describes `file`, overrides included. Both outlive the reader. `tiles`, where there
-    /// are any, are the file's, and are read in its place: an error where they are damaged.
+    /// `info` describes `file`, including overrides. Both must outlive the reader. `tiles`, if any,
+    /// are those of the file and are read instead of it; damaged tiles are errors.
     SurfaceReader(RasterFile& file,
                   const RasterInfo& info,
                   const Georeference& georeference,
                   std::shared_ptr<const TileSource> tiles = nullptr);
 
-    /// Height in metres; NaN outside the outermost samples and in voids. An error where reading
-    /// fails.
+    /// Height in meters; NaN outside the outermost samples and in voids. An error if reading fails.
     Result<double> height(GridPoint grid);
 
-    /// As above; on a map that goes once around the body, the strip between its last and its first
-    /// column is interpolated too. NaN where the map has no geographic coordinates.
+    /// As above; on a map that wraps around the body, the strip between its last and its first
+    /// column is interpolated too. NaN if the map has no geographic coordinates.
     Result<double> height(GeographicPoint geographic);
 
 private:
-    // Of the samples in a window of some samples, row by row.
+    // Heights of the samples in a window, row by row.
     Result<std::vector<double>> heightsIn(const GridWindow& window);
     Result<double> heightInTile(std::size_t column, std::size_t row);
 

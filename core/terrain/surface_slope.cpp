@@ -32,13 +32,13 @@ GridGradient gradientOf(const Heightfield& heightfield, GridPoint grid)
     return {lower_right - lower_left, lower_left - upper_left};
 }
 
-// A direction on the ground.
+// A direction on the terrain.
 struct Ground {
     double east_m;
     double north_m;
 };
 
-// What one column and one row are on the ground.
+// The ground vectors of one column and one row.
 struct Steps {
     Ground column;
     Ground row;
@@ -72,7 +72,7 @@ std::optional<Steps> stepsOnBody(const Georeference& georeference, GridPoint gri
     const Vec3 east{-std::sin(longitude), std::cos(longitude), 0.0};
     const Vec3 north{-std::sin(latitude) * std::cos(longitude),
                      -std::sin(latitude) * std::sin(longitude), std::cos(latitude)};
-    // Over both sides, or over one where the projection ends at the other.
+    // Over both sides, or over one side if the projection ends at the other.
     const auto step = [&](double columns, double rows) -> std::optional<Ground> {
         const auto before = georeference.toGeographic({grid.column - columns, grid.row - rows});
         const auto after = georeference.toGeographic({grid.column + columns, grid.row + rows});

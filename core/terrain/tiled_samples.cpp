@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Tiles under the pointer, a pressed stylus, an open dialog: no more is looked at closely at once.
+// Enough for the tiles under the pointer, a pressed stylus and an open dialog.
 constexpr std::size_t kAskedMax = 32;
 
 TileId sampleTile(std::size_t level, std::size_t i, std::size_t j)
@@ -22,7 +22,7 @@ TileId sampleTile(std::size_t level, std::size_t i, std::size_t j)
             .row = static_cast<std::uint32_t>(j / kTileSide)};
 }
 
-// Where the cell of a level that holds a sample begins and ends along one axis, in samples.
+// The cell of a level that contains a sample, along one axis, in samples.
 struct CellSpan {
     std::size_t first = 0; // index in the level
     std::size_t begin = 0;
@@ -89,14 +89,14 @@ TileCursor::TileCursor(const TiledSamples& samples, const ElevationScale& scale,
     , top_level_(samples.layout().topLevel())
 {}
 
-// Null where the tile is not there.
+// Null if the tile is not resident.
 const Tile* TileCursor::tileAt(std::size_t level, std::size_t i, std::size_t j)
 {
     if (level == top_level_) {
         return samples_.top().get();
     }
     const TileId id = sampleTile(level, i, j);
-    // Neighbours and levels fall into different slots.
+    // Neighbors and levels use different slots.
     Slot& slot = slots_[(id.column % 2 + id.row % 2 * 2 + level * 4) % kSlots];
     if (!slot.is_known || !(slot.id == id)) {
         slot = {.is_known = true, .id = id, .tile = nullptr};
@@ -109,7 +109,7 @@ const Tile* TileCursor::tileAt(std::size_t level, std::size_t i, std::size_t j)
     return slot.tile.get();
 }
 
-// False where the tile is not there.
+// False if the tile is not resident.
 bool TileCursor::sampleAt(std::size_t level, std::size_t i, std::size_t j, double& height)
 {
     const Tile* tile = tileAt(level, i, j);
@@ -133,7 +133,7 @@ bool TileCursor::interpolated(std::size_t level,
     const CellSpan down = cellAround(row, level, layout.rows);
     const double u = across.share;
     const double v = down.share;
-    // Only corners that count need to be there.
+    // Only corners with weight need to be resident.
     CellHeights cell{0.0, 0.0, 0.0, 0.0};
     const bool is_upper = u >= v;
     if (((is_upper ? u : v) < 1.0 && !sampleAt(level, across.first, down.first, cell.upper_left)) ||
@@ -156,7 +156,7 @@ double TileCursor::heightFrom(std::size_t level, std::size_t column, std::size_t
             return height;
         }
         if (access_ == TileAccess::Wait) {
-            break; // reading failed: no other height may stand for this one
+            break; // reading failed: do not substitute another height
         }
     }
     is_exact_ = false;

@@ -1,4 +1,4 @@
-// The samples of a map that is larger than memory, for every thread but the servo's.
+// The samples of a map that is larger than memory, for every thread except the servo thread.
 #pragma once
 
 #include "core/base/result.h"
@@ -14,8 +14,8 @@
 
 namespace marsview {
 
-/// A map's tiles, the coarsest of them always at hand, so that there is an answer everywhere at
-/// once. Any thread.
+/// A map's tiles; the coarsest is always resident, so that every query has an immediate answer. Any
+/// thread.
 class TiledSamples {
 public:
     /// Reads the tile of the coarsest level.
@@ -25,10 +25,10 @@ public:
     const TiledRaster& raster() const noexcept { return raster_; }
     const std::shared_ptr<const Tile>& top() const noexcept { return top_; }
 
-    /// Has the tile of a sample loaded soon: somebody looks at its very height. Of those asked for
-    /// most recently, a few dozen are loaded and kept.
+    /// Requests the tile of a sample whose exact height is needed. A few dozen of the most recently
+    /// requested tiles are loaded and kept.
     void ask(std::size_t column, std::size_t row) const;
-    /// As long as anything asked for is on its way.
+    /// Whether any request is pending.
     bool isLoading() const;
 
 private:
@@ -37,33 +37,31 @@ private:
     TiledRaster raster_;
     std::shared_ptr<const Tile> top_;
     mutable std::mutex mutex_;
-    mutable std::vector<TileId> asked_; // the last first
+    mutable std::vector<TileId> asked_; // most recent first
     mutable TileWishes wishes_;
 };
 
-/// How samples that are not in memory are read.
+/// The treatment of samples that are not in memory.
 enum class TileAccess : std::uint8_t {
-    Resident, // from the finest coarser level that is there; never waits
-    Wait,     // from disk or network: for batch work
+    Resident, // use the finest resident coarser level; never waits
+    Wait,     // read from disk or network: for batch work
 };
 
-/// Reads heights of a tiled map, remembering the tiles it came by last. For one thread and a short
-/// while, a ray or a node: what it remembers stays in memory, and what arrives meanwhile may pass
-/// unseen.
+/// Reads heights of a tiled map and caches the last tiles. For one thread and a short time, such as
+/// a ray or a node: cached tiles stay in memory, and tiles that arrive meanwhile may be missed.
 class TileCursor {
 public:
     TileCursor(const TiledSamples& samples, const ElevationScale& scale, TileAccess access);
 
-    /// Height of a sample in metres; NaN where void, or where reading failed. Where its own tile is
-    /// missing, that of the finest coarser surface that is there. Unchecked: column and row lie on
-    /// the map.
+    /// Height of a sample in meters; NaN if void or if reading failed. If its own tile is missing,
+    /// the height of the finest resident coarser surface. Unchecked: column and row lie on the map.
     double sample(std::size_t column, std::size_t row) { return heightFrom(0, column, row); }
-    /// As above, of sample (column, row), which is one of those that `level` has.
+    /// As above, for sample (column, row) of `level`.
     double vertex(std::size_t level, std::size_t column, std::size_t row)
     {
         return heightFrom(level, column, row);
     }
-    /// True as long as every sample came from its own tile.
+    /// True if every sample so far came from its own tile.
     bool isExact() const noexcept { return is_exact_; }
 
 private:
@@ -72,7 +70,7 @@ private:
     struct Slot {
         bool is_known = false;
         TileId id;
-        std::shared_ptr<const Tile> tile; // null: not there
+        std::shared_ptr<const Tile> tile; // null: not resident
     };
 
     const Tile* tileAt(std::size_t level, std::size_t i, std::size_t j);

@@ -1,4 +1,4 @@
-// What a contact surface over a map needs of the terrain below it.
+// The terrain interface that contact surfaces over a map use.
 #pragma once
 
 #include <concepts>
@@ -6,14 +6,14 @@
 
 namespace marsview {
 
-/// Heights in metres at the samples of a map, none of them void, and a hierarchy of maxima whose
-/// nodes are those of MinMaxPyramid: sample(c, r) is at most maximum(l, …) of every node that it
-/// lies on, so that a cast may pass over a node that is below it. Read by the servo thread:
-/// nothing here allocates, locks, waits or throws, but for terrain made for batch work.
+/// Heights in meters at the samples of a map, without voids, and a hierarchy of maxima whose nodes
+/// are those of MinMaxPyramid: sample(c, r) is at most maximum(l, …) of every node that contains
+/// it, so that a cast may skip a node that is below it. Read by the servo thread: nothing here
+/// allocates, locks, waits or throws, except in terrain for batch work.
 ///
 /// Terrain may change between two updates of a contact model (MapContactModel::terrainChanged),
 /// never during one.
-// clang-format off: version 14 breaks compound requirements into a line a token.
+// clang-format off: version 14 puts every token of a compound requirement on its own line.
 template <typename T>
 concept TouchTerrain = requires(const T& terrain, std::size_t i)
 {

@@ -1,6 +1,6 @@
 // The surface between samples.
 //
-// Each cell is cut by the diagonal from sample (c, r) to (c+1, r+1):
+// Each cell is divided by the diagonal from sample (c, r) to (c+1, r+1):
 //
 //   (c, r) ────── (c+1, r)
 //     │  ╲  upper    │         u: fraction of a column, to the right
@@ -13,7 +13,7 @@
 
 namespace marsview {
 
-/// Heights of a cell's corners in metres; NaN where void.
+/// Heights of a cell's corners in meters; NaN if void.
 struct CellHeights {
     double upper_left;
     double upper_right;
@@ -22,9 +22,9 @@ struct CellHeights {
 };
 
 /// Height at (u, v) in [0, 1]². Error against exact arithmetic: at most 4 ulp of the largest
-/// corner. A corner without influence may be void: at a corner the result is that sample itself,
-/// on an edge only its two ends count, so neighbouring cells agree bit for bit. Otherwise NaN where
-/// one of the triangle's corners is void.
+/// corner. A corner without influence may be void: at a corner the result is that sample itself, on
+/// an edge only its two ends count, so neighboring cells agree bit for bit. Otherwise NaN if one of
+/// the triangle's corners is void.
 inline double heightInCell(const CellHeights& z, double u, double v) noexcept
 {
     // Weights of the three corners. Differences of corners are avoided: they would make the result

@@ -1,4 +1,4 @@
-// The part of a map larger than memory that the hand can touch without waiting.
+// The part of a map larger than memory that can be touched without waiting.
 #pragma once
 
 #include "core/geo/frames.h"
@@ -23,7 +23,7 @@ struct WindowSides {
 
 /// The resident tiles of a level, within a square of at most 8 x 8. A small value.
 struct ShownTiles {
-    std::uint32_t first_column = 0; // counted in tiles
+    std::uint32_t first_column = 0; // in tiles
     std::uint32_t first_row = 0;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
@@ -60,7 +60,7 @@ public:
     };
     /// The tiles of a level, row by row.
     struct Level {
-        std::uint32_t first_column = 0; // counted in tiles
+        std::uint32_t first_column = 0; // in tiles
         std::uint32_t first_row = 0;
         std::uint32_t columns = 0;
         std::uint32_t rows = 0;

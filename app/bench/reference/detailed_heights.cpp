@@ -65,9 +65,8 @@ double bSpline(int degree, double x)
            degree;
 }
 
-// The mean square of the differences over a distance along one axis, counted in lattice steps, of
-// a spline over independent numbers of variance 1/3: cubic B-splines correlate as the one of
-// degree 7.
+// The mean square of the differences over a distance along one axis, in lattice steps, of a spline
+// over independent numbers of variance 1/3: cubic B-splines correlate as the one of degree 7.
 double squaredDifference(double distance)
 {
     const double still = bSpline(7, 0.0);

@@ -12,7 +12,7 @@ namespace marsview {
 /// scaled to a root mean square slope of 0.3 per cell. Heights are in cells. Immutable; any thread.
 class FractalHeights {
 public:
-    /// At least 2 × 2 samples. Computes every sample once, for the scale.
+    /// At least 2 × 2 samples. Computes every sample once to determine the scale.
     FractalHeights(std::size_t columns, std::size_t rows, std::uint64_t seed);
 
     std::size_t columns() const noexcept { return columns_; }
