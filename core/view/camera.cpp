@@ -6,8 +6,8 @@
 namespace marsview {
 namespace {
 
-// Share of the camera's distance in front of the eye that is never drawn. A depth buffer of 24 bits
-// then still tells apart, at the target, what differs by a millionth of the distance.
+// Distance of the near plane as a fraction of the camera's distance. A 24-bit depth buffer then
+// still resolves a millionth of the distance at the target.
 constexpr double kNearShare = 1.0 / 200.0;
 
 double halfHeight(const OrbitCamera& camera)

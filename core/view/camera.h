@@ -1,7 +1,7 @@
-// The camera: where it stands, what it sees, and the ray behind each pixel.
+// The camera: its position, its view, and the ray through each pixel.
 //
-// Everything is double and in scene metres. Drawing converts to float relative to the eye at the
-// last moment (viewRotation() has no translation), so nothing jitters far from the origin.
+// Everything is double and in scene meters. Drawing converts to float relative to the eye in the
+// last step (viewRotation() has no translation), so nothing jitters far from the origin.
 #pragma once
 
 #include "core/base/angle.h"
@@ -41,7 +41,7 @@ struct Ray {
     }
 };
 
-/// A camera that hangs at a distance from the point it looks at.
+/// A camera at a distance from its target point.
 struct OrbitCamera {
     ScenePoint target{};
     double distance_m = 1.0;                    // > 0
@@ -62,14 +62,14 @@ struct CameraAxes {
 CameraAxes axesOf(const OrbitCamera& camera);
 ScenePoint eyeOf(const OrbitCamera& camera);
 
-/// Depths along the view direction between which something may have to be drawn.
+/// The range of depths along the view direction that may contain geometry.
 struct ClipRange {
     double near_m = 0.1;
     double far_m = 1.0;
 };
 
-/// 0 < near < far; encloses the part of `box` that is further from the eye than 1/200 of the
-/// camera's distance, which is nearer than navigation lets the ground come.
+/// 0 < near < far; encloses the part of `box` that is farther from the eye than 1/200 of the
+/// camera's distance. Navigation keeps the terrain farther away than that.
 ClipRange clipRange(const OrbitCamera& camera, const SceneBox& box);
 
 /// Scene directions to eye directions: x right, y up, z backward. No translation: subtract the eye
@@ -82,12 +82,12 @@ Matrix4 projection(const OrbitCamera& camera, const Viewport& viewport, const Cl
 /// The ray from the eye through a position in the picture.
 Ray pickRay(const OrbitCamera& camera, const Viewport& viewport, PixelPoint pixel);
 
-/// Where a point appears. Nothing where it is not in front of the eye.
+/// The position of a point in the picture. Empty if it is not in front of the eye.
 std::optional<PixelPoint>
 project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& point);
 
-/// Scene metres that a pixel is wide at the target, and at another point; across the view, so that
-/// neither tilt nor exaggeration matters. Negative behind the eye.
+/// The width of a pixel in scene meters at the target and at another point, measured across the
+/// view, so that tilt and exaggeration do not matter. Negative behind the eye.
 double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport);
 double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at);
 

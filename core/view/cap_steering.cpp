@@ -9,7 +9,7 @@ double capSpeed(double rate)
 {
     const double beyond = std::abs(rate) - kCapDeadZone;
     if (!(beyond > 0.0)) {
-        return 0.0; // also where NaN
+        return 0.0; // also for NaN
     }
     const double share = std::min(beyond / (1.0 - kCapDeadZone), 1.0);
     return std::copysign(share * share * share, rate);
@@ -34,7 +34,7 @@ OrbitCamera steered(const OrbitCamera& camera,
     const double pan_share = kCapPanPerS * seconds;
     OrbitCamera next =
         panned(camera, pan_share * capSpeed(rates.push.x), pan_share * capSpeed(rates.push.y));
-    // Azimuth counts clockwise, turns about the upward axis the other way.
+    // Azimuth is clockwise, rotations about the upward axis are counterclockwise.
     next = orbited(next, kCapTurnPerS * (-seconds * capSpeed(rates.turn.z)),
                    kCapTiltPerS * (seconds * capSpeed(rates.turn.x)));
     return zoomed(next, std::pow(kCapZoomPerS, seconds * capSpeed(rates.push.z)), next.target,

@@ -31,9 +31,9 @@ Rgb8 rgbFrom(const Oklab& color)
             .blue = componentFrom(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
-// Designed in Oklab. Each of the even ramps rises in lightness by equal amounts from stop to stop
-// (the test holds it), from dark enough to stand out against white text to light enough to keep
-// hill shading visible.
+// Designed in Oklab. The lightness of each even ramp rises by equal amounts from stop to stop
+// (tested), from dark enough to stand out against white text to light enough to keep hill shading
+// visible.
 constexpr std::array kDawn{
     ColorStop{0.0, {33, 65, 116}},   ColorStop{0.2, {39, 105, 115}},
     ColorStop{0.4, {94, 137, 99}},   ColorStop{0.6, {164, 160, 86}},
@@ -60,14 +60,14 @@ constexpr std::array kLagoon{
     ColorStop{0.4, {41, 124, 147}},  ColorStop{0.6, {76, 169, 146}},
     ColorStop{0.8, {142, 209, 128}}, ColorStop{1.0, {231, 238, 112}},
 };
-// Blue and red-brown are the pair that every kind of colour vision tells apart.
+// Blue and red-brown are a pair that every kind of color vision can distinguish.
 constexpr std::array kDatum{
     ColorStop{0.0, {18, 59, 117}},   ColorStop{0.25, {86, 148, 199}},
     ColorStop{0.5, {233, 232, 223}}, ColorStop{0.75, {198, 119, 67}},
     ColorStop{1.0, {103, 37, 20}},
 };
-// What people know from atlases. Its lightness goes up and down, so it shows steps where there are
-// none, and its greens and browns look alike to many.
+// Familiar from atlases. Its lightness is not monotonic, so it shows steps that do not exist, and
+// many people cannot distinguish its greens and browns.
 constexpr std::array kHypsometric{
     ColorStop{0.0, {38, 84, 64}},     ColorStop{0.25, {98, 140, 80}},
     ColorStop{0.45, {190, 178, 110}}, ColorStop{0.65, {160, 110, 70}},
@@ -90,7 +90,7 @@ constexpr std::array kRamps{
               .is_color_blind_safe = false},
 };
 
-// The bodies without air whose surface is grey to the eye.
+// Airless bodies whose surface looks gray.
 constexpr std::array<std::string_view, 6> kGreyBodies{"Moon",  "Mercury", "Ceres",
                                                       "Vesta", "Phobos",  "Deimos"};
 

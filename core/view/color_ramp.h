@@ -1,4 +1,4 @@
-// Colours for heights, as data.
+// Color ramps for elevations, as data.
 #pragma once
 
 #include "core/terrain/heightfield.h"
@@ -24,38 +24,39 @@ struct ColorStop {
     Rgb8 color;
 };
 
-/// What a ramp promises of equal steps of height.
+/// How a ramp shows equal steps of elevation.
 enum class RampEvenness {
-    Even,        // lightness rises evenly from end to end: equal steps look equally far apart
-    EvenToSides, // so do they from the middle outwards, where lightness falls evenly
-    Uneven,      // some heights stand out that are not special; for looking, not for judging
+    Even,        // lightness rises evenly from end to end: equal steps look equally large
+    EvenToSides, // likewise from the middle outwards, with lightness falling evenly
+    Uneven,      // some elevations stand out without reason; for illustration, not for analysis
 };
 
-/// A named run of colours.
+/// A named color ramp.
 struct ColorRamp {
     std::string_view name; // stable, for files; not shown
     std::span<const ColorStop> stops;
     RampEvenness evenness = RampEvenness::Even;
-    /// No two places an eighth of the ramp apart look alike to people who lack one kind of cones.
+    /// Positions an eighth of the ramp apart are distinguishable for people who lack one type of
+    /// cone.
     bool is_color_blind_safe = true;
-    /// The middle is the datum: heights above and below differ in hue (see tintedRange()).
+    /// The middle is the datum: elevations above and below differ in hue (see tintedRange()).
     bool is_centred_on_datum = false;
 };
 
-/// The even ramps that climb (dawn, rust, grey, ember, lagoon), then "datum", blue below and red
-/// above, and "hypsometric", the green, brown and white of school atlases.
+/// The even ramps with rising lightness (dawn, rust, grey, ember, lagoon), then "datum", blue below
+/// and red above, and "hypsometric", the green, brown and white of school atlases.
 std::span<const ColorRamp> colorRamps();
 const ColorRamp* colorRampNamed(std::string_view name);
-/// The ramp that suits a body by name: rust for Mars, grey for airless bodies, else the general
-/// one. An empty name is any other body.
+/// The default ramp for a body by name: rust for Mars, grey for airless bodies, otherwise the
+/// general one. An empty name means any other body.
 const ColorRamp& defaultColorRamp(std::string_view body_name);
 
-/// The heights that the ends of a ramp stand for on a map of these heights: the same, or for a ramp
-/// centred on the datum the range around 0 m that encloses them.
+/// The elevations at the ends of a ramp on a map with these elevations: their range or, for a ramp
+/// centered on the datum, the symmetric range around 0 m that encloses them.
 HeightRange tintedRange(const ColorRamp& ramp, const HeightRange& heights);
 
-/// A colour in Oklab: lightness 0 … 1, green to red, blue to yellow. Distances in it are about as
-/// large as they look; 0.02 is about what is just noticed.
+/// A color in Oklab: lightness 0 … 1, green to red, blue to yellow. Distances are approximately
+/// perceptual; 0.02 is about the just-noticeable difference.
 struct Oklab {
     double l = 0.0;
     double a = 0.0;
@@ -64,11 +65,11 @@ struct Oklab {
 
 Oklab oklabFrom(Rgb8 color);
 
-/// Perceived lightness of a colour, 0 (black) … 1 (white): the L of Oklab.
+/// Perceived lightness of a color, 0 (black) … 1 (white): the L of Oklab.
 double lightness(Rgb8 color);
 
-/// 256 colours along the ramp, mixed in Oklab (Björn Ottosson, "A perceptual color space for image
-/// processing", 2020) so that they neither darken nor grey between the stops.
+/// 256 colors along the ramp, mixed in Oklab (Björn Ottosson, "A perceptual color space for image
+/// processing", 2020) so that they neither darken nor turn gray between the stops.
 std::array<Rgb8, 256> sampledRamp(const ColorRamp& ramp);
 
 } // namespace marsview

@@ -10,10 +10,10 @@
 namespace marsview {
 namespace {
 
-// For levels that there are not: nothing is ever that far away. Finite, as it is multiplied by 0.
+// Range of nonexistent levels: beyond every distance. Finite, because it is multiplied by 0.
 constexpr float kNever = 1e30F;
 
-// Distances are taken again in the graphics driver, as floats.
+// The graphics driver recomputes distances as floats.
 constexpr double kRounding = 1.0001;
 
 // Cells along a side of a quadrant.
@@ -52,7 +52,7 @@ struct NodeValues {
     LargeVector<float> values;
 };
 
-// Of the next level: the largest of each node's children. Nothing of nothing.
+// Of the next level: the largest of each node's children. Empty for an empty input.
 NodeValues largestOfFour(const NodeValues& finer)
 {
     NodeValues coarser((finer.columns + 1) / 2, (finer.rows + 1) / 2);
@@ -69,13 +69,13 @@ NodeValues largestOfFour(const NodeValues& finer)
 
 } // namespace
 
-// What stays the same during one selection.
+// The constants of one selection.
 struct DetailSelector::Pass {
     ScenePoint eye;
     Frustum frustum;
     DetailTarget target;
-    double pixels = 1.0;          // that a metre across the view is wide at one metre's distance
-    double range_per_error = 1.0; // metres a metre
+    double pixels = 1.0;          // width of a meter across the view at a distance of one meter
+    double range_per_error = 1.0; // meters per meter
     const SizeRanges& size_ranges_m;
     DetailSelection selection;
 };
@@ -118,7 +118,7 @@ DetailSelection DetailSelector::select(const DetailView& view, const DetailTarge
     return std::move(pass.selection);
 }
 
-// `selected` carries the relief that was found on the way down.
+// `selected` has the relief found so far on the way down.
 void DetailSelector::visit(const DetailNode& node,
                            Above above,
                            SelectedNode& selected,
@@ -168,7 +168,7 @@ void DetailSelector::visit(const DetailNode& node,
     selected.distance_m = distance_m;
     selected.parent_ranges_m = {kNever, kNever, kNever, kNever};
     selected.grandparent_ranges_m = selected.parent_ranges_m;
-    // What a level is off by that is seen from `nearest_m` on.
+    // The error of a level seen from `nearest_m` or farther.
     const auto seen_error = [&](const DetailNode& seen, double nearest_m) {
         const double error_m = static_cast<double>(analysis_->errors.nodeError(seen));
         return error_m > 0.0 ? pass.range_per_error * pass.target.error_px * error_m / nearest_m
@@ -177,7 +177,7 @@ void DetailSelector::visit(const DetailNode& node,
     double error_px = seen_error(node, distance_m);
     if (!pass.target.has_every_sample) {
         const double furthest_m = distance_m + length(box.maximum - box.minimum);
-        // The ranges of a level around, if there is one, to which parts of the node may give way.
+        // The ranges of a coarser level, if there is one, to which parts of the node may morph.
         const auto give_way = [&](std::size_t level, CornerRanges& ranges_m) {
             if (level >= analysis_->errors.levelCount()) {
                 return;
@@ -199,8 +199,8 @@ void DetailSelector::visit(const DetailNode& node,
     selection.triangle_count += triangleCount(selected);
 }
 
-// Their ground is that of the nodes one level down: what is drawn of a quadrant are samples of
-// these, to whatever coarser level its vertices have given way.
+// Quadrants have the terrain of the nodes one level down: a quadrant is drawn from samples of
+// these, even where its vertices have morphed to a coarser level.
 std::uint8_t
 DetailSelector::quadrantsIn(const Frustum& frustum, const DetailNode& node, bool is_inside) const
 {
@@ -220,7 +220,7 @@ DetailSelector::quadrantsIn(const Frustum& frustum, const DetailNode& node, bool
     return static_cast<std::uint8_t>(quadrants);
 }
 
-// Of cells with an area.
+// Counts cells with an area.
 std::size_t DetailSelector::triangleCount(const SelectedNode& selected) const
 {
     const std::size_t level = selected.node.level;
@@ -264,7 +264,7 @@ SceneBox DetailSelector::boxOf(const DetailNode& node) const
     return box;
 }
 
-// Of boxOf(node), without making it: there are millions of nodes.
+// The diagonal of boxOf(node), without constructing the box: there are millions of nodes.
 double DetailSelector::diagonalOf(const DetailNode& node) const
 {
     const MinMaxPyramid::Bounds bounds =
@@ -311,8 +311,7 @@ CornerRanges DetailSelector::rangesOf(const DetailNode& node, const Pass& pass) 
             rangeAt(node.level, node.column + 1, node.row + 1, pass)};
 }
 
-// Made when first asked for: of millions of nodes, they take some of the time until a first
-// picture.
+// Computed on first use: for millions of nodes this takes part of the time to the first picture.
 const DetailSelector::SizeRanges& DetailSelector::sizeRangesFor(const DetailTarget& target)
 {
     const bool is_moving = target.error_px > kErrorPxAtRest;
@@ -323,13 +322,13 @@ const DetailSelector::SizeRanges& DetailSelector::sizeRangesFor(const DetailTarg
     return ranges_m;
 }
 
-// Ranges that follow from the size of the nodes, heights included.
+// Ranges determined by the size of the nodes, including their heights.
 DetailSelector::SizeRanges DetailSelector::sizeRanges(double range_per_size) const
 {
     const DetailErrors& errors = analysis_->errors;
     SizeRanges ranges_m(errors.levelCount());
-    NodeValues child_diagonals;      // the largest of a node's children, of the level before
-    NodeValues grandchild_diagonals; // and of theirs
+    NodeValues child_diagonals;      // the largest of a node's children, for the previous level
+    NodeValues grandchild_diagonals; // and of its grandchildren
     for (std::size_t level = 1; level < errors.levelCount(); ++level) {
         NodeValues diagonals(errors.columns(level), errors.rows(level));
         NodeValues ranges(diagonals.columns, diagonals.rows);

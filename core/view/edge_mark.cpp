@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-// Nearer to the view axis than this share of its distance a place is on it.
+// A point nearer to the view axis than this fraction of its distance counts as on the axis.
 constexpr double kStraightShare = 1e-9;
 
 bool isInside(const PixelPoint& pixel, const EdgeLine& line)
@@ -16,7 +16,7 @@ bool isInside(const PixelPoint& pixel, const EdgeLine& line)
            pixel.y <= line.viewport.height;
 }
 
-// How many steps of `step` lead from `from` to the end of a range on that side.
+// The number of steps of `step` from `from` to the end of the range on that side.
 double stepsToEnd(double from, double step, double low, double high)
 {
     if (step == 0.0) {
@@ -34,7 +34,8 @@ edgeMark(const OrbitCamera& camera, const ScenePoint& place, const EdgeLine& lin
     if (pixel && isInside(*pixel, line)) {
         return std::nullopt;
     }
-    // Across the view axis the place lies to the same side before the eye and behind it.
+    // Perpendicular to the view axis, the point lies on the same side in front of the eye and
+    // behind it.
     const CameraAxes axes = axesOf(camera);
     const Vec3 way = place - eyeOf(camera);
     double right = dot(way, axes.right);

@@ -1,4 +1,4 @@
-// A mark at the edge of the picture for a place outside it.
+// A mark at the edge of the picture for a point outside it.
 #pragma once
 
 #include "core/view/camera.h"
@@ -7,23 +7,24 @@
 
 namespace marsview {
 
-/// The line on which marks lie: inside the picture, all around.
+/// The line on which marks are placed, around the inside of the picture.
 struct EdgeLine {
     Viewport viewport{};
     double inset_px = 0.0;   // from all sides
-    double covered_px = 0.0; // what cannot be seen of the picture at its top
+    double covered_px = 0.0; // hidden strip at the top of the picture
 };
 
-/// Where a mark is and which way it points: `right` and `down` have length 1 together.
+/// The position and direction of a mark; (`right`, `down`) has length 1.
 struct EdgeMark {
     PixelPoint at{};
     double right = 0.0;
     double down = 0.0;
 };
 
-/// Nothing where the place is in the picture. Otherwise the mark, the middle of the picture and the
-/// place lie on a line; a view that turns that way comes to see the place, also where it is behind
-/// the eye. Straight behind is down. Where the line leaves no room, the mark is in its middle.
+/// Empty if the point is in the picture. Otherwise the mark, the middle of the picture and the
+/// point lie on a line; turning the view in that direction brings the point into the picture, even
+/// from behind the eye. A point straight behind is marked at the bottom. If the line has no extent,
+/// the mark is in its middle.
 std::optional<EdgeMark>
 edgeMark(const OrbitCamera& camera, const ScenePoint& place, const EdgeLine& line);
 

@@ -11,13 +11,13 @@ constexpr std::array kRoundNumbers{1.0, 1.5, 2.0, 3.0, 5.0, 7.0};
 constexpr double kExaggerationMin = 1e-6;
 constexpr double kExaggerationMax = 1e6;
 
-// Relief as a share of the extent: from here down it is lifted to kReliefWanted, from
-// kReliefTooHigh up it is pressed down to kReliefBounded. Between the two it is left alone.
+// Relief as a fraction of the extent: smaller relief is exaggerated to kReliefWanted, relief above
+// kReliefTooHigh is reduced to kReliefBounded. Between the two it is unchanged.
 constexpr double kReliefWanted = 1.0 / 60.0;
 constexpr double kReliefTooHigh = 1.0 / 3.0;
 constexpr double kReliefBounded = 1.0 / 6.0;
 
-// The place of a factor in the endless list of round numbers, rounded down; and back.
+// The index of a factor in the infinite list of round numbers, rounded down, and the inverse.
 int placeOf(double factor)
 {
     const double decade = std::floor(std::log10(factor) + 1e-9);
@@ -32,7 +32,7 @@ double factorAt(int place)
     const int count = static_cast<int>(kRoundNumbers.size());
     const int decade = place >= 0 ? place / count : -((count - 1 - place) / count);
     const auto lead = static_cast<std::size_t>(place - decade * count);
-    // Dividing by a whole power keeps 0.5 and 0.1 the doubles that people write.
+    // Dividing by an integer power gives exactly the doubles of the literals 0.5 and 0.1.
     return decade >= 0 ? kRoundNumbers[lead] * std::pow(10.0, decade)
                        : kRoundNumbers[lead] / std::pow(10.0, -decade);
 }

@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-// Twice the area, with the sign of the turn.
+// Twice the area, with the sign of the orientation.
 double doubledArea(const std::vector<GridPoint>& polygon)
 {
     double sum = 0.0;
@@ -21,7 +21,7 @@ double doubledArea(const std::vector<GridPoint>& polygon)
     return sum;
 }
 
-// A line of the grid; what is on its positive side, or on it, is kept.
+// A line in the grid; the positive side, including the line, is kept.
 struct Side {
     double column = 0.0;
     double row = 0.0;
@@ -30,8 +30,8 @@ struct Side {
     double operator()(GridPoint p) const { return column * p.column + row * p.row + constant; }
 };
 
-// The side of the picture whose inward normal is given, cut by the level of the target. In grid
-// coordinates distances are affine again, so three values tell them all.
+// The intersection of a side of the picture, given by its inward normal, with the level of the
+// target. In grid coordinates distances are affine again, so three values determine them.
 Side sideOf(const Vec3& inward, const OrbitCamera& camera, const SceneFrame& frame)
 {
     const ScenePoint eye = eyeOf(camera);
@@ -80,8 +80,8 @@ double tangent(const OrbitCamera& camera)
 std::vector<GridPoint>
 footprint(const OrbitCamera& camera, const Viewport& viewport, const MapPlan& map)
 {
-    // The picture's four sides are planes through the eye, and what is inside all four is in front
-    // of it: cutting the map by them needs no horizon and no far distance.
+    // The picture's four sides are planes through the eye, and points inside all four are in front
+    // of it: clipping the map by them needs neither a horizon nor a far plane.
     const CameraAxes axes = axesOf(camera);
     const double up = tangent(camera);
     const double across = up * viewport.aspect();

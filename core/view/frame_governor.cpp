@@ -12,7 +12,8 @@ constexpr std::array kScales{1.0, 0.85, 0.7, 0.6, kScaleMin};
 
 constexpr double kLearningRate = 0.25;
 constexpr double kSurpriseMax = 3.0;  // times the prediction
-constexpr double kCommonShare = 0.2;  // that every term takes of a surprise, beside its own
+constexpr double kCommonShare = 0.2;  // of a prediction error that every term takes, in addition to
+                                      // its own share
 constexpr double kFinerMargin = 0.85; // of the target, for a plan finer than the last
 
 } // namespace
@@ -50,7 +51,7 @@ FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds tak
     for (const double share : shares) {
         norm += share * (share + kCommonShare);
     }
-    // With the norm, the prediction for this load moves by the learning rate.
+    // Normalized, so that the prediction for this load changes by the learning rate.
     const auto moved = [&](Milliseconds term, double share) {
         return term * (1.0 + kLearningRate * (share + kCommonShare) / norm * (believed - 1.0));
     };

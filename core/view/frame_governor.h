@@ -1,7 +1,7 @@
-// How fine a frame may be so that it is ready in time.
+// Chooses the finest frame that is ready in time.
 //
-// A governor that only reacts, coarser when late and finer when early, swings for ever. This one
-// predicts: it learns what triangles and pixels cost on this machine at this moment, and takes the
+// A governor that only reacts, coarser when late and finer when early, oscillates. This one
+// predicts: it learns the current cost of triangles and pixels on this machine and chooses the
 // finest picture whose predicted cost fits. Values and pure functions: no clock, no driver.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace marsview {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-/// What there is to draw in a frame.
+/// The amount to draw in a frame.
 struct FrameLoad {
     std::size_t triangle_count = 0;
     double pixel_count = 0.0;
@@ -29,25 +29,25 @@ struct FrameCost {
     Milliseconds predicted(const FrameLoad& load) const;
 };
 
-/// Where learning begins, measured with Mesa's software driver on two cores, and on a small GPU.
+/// Initial costs, measured with Mesa's software driver on two cores, and on a small GPU.
 FrameCost softwareFrameCost();
 FrameCost gpuFrameCost();
 
-/// The cost after a frame of that load took that long (normalised least mean squares). A surprise
-/// counts as far as the frame before agrees with it, so that a single slow frame, as when another
-/// program gets the processor, changes nothing. Each term takes the share of it that it has in the
-/// prediction, and all take some: where few triangles are drawn because they were slow, they would
-/// otherwise be believed to be slow for ever. All terms stay positive.
+/// The cost, updated with the measured time of a frame (normalized least mean squares). A
+/// prediction error counts only as far as the previous frame agrees with it, so that a single slow
+/// frame, for example when another program runs, changes nothing. Each term is corrected by its
+/// share of the prediction plus a common share: otherwise, when few triangles are drawn because
+/// they were slow, their cost would never recover. All terms stay positive.
 FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds taken);
 
-/// How fine a frame is drawn.
+/// The level of detail of a frame.
 struct FramePlan {
     double error_px = 1.0; // 1 … kErrorPxMax, of the pixels that are drawn
     double scale = 1.0;    // of width and height, 0.5 … 1
     bool operator==(const FramePlan&) const = default;
 };
 
-/// From here on the size of the picture gives way.
+/// Beyond this error the size of the picture is reduced.
 inline constexpr double kErrorPxLarge = 8.0;
 inline constexpr double kErrorPxMax = 16.0;
 inline constexpr double kScaleMin = 0.5;
@@ -55,15 +55,15 @@ inline constexpr double kScaleMin = 0.5;
 struct FrameWish {
     Milliseconds target{33.0};
     double pixel_count = 0.0; // at scale 1
-    /// The hand is on the ground: what it feels is what is to be seen, so that the size of the
-    /// picture gives way first.
+    /// The HIP is in contact: the picture must show the touched surface, so its size is reduced
+    /// first.
     bool is_touching = false;
 };
 
-/// The finest plan that is predicted to take at most the target: the error gives way first, up to 8
-/// pixels, then the size of the picture, and at last the error again. A plan finer than the last
-/// one is taken only where it leaves a margin, so that nothing flickers at the limit.
-/// `triangles(plan)` counts what would be drawn; coarser plans have no more.
+/// The finest plan whose predicted time is within the target: first the error grows, up to 8
+/// pixels, then the picture shrinks, and finally the error grows again. A plan finer than the last
+/// one must leave a margin, so that the picture does not flicker at the limit. `triangles(plan)`
+/// returns the number of triangles of a plan; coarser plans have no more.
 FramePlan planFrame(const FrameCost& cost,
                     const FrameWish& wish,
                     const FramePlan& last,

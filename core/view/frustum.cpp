@@ -6,7 +6,7 @@
 namespace marsview {
 namespace {
 
-// How far inside a plane through the eye a box lies with its corner furthest inside.
+// The distance inside a plane through the eye of a box's innermost corner.
 double furthestInside(const Vec3& low, const Vec3& high, const Vec3& inward)
 {
     return dot({inward.x > 0.0 ? high.x : low.x, inward.y > 0.0 ? high.y : low.y,
@@ -38,7 +38,7 @@ bool Frustum::isInside(const SceneBox& box) const noexcept
 {
     const Vec3 low = box.minimum - eye_;
     const Vec3 high = box.maximum - eye_;
-    // The corner furthest inside is, of a box that is turned over, the one furthest outside.
+    // For the mirrored box, the innermost corner is the outermost.
     return std::all_of(inward_.begin(), inward_.end(),
                        [&](const Vec3& n) { return furthestInside(high, low, n) >= 0.0; });
 }

@@ -1,4 +1,4 @@
-// What is in the picture and what is certainly not.
+// Conservative tests of boxes against the picture.
 #pragma once
 
 #include "core/view/camera.h"
@@ -8,13 +8,13 @@
 
 namespace marsview {
 
-/// The pyramid behind the picture, without near and far end.
+/// The view pyramid, without near and far planes.
 class Frustum {
 public:
     Frustum(const OrbitCamera& camera, const Viewport& viewport);
 
-    /// True only if no point of the box is in the picture. False for some boxes near the edges that
-    /// are not.
+    /// True only if no point of the box is in the picture. May be false for boxes outside near the
+    /// edges.
     bool isOutside(const SceneBox& box) const noexcept;
     /// True only if every point of the box is in the picture.
     bool isInside(const SceneBox& box) const noexcept;

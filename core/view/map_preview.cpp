@@ -17,7 +17,7 @@ struct Tint {
     double blue = 0.0;
 };
 
-// Between the ramp's colours, as a texture with linear filtering mixes them.
+// Interpolates between the ramp's colors, like a texture with linear filtering.
 Tint tintAt(std::span<const Rgb8, 256> ramp, double share)
 {
     const double position = std::clamp(share, 0.0, 1.0) * 255.0;
@@ -29,7 +29,7 @@ Tint tintAt(std::span<const Rgb8, 256> ramp, double share)
             mixed(ramp[below].blue, ramp[above].blue)};
 }
 
-// The rise from one element to the next around `here`. Neighbours that are void are NaN.
+// The rise from one element to the next around `here`. Void neighbors are NaN.
 double rise(double before, double here, double after)
 {
     if (std::isnan(before)) {
@@ -76,7 +76,7 @@ mapPreview(GridView<const float> heights_m, const SceneFrame& frame, const Previ
                      level * std::cos(style.light_azimuth.radians()),
                      std::sin(style.light_altitude.radians())};
     const double tinted_m = style.tint_range.maximum_m - style.tint_range.minimum_m;
-    // NaN outside the grid, so that an edge is like the rim of a void.
+    // NaN outside the grid, so that an edge is treated like the rim of a void.
     const auto height = [&](std::size_t column, std::size_t row) {
         return column < columns && row < rows ? static_cast<double>(heights_m(column, row))
                                               : std::nan("");

@@ -1,4 +1,4 @@
-// A small shaded picture of a whole map, made without a graphics card.
+// A small shaded picture of a whole map, computed without a graphics card.
 #pragma once
 
 #include "core/base/angle.h"
@@ -24,24 +24,24 @@ struct MapPreview {
 
 struct PreviewStyle {
     std::array<Rgb8, 256> ramp{}; // from sampledRamp()
-    HeightRange tint_range{};     // over which the ramp is spread; without extent: its middle
+    HeightRange tint_range{};     // range of the ramp; if empty: the ramp's middle
     Angle light_azimuth = Angle::degrees(315.0);
     Angle light_altitude = Angle::degrees(45.0);
-    double exaggeration = 1.0; // of the relief that is shaded
+    double exaggeration = 1.0; // for shading
 };
 
 /// The frame of a picture of columns × rows pixels that covers the pixels of the whole raster, edge
-/// to edge: pixel centres at whole numbers, as in the raster's own frame.
+/// to edge: pixel centers at integers, as in the raster's own frame.
 SceneFrame previewFrame(const SceneFrame& frame,
                         std::size_t raster_columns,
                         std::size_t raster_rows,
                         std::size_t columns,
                         std::size_t rows);
 
-/// One pixel a height (metres, NaN for void), tinted and lit as the terrain is on screen:
-/// tint × (0.28 + 0.84 × max(normal · light, 0)). Slopes are central differences, on one side at
-/// edges and voids, level where a height stands alone. `frame` is that of the heights' grid.
-/// An empty grid gives an empty picture. Any thread.
+/// One pixel per height (meters, NaN for void), colored and lit like the terrain on screen: tint ×
+/// (0.28 + 0.84 × max(normal · light, 0)). Slopes are central differences, one-sided at edges and
+/// voids, level for an isolated height. `frame` is that of the heights' grid. An empty grid gives
+/// an empty picture. Any thread.
 MapPreview
 mapPreview(GridView<const float> heights_m, const SceneFrame& frame, const PreviewStyle& style);
 

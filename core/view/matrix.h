@@ -1,4 +1,4 @@
-// Four-by-four matrices of doubles, column by column as OpenGL wants them.
+// Four-by-four matrices of doubles, in column-major order as in OpenGL.
 #pragma once
 
 #include <array>

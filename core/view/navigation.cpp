@@ -9,15 +9,15 @@ namespace {
 
 constexpr Angle kTiltMax = Angle::degrees(85.0);
 
-// The eye stays this share of its distance above the ground: four times the near plane's share, so
-// that the ground in front of it is not cut open.
+// Minimum height of the eye above the terrain as a fraction of its distance: four times that of the
+// near plane, so that the near plane does not clip the terrain.
 constexpr double kClearanceShare = 1.0 / 50.0;
 
-// Where the ground under a target in the air appears at the lowest, between the middle of the
-// picture (0) and its lower edge (1).
+// The lowest position in the picture of the terrain under a target in the air, between the middle
+// (0) and the lower edge (1).
 constexpr double kGroundLowest = 0.75;
 
-// Beside the map, a zoom holds what is at most this many camera distances away.
+// Outside the map, a zoom anchors on a point at most this many camera distances away.
 constexpr double kAnchorReach = 2.0;
 
 constexpr double kPixelsNearest = 2.0;
@@ -33,8 +33,8 @@ Angle wrapped(Angle azimuth)
     return Angle::radians(std::remainder(azimuth.radians(), 2.0 * std::numbers::pi));
 }
 
-// How far the target may hang over the ground under it with that ground still well inside the
-// picture. Without bound where the view is so steep that it always is.
+// The maximum height of the target above the terrain at which that terrain is still well inside the
+// picture. Infinite if the view is so steep that it always is.
 double hangMax(const OrbitCamera& camera)
 {
     const double slope = kGroundLowest * std::tan(camera.field_of_view.radians() / 2.0);
@@ -42,7 +42,7 @@ double hangMax(const OrbitCamera& camera)
     return fall > 0.0 ? camera.distance_m * slope / fall : HUGE_VAL;
 }
 
-// How much too low the eye is. Negative where it is high enough or over no ground.
+// How much the eye is too low. Negative if it is high enough or not above terrain.
 double clearanceMissing(const OrbitCamera& camera, const GroundQuery& ground)
 {
     const ScenePoint eye = eyeOf(camera);
@@ -50,9 +50,10 @@ double clearanceMissing(const OrbitCamera& camera, const GroundQuery& ground)
     return std::isfinite(ground_z) ? ground_z + kClearanceShare * camera.distance_m - eye.z : -1.0;
 }
 
-// The tilt nearest below the camera's at which the eye is clear of the ground: found by steps, as
-// the ground may rise and fall under the eye, then by bisection, so that it changes smoothly. With
-// the target on the ground or above it, the eye is clear at 0, straight above the target.
+// The largest tilt, at most the camera's, at which the eye is clear of the terrain: searched in
+// steps, because the terrain may rise and fall under the eye, then by bisection, so that it changes
+// smoothly. If the target is on or above the terrain, the eye is clear at 0, straight above the
+// target.
 Angle clearTilt(OrbitCamera camera, const GroundQuery& ground)
 {
     constexpr int kSteps = 32;
@@ -75,8 +76,8 @@ Angle clearTilt(OrbitCamera camera, const GroundQuery& ground)
     return tilt * clear;
 }
 
-// The first point at which `accepts` says yes on rings around `centre`, from `radius_min_m` on.
-// They grow by a quarter, so the point is nearly the nearest.
+// The first point accepted by `accepts` on rings around `centre`, from `radius_min_m` on. Radii
+// grow by a quarter, so the point is nearly the nearest.
 template <typename Accepts>
 std::optional<ScenePoint> findAround(const ScenePoint& centre,
                                      double radius_min_m,
@@ -99,10 +100,10 @@ std::optional<ScenePoint> findAround(const ScenePoint& centre,
     return std::nullopt;
 }
 
-// Whether there is ground in the picture, near the target, though none under it.
+// Whether there is terrain in the picture near the target, although not under it.
 bool seesGround(const OrbitCamera& camera, double radius_min_m, const GroundQuery& ground)
 {
-    constexpr Viewport kNarrow{1, 2}; // as good as any window, and wide ones show more
+    constexpr Viewport kNarrow{1, 2}; // representative of any window; wide ones show more
     const auto is_seen = [&](const ScenePoint& p) {
         const double ground_z = ground(p.x, p.y);
         if (!std::isfinite(ground_z)) {
@@ -114,9 +115,9 @@ bool seesGround(const OrbitCamera& camera, double radius_min_m, const GroundQuer
     return findAround(camera.target, radius_min_m, 0.5 * camera.distance_m, is_seen).has_value();
 }
 
-// The target not so high that the ground under it leaves the picture, and the eye clear of the
-// ground. The eye rises with the target as far as that allows. The rest it has to rise over the
-// target, or else the picture would end up with nothing but sky in it.
+// Lowers the target so that the terrain under it stays in the picture, and raises the eye clear of
+// the terrain. The eye rises with the target as far as that allows, and beyond that over the
+// target; otherwise the picture would show only sky.
 OrbitCamera cleared(OrbitCamera camera, const SceneBox& box, const GroundQuery& ground)
 {
     const double ground_z = ground(camera.target.x, camera.target.y);
@@ -127,7 +128,7 @@ OrbitCamera cleared(OrbitCamera camera, const SceneBox& box, const GroundQuery& 
     camera.target.z = std::min(camera.target.z, highest);
     const double missing = clearanceMissing(camera, ground);
     if (missing > 0.0) {
-        // The surplus makes good what rounding takes away.
+        // The surplus compensates for rounding.
         camera.target.z = std::min(camera.target.z + missing + 1e-6 * camera.distance_m, highest);
         if (clearanceMissing(camera, ground) > 0.0) {
             camera.tilt = clearTilt(camera, ground);
@@ -136,8 +137,8 @@ OrbitCamera cleared(OrbitCamera camera, const SceneBox& box, const GroundQuery& 
     return camera;
 }
 
-// How far back along the view axis, and where across it, the eye has to be so that all points lie
-// between two planes that open by the tangent `slope` to either side. Per plane, the furthest point
+// The position of the eye, along and across the view axis, at which all points lie between two
+// planes that open by the tangent `slope` to either side. For each plane, the farthest point
 // decides.
 struct Fit {
     double across = 0.0;
@@ -160,7 +161,7 @@ Fit fitBetween(const std::array<ScenePoint, 8>& points,
     return {.across = (positive - negative) / 2.0, .depth = -(positive + negative) / (2.0 * slope)};
 }
 
-// How far a line that goes north and down, and through the box, has come where it leaves it.
+// The distance along a line that goes north and down through the box to where it leaves the box.
 double exitFrom(const SceneBox& box, const ScenePoint& from, const Vec3& forward)
 {
     return std::min((box.maximum.y - from.y) / forward.y, (box.minimum.z - from.z) / forward.z);
@@ -195,7 +196,7 @@ constrained(OrbitCamera camera, const NavigationLimits& limits, const GroundQuer
     if (has_ground(found.target) || seesGround(found, radius_min_m, ground)) {
         return found;
     }
-    // In the middle of a hole, or beside a slanted map: back to the nearest ground.
+    // In the middle of a hole, or outside a rotated map: back to the nearest terrain.
     const auto nearest =
         findAround(camera.target, radius_min_m, 1.25 * box.diagonal_m(), has_ground);
     camera.target = nearest.value_or(camera.target);
@@ -267,8 +268,8 @@ OrbitCamera homeCamera(const SceneBox& box, const Viewport& viewport, Angle fiel
     const Fit upward = fitBetween(corners, axes.up, axes.forward, slope);
     const ScenePoint eye = axes.right * across.across + axes.up * upward.across +
                            axes.forward * std::min(across.depth, upward.depth);
-    // The target lies where the axis leaves the box: constrained() would lower one that hangs high
-    // over the ground, beside a cliff, and part of the map would leave the picture at the top.
+    // The target lies where the axis leaves the box: constrained() would lower a target high above
+    // the terrain next to a cliff, and part of the map would leave the picture at the top.
     const double distance_m = std::max(exitFrom(box, eye, axes.forward), 1e-3 * box.diagonal_m());
     camera.distance_m = distance_m;
     camera.target = eye + axes.forward * distance_m;

@@ -1,6 +1,6 @@
-// Moving the camera: pure functions from one camera to the next.
+// Camera navigation: pure functions from one camera to the next.
 //
-// None of them keeps the camera in bounds on its own; constrained() does that, once, at the end.
+// None of them keeps the camera within the limits; call constrained() once at the end.
 #pragma once
 
 #include "core/geo/georeference.h"
@@ -12,10 +12,10 @@
 
 namespace marsview {
 
-/// Height of the ground in scene metres (exaggerated) at a scene position; NaN where there is none.
+/// Height of the terrain in scene meters (exaggerated) at a scene position; NaN without terrain.
 using GroundQuery = std::function<double(double east_m, double north_m)>;
 
-/// How far the camera may go.
+/// The limits of the camera.
 struct NavigationLimits {
     SceneBox box{};
     double distance_min_m = 1.0;
@@ -25,60 +25,61 @@ struct NavigationLimits {
 /// From two pixels of the raster to four times the box's diagonal.
 NavigationLimits navigationLimits(const SceneBox& box, double pixel_m);
 
-/// The camera within bounds: target inside the box, distance within the limits, tilt in [0, 85°],
-/// azimuth in [-180°, 180°], and the eye at least 1/50 of its distance above the ground under it.
-/// Some ground is in the picture: under the target, which is not so high over it that it would
-/// leave the picture at the bottom, or near by. An eye that is too low rises with the target only
-/// so far, then by less tilt; a target far from any ground goes to the nearest.
+/// The camera within the limits: target inside the box, distance within the limits, tilt in [0,
+/// 85°], azimuth in [-180°, 180°], and the eye at least 1/50 of its distance above the terrain
+/// under it. Some terrain is in the picture: under the target, whose height is limited so that this
+/// terrain does not leave the picture at the bottom, or nearby. An eye that is too low rises with
+/// the target up to that limit, then by reducing the tilt. A target far from any terrain moves to
+/// the nearest.
 OrbitCamera
 constrained(OrbitCamera camera, const NavigationLimits& limits, const GroundQuery& ground);
 
-/// Turned around the target.
+/// Rotates the camera around the target.
 OrbitCamera orbited(OrbitCamera camera, Angle azimuth_change, Angle tilt_change);
 
-/// Brought nearer (factor < 1) or further, so that `anchor` stays where it is in the picture. The
-/// factor gives way to the limits of distance.
+/// Zooms in (factor < 1) or out with `anchor` fixed in the picture. The limits of distance bound
+/// the factor.
 OrbitCamera
 zoomed(OrbitCamera camera, double factor, const ScenePoint& anchor, const NavigationLimits& limits);
 
-/// What a zoom holds in its place where the ray through the pointer hits nothing: what is level
-/// with the target, at most two camera distances away, or the target where the ray does not go
-/// down. To shrink the picture towards a point of the sky would press the eye into the ground.
+/// The anchor of a zoom if the ray through the pointer hits nothing: the point at the level of the
+/// target, at most two camera distances away, or the target if the ray does not go down. Zooming
+/// about a point in the sky would push the eye into the terrain.
 ScenePoint anchorBesideMap(const OrbitCamera& camera, const Ray& ray);
 
 /// A drag over the picture.
 struct Drag {
     PixelPoint from{};
     PixelPoint to{};
-    double grabbed_z_m = 0.0; // scene height of what was grabbed
+    double grabbed_z_m = 0.0; // scene height of the grabbed point
 };
 
-/// Moved level so that what was grabbed follows the pointer. Near the horizon the motion is bounded
-/// to a few camera distances.
+/// Moves horizontally so that the grabbed point follows the pointer. Near the horizon the motion is
+/// limited to a few camera distances.
 OrbitCamera dragged(OrbitCamera camera, const Viewport& viewport, const Drag& drag);
 
-/// Moved level by fractions of the camera's distance: to the right and away from the viewer.
+/// Moves horizontally by fractions of the camera's distance: to the right and away from the viewer.
 OrbitCamera panned(OrbitCamera camera, double right_share, double forward_share);
 
-/// The same picture, turned about a point of the view axis at `distance_m` from the eye.
+/// The same picture, with the target on the view axis at `distance_m` from the eye.
 OrbitCamera retargeted(OrbitCamera camera, double distance_m);
 
-/// The whole box in the picture, seen from the south at 40° from straight down. constrained()
-/// leaves it alone unless the box is many times as high as wide.
+/// Shows the whole box from the south at a tilt of 40°. constrained() does not change it unless the
+/// box is many times as high as wide.
 OrbitCamera
 homeCamera(const SceneBox& box, const Viewport& viewport, Angle field_of_view = Angle::degrees(40));
 
-/// A sight worth opening with: Tharsis and Valles Marineris from the south-east where the map is
-/// one of all Mars. Nothing for other maps.
+/// An attractive first view: Tharsis and Valles Marineris from the southeast for a global map of
+/// Mars. Empty for other maps.
 std::optional<OrbitCamera> openingCamera(const Georeference& georeference);
 
-/// Where a ray meets the level z = `level_m`, at most `distance_max_m` away; at that distance where
-/// it does not meet it in front of the origin.
+/// The intersection of a ray with the level z = `level_m`, at most `distance_max_m` away; the point
+/// at that distance if there is none in front of the origin.
 ScenePoint pointOnLevel(const Ray& ray, double level_m, double distance_max_m);
 
-/// Between two cameras, t in [0, 1]. Distance changes by equal factors in equal times and the
-/// target in step with it, so a zoom to a point keeps that point fixed all the way; azimuth takes
-/// the shorter way round.
+/// Between two cameras, t in [0, 1]. Distance changes by equal factors in equal times, and the
+/// target moves in proportion, so a zoom to a point keeps that point fixed throughout; azimuth
+/// takes the shorter direction.
 OrbitCamera interpolated(const OrbitCamera& from, const OrbitCamera& to, double t);
 
 } // namespace marsview

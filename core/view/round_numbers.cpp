@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kLeads{1.0, 2.0, 5.0};
 constexpr double kSlack = 1e-9;
 
-// Dividing by a whole power keeps 0.5 and 0.1 the doubles that people write.
+// Dividing by an integer power gives exactly the doubles of the literals 0.5 and 0.1.
 double scaled(double lead, int decade)
 {
     return decade >= 0 ? lead * std::pow(10.0, decade) : lead / std::pow(10.0, -decade);
@@ -64,7 +64,7 @@ RoundTicks roundTicks(double low, double high, int count_max)
 {
     constexpr double kDigits = 1e-12;
     const double size = std::max(std::abs(low), std::abs(high));
-    constexpr double kWidthMin = 1e-300; // decimals of what is smaller are out of reach
+    constexpr double kWidthMin = 1e-300; // smaller values have decimals beyond the range of doubles
     if (!std::isfinite(high - low) || !(high - low > std::max(size * kDigits, kWidthMin)) ||
         count_max < 1) {
         return {};
@@ -79,7 +79,7 @@ RoundTicks roundTicks(double low, double high, int count_max)
             const int count = static_cast<int>(last - first) + 1;
             for (int i = 0; i < count; ++i) {
                 const double multiple = first + i;
-                // Dividing where the step is a fraction: 3 × 0.1 is not the double 0.3.
+                // Dividing if the step is a fraction: 3 × 0.1 is not the double 0.3.
                 const double value =
                     step < 1.0 ? multiple / std::round(1.0 / step) : multiple * step;
                 ticks.values.push_back(std::clamp(value, low, high) + 0.0);

@@ -9,11 +9,11 @@ namespace marsview {
 
 struct ScaleBar {
     double length_m = 0.0; // 1, 2 or 5 times a power of ten
-    double width_px = 0.0; // how long that is in the picture
+    double width_px = 0.0; // its length in the picture
 };
 
 /// The longest round bar that is at most `width_max_px` wide; it is wider than two fifths of that.
-/// Nothing where an argument is not positive or the length is beyond the range of doubles.
+/// Empty if an argument is not positive or the length is beyond the range of doubles.
 std::optional<ScaleBar> scaleBar(double metres_per_pixel, double width_max_px);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// The box that a map fills in the scene.
+// The bounding box of a map in the scene.
 #pragma once
 
 #include "core/geo/frames.h"
@@ -11,7 +11,7 @@
 
 namespace marsview {
 
-/// An axis-parallel box in scene metres; minimum <= maximum in each axis.
+/// An axis-parallel box in scene meters; minimum <= maximum in each axis.
 struct SceneBox {
     ScenePoint minimum;
     ScenePoint maximum;
@@ -32,7 +32,7 @@ struct SceneBox {
 /// The smallest box around both.
 SceneBox united(const SceneBox& a, const SceneBox& b) noexcept;
 
-/// The box around the outermost samples of a grid of columns × rows, rotated rasters included.
+/// The box around the outermost samples of a grid of columns × rows, including rotated rasters.
 SceneBox sceneBox(const SceneFrame& frame,
                   std::size_t columns,
                   std::size_t rows,

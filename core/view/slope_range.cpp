@@ -10,8 +10,8 @@ namespace marsview {
 namespace {
 
 // The texels of a whole map are several times as large as those of its first picture, and slopes
-// over a longer way are smaller: nearly all of them must be in the range, so that most of the finer
-// ones are.
+// over longer distances are smaller: nearly all of them must be in the range to include most of the
+// finer ones.
 constexpr double kSteepShare = 0.01;
 constexpr double kLeastDegrees = 0.1;
 constexpr double kMostDegrees = 90.0;

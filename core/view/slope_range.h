@@ -1,4 +1,4 @@
-// The slopes over which colors are spread.
+// The slope range of color ramps.
 #pragma once
 
 #include "core/base/angle.h"
@@ -16,11 +16,10 @@ struct SlopeRange {
     bool operator==(const SlopeRange&) const = default;
 };
 
-/// The range that suits a map: from 0 to a round number (1, 1.5, 2, 3, 4, 5, 6 or 8 × 10^n degrees,
-/// at least 0.1° and at most 90°) that 99 % of the texels of `whole`, the relief of the whole map,
-/// do not exceed.
-/// `columns` and `rows` are the texels of the tile that lie on the map, its border left out;
-/// `slope_max` is what the relief was made for. Any thread.
+/// The default range for a map: from 0 to a round number (1, 1.5, 2, 3, 4, 5, 6 or 8 × 10^n
+/// degrees, at least 0.1° and at most 90°) that 99 % of the texels of `whole`, the relief of the
+/// whole map, do not exceed. `columns` and `rows` are the texels of the tile that lie on the map,
+/// without its border; `slope_max` is that of the relief. Any thread.
 SlopeRange
 slopeRange(const ReliefTile& whole, std::size_t columns, std::size_t rows, double slope_max);
 

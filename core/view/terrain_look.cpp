@@ -9,7 +9,7 @@ namespace marsview {
 namespace {
 
 constexpr double kLinesMost = 30.0;     // over the whole range
-constexpr double kRise = 0.1;           // the slope at which lines are to be well apart
+constexpr double kRise = 0.1;           // the slope at which lines are well separated
 constexpr double kPixelsBetween = 40.0; // at least, at that slope
 
 } // namespace

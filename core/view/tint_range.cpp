@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRareShare = 0.005;
 constexpr std::size_t kBlocksMax = 1'000'000;
-constexpr std::size_t kBlocksMin = 400; // half a percent of fewer is less than two blocks
+constexpr std::size_t kBlocksMin = 400; // of fewer blocks, 0.5 % is less than two
 
 } // namespace
 
@@ -44,7 +44,7 @@ std::optional<HeightRange> rangeWithoutRarest(std::vector<float> heights_m, doub
     std::nth_element(heights_m.begin(), high, heights_m.end());
     const float high_m = *high;
     if (!(low_m < high_m)) {
-        return std::nullopt; // a hill in a plain is all that there is to see
+        return std::nullopt; // a hill in a plain would be cut off
     }
     return HeightRange{.minimum_m = static_cast<double>(low_m),
                        .maximum_m = static_cast<double>(high_m)};
