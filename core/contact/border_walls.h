@@ -17,7 +17,7 @@ struct BorderWall {
     Vec3 normal; // inward, of length 1
     ScenePoint on;
 
-    /// In metres; negative beyond the wall.
+    /// In meters; negative beyond the wall.
     double distance(const ScenePoint& p) const noexcept { return dot(normal, p - on); }
 };
 

@@ -32,7 +32,7 @@ struct SurfaceContact {
 template <typename S>
 struct SurfaceSpoke {
     typename S::Vertex end;
-    Vec3 along; // from here to `end`, in scene metres
+    Vec3 along; // from here to `end`, in scene meters
 };
 
 /// The goal's foot on the plane of a facet (equation 2 of the paper) and the side of the plane on
@@ -42,7 +42,7 @@ struct SurfaceFoot {
     /// Of the face's corners, times the facet's `scale`; their sum is `scale`. Negative: the foot
     /// lies beyond the edge opposite the corner.
     std::array<double, 3> weights;
-    /// Positive: the goal is in front of the plane, in free space; the distance from it in metres,
+    /// Positive: the goal is in front of the plane, in free space; the distance from it in meters,
     /// times a factor that depends on the face.
     double above;
 
@@ -82,7 +82,7 @@ struct SurfaceLegs {
     std::size_t count = 0;
 };
 
-/// The mesh: vertices, edges and faces are small values. Vectors are in scene metres. A facet is
+/// The mesh: vertices, edges and faces are small values. Vectors are in scene meters. A facet is
 /// the face that a walk is on, with the data that the walk needs, read once:
 ///   vertices           its corners, counter-clockwise seen from free space
 ///   foot(g), scale     the foot of the goal on its plane; `scale` > 0 is the square of the face's

@@ -9,7 +9,7 @@
 
 namespace marsview {
 
-/// A goal or a proxy as in files: x and y in map coordinates, z in metres, not exaggerated.
+/// A goal or a proxy as in files: x and y in map coordinates, z in meters, not exaggerated.
 struct TracePoint {
     double x = 0.0;
     double y = 0.0;

@@ -1,4 +1,4 @@
-// A heightfield in scene metres as contact models see it (contact_surface.h).
+// A heightfield in scene meters as contact models see it (contact_surface.h).
 #pragma once
 
 #include "core/contact/contact_surface.h"
@@ -42,7 +42,7 @@ struct HeightfieldGoal {
 /// A sample and those at the ends of its edges, read once.
 struct HeightfieldFan {
     HeightfieldVertex vertex;
-    double height; // in scene metres
+    double height; // in scene meters
     std::array<double, 6> around;
     std::array<bool, 6> exists;
 };
@@ -139,7 +139,7 @@ public:
     using Facet = HeightfieldFacet;
 
     static constexpr bool kIsBorderWall = true;
-    /// Heights beyond this, in metres and not exaggerated, are refused as goals, like values that
+    /// Heights beyond this, in meters and not exaggerated, are refused as goals, like values that
     /// are not finite. Horizontally every goal is clamped.
     static constexpr double kGoalMaxM = 1e12;
 
@@ -153,7 +153,7 @@ public:
     const SceneFrame& frame() const noexcept { return frame_; }
     double exaggeration() const noexcept { return exaggeration_; }
 
-    /// Height of the surface in scene metres at a grid position, which is clamped to the grid.
+    /// Height of the surface in scene meters at a grid position, which is clamped to the grid.
     double height(GridPoint grid) const noexcept { return heightAt(cellOf(grid)); }
     /// Whether a void sample contributes to the surface at or below `point`.
     bool isOverVoid(const ScenePoint& point) const noexcept;

@@ -16,7 +16,7 @@
 
 namespace marsview {
 
-/// Raw sample to height: height in metres = raw × gain + offset_m.
+/// Raw sample to height: height in meters = raw × gain + offset_m.
 struct ElevationScale {
     double gain = 1.0;
     double offset_m = 0.0;
