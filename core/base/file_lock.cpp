@@ -15,7 +15,7 @@ namespace {
 Error refusal(const std::string& path, int system_error)
 {
     return {system_error == ENOENT ? ErrorCode::NotFound : ErrorCode::Unreadable,
-            path + ": cannot be made or opened (" +
+            path + ": cannot be created or opened (" +
                 std::strerror(system_error) + // NOLINT(concurrency-mt-unsafe)
                 "); choose another folder"};
 }

@@ -104,7 +104,7 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
         if (path.find(':') != std::string::npos) {
             return names;
         }
-        return Error{ErrorCode::NotFound, fmt::format("{}: there is no such file", path)};
+        return Error{ErrorCode::NotFound, fmt::format("{}: does not exist", path)};
     }
     if (status.type() == fs::file_type::none) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: {}", path, failure.message())};

@@ -356,8 +356,8 @@ Status Crs::Impl::readHorizontal()
         unit = srs.GetLinearUnits(&local_unit);
         unit_name = local_unit != nullptr ? local_unit : "metre";
         notices.push_back(
-            fmt::format("CRS \"{}\" belongs to no body, its coordinates are taken as "
-                        "lengths; tell another one to get longitude and latitude",
+            fmt::format("CRS \"{}\" has no body, so its coordinates are read as lengths; set "
+                        "another CRS to get longitude and latitude",
                         name));
         return Done{};
     }
@@ -382,7 +382,7 @@ Status Crs::Impl::readHorizontal()
         if (srs.IsProjected() != 0 && srs.FindProjParm(SRS_PP_SCALE_FACTOR) >= 0 &&
             srs.GetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0) == 0.0) {
             srs.SetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0);
-            notices.emplace_back("the projection's scale factor is 0, which cannot be; 1 is used");
+            notices.emplace_back("the projection's scale factor is 0, which is invalid; 1 is used");
         }
         if (srs.IsDerivedGeographic() != 0) {
             // OGR has no access to the underlying system: it reports the rotated one as its own
@@ -395,7 +395,7 @@ Status Crs::Impl::readHorizontal()
         const std::unique_ptr<OGRSpatialReference> geographic(srs.CloneGeogCS());
         if (!geographic) {
             return Error{ErrorCode::Unsupported,
-                         fmt::format("CRS \"{}\" names no geographic system underneath", name)};
+                         fmt::format("CRS \"{}\" has no underlying geographic system", name)};
         }
         base = *geographic;
         readBase();
@@ -486,7 +486,7 @@ Result<Crs> Crs::onEllipsoid(const Ellipsoid& ellipsoid, const std::string& body
 {
     if (impl_->kind == CrsKind::Local) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("CRS \"{}\" is local and stands on no ellipsoid", name())};
+                     fmt::format("CRS \"{}\" is local and has no ellipsoid", name())};
     }
     if (!(ellipsoid.polar_m > 0.0) || !(ellipsoid.equatorial_m >= ellipsoid.polar_m) ||
         !std::isfinite(ellipsoid.equatorial_m)) {

@@ -547,9 +547,8 @@ Result<MapLevels> estimateLevels(const TileSource& source,
         ++level;
     }
     if (level > layout.mean_levels) {
-        return Error{
-            ErrorCode::TooLarge,
-            fmt::format("{}: has no overviews down to a small picture of it", source.name())};
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{}: has no overviews that are small enough", source.name())};
     }
     monitor.beginStage(0.0, 0.9);
     const Result<Overview> overview = readAll(source, TileKind::Means, level, monitor);
@@ -573,7 +572,7 @@ Result<MapLevels> estimateLevels(const TileSource& source,
     if (means.columns() < 2 || means.rows() < 2) {
         return Error{
             ErrorCode::Unsupported,
-            fmt::format("{}: has overviews too narrow to tell anything from", source.name())};
+            fmt::format("{}: its overviews are too narrow to estimate its levels", source.name())};
     }
     Result<DetailErrors> measured = errorsWithin(overview->samples, scale, monitor);
     if (!measured) {

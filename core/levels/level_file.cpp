@@ -355,8 +355,8 @@ Result<MapLevels> LevelFile::readLevels(const ElevationScale& scale) const
     const LevelFileHeader& header = impl_->header;
     const Conversion conversion(header.scale, scale);
     if (!conversion.isPossible()) {
-        return damaged(impl_->path(), fmt::format("was made with heights scaled by {}, of which "
-                                                  "none scaled by {} can be made",
+        return damaged(impl_->path(), fmt::format("was built with elevation scale {}, which "
+                                                  "cannot be converted to {}",
                                                   header.scale.gain, scale.gain));
     }
     const LevelFilePreamble& preamble = impl_->preamble;
@@ -455,7 +455,7 @@ Result<SampleGrid> LevelFile::readSamples(const TileId& id) const
     }
     auto samples = unpackSamples(*bytes, layout.type, layout.tileWidth(id), layout.tileHeight(id));
     if (!samples) {
-        return damaged(impl_->path(), "has a tile that is no tile");
+        return damaged(impl_->path(), "has an invalid tile record");
     }
     return std::move(*samples);
 }
@@ -503,7 +503,7 @@ Result<std::vector<float>> LevelFile::Impl::readTileFill(const TileId& id,
                  .rows = fill.window.rows,
                  .element_bytes = sizeof(float)},
                 bytesOf(fill.means_m))) {
-        return damaged(path(), "has a fill that is no fill");
+        return damaged(path(), "has an invalid fill record");
     }
     const std::size_t width = layout.tileWidth(id);
     std::vector<float> heights(width * layout.tileHeight(id));
@@ -526,7 +526,7 @@ Result<std::vector<float>> LevelFile::Impl::readCoarseFill(const TileId& id,
                           .element_bytes = sizeof(float)};
     std::vector<float> heights(shape.columns * shape.rows);
     if (!unpack(*bytes, shape, bytesOf(heights))) {
-        return damaged(path(), "has a fill that is no fill");
+        return damaged(path(), "has an invalid fill record");
     }
     return heights;
 }
@@ -550,7 +550,7 @@ Result<std::vector<float>> LevelFile::readFilled(const TileId& id,
     const Conversion conversion(header.scale, scale);
     const FillRange range(heightRange(header.statistics, scale));
     if (!conversion.isPossible()) {
-        return damaged(impl_->path(), "was made with heights scaled by nothing");
+        return damaged(impl_->path(), "has an elevation scale of 0");
     }
     if (heights) {
         for (float& height : *heights) {

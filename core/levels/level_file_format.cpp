@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 static_assert(std::endian::native == std::endian::little,
-              "what is written here is laid out as in memory");
+              "level files are little-endian, like memory");
 
 constexpr std::array<unsigned char, 8> kMagic{0x89, 'M', 'V', 'L', '\r', '\n', 0x1A, '\n'};
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
@@ -130,7 +130,7 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
                     .offset_m = numberFrom(scale.at("offset_m"))};
     header.block_samples = wholeNumberFrom(root.at("block_samples"), kSideMax);
     if (header.block_samples < BlockMeans::kBlock || !std::has_single_bit(header.block_samples)) {
-        throw std::invalid_argument("the size of a block is no power of two");
+        throw std::invalid_argument("the block size is not a power of two");
     }
     const std::uint64_t tiles = header.layout.tileColumns(TileKind::Samples, 0) *
                                 header.layout.tileRows(TileKind::Samples, 0);
@@ -192,7 +192,7 @@ readPreamble(std::span<const std::byte> bytes, std::uint64_t file_bytes, const s
         return damaged(path, fmt::format("has only {} bytes", bytes.size()));
     }
     if (std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
-        return damaged(path, "is no level file");
+        return damaged(path, "is not a level file");
     }
     if (get<std::uint32_t>(bytes, 8) != kLevelFileVersion) {
         return damaged(path, fmt::format("is of version {}, and this program reads version {}",
@@ -328,7 +328,7 @@ readHeader(std::span<const std::byte> json_bytes, std::uint64_t file_bytes, cons
         const auto* text = reinterpret_cast<const char*>(json_bytes.data());
         return headerFrom(json::parse(text, text + json_bytes.size()), file_bytes);
     } catch (const std::exception& problem) { // from the library and from this file
-        return damaged(path, fmt::format("has a header that makes no sense ({})", problem.what()));
+        return damaged(path, fmt::format("has an invalid header ({})", problem.what()));
     }
 }
 

@@ -18,7 +18,7 @@ Result<std::shared_ptr<const TriangleMesh>> TriangleMesh::build(TriangleSoup sou
     if (soup.faces.size() > kFacesMax || soup.vertices.size() >= kNone) {
         return Error{
             ErrorCode::TooLarge,
-            fmt::format("the mesh has {} triangles and {} vertices; {} and {} are the most",
+            fmt::format("the mesh has {} triangles and {} vertices; the limits are {} and {}",
                         soup.faces.size(), soup.vertices.size(), kFacesMax, kNone - 1)};
     }
     std::shared_ptr<TriangleMesh> mesh(new TriangleMesh);

@@ -68,8 +68,7 @@ private:
     {
         return {ErrorCode::Invalid,
                 name() +
-                    ": was found damaged and has been prepared anew since it was opened; open "
-                    "it again"};
+                    ": was found damaged and has been rebuilt since it was opened; open it again"};
     }
 
     std::filesystem::file_time_type whenMade() const

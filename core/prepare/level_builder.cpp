@@ -139,7 +139,7 @@ private:
             return begun;
         }
         if (place_.row > 0 && !errors.restore(*state_)) {
-            return damaged(build_.path, "cannot go on where it was stopped");
+            return damaged(build_.path, "cannot be resumed");
         }
         state_.reset();
         Status measured =

@@ -121,7 +121,7 @@ Result<MapFolder> MapFolder::open(const fs::path& folder)
         return folderError(folder, failure.message());
     }
     if (!fs::is_directory(folder, failure)) {
-        return folderError(folder, "is no folder");
+        return folderError(folder, "is not a folder");
     }
     if (access(folder.c_str(), R_OK | W_OK | X_OK) != 0) {
         return folderError(folder, std::strerror(errno)); // NOLINT(concurrency-mt-unsafe)
@@ -172,7 +172,7 @@ Result<FileLock> MapFolder::use(const std::string& path) const
             *lock = std::nullopt;
             lockForRemoval(path); // also removes the lock file
         }
-        return Error{ErrorCode::NotFound, fmt::format("{}: there is no such prepared map", path)};
+        return Error{ErrorCode::NotFound, fmt::format("{}: prepared map not found", path)};
     }
     std::error_code failure;
     fs::last_write_time(path + kUseEnding, fs::file_time_type::clock::now(), failure);

@@ -243,7 +243,7 @@ Status TiffTiles::trim(std::uint64_t file_bytes)
         }
     }
     if (ftruncate(TIFFFileno(impl_->handles.front().get()), static_cast<off_t>(file_bytes)) != 0) {
-        return writeError(impl_->path, errno, "cannot be cut");
+        return writeError(impl_->path, errno, "cannot be truncated");
     }
     return Done{};
 }

@@ -111,7 +111,7 @@ readTile(TileReader& reader, const TileSource& source, const TileId& id, const J
     if (tile && tile->samples.hasVoids() && !source.layout().has_voids) {
         return Error{
             ErrorCode::Invalid,
-            fmt::format("{}: has voids, which it had not when it was opened; open it again",
+            fmt::format("{}: has voids that it did not have when it was opened; open it again",
                         source.name())};
     }
     return tile;

@@ -526,7 +526,7 @@ Status checkSpace(const TiledGeoTiffJob& job, const RasterInfo& info)
     const std::uint64_t written = bytesOnDisk(job.path + ".part");
     Status alone = checkRoom({.path = job.path, .bytes = bytes, .written = written});
     return !alone ? std::move(alone)
-                  : checkRoom({.path = job.path + " and what is made of it",
+                  : checkRoom({.path = job.path + " and the files built from it",
                                .bytes = bytes + job.bytes_after,
                                .written = written});
 }
@@ -539,8 +539,8 @@ Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
     std::error_code ignored;
     if (fs::equivalent(fs::absolute(job.path).parent_path(), job.source, ignored)) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("{}: would become a part of the folder of rasters that it is made "
-                                 "of; choose another folder",
+                     fmt::format("{}: would become part of its own source folder; choose another "
+                                 "folder",
                                  job.path)};
     }
     for (const std::string& file : files) {
@@ -548,9 +548,7 @@ Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
             if (fs::equivalent(job.path + ending, file, ignored)) {
                 return Error{
                     ErrorCode::Invalid,
-                    fmt::format(
-                        "{}: belongs to the map that is to be prepared; choose another name",
-                        job.path)};
+                    fmt::format("{}: belongs to the source map; choose another name", job.path)};
             }
         }
     }

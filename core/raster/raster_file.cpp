@@ -301,7 +301,7 @@ void readVertical(GDALDataset& dataset,
         info.scale = scale;
     } else if (has_scale != 0 && !(label && label->scale)) {
         info.notices.push_back(
-            fmt::format("the scale {} cannot make elevations; 1 is used instead", scale));
+            fmt::format("the scale {} is invalid for elevations; 1 is used instead", scale));
     }
     if (has_offset != 0 && std::isfinite(offset)) {
         info.offset = offset;

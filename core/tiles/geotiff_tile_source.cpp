@@ -237,7 +237,7 @@ Result<std::shared_ptr<const GeotiffTileSource>> GeotiffTileSource::of(const Ras
     constexpr std::size_t kCoarsestMax = 1024;
     if (std::max(layout.columnsAt(TileKind::Means, layout.mean_levels),
                  layout.rowsAt(TileKind::Means, layout.mean_levels)) > kCoarsestMax) {
-        return refuse("it has no overviews down to a small picture of it");
+        return refuse("it has no overviews that are small enough");
     }
     return std::shared_ptr<const GeotiffTileSource>(new GeotiffTileSource(std::move(raster)));
 }

@@ -81,8 +81,8 @@ struct SelectedNode {
     std::uint8_t quadrants = kAllQuadrants; // those in the picture that are not void
     CornerRanges parent_ranges_m{};         // of the node one level up, at its own corners
     CornerRanges grandparent_ranges_m{};    // two levels up
-    DetailNode relief;       // the node whose relief is used: itself or an ancestor
-    double distance_m = 0.0; // of its nearest point from the eye
+    DetailNode relief;                      // the node whose relief is used: itself or an ancestor
+    double distance_m = 0.0;                // of its nearest point from the eye
 };
 
 struct DetailSelection {

@@ -318,7 +318,7 @@ TEST(PrepareCommand, FailsInOneLine)
     const std::string path = folder.file("nothing.tif");
     const ProgramOutput output = runCli({"prepare", path, "-o", folder.file("map.tif")});
     EXPECT_EQ(output.exit_status, 1);
-    EXPECT_EQ(output.err, fmt::format("marsview-cli: {}: there is no such file\n", path));
+    EXPECT_EQ(output.err, fmt::format("marsview-cli: {}: does not exist\n", path));
     EXPECT_EQ(runCli({"prepare"}).exit_status, 2);
 }
 

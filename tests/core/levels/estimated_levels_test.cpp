@@ -286,8 +286,7 @@ TEST_F(EstimatedLevelsTest, WithoutASmallOverviewThereIsNoEstimate)
     const auto levels = estimateLevels(whole_->source, kScale, monitor, 1000);
     ASSERT_FALSE(levels);
     EXPECT_EQ(levels.error().code, ErrorCode::TooLarge);
-    EXPECT_EQ(levels.error().message,
-              "map in memory: has no overviews down to a small picture of it");
+    EXPECT_EQ(levels.error().message, "map in memory: has no overviews that are small enough");
 }
 
 TEST_F(EstimatedLevelsTest, FailuresAndCancellingEndIt)

@@ -291,7 +291,7 @@ TEST_F(LevelFileDamage, IsToldFromOtherVersionsAndOtherFiles)
     const auto text = LevelFile::open(written(std::string(1000, 'x')), someKey());
     ASSERT_FALSE(text);
     EXPECT_EQ(text.error().code, ErrorCode::Invalid);
-    EXPECT_NE(text.error().message.find("is no level file"), std::string::npos);
+    EXPECT_NE(text.error().message.find("is not a level file"), std::string::npos);
     const auto missing = LevelFile::open(folder_.file("missing"), someKey());
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().code, ErrorCode::NotFound);

@@ -281,7 +281,7 @@ TEST(Overrides, ErrorsNameTheField)
         EXPECT_EQ(refusedField({info.error().code, "/maps/scale: x/a.tif: " + message}), field);
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
-    EXPECT_FALSE(refusedField({ErrorCode::NotFound, "a.tif: there is no such file"}));
+    EXPECT_FALSE(refusedField({ErrorCode::NotFound, "a.tif: does not exist"}));
 }
 
 TEST(Overrides, WhatCannotBeUsedIsRefusedInOneSentence)

@@ -321,7 +321,7 @@ TEST_F(TileDiskCacheTest, WhereNothingCanBeWrittenTilesComeAllTheSame)
     EXPECT_EQ(kept->statistics().written, 0U);
     ASSERT_TRUE(kept->trouble());
     EXPECT_THAT(*kept->trouble(), HasSubstr(file + "/tiles"));
-    EXPECT_THAT(*kept->trouble(), HasSubstr("cannot be kept here (Not a directory)"));
+    EXPECT_THAT(*kept->trouble(), HasSubstr("cannot be cached here (Not a directory)"));
 }
 
 TEST_F(TileDiskCacheTest, AFullDiskLeavesNoHalfFilesAndIsTriedAgainLater)

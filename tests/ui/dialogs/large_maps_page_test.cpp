@@ -245,7 +245,7 @@ TEST_F(LargeMapsPageTest, TilesThatCannotBeKeptAreToldOnceAndTheMapGoesOn)
         return bar->isVisible() ? bar->findChild<QLabel*>(QStringLiteral("noticeText"))->toolTip()
                                 : QString();
     };
-    const QString sentence = QStringLiteral("cannot be kept here (Not a directory)");
+    const QString sentence = QStringLiteral("cannot be cached here (Not a directory)");
     EXPECT_FALSE(shown().contains(sentence));
     const auto source = cachedOnDisk(std::make_shared<test::GridTileSource>(
                                          test::int16Terrain(60, 40, {},
