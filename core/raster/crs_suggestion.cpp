@@ -140,7 +140,7 @@ std::string joined(const std::vector<std::string>& words)
     return text;
 }
 
-constexpr const char* kUntilThen = "until then, map units are taken as metres";
+constexpr const char* kUntilThen = "until then, map units are read as meters";
 
 } // namespace
 

@@ -320,7 +320,7 @@ void readVertical(GDALDataset& dataset,
     }
     if (!info.is_unit_declared && !unit.empty()) {
         info.notices.push_back(
-            fmt::format("the unit \"{}\" is not a known unit of length; metres are assumed", unit));
+            fmt::format("the unit \"{}\" is not a known unit of length; meters are assumed", unit));
     } else if (!info.is_unit_declared && info.crs && info.crs->verticalUnit()) {
         info.unit = *info.crs->verticalUnit();
         info.is_unit_declared = true;

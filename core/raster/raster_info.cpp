@@ -294,7 +294,7 @@ void notePlacement(RasterInfo& info)
         return; // reported when the file was opened
     } else if (!info.crs) {
         info.notices.emplace_back(
-            "no CRS: map units are taken as metres; set its CRS or body to "
+            "no CRS: map units are read as meters; set its CRS or body to "
             "get longitude and latitude");
     } else if (const std::string misfit = angularMisfit(info); !misfit.empty()) {
         info.notices.push_back("CRS " + misfit);

@@ -111,7 +111,7 @@ TEST(CrsSuggestion, IsANoticeUntilTheCrsIsSet)
     EXPECT_EQ(noticeOf(*bare->crs_suggestion),
               "no CRS, but it looks like longitude and latitude in degrees (its extent is 0° – "
               "360°, 90° S – 90° N): set EPSG:4326 (Earth), IAU_2015:49902 (Mars) or "
-              "IAU_2015:30100 (Moon); until then, map units are taken as metres");
+              "IAU_2015:30100 (Moon); until then, map units are read as meters");
     EXPECT_THAT(optionNoticeOf(*bare->crs_suggestion),
                 HasSubstr("set the CRS with --crs EPSG:4326 (Earth), --crs IAU_2015:49902 (Mars)"));
     RasterOverrides overrides;
