@@ -7,7 +7,7 @@ namespace marsview {
 std::filesystem::path bundledFileFor(const std::filesystem::path& program_folder,
                                      const std::filesystem::path& name)
 {
-    std::error_code error; // whatever cannot be looked at is not there
+    std::error_code error; // a path that cannot be checked counts as missing
     const auto found = [&](const std::filesystem::path& folder) {
         const std::filesystem::path file = folder / name;
         return std::filesystem::is_regular_file(file, error)

@@ -97,7 +97,7 @@ struct SurfaceLegs {
 ///   isAbove(g)         whether the goal is in free space
 ///   contactAt(g)       the position on the surface where a model placed at g begins
 ///   initialContact()   where a model begins without a goal
-///   point(c)           the coordinates of a place on the surface
+///   point(c)           the coordinates of a position on the surface
 ///   toGoal(v, g)       from a vertex to the goal
 ///   between(a, b)      from one vertex to another of the same face
 ///   corners(f)         three vertices, counter-clockwise seen from free space

@@ -287,7 +287,7 @@ private:
                    isHit(middle, end, std::max(f_middle, 0.0), f_end, w_end > 0.0, is_end);
         }
         if (leaving && !is_end) {
-            return false; // the only piece, over the face that it was found to leave
+            return false; // the only piece, over the face over which it leaves
         }
         // On the diagonal, the origin or direction of the segment determines the half.
         const bool is_upper = leaving          ? *leaving

@@ -1,4 +1,4 @@
-// The exact CRS of a GeoTIFF, in metadata of this program's own.
+// The exact CRS of a GeoTIFF, stored in this program's own metadata.
 #pragma once
 
 #include "core/geo/crs.h"
@@ -12,7 +12,7 @@ namespace marsview {
 /// The metadata domain of everything that this program writes into a GeoTIFF.
 inline constexpr const char* kOwnMetadataDomain = "MARSVIEW";
 
-/// The CRS that keepExactCrs() wrote; nothing for other files.
+/// The CRS that keepExactCrs() wrote; empty for other files.
 std::optional<Crs> exactCrsOf(GDALDataset& dataset);
 
 /// Writes `crs` into the metadata if GeoTIFF's own keys cannot express it, for example

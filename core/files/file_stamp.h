@@ -1,4 +1,4 @@
-// What the file system says of files, to notice when one is written to.
+// File-system metadata of files, to detect writes.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace marsview {
 
-/// The file on a disk: itself, or the archive where the name is one of GDAL's for something within
-/// it ("/vsizip/maps/mars.zip/mars.tif"). Empty where there is none.
+/// The file on a disk: itself, or the archive if the name is a GDAL name for one of its members
+/// ("/vsizip/maps/mars.zip/mars.tif"). Empty if there is none.
 std::string fileHolding(const std::string& name);
 
-/// Of each file: number, size and when content and entry were last changed, in nanoseconds. Files
-/// that are not on a disk are left out.
+/// For each file: inode number, size and the times of the last change of content and inode, in
+/// nanoseconds. Files that are not on a disk are skipped.
 std::string stampTextOf(const std::vector<std::string>& files);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-// Reading elevation rasters. This is the only place that reads through GDAL.
+// Reads elevation rasters through GDAL.
 #pragma once
 
 #include "core/base/job_monitor.h"
