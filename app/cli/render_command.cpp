@@ -151,11 +151,11 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         ->check(numberFrom(0.0, 85.0));
     command->add_option("--exaggeration", options->exaggeration, "vertical exaggeration")
         ->check(positiveNumber());
-    auto* error = command
-                      ->add_option("--error-px", options->error_px,
-                                   "largest error of the surface, in pixels")
-                      ->capture_default_str()
-                      ->check(positiveNumber());
+    auto* error =
+        command
+            ->add_option("--error-px", options->error_px, "largest error of the surface, in pixels")
+            ->capture_default_str()
+            ->check(positiveNumber());
     command->add_flag("--full", options->is_full, "draw every sample")->excludes(error);
     command->add_option("--samples", options->samples, "per pixel, for anti-aliasing")
         ->capture_default_str()
@@ -167,12 +167,10 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
     for (const ColorRamp& known : colorRamps()) {
         ramps.emplace_back(known.name);
     }
-    command
-        ->add_option("--ramp", options->ramp, "color ramp; by default the one for the body")
+    command->add_option("--ramp", options->ramp, "color ramp; by default the one for the body")
         ->check(oneOf(ramps));
     command
-        ->add_option("--light", options->light_deg,
-                     "azimuth,altitude of the light source, degrees")
+        ->add_option("--light", options->light_deg, "azimuth,altitude of the light source, degrees")
         ->delimiter(',')
         ->expected(2)
         ->capture_default_str()

@@ -11,8 +11,7 @@
 namespace marsview {
 
 /// The message about an incomplete last line, without the file name and the final period.
-inline constexpr std::string_view kCutShortText =
-    "has an incomplete last line, which is skipped";
+inline constexpr std::string_view kCutShortText = "has an incomplete last line, which is skipped";
 
 /// The message that a recording was made on another map, without the file name and the final
 /// period.

@@ -80,8 +80,7 @@ std::optional<std::string> faultOf(const MarsviewPlugin& table)
           Function{"capabilities", table.capabilities != nullptr},
           Function{"read", table.read != nullptr}, Function{"write", table.write != nullptr}}) {
         if (!function.is_there) {
-            return fmt::format("lacks the function \"{}\"; report it to its makers",
-                               function.name);
+            return fmt::format("lacks the function \"{}\"; report it to its makers", function.name);
         }
     }
     if ((table.start_clock == nullptr) != (table.stop_clock == nullptr)) {

@@ -19,8 +19,8 @@ class OpenHapticsDevice final : public HapticDevice {
 public:
     struct Options {
         std::shared_ptr<OpenHapticsApi> api;
-        std::string name; // as in the vendor's configuration; empty: the default one
-        std::string uri;  // for errors
+        std::string name;             // as in the vendor's configuration; empty: the default one
+        std::string uri;              // for errors
         std::optional<FileLock> lock; // keeps other programs away from it
     };
 

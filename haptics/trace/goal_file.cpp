@@ -93,8 +93,8 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
         }
         const std::optional<TracePoint> goal = parseGoal(words, has_more_columns);
         if (!goal) {
-            return refused(fmt::format(
-                "is \"{}\"; three numbers separated by commas are needed", quotedWord(line)));
+            return refused(fmt::format("is \"{}\"; three numbers separated by commas are needed",
+                                       quotedWord(line)));
         }
         if (reader) {
             if (const std::string problem = reader->read(words, number, recording);

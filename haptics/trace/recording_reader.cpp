@@ -77,8 +77,7 @@ RecordingReader::read(const TableWords& words, std::size_t number, GoalRecording
     if (ground_at_) {
         const auto records = parseGround(words[*ground_at_]);
         if (!records) {
-            return fmt::format("has the invalid ground \"{}\"",
-                               quotedWord(words[*ground_at_]));
+            return fmt::format("has the invalid ground \"{}\"", quotedWord(words[*ground_at_]));
         }
         addGround(*records, recording);
     }

@@ -14,10 +14,9 @@ namespace {
 
 Error refusal(const std::string& path, int system_error)
 {
-    const char* what_to_do =
-        system_error == ENOSPC || system_error == EDQUOT
-            ? "free disk space, or choose another file"
-            : "choose another file in an existing, writable folder";
+    const char* what_to_do = system_error == ENOSPC || system_error == EDQUOT
+                                 ? "free disk space, or choose another file"
+                                 : "choose another file in an existing, writable folder";
     return {ErrorCode::Unreadable,
             fmt::format("{}: cannot be written ({}); {}", path,
                         std::generic_category().message(system_error), what_to_do)};
@@ -49,10 +48,9 @@ Result<TraceFile> TraceFile::begin(const std::string& path, std::string_view fir
     if (descriptor < 0) {
         return errno == ENXIO
                    ? Error{ErrorCode::Unreadable,
-                           fmt::format(
-                               "{}: is a pipe without a reader; start the reader first, or "
-                               "choose another file",
-                               path)}
+                           fmt::format("{}: is a pipe without a reader; start the reader first, or "
+                                       "choose another file",
+                                       path)}
                    : refusal(path, errno);
     }
     fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);

@@ -1,9 +1,9 @@
 // One update of a contact model over a fractal, by the speed of the goal. Prints a hash of the
 // proxies, so that a faster run with a different result is noticed.
+#include "core/contact/continuous_walk.h"
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/proxy_graph.h"
 #include "core/contact/surface_walk.h"
-#include "core/contact/continuous_walk.h"
 #include "tests/support/fractal_terrain.h"
 
 #include <benchmark/benchmark.h>

@@ -588,8 +588,7 @@ TEST(TraceCommand, FollowsWhatARecordingWasTouchedWith)
         folder.write("two.csv", recording + goal(60) + ",0,2,7,god-object,1,1\n");
     const ProgramOutput refused = runCli({"trace", bundledMountain(), "--goals", two});
     EXPECT_EQ(refused.exit_status, 1);
-    EXPECT_NE(refused.err.find("is a recording of another map from line 62 on"),
-              std::string::npos)
+    EXPECT_NE(refused.err.find("is a recording of another map from line 62 on"), std::string::npos)
         << refused.err;
 }
 

@@ -172,8 +172,7 @@ protected:
             const Picture lined = draw(camera, size, {}, style).colors;
             const double interval_m = contourInterval(style.look, map.field().range().value(),
                                                       metresPerPixel(camera, size), exaggeration);
-            std::vector<int> step(width *
-                                  height); // the interval of each pixel; kNone without one
+            std::vector<int> step(width * height); // the interval of each pixel; kNone without one
             constexpr int kNone = std::numeric_limits<int>::min();
             const SceneFrame frame = map.frame();
             for (std::size_t i = 0; i < step.size(); ++i) {

@@ -360,9 +360,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
 {
     const auto options = std::make_shared<Options>();
     CLI::App* command = bench.add_subcommand("terrain", "Measure maps that are larger than memory");
-    command
-        ->add_option("DEM", options->bench.map.path,
-                     "elevation map, by default the bundled one")
+    command->add_option("DEM", options->bench.map.path, "elevation map, by default the bundled one")
         ->transform(mapName());
     options->bench.map.addOverridesTo(*command);
     CLI::Option* make = command->add_option(
@@ -378,8 +376,7 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->capture_default_str()
         ->check(wholeNumberFrom(0, std::numeric_limits<std::uint64_t>::max()));
     command
-        ->add_option("--from", options->make.from,
-                     "the measured map, by default the bundled one")
+        ->add_option("--from", options->make.from, "the measured map, by default the bundled one")
         ->needs(make);
     command->add_option("--layout", options->layout, "tiles or strips")
         ->capture_default_str()
@@ -400,7 +397,8 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->add_option("--folder", options->folder,
                      "folder for prepared maps; by default a temporary one")
         ->excludes(make);
-    command->add_option("--seconds", options->bench.seconds,
+    command
+        ->add_option("--seconds", options->bench.seconds,
                      "duration of the real-time swipes at each speed")
         ->capture_default_str()
         ->check(positiveNumber());
@@ -408,7 +406,8 @@ void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
         ->delimiter(',')
         ->capture_default_str()
         ->check(positiveNumber());
-    command->add_option("--updates", options->bench.update_count,
+    command
+        ->add_option("--updates", options->bench.update_count,
                      "updates of the other swipes at each speed")
         ->capture_default_str()
         ->check(wholeNumberFrom(10, 100'000'000));

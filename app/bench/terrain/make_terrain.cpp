@@ -46,9 +46,9 @@ Result<MadeTerrain> makeTerrain(const MakeTerrainOptions& options)
     const Map& map = **loaded;
     const RasterInfo& info = map.info();
     if (map.heightfield().samples().hasVoids()) {
-        return Error{ErrorCode::Unsupported,
-                     fmt::format("{}: some samples are nodata; choose a map without nodata",
-                                 options.from)};
+        return Error{
+            ErrorCode::Unsupported,
+            fmt::format("{}: some samples are nodata; choose a map without nodata", options.from)};
     }
     if (info.columns < 4 || info.rows < 4) {
         return Error{ErrorCode::Unsupported,

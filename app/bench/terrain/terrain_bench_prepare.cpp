@@ -40,8 +40,7 @@ Result<BenchJson> measurePrepare(const TerrainBenchOptions& options)
         return opening.error();
     }
     if (opening->storage() != MapStorage::NeedsOverviews) {
-        return Error{ErrorCode::Invalid,
-                     fmt::format("{}: nothing to prepare", options.map.path)};
+        return Error{ErrorCode::Invalid, fmt::format("{}: nothing to prepare", options.map.path)};
     }
     const EvictedFiles evicted = evict({options.map.path});
     const double bytes_before = bytesBelow(resources.folder);

@@ -39,8 +39,7 @@ LevelFileKey someKey()
 struct Limits {
     std::size_t memory_bytes = std::size_t{1} << 30;
     std::size_t mean_blocks = 4'000'000;
-    std::vector<std::uint64_t>
-        stops{}; // tiles read by a series of interrupted builds
+    std::vector<std::uint64_t> stops{}; // tiles read by a series of interrupted builds
 };
 
 /// The level file of a map in memory, in its own folder.

@@ -7,11 +7,13 @@ namespace marsview::test {
 // Messages as glibc 2.36 prints them.
 TEST(LoaderMessage, SaysWhatIsMissingAndWhatToDo)
 {
-    EXPECT_EQ(loaderSentence("/p/hand.so", "libusb-9.so.0: cannot open shared object file: No such "
-                                           "file or directory"),
+    EXPECT_EQ(loaderSentence("/p/hand.so",
+                             "libusb-9.so.0: cannot open shared object file: No such "
+                             "file or directory"),
               "needs the library libusb-9.so.0, which is not installed; install it");
-    EXPECT_EQ(loaderSentence("libHD.so.3", "libHD.so.3: cannot open shared object file: No such "
-                                           "file or directory"),
+    EXPECT_EQ(loaderSentence("libHD.so.3",
+                             "libHD.so.3: cannot open shared object file: No such "
+                             "file or directory"),
               "is not installed or may not be read");
     for (const char* message : {"/p/hand.so: file too short", "/p/hand.so: invalid ELF header",
                                 "/p/hand.so: wrong ELF class: ELFCLASS32"}) {

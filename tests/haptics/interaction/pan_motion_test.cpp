@@ -66,7 +66,7 @@ TEST(PanMotion, ASteadyHandFeelsNothingAndAChangeIsResisted)
     const PanOptions options = withoutDrag();
     PanState state;
     grabMap(state);
-    const Vec3 shift{1e-4, 0.0, 0.0};                                   // 0.1 m/s
+    const Vec3 shift{1e-4, 0.0, 0.0}; // 0.1 m/s
     // the map must be accelerated
     EXPECT_LT(pullMap(options, state, shift, 1.0, kDt).force_n.x, 0.0);
     PanStep step;

@@ -32,14 +32,15 @@ TEST(AddressDialog, TakesAddressesOfFilesOnly)
 {
     for (const char* good :
          {"https://example.org/mars.tif", "http://127.0.0.1:8080/a/b.tif", "s3://bucket/key.tif",
-          "gs://bucket/key.tif", "https://example.org/mars.tif?token=1",
-          "file:///data/a%20b.tif", "file://localhost/data/mars.tif"}) {
+          "gs://bucket/key.tif", "https://example.org/mars.tif?token=1", "file:///data/a%20b.tif",
+          "file://localhost/data/mars.tif"}) {
         EXPECT_EQ(problemOfAddress(QString::fromLatin1(good)), QString()) << good;
     }
-    for (const char* bad : {"mars.tif", "/data/mars.tif", "ftp://example.org/mars.tif", "https://",
-                            "https:///mars.tif", "https://example.org", "https://example.org/",
-                            "https://example.org/maps/", "https://exa mple.org/mars.tif",
-                            "/vsicurl/https://a.b/c.tif", "file://server/mars.tif", "file:///a%zz.tif"}) {
+    for (const char* bad :
+         {"mars.tif", "/data/mars.tif", "ftp://example.org/mars.tif", "https://",
+          "https:///mars.tif", "https://example.org", "https://example.org/",
+          "https://example.org/maps/", "https://exa mple.org/mars.tif",
+          "/vsicurl/https://a.b/c.tif", "file://server/mars.tif", "file:///a%zz.tif"}) {
         EXPECT_NE(problemOfAddress(QString::fromLatin1(bad)), QString()) << bad;
     }
 }
