@@ -236,7 +236,7 @@ Status runLoop(const Options& options)
                       .statistics = loop.statistics(),
                       .grants = loop.grants(),
                       .state = loop.state(),
-                      .let_go_ticks = watch.letGoTicks(),
+                      .let_go_ticks = watch.forceOffTicks(),
                       .last_reason = watch.lastReason()};
 #ifdef MARSVIEW_COUNTS_ALLOCATIONS
     report.allocations = RtScope::allocationCount() - allocations_before;

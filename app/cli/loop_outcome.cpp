@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kWhatToDo = "connect it again; if that does not help, update its driver";
 
-std::uint64_t& of(std::array<std::uint64_t, kLetGoReasonCount>& ticks, LetGoReason reason)
+std::uint64_t& of(std::array<std::uint64_t, kForceOffReasonCount>& ticks, ForceOffReason reason)
 {
     return ticks.at(static_cast<std::size_t>(reason));
 }
@@ -20,7 +20,7 @@ void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
 {
     LoopEvent event;
     while (loop.nextEvent(event)) {
-        if (event.kind != LoopEventKind::LetGo && event.kind != LoopEventKind::Holding) {
+        if (event.kind != LoopEventKind::ForceOff && event.kind != LoopEventKind::Holding) {
             continue;
         }
         if (event.tick > ticks_max_) {
@@ -30,7 +30,7 @@ void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
         of(ticks_by_reason_, reason_) += event.tick - 1 - since_tick_;
         since_tick_ = event.tick - 1;
         reason_ = event.reason;
-        if (reason_ != LetGoReason::None && reason_ != LetGoReason::NoTouch) {
+        if (reason_ != ForceOffReason::None && reason_ != ForceOffReason::NoTouch) {
             last_reason_ = reason_;
         }
     }
@@ -45,14 +45,14 @@ void LoopWatch::look(ServoLoop& loop, Clock::time_point now)
     rate_hz_ = loop.device().rate_hz;
 }
 
-std::array<std::uint64_t, kLetGoReasonCount> LoopWatch::letGoTicks() const noexcept
+std::array<std::uint64_t, kForceOffReasonCount> LoopWatch::forceOffTicks() const noexcept
 {
     auto ticks = ticks_by_reason_;
     const std::uint64_t end = std::min(state_.tick, ticks_max_);
     if (end > since_tick_) {
         ticks[static_cast<std::size_t>(reason_)] += end - since_tick_;
     }
-    ticks[static_cast<std::size_t>(LetGoReason::None)] = 0;
+    ticks[static_cast<std::size_t>(ForceOffReason::None)] = 0;
     return ticks;
 }
 
@@ -71,7 +71,7 @@ Status LoopWatch::verdict(const std::string& uri) const
         return Error{ErrorCode::Unreadable, fmt::format("{}: the loop did not start: {}", uri,
                                                         said("the device never called it"))};
     }
-    const bool is_finished = last_reason_ == LetGoReason::DeviceFinished;
+    const bool is_finished = last_reason_ == ForceOffReason::DeviceFinished;
     const bool is_cut_short = has_ended_ && !is_finished && state_.tick < ticks_max_;
     if (is_silent_ || (is_cut_short && !state_.is_finished)) {
         return Error{ErrorCode::Unreadable,
@@ -82,13 +82,13 @@ Status LoopWatch::verdict(const std::string& uri) const
         return Error{ErrorCode::Unreadable, fmt::format("{}: was lost after {:.1f} s: {}", uri,
                                                         ran_s, said("the device gives no reason"))};
     }
-    if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceUnready)] >=
+    if (forceOffTicks()[static_cast<std::size_t>(ForceOffReason::DeviceUnready)] >=
         std::min(state_.tick, ticks_max_)) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: did not become ready within {:.1f} s: {}", uri, ran_s,
                                  said("the device gives no reason"))};
     }
-    if (letGoTicks()[static_cast<std::size_t>(LetGoReason::DeviceStale)] >=
+    if (forceOffTicks()[static_cast<std::size_t>(ForceOffReason::DeviceStale)] >=
         std::min(state_.tick, ticks_max_)) {
         return Error{ErrorCode::Unreadable,
                      fmt::format("{}: every sample was too old or in the future; its driver must "
@@ -96,7 +96,7 @@ Status LoopWatch::verdict(const std::string& uri) const
                                  uri)};
     }
     // Failures that did not affect the device, such as of a recording.
-    if (!trouble_.empty() && last_reason_ != LetGoReason::DeviceUnready) {
+    if (!trouble_.empty() && last_reason_ != ForceOffReason::DeviceUnready) {
         return Error{ErrorCode::Unreadable, fmt::format("{}: {}", uri, trouble_)};
     }
     return Done{};

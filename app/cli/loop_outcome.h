@@ -33,9 +33,9 @@ public:
     /// Whether the device has been silent for kSilenceMax at the last look().
     bool isSilent() const noexcept { return is_silent_; }
     /// Until the last look(), by reason, including NoTouch.
-    std::array<std::uint64_t, kLetGoReasonCount> letGoTicks() const noexcept;
+    std::array<std::uint64_t, kForceOffReasonCount> forceOffTicks() const noexcept;
     /// The last reason other than NoTouch; None if the force was never off for another reason.
-    LetGoReason lastReason() const noexcept { return last_reason_; }
+    ForceOffReason lastReason() const noexcept { return last_reason_; }
     /// Done, or how the device failed to run to the end: it never ticked, never became ready, never
     /// delivered a current sample, was lost or fell silent; or, if it ran, what else went wrong.
     /// Begins with `uri`.
@@ -43,9 +43,9 @@ public:
 
 private:
     std::uint64_t ticks_max_;
-    std::array<std::uint64_t, kLetGoReasonCount> ticks_by_reason_{};
-    LetGoReason reason_ = LetGoReason::NoTouch; // since since_tick_
-    LetGoReason last_reason_ = LetGoReason::None;
+    std::array<std::uint64_t, kForceOffReasonCount> ticks_by_reason_{};
+    ForceOffReason reason_ = ForceOffReason::NoTouch; // since since_tick_
+    ForceOffReason last_reason_ = ForceOffReason::None;
     std::uint64_t since_tick_ = 0;
     LoopState state_;
     std::string trouble_;

@@ -78,15 +78,15 @@ std::string letGoLine(const LoopReport& report)
     for (std::size_t i = 0; i < report.let_go_ticks.size(); ++i) {
         if (report.let_go_ticks[i] > 0) {
             text += fmt::format("{}{} {:.3f} s", text.empty() ? "" : ", ",
-                                letGoReasonName(static_cast<LetGoReason>(i)),
+                                forceOffReasonName(static_cast<ForceOffReason>(i)),
                                 static_cast<double>(report.let_go_ticks[i]) / report.rate_hz);
         }
     }
-    if (report.last_reason == LetGoReason::None) {
+    if (report.last_reason == ForceOffReason::None) {
         return fmt::format("force off: {}\n", text.empty() ? "never" : text);
     }
     return fmt::format("force off: {}; last reason: {}\n", text,
-                       letGoReasonName(report.last_reason));
+                       forceOffReasonName(report.last_reason));
 }
 
 Json reasonOrTrue(const std::string& refusal)
@@ -126,11 +126,11 @@ Json asJson(const LoopReport& report)
                  {"not_recorded", c.not_recorded},
                  {"real_time_scheduling", reasonOrTrue(report.grants.scheduling_refusal)},
                  {"locked_memory", reasonOrTrue(report.grants.locking_refusal)},
-                 {"last_reason", letGoReasonName(report.last_reason)}};
+                 {"last_reason", forceOffReasonName(report.last_reason)}};
     Json let_go_s = Json::object();
     for (std::size_t i = 0; i < report.let_go_ticks.size(); ++i) {
         if (report.let_go_ticks[i] > 0) {
-            let_go_s[std::string(letGoReasonName(static_cast<LetGoReason>(i)))] =
+            let_go_s[std::string(forceOffReasonName(static_cast<ForceOffReason>(i)))] =
                 static_cast<double>(report.let_go_ticks[i]) / report.rate_hz;
         }
     }

@@ -21,9 +21,9 @@ struct LoopReport {
     double rate_hz = 1000.0;
     LoopStatistics statistics;
     RealTimeGrants grants;
-    LoopState state;                                             // the last
-    std::array<std::uint64_t, kLetGoReasonCount> let_go_ticks{}; // LoopWatch's
-    LetGoReason last_reason = LetGoReason::None;
+    LoopState state;                                                // the last
+    std::array<std::uint64_t, kForceOffReasonCount> let_go_ticks{}; // LoopWatch's
+    ForceOffReason last_reason = ForceOffReason::None;
     std::optional<WindowFeederStatistics> feeder{};
     std::optional<std::uint64_t> allocations{}; // empty if allocations are not counted
     std::uint64_t recorded = 0;                 // updates

@@ -37,19 +37,19 @@ bool isJump(const Vec3& shift_m, double dt_s) noexcept
     return !(length(shift_m) <= kSlackM + kSpeedMaxMPerS * std::min(dt_s, 0.1));
 }
 
-LetGoReason reasonOf(DeviceStatus status) noexcept
+ForceOffReason reasonOf(DeviceStatus status) noexcept
 {
     switch (status) {
     case DeviceStatus::Fine:
-        return LetGoReason::None;
+        return ForceOffReason::None;
     case DeviceStatus::Unready:
-        return LetGoReason::DeviceUnready;
+        return ForceOffReason::DeviceUnready;
     case DeviceStatus::Lost:
-        return LetGoReason::DeviceLost;
+        return ForceOffReason::DeviceLost;
     case DeviceStatus::Finished:
-        return LetGoReason::DeviceFinished;
+        return ForceOffReason::DeviceFinished;
     }
-    return LetGoReason::Fault;
+    return ForceOffReason::Fault;
 }
 
 // One tick, with the data passed between its steps.
@@ -149,7 +149,7 @@ private:
     bool takeHand() noexcept
     {
         result_.reason =
-            settings_.is_stopped ? LetGoReason::EmergencyStop : reasonOf(input_.status);
+            settings_.is_stopped ? ForceOffReason::EmergencyStop : reasonOf(input_.status);
         if (input_.status != DeviceStatus::Fine) {
             return false;
         }
@@ -160,16 +160,16 @@ private:
             note(ageReason());
             if (!isFinite(asVector(at)) || isBeyond(input_.device->workspace, at) ||
                 !std::isfinite(input_.sample.twist_rad)) {
-                note(LetGoReason::DeviceNonsense);
+                note(ForceOffReason::DeviceImplausible);
                 return false;
             }
             if (state_.has_hand && isJump(at - state_.hand, dt_s_)) {
-                note(LetGoReason::DeviceNonsense); // and continues from there
+                note(ForceOffReason::DeviceImplausible); // and continues from there
                 has_jumped_ = true;
                 state_.has_hand = false;
             }
             if (!input_.sample.is_held) {
-                note(LetGoReason::NotHeld);
+                note(ForceOffReason::NotHeld);
             }
         }
         shift_m_ = state_.has_hand ? at - state_.hand : Vec3{};
@@ -183,16 +183,16 @@ private:
         return true;
     }
 
-    LetGoReason ageReason() const noexcept
+    ForceOffReason ageReason() const noexcept
     {
         const nanoseconds age = timeBetween(input_.sample.time, input_.now);
         const bool is_stale = age > options_.sample_age_max || age < -options_.sample_age_max;
-        return is_stale ? LetGoReason::DeviceStale : LetGoReason::None;
+        return is_stale ? ForceOffReason::DeviceStale : ForceOffReason::None;
     }
 
-    void note(LetGoReason reason) noexcept
+    void note(ForceOffReason reason) noexcept
     {
-        if (result_.reason == LetGoReason::None) {
+        if (result_.reason == ForceOffReason::None) {
             result_.reason = reason;
         }
     }
@@ -265,7 +265,7 @@ private:
             result_.has_ground_changed = true;
         }
         if (terrain.silence(input_.now) > options_.terrain_age_max) {
-            note(LetGoReason::TerrainStale);
+            note(ForceOffReason::TerrainStale);
         }
     }
 
@@ -357,10 +357,10 @@ private:
     void limit(const Vec3& force_n) noexcept
     {
         if (map_ == nullptr) {
-            note(LetGoReason::NoTouch);
+            note(ForceOffReason::NoTouch);
         }
         if (isTooLate()) {
-            note(LetGoReason::MissedDeadline);
+            note(ForceOffReason::MissedDeadline);
         }
         result_.has_changed_map = has_jumped_ || is_fresh_ || is_stretched_;
         const SafetyOutput safe =

@@ -109,7 +109,7 @@ struct TickState {
 
 struct StepResult {
     Vec3 force_n{}; // to be written
-    LetGoReason reason = LetGoReason::None;
+    ForceOffReason reason = ForceOffReason::None;
     StylusMode mode = StylusMode::Hover;
     bool has_changed_mode = false;
     bool has_changed_map = false; // another map, or the same map moved abruptly

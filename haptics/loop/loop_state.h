@@ -33,7 +33,7 @@ struct LoopState {
     ScenePoint goal{};
     ContactState contact;
     StylusMode mode = StylusMode::Hover;
-    LetGoReason reason = LetGoReason::NoTouch;
+    ForceOffReason reason = ForceOffReason::NoTouch;
     Vec3 force_n{};
     double ground_share = 1.0;
     double stiffness_n_per_m = 0.0;
@@ -49,12 +49,12 @@ struct LoopState {
 };
 
 /// Events, in order.
-enum class LoopEventKind : std::uint8_t { ModeChanged, MapChanged, LetGo, Holding };
+enum class LoopEventKind : std::uint8_t { ModeChanged, MapChanged, ForceOff, Holding };
 
 struct LoopEvent {
-    LoopEventKind kind = LoopEventKind::LetGo;
+    LoopEventKind kind = LoopEventKind::ForceOff;
     StylusMode mode = StylusMode::Hover;
-    LetGoReason reason = LetGoReason::None; // for LetGo
+    ForceOffReason reason = ForceOffReason::None; // for ForceOff
     std::uint64_t tick = 0;
 };
 
@@ -78,7 +78,7 @@ struct TickRecord {
     Vec3 force_n{}; // on the hand
     WorkspacePoint hand{};
     StylusMode mode = StylusMode::Hover;
-    LetGoReason reason = LetGoReason::None;
+    ForceOffReason reason = ForceOffReason::None;
     bool is_in_contact = false;
     bool has_goal = false; // false: the contact model was not updated in this tick
     float tick_us = 0.0F;

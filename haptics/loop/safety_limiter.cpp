@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-constexpr std::array<std::string_view, kLetGoReasonCount> kNames{
+constexpr std::array<std::string_view, kForceOffReasonCount> kNames{
     "none",          "emergency stop",  "device lost",      "device finished", "device unready",
     "device stale",  "device nonsense", "not held",         "missed deadline", "loop stalled",
     "terrain stale", "fault",           "nothing to touch",
@@ -51,7 +51,7 @@ double heatAfter(const SafetyLimits& limits, double heat_n2, double force_n2, do
 
 } // namespace
 
-std::string_view letGoReasonName(LetGoReason reason) noexcept
+std::string_view forceOffReasonName(ForceOffReason reason) noexcept
 {
     return kNames[std::min<std::size_t>(static_cast<std::size_t>(reason), kNames.size() - 1)];
 }
@@ -82,25 +82,26 @@ SafetyOutput limitForce(const SafetyLimits& limits,
 {
     SafetyOutput output{.force_n = {}, .reason = input.reason, .is_bounded = false};
     const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
-    if (output.reason == LetGoReason::None && (!is_time || !isFinite(input.force_n))) {
-        output.reason = LetGoReason::Fault;
+    if (output.reason == ForceOffReason::None && (!is_time || !isFinite(input.force_n))) {
+        output.reason = ForceOffReason::Fault;
     }
     const bool is_step = is_time && dt_s <= kSafetyStepMaxS;
-    if (output.reason == LetGoReason::None && !is_step) {
-        output.reason = LetGoReason::MissedDeadline; // a pause
+    if (output.reason == ForceOffReason::None && !is_step) {
+        output.reason = ForceOffReason::MissedDeadline; // a pause
     }
     const double step_s = is_step ? dt_s : kSafetyStepFallbackS;
     const double force_n_max = bound(limits.force_n_max);
     const bool has_force = isFinite(state.force_n);
     if (!has_force || !std::isfinite(state.gain) || !std::isfinite(state.ramp_s)) {
         state = {.force_n = has_force ? state.force_n : Vec3{}, .heat_n2 = state.heat_n2};
-        output.reason = output.reason == LetGoReason::None ? LetGoReason::Fault : output.reason;
+        output.reason =
+            output.reason == ForceOffReason::None ? ForceOffReason::Fault : output.reason;
     }
     const double last_n = safeLength(state.force_n);
     state.heat_n2 =
         heatAfter(limits, state.heat_n2, last_n * last_n, is_time ? dt_s : kSafetyStepFallbackS);
 
-    const bool is_letting_go = output.reason != LetGoReason::None;
+    const bool is_letting_go = output.reason != ForceOffReason::None;
     Vec3 wanted_n{};
     if (is_letting_go) {
         state.gain = 0.0;

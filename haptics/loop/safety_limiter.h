@@ -11,26 +11,26 @@
 namespace marsview {
 
 /// Why the force is off. If several reasons apply, the first in this order is reported.
-enum class LetGoReason : std::uint8_t {
-    None,           // the force may be on
-    EmergencyStop,  // requested by the user
-    DeviceLost,     // unplugged or dead
-    DeviceFinished, // a recording has ended
-    DeviceUnready,  // not calibrated, or its own stop is pressed
-    DeviceStale,    // its sample is too old
-    DeviceNonsense, // implausible reading: not finite, out of reach, or too fast
-    NotHeld,        // in the inkwell, or the dead-man switch is released
-    MissedDeadline, // the loop itself was late, too often, or after a pause
-    LoopStalled,    // ticks have stopped: reported by the watchdog, never by a tick
-    TerrainStale,   // the terrain thread has stopped responding
-    Fault,          // internal error: invalid force or invalid time
-    NoTouch,        // nothing to touch
+enum class ForceOffReason : std::uint8_t {
+    None,              // the force may be on
+    EmergencyStop,     // requested by the user
+    DeviceLost,        // unplugged or dead
+    DeviceFinished,    // a recording has ended
+    DeviceUnready,     // not calibrated, or its own stop is pressed
+    DeviceStale,       // its sample is too old
+    DeviceImplausible, // implausible reading: not finite, out of reach, or too fast
+    NotHeld,           // in the inkwell, or the dead-man switch is released
+    MissedDeadline,    // the loop itself was late, too often, or after a pause
+    LoopStalled,       // ticks have stopped: reported by the watchdog, never by a tick
+    TerrainStale,      // the terrain thread has stopped responding
+    Fault,             // internal error: invalid force or invalid time
+    NoTouch,           // nothing to touch
 };
 
-inline constexpr std::uint8_t kLetGoReasonCount = 13;
+inline constexpr std::uint8_t kForceOffReasonCount = 13;
 
 /// In lower case, for people and for files: "emergency stop".
-std::string_view letGoReasonName(LetGoReason reason) noexcept;
+std::string_view forceOffReasonName(ForceOffReason reason) noexcept;
 
 /// Constant while a device is open.
 struct SafetyLimits {
@@ -46,8 +46,8 @@ struct SafetyLimits {
 
 struct SafetyInput {
     Vec3 force_n{};
-    LetGoReason reason = LetGoReason::None; // reported by earlier stages
-    bool has_changed = false;               // the mode or the map; ramps in again
+    ForceOffReason reason = ForceOffReason::None; // reported by earlier stages
+    bool has_changed = false;                     // the mode or the map; ramps in again
 };
 
 struct SafetyState {
@@ -59,7 +59,7 @@ struct SafetyState {
 
 struct SafetyOutput {
     Vec3 force_n{};
-    LetGoReason reason = LetGoReason::None;
+    ForceOffReason reason = ForceOffReason::None;
     bool is_bounded = false; // by magnitude, heat or rate
 };
 

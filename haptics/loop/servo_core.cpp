@@ -88,7 +88,7 @@ LoopState ServoCore::state() const noexcept
     LoopState state = state_.read();
     if (isStalled()) {
         state.is_stalled = true;
-        state.reason = LetGoReason::LoopStalled;
+        state.reason = ForceOffReason::LoopStalled;
         if (is_brought_to_rest_.load(std::memory_order_acquire)) {
             state.force_n = {};
         }
@@ -223,7 +223,7 @@ void ServoCore::publish(const StepResult& result, double tick_s) noexcept
     counts_.cut_short += result.goals.count > 0 ? result.contact.counters.cut_short : 0U;
     counts_.samples_missed += result.missed_samples;
     counts_.ticks_with_misses += result.missed_samples > 0 ? 1U : 0U;
-    counts_.let_go += result.reason != LetGoReason::None ? 1U : 0U;
+    counts_.let_go += result.reason != ForceOffReason::None ? 1U : 0U;
     counts_.damped += result.damping_n_s_per_m > 0.0 ? 1U : 0U;
     record(result, tick_s);
     state_.write({.tick = ticks_,
@@ -250,8 +250,8 @@ void ServoCore::publish(const StepResult& result, double tick_s) noexcept
     }
     if (result.reason != last_reason_) {
         last_reason_ = result.reason;
-        events_.put({.kind = result.reason == LetGoReason::None ? LoopEventKind::Holding
-                                                                : LoopEventKind::LetGo,
+        events_.put({.kind = result.reason == ForceOffReason::None ? LoopEventKind::Holding
+                                                                   : LoopEventKind::ForceOff,
                      .mode = result.mode,
                      .reason = result.reason,
                      .tick = ticks_});

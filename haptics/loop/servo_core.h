@@ -137,7 +137,7 @@ private:
     LoopTime read_at_{};  // when the last sample was read; 0: none
     LoopTime wrote_at_{}; // when the last force was written
     bool was_too_long_ = false;
-    LetGoReason last_reason_ = LetGoReason::NoTouch;
+    ForceOffReason last_reason_ = ForceOffReason::NoTouch;
     GroundLog ground_log_;
     std::uint64_t told_recording_ = 0;       // of the recording that ground_log_ reports to
     std::uint32_t untaken_ground_count_ = 0; // terrain records not yet counted by a tick record

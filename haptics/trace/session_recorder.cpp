@@ -30,9 +30,9 @@ std::string sessionLine(const TickRecord& record, std::int64_t begin_ns)
                        record.is_in_contact ? 1 : 0, asText(record.proxy.x), asText(record.proxy.y),
                        asText(record.proxy.z), asText(record.force_n.x), asText(record.force_n.y),
                        asText(record.force_n.z), nameOf(record.mode),
-                       letGoReasonName(record.reason), record.ground.map_id, record.ground.serial,
-                       contactModelName(record.ground.kind), asText(record.ground.radius_m),
-                       asText(record.ground.exaggeration));
+                       forceOffReasonName(record.reason), record.ground.map_id,
+                       record.ground.serial, contactModelName(record.ground.kind),
+                       asText(record.ground.radius_m), asText(record.ground.exaggeration));
 }
 
 Result<std::unique_ptr<SessionRecorder>>

@@ -314,7 +314,7 @@ void HapticsController::finishLost(const LoopState& state)
     const QString uri = lastingUri(uri_);
     close();
     const bool is_replay = isPlayedBack(uri); // which may end while everything is let go of
-    if (state.reason == LetGoReason::DeviceFinished || (is_replay && trouble.empty())) {
+    if (state.reason == ForceOffReason::DeviceFinished || (is_replay && trouble.empty())) {
         // Where a device comes back there is nothing to be done about it.
         resumeInterrupted(interrupted_uri_.isEmpty() ? tr("The recording has ended") : QString());
         return;

@@ -466,7 +466,7 @@ void HapticsPanel::showNoState()
     if (!controller_.canRecord()) {
         force_->setValue(0);
         force_->setFormat(tr("%1 N").arg(numberText(0.0, 2)));
-        reason_->setText(controller_.loop() != nullptr ? letGoText(LetGoReason::NoTouch)
+        reason_->setText(controller_.loop() != nullptr ? letGoText(ForceOffReason::NoTouch)
                                                        : QString());
         rest_->hide();
         times_->clear();
@@ -480,7 +480,8 @@ void HapticsPanel::showState(const LoopState& state)
     }
     const double most_n = controller_.loop()->device().force_n_peak;
     // Of a loop that has stalled nobody knows.
-    const double force_n = state.reason == LetGoReason::LoopStalled ? 0.0 : length(state.force_n);
+    const double force_n =
+        state.reason == ForceOffReason::LoopStalled ? 0.0 : length(state.force_n);
     force_->setValue(
         most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
                      : 0);
@@ -492,8 +493,9 @@ void HapticsPanel::showState(const LoopState& state)
         replayed_->setValue(
             static_cast<int>(std::lround(controller_.replayedShare() * kReplaySteps)));
     }
-    const std::string trouble =
-        state.reason == LetGoReason::DeviceUnready ? controller_.loop()->trouble() : std::string();
+    const std::string trouble = state.reason == ForceOffReason::DeviceUnready
+                                    ? controller_.loop()->trouble()
+                                    : std::string();
     const QString reason = trouble.empty()
                                ? letGoText(state.reason)
                                //: %1 says what is wrong with the device
@@ -504,7 +506,8 @@ void HapticsPanel::showState(const LoopState& state)
     if (text != reason_->text()) {
         reason_->setText(text);
     }
-    rest_->setVisible(state.reason == LetGoReason::DeviceUnready && controller_.canBeSetAtRest());
+    rest_->setVisible(state.reason == ForceOffReason::DeviceUnready &&
+                      controller_.canBeSetAtRest());
     if (times_->isDue()) {
         times_->showLoop(controller_.loop()->statistics(), controller_.loop()->grants());
     }

@@ -28,34 +28,34 @@ QString bodyText(const Ellipsoid& ellipsoid)
 
 } // namespace
 
-QString letGoText(LetGoReason reason)
+QString letGoText(ForceOffReason reason)
 {
     switch (reason) {
-    case LetGoReason::None:
+    case ForceOffReason::None:
         return {};
-    case LetGoReason::EmergencyStop:
+    case ForceOffReason::EmergencyStop:
         return tr("Force off: emergency stop");
-    case LetGoReason::DeviceLost:
+    case ForceOffReason::DeviceLost:
         return tr("Force off: device lost; plug it in again");
-    case LetGoReason::DeviceFinished:
+    case ForceOffReason::DeviceFinished:
         return tr("Force off: the recording has ended");
-    case LetGoReason::DeviceUnready:
+    case ForceOffReason::DeviceUnready:
         return tr("Force off: device not ready; calibrate it, or release its own emergency stop");
-    case LetGoReason::DeviceStale:
+    case ForceOffReason::DeviceStale:
         return tr("Force off: the device answers too late");
-    case LetGoReason::DeviceNonsense:
+    case ForceOffReason::DeviceImplausible:
         return tr("Force off: implausible device reading");
-    case LetGoReason::NotHeld:
+    case ForceOffReason::NotHeld:
         return tr("Force off: the stylus is not held");
-    case LetGoReason::MissedDeadline:
+    case ForceOffReason::MissedDeadline:
         return tr("Force off: deadlines missed; this computer is too busy");
-    case LetGoReason::LoopStalled:
+    case ForceOffReason::LoopStalled:
         return tr("The device no longer answers; switch it off and connect it again");
-    case LetGoReason::TerrainStale:
+    case ForceOffReason::TerrainStale:
         return tr("Force off: terrain data not loaded");
-    case LetGoReason::Fault:
+    case ForceOffReason::Fault:
         return tr("Force off: internal error (invalid force)");
-    case LetGoReason::NoTouch:
+    case ForceOffReason::NoTouch:
         return tr("Force off: no layer to touch");
     }
     return {};

@@ -17,7 +17,7 @@ struct SavedTicks;
 struct TouchedGround;
 
 /// A sentence: why there is no force; empty where there may be.
-QString letGoText(LetGoReason reason);
+QString letGoText(ForceOffReason reason);
 /// What the hand is doing.
 QString modeText(StylusMode mode, bool is_in_contact);
 /// A sentence, and that all works without.

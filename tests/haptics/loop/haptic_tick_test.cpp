@@ -74,7 +74,7 @@ TEST(HapticTick, PressesBackByTheDepthInTheWorkspace)
     EXPECT_NEAR(result.force_n.z, 2.0, 1e-9); // of 400 N/m
     EXPECT_NEAR(std::hypot(result.force_n.x, result.force_n.y), 0.0, 1e-9);
     EXPECT_NEAR(result.proxy.z, 10.0, 1e-9);
-    EXPECT_EQ(result.reason, LetGoReason::None);
+    EXPECT_EQ(result.reason, ForceOffReason::None);
 }
 
 TEST(HapticTick, FeelsASlopeAtARightAngleHoweverTheMapIsTurned)
@@ -141,41 +141,41 @@ TEST(HapticTick, LetsGoForEveryReason)
         return result.reason;
     };
     EXPECT_EQ(reasonAfter([](Rig& r) { r.settings.is_stopped = true; }),
-              LetGoReason::EmergencyStop);
+              ForceOffReason::EmergencyStop);
     EXPECT_EQ(reasonAfter([](Rig& r) { r.input.status = DeviceStatus::Lost; }),
-              LetGoReason::DeviceLost);
+              ForceOffReason::DeviceLost);
     EXPECT_EQ(reasonAfter([](Rig& r) { r.input.status = DeviceStatus::Unready; }),
-              LetGoReason::DeviceUnready);
+              ForceOffReason::DeviceUnready);
     EXPECT_EQ(reasonAfter([](Rig& r) { r.input.status = DeviceStatus::Finished; }),
-              LetGoReason::DeviceFinished);
-    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.now += 16ms; }), LetGoReason::DeviceStale);
-    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.sample.time += 1h; }), LetGoReason::DeviceStale);
+              ForceOffReason::DeviceFinished);
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.now += 16ms; }), ForceOffReason::DeviceStale);
+    EXPECT_EQ(reasonAfter([](Rig& r) { r.input.sample.time += 1h; }), ForceOffReason::DeviceStale);
     const auto fresh = [](Rig& r) { r.input.sample.time = r.input.now + 10ms; };
     EXPECT_EQ(reasonAfter([&](Rig& r) {
                   fresh(r);
                   r.input.sample.position.y = kNan;
               }),
-              LetGoReason::DeviceNonsense);
+              ForceOffReason::DeviceImplausible);
     EXPECT_EQ(reasonAfter([&](Rig& r) {
                   fresh(r);
                   r.input.sample.position.x = 25.0; // millimeters
               }),
-              LetGoReason::DeviceNonsense);
+              ForceOffReason::DeviceImplausible);
     EXPECT_EQ(reasonAfter([&](Rig& r) {
                   fresh(r);
                   r.input.sample.is_held = false;
               }),
-              LetGoReason::NotHeld);
+              ForceOffReason::NotHeld);
     EXPECT_EQ(reasonAfter([&](Rig& r) {
                   fresh(r);
                   r.input.has_missed_deadline = true;
               }),
-              LetGoReason::MissedDeadline);
+              ForceOffReason::MissedDeadline);
     EXPECT_EQ(reasonAfter([&](Rig& r) {
                   fresh(r);
                   r.settings.map = nullptr;
               }),
-              LetGoReason::NoTouch);
+              ForceOffReason::NoTouch);
 }
 
 // The number of ticks with force out of 2000; `is_late` selects the late ones.
@@ -190,8 +190,8 @@ int ticksWithForce(const F& is_late)
     for (int i = 0; i < 2000; ++i) {
         rig.input.has_missed_deadline = is_late(i);
         const StepResult result = rig.at(pressed);
-        const bool is_held = result.reason == LetGoReason::None;
-        EXPECT_TRUE(is_held || result.reason == LetGoReason::MissedDeadline) << "tick " << i;
+        const bool is_held = result.reason == ForceOffReason::None;
+        EXPECT_TRUE(is_held || result.reason == ForceOffReason::MissedDeadline) << "tick " << i;
         held += is_held ? 1 : 0;
     }
     return held;
@@ -229,11 +229,11 @@ TEST(HapticTick, APauseBetweenWritesLetsGoAndRampsInAnew)
     rig.input.has_missed_deadline = true;
     EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
     rig.input.since_write_s = 0.0101;
-    EXPECT_EQ(rig.at(pressed).reason, LetGoReason::MissedDeadline);
+    EXPECT_EQ(rig.at(pressed).reason, ForceOffReason::MissedDeadline);
     rig.input.has_missed_deadline = false;
     rig.input.since_write_s = kDt;
     int ticks = 1;
-    for (; rig.at(pressed).reason == LetGoReason::MissedDeadline; ++ticks) {
+    for (; rig.at(pressed).reason == ForceOffReason::MissedDeadline; ++ticks) {
         ASSERT_LT(ticks, 100);
         EXPECT_EQ(rig.state.safety.force_n, Vec3{});
     }
@@ -280,7 +280,7 @@ TEST(HapticTick, StretchedGroundRampsIn)
         for (int i = 0; i < 160; ++i) {
             results.push_back(rig.at({0.0, 0.0, -0.021}));
         }
-        EXPECT_EQ(results.back().reason, LetGoReason::None);
+        EXPECT_EQ(results.back().reason, ForceOffReason::None);
         return results;
     };
     const auto high = afterwards([&](Rig& rig) { rig.settings.map = stretched(5.0); });
@@ -313,7 +313,7 @@ TEST(HapticTick, TimesOfSamplesMayBeAnything)
         rig.at({});
         rig.input.now = Time(1h);
         rig.input.sample.time = time;
-        EXPECT_EQ(step(rig.options, rig.input, rig.state, kDt).reason, LetGoReason::DeviceStale);
+        EXPECT_EQ(step(rig.options, rig.input, rig.state, kDt).reason, ForceOffReason::DeviceStale);
     }
 }
 
@@ -331,16 +331,16 @@ TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
     EXPECT_NEAR(rig.to(pressed).force_n.z, 2.0, 1e-9) << "no timeout before the start";
     feed();
     for (int i = 1; i <= 500; ++i) {
-        ASSERT_EQ(rig.at(pressed).reason, LetGoReason::None) << i << " ms";
+        ASSERT_EQ(rig.at(pressed).reason, ForceOffReason::None) << i << " ms";
     }
     rig.at(pressed);
     for (int i = 0; i < 100; ++i) {
         const StepResult result = rig.at(pressed);
-        ASSERT_EQ(result.reason, LetGoReason::TerrainStale);
+        ASSERT_EQ(result.reason, ForceOffReason::TerrainStale);
         ASSERT_EQ(result.force_n, Vec3{});
     }
     feed();
-    EXPECT_EQ(rig.at(pressed).reason, LetGoReason::None);
+    EXPECT_EQ(rig.at(pressed).reason, ForceOffReason::None);
     EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
 }
 
@@ -358,7 +358,7 @@ TEST(HapticTick, KeepsWhatADeviceStandsForLong)
         result = rig.at({0.0, 0.0, -0.025});
     }
     EXPECT_NEAR(result.force_n.z, 0.9, 1e-3);
-    EXPECT_EQ(result.reason, LetGoReason::None);
+    EXPECT_EQ(result.reason, ForceOffReason::None);
 }
 
 TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
@@ -366,8 +366,8 @@ TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
     Rig rig;
     rig.at({});
     rig.to({0.0, 0.0, -0.025});
-    EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, LetGoReason::DeviceNonsense);
-    EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, LetGoReason::None);
+    EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, ForceOffReason::DeviceImplausible);
+    EXPECT_EQ(rig.at({0.07, 0.0, -0.025}).reason, ForceOffReason::None);
 }
 
 TEST(HapticTick, AMapThatJumpsPutsTheProxyStraightAboveTheHand)
@@ -537,7 +537,7 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
     }
     Rig rig;
     std::uint64_t pushed = 0;
-    std::array<std::uint64_t, kLetGoReasonCount> reasons{};
+    std::array<std::uint64_t, kForceOffReasonCount> reasons{};
     Vec3 last{};
     WorkspacePoint hand{};
     Vec3 velocity{};
@@ -630,7 +630,7 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
                                   ? std::min(given_s, kSafetyStepMaxS)
                                   : 1e-3;
         wrote_at_s = now_s;
-        const double rate = result.reason == LetGoReason::None
+        const double rate = result.reason == ForceOffReason::None
                                 ? rig.options.limits.rate_n_per_s_max
                                 : rig.options.limits.release_n_per_s_max;
         if (length(last) <= rig.device.force_n_peak) { // otherwise the magnitude limit comes first
@@ -641,8 +641,8 @@ TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
         ++reasons[static_cast<std::size_t>(result.reason)];
     }
     std::printf("%llu of %d ticks with force;", static_cast<unsigned long long>(pushed), kTicks);
-    for (std::uint8_t i = 0; i < kLetGoReasonCount; ++i) {
-        std::printf(" %s %llu", std::string(letGoReasonName(LetGoReason{i})).c_str(),
+    for (std::uint8_t i = 0; i < kForceOffReasonCount; ++i) {
+        std::printf(" %s %llu", std::string(forceOffReasonName(ForceOffReason{i})).c_str(),
                     static_cast<unsigned long long>(reasons[i]));
     }
     std::printf("\n");

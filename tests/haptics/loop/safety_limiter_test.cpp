@@ -67,11 +67,11 @@ TEST(SafetyLimiter, LetsGoFasterThanItPushesAndRampsInAnew)
 {
     SafetyState state;
     steps(state, {3.0, 0.0, 0.0}, 500);
-    SafetyInput lost{.force_n = {3.0, 0.0, 0.0}, .reason = LetGoReason::DeviceLost};
+    SafetyInput lost{.force_n = {3.0, 0.0, 0.0}, .reason = ForceOffReason::DeviceLost};
     EXPECT_NEAR(limitForce(kLimits, lost, state, kDt).force_n.x, 1.0, 1e-12);
     const SafetyOutput output = limitForce(kLimits, lost, state, kDt);
     EXPECT_EQ(output.force_n, Vec3{});
-    EXPECT_EQ(output.reason, LetGoReason::DeviceLost);
+    EXPECT_EQ(output.reason, ForceOffReason::DeviceLost);
     EXPECT_NEAR(steps(state, {1.0, 0.0, 0.0}, 1).force_n.x, 0.01, 1e-12);
 }
 
@@ -101,13 +101,13 @@ TEST(SafetyLimiter, WhatIsNoForceOrNoTimeIsAFault)
             steps(state, {3.0, 0.0, 0.0}, 500);
             const Vec3 force_n{axis == 0 ? bad : 1.0, axis == 1 ? bad : 1.0, axis == 2 ? bad : 1.0};
             const SafetyOutput output = limitForce(kLimits, {.force_n = force_n}, state, kDt);
-            EXPECT_EQ(output.reason, LetGoReason::Fault);
+            EXPECT_EQ(output.reason, ForceOffReason::Fault);
             EXPECT_NEAR(output.force_n.x, 1.0, 1e-12);
         }
         SafetyState state;
         steps(state, {3.0, 0.0, 0.0}, 500);
         EXPECT_EQ(limitForce(kLimits, {.force_n = {3.0, 0.0, 0.0}}, state, bad).reason,
-                  LetGoReason::Fault);
+                  ForceOffReason::Fault);
         EXPECT_NEAR(state.force_n.x, 1.0, 1e-12); // as in a millisecond
     }
 }
@@ -121,14 +121,14 @@ TEST(SafetyLimiter, NothingJumpsAfterAPause)
         // in.
         const SafetyInput wanted{.force_n = {-3.0, 0.0, 0.0}};
         SafetyOutput output = limitForce(kLimits, wanted, state, pause_s);
-        EXPECT_EQ(output.reason, LetGoReason::MissedDeadline);
+        EXPECT_EQ(output.reason, ForceOffReason::MissedDeadline);
         EXPECT_NEAR(output.force_n.x, 1.0, 1e-12); // 2000 N/s for a millisecond
         // The next write follows immediately, or one period later.
         double last_n = output.force_n.x;
         for (int i = 1; i <= 99; ++i) {
             const double dt_s = i == 1 ? 20e-6 : kDt;
             output = limitForce(kLimits, wanted, state, dt_s);
-            EXPECT_EQ(output.reason, LetGoReason::None);
+            EXPECT_EQ(output.reason, ForceOffReason::None);
             EXPECT_LE(std::abs(output.force_n.x - last_n), 500.0 * dt_s + 1e-12) << i;
             EXPECT_GE(output.force_n.x, -0.03 * i - 1e-12) << i;
             last_n = output.force_n.x;
@@ -140,7 +140,7 @@ TEST(SafetyLimiter, NothingJumpsAfterAPause)
     steps(state, {3.0, 0.0, 0.0}, 500);
     const SafetyOutput output =
         limitForce(kLimits, {.force_n = {-3.0, 0.0, 0.0}}, state, kSafetyStepMaxS);
-    EXPECT_EQ(output.reason, LetGoReason::None);
+    EXPECT_EQ(output.reason, ForceOffReason::None);
     EXPECT_NEAR(output.force_n.x, -2.0, 1e-12); // 500 N/s for 10 ms
 }
 
@@ -153,9 +153,9 @@ TEST(SafetyLimiter, AStateThatIsNoNumberLetsGo)
             (field == 0 ? state.gain : field == 1 ? state.ramp_s : state.force_n.y) = bad;
             const SafetyOutput output =
                 limitForce(kLimits, {.force_n = {3.0, 0.0, 0.0}}, state, kDt);
-            EXPECT_EQ(output.reason, LetGoReason::Fault);
+            EXPECT_EQ(output.reason, ForceOffReason::Fault);
             EXPECT_NEAR(output.force_n.x, field < 2 ? 1.0 : 0.0, 1e-12);
-            EXPECT_EQ(limitForce(kLimits, {}, state, kDt).reason, LetGoReason::None);
+            EXPECT_EQ(limitForce(kLimits, {}, state, kDt).reason, ForceOffReason::None);
         }
     }
 }
@@ -262,17 +262,17 @@ TEST(SafetyLimiter, WhatMayLastIsNeverTouched)
 TEST(SafetyLimiter, CoolsDownWhileNothingPushes)
 {
     SafetyState state;
-    const auto hold = [&state](const Vec3& force_n, LetGoReason reason, int ticks) {
+    const auto hold = [&state](const Vec3& force_n, ForceOffReason reason, int ticks) {
         for (int i = 0; i < ticks; ++i) {
             limitForce(kWarmLimits, {.force_n = force_n, .reason = reason}, state, kDt);
         }
         return length(state.force_n);
     };
-    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, LetGoReason::None, 30'000), 0.9, 1e-3);
-    EXPECT_EQ(hold({3.3, 0.0, 0.0}, LetGoReason::NotHeld, 1'000), 0.0);
-    EXPECT_LT(hold({3.3, 0.0, 0.0}, LetGoReason::None, 100), 2.5) << "still warm";
-    EXPECT_EQ(hold({}, LetGoReason::NotHeld, 20'000), 0.0);
-    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, LetGoReason::None, 100), 3.3, 1e-9) << "cooled down";
+    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, ForceOffReason::None, 30'000), 0.9, 1e-3);
+    EXPECT_EQ(hold({3.3, 0.0, 0.0}, ForceOffReason::NotHeld, 1'000), 0.0);
+    EXPECT_LT(hold({3.3, 0.0, 0.0}, ForceOffReason::None, 100), 2.5) << "still warm";
+    EXPECT_EQ(hold({}, ForceOffReason::NotHeld, 20'000), 0.0);
+    EXPECT_NEAR(hold({3.3, 0.0, 0.0}, ForceOffReason::None, 100), 3.3, 1e-9) << "cooled down";
     EXPECT_NEAR(cooledHeat(kWarmLimits, 4.0, 5.0), 4.0 / std::exp(1.0), 1e-12);
     EXPECT_EQ(cooledHeat(kWarmLimits, 4.0, -5.0), 4.0);
 }
@@ -295,9 +295,9 @@ TEST(SafetyLimiter, AHeatThatIsNoNumberIsHot)
 
 TEST(SafetyLimiter, EveryReasonHasAName)
 {
-    for (std::uint8_t i = 0; i < kLetGoReasonCount; ++i) {
+    for (std::uint8_t i = 0; i < kForceOffReasonCount; ++i) {
         for (std::uint8_t j = 0; j < i; ++j) {
-            EXPECT_NE(letGoReasonName(LetGoReason{i}), letGoReasonName(LetGoReason{j}));
+            EXPECT_NE(forceOffReasonName(ForceOffReason{i}), forceOffReasonName(ForceOffReason{j}));
         }
     }
 }
@@ -346,15 +346,15 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
                       .change_ramp_s =
                           random.chance(0.1) ? anyNumber(random) : random.uniform(0.0, 0.3)};
         }
-        SafetyInput input{
-            .force_n = random.chance(0.05)
-                           ? Vec3{anyNumber(random), anyNumber(random), anyNumber(random)}
-                           : Vec3{random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0),
-                                  random.uniform(-9.0, 9.0)},
-            .reason = random.chance(0.01)
-                          ? LetGoReason{static_cast<std::uint8_t>(random.below(kLetGoReasonCount))}
-                          : LetGoReason::None,
-            .has_changed = random.chance(0.003)};
+        SafetyInput input{.force_n =
+                              random.chance(0.05)
+                                  ? Vec3{anyNumber(random), anyNumber(random), anyNumber(random)}
+                                  : Vec3{random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0),
+                                         random.uniform(-9.0, 9.0)},
+                          .reason = random.chance(0.01) ? ForceOffReason{static_cast<std::uint8_t>(
+                                                              random.below(kForceOffReasonCount))}
+                                                        : ForceOffReason::None,
+                          .has_changed = random.chance(0.003)};
         const double dt_s = random.chance(0.05)   ? anyNumber(random)
                             : random.chance(0.01) ? random.uniform(0.005, 2.0)
                                                   : random.uniform(0.0, 0.003);
@@ -371,14 +371,14 @@ TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
         const bool is_time = std::isfinite(dt_s) && dt_s >= 0.0;
         // The real elapsed time, which passes for the motors whatever dt says.
         const double step_s = is_time && dt_s <= 0.01 ? dt_s : 0.001;
-        const double rate = output.reason == LetGoReason::None ? limits.rate_n_per_s_max
-                                                               : limits.release_n_per_s_max;
+        const double rate = output.reason == ForceOffReason::None ? limits.rate_n_per_s_max
+                                                                  : limits.release_n_per_s_max;
         const double change_n = length(output.force_n - last);
         if (length(last) <= limits.force_n_max) { // otherwise the magnitude limit comes first
             ASSERT_LE(change_n, rate * step_s + 1e-14 * limits.force_n_max) << "tick " << i;
             fastest = std::max(fastest, step_s > 1e-6 ? change_n / (rate * step_s) : 0.0);
         }
-        if (output.reason != LetGoReason::None) {
+        if (output.reason != ForceOffReason::None) {
             ASSERT_LE(magnitude_n, length(last)) << "tick " << i;
         }
         longest = std::max(longest, magnitude_n / limits.force_n_max);

@@ -247,14 +247,14 @@ TEST(ServoLoopFaults, OneLongStallLetsGoAndRampsInAnew)
     while (loop->nextEvent(event)) {
     }
     stalled_at = c.bench->reads + 2;
-    LetGoReason reason = LetGoReason::None;
+    ForceOffReason reason = ForceOffReason::None;
     waitUntil([&] {
-        if (loop->nextEvent(event) && event.kind == LoopEventKind::LetGo) {
+        if (loop->nextEvent(event) && event.kind == LoopEventKind::ForceOff) {
             reason = event.reason;
         }
-        return reason != LetGoReason::None;
+        return reason != ForceOffReason::None;
     });
-    EXPECT_EQ(reason, LetGoReason::MissedDeadline);
+    EXPECT_EQ(reason, ForceOffReason::MissedDeadline);
     waitUntil([&] { return isHolding(*loop); });
     loop->stop();
     const std::lock_guard lock(c.bench->mutex);
@@ -281,10 +281,10 @@ TEST(ServoLoopFaults, TicksThatAllTakeTooLongLetGo)
     auto loop = c.begin();
     waitUntil([&] { return isHolding(*loop); });
     is_slow = true;
-    waitUntil([&] { return loop->state().reason == LetGoReason::MissedDeadline; });
+    waitUntil([&] { return loop->state().reason == ForceOffReason::MissedDeadline; });
     const int reads = c.bench->reads;
     waitUntil([&] { return c.bench->reads > reads + 50; });
-    EXPECT_EQ(loop->state().reason, LetGoReason::MissedDeadline);
+    EXPECT_EQ(loop->state().reason, ForceOffReason::MissedDeadline);
     EXPECT_EQ(loop->state().force_n, Vec3{});
     is_slow = false;
     waitUntil([&] { return isHolding(*loop); });
@@ -302,7 +302,7 @@ TEST(ServoLoopFaults, AClockThatStallsIsBroughtToRestFromOutside)
     waitUntil([&] { return c.bench->onMotors() == Vec3{}; });
     waitUntil([&] { return loop->isStalled(); });
     LoopState state = loop->state();
-    EXPECT_EQ(state.reason, LetGoReason::LoopStalled);
+    EXPECT_EQ(state.reason, ForceOffReason::LoopStalled);
     EXPECT_TRUE(state.is_stalled);
     waitUntil([&] { return loop->state().force_n == Vec3{}; });
     // During an emergency stop that no tick processes, the motors are already off.
@@ -345,12 +345,12 @@ TEST(ServoLoopFaults, AClockThatStallsForGoodEndsTheLoop)
     waitUntil([&] { return isHolding(*loop); });
     is_stalled = true;
     waitUntil([&] { return loop->hasEnded(); });
-    EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
+    EXPECT_EQ(loop->state().reason, ForceOffReason::LoopStalled);
     // Too late to recover.
     const int reads = c.bench->reads;
     is_stalled = false;
     waitUntil([&] { return c.bench->reads > reads + 5; });
-    EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
+    EXPECT_EQ(loop->state().reason, ForceOffReason::LoopStalled);
     loop->stop();
     EXPECT_EQ(c.bench->onMotors(), Vec3{});
     ASSERT_FALSE(loop->status());
@@ -367,7 +367,7 @@ TEST(ServoLoopFaults, AClockThatNeverTicksEndsTheLoop)
     c.bench->is_clock_stalled = [](int) { return true; };
     auto loop = c.begin();
     waitUntil([&] { return loop->hasEnded(); });
-    EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
+    EXPECT_EQ(loop->state().reason, ForceOffReason::LoopStalled);
     loop->stop();
     EXPECT_FALSE(loop->status());
 }
@@ -383,7 +383,7 @@ TEST(ServoLoopFaults, AClockThatDoesNotStartIsAnError)
     ASSERT_FALSE(loop->status());
     EXPECT_EQ(loop->status().error().message,
               "Bench: its clock could not be started: its emergency stop is pressed");
-    EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
+    EXPECT_EQ(loop->state().reason, ForceOffReason::LoopStalled);
     loop->set(c.settings); // it does not try forever
     EXPECT_FALSE(loop->isRunning());
 }
@@ -401,7 +401,7 @@ void letItHang(const std::function<void(Bench&, const std::atomic<bool>&)>& arra
     is_hanging = true;
     if (!c.bench->owns_clock) {
         waitUntil([&] { return loop->isStalled(); });
-        EXPECT_EQ(loop->state().reason, LetGoReason::LoopStalled);
+        EXPECT_EQ(loop->state().reason, ForceOffReason::LoopStalled);
         EXPECT_GT(loop->state().force_n.z, 0.0) << "the force that may still be on the motors";
         EXPECT_GT(held_n.z, 0.0);
         c.settings.is_stopped = true;

@@ -32,7 +32,7 @@ constexpr qsizetype kMap = 14;
 
 QByteArray lost()
 {
-    return QByteArray::fromStdString(std::string(letGoReasonName(LetGoReason::DeviceLost)));
+    return QByteArray::fromStdString(std::string(forceOffReasonName(ForceOffReason::DeviceLost)));
 }
 
 class FlightRecordTest : public HandWindowTest {
@@ -164,7 +164,7 @@ TEST_F(FlightRecordTest, HasTheLossAlsoWhenTheDeviceIsBack)
     haptics().disconnectDevice();
     ASSERT_TRUE(touch());
     for (const TickRecord& tick : haptics().lastTicks()) {
-        ASSERT_NE(tick.reason, LetGoReason::DeviceLost);
+        ASSERT_NE(tick.reason, ForceOffReason::DeviceLost);
     }
 }
 

@@ -349,7 +349,7 @@ TEST_F(HapticsControllerTest, TheEmergencyStopLetsGoFromAnywhere)
     QTest::keyClick(window_->menuWidget(), Qt::Key_Period, Qt::ControlModifier);
     EXPECT_TRUE(haptics().isStopped());
     ASSERT_TRUE(waitFor([&] { return hand_->force_n == 0.0; }));
-    EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
+    EXPECT_EQ(state().reason, ForceOffReason::EmergencyStop);
     // Pressed again, the stop remains.
     QTest::keyClick(&view(), Qt::Key_Pause);
     EXPECT_TRUE(haptics().isStopped());
@@ -370,7 +370,7 @@ TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
     hand_->is_held_up = false;
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::Connected; }));
     ASSERT_TRUE(waitFor([&] { return state().tick > 300; })); // and the force has returned by then
-    EXPECT_EQ(state().reason, LetGoReason::EmergencyStop);
+    EXPECT_EQ(state().reason, ForceOffReason::EmergencyStop);
     EXPECT_EQ(hand_->force_n, 0.0);
     haptics().setStopped(false);
     EXPECT_TRUE(waitFor([&] { return hand_->force_n > 0.5; }));

@@ -148,7 +148,7 @@ TEST_F(RecordingTest, IsBegunWithoutTheHandFeelingIt)
         ASSERT_TRUE(waitFor([&] { return state().tick > before.tick + 200; }));
         haptics().stopRecording();
         is_disturbed = state().counts.let_go != before.counts.let_go;
-        if (!is_disturbed && before.reason == LetGoReason::None) {
+        if (!is_disturbed && before.reason == ForceOffReason::None) {
             EXPECT_NEAR(hand_->force_n_min, force_n, 0.05 * force_n);
         }
     }

@@ -156,7 +156,7 @@ TEST_F(RememberedArmTest, AnArmThatDoesNotKnowWhereItIsIsToldByAButton)
     EXPECT_TRUE(QTest::qWaitFor(
         [&] {
             return haptics().loop() != nullptr && haptics().loop()->state().tick > 0 &&
-                   haptics().loop()->state().reason != LetGoReason::DeviceUnready;
+                   haptics().loop()->state().reason != ForceOffReason::DeviceUnready;
         },
         kTimeout));
     EXPECT_EQ(haptics().settings().device, QStringLiteral("polhem:usb=1234:0006"));
