@@ -47,7 +47,7 @@ CellSpan cellAround(std::size_t place, std::size_t level, std::size_t count)
 TiledSamples::TiledSamples(const TiledRaster& raster, std::shared_ptr<const Tile> top)
     : raster_(raster)
     , top_(std::move(top))
-    , wishes_(raster, TileUrgency::View)
+    , requests_(raster, TileUrgency::View)
 {}
 
 Result<std::shared_ptr<const TiledSamples>> TiledSamples::open(const TiledRaster& raster)
@@ -74,12 +74,12 @@ void TiledSamples::ask(std::size_t column, std::size_t row) const
         asked_.pop_back();
     }
     asked_.insert(asked_.begin(), id);
-    wishes_.want(asked_);
+    requests_.want(asked_);
 }
 
 bool TiledSamples::isLoading() const
 {
-    return wishes_.missingCount() > 0;
+    return requests_.missingCount() > 0;
 }
 
 TileCursor::TileCursor(const TiledSamples& samples, const ElevationScale& scale, TileAccess access)

@@ -38,7 +38,7 @@ private:
     std::shared_ptr<const Tile> top_;
     mutable std::mutex mutex_;
     mutable std::vector<TileId> asked_; // most recent first
-    mutable TileWishes wishes_;
+    mutable TileRequests requests_;
 };
 
 /// The treatment of samples that are not in memory.

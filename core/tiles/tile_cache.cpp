@@ -60,7 +60,7 @@ struct TiledRasterState {
     TiledRasterState& operator=(const TiledRasterState&) = delete;
 };
 
-struct TileWishes::Impl {
+struct TileRequests::Impl {
     TiledRaster raster; // keeps it alive
     TileUrgency urgency;
     std::function<void()> notify;
@@ -94,7 +94,7 @@ struct TileCache::Impl {
     std::list<Key> uses; // most recently used first
     std::unordered_set<Key, KeyHash> in_work;
     std::unordered_map<Key, Failure, KeyHash> failures;
-    std::vector<TileWishes::Impl*> wishes;
+    std::vector<TileRequests::Impl*> requests;
 
     // Call all of the following with the mutex locked.
 
@@ -151,15 +151,15 @@ struct TileCache::Impl {
             if (urgency > least) {
                 break;
             }
-            for (TileWishes::Impl* wish : wishes) {
-                if (wish->urgency != urgency) {
+            for (TileRequests::Impl* request : requests) {
+                if (request->urgency != urgency) {
                     continue;
                 }
                 bool is_open = false;
-                for (std::size_t i = wish->first_open; i < wish->wanted.size(); ++i) {
-                    const Key key{wish->raster.number_, wish->wanted[i]};
+                for (std::size_t i = request->first_open; i < request->wanted.size(); ++i) {
+                    const Key key{request->raster.number_, request->wanted[i]};
                     if (entries.contains(key)) {
-                        wish->first_open = is_open ? wish->first_open : i + 1;
+                        request->first_open = is_open ? request->first_open : i + 1;
                         continue;
                     }
                     is_open = true;
@@ -252,21 +252,22 @@ struct TileCache::Impl {
 
     void notifyWishes(const Key& key, std::unique_lock<std::mutex>& lock)
     {
-        std::vector<TileWishes::Impl*> told;
-        for (TileWishes::Impl* wish : wishes) {
-            if (wish->notify && wish->raster.number_ == key.raster &&
-                std::find(wish->wanted.begin(), wish->wanted.end(), key.id) != wish->wanted.end()) {
-                ++wish->notifications;
-                told.push_back(wish);
+        std::vector<TileRequests::Impl*> told;
+        for (TileRequests::Impl* request : requests) {
+            if (request->notify && request->raster.number_ == key.raster &&
+                std::find(request->wanted.begin(), request->wanted.end(), key.id) !=
+                    request->wanted.end()) {
+                ++request->notifications;
+                told.push_back(request);
             }
         }
         lock.unlock();
-        for (TileWishes::Impl* wish : told) {
-            wish->notify();
+        for (TileRequests::Impl* request : told) {
+            request->notify();
         }
         lock.lock();
-        for (TileWishes::Impl* wish : told) {
-            --wish->notifications;
+        for (TileRequests::Impl* request : told) {
+            --request->notifications;
         }
         if (!told.empty()) {
             has_result.notify_all();
@@ -294,9 +295,9 @@ struct TileCache::Impl {
         }
     }
 
-    bool isMissing(const TileWishes::Impl& wish, const TileId& id) const
+    bool isMissing(const TileRequests::Impl& request, const TileId& id) const
     {
-        const Key key{wish.raster.number_, id};
+        const Key key{request.raster.number_, id};
         return !entries.contains(key) && (!failures.contains(key) || in_work.contains(key));
     }
 };
@@ -395,8 +396,8 @@ void TileCache::clear()
     impl_->entries.clear();
     impl_->uses.clear();
     impl_->failures.clear();
-    for (TileWishes::Impl* wish : impl_->wishes) {
-        wish->first_open = 0;
+    for (TileRequests::Impl* request : impl_->requests) {
+        request->first_open = 0;
     }
     impl_->has_work.notify_all();
 }
@@ -443,24 +444,26 @@ std::uint64_t TiledRaster::generation() const noexcept
     return state_->generation.load(std::memory_order_acquire);
 }
 
-TileWishes::TileWishes(const TiledRaster& raster, TileUrgency urgency, std::function<void()> notify)
+TileRequests::TileRequests(const TiledRaster& raster,
+                           TileUrgency urgency,
+                           std::function<void()> notify)
     : impl_(std::make_shared<Impl>(
           Impl{.raster = raster, .urgency = urgency, .notify = std::move(notify), .wanted = {}}))
 {
     TileCache::Impl& cache = *raster.cache_;
     const std::lock_guard lock(cache.mutex);
-    cache.wishes.push_back(impl_.get());
+    cache.requests.push_back(impl_.get());
 }
 
-TileWishes::~TileWishes()
+TileRequests::~TileRequests()
 {
     TileCache::Impl& cache = *impl_->raster.cache_;
     std::unique_lock lock(cache.mutex);
-    std::erase(cache.wishes, impl_.get());
+    std::erase(cache.requests, impl_.get());
     cache.has_result.wait(lock, [this] { return impl_->notifications == 0; });
 }
 
-void TileWishes::want(std::span<const TileId> tiles)
+void TileRequests::want(std::span<const TileId> tiles)
 {
     TileCache::Impl& cache = *impl_->raster.cache_;
     {
@@ -484,7 +487,7 @@ void TileWishes::want(std::span<const TileId> tiles)
     cache.has_work.notify_all();
 }
 
-void TileWishes::waitForAll() const
+void TileRequests::waitForPending() const
 {
     TileCache::Impl& cache = *impl_->raster.cache_;
     std::unique_lock lock(cache.mutex);
@@ -494,7 +497,7 @@ void TileWishes::waitForAll() const
     });
 }
 
-std::size_t TileWishes::missingCount() const
+std::size_t TileRequests::missingCount() const
 {
     TileCache::Impl& cache = *impl_->raster.cache_;
     const std::lock_guard lock(cache.mutex);

@@ -60,7 +60,7 @@ public:
 
 private:
     friend class TiledRaster;
-    friend class TileWishes;
+    friend class TileRequests;
     friend struct TiledRasterState;
     struct Impl;
     struct Loaders;
@@ -89,7 +89,7 @@ public:
 
 private:
     friend class TileCache;
-    friend class TileWishes;
+    friend class TileRequests;
     std::shared_ptr<TileCache::Impl> cache_;
     std::shared_ptr<TileCache::Loaders> loaders_;
     std::shared_ptr<const TileSource> source_;
@@ -99,20 +99,20 @@ private:
 
 /// The current tile requests of one client for a raster. Tiles that no client requests any longer
 /// are not loaded. The requests end with the object.
-class TileWishes {
+class TileRequests {
 public:
     /// `notify`, which may be empty, is called on a loader thread after each requested tile that
     /// arrived or failed. It must not destroy the last TiledRaster, which waits for the loaders.
-    TileWishes(const TiledRaster& raster, TileUrgency urgency, std::function<void()> notify = {});
+    TileRequests(const TiledRaster& raster, TileUrgency urgency, std::function<void()> notify = {});
     /// Returns when no call of `notify` is running.
-    ~TileWishes();
-    TileWishes(const TileWishes&) = delete;
-    TileWishes& operator=(const TileWishes&) = delete;
+    ~TileRequests();
+    TileRequests(const TileRequests&) = delete;
+    TileRequests& operator=(const TileRequests&) = delete;
 
     /// Replaces the previous requests; the most urgent first. Resident tiles count as used.
     void want(std::span<const TileId> tiles);
     /// Waits until every requested tile is resident or has failed.
-    void waitForAll() const;
+    void waitForPending() const;
     /// The number of pending requests.
     std::size_t missingCount() const;
 

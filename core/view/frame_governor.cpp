@@ -62,18 +62,18 @@ FrameCost learned(const FrameCost& cost, const FrameLoad& load, Milliseconds tak
 }
 
 FramePlan planFrame(const FrameCost& cost,
-                    const FrameWish& wish,
+                    const FrameRequest& request,
                     const FramePlan& last,
                     const std::function<std::size_t(const FramePlan&)>& triangles)
 {
     const auto fits = [&](const FramePlan& plan) {
         const Milliseconds time =
             cost.predicted({.triangle_count = triangles(plan),
-                            .pixel_count = wish.pixel_count * plan.scale * plan.scale});
+                            .pixel_count = request.pixel_count * plan.scale * plan.scale});
         const bool is_finer = plan.error_px < last.error_px || plan.scale > last.scale;
-        return time <= wish.target * (is_finer ? kFinerMargin : 1.0);
+        return time <= request.target * (is_finer ? kFinerMargin : 1.0);
     };
-    if (wish.is_touching) {
+    if (request.is_touching) {
         for (const double scale : kScales) {
             const FramePlan plan{.error_px = kErrorsPx.front(), .scale = scale};
             if (fits(plan)) {
@@ -82,7 +82,7 @@ FramePlan planFrame(const FrameCost& cost,
         }
     }
     for (const double error_px : kErrorsPx) {
-        const FramePlan plan{.error_px = error_px, .scale = wish.is_touching ? kScaleMin : 1.0};
+        const FramePlan plan{.error_px = error_px, .scale = request.is_touching ? kScaleMin : 1.0};
         if (fits(plan)) {
             return plan;
         }

@@ -52,7 +52,7 @@ inline constexpr double kErrorPxLarge = 8.0;
 inline constexpr double kErrorPxMax = 16.0;
 inline constexpr double kScaleMin = 0.5;
 
-struct FrameWish {
+struct FrameRequest {
     Milliseconds target{33.0};
     double pixel_count = 0.0; // at scale 1
     /// The HIP is in contact: the picture must show the touched surface, so its size is reduced
@@ -65,7 +65,7 @@ struct FrameWish {
 /// one must leave a margin, so that the picture does not flicker at the limit. `triangles(plan)`
 /// returns the number of triangles of a plan; coarser plans have no more.
 FramePlan planFrame(const FrameCost& cost,
-                    const FrameWish& wish,
+                    const FrameRequest& request,
                     const FramePlan& last,
                     const std::function<std::size_t(const FramePlan&)>& triangles);
 

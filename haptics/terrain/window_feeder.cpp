@@ -72,7 +72,7 @@ WindowFeeder::WindowFeeder(const TiledRaster& raster,
     , heights_(std::move(heights))
     , options_(options)
     , tiles_per_s_(options.plan.tiles_per_s)
-    , wishes_(raster_, TileUrgency::Hand, [this] {
+    , requests_(raster_, TileUrgency::Hand, [this] {
         {
             const std::lock_guard lock(mutex_);
             has_arrived_ = true;
@@ -132,7 +132,7 @@ void WindowFeeder::want(std::vector<TileId> tiles)
 {
     if (tiles != wanted_) {
         wanted_ = std::move(tiles);
-        wishes_.want(wanted_);
+        requests_.want(wanted_);
     }
 }
 

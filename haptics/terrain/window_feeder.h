@@ -100,7 +100,7 @@ private:
     bool has_arrived_ = false;
     WindowFeederStatistics statistics_;
 
-    TileWishes wishes_; // after the members that its notifications use
+    TileRequests requests_; // after the members that its notifications use
     std::jthread thread_;
 };
 

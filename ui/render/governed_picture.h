@@ -26,7 +26,7 @@ struct PictureRequest {
     OrbitCamera camera;
     Viewport viewport;
     PictureStage stage = PictureStage::Moving;
-    bool is_touching = false; // see FrameWish
+    bool is_touching = false; // see FrameRequest
     bool is_kept = false;     // for TerrainRenderer::present()
 };
 

@@ -47,7 +47,7 @@ public:
     const std::optional<Error>& problem() const noexcept { return loader_.problem(); }
     bool isLoading() const { return loader_.isLoading(); }
     /// Waits until all that is missing is made. After endRound().
-    void waitForAll() { loader_.waitForAll(); }
+    void waitForPending() { loader_.waitForPending(); }
 
     /// Whether two levels of the texture are mixed.
     enum class Mixing { OneLevel, TwoLevels };

@@ -89,7 +89,7 @@ bool ReliefLoader::isLoading() const
     return !wanted_.empty() || !in_work_.empty();
 }
 
-void ReliefLoader::waitForAll()
+void ReliefLoader::waitForPending()
 {
     std::unique_lock lock(mutex_);
     has_result_.wait(lock, [this] { return wanted_.empty() && in_work_.empty(); });

@@ -56,7 +56,7 @@ public:
     /// True while something is wanted or being made.
     bool isLoading() const;
     /// Waits until nothing is wanted or being made.
-    void waitForAll();
+    void waitForPending();
 
 private:
     struct Failure {

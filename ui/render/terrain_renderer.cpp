@@ -122,8 +122,8 @@ struct Layer {
     DetailSelector selector;
     GlTexture ramp;
     CoverTexture cover;
-    std::optional<TileWishes> wishes; // of a tiled map
-    std::vector<TileId> missing;      // of this picture
+    std::optional<TileRequests> requests; // of a tiled map
+    std::vector<TileId> missing;          // of this picture
     std::function<void()> tell;
 
     Layer(const TerrainLayer& layer,
@@ -141,20 +141,20 @@ struct Layer {
     {
         sendRamp();
         if (source.heightfield->isTiled()) {
-            wishes.emplace(source.heightfield->tiles()->raster(), TileUrgency::View, notify);
+            requests.emplace(source.heightfield->tiles()->raster(), TileUrgency::View, notify);
         }
     }
 
     // Changes when tiles have come.
     std::uint64_t generation() const
     {
-        return wishes ? source.heightfield->tiles()->raster().generation() : 0;
+        return requests ? source.heightfield->tiles()->raster().generation() : 0;
     }
     // Asks for the tiles that this picture lacked: the coarser ones first, so that all of it gets
     // sharper together. Tells in `report` what can be waited for.
     void askForMissing(DrawReport& report)
     {
-        if (!wishes) {
+        if (!requests) {
             return;
         }
         std::stable_sort(missing.begin(), missing.end(),
@@ -163,7 +163,7 @@ struct Layer {
         std::unordered_set<TileId, TileIdHash> seen;
         std::copy_if(missing.begin(), missing.end(), std::back_inserter(wanted),
                      [&seen](const TileId& id) { return seen.insert(id).second; });
-        wishes->want(wanted);
+        requests->want(wanted);
         const TiledRaster& raster = source.heightfield->tiles()->raster();
         // What came between the reading and the asking, nobody else will tell of.
         if (tell && std::any_of(wanted.begin(), wanted.end(), [&raster](const TileId& id) {
@@ -711,7 +711,7 @@ bool TerrainRenderer::isLoading() const
 {
     return impl_->reliefs.isLoading() ||
            std::any_of(impl_->layers.begin(), impl_->layers.end(), [](const auto& layer) {
-               return layer->wishes && layer->wishes->missingCount() > 0;
+               return layer->requests && layer->requests->missingCount() > 0;
            });
 }
 
@@ -745,10 +745,10 @@ TerrainRenderer::drawComplete(const DrawRequest& request, const DrawStyle& style
 {
     DrawReport report = draw(request, style, target);
     while (!report.is_complete) {
-        impl_->reliefs.waitForAll();
+        impl_->reliefs.waitForPending();
         for (const auto& layer : impl_->layers) {
-            if (layer->wishes) {
-                layer->wishes->waitForAll();
+            if (layer->requests) {
+                layer->requests->waitForPending();
             }
         }
         report = draw(request, style, target);

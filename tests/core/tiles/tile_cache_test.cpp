@@ -97,20 +97,20 @@ TEST(TileCache, LoadsWhatIsWantedWholeAndOnce)
     const auto source = std::make_shared<GridTileSource>(terrain());
     TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 3});
     const TiledRaster raster(cache, source);
-    TileWishes wishes(raster, TileUrgency::View);
+    TileRequests requests(raster, TileUrgency::View);
     EXPECT_EQ(raster.find(tileId(0, 0)), nullptr);
-    wishes.want(allOfLevel0());
-    wishes.waitForAll();
+    requests.want(allOfLevel0());
+    requests.waitForPending();
     for (const TileId& id : allOfLevel0()) {
         const auto tile = raster.find(id);
         ASSERT_NE(tile, nullptr);
         expectWhole(*tile);
     }
-    EXPECT_EQ(wishes.missingCount(), 0U);
+    EXPECT_EQ(requests.missingCount(), 0U);
     EXPECT_EQ(source->readCount(), 20U);
     EXPECT_EQ(raster.generation(), 20U);
-    wishes.want(allOfLevel0());
-    wishes.waitForAll();
+    requests.want(allOfLevel0());
+    requests.waitForPending();
     EXPECT_EQ(source->readCount(), 20U);
     EXPECT_LE(source->openCount(), 3U) << "a reader is used again";
 }
@@ -130,9 +130,9 @@ TEST(TileCache, ServesTheHandBeforeTheView)
     const auto source = std::make_shared<GridTileSource>(terrain(), options);
     TileCache cache({.loader_threads = 1});
     const TiledRaster raster(cache, source);
-    TileWishes ahead(raster, TileUrgency::Ahead);
-    TileWishes view(raster, TileUrgency::View);
-    TileWishes hand(raster, TileUrgency::Hand);
+    TileRequests ahead(raster, TileUrgency::Ahead);
+    TileRequests view(raster, TileUrgency::View);
+    TileRequests hand(raster, TileUrgency::Hand);
     const TileId first = tileId(4, 3);
     view.want(std::vector{first});
     gate.awaitReaders(1); // the loader is busy with the first tile
@@ -143,9 +143,9 @@ TEST(TileCache, ServesTheHandBeforeTheView)
     view.want(viewed);
     hand.want(touched);
     gate.open();
-    ahead.waitForAll();
-    view.waitForAll();
-    hand.waitForAll();
+    ahead.waitForPending();
+    view.waitForPending();
+    hand.waitForPending();
     const std::vector expected{first,     touched[0], touched[1], viewed[0],
                                viewed[1], later[0],   later[1]};
     EXPECT_EQ(order, expected);
@@ -166,18 +166,18 @@ TEST(TileCache, ServesTheHandWhileTheViewWaitsForASlowSource)
         const auto source = std::make_shared<GridTileSource>(terrain(), options);
         TileCache cache({.loader_threads = threads});
         const TiledRaster raster(cache, source);
-        TileWishes view(raster, TileUrgency::View);
-        TileWishes hand(raster, TileUrgency::Hand);
+        TileRequests view(raster, TileUrgency::View);
+        TileRequests hand(raster, TileUrgency::Hand);
         const std::vector viewed{tileId(0, 0), tileId(1, 0), tileId(2, 0),
                                  tileId(3, 0), tileId(4, 0), tileId(0, 1)};
         view.want(viewed);
         gate.awaitReaders(static_cast<int>(threads)); // as many as are needed for the view
         hand.want(std::vector{touched});
-        hand.waitForAll();
+        hand.waitForPending();
         EXPECT_NE(raster.find(touched), nullptr);
         EXPECT_EQ(view.missingCount(), viewed.size());
         gate.open();
-        view.waitForAll();
+        view.waitForPending();
         EXPECT_EQ(view.missingCount(), 0U);
     }
 }
@@ -193,12 +193,12 @@ TEST(TileCache, LeavesOutWhatIsNoLongerWanted)
     const auto source = std::make_shared<GridTileSource>(terrain(), options);
     TileCache cache({.loader_threads = 1});
     const TiledRaster raster(cache, source);
-    TileWishes wishes(raster, TileUrgency::View);
-    wishes.want(allOfLevel0());
+    TileRequests requests(raster, TileUrgency::View);
+    requests.want(allOfLevel0());
     gate.awaitReaders(1);
-    wishes.want(std::vector{tileId(4, 3)});
+    requests.want(std::vector{tileId(4, 3)});
     gate.open();
-    wishes.waitForAll();
+    requests.waitForPending();
     EXPECT_NE(raster.find(tileId(4, 3)), nullptr);
     EXPECT_EQ(source->readCount(), 2U) << "the tile in progress, and the requested one";
     EXPECT_EQ(cache.statistics().cancelled, 18U);
@@ -252,9 +252,9 @@ TEST(TileCache, TellsWhyATileFailedAndTriesAgain)
     const auto source = std::make_shared<GridTileSource>(terrain(), options);
     TileCache cache({.loader_threads = 2});
     const TiledRaster raster(cache, source);
-    TileWishes wishes(raster, TileUrgency::Hand);
-    wishes.want(std::vector{tileId(2, 1), tileId(0, 0)});
-    wishes.waitForAll();
+    TileRequests requests(raster, TileUrgency::Hand);
+    requests.want(std::vector{tileId(2, 1), tileId(0, 0)});
+    requests.waitForPending();
     EXPECT_NE(raster.find(tileId(0, 0)), nullptr) << "a failure affects only that tile";
     const auto first = raster.get(tileId(2, 1));
     if (!first) {
@@ -306,9 +306,9 @@ TEST(TileCache, TellsThoseWhoWishedAndNobodyAfterwards)
     const TiledRaster raster(cache, source);
     std::atomic<int> told{0};
     {
-        TileWishes wishes(raster, TileUrgency::View, [&told] { ++told; });
-        wishes.want(allOfLevel0());
-        wishes.waitForAll();
+        TileRequests requests(raster, TileUrgency::View, [&told] { ++told; });
+        requests.want(allOfLevel0());
+        requests.waitForPending();
     }
     const int so_far = told;
     EXPECT_LE(so_far, 20);
@@ -338,10 +338,10 @@ TEST(TileCache, LoadsOnWhereOnlyItsRastersAreLeft)
         const auto source = std::make_shared<GridTileSource>(terrain());
         auto cache = std::make_unique<TileCache>(TileCacheOptions{.loader_threads = 2});
         const TiledRaster raster(*cache, source);
-        TileWishes wishes(raster, TileUrgency::View);
-        wishes.want(allOfLevel0());
+        TileRequests requests(raster, TileUrgency::View);
+        requests.want(allOfLevel0());
         cache.reset();
-        wishes.waitForAll();
+        requests.waitForPending();
         for (const TileId& id : allOfLevel0()) {
             ASSERT_TRUE(raster.find(id));
         }
@@ -354,8 +354,8 @@ TEST(TileCache, EndsWhileTilesAreWanted)
         const auto source = std::make_shared<GridTileSource>(terrain());
         const TileCache cache({.loader_threads = 2});
         const TiledRaster raster(cache, source);
-        TileWishes wishes(raster, TileUrgency::View);
-        wishes.want(allOfLevel0());
+        TileRequests requests(raster, TileUrgency::View);
+        requests.want(allOfLevel0());
     }
 }
 
@@ -378,7 +378,7 @@ TEST(TileCache, GivesWholeTilesToManyThreadsAtOnce)
     for (std::uint64_t i = 0; i < 4; ++i) {
         threads.emplace_back([&, i] {
             test::Random random(seed + i);
-            TileWishes wishes(raster, i % 2 == 0 ? TileUrgency::Hand : TileUrgency::View);
+            TileRequests requests(raster, i % 2 == 0 ? TileUrgency::Hand : TileUrgency::View);
             const std::vector<TileId> all = allOfLevel0();
             for (int step = 0; step < 60; ++step) {
                 std::vector<TileId> some;
@@ -387,7 +387,7 @@ TEST(TileCache, GivesWholeTilesToManyThreadsAtOnce)
                         some.push_back(id);
                     }
                 }
-                wishes.want(some);
+                requests.want(some);
                 const TileId id = all[static_cast<std::size_t>(random.uniform(0.0, 19.999))];
                 if (i % 2 == 0) {
                     if (const auto tile = raster.get(id)) {
