@@ -25,7 +25,7 @@ openLoopMap(const MapOptions& map, const LoopMapOptions& options, JobMonitor& mo
         result.map = makeServoMap(frame, result.opened->filled(), servo);
         return result;
     }
-    auto feeder = WindowFeeder::create(
+    auto feeder = ClipmapStreamer::create(
         heightfield.tiles()->raster(),
         std::make_shared<const TileHeights>(result.opened->levels(), heightfield.scale()));
     if (!feeder) {

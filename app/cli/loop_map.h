@@ -5,8 +5,8 @@
 #include "core/contact/contact_model.h"
 #include "core/session/open_map.h"
 #include "core/view/scene_box.h"
+#include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/terrain/servo_map.h"
-#include "haptics/terrain/window_feeder.h"
 
 #include <memory>
 #include <optional>
@@ -22,7 +22,7 @@ struct LoopMapOptions {
 /// Loads tiles during its lifetime. Until the loop has ended only the servo thread may use the map.
 struct LoopMap {
     std::shared_ptr<const Map> opened;
-    std::unique_ptr<WindowFeeder> feeder; // null where the map is held
+    std::unique_ptr<ClipmapStreamer> feeder; // null where the map is held
     std::shared_ptr<ServoMap> map;
     SceneBox box;          // of the whole map
     double cell_m = 1.0;   // scene meters, the mean of both sides

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/loop/servo_loop.h"
-#include "haptics/terrain/window_feeder.h"
+#include "haptics/terrain/clipmap_streamer.h"
 
 #include <array>
 #include <cstdint>

@@ -27,7 +27,7 @@ public:
 
 private:
     static constexpr std::size_t kMax = // per tick
-        2 + ResidentTerrain::kLevelsMax + WindowBlend::kTilesMax;
+        2 + ResidentTerrain::kLevelsMax + ClipmapBlend::kTilesMax;
 
     std::uint64_t serial_ = 0;
     std::uint64_t map_id_ = 0;

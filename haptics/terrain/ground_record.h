@@ -4,7 +4,7 @@
 #include "core/geo/body.h"
 #include "core/geo/scene_frame.h"
 #include "core/tiles/tile.h"
-#include "haptics/terrain/resident_window.h"
+#include "haptics/terrain/clipmap.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +36,7 @@ struct GroundLevel {
 /// weight.
 struct GroundTile {
     TileId id;
-    double weight = 1.0; // in [0, 1), WindowBlend's
+    double weight = 1.0; // in [0, 1), ClipmapBlend's
 
     bool operator==(const GroundTile&) const = default;
 };

@@ -18,7 +18,7 @@ MapTouch::MapTouch(const SceneMap& map)
     }
     // A map always has its coarsest tile in memory.
     const TiledSamples& tiles = *heightfield.tiles();
-    feeder_ = std::make_unique<WindowFeeder>(
+    feeder_ = std::make_unique<ClipmapStreamer>(
         tiles.raster(),
         std::make_shared<const TileHeights>(map_.map->levels(), heightfield.scale()), tiles.top());
     feeder_->exchange()->windows.take();
@@ -52,7 +52,7 @@ bool MapTouch::follow(MapContactModel& model, const ScenePoint& hand)
     const GridPoint grid = map_.frame.toGrid(hand);
     const GridPoint at{std::clamp(grid.column, 0.0, static_cast<double>(terrain_->columns() - 1)),
                        std::clamp(grid.row, 0.0, static_cast<double>(terrain_->rows() - 1))};
-    WindowExchange& exchange = *feeder_->exchange();
+    ClipmapExchange& exchange = *feeder_->exchange();
     exchange.motion.write({.at = at,
                            .columns_per_s = 0.0,
                            .rows_per_s = 0.0,

@@ -4,8 +4,8 @@
 
 #include "core/contact/contact_model.h"
 #include "core/session/scene_surface.h"
+#include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/terrain/resident_terrain.h"
-#include "haptics/terrain/window_feeder.h"
 
 #include <cstdint>
 #include <memory>
@@ -33,7 +33,7 @@ public:
 
 private:
     SceneMap map_;
-    std::unique_ptr<WindowFeeder> feeder_; // for a tiled map
+    std::unique_ptr<ClipmapStreamer> feeder_; // for a tiled map
     std::shared_ptr<ResidentTerrain> terrain_;
     bool is_followed_ = false;
 };

@@ -9,7 +9,7 @@
 
 namespace marsview {
 
-ResidentTerrain::ResidentTerrain(const ResidentWindow& window,
+ResidentTerrain::ResidentTerrain(const Clipmap& window,
                                  std::shared_ptr<const TileHeights> heights,
                                  const ResidentTerrainOptions& options)
     : TiledTerrain(std::move(heights))
@@ -48,7 +48,7 @@ void ResidentTerrain::remember() noexcept
 void ResidentTerrain::putAtHand() noexcept
 {
     clearPlaces();
-    for (const ResidentWindow::Slot& slot : window_->level(0).slots) {
+    for (const Clipmap::Slot& slot : window_->level(0).slots) {
         if (slot.tile) {
             setAtHand(*slot.tile);
         }
@@ -60,7 +60,7 @@ void ResidentTerrain::putAtHand() noexcept
     });
 }
 
-bool ResidentTerrain::show(const ResidentWindow& window, GridPoint hand) noexcept
+bool ResidentTerrain::show(const Clipmap& window, GridPoint hand) noexcept
 {
     const TileLayout& layout = heights().layout();
     window_ = &window;
@@ -70,15 +70,15 @@ bool ResidentTerrain::show(const ResidentWindow& window, GridPoint hand) noexcep
     blend_.keepOnly([&](const TileId& id, const SampleBox&) { return window.has(id); });
     const double range_m = heights().range().maximum_m - heights().range().minimum_m;
     for (std::size_t k = 0; k < window.levelCount(); ++k) {
-        const ResidentWindow::Level& level = window.level(k);
+        const Clipmap::Level& level = window.level(k);
         for (std::size_t i = 0; i < level.slots.size(); ++i) {
-            const ResidentWindow::Slot& slot = level.slots[i];
+            const Clipmap::Slot& slot = level.slots[i];
             const TileId id{TileKind::Samples, static_cast<std::uint8_t>(k),
                             level.first_column + static_cast<std::uint32_t>(i) % level.columns,
                             level.first_row + static_cast<std::uint32_t>(i) / level.columns};
             const bool was_there = shown_[k].has(id.column, id.row);
             if (was_there == (slot.tile != nullptr) ||
-                !doOverlap(WindowBlend::reach(layout, id), box)) {
+                !doOverlap(ClipmapBlend::reach(layout, id), box)) {
                 continue;
             }
             is_changed = true;
@@ -92,7 +92,7 @@ bool ResidentTerrain::show(const ResidentWindow& window, GridPoint hand) noexcep
     return is_changed;
 }
 
-void ResidentTerrain::show(const ResidentWindow& window, const WindowBlend& blend) noexcept
+void ResidentTerrain::show(const Clipmap& window, const ClipmapBlend& blend) noexcept
 {
     window_ = &window;
     blend_ = blend;
@@ -122,7 +122,7 @@ double ResidentTerrain::sampleElsewhere(std::size_t column, std::size_t row) con
     double rest = 1.0; // weight that remains for coarser levels
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
-    ResidentWindow::Sources sources;
+    Clipmap::Sources sources;
     bool is_first = true;
     for (std::size_t k = 0; k < window_->levelCount(); ++k) {
         const auto at_level = window_->heightAtLevel(k, column, row, &sources);

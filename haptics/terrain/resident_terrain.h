@@ -4,8 +4,8 @@
 
 #include "core/geo/frames.h"
 #include "core/levels/tiled_terrain.h"
-#include "haptics/terrain/resident_window.h"
-#include "haptics/terrain/window_blend.h"
+#include "haptics/terrain/clipmap.h"
+#include "haptics/terrain/clipmap_blend.h"
 
 #include <array>
 #include <cstddef>
@@ -18,18 +18,18 @@ struct ResidentTerrainOptions {
     /// The fastest change of a surface height near the hand when a tile arrives, in meters per
     /// second before exaggeration. Infinite: immediate. This bounds the rate of change of the
     /// force: at most this value times the exaggeration, the scale from the scene to the workspace,
-    /// and the stiffness (WindowBlend).
+    /// and the stiffness (ClipmapBlend).
     double rate_m_per_s = 100.0;
 };
 
 /// Counts of reads at less than full resolution.
-struct WindowMisses {
+struct ClipmapMisses {
     std::uint64_t count = 0;     // samples read at a coarser level
     std::uint8_t last_level = 0; // level used for the last of them; 0: none yet
     std::uint8_t worst_level = 0;
 };
 
-/// Heights of a ResidentWindow, equal to those of FilledHeightfield where the full-resolution tile
+/// Heights of a Clipmap, equal to those of FilledHeightfield where the full-resolution tile
 /// is resident. When a tile arrives near the hand, its heights replace the previous ones at a
 /// bounded rate. Within a tick the surface does not change, whoever reads it and however often.
 ///
@@ -39,7 +39,7 @@ struct WindowMisses {
 class ResidentTerrain final : public TiledTerrain {
 public:
     /// `window` must not change until the next show(); the same applies to later windows.
-    explicit ResidentTerrain(const ResidentWindow& window,
+    explicit ResidentTerrain(const Clipmap& window,
                              std::shared_ptr<const TileHeights> heights,
                              const ResidentTerrainOptions& options = {});
 
@@ -47,9 +47,9 @@ public:
     /// been destroyed. `hand` is the proxy's position: tiles that arrive in the 3 × 3 tiles around
     /// it are blended, all others take effect at once. Returns true if heights near the hand may
     /// change.
-    bool show(const ResidentWindow& window, GridPoint hand) noexcept;
+    bool show(const Clipmap& window, GridPoint hand) noexcept;
     /// Copies the state of another ResidentTerrain: its window and its blend.
-    void show(const ResidentWindow& window, const WindowBlend& blend) noexcept;
+    void show(const Clipmap& window, const ClipmapBlend& blend) noexcept;
     /// Advances the blending. Returns true if heights near the hand have changed.
     bool advance(GridPoint hand, double seconds) noexcept;
 
@@ -57,11 +57,11 @@ public:
     {
         return window_->isVoid(column, row);
     }
-    const ResidentWindow& window() const noexcept { return *window_; }
+    const Clipmap& window() const noexcept { return *window_; }
     /// For each level of the window.
     const ShownTiles& shown(std::size_t level) const noexcept { return shown_[level]; }
-    const WindowBlend& blend() const noexcept { return blend_; }
-    const WindowMisses& misses() const noexcept { return misses_; }
+    const ClipmapBlend& blend() const noexcept { return blend_; }
+    const ClipmapMisses& misses() const noexcept { return misses_; }
     void resetMisses() noexcept { misses_ = {}; }
     /// > 0; the scale from scene to workspace decides what can be felt.
     void setRate(double rate_m_per_s) noexcept { rate_m_per_s_ = rate_m_per_s; }
@@ -70,18 +70,18 @@ public:
     static constexpr std::size_t kLevelsMax = 24;
 
 private:
-    static_assert(ResidentWindow::kSideMax <= kPlacesASide);
+    static_assert(Clipmap::kSideMax <= kPlacesASide);
 
     double sampleElsewhere(std::size_t column, std::size_t row) const noexcept override;
     SampleBox near(GridPoint hand) const noexcept;
     void remember() noexcept;
     void putAtHand() noexcept;
 
-    const ResidentWindow* window_;
-    WindowBlend blend_;
+    const Clipmap* window_;
+    ClipmapBlend blend_;
     std::array<ShownTiles, kLevelsMax> shown_;
     double rate_m_per_s_;
-    mutable WindowMisses misses_;
+    mutable ClipmapMisses misses_;
 };
 
 } // namespace marsview

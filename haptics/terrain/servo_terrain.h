@@ -1,8 +1,8 @@
 // The servo thread's access to a map larger than memory.
 #pragma once
 
+#include "haptics/terrain/clipmap_exchange.h"
 #include "haptics/terrain/resident_terrain.h"
-#include "haptics/terrain/window_exchange.h"
 
 #include <chrono>
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace marsview {
 
-/// The servo's end of a WindowExchange. Created by any thread, used only by the servo thread: all
+/// The servo's end of a ClipmapExchange. Created by any thread, used only by the servo thread: all
 /// members except the constructor are wait-free and do not allocate or free memory.
 class ServoTerrain {
 public:
     /// At most one per exchange.
-    ServoTerrain(std::shared_ptr<WindowExchange> exchange,
+    ServoTerrain(std::shared_ptr<ClipmapExchange> exchange,
                  std::shared_ptr<const TileHeights> heights,
                  const ResidentTerrainOptions& options = {})
         : exchange_(std::move(exchange))
@@ -50,7 +50,7 @@ public:
     void leave() noexcept { exchange_->motion.write({}); }
 
 private:
-    std::shared_ptr<WindowExchange> exchange_;
+    std::shared_ptr<ClipmapExchange> exchange_;
     std::shared_ptr<ResidentTerrain> terrain_;
 };
 

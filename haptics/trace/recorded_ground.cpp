@@ -36,7 +36,7 @@ RecordedGround::RecordedGround(const TiledRaster& raster,
     , top_(std::move(top))
 {
     const std::vector<GridPoint> centres(raster_.layout().topLevel() + 1);
-    window_ = std::make_shared<const ResidentWindow>(heights_, top_, centres);
+    window_ = std::make_shared<const Clipmap>(heights_, top_, centres);
     for (std::size_t k = 0; k < window_->levelCount(); ++k) {
         shown_.push_back(window_->shown(k));
     }
@@ -48,7 +48,7 @@ Status RecordedGround::follow(const GroundRecord& record)
     const TileLayout& layout = heights_->layout();
     if (const auto* level = std::get_if<GroundLevel>(&record)) {
         const ShownTiles& shown = level->shown;
-        if (level->level >= shown_.size() || !ResidentWindow::fits(layout, level->level, shown) ||
+        if (level->level >= shown_.size() || !Clipmap::fits(layout, level->level, shown) ||
             std::bit_width(shown.is_there) > shown.columns * shown.rows) {
             return notThere();
         }
@@ -68,9 +68,9 @@ Status RecordedGround::follow(const GroundRecord& record)
 
 Status RecordedGround::showWindow()
 {
-    std::shared_ptr<const ResidentWindow> shown = window_;
+    std::shared_ptr<const Clipmap> shown = window_;
     if (std::exchange(is_other_window_, false)) {
-        const auto next = std::make_shared<ResidentWindow>(heights_, top_, shown_);
+        const auto next = std::make_shared<Clipmap>(heights_, top_, shown_);
         for (std::size_t k = 0; k < shown_.size(); ++k) {
             const ShownTiles& level = shown_[k];
             for (std::uint64_t rest = level.is_there; rest != 0; rest &= rest - 1) {
@@ -81,7 +81,7 @@ Status RecordedGround::showWindow()
                 if (next->has(id)) {
                     continue; // the coarsest
                 }
-                const ResidentWindow::Slot* slot = window_->slot(id);
+                const Clipmap::Slot* slot = window_->slot(id);
                 if (slot != nullptr && slot->tile != nullptr) {
                     next->put(slot->tile, 0.0);
                     continue;

@@ -37,9 +37,9 @@ private:
     std::shared_ptr<const TileHeights> heights_;
     std::shared_ptr<const Tile> top_;
     std::vector<ShownTiles> shown_; // by level
-    std::shared_ptr<const ResidentWindow> window_;
+    std::shared_ptr<const Clipmap> window_;
     std::shared_ptr<ResidentTerrain> terrain_;
-    WindowBlend blend_; // for the next GroundFelt
+    ClipmapBlend blend_; // for the next GroundFelt
     bool is_other_window_ = false;
 };
 

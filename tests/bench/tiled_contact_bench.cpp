@@ -29,7 +29,7 @@ constexpr std::size_t kSide = 2048;
 
 struct Ground {
     test::TiledMap map;
-    std::unique_ptr<ResidentWindow> window;
+    std::unique_ptr<Clipmap> window;
     std::shared_ptr<const ResidentTerrain> terrain;
 };
 
@@ -43,7 +43,7 @@ const Ground& ground()
                             return static_cast<double>(heights[row * kSide + column]);
                         })),
                     nullptr, nullptr};
-        made.window = std::make_unique<ResidentWindow>(
+        made.window = std::make_unique<Clipmap>(
             made.map.window({static_cast<double>(kSide) / 2.0, static_cast<double>(kSide) / 2.0}));
         for (const TileId& id : test::tilesOf(*made.window)) {
             made.window->put(made.map.tile(id), 0.0);

@@ -25,7 +25,7 @@ HandMap::HandMap(const SceneMap& map)
     // The map has its coarsest tile always at hand: there is something to touch at once, and finer
     // ground comes as it is loaded.
     const TiledSamples& tiles = *heightfield.tiles();
-    feeder_ = std::make_unique<WindowFeeder>(
+    feeder_ = std::make_unique<ClipmapStreamer>(
         tiles.raster(),
         std::make_shared<const TileHeights>(map_.map->levels(), heightfield.scale()), tiles.top());
     terrain_ = std::make_shared<ServoTerrain>(feeder_->exchange(), feeder_->heights());

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/session/scene_surface.h"
+#include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/terrain/servo_map.h"
-#include "haptics/terrain/window_feeder.h"
 
 #include <cstdint>
 #include <memory>
@@ -26,7 +26,7 @@ public:
 private:
     SceneMap map_;
     std::uint64_t map_id_ = 0;
-    std::unique_ptr<WindowFeeder> feeder_; // of a map in tiles
+    std::unique_ptr<ClipmapStreamer> feeder_; // of a map in tiles
     std::shared_ptr<ServoTerrain> terrain_;
 };
 

@@ -27,7 +27,7 @@ SwipeArea wholeOf(const TouchedTiles& tiles)
 struct TileSwipe::Impl {
     Impl(const TouchedTiles& tiles,
          const TileSwipeOptions& options,
-         std::unique_ptr<WindowFeeder> its_feeder)
+         std::unique_ptr<ClipmapStreamer> its_feeder)
         : feeder(std::move(its_feeder))
         , terrain(feeder->exchange(), tiles.heights)
         , model(makeContactModel(kContactModelDefault,
@@ -71,7 +71,7 @@ struct TileSwipe::Impl {
 
     void count(const ContactState& state) noexcept
     {
-        const WindowMisses& misses = terrain.resident().misses();
+        const ClipmapMisses& misses = terrain.resident().misses();
         counts.in_contact += state.is_in_contact ? 1U : 0U;
         counts.cut_short += state.counters.cut_short;
         counts.samples_missed += misses.count;
@@ -88,7 +88,7 @@ struct TileSwipe::Impl {
                 .feeder = feeder->statistics()};
     }
 
-    std::unique_ptr<WindowFeeder> feeder;
+    std::unique_ptr<ClipmapStreamer> feeder;
     ServoTerrain terrain;
     std::unique_ptr<MapContactModel> model;
     SceneFrame frame;
@@ -109,8 +109,8 @@ TileSwipe::~TileSwipe() = default;
 
 Result<TileSwipe> TileSwipe::begin(const TouchedTiles& tiles, const TileSwipeOptions& options)
 {
-    Result<std::unique_ptr<WindowFeeder>> feeder =
-        WindowFeeder::create(tiles.raster, tiles.heights);
+    Result<std::unique_ptr<ClipmapStreamer>> feeder =
+        ClipmapStreamer::create(tiles.raster, tiles.heights);
     if (!feeder) {
         return std::move(feeder).error();
     }

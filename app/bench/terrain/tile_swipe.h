@@ -4,7 +4,7 @@
 #include "app/bench/terrain/terrain_bench.h"
 #include "core/base/job_monitor.h"
 #include "haptics/loop/real_time_thread.h"
-#include "haptics/terrain/window_feeder.h"
+#include "haptics/terrain/clipmap_streamer.h"
 
 #include <array>
 #include <cstdint>

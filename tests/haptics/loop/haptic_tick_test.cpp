@@ -321,8 +321,8 @@ TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
 {
     const TiledMap tiles =
         tiledMap(floatTerrain(201, 201, [](std::size_t, std::size_t) { return 10.0; }));
-    const auto exchange = std::make_shared<WindowExchange>(
-        std::make_shared<const ResidentWindow>(tiles.window({100.0, 100.0})));
+    const auto exchange = std::make_shared<ClipmapExchange>(
+        std::make_shared<const Clipmap>(tiles.window({100.0, 100.0})));
     Rig rig(makeServoMap(metreFrame(201, 201),
                          std::make_shared<ServoTerrain>(exchange, tiles.heights), {}));
     const auto feed = [&] { exchange->fed_ns = rig.input.now.time_since_epoch() / 1ns; };

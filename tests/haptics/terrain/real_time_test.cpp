@@ -129,10 +129,10 @@ TEST_P(ContactModelRealTime, AllocatesAndFreesNothingOverTilesThatArrive)
     const SceneFrame frame = test::unitFrame(*map.filled);
     const HeightfieldSurface truth(map.filled, frame, 1.0);
     // All windows are built in advance, as a feeder does.
-    std::vector<std::unique_ptr<ResidentWindow>> windows;
-    windows.push_back(std::make_unique<ResidentWindow>(map.window({450.0, 350.0})));
+    std::vector<std::unique_ptr<Clipmap>> windows;
+    windows.push_back(std::make_unique<Clipmap>(map.window({450.0, 350.0})));
     for (const TileId& id : test::tilesOf(*windows.front())) {
-        auto next = std::make_unique<ResidentWindow>(*windows.back());
+        auto next = std::make_unique<Clipmap>(*windows.back());
         next->put(map.tile(id), 0.0);
         next->put(next->slot(id)->tile, next->differenceFromCoarser(id));
         windows.push_back(std::move(next));

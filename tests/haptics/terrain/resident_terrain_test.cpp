@@ -50,17 +50,17 @@ public:
     Arrivals(const TiledMap& map, GridPoint centre)
         : map_(map)
         , centre_(centre)
-        , window_(std::make_shared<ResidentWindow>(map.window(centre, kSides)))
+        , window_(std::make_shared<Clipmap>(map.window(centre, kSides)))
     {}
 
-    const ResidentWindow& window() const { return *window_; }
+    const Clipmap& window() const { return *window_; }
     std::vector<TileId> tiles() const { return test::tilesOf(*window_); }
     /// By then the previous window is freed.
     void arrive(const TileId& id)
     {
-        auto next = std::make_shared<ResidentWindow>(map_.window(centre_, kSides));
+        auto next = std::make_shared<Clipmap>(map_.window(centre_, kSides));
         for (const TileId& old : tiles()) {
-            const ResidentWindow::Slot* slot = window_->slot(old);
+            const Clipmap::Slot* slot = window_->slot(old);
             if (slot->tile) {
                 next->put(slot->tile, slot->difference_m);
             }
@@ -77,7 +77,7 @@ private:
 
     const TiledMap& map_;
     GridPoint centre_;
-    std::shared_ptr<ResidentWindow> window_;
+    std::shared_ptr<Clipmap> window_;
 };
 
 struct Place {

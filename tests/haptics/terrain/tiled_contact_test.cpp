@@ -131,7 +131,7 @@ TEST_P(TiledContact, EndsWhereItEndsOverTheMapInMemoryToTheBit)
         const auto waiting =
             std::make_shared<const WaitingTerrain>(TiledRaster(cache, map.source), map.heights, 4);
         const std::uint64_t read_before = map.source->readCount();
-        ResidentWindow window = map.window({1024.0, 750.0});
+        Clipmap window = map.window({1024.0, 750.0});
         for (const TileId& id : test::tilesOf(window)) {
             if (id.level == 0) {
                 window.put(map.tile(id), 0.0);
@@ -170,7 +170,7 @@ public:
         , map_(map)
         , centre_{0.5 * static_cast<double>(map.layout().columns),
                   0.5 * static_cast<double>(map.layout().rows)}
-        , window_(std::make_unique<ResidentWindow>(map.window(centre_)))
+        , window_(std::make_unique<Clipmap>(map.window(centre_)))
         , terrain_(std::make_shared<ResidentTerrain>(
               *window_, map.heights, ResidentTerrainOptions{.rate_m_per_s = rate_m_per_s}))
         , missing_(test::tilesOf(*window_))
@@ -184,9 +184,9 @@ public:
         const std::size_t which = random_.below(missing_.size());
         const TileId id = missing_[which];
         missing_.erase(missing_.begin() + static_cast<std::ptrdiff_t>(which));
-        auto next = std::make_unique<ResidentWindow>(map_.window(centre_));
+        auto next = std::make_unique<Clipmap>(map_.window(centre_));
         for (const TileId& old : test::tilesOf(*window_)) {
-            const ResidentWindow::Slot* slot = window_->slot(old);
+            const Clipmap::Slot* slot = window_->slot(old);
             if (slot->tile) {
                 next->put(slot->tile, slot->difference_m);
             }
@@ -219,7 +219,7 @@ private:
     Random& random_;
     const TiledMap& map_;
     GridPoint centre_;
-    std::unique_ptr<ResidentWindow> window_;
+    std::unique_ptr<Clipmap> window_;
     std::shared_ptr<ResidentTerrain> terrain_;
     std::vector<TileId> missing_;
 };

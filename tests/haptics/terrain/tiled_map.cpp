@@ -22,17 +22,17 @@ std::shared_ptr<const Tile> TiledMap::top() const
     return tile(samplesTile(layout().topLevel(), 0, 0));
 }
 
-ResidentWindow TiledMap::window(GridPoint centre, const WindowSides& sides) const
+Clipmap TiledMap::window(GridPoint centre, const WindowSides& sides) const
 {
     const std::vector<GridPoint> centres(layout().topLevel() + 1, centre);
     return {heights, top(), centres, sides};
 }
 
-std::vector<TileId> tilesOf(const ResidentWindow& window)
+std::vector<TileId> tilesOf(const Clipmap& window)
 {
     std::vector<TileId> tiles;
     for (std::size_t k = 0; k < window.levelCount(); ++k) {
-        const ResidentWindow::Level& level = window.level(k);
+        const Clipmap::Level& level = window.level(k);
         for (std::size_t r = 0; r < level.rows; ++r) {
             for (std::size_t c = 0; c < level.columns; ++c) {
                 tiles.push_back(samplesTile(k, level.first_column + c, level.first_row + r));

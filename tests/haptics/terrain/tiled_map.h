@@ -3,7 +3,7 @@
 
 #include "core/levels/tile_heights.h"
 #include "core/terrain/filled_heightfield.h"
-#include "haptics/terrain/resident_window.h"
+#include "haptics/terrain/clipmap.h"
 #include "tests/support/grid_tile_source.h"
 
 #include <cstddef>
@@ -21,13 +21,13 @@ struct TiledMap {
     std::shared_ptr<const Tile> tile(const TileId& id) const;
     std::shared_ptr<const Tile> top() const;
     /// A window around a position, with only the coarsest level.
-    ResidentWindow window(GridPoint centre, const WindowSides& sides = {}) const;
+    Clipmap window(GridPoint centre, const WindowSides& sides = {}) const;
 };
 
 TileId samplesTile(std::size_t level, std::size_t column, std::size_t row);
 
 /// All tiles that a window covers.
-std::vector<TileId> tilesOf(const ResidentWindow& window);
+std::vector<TileId> tilesOf(const Clipmap& window);
 
 TiledMap tiledMap(const Heightfield& heightfield, GridTileSource::Options options = {});
 

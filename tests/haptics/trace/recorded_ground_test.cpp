@@ -1,5 +1,5 @@
+#include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/terrain/ground_log.h"
-#include "haptics/terrain/window_feeder.h"
 #include "haptics/trace/recorded_ground.h"
 #include "tests/haptics/loop/tick_fixture.h"
 #include "tests/haptics/terrain/tiled_map.h"
@@ -36,7 +36,7 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
     const TiledMap map = mapWithVoids();
     const TileCache cold({.bytes_max = std::size_t{1} << 20, .loader_threads = 1});
     const TileCache other({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
-    const auto feeder = WindowFeeder::create(TiledRaster(cold, map.source), map.heights).value();
+    const auto feeder = ClipmapStreamer::create(TiledRaster(cold, map.source), map.heights).value();
     const auto terrain = std::make_shared<ServoTerrain>(feeder->exchange(), feeder->heights());
     const auto servo_map = makeServoMap(metreFrame(kColumns, kRows), terrain, {});
     feeder->start();

@@ -1,6 +1,6 @@
 #include "core/contact/resident_heights.h"
 #include "haptics/drivers/replay_driver.h"
-#include "haptics/terrain/window_feeder.h"
+#include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/trace/goal_file.h"
 #include "haptics/trace/recorded_ground.h"
 #include "haptics/trace/session_recorder.h"
@@ -300,7 +300,7 @@ TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
         SCOPED_TRACE(contactModelName(kind));
         const TileCache cold({.bytes_max = std::size_t{1} << 20, .loader_threads = 1});
         const auto feeder =
-            WindowFeeder::create(TiledRaster(cold, map.source), map.heights).value();
+            ClipmapStreamer::create(TiledRaster(cold, map.source), map.heights).value();
         const auto terrain = std::make_shared<ServoTerrain>(feeder->exchange(), feeder->heights());
         feeder->start();
         ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));

@@ -1,5 +1,5 @@
+#include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/terrain/servo_terrain.h"
-#include "haptics/terrain/window_feeder.h"
 #include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
@@ -20,7 +20,7 @@ namespace {
 using test::Random;
 using test::samplesTile;
 using test::TiledMap;
-using Clock = WindowFeeder::Clock;
+using Clock = ClipmapStreamer::Clock;
 
 constexpr std::size_t kColumns = 2100;
 constexpr std::size_t kRows = 560;
@@ -46,7 +46,7 @@ HandMotion handAt(GridPoint at, GridPoint per_second = {})
 }
 
 /// Whether the 3 × 3 tiles around a position are resident and blended in at full resolution.
-bool isFineAround(const ResidentWindow& window, GridPoint at)
+bool isFineAround(const Clipmap& window, GridPoint at)
 {
     for (const double dc : {-256.0, 0.0, 256.0}) {
         for (const double dr : {-256.0, 0.0, 256.0}) {
@@ -62,12 +62,13 @@ bool isFineAround(const ResidentWindow& window, GridPoint at)
     return true;
 }
 
-TEST(WindowFeeder, EverythingOnTheHandsWayIsThereInTheEnd)
+TEST(ClipmapStreamer, EverythingOnTheHandsWayIsThereInTheEnd)
 {
     const TiledMap map = roughMap();
     // Smaller than a window.
     const TileCache cache({.bytes_max = std::size_t{1} << 20, .loader_threads = 2});
-    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    const auto feeder =
+        ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
     ServoTerrain servo(feeder->exchange(), feeder->heights());
     feeder->start();
     for (const GridPoint at : {GridPoint{100.0, 100.0}, GridPoint{1200.0, 400.0},
@@ -92,12 +93,12 @@ TEST(WindowFeeder, EverythingOnTheHandsWayIsThereInTheEnd)
     EXPECT_GT(feeder->statistics().tiles_per_s, 0.0);
 }
 
-TEST(WindowFeeder, HasTheTilesAheadOfAHandThatMovesOn)
+TEST(ClipmapStreamer, HasTheTilesAheadOfAHandThatMovesOn)
 {
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
     const TiledRaster raster(cache, map.source);
-    const auto feeder = WindowFeeder::create(raster, map.heights).value();
+    const auto feeder = ClipmapStreamer::create(raster, map.heights).value();
     ServoTerrain servo(feeder->exchange(), feeder->heights());
     // One cell per millisecond, with time for one tile every five milliseconds, and not for half of
     // the map.
@@ -126,12 +127,12 @@ TEST(WindowFeeder, HasTheTilesAheadOfAHandThatMovesOn)
     EXPECT_EQ(missed, 0U);
 }
 
-TEST(WindowFeeder, WantsNothingWithoutAHand)
+TEST(ClipmapStreamer, WantsNothingWithoutAHand)
 {
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
     const TiledRaster raster(cache, map.source);
-    const auto feeder = WindowFeeder::create(raster, map.heights).value();
+    const auto feeder = ClipmapStreamer::create(raster, map.heights).value();
     const std::uint64_t read = map.source->readCount();
     EXPECT_EQ(read, 1U) << "the coarsest tile";
     EXPECT_FALSE(feeder->feed(Clock::now()));
@@ -142,7 +143,7 @@ TEST(WindowFeeder, WantsNothingWithoutAHand)
     EXPECT_TRUE(feeder->feed(Clock::now()));
 }
 
-TEST(WindowFeeder, StopsAtOnceWhileTilesAreOnTheirWay)
+TEST(ClipmapStreamer, StopsAtOnceWhileTilesAreOnTheirWay)
 {
     std::atomic<bool> is_open{false};
     std::atomic<int> waiting{0};
@@ -154,7 +155,8 @@ TEST(WindowFeeder, StopsAtOnceWhileTilesAreOnTheirWay)
         return std::nullopt;
     }});
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
-    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    const auto feeder =
+        ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
     feeder->exchange()->motion.write(handAt({700.0, 300.0}));
     feeder->start();
     while (waiting == 0) {
@@ -174,7 +176,7 @@ TEST(WindowFeeder, StopsAtOnceWhileTilesAreOnTheirWay)
     }
 }
 
-TEST(WindowFeeder, GoesOnWhereTilesFailAndHasThemWhenTheyCanBeRead)
+TEST(ClipmapStreamer, GoesOnWhereTilesFailAndHasThemWhenTheyCanBeRead)
 {
     std::atomic<bool> is_broken{true};
     std::atomic<int> failures{0};
@@ -186,7 +188,8 @@ TEST(WindowFeeder, GoesOnWhereTilesFailAndHasThemWhenTheyCanBeRead)
         return std::nullopt;
     }});
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
-    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    const auto feeder =
+        ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
     ServoTerrain servo(feeder->exchange(), feeder->heights());
     const GridPoint at{900.0, 400.0};
     feeder->start();
@@ -203,17 +206,17 @@ TEST(WindowFeeder, GoesOnWhereTilesFailAndHasThemWhenTheyCanBeRead)
     }
 }
 
-TEST(WindowFeeder, NoTileOutlivesTheWindowsThatHaveIt)
+TEST(ClipmapStreamer, NoTileOutlivesTheWindowsThatHaveIt)
 {
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = 0, .loader_threads = 1}); // stores nothing itself
     const TiledRaster raster(cache, map.source);
-    auto feeder = WindowFeeder::create(raster, map.heights).value();
+    auto feeder = ClipmapStreamer::create(raster, map.heights).value();
     const auto exchange = feeder->exchange();
     const GridPoint first{100.0, 100.0};
     const GridPoint second{2000.0, 500.0};
     exchange->motion.write(handAt(second));
-    std::weak_ptr<const ResidentWindow> old;
+    std::weak_ptr<const Clipmap> old;
     feeder->feed(Clock::now());
     ASSERT_TRUE(exchange->windows.take());
     old = exchange->windows.front();
@@ -234,13 +237,14 @@ TEST(WindowFeeder, NoTileOutlivesTheWindowsThatHaveIt)
     EXPECT_NE(exchange->windows.front(), nullptr) << "the servo's window stays alive";
 }
 
-TEST(WindowFeeder, AServoAtWorkNeverWaitsAndNeverReadsWhatIsGone)
+TEST(ClipmapStreamer, AServoAtWorkNeverWaitsAndNeverReadsWhatIsGone)
 {
     // A stress test for the thread and address sanitizers.
     Random random;
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{512} << 10, .loader_threads = 2});
-    const auto feeder = WindowFeeder::create(TiledRaster(cache, map.source), map.heights).value();
+    const auto feeder =
+        ClipmapStreamer::create(TiledRaster(cache, map.source), map.heights).value();
     feeder->start();
     std::atomic<bool> is_done{false};
     std::thread servo_thread([&] {

@@ -1,8 +1,8 @@
-#include "haptics/terrain/window_feeder.h"
+#include "haptics/terrain/clipmap_streamer.h"
 
 #include "core/base/check.h"
 #include "haptics/sync/page_lock.h"
-#include "haptics/terrain/window_blend.h"
+#include "haptics/terrain/clipmap_blend.h"
 
 #include <algorithm>
 #include <iterator>
@@ -41,7 +41,7 @@ SampleBox nearHand(const TileLayout& layout, GridPoint hand)
     return {left, right, upper, lower};
 }
 
-TileId idAt(const ResidentWindow::Level& level, std::size_t k, std::size_t i)
+TileId idAt(const Clipmap::Level& level, std::size_t k, std::size_t i)
 {
     return {TileKind::Samples, static_cast<std::uint8_t>(k),
             level.first_column + static_cast<std::uint32_t>(i % level.columns),
@@ -50,24 +50,24 @@ TileId idAt(const ResidentWindow::Level& level, std::size_t k, std::size_t i)
 
 } // namespace
 
-Result<std::unique_ptr<WindowFeeder>>
-WindowFeeder::create(const TiledRaster& raster,
-                     std::shared_ptr<const TileHeights> heights,
-                     const WindowFeederOptions& options)
+Result<std::unique_ptr<ClipmapStreamer>>
+ClipmapStreamer::create(const TiledRaster& raster,
+                        std::shared_ptr<const TileHeights> heights,
+                        const WindowFeederOptions& options)
 {
     const std::size_t top_level = raster.layout().topLevel();
     auto top = raster.get({TileKind::Samples, static_cast<std::uint8_t>(top_level), 0, 0});
     if (!top) {
         return std::move(top).error();
     }
-    return std::make_unique<WindowFeeder>(raster, std::move(heights), std::move(top).value(),
-                                          options);
+    return std::make_unique<ClipmapStreamer>(raster, std::move(heights), std::move(top).value(),
+                                             options);
 }
 
-WindowFeeder::WindowFeeder(const TiledRaster& raster,
-                           std::shared_ptr<const TileHeights> heights,
-                           std::shared_ptr<const Tile> top,
-                           const WindowFeederOptions& options)
+ClipmapStreamer::ClipmapStreamer(const TiledRaster& raster,
+                                 std::shared_ptr<const TileHeights> heights,
+                                 std::shared_ptr<const Tile> top,
+                                 const WindowFeederOptions& options)
     : raster_(raster)
     , heights_(std::move(heights))
     , options_(options)
@@ -85,23 +85,23 @@ WindowFeeder::WindowFeeder(const TiledRaster& raster,
     MARSVIEW_CHECK(top);
     top_ = locked(std::move(top));
     const std::vector<GridPoint> centres(heights_->layout().topLevel() + 1);
-    window_ = std::make_shared<const ResidentWindow>(heights_, top_, centres, options_.plan.sides);
-    exchange_ = std::make_shared<WindowExchange>(window_);
+    window_ = std::make_shared<const Clipmap>(heights_, top_, centres, options_.plan.sides);
+    exchange_ = std::make_shared<ClipmapExchange>(window_);
 }
 
-WindowFeeder::~WindowFeeder()
+ClipmapStreamer::~ClipmapStreamer()
 {
     stop();
 }
 
-void WindowFeeder::start()
+void ClipmapStreamer::start()
 {
     if (!thread_.joinable()) {
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
     }
 }
 
-void WindowFeeder::stop()
+void ClipmapStreamer::stop()
 {
     if (thread_.joinable()) {
         thread_.request_stop();
@@ -111,13 +111,13 @@ void WindowFeeder::stop()
     }
 }
 
-WindowFeederStatistics WindowFeeder::statistics() const
+WindowFeederStatistics ClipmapStreamer::statistics() const
 {
     const std::lock_guard lock(mutex_);
     return statistics_;
 }
 
-void WindowFeeder::run(const std::stop_token& stop)
+void ClipmapStreamer::run(const std::stop_token& stop)
 {
     while (!stop.stop_requested()) {
         const bool is_active = feed(Clock::now());
@@ -128,7 +128,7 @@ void WindowFeeder::run(const std::stop_token& stop)
     }
 }
 
-void WindowFeeder::want(std::vector<TileId> tiles)
+void ClipmapStreamer::want(std::vector<TileId> tiles)
 {
     if (tiles != wanted_) {
         wanted_ = std::move(tiles);
@@ -136,7 +136,7 @@ void WindowFeeder::want(std::vector<TileId> tiles)
     }
 }
 
-void WindowFeeder::learnThroughput(Clock::time_point now, std::size_t arrived)
+void ClipmapStreamer::learnThroughput(Clock::time_point now, std::size_t arrived)
 {
     arrived_count_ += arrived;
     if (wanted_.empty()) { // the loaders were idle: nothing to measure
@@ -156,7 +156,7 @@ void WindowFeeder::learnThroughput(Clock::time_point now, std::size_t arrived)
     }
 }
 
-std::shared_ptr<const Tile> WindowFeeder::locked(std::shared_ptr<const Tile> tile)
+std::shared_ptr<const Tile> ClipmapStreamer::locked(std::shared_ptr<const Tile> tile)
 {
     const auto held = std::make_shared<LockedTile>();
     held->tile = std::move(tile);
@@ -173,7 +173,7 @@ std::shared_ptr<const Tile> WindowFeeder::locked(std::shared_ptr<const Tile> til
     return {held, held->tile.get()};
 }
 
-bool WindowFeeder::feed(Clock::time_point now)
+bool ClipmapStreamer::feed(Clock::time_point now)
 {
     exchange_->fed_ns.store(now.time_since_epoch() / std::chrono::nanoseconds(1),
                             std::memory_order_relaxed);
@@ -189,22 +189,22 @@ bool WindowFeeder::feed(Clock::time_point now)
     motion.at.row += seconds * motion.rows_per_s;
     WindowPlanOptions plan_options = options_.plan;
     plan_options.tiles_per_s = tiles_per_s_;
-    const WindowPlan plan = planWindow(heights_->layout(), motion, plan_options);
+    const ClipmapPlan plan = planWindow(heights_->layout(), motion, plan_options);
 
-    auto next = std::make_shared<ResidentWindow>(heights_, top_, plan.centres, plan_options.sides);
+    auto next = std::make_shared<Clipmap>(heights_, top_, plan.centres, plan_options.sides);
     // Before the lookup, so that a tile that arrives in the meantime is not missed.
     const std::uint64_t generation = raster_.generation();
     bool is_changed = false;
     std::vector<TileId> arrived;
     for (std::size_t k = 0; k + 1 < next->levelCount(); ++k) {
-        const ResidentWindow::Level& level = next->level(k);
-        const ResidentWindow::Level& last = window_->level(k);
+        const Clipmap::Level& level = next->level(k);
+        const Clipmap::Level& last = window_->level(k);
         const bool has_moved =
             level.first_column != last.first_column || level.first_row != last.first_row;
         is_changed = is_changed || has_moved;
         for (std::size_t i = 0; i < level.slots.size(); ++i) {
             const TileId id = idAt(level, k, i);
-            const ResidentWindow::Slot* slot = window_->slot(id);
+            const Clipmap::Slot* slot = window_->slot(id);
             if (slot != nullptr && slot->tile) {
                 next->put(slot->tile, slot->difference_m);
             } else if (generation != generation_ || has_moved) {
@@ -218,7 +218,7 @@ bool WindowFeeder::feed(Clock::time_point now)
     generation_ = generation;
     const SampleBox near = nearHand(heights_->layout(), motion.at);
     for (const TileId& id : arrived) {
-        if (doOverlap(WindowBlend::reach(heights_->layout(), id), near)) {
+        if (doOverlap(ClipmapBlend::reach(heights_->layout(), id), near)) {
             next->put(next->slot(id)->tile, next->differenceFromCoarser(id));
         }
     }

@@ -29,14 +29,14 @@ inline bool doOverlap(const SampleBox& a, const SampleBox& b) noexcept
 /// Heights change at most at `rate_m_per_s`, so the force on a hand at rest changes at most at the
 /// stiffness times the rate, times the exaggeration and the scale from the scene to the workspace.
 /// A small value for the servo thread: does not allocate.
-class WindowBlend {
+class ClipmapBlend {
 public:
     /// Nine tiles at level 0 and four, at most nine, at each level above, assuming that earlier
     /// tiles have been blended before more arrive. Further tiles take effect at once, and are
     /// counted.
     static constexpr std::size_t kTilesMax = 96;
 
-    /// Adds a tile that has arrived; `difference_m` as in ResidentWindow::Slot, finite. A tile
+    /// Adds a tile that has arrived; `difference_m` as in Clipmap::Slot, finite. A tile
     /// without a difference gets the full weight at once.
     void add(const TileLayout& layout, const TileId& tile, double difference_m) noexcept;
     /// Adds a tile with its weight in another blend, in [0, 1). The weight does not change.

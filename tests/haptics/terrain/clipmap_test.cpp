@@ -1,5 +1,5 @@
+#include "haptics/terrain/clipmap.h"
 #include "haptics/terrain/resident_terrain.h"
-#include "haptics/terrain/resident_window.h"
 #include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/fractal_terrain.h"
 #include "tests/support/make_terrain.h"
@@ -75,7 +75,7 @@ Heightfield terrainOfType(SampleType type, std::size_t columns, std::size_t rows
 /// map.
 class BruteWindow {
 public:
-    BruteWindow(const TiledMap& map, const ResidentWindow& window)
+    BruteWindow(const TiledMap& map, const Clipmap& window)
         : map_(map)
     {
         for (const TileId& id : test::tilesOf(window)) {
@@ -180,7 +180,7 @@ TEST_P(ResidentWindowOfType, HasTheHeightsOfTheMapInMemoryToTheBit)
 {
     const auto [type, has_voids] = GetParam();
     const TiledMap map = test::tiledMap(terrainOfType(type, 600, 523, has_voids));
-    ResidentWindow window = map.window({300.0, 260.0});
+    Clipmap window = map.window({300.0, 260.0});
     for (const TileId& id : test::tilesOf(window)) {
         if (id.level == 0) {
             window.put(map.tile(id), 0.0);
@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(Types,
                                     (std::get<1>(p.param) ? "Voids" : "");
                          });
 
-TEST(ResidentWindow, StandsInWithTheFinestLevelThatIsThere)
+TEST(Clipmap, StandsInWithTheFinestLevelThatIsThere)
 {
     Random random;
     // A multiple of a power of two plus or minus one, and sizes that are not.
@@ -228,9 +228,8 @@ TEST(ResidentWindow, StandsInWithTheFinestLevelThatIsThere)
         const TiledMap map =
             test::tiledMap(test::floatTerrain(width, height, holedHeights(width, height, 1.0)));
         for (const double share : {0.0, 0.3, 0.7}) {
-            ResidentWindow window =
-                map.window({random.uniform(0.0, columns), random.uniform(0.0, rows)},
-                           {.finest = 4, .coarser = 3});
+            Clipmap window = map.window({random.uniform(0.0, columns), random.uniform(0.0, rows)},
+                                        {.finest = 4, .coarser = 3});
             for (const TileId& id : test::tilesOf(window)) {
                 if (random.chance(share)) {
                     window.put(map.tile(id), 0.0);
@@ -258,13 +257,13 @@ TEST(ResidentWindow, StandsInWithTheFinestLevelThatIsThere)
     }
 }
 
-TEST(ResidentWindow, IsNeverHigherThanWhatCastsSkipBy)
+TEST(Clipmap, IsNeverHigherThanWhatCastsSkipBy)
 {
     Random random;
     const TiledMap map =
         test::tiledMap(test::floatTerrain(1500, 1111, holedHeights(1500, 1111, 20.0)));
     for (const double share : {0.0, 0.5}) {
-        ResidentWindow window = map.window({700.0, 500.0}, {.finest = 3, .coarser = 3});
+        Clipmap window = map.window({700.0, 500.0}, {.finest = 3, .coarser = 3});
         for (const TileId& id : test::tilesOf(window)) {
             if (random.chance(share)) {
                 window.put(map.tile(id), 0.0);
@@ -294,15 +293,14 @@ TEST(ResidentWindow, IsNeverHigherThanWhatCastsSkipBy)
     }
 }
 
-TEST(ResidentWindow, CoversThreeTilesASideAroundItsCentreAtEveryLevel)
+TEST(Clipmap, CoversThreeTilesASideAroundItsCentreAtEveryLevel)
 {
     Random random;
     const TiledMap map =
         test::tiledMap(test::int16Terrain(2300, 1900, {}, roughHeights(2300, 1900, 1.0)));
     for (int i = 0; i < 300; ++i) {
         const GridPoint hand{random.uniform(-50.0, 2350.0), random.uniform(-50.0, 1950.0)};
-        const ResidentWindow window =
-            map.window(hand, {.finest = 4 + random.below(3), .coarser = 4});
+        const Clipmap window = map.window(hand, {.finest = 4 + random.below(3), .coarser = 4});
         for (std::size_t k = 0; k < window.levelCount(); ++k) {
             const auto tile_under = [k](double at, double last) {
                 return static_cast<std::ptrdiff_t>(std::clamp(at, 0.0, last)) >> (8 + k);
@@ -322,7 +320,7 @@ TEST(ResidentWindow, CoversThreeTilesASideAroundItsCentreAtEveryLevel)
     }
 }
 
-TEST(ResidentWindow, DifferenceBoundsWhatATileChanges)
+TEST(Clipmap, DifferenceBoundsWhatATileChanges)
 {
     Random random;
     long checked = 0;
@@ -334,8 +332,8 @@ TEST(ResidentWindow, DifferenceBoundsWhatATileChanges)
             test::tiledMap(test::floatTerrain(width, height, holedHeights(width, height, 3.0)));
         for (int round = 0; round < 12; ++round) {
             const GridPoint centre{random.uniform(0.0, columns), random.uniform(0.0, rows)};
-            ResidentWindow before = map.window(centre, {.finest = 4, .coarser = 3});
-            ResidentWindow after = map.window(centre, {.finest = 4, .coarser = 3});
+            Clipmap before = map.window(centre, {.finest = 4, .coarser = 3});
+            Clipmap after = map.window(centre, {.finest = 4, .coarser = 3});
             const auto tiles = test::tilesOf(before);
             const TileId arriving = tiles[random.below(tiles.size())];
             for (const TileId& id : tiles) {
@@ -351,7 +349,7 @@ TEST(ResidentWindow, DifferenceBoundsWhatATileChanges)
             after.put(map.tile(arriving), 0.0);
             const double difference_m = after.differenceFromCoarser(arriving);
             double most = 0.0;
-            const SampleBox reach = WindowBlend::reach(map.layout(), arriving);
+            const SampleBox reach = ClipmapBlend::reach(map.layout(), arriving);
             for (std::size_t row = 0; row < height; ++row) {
                 for (std::size_t column = 0; column < width; ++column) {
                     const double change =

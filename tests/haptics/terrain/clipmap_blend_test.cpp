@@ -1,5 +1,5 @@
-#include "haptics/terrain/resident_window.h"
-#include "haptics/terrain/window_blend.h"
+#include "haptics/terrain/clipmap.h"
+#include "haptics/terrain/clipmap_blend.h"
 #include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/random.h"
 
@@ -14,9 +14,9 @@ using test::samplesTile;
 
 constexpr TileLayout kLayout{.columns = 3000, .rows = 2000};
 
-TEST(WindowBlend, WeighsFromNothingToAllAtTheRate)
+TEST(ClipmapBlend, WeighsFromNothingToAllAtTheRate)
 {
-    WindowBlend blend;
+    ClipmapBlend blend;
     const TileId tile = samplesTile(0, 2, 3);
     EXPECT_EQ(blend.weight(tile), 1.0);
     blend.add(kLayout, tile, 8.0);
@@ -34,9 +34,9 @@ TEST(WindowBlend, WeighsFromNothingToAllAtTheRate)
     EXPECT_TRUE(blend.isEmpty());
 }
 
-TEST(WindowBlend, KeepsAWeightThatItIsGiven)
+TEST(ClipmapBlend, KeepsAWeightThatItIsGiven)
 {
-    WindowBlend blend;
+    ClipmapBlend blend;
     const TileId tile = samplesTile(0, 2, 3);
     blend.put(kLayout, tile, 0.3);
     blend.put(kLayout, tile, 0.4);
@@ -45,16 +45,16 @@ TEST(WindowBlend, KeepsAWeightThatItIsGiven)
     EXPECT_EQ(blend.count(), 1U);
 }
 
-TEST(WindowBlend, WhatMakesNoDifferenceIsFeltAtOnce)
+TEST(ClipmapBlend, WhatMakesNoDifferenceIsFeltAtOnce)
 {
-    WindowBlend blend;
+    ClipmapBlend blend;
     blend.add(kLayout, samplesTile(0, 0, 0), 0.0);
     EXPECT_TRUE(blend.isEmpty());
 }
 
-TEST(WindowBlend, ACoarserTileWaitsForTheFinerOnesUponIt)
+TEST(ClipmapBlend, ACoarserTileWaitsForTheFinerOnesUponIt)
 {
-    WindowBlend blend;
+    ClipmapBlend blend;
     const TileId coarse = samplesTile(1, 1, 1); // samples 511 to 1023
     const TileId fine = samplesTile(0, 2, 3);
     const TileId elsewhere = samplesTile(0, 5, 5);
@@ -73,13 +73,13 @@ TEST(WindowBlend, ACoarserTileWaitsForTheFinerOnesUponIt)
     EXPECT_EQ(blend.weight(coarse), 0.75);
 }
 
-TEST(WindowBlend, FeelsAtOnceWhatDoesNotFit)
+TEST(ClipmapBlend, FeelsAtOnceWhatDoesNotFit)
 {
-    WindowBlend blend;
-    for (std::size_t i = 0; i < WindowBlend::kTilesMax + 5; ++i) {
+    ClipmapBlend blend;
+    for (std::size_t i = 0; i < ClipmapBlend::kTilesMax + 5; ++i) {
         blend.add(kLayout, samplesTile(0, i % 11, i / 11), 1.0);
     }
-    EXPECT_EQ(blend.count(), WindowBlend::kTilesMax);
+    EXPECT_EQ(blend.count(), ClipmapBlend::kTilesMax);
     EXPECT_EQ(blend.overflowCount(), 5U);
     blend.keepOnly([](const TileId& id, const SampleBox&) { return id.row == 0; });
     EXPECT_EQ(blend.count(), 11U);
@@ -87,13 +87,13 @@ TEST(WindowBlend, FeelsAtOnceWhatDoesNotFit)
     EXPECT_EQ(blend.weight(samplesTile(0, 1, 0)), 0.0);
 }
 
-TEST(WindowBlend, ReachIsWhatATileHasASayIn)
+TEST(ClipmapBlend, ReachIsWhatATileHasASayIn)
 {
     for (const TileLayout layout : {TileLayout{.columns = 1025, .rows = 700}, kLayout}) {
         for (std::size_t level = 0; level <= layout.topLevel(); ++level) {
             const std::size_t step = std::size_t{1} << level;
             for (std::size_t c = 0; c < layout.tileColumns(TileKind::Samples, level); ++c) {
-                const SampleBox reach = WindowBlend::reach(layout, samplesTile(level, c, 0));
+                const SampleBox reach = ClipmapBlend::reach(layout, samplesTile(level, c, 0));
                 // For every sample of the map, the samples of the level before and after it.
                 for (std::size_t at = 0; at < layout.columns; ++at) {
                     const bool is_sample = at % step == 0 || at == layout.columns - 1;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/tiles/tile.h"
+#include "haptics/terrain/clipmap.h"
 #include "haptics/terrain/hand_motion.h"
-#include "haptics/terrain/resident_window.h"
 
 #include <cstddef>
 #include <vector>
@@ -17,8 +17,8 @@ struct WindowPlanOptions {
 };
 
 /// What a window should cover, and the tiles to request.
-struct WindowPlan {
-    std::vector<GridPoint> centres; // of the levels, for ResidentWindow
+struct ClipmapPlan {
+    std::vector<GridPoint> centres; // of the levels, for Clipmap
     std::vector<TileId> tiles;      // the most urgent first; all covered by the window
     /// Finer levels would arrive too late, after the hand has passed.
     std::size_t finest_level = 0;
@@ -27,7 +27,7 @@ struct WindowPlan {
 /// The tiles under the hand come first, from coarse to fine, so that coarse replacements are
 /// refined at once; then the tiles around and ahead, by the time until the hand is near; from level
 /// 3 on, where tiles are few and quick to read, all that the window covers. A pure function.
-WindowPlan
+ClipmapPlan
 planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanOptions& options);
 
 } // namespace marsview

@@ -1,6 +1,6 @@
 // Notation. Sample i of level k is sample min(i · 2^k, count - 1) of the map, along either axis, so
 // that the last cell of a level is narrower than the others if 2^k does not divide count - 1.
-#include "haptics/terrain/resident_window.h"
+#include "haptics/terrain/clipmap.h"
 
 #include "core/base/check.h"
 #include "core/terrain/triangulation.h"
@@ -36,10 +36,8 @@ AlongAxis alongAxis(std::size_t level, std::size_t sample, std::size_t count) no
 
 } // namespace
 
-std::size_t ResidentWindow::firstTile(double centre,
-                                      std::size_t level,
-                                      std::size_t tiles,
-                                      std::size_t side) noexcept
+std::size_t
+Clipmap::firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side) noexcept
 {
     const double width = static_cast<double>(kTileSide << level);
     const double most = static_cast<double>(tiles - side);
@@ -47,10 +45,10 @@ std::size_t ResidentWindow::firstTile(double centre,
     return static_cast<std::size_t>(std::clamp(first, 0.0, most));
 }
 
-ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
-                               std::shared_ptr<const Tile> top,
-                               const std::vector<GridPoint>& centres,
-                               const WindowSides& sides)
+Clipmap::Clipmap(std::shared_ptr<const TileHeights> heights,
+                 std::shared_ptr<const Tile> top,
+                 const std::vector<GridPoint>& centres,
+                 const WindowSides& sides)
     : heights_(std::move(heights))
 {
     const TileLayout& layout = heights_->layout();
@@ -76,9 +74,9 @@ ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
     putTop(std::move(top));
 }
 
-ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
-                               std::shared_ptr<const Tile> top,
-                               std::span<const ShownTiles> squares)
+Clipmap::Clipmap(std::shared_ptr<const TileHeights> heights,
+                 std::shared_ptr<const Tile> top,
+                 std::span<const ShownTiles> squares)
     : heights_(std::move(heights))
 {
     const TileLayout& layout = heights_->layout();
@@ -95,9 +93,7 @@ ResidentWindow::ResidentWindow(std::shared_ptr<const TileHeights> heights,
     putTop(std::move(top));
 }
 
-bool ResidentWindow::fits(const TileLayout& layout,
-                          std::size_t level,
-                          const ShownTiles& square) noexcept
+bool Clipmap::fits(const TileLayout& layout, std::size_t level, const ShownTiles& square) noexcept
 {
     const auto along = [](std::size_t first, std::size_t side, std::size_t tiles) {
         return side > 0 && side <= kSideMax && first < tiles && side <= tiles - first;
@@ -107,13 +103,13 @@ bool ResidentWindow::fits(const TileLayout& layout,
            along(square.first_row, square.rows, layout.tileRows(TileKind::Samples, level));
 }
 
-void ResidentWindow::putTop(std::shared_ptr<const Tile> top)
+void Clipmap::putTop(std::shared_ptr<const Tile> top)
 {
     MARSVIEW_CHECK(top && top->id.level + 1U == levels_.size());
     put(std::move(top), 0.0);
 }
 
-ShownTiles ResidentWindow::shown(std::size_t level) const noexcept
+ShownTiles Clipmap::shown(std::size_t level) const noexcept
 {
     const Level& l = levels_[level];
     ShownTiles shown{l.first_column, l.first_row, l.columns, l.rows, 0};
@@ -123,7 +119,7 @@ ShownTiles ResidentWindow::shown(std::size_t level) const noexcept
     return shown;
 }
 
-void ResidentWindow::put(std::shared_ptr<const Tile> tile, double difference_m)
+void Clipmap::put(std::shared_ptr<const Tile> tile, double difference_m)
 {
     const TileLayout& layout = heights_->layout();
     const TileId& id = tile->id;
@@ -138,7 +134,7 @@ void ResidentWindow::put(std::shared_ptr<const Tile> tile, double difference_m)
 }
 
 std::optional<double>
-ResidentWindow::vertex(std::size_t level, std::size_t column, std::size_t row) const noexcept
+Clipmap::vertex(std::size_t level, std::size_t column, std::size_t row) const noexcept
 {
     const Slot* found = slot(level, column / kTileSide, row / kTileSide);
     if (found == nullptr || found->tile == nullptr) {
@@ -147,10 +143,10 @@ ResidentWindow::vertex(std::size_t level, std::size_t column, std::size_t row) c
     return heights_->sample(*found->tile, column % kTileSide, row % kTileSide);
 }
 
-std::optional<double> ResidentWindow::heightAtLevel(std::size_t level,
-                                                    std::size_t column,
-                                                    std::size_t row,
-                                                    Sources* sources) const noexcept
+std::optional<double> Clipmap::heightAtLevel(std::size_t level,
+                                             std::size_t column,
+                                             std::size_t row,
+                                             Sources* sources) const noexcept
 {
     const TileLayout& layout = heights_->layout();
     const auto [c, u] = alongAxis(level, column, layout.columns);
@@ -186,7 +182,7 @@ std::optional<double> ResidentWindow::heightAtLevel(std::size_t level,
     return u == 0.0 && v == 0.0 ? z.upper_left : heightInCell(z, u, v);
 }
 
-ResidentWindow::Reading ResidentWindow::read(std::size_t column, std::size_t row) const noexcept
+Clipmap::Reading Clipmap::read(std::size_t column, std::size_t row) const noexcept
 {
     for (std::size_t level = 0; level + 1 < levels_.size(); ++level) {
         if (const auto height_m = heightAtLevel(level, column, row)) {
@@ -199,7 +195,7 @@ ResidentWindow::Reading ResidentWindow::read(std::size_t column, std::size_t row
     return {top == 0 ? height_m : std::min(height_m, heights_->ceiling(column, row)), top};
 }
 
-bool ResidentWindow::isVoid(std::size_t column, std::size_t row) const noexcept
+bool Clipmap::isVoid(std::size_t column, std::size_t row) const noexcept
 {
     for (std::size_t level = 0; level < levels_.size(); ++level) {
         const std::size_t c = column >> level;
@@ -216,7 +212,7 @@ bool ResidentWindow::isVoid(std::size_t column, std::size_t row) const noexcept
 // The exception are the narrow cells at the end of a level, whose diagonals differ from those of
 // the finer levels: there, both planes of a cell are compared with all samples in the closed cell,
 // which bounds the difference between samples on either plane.
-double ResidentWindow::differenceFromCoarser(const TileId& id) const
+double Clipmap::differenceFromCoarser(const TileId& id) const
 {
     const TileLayout& layout = heights_->layout();
     const std::size_t finer = id.level;

@@ -3,8 +3,8 @@
 
 #include "haptics/sync/seq_lock.h"
 #include "haptics/sync/triple_buffer.h"
+#include "haptics/terrain/clipmap.h"
 #include "haptics/terrain/hand_motion.h"
-#include "haptics/terrain/resident_window.h"
 
 #include <atomic>
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace marsview {
 
-struct WindowExchange {
-    explicit WindowExchange(const std::shared_ptr<const ResidentWindow>& window)
+struct ClipmapExchange {
+    explicit ClipmapExchange(const std::shared_ptr<const Clipmap>& window)
         : windows(window)
     {}
 
-    SeqLock<HandMotion> motion;                                  // the servo writes
-    TripleBuffer<std::shared_ptr<const ResidentWindow>> windows; // the servo reads
+    SeqLock<HandMotion> motion;                           // the servo writes
+    TripleBuffer<std::shared_ptr<const Clipmap>> windows; // the servo reads
     /// The feeder's last round, ns of the steady clock; 0: never. If it stops, the servo's window
     /// may be outdated.
     std::atomic<std::int64_t> fed_ns{0};

@@ -1,4 +1,4 @@
-#include "haptics/terrain/window_blend.h"
+#include "haptics/terrain/clipmap_blend.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,7 @@
 
 namespace marsview {
 
-SampleBox WindowBlend::reach(const TileLayout& layout, const TileId& tile) noexcept
+SampleBox ClipmapBlend::reach(const TileLayout& layout, const TileId& tile) noexcept
 {
     // A sample of a level affects the cells around it, up to the next samples of that level.
     const auto along = [&tile](std::size_t first, std::size_t width, std::size_t level_count,
@@ -25,7 +25,7 @@ SampleBox WindowBlend::reach(const TileLayout& layout, const TileId& tile) noexc
     return {left, right, upper, lower};
 }
 
-void WindowBlend::add(const TileLayout& layout, const TileId& tile, double difference_m) noexcept
+void ClipmapBlend::add(const TileLayout& layout, const TileId& tile, double difference_m) noexcept
 {
     if (!(difference_m > 0.0) || has(tile)) {
         return;
@@ -37,7 +37,7 @@ void WindowBlend::add(const TileLayout& layout, const TileId& tile, double diffe
     tiles_[count_++] = {tile, difference_m, 0.0, reach(layout, tile)};
 }
 
-void WindowBlend::put(const TileLayout& layout, const TileId& tile, double weight) noexcept
+void ClipmapBlend::put(const TileLayout& layout, const TileId& tile, double weight) noexcept
 {
     if (count_ < kTilesMax && !has(tile)) {
         constexpr double kHeld = std::numeric_limits<double>::infinity(); // not changed by any rate
@@ -45,7 +45,7 @@ void WindowBlend::put(const TileLayout& layout, const TileId& tile, double weigh
     }
 }
 
-void WindowBlend::advance(double seconds, double rate_m_per_s) noexcept
+void ClipmapBlend::advance(double seconds, double rate_m_per_s) noexcept
 {
     // While a finer tile is blended over it, a coarser one keeps its weight, so that only one
     // difference changes at a time.
@@ -69,13 +69,13 @@ void WindowBlend::advance(double seconds, double rate_m_per_s) noexcept
     count_ = kept;
 }
 
-double WindowBlend::weight(const TileId& tile) const noexcept
+double ClipmapBlend::weight(const TileId& tile) const noexcept
 {
     const Blended* found = find(tile);
     return found == nullptr ? 1.0 : found->weight;
 }
 
-const WindowBlend::Blended* WindowBlend::find(const TileId& tile) const noexcept
+const ClipmapBlend::Blended* ClipmapBlend::find(const TileId& tile) const noexcept
 {
     const auto end = tiles_.begin() + static_cast<std::ptrdiff_t>(count_);
     const auto found = std::find_if(tiles_.begin(), end,

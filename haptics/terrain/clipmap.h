@@ -17,7 +17,7 @@ namespace marsview {
 
 /// The number of tiles per side of a window.
 struct WindowSides {
-    std::size_t finest = 8;  // at level 0; 3 to ResidentWindow::kSideMax
+    std::size_t finest = 8;  // at level 0; 3 to Clipmap::kSideMax
     std::size_t coarser = 4; // at every other level; likewise
 };
 
@@ -48,7 +48,7 @@ struct ShownTiles {
 ///
 /// Filled by one thread, immutable afterwards. Const members: any thread, including the servo
 /// thread.
-class ResidentWindow {
+class Clipmap {
 public:
     static constexpr std::size_t kSideMax = 8;
 
@@ -87,16 +87,16 @@ public:
 
     /// `top` is the tile of the coarsest level. Level k is centered on `centres[k]`, in samples of
     /// the map; there is one entry per level.
-    ResidentWindow(std::shared_ptr<const TileHeights> heights,
-                   std::shared_ptr<const Tile> top,
-                   const std::vector<GridPoint>& centres,
-                   const WindowSides& sides = {});
+    Clipmap(std::shared_ptr<const TileHeights> heights,
+            std::shared_ptr<const Tile> top,
+            const std::vector<GridPoint>& centres,
+            const WindowSides& sides = {});
 
     /// With the squares of another window, one per level, each within the map's tiles. Only `top`
     /// is resident until other tiles are put.
-    ResidentWindow(std::shared_ptr<const TileHeights> heights,
-                   std::shared_ptr<const Tile> top,
-                   std::span<const ShownTiles> squares);
+    Clipmap(std::shared_ptr<const TileHeights> heights,
+            std::shared_ptr<const Tile> top,
+            std::span<const ShownTiles> squares);
 
     /// Requires a tile within the window whose samples can all be touched
     /// (TileHeights::isTouchable).

@@ -1,4 +1,4 @@
-#include "haptics/terrain/window_plan.h"
+#include "haptics/terrain/clipmap_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +52,10 @@ struct Urgency {
 
 } // namespace
 
-WindowPlan
+ClipmapPlan
 planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanOptions& options)
 {
-    WindowPlan plan;
+    ClipmapPlan plan;
     const std::size_t top = layout.topLevel();
     plan.finest_level = finestLevelInTime(layout, motion, options);
     const auto inside = [](double at, std::size_t count) {
@@ -80,8 +80,7 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
             continue;
         }
         const auto span = [&](double at, std::size_t tiles) {
-            const std::size_t first =
-                ResidentWindow::firstTile(at, k, tiles, std::min(side, tiles));
+            const std::size_t first = Clipmap::firstTile(at, k, tiles, std::min(side, tiles));
             return Span{first, first + std::min(side, tiles)};
         };
         const Span columns = span(centre.column, layout.tileColumns(TileKind::Samples, k));

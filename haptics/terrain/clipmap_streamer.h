@@ -3,9 +3,9 @@
 
 #include "core/base/result.h"
 #include "core/tiles/tile_cache.h"
-#include "haptics/terrain/resident_window.h"
-#include "haptics/terrain/window_exchange.h"
-#include "haptics/terrain/window_plan.h"
+#include "haptics/terrain/clipmap.h"
+#include "haptics/terrain/clipmap_exchange.h"
+#include "haptics/terrain/clipmap_plan.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -42,22 +42,23 @@ struct WindowFeederStatistics {
 /// publishes a new window whenever tiles arrive or the hand moves on. Tiles live as long as a
 /// window that contains them; windows that the servo thread has released are freed here, never on
 /// the servo thread.
-class WindowFeeder {
+class ClipmapStreamer {
 public:
     /// Reads the tile of the coarsest level first, so the calling thread must be able to wait.
-    static Result<std::unique_ptr<WindowFeeder>> create(const TiledRaster& raster,
-                                                        std::shared_ptr<const TileHeights> heights,
-                                                        const WindowFeederOptions& options = {});
+    static Result<std::unique_ptr<ClipmapStreamer>>
+    create(const TiledRaster& raster,
+           std::shared_ptr<const TileHeights> heights,
+           const WindowFeederOptions& options = {});
     /// `heights` have the raster's layout, and `top` is the tile of its coarsest level. Does not
     /// wait.
-    WindowFeeder(const TiledRaster& raster,
-                 std::shared_ptr<const TileHeights> heights,
-                 std::shared_ptr<const Tile> top,
-                 const WindowFeederOptions& options = {});
+    ClipmapStreamer(const TiledRaster& raster,
+                    std::shared_ptr<const TileHeights> heights,
+                    std::shared_ptr<const Tile> top,
+                    const WindowFeederOptions& options = {});
     /// Stops.
-    ~WindowFeeder();
-    WindowFeeder(const WindowFeeder&) = delete;
-    WindowFeeder& operator=(const WindowFeeder&) = delete;
+    ~ClipmapStreamer();
+    ClipmapStreamer(const ClipmapStreamer&) = delete;
+    ClipmapStreamer& operator=(const ClipmapStreamer&) = delete;
 
     /// Call when a hand arrives over the map, and stop() when it leaves: in between nothing runs
     /// and no tiles are requested. Both for the thread that owns the feeder.
@@ -65,7 +66,7 @@ public:
     void stop();
 
     /// For the one servo thread, which may keep it longer than the feeder.
-    const std::shared_ptr<WindowExchange>& exchange() const noexcept { return exchange_; }
+    const std::shared_ptr<ClipmapExchange>& exchange() const noexcept { return exchange_; }
     const std::shared_ptr<const TileHeights>& heights() const noexcept { return heights_; }
     /// Any thread.
     WindowFeederStatistics statistics() const;
@@ -85,11 +86,11 @@ private:
     std::shared_ptr<const TileHeights> heights_;
     std::shared_ptr<const Tile> top_;
     WindowFeederOptions options_;
-    std::shared_ptr<WindowExchange> exchange_;
+    std::shared_ptr<ClipmapExchange> exchange_;
 
     // Used by the thread, or by the caller of feed().
-    std::shared_ptr<const ResidentWindow> window_; // the latest
-    std::uint64_t generation_ = 0;                 // of the raster at the last lookup
+    std::shared_ptr<const Clipmap> window_; // the latest
+    std::uint64_t generation_ = 0;          // of the raster at the last lookup
     double tiles_per_s_;
     std::optional<Clock::time_point> wanted_since_; // or the last throughput measurement
     std::vector<TileId> wanted_;

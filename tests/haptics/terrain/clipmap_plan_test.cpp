@@ -1,4 +1,4 @@
-#include "haptics/terrain/window_plan.h"
+#include "haptics/terrain/clipmap_plan.h"
 #include "tests/haptics/terrain/tiled_map.h"
 #include "tests/support/random.h"
 
@@ -17,7 +17,7 @@ using test::samplesTile;
 
 constexpr TileLayout kLayout{.columns = 106'694, .rows = 53'347};
 
-std::size_t rankOf(const WindowPlan& plan, const TileId& id)
+std::size_t rankOf(const ClipmapPlan& plan, const TileId& id)
 {
     return static_cast<std::size_t>(std::find(plan.tiles.begin(), plan.tiles.end(), id) -
                                     plan.tiles.begin());
@@ -29,7 +29,7 @@ TileId tileUnder(std::size_t level, GridPoint at)
                        static_cast<std::size_t>(at.row) >> (8 + level));
 }
 
-TEST(WindowPlan, WantsNothingTwiceAndNothingThatTheWindowDoesNotCover)
+TEST(ClipmapPlan, WantsNothingTwiceAndNothingThatTheWindowDoesNotCover)
 {
     Random random;
     for (int i = 0; i < 200; ++i) {
@@ -39,7 +39,7 @@ TEST(WindowPlan, WantsNothingTwiceAndNothingThatTheWindowDoesNotCover)
                                 .columns_per_s = speed * std::cos(heading),
                                 .rows_per_s = speed * std::sin(heading),
                                 .is_active = true};
-        const WindowPlan plan = planWindow(kLayout, motion, {});
+        const ClipmapPlan plan = planWindow(kLayout, motion, {});
         std::set<std::tuple<int, std::size_t, std::size_t>> seen;
         ASSERT_EQ(plan.centres.size(), kLayout.topLevel() + 1);
         for (const TileId& id : plan.tiles) {
@@ -49,20 +49,20 @@ TEST(WindowPlan, WantsNothingTwiceAndNothingThatTheWindowDoesNotCover)
             const std::size_t side = id.level == 0 ? 8 : 4;
             const std::size_t columns = kLayout.tileColumns(TileKind::Samples, id.level);
             const std::size_t rows = kLayout.tileRows(TileKind::Samples, id.level);
-            const std::size_t column = ResidentWindow::firstTile(
-                plan.centres[id.level].column, id.level, columns, std::min(side, columns));
-            const std::size_t row = ResidentWindow::firstTile(plan.centres[id.level].row, id.level,
-                                                              rows, std::min(side, rows));
+            const std::size_t column = Clipmap::firstTile(plan.centres[id.level].column, id.level,
+                                                          columns, std::min(side, columns));
+            const std::size_t row = Clipmap::firstTile(plan.centres[id.level].row, id.level, rows,
+                                                       std::min(side, rows));
             EXPECT_TRUE(id.column >= column && id.column < column + side);
             EXPECT_TRUE(id.row >= row && id.row < row + side);
         }
     }
 }
 
-TEST(WindowPlan, BeginsUnderTheHandFromCoarseToFine)
+TEST(ClipmapPlan, BeginsUnderTheHandFromCoarseToFine)
 {
     const GridPoint at{30'100.0, 20'200.0};
-    const WindowPlan plan = planWindow(kLayout, {.at = at, .is_active = true}, {});
+    const ClipmapPlan plan = planWindow(kLayout, {.at = at, .is_active = true}, {});
     EXPECT_EQ(plan.finest_level, 0U);
     const std::size_t top = kLayout.topLevel();
     for (std::size_t rank = 0; rank < top; ++rank) {
@@ -76,11 +76,11 @@ TEST(WindowPlan, BeginsUnderTheHandFromCoarseToFine)
     }
 }
 
-TEST(WindowPlan, FollowsTheHandsWayInTheOrderOfItsTime)
+TEST(ClipmapPlan, FollowsTheHandsWayInTheOrderOfItsTime)
 {
     // Three tiles to the right within the look-ahead time.
     const GridPoint at{30'150.0, 20'200.0};
-    const WindowPlan plan =
+    const ClipmapPlan plan =
         planWindow(kLayout, {.at = at, .columns_per_s = 1400.0, .is_active = true},
                    {.sides = {}, .tiles_per_s = 1000.0});
     EXPECT_EQ(plan.finest_level, 0U);
@@ -95,12 +95,12 @@ TEST(WindowPlan, FollowsTheHandsWayInTheOrderOfItsTime)
               rankOf(plan, tileUnder(0, {at.column + 256.0, at.row})));
 }
 
-TEST(WindowPlan, WantsOnlyWhatComesInTime)
+TEST(ClipmapPlan, WantsOnlyWhatComesInTime)
 {
     std::size_t last = 0;
     for (const double speed : {0.0, 1e3, 1e4, 5e4, 2e5, 1e6}) {
         for (const double tiles_per_s : {20.0, 2000.0}) {
-            const WindowPlan plan =
+            const ClipmapPlan plan =
                 planWindow(kLayout, {.at = {5e4, 2e4}, .columns_per_s = speed, .is_active = true},
                            {.sides = {}, .tiles_per_s = tiles_per_s});
             // The tiles per second that the corridor needs.
