@@ -1,7 +1,7 @@
 // Detects from another thread that ticks have stopped.
 #pragma once
 
-#include "haptics/loop/leavable_thread.h"
+#include "haptics/loop/detachable_thread.h"
 #include "haptics/loop/servo_core.h"
 
 #include <atomic>
@@ -43,7 +43,7 @@ private:
     static void watch(ServoCore& core, Shared& shared, bool waits_for_first);
 
     std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
-    LeavableThread thread_;
+    DetachableThread thread_;
 };
 
 } // namespace marsview

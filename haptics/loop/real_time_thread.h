@@ -1,7 +1,7 @@
 // A thread that calls a function at a fixed rate, as punctually as the system permits.
 #pragma once
 
-#include "haptics/loop/leavable_thread.h"
+#include "haptics/loop/detachable_thread.h"
 #include "haptics/loop/loop_statistics.h"
 #include "haptics/sync/page_lock.h"
 #include "haptics/sync/seq_lock.h"
@@ -124,7 +124,7 @@ private:
     static void run(const RealTimeOptions& options, void* self, Tick tick, Shared& shared);
 
     std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
-    std::optional<LeavableThread> thread_;
+    std::optional<DetachableThread> thread_;
 };
 
 } // namespace marsview

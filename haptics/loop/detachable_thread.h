@@ -12,11 +12,11 @@ namespace marsview {
 
 /// For work that calls functions that may hang, such as device drivers. The work owns all that it
 /// uses, so that the thread can be detached.
-class LeavableThread {
+class DetachableThread {
 public:
     /// `work()` begins at once; it does not throw.
     template <typename F>
-    explicit LeavableThread(F work)
+    explicit DetachableThread(F work)
         : state_(std::make_shared<State>())
         , thread_([state = state_, work = std::move(work)]() mutable {
             work();
@@ -26,9 +26,9 @@ public:
         })
     {}
     /// Waits, unless the thread was detached.
-    ~LeavableThread() { join(); }
-    LeavableThread(const LeavableThread&) = delete;
-    LeavableThread& operator=(const LeavableThread&) = delete;
+    ~DetachableThread() { join(); }
+    DetachableThread(const DetachableThread&) = delete;
+    DetachableThread& operator=(const DetachableThread&) = delete;
 
     /// Waits until the work is over; no time limit.
     void join()
