@@ -1,7 +1,7 @@
 #include "core/contact/contact_model.h"
 
 #include "core/base/check.h"
-#include "core/contact/held_model.h"
+#include "core/contact/contact_model_adapter.h"
 
 #include <algorithm>
 #include <iterator>

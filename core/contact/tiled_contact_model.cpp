@@ -1,5 +1,5 @@
 #include "core/contact/contact_model.h"
-#include "core/contact/held_model.h"
+#include "core/contact/contact_model_adapter.h"
 #include "core/contact/resident_heights.h"
 
 namespace marsview {

@@ -2,12 +2,12 @@
 
 #include "core/files/gdal_drivers.h"
 #include "core/files/gdal_runtime.h"
-#include "core/files/open_memory.h"
 #include "core/files/open_probe.h"
 #include "core/files/opening_job.h"
+#include "core/files/probe_cache.h"
 #include "core/files/raster_path.h"
-#include "core/files/text_grid_promise.h"
-#include "core/files/tiff_promise.h"
+#include "core/files/text_grid_size_check.h"
+#include "core/files/tiff_size_check.h"
 
 #include <cpl_conv.h>
 
@@ -143,7 +143,7 @@ PlainAttempt openPlain(const std::string& name)
     if (!isOnDisk(name)) {
         return attempt;
     }
-    if (const auto tiff = tiffPromiseOf(name)) {
+    if (const auto tiff = tiffSizesOf(name)) {
         if (!tiff->fits) {
             attempt.refusal = tiff->fits.error();
             return attempt;
@@ -222,14 +222,14 @@ Result<GuardedDataset> openAfterProbe(const std::vector<std::string>& names)
     for (const std::string& name : names) {
         bytes = std::max(bytes, bytesOf(name));
     }
-    std::optional<ProbeAnswer> answer = recallProbe(names);
+    std::optional<ProbeAnswer> answer = cachedProbe(names);
     if (!answer) {
         Result<ProbeAnswer> fresh = probeNames(names, bytes, OpeningJob::current());
         if (!fresh) {
             return std::move(fresh).error();
         }
         answer = std::move(fresh).value();
-        rememberProbe(names, *answer);
+        cacheProbe(names, *answer);
     }
     if (answer->kind == ProbeAnswer::Kind::NotOpened) {
         return Error{ErrorCode::Unsupported, answer->message};

@@ -2,7 +2,7 @@
 //
 // A plain file (plainDrivers(), on a disk, naming no other files) is opened in this process, after
 // our own checks. Anything else is opened by a child process first (open_probe.h), unless that was
-// done before (open_memory.h); then in this process, by the same driver only.
+// done before (probe_cache.h); then in this process, by the same driver only.
 #pragma once
 
 #include "core/base/result.h"

@@ -1,4 +1,4 @@
-#include "core/files/open_memory.h"
+#include "core/files/probe_cache.h"
 
 #include "core/base/environment.h"
 #include "core/files/file_stamp.h"
@@ -146,7 +146,7 @@ void save(const std::string& key, const Remembered& remembered)
 
 } // namespace
 
-std::optional<ProbeAnswer> recallProbe(const std::vector<std::string>& names)
+std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names)
 {
     const std::string key = keyOf(names);
     std::optional<Remembered> found;
@@ -168,7 +168,7 @@ std::optional<ProbeAnswer> recallProbe(const std::vector<std::string>& names)
     return found->answer;
 }
 
-void rememberProbe(const std::vector<std::string>& names, const ProbeAnswer& answer)
+void cacheProbe(const std::vector<std::string>& names, const ProbeAnswer& answer)
 {
     const bool is_crash = answer.kind == ProbeAnswer::Kind::Crashed && answer.driver != "VRT";
     if (!is_crash && answer.kind != ProbeAnswer::Kind::Opened) {

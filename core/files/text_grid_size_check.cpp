@@ -1,4 +1,4 @@
-#include "core/files/text_grid_promise.h"
+#include "core/files/text_grid_size_check.h"
 
 #include "core/files/file_stamp.h"
 #include "core/files/opening_job.h"

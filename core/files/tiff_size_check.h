@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-struct TiffPromise {
+struct TiffSizes {
     /// Done, or why the file is too short for its first directories: Unreadable, a sentence without
     /// the path. Uses rules that every valid file satisfies: lists and blocks end within the file,
     /// every block has an entry in the lists, and no block expands by more than its compression
@@ -21,6 +21,6 @@ struct TiffPromise {
 
 /// Empty if the file on disk is not a TIFF. Memory: one list of blocks, at most the size of the
 /// file. Any thread.
-std::optional<TiffPromise> tiffPromiseOf(const std::string& path);
+std::optional<TiffSizes> tiffSizesOf(const std::string& path);
 
 } // namespace marsview

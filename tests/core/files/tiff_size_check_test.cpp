@@ -1,4 +1,4 @@
-#include "core/files/tiff_promise.h"
+#include "core/files/tiff_size_check.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
@@ -52,12 +52,12 @@ TEST_F(TiffPromiseTest, WhatGdalWritesFits)
     };
     for (const auto& options : layouts) {
         SCOPED_TRACE(testing::PrintToString(options));
-        const auto promise = tiffPromiseOf(write(options));
+        const auto promise = tiffSizesOf(write(options));
         ASSERT_TRUE(promise);
         EXPECT_TRUE(promise->fits) << promise->fits.error().message;
         EXPECT_TRUE(promise->is_plain);
     }
-    const auto picture = tiffPromiseOf(write({"COMPRESS=LERC"}));
+    const auto picture = tiffSizesOf(write({"COMPRESS=LERC"}));
     ASSERT_TRUE(picture);
     EXPECT_TRUE(picture->fits);
     EXPECT_FALSE(picture->is_plain);
@@ -71,7 +71,7 @@ TEST_F(TiffPromiseTest, FlatMapsFitHoweverSmallTheyBecome)
             folder_, "flat.tif", "GTiff", test::recipeFor(2, std::vector<std::int16_t>(4, 0)),
             {"-outsize", "8000", "8000", "-co", std::string("COMPRESS=") + compression, "-co",
              "BLOCKYSIZE=8000"});
-        const auto promise = tiffPromiseOf(path);
+        const auto promise = tiffSizesOf(path);
         ASSERT_TRUE(promise);
         EXPECT_TRUE(promise->fits) << promise->fits.error().message;
     }
@@ -86,7 +86,7 @@ TEST_F(TiffPromiseTest, WhatIsCutShortDoesNot)
         for (const std::uintmax_t bytes : {whole - whole / 8, whole / 2, std::uintmax_t{60}}) {
             SCOPED_TRACE(bytes);
             fs::resize_file(path, bytes);
-            const auto promise = tiffPromiseOf(path);
+            const auto promise = tiffSizesOf(path);
             ASSERT_TRUE(promise);
             ASSERT_FALSE(promise->fits);
             EXPECT_THAT(promise->fits.error().message, HasSubstr("is cut short or damaged: "));
@@ -96,9 +96,9 @@ TEST_F(TiffPromiseTest, WhatIsCutShortDoesNot)
 
 TEST_F(TiffPromiseTest, OtherFilesAreNotTiffs)
 {
-    EXPECT_FALSE(tiffPromiseOf(folder_.write("text.tif", "II is not enough")));
-    EXPECT_FALSE(tiffPromiseOf(folder_.write("short.tif", "II*")));
-    EXPECT_FALSE(tiffPromiseOf(folder_.file("missing.tif")));
+    EXPECT_FALSE(tiffSizesOf(folder_.write("text.tif", "II is not enough")));
+    EXPECT_FALSE(tiffSizesOf(folder_.write("short.tif", "II*")));
+    EXPECT_FALSE(tiffSizesOf(folder_.file("missing.tif")));
 }
 
 TEST_F(TiffPromiseTest, RealFilesFit)
@@ -110,7 +110,7 @@ TEST_F(TiffPromiseTest, RealFilesFit)
             continue;
         }
         SCOPED_TRACE(entry.path());
-        const auto promise = tiffPromiseOf(entry.path().string());
+        const auto promise = tiffSizesOf(entry.path().string());
         ASSERT_TRUE(promise);
         EXPECT_TRUE(promise->fits) << promise->fits.error().message;
     }

@@ -12,11 +12,11 @@ namespace marsview {
 /// The answer to an earlier probe of these names, as long as none of its files was written to since
 /// and the GDAL version is the same. Looks in this process, then in the user's cache folder
 /// ($MARSVIEW_CACHE_DIR/opened, else $XDG_CACHE_HOME/marsview/opened). Any thread.
-std::optional<ProbeAnswer> recallProbe(const std::vector<std::string>& names);
+std::optional<ProbeAnswer> cachedProbe(const std::vector<std::string>& names);
 
 /// Remembers that the names open, or that a driver crashes on a file. Does not store results that
 /// may differ next time: timeouts, lack of memory, files that no driver opens, virtual rasters that
 /// crash, names without files on a disk.
-void rememberProbe(const std::vector<std::string>& names, const ProbeAnswer& answer);
+void cacheProbe(const std::vector<std::string>& names, const ProbeAnswer& answer);
 
 } // namespace marsview

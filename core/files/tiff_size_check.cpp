@@ -1,7 +1,7 @@
 // Notation as in TIFF 6.0 and BigTIFF: a file is a chain of directories (IFDs), a directory a list
 // of entries (tag, type, count, value or the offset of the values). The lists StripOffsets and
 // StripByteCounts, or TileOffsets and TileByteCounts, have an entry for each block.
-#include "core/files/tiff_promise.h"
+#include "core/files/tiff_size_check.h"
 
 #include <algorithm>
 #include <array>
@@ -285,7 +285,7 @@ bool isList(std::uint16_t tag)
 
 } // namespace
 
-std::optional<TiffPromise> tiffPromiseOf(const std::string& path)
+std::optional<TiffSizes> tiffSizesOf(const std::string& path)
 {
     Reader reader(path);
     constexpr std::uint64_t kHeaderBytes = 8;
@@ -303,7 +303,7 @@ std::optional<TiffPromise> tiffPromiseOf(const std::string& path)
     const std::uint64_t word = reader.is_big_tiff ? 8 : 4;        // bytes of offsets and counts
     const std::uint64_t count_bytes = reader.is_big_tiff ? 8 : 2; // of a directory's entries
     const std::uint64_t entry_bytes = 4 + 2 * word;
-    TiffPromise promise;
+    TiffSizes promise;
     std::set<std::uint64_t> seen;
     std::uint64_t place = reader.number(reader.is_big_tiff ? 8 : 4, word);
     while (place != 0 && seen.size() < kDirectoriesMax) {
