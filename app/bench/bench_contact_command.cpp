@@ -117,7 +117,7 @@ Result<Ground> fractalGround(const Options& options, JobMonitor& monitor)
     const SampleStatistics statistics = grid->applyRule({}, 0, options.size);
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid).value()),
                                   statistics, {.gain = is_int16 ? kFractalStep : 1.0});
-    auto analysis = analyse(heightfield, monitor);
+    auto analysis = analyze(heightfield, monitor);
     if (!analysis) {
         return Error{ErrorCode::Cancelled, "measuring was cancelled"};
     }

@@ -56,7 +56,7 @@ std::shared_ptr<const FilledHeightfield> terrainOf(StabilityScene scene)
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid).value()),
                                   statistics, {});
     JobMonitor monitor;
-    auto analysis = analyse(heightfield, monitor);
+    auto analysis = analyze(heightfield, monitor);
     auto filled = FilledHeightfield::build(heightfield, *analysis, monitor);
     MARSVIEW_CHECK(filled);
     return std::make_shared<const FilledHeightfield>(std::move(filled).value());

@@ -518,7 +518,7 @@ measuredLevels(const TileSource& source, const ElevationScale& scale, JobMonitor
     const SampleStatistics statistics = whole->samples.applyRule({}, 0, whole->samples.rows());
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(whole->samples)),
                                   statistics, scale);
-    Result<std::shared_ptr<const SurfaceAnalysis>> analysis = analyse(heightfield, monitor);
+    Result<std::shared_ptr<const SurfaceAnalysis>> analysis = analyze(heightfield, monitor);
     if (!analysis) {
         return std::move(analysis).error();
     }

@@ -61,7 +61,7 @@ public:
     LevelFile& operator=(LevelFile&&) noexcept;
     ~LevelFile();
 
-    /// Reads the analysis; some 1/200 of a byte per sample. The same bits as analyse() on the map
+    /// Reads the analysis; some 1/200 of a byte per sample. The same bits as analyze() on the map
     /// in memory (means: from the stored level up) if `scale` is the scale of the file. Otherwise
     /// bounds still have the same bits, and the rest is converted.
     Result<MapLevels> readLevels(const ElevationScale& scale) const;

@@ -109,7 +109,7 @@ Result<std::shared_ptr<const Map>> analyzeMap(MapSource source, JobMonitor& moni
 {
     auto analysis = [&] {
         const JobPart analyzing(monitor, 0.0, kAnalysisShare);
-        return analyse(source.heightfield, monitor);
+        return analyze(source.heightfield, monitor);
     }();
     if (!analysis) {
         return std::move(analysis).error();

@@ -4,7 +4,7 @@
 
 namespace marsview {
 
-Result<std::shared_ptr<const SurfaceAnalysis>> analyse(const Heightfield& heightfield,
+Result<std::shared_ptr<const SurfaceAnalysis>> analyze(const Heightfield& heightfield,
                                                        JobMonitor& monitor)
 {
     // Fractions of the time, measured on a map of 34 million samples.

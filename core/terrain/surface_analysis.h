@@ -21,7 +21,7 @@ struct SurfaceAnalysis {
 
 /// Reads every sample a few times, on all cores: not for the GUI thread. The only error is
 /// Cancelled.
-Result<std::shared_ptr<const SurfaceAnalysis>> analyse(const Heightfield& heightfield,
+Result<std::shared_ptr<const SurfaceAnalysis>> analyze(const Heightfield& heightfield,
                                                        JobMonitor& monitor);
 
 } // namespace marsview

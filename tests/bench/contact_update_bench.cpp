@@ -41,7 +41,7 @@ std::shared_ptr<const FilledHeightfield> terrainOf(const std::vector<float>& hei
                                   {.gain = gain});
     JobMonitor monitor;
     return std::make_shared<const FilledHeightfield>(
-        FilledHeightfield::build(heightfield, *analyse(heightfield, monitor), monitor).value());
+        FilledHeightfield::build(heightfield, *analyze(heightfield, monitor), monitor).value());
 }
 
 const std::shared_ptr<const FilledHeightfield>& floatTerrain()

@@ -104,7 +104,7 @@ HeightFunction heightsFrom(std::vector<double> heights, std::size_t columns)
 std::shared_ptr<const SurfaceAnalysis> analysed(const Heightfield& heightfield)
 {
     JobMonitor monitor;
-    return analyse(heightfield, monitor).value();
+    return analyze(heightfield, monitor).value();
 }
 
 SceneFrame northUpFrame(std::size_t columns, std::size_t rows, double pixel_m)

@@ -63,11 +63,11 @@ void CrsField::loadCatalogue()
     }
     is_loading_ = true;
     pool_.start([this] {
-        std::shared_ptr<const CrsCatalogue> catalogue;
+        std::shared_ptr<const CrsCatalog> catalogue;
         try {
-            catalogue = std::make_shared<const CrsCatalogue>(CrsCatalogue::fromDatabase());
+            catalogue = std::make_shared<const CrsCatalog>(CrsCatalog::fromDatabase());
         } catch (const std::exception&) {
-            catalogue = std::make_shared<const CrsCatalogue>(std::vector<CrsEntry>{});
+            catalogue = std::make_shared<const CrsCatalog>(std::vector<CrsEntry>{});
         }
         QMetaObject::invokeMethod(
             this,

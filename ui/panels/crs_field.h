@@ -1,7 +1,7 @@
 // A field for a coordinate reference system, with a search in PROJ's database.
 #pragma once
 
-#include "core/geo/crs_catalogue.h"
+#include "core/geo/crs_catalog.h"
 
 #include <QLineEdit>
 #include <QThreadPool>
@@ -48,7 +48,7 @@ private:
     void search();
     void listMatches();
 
-    std::shared_ptr<const CrsCatalogue> catalogue_; // null until it was read
+    std::shared_ptr<const CrsCatalog> catalogue_; // null until it was read
     const Body* body_ = nullptr;
     bool is_loading_ = false;
     QStandardItemModel* model_ = nullptr;

@@ -129,7 +129,7 @@ Result<HeldMap> holdWindow(const MapOptions& options, const GridWindow& window, 
     }
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(loaded->grid)),
                                   loaded->statistics, opened->info.elevationScale());
-    auto analysis = analyse(heightfield, monitor);
+    auto analysis = analyze(heightfield, monitor);
     if (!analysis) {
         return std::move(analysis).error();
     }

@@ -31,7 +31,7 @@ std::shared_ptr<const FilledHeightfield> filledTerrain(const Heightfield& height
 {
     JobMonitor monitor;
     return std::make_shared<const FilledHeightfield>(
-        FilledHeightfield::build(heightfield, *analyse(heightfield, monitor), monitor).value());
+        FilledHeightfield::build(heightfield, *analyze(heightfield, monitor), monitor).value());
 }
 
 std::shared_ptr<const FilledHeightfield> filledTerrain(std::size_t columns,

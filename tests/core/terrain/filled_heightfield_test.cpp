@@ -23,7 +23,7 @@ FilledHeightfield filled(std::size_t columns, const std::vector<float>& heights)
     const Heightfield heightfield(std::make_shared<const SampleGrid>(std::move(grid)), statistics,
                                   {});
     JobMonitor monitor;
-    return FilledHeightfield::build(heightfield, *analyse(heightfield, monitor), monitor).value();
+    return FilledHeightfield::build(heightfield, *analyze(heightfield, monitor), monitor).value();
 }
 
 bool isInDisc(std::size_t column, std::size_t row)
@@ -114,7 +114,7 @@ TEST(FilledHeightfield, StopsWhenCancelled)
     test::Random random;
     const FilledHeightfield terrain = filled(130, holed(random, 130, 100));
     JobMonitor monitor;
-    const auto analysis = *analyse(terrain.heightfield(), monitor);
+    const auto analysis = *analyze(terrain.heightfield(), monitor);
     monitor.cancel();
     const auto cancelled = FilledHeightfield::build(terrain.heightfield(), analysis, monitor);
     ASSERT_FALSE(cancelled);

@@ -1,4 +1,4 @@
-#include "core/geo/crs_catalogue.h"
+#include "core/geo/crs_catalog.h"
 
 #include <ogr_srs_api.h>
 
@@ -89,7 +89,7 @@ std::string textOf(const char* text)
 
 } // namespace
 
-CrsCatalogue CrsCatalogue::fromDatabase()
+CrsCatalog CrsCatalog::fromDatabase()
 {
     int count = 0;
     OSRCRSInfo** list = OSRGetCRSInfoListFromDatabase(nullptr, nullptr, &count);
@@ -106,10 +106,10 @@ CrsCatalogue CrsCatalogue::fromDatabase()
         }
     }
     OSRDestroyCRSInfoList(list);
-    return CrsCatalogue(entries);
+    return CrsCatalog(entries);
 }
 
-CrsCatalogue::CrsCatalogue(const std::vector<CrsEntry>& entries)
+CrsCatalog::CrsCatalog(const std::vector<CrsEntry>& entries)
 {
     records_.reserve(entries.size());
     for (const CrsEntry& entry : entries) {
@@ -129,7 +129,7 @@ CrsCatalogue::CrsCatalogue(const std::vector<CrsEntry>& entries)
 }
 
 std::vector<const CrsEntry*>
-CrsCatalogue::search(std::string_view query, std::size_t count_max, const Body* body) const
+CrsCatalog::search(std::string_view query, std::size_t count_max, const Body* body) const
 {
     std::string plain = lowerCase(query);
     for (const auto& [common, in_database] : kSynonyms) {

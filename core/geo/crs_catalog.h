@@ -19,13 +19,13 @@ struct CrsEntry {
 };
 
 /// An immutable list of systems. Its functions may be called from any thread.
-class CrsCatalogue {
+class CrsCatalog {
 public:
     /// The geographic, projected and compound systems of PROJ's database that are not deprecated:
     /// some 10,000. Takes tens of milliseconds; empty if PROJ finds no database.
-    static CrsCatalogue fromDatabase();
+    static CrsCatalog fromDatabase();
 
-    explicit CrsCatalogue(const std::vector<CrsEntry>& entries);
+    explicit CrsCatalog(const std::vector<CrsEntry>& entries);
 
     std::size_t size() const noexcept { return records_.size(); }
 

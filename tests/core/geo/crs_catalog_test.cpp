@@ -1,5 +1,5 @@
 #include "core/geo/crs.h"
-#include "core/geo/crs_catalogue.h"
+#include "core/geo/crs_catalog.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<std::string> codesFor(const CrsCatalogue& catalogue,
+std::vector<std::string> codesFor(const CrsCatalog& catalogue,
                                   std::string_view query,
                                   std::size_t count_max = 5,
                                   const Body* body = nullptr)
@@ -25,14 +25,14 @@ std::vector<std::string> codesFor(const CrsCatalogue& catalogue,
     return codes;
 }
 
-const CrsCatalogue& database()
+const CrsCatalog& database()
 {
-    static const CrsCatalogue catalogue = CrsCatalogue::fromDatabase();
+    static const CrsCatalog catalogue = CrsCatalog::fromDatabase();
     return catalogue;
 }
 
 // The codes are those of the EPSG registry and of the IAU 2015 list.
-TEST(CrsCatalogue, FindsSystemsByWhatPeopleType)
+TEST(CrsCatalog, FindsSystemsByWhatPeopleType)
 {
     ASSERT_GT(database().size(), 5000U);
     EXPECT_EQ(codesFor(database(), "WGS 84").at(0), "EPSG:4326");
@@ -49,7 +49,7 @@ TEST(CrsCatalogue, FindsSystemsByWhatPeopleType)
     EXPECT_THAT(codesFor(database(), "mars geogr ograph", 20), IsEmpty());
 }
 
-TEST(CrsCatalogue, StatesTheBodyOfEverySystem)
+TEST(CrsCatalog, StatesTheBodyOfEverySystem)
 {
     const auto body_of = [](std::string_view query) {
         const auto hits = database().search(query, 1);
@@ -62,7 +62,7 @@ TEST(CrsCatalogue, StatesTheBodyOfEverySystem)
     EXPECT_EQ(body_of("EPSG:7299"), "Earth"); // "… Fulton-Marshall-St. Joseph"
 }
 
-TEST(CrsCatalogue, PutsSystemsOfTheBodyInQuestionFirst)
+TEST(CrsCatalog, PutsSystemsOfTheBodyInQuestionFirst)
 {
     const auto hits = database().search("equirectangular", 2, bodyNamed("Moon"));
     ASSERT_EQ(hits.size(), 2U); // differ only in the near and the far side
@@ -71,7 +71,7 @@ TEST(CrsCatalogue, PutsSystemsOfTheBodyInQuestionFirst)
     }
 }
 
-TEST(CrsCatalogue, ListsOnlyWhatCanBeUsed)
+TEST(CrsCatalog, ListsOnlyWhatCanBeUsed)
 {
     for (const char* query : {"mars", "moon polar", "utm 10", "lambert france", "ceres", "earth"}) {
         for (const CrsEntry* entry : database().search(query, 8)) {
@@ -82,10 +82,10 @@ TEST(CrsCatalogue, ListsOnlyWhatCanBeUsed)
     }
 }
 
-TEST(CrsCatalogue, MatchesEveryWordOfTheQuery)
+TEST(CrsCatalog, MatchesEveryWordOfTheQuery)
 {
     const Body* mars = bodyNamed("Mars");
-    const CrsCatalogue catalogue(
+    const CrsCatalog catalogue(
         {{.code = "A:1", .name = "Red Plain", .body = mars, .area = "North of the river"},
          {.code = "A:2", .name = "Red Hill", .body = mars},
          {.code = "A:12", .name = "Plain", .body = nullptr}});
