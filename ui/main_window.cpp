@@ -18,9 +18,9 @@
 #include "ui/main_tool_bar.h"
 #include "ui/map_menu.h"
 #include "ui/overlay/map_overlays.h"
-#include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
+#include "ui/panels/layers_panel.h"
 #include "ui/picture_saver.h"
 #include "ui/status_readout.h"
 #include "ui/stretch_control.h"
@@ -120,7 +120,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     , actions_(std::make_unique<WindowActions>(*this, *view_, controller_->undoStack()))
     , notice_bar_(new NoticeBar(this))
     , notice_center_(new NoticeCenter(*notice_bar_, this))
-    , datasets_(new DatasetPanel(actions_->layer, this))
+    , datasets_(new LayersPanel(actions_->layer, this))
     , georeferencing_(new GeoreferencingPanel(this))
     , haptics_(new HapticsController(*view_, driversOf(options), this))
     , haptics_panel_(new HapticsPanel(*haptics_, *actions_->contact_model_group, this))
@@ -297,13 +297,13 @@ void MainWindow::connectActions()
 void MainWindow::connectPanels()
 {
     (new MapKeys(*view_, this))->addTo(*datasets_->list());
-    connect(datasets_, &DatasetPanel::activationRequested, controller_,
+    connect(datasets_, &LayersPanel::activationRequested, controller_,
             &SessionController::activate);
-    connect(datasets_, &DatasetPanel::visibilityRequested, controller_,
+    connect(datasets_, &LayersPanel::visibilityRequested, controller_,
             &SessionController::setVisible);
-    connect(datasets_, &DatasetPanel::nameRequested, controller_, &SessionController::rename);
-    connect(datasets_, &DatasetPanel::moveRequested, controller_, &SessionController::move);
-    connect(datasets_, &DatasetPanel::rampRequested, controller_, &SessionController::setRamp);
+    connect(datasets_, &LayersPanel::nameRequested, controller_, &SessionController::rename);
+    connect(datasets_, &LayersPanel::moveRequested, controller_, &SessionController::move);
+    connect(datasets_, &LayersPanel::rampRequested, controller_, &SessionController::setRamp);
     connect(georeferencing_, &GeoreferencingPanel::overridesRequested, this,
             [this](const RasterOverrides& overrides) {
                 controller_->overrideGeoreferencing(session().active, overrides);

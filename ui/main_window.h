@@ -17,7 +17,7 @@
 
 namespace marsview {
 
-class DatasetPanel;
+class LayersPanel;
 class GeoreferencingPanel;
 class ContactSounds;
 class GuideWindow;
@@ -79,7 +79,7 @@ public:
 
     TerrainView* view() const noexcept { return view_; }
     StatusReadout* readout() const noexcept { return readout_; }
-    DatasetPanel* datasetPanel() const noexcept { return datasets_; }
+    LayersPanel* datasetPanel() const noexcept { return datasets_; }
     GeoreferencingPanel* georeferencingPanel() const noexcept { return georeferencing_; }
     HapticsPanel* hapticsPanel() const noexcept { return haptics_panel_; }
     HapticsController& haptics() noexcept { return *haptics_; }
@@ -164,7 +164,7 @@ private:
     NoticeBar* notice_bar_ = nullptr;
     NoticeCenter* notice_center_ = nullptr;
     WindowNotices* notices_ = nullptr;
-    DatasetPanel* datasets_ = nullptr;
+    LayersPanel* datasets_ = nullptr;
     GeoreferencingPanel* georeferencing_ = nullptr;
     HapticsController* haptics_ = nullptr;
     ConnectionMark connection_mark_;

@@ -4,7 +4,7 @@
 #include "core/contact/contact_model.h"
 #include "core/view/terrain_look.h"
 #include "ui/canvas/tool.h"
-#include "ui/panels/dataset_panel.h"
+#include "ui/panels/layers_panel.h"
 
 #include <QList>
 #include <QString>

@@ -158,7 +158,7 @@ TEST(IncludeRules, PlantedViolationsAreFound)
         {"ui/canvas/map_view.cpp", "app/gui/main_window.h"},
         {"ui/canvas/map_view.cpp", "<gdal.h>"},
         {"ui/canvas/map_view.cpp", "ui/controllers/session_controller.h"},
-        {"ui/controllers/session_controller.cpp", "ui/panels/dataset_panel.h"},
+        {"ui/controllers/session_controller.cpp", "ui/panels/layers_panel.h"},
         {"ui/widgets/icons.cpp", "ui/controllers/preferences.h"},
         {"ui/text/number_text.cpp", "ui/widgets/icons.h"},
         {"app/cli/main.cpp", "<QCoreApplication>"},

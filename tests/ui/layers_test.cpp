@@ -2,9 +2,9 @@
 
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/panels/dataset_panel.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/layer_model.h"
+#include "ui/panels/layers_panel.h"
 #include "ui/status_readout.h"
 #include "ui/window_actions.h"
 

@@ -4,7 +4,7 @@
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
-#include "ui/panels/dataset_panel.h"
+#include "ui/panels/layers_panel.h"
 #include "ui/status_readout.h"
 #include "ui/widgets/coordinate_field.h"
 #include "ui/window_actions.h"

@@ -3,9 +3,9 @@
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/panels/dataset_panel.h"
 #include "ui/panels/layer_delegate.h"
 #include "ui/panels/layer_model.h"
+#include "ui/panels/layers_panel.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
 

@@ -28,11 +28,11 @@ struct LayerActions {
 };
 
 /// A list that shows the session. Asks for changes; never makes any.
-class DatasetPanel final : public QWidget {
+class LayersPanel final : public QWidget {
     Q_OBJECT
 
 public:
-    explicit DatasetPanel(const LayerActions& actions, QWidget* parent = nullptr);
+    explicit LayersPanel(const LayerActions& actions, QWidget* parent = nullptr);
 
     void setSession(const Session& session);
     void setHeightUnit(HeightUnit unit);

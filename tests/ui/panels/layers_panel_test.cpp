@@ -1,7 +1,7 @@
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/panels/dataset_panel.h"
 #include "ui/panels/layer_model.h"
+#include "ui/panels/layers_panel.h"
 #include "ui/window_actions.h"
 
 #include <QApplication>
@@ -22,7 +22,7 @@ namespace {
 
 using testing::ElementsAre;
 
-class DatasetPanelTest : public testing::Test {
+class LayersPanelTest : public testing::Test {
 protected:
     void SetUp() override
     {
@@ -37,7 +37,7 @@ protected:
         list().setFocus();
     }
 
-    DatasetPanel& panel() { return *window_->datasetPanel(); }
+    LayersPanel& panel() { return *window_->datasetPanel(); }
     QListView& list() { return *panel().list(); }
     LayerModel& model() { return *panel().model(); }
     std::string names()
@@ -53,7 +53,7 @@ protected:
     std::unique_ptr<MainWindow> window_;
 };
 
-TEST_F(DatasetPanelTest, TellsSizeRangeAndHistogram)
+TEST_F(LayersPanelTest, TellsSizeRangeAndHistogram)
 {
     const QModelIndex top = model().index(0);
     EXPECT_EQ(top.data().toString(), QStringLiteral("c.asc"));
@@ -66,7 +66,7 @@ TEST_F(DatasetPanelTest, TellsSizeRangeAndHistogram)
     EXPECT_EQ(top.data(LayerModel::RangeRole).toString(), QStringLiteral("328 … 984 ft"));
 }
 
-TEST_F(DatasetPanelTest, IsWorkedByKeysAlone)
+TEST_F(LayersPanelTest, IsWorkedByKeysAlone)
 {
     EXPECT_EQ(names(), "cba");
     QTest::keyClick(&list(), Qt::Key_Down);
@@ -87,7 +87,7 @@ TEST_F(DatasetPanelTest, IsWorkedByKeysAlone)
     EXPECT_TRUE(list().hasFocus());
 }
 
-TEST_F(DatasetPanelTest, KeysOfLayersStayInTheList)
+TEST_F(LayersPanelTest, KeysOfLayersStayInTheList)
 {
     window_->activateWindow();
     window_->view()->setFocus();
@@ -95,7 +95,7 @@ TEST_F(DatasetPanelTest, KeysOfLayersStayInTheList)
     EXPECT_EQ(names(), "cba");
 }
 
-TEST_F(DatasetPanelTest, RenamesInPlace)
+TEST_F(LayersPanelTest, RenamesInPlace)
 {
     window_->actionSet().layer.rename->trigger();
     auto* editor = list().findChild<QLineEdit*>();
@@ -108,7 +108,7 @@ TEST_F(DatasetPanelTest, RenamesInPlace)
     EXPECT_EQ(window_->session().layers[0].name, "c.asc");
 }
 
-TEST_F(DatasetPanelTest, TogglesByItsCheckboxOnly)
+TEST_F(LayersPanelTest, TogglesByItsCheckboxOnly)
 {
     const QRect top = list().visualRect(model().index(0));
     QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, top.topLeft() + QPoint(12, 14));
@@ -120,7 +120,7 @@ TEST_F(DatasetPanelTest, TogglesByItsCheckboxOnly)
     EXPECT_EQ(activeLayer(window_->session())->name, "a.asc");
 }
 
-TEST_F(DatasetPanelTest, ReordersByDropping)
+TEST_F(LayersPanelTest, ReordersByDropping)
 {
     const auto drop = [this](int from, int gap) {
         const std::unique_ptr<QMimeData> data(model().mimeData({model().index(from)}));
@@ -139,7 +139,7 @@ TEST_F(DatasetPanelTest, ReordersByDropping)
     EXPECT_EQ(names(), "cab");
 }
 
-TEST_F(DatasetPanelTest, ChoosesTheRampOfTheActiveLayer)
+TEST_F(LayersPanelTest, ChoosesTheRampOfTheActiveLayer)
 {
     auto* ramps = panel().findChild<QComboBox*>(QStringLiteral("ramp"));
     EXPECT_EQ(ramps->currentIndex(), 0);
@@ -152,7 +152,7 @@ TEST_F(DatasetPanelTest, ChoosesTheRampOfTheActiveLayer)
     EXPECT_EQ(window_->session().layers[0].ramp, "");
 }
 
-TEST_F(DatasetPanelTest, HasRoomForTwenty)
+TEST_F(LayersPanelTest, HasRoomForTwenty)
 {
     for (int i = 0; i < 17; ++i) {
         window_->controller().open({maps_.hill(QStringLiteral("more%1.asc").arg(i))});
@@ -168,7 +168,7 @@ TEST_F(DatasetPanelTest, HasRoomForTwenty)
     }
 }
 
-TEST_F(DatasetPanelTest, SaysWhatToDoWhileThereIsNone)
+TEST_F(LayersPanelTest, SaysWhatToDoWhileThereIsNone)
 {
     while (!window_->session().layers.empty()) {
         QTest::keyClick(&list(), Qt::Key_Delete);

@@ -1,4 +1,4 @@
-#include "ui/panels/dataset_panel.h"
+#include "ui/panels/layers_panel.h"
 
 #include "ui/panels/layer_delegate.h"
 #include "ui/panels/layer_model.h"
@@ -28,7 +28,7 @@ QToolButton* makeButton(QAction* action, QWidget* parent)
 
 } // namespace
 
-DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
+LayersPanel::LayersPanel(const LayerActions& actions, QWidget* parent)
     : QWidget(parent)
     , model_(new LayerModel(this))
     , list_(new QListView(this))
@@ -105,15 +105,14 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
     layout->addLayout(pages_, 1);
     layout->addLayout(foot);
 
-    connect(model_, &LayerModel::visibilityRequested, this, &DatasetPanel::visibilityRequested);
-    connect(model_, &LayerModel::nameRequested, this, &DatasetPanel::nameRequested);
-    connect(model_, &LayerModel::moveRequested, this, &DatasetPanel::moveRequested);
+    connect(model_, &LayerModel::visibilityRequested, this, &LayersPanel::visibilityRequested);
+    connect(model_, &LayerModel::nameRequested, this, &LayersPanel::nameRequested);
+    connect(model_, &LayerModel::moveRequested, this, &LayersPanel::moveRequested);
     connect(list_->selectionModel(), &QItemSelectionModel::currentChanged, this,
             [this](const QModelIndex& current) {
                 if (model_->isHeader(current)) {
                     // Home and a click may lead here; the view is in the middle of it.
-                    QMetaObject::invokeMethod(this, &DatasetPanel::showActive,
-                                              Qt::QueuedConnection);
+                    QMetaObject::invokeMethod(this, &LayersPanel::showActive, Qt::QueuedConnection);
                 } else if (!is_filling_ && current.isValid()) {
                     Q_EMIT activationRequested(model_->idAt(current));
                 }
@@ -124,25 +123,25 @@ DatasetPanel::DatasetPanel(const LayerActions& actions, QWidget* parent)
     showActive();
 }
 
-void DatasetPanel::setSession(const Session& session)
+void LayersPanel::setSession(const Session& session)
 {
     const QScopedValueRollback filling(is_filling_, true);
     model_->setSession(session);
     showActive();
 }
 
-void DatasetPanel::setHeightUnit(HeightUnit unit)
+void LayersPanel::setHeightUnit(HeightUnit unit)
 {
     model_->setHeightUnit(unit);
 }
 
-void DatasetPanel::editName()
+void LayersPanel::editName()
 {
     list_->setFocus();
     list_->edit(list_->currentIndex());
 }
 
-void DatasetPanel::showActive()
+void LayersPanel::showActive()
 {
     const QModelIndex index = model_->indexOfLayer(model_->session().active);
     pages_->setCurrentWidget(index.isValid() ? static_cast<QWidget*>(list_) : empty_);
