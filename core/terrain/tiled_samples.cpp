@@ -74,7 +74,7 @@ void TiledSamples::ask(std::size_t column, std::size_t row) const
         asked_.pop_back();
     }
     asked_.insert(asked_.begin(), id);
-    requests_.want(asked_);
+    requests_.request(asked_);
 }
 
 bool TiledSamples::isLoading() const

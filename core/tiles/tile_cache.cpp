@@ -463,7 +463,7 @@ TileRequests::~TileRequests()
     cache.has_result.wait(lock, [this] { return impl_->notifications == 0; });
 }
 
-void TileRequests::want(std::span<const TileId> tiles)
+void TileRequests::request(std::span<const TileId> tiles)
 {
     TileCache::Impl& cache = *impl_->raster.cache_;
     {

@@ -110,7 +110,7 @@ public:
     TileRequests& operator=(const TileRequests&) = delete;
 
     /// Replaces the previous requests; the most urgent first. Resident tiles count as used.
-    void want(std::span<const TileId> tiles);
+    void request(std::span<const TileId> tiles);
     /// Waits until every requested tile is resident or has failed.
     void waitForPending() const;
     /// The number of pending requests.

@@ -107,7 +107,7 @@ void ClipmapStreamer::stop()
         thread_.request_stop();
         thread_.join();
         thread_ = {};
-        want({});
+        request({});
     }
 }
 
@@ -128,11 +128,11 @@ void ClipmapStreamer::run(const std::stop_token& stop)
     }
 }
 
-void ClipmapStreamer::want(std::vector<TileId> tiles)
+void ClipmapStreamer::request(std::vector<TileId> tiles)
 {
     if (tiles != wanted_) {
         wanted_ = std::move(tiles);
-        requests_.want(wanted_);
+        requests_.request(wanted_);
     }
 }
 
@@ -180,7 +180,7 @@ bool ClipmapStreamer::feed(Clock::time_point now)
     HandMotion motion = exchange_->motion.read();
     const auto age = now.time_since_epoch() - std::chrono::nanoseconds(motion.time_ns);
     if (!motion.is_active || age > kSilence) {
-        want({});
+        request({});
         learnThroughput(now, 0);
         return false;
     }
@@ -232,7 +232,7 @@ bool ClipmapStreamer::feed(Clock::time_point now)
     std::vector<TileId> missing;
     std::copy_if(plan.tiles.begin(), plan.tiles.end(), std::back_inserter(missing),
                  [this](const TileId& id) { return !window_->has(id); });
-    want(std::move(missing));
+    request(std::move(missing));
     const std::lock_guard lock(mutex_);
     statistics_.published += is_changed || !arrived.empty() ? 1U : 0U;
     statistics_.tiles_put += arrived.size();

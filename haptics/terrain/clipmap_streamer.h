@@ -78,7 +78,7 @@ public:
 
 private:
     void run(const std::stop_token& stop);
-    void want(std::vector<TileId> tiles);
+    void request(std::vector<TileId> tiles);
     void learnThroughput(Clock::time_point now, std::size_t arrived);
     std::shared_ptr<const Tile> locked(std::shared_ptr<const Tile> tile);
 

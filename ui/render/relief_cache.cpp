@@ -78,7 +78,7 @@ std::optional<ReliefCache::Found> ReliefCache::find(const ReliefRequest& wanted,
 
 bool ReliefCache::endRound()
 {
-    return loader_.want(missing_) == 0;
+    return loader_.request(missing_) == 0;
 }
 
 void ReliefCache::bind(std::size_t page, GLenum unit, Mixing mixing) const

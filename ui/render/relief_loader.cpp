@@ -40,7 +40,7 @@ ReliefLoader::~ReliefLoader()
     has_work_.notify_all();
 }
 
-std::size_t ReliefLoader::want(std::vector<ReliefRequest> requests)
+std::size_t ReliefLoader::request(std::vector<ReliefRequest> requests)
 {
     std::size_t count = 0;
     {

@@ -48,7 +48,7 @@ public:
     /// What is wanted now, the most urgent first. Takes the place of what was wanted before.
     /// Returns how many of these can be waited for: what could not be read a moment ago is not
     /// tried again at once.
-    std::size_t want(std::vector<ReliefRequest> requests);
+    std::size_t request(std::vector<ReliefRequest> requests);
     /// Why something that was wanted last cannot be made at present.
     const std::optional<Error>& problem() const noexcept { return problem_; }
     /// At most `count_max` finished tiles, each handed out once.

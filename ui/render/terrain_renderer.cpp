@@ -163,7 +163,7 @@ struct Layer {
         std::unordered_set<TileId, TileIdHash> seen;
         std::copy_if(missing.begin(), missing.end(), std::back_inserter(wanted),
                      [&seen](const TileId& id) { return seen.insert(id).second; });
-        requests->want(wanted);
+        requests->request(wanted);
         const TiledRaster& raster = source.heightfield->tiles()->raster();
         // What came between the reading and the asking, nobody else will tell of.
         if (tell && std::any_of(wanted.begin(), wanted.end(), [&raster](const TileId& id) {

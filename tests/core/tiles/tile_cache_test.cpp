@@ -99,7 +99,7 @@ TEST(TileCache, LoadsWhatIsWantedWholeAndOnce)
     const TiledRaster raster(cache, source);
     TileRequests requests(raster, TileUrgency::View);
     EXPECT_EQ(raster.find(tileId(0, 0)), nullptr);
-    requests.want(allOfLevel0());
+    requests.request(allOfLevel0());
     requests.waitForPending();
     for (const TileId& id : allOfLevel0()) {
         const auto tile = raster.find(id);
@@ -109,7 +109,7 @@ TEST(TileCache, LoadsWhatIsWantedWholeAndOnce)
     EXPECT_EQ(requests.missingCount(), 0U);
     EXPECT_EQ(source->readCount(), 20U);
     EXPECT_EQ(raster.generation(), 20U);
-    requests.want(allOfLevel0());
+    requests.request(allOfLevel0());
     requests.waitForPending();
     EXPECT_EQ(source->readCount(), 20U);
     EXPECT_LE(source->openCount(), 3U) << "a reader is used again";
@@ -134,14 +134,14 @@ TEST(TileCache, ServesTheHandBeforeTheView)
     TileRequests view(raster, TileUrgency::View);
     TileRequests hand(raster, TileUrgency::Hand);
     const TileId first = tileId(4, 3);
-    view.want(std::vector{first});
+    view.request(std::vector{first});
     gate.awaitReaders(1); // the loader is busy with the first tile
     const std::vector later{tileId(0, 0), tileId(1, 0)};
     const std::vector viewed{tileId(2, 2), tileId(1, 2)};
     const std::vector touched{tileId(3, 1), tileId(2, 1)};
-    ahead.want(later);
-    view.want(viewed);
-    hand.want(touched);
+    ahead.request(later);
+    view.request(viewed);
+    hand.request(touched);
     gate.open();
     ahead.waitForPending();
     view.waitForPending();
@@ -170,9 +170,9 @@ TEST(TileCache, ServesTheHandWhileTheViewWaitsForASlowSource)
         TileRequests hand(raster, TileUrgency::Hand);
         const std::vector viewed{tileId(0, 0), tileId(1, 0), tileId(2, 0),
                                  tileId(3, 0), tileId(4, 0), tileId(0, 1)};
-        view.want(viewed);
+        view.request(viewed);
         gate.awaitReaders(static_cast<int>(threads)); // as many as are needed for the view
-        hand.want(std::vector{touched});
+        hand.request(std::vector{touched});
         hand.waitForPending();
         EXPECT_NE(raster.find(touched), nullptr);
         EXPECT_EQ(view.missingCount(), viewed.size());
@@ -194,9 +194,9 @@ TEST(TileCache, LeavesOutWhatIsNoLongerWanted)
     TileCache cache({.loader_threads = 1});
     const TiledRaster raster(cache, source);
     TileRequests requests(raster, TileUrgency::View);
-    requests.want(allOfLevel0());
+    requests.request(allOfLevel0());
     gate.awaitReaders(1);
-    requests.want(std::vector{tileId(4, 3)});
+    requests.request(std::vector{tileId(4, 3)});
     gate.open();
     requests.waitForPending();
     EXPECT_NE(raster.find(tileId(4, 3)), nullptr);
@@ -253,7 +253,7 @@ TEST(TileCache, TellsWhyATileFailedAndTriesAgain)
     TileCache cache({.loader_threads = 2});
     const TiledRaster raster(cache, source);
     TileRequests requests(raster, TileUrgency::Hand);
-    requests.want(std::vector{tileId(2, 1), tileId(0, 0)});
+    requests.request(std::vector{tileId(2, 1), tileId(0, 0)});
     requests.waitForPending();
     EXPECT_NE(raster.find(tileId(0, 0)), nullptr) << "a failure affects only that tile";
     const auto first = raster.get(tileId(2, 1));
@@ -307,7 +307,7 @@ TEST(TileCache, TellsThoseWhoWishedAndNobodyAfterwards)
     std::atomic<int> told{0};
     {
         TileRequests requests(raster, TileUrgency::View, [&told] { ++told; });
-        requests.want(allOfLevel0());
+        requests.request(allOfLevel0());
         requests.waitForPending();
     }
     const int so_far = told;
@@ -339,7 +339,7 @@ TEST(TileCache, LoadsOnWhereOnlyItsRastersAreLeft)
         auto cache = std::make_unique<TileCache>(TileCacheOptions{.loader_threads = 2});
         const TiledRaster raster(*cache, source);
         TileRequests requests(raster, TileUrgency::View);
-        requests.want(allOfLevel0());
+        requests.request(allOfLevel0());
         cache.reset();
         requests.waitForPending();
         for (const TileId& id : allOfLevel0()) {
@@ -355,7 +355,7 @@ TEST(TileCache, EndsWhileTilesAreWanted)
         const TileCache cache({.loader_threads = 2});
         const TiledRaster raster(cache, source);
         TileRequests requests(raster, TileUrgency::View);
-        requests.want(allOfLevel0());
+        requests.request(allOfLevel0());
     }
 }
 
@@ -387,7 +387,7 @@ TEST(TileCache, GivesWholeTilesToManyThreadsAtOnce)
                         some.push_back(id);
                     }
                 }
-                requests.want(some);
+                requests.request(some);
                 const TileId id = all[static_cast<std::size_t>(random.uniform(0.0, 19.999))];
                 if (i % 2 == 0) {
                     if (const auto tile = raster.get(id)) {
