@@ -40,6 +40,11 @@ struct ContactModelOptions {
 /// The default model of all programs. ARCHITECTURE.md explains the choice.
 inline constexpr ContactModelKind kContactModelDefault = ContactModelKind::ContinuousWalk;
 
+///     const auto model = makeContactModel(kContactModelDefault, surface);
+///     ContactState contact = model->place(goal); // then, once per update:
+///     contact = model->update(goal);
+///     const Vec3 force_n = stiffness_n_per_m * (contact.proxy - goal);
+///
 /// A running contact model. For one thread at a time; `place` and `update` are for the servo
 /// thread.
 class ContactModel {

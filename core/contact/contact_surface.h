@@ -3,6 +3,11 @@
 // Models are templates over this concept, so that the heightfield, whose mesh is implied by its
 // samples, and any other mesh share them and the inner loops stay inlined. All of it is called from
 // the servo thread: nothing here may allocate, lock, throw or loop without a bound.
+//
+//     const HeightfieldSurface surface(filled, frame, exaggeration); // a map in memory
+//     ContinuousWalk walk(surface);
+//     walk.place(goal);
+//     const ContactState contact = walk.update(next_goal);
 #pragma once
 
 #include "core/base/vec.h"

@@ -40,6 +40,12 @@ struct TileCacheStatistics {
     std::size_t bytes_held = 0;
 };
 
+///     TileCache cache({.bytes_max = std::size_t{1} << 28});
+///     const TiledRaster raster(cache, source);
+///     TileRequests requests(raster, TileUrgency::View, [] { redraw(); });
+///     requests.request(visible_tiles);                  // loads in the background
+///     if (const auto tile = raster.find(id)) { draw(*tile); }
+///
 /// Keeps the most recently used tiles within its limit and loads requested tiles on its own
 /// threads. Tiles in use elsewhere stay alive when the cache is full. All members are for any
 /// thread except the servo thread: they lock briefly, never during a read.

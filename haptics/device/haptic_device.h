@@ -47,6 +47,11 @@ enum class DeviceStatus : std::uint8_t {
     Finished, // a replayed recording has ended
 };
 
+///     DeviceSample sample;
+///     if (device.read(sample) == DeviceStatus::Fine) {
+///         device.write(springForce(sample.position)); // workspace frame, newtons
+///     }
+///
 /// Opened by a DeviceDriver; the destructor closes it and leaves the motors without force. All
 /// members except the constructor and the destructor are called by one thread at a time, take
 /// microseconds, and do not allocate, lock or wait: a device whose transport blocks has its own

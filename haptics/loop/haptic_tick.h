@@ -125,6 +125,11 @@ struct StepResult {
     bool has_ground_changed = false;  // the contact model was notified of a terrain change
 };
 
+///     TickState state;
+///     const TickOptions options = tickOptionsFor(device.capabilities());
+///     const StepResult result = step(options, input, state, 0.001); // once per sample
+///     device.write(result.force_n);
+///
 /// Computes one tick. `dt_s` is the time from the last sample to this one. The result depends only
 /// on the arguments and on the contact model in the settings: the same inputs give the same
 /// outputs. Does not allocate or wait.

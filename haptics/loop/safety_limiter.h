@@ -79,6 +79,10 @@ double cooledHeat(const SafetyLimits& limits, double heat_n2, double seconds) no
 /// force is never reduced.
 double warmForceMax(const SafetyLimits& limits, double heat_n2) noexcept;
 
+///     SafetyState state;
+///     const SafetyOutput out = limitForce(limits, {.force_n = wanted_n}, state, dt_s);
+///     device.write(out.force_n);
+///
 /// `dt_s` is the time since the last force was written: the written force therefore never changes
 /// faster than the rate in real time, however late or early a tick comes. The bounds hold for any
 /// input and state, including NaN and infinities: |force| <= force_n_max, and |force - last force|
