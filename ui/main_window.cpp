@@ -72,6 +72,16 @@ namespace {
 
 constexpr QSize kDefaultSize{1280, 800};
 constexpr int kMessageDuration = 4000; // ms
+constexpr const char* kConnected = "window.connected"; // of CrashMarker
+
+// A driver that ends the program shall not do so at every start.
+bool hasEndedWhileConnected()
+{
+    const std::filesystem::path folder = CrashMarker::defaultFolder();
+    const bool has_ended = CrashMarker::leftBehind(folder, kConnected).has_value();
+    CrashMarker::forget(folder, kConnected);
+    return has_ended;
+}
 
 // Files and addresses that can be opened.
 QStringList mapsIn(const QMimeData& data)
@@ -186,7 +196,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectSounds();
     setPreferences(isRemembered() ? preferencesFrom(QSettings()) : Preferences{});
     showSession();
-    if (isRemembered() && ConnectionMark::takeLeft()) {
+    if (isRemembered() && hasEndedWhileConnected()) {
         haptics_->holdBackRemembered();
     } else {
         haptics_->connectToRemembered();
@@ -200,7 +210,7 @@ MainWindow::~MainWindow()
     delete spacemouse_;    // it moves its camera
     delete haptics_panel_; // it looks at the controller
     delete haptics_;       // and that at the view
-    connection_mark_.set(false);
+    connection_marker_.reset();
 }
 
 void MainWindow::makeCentre()
@@ -443,6 +453,17 @@ void MainWindow::connectReadout()
     });
 }
 
+void MainWindow::markConnection()
+{
+    const bool is_connected =
+        haptics_->connection() == HapticsConnection::Connected && !haptics_->isReplaying();
+    if (!is_connected) {
+        connection_marker_.reset();
+    } else if (!connection_marker_) {
+        connection_marker_.emplace(CrashMarker::set(CrashMarker::defaultFolder(), kConnected));
+    }
+}
+
 void MainWindow::connectHaptics()
 {
     haptics_->setMapsInUse([this] {
@@ -455,8 +476,7 @@ void MainWindow::connectHaptics()
     connect(haptics_, &HapticsController::connectionChanged, this, &MainWindow::showHaptics);
     connect(haptics_, &HapticsController::connectionChanged, this, [this] {
         if (isRemembered()) {
-            connection_mark_.set(haptics_->connection() == HapticsConnection::Connected &&
-                                 !haptics_->isReplaying());
+            markConnection();
         }
     });
     connect(haptics_, &HapticsController::recordingChanged, this, &MainWindow::showHaptics);
@@ -837,7 +857,7 @@ void MainWindow::settleIfIdle()
 void MainWindow::closeEvent(QCloseEvent* event)
 {
     haptics_->close();
-    connection_mark_.set(false);
+    connection_marker_.reset();
     controller_->stopAll();
     if (isRemembered()) {
         QSettings settings;

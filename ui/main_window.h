@@ -1,8 +1,8 @@
 // The window: puts the map, the panels, the toolbar and the dialogs together.
 #pragma once
 
+#include "haptics/device/crash_marker.h"
 #include "haptics/sound/sound_player.h"
-#include "ui/controllers/connection_mark.h"
 #include "ui/controllers/device_finder.h"
 #include "ui/controllers/preferences.h"
 #include "ui/controllers/session_controller.h"
@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace marsview {
 
@@ -142,6 +143,7 @@ private:
     void connectSounds();
     void makeNotices();
     void showHaptics();
+    void markConnection();
     void restoreWindow();
     void connectReadout();
     void showSession();
@@ -167,7 +169,7 @@ private:
     LayersPanel* datasets_ = nullptr;
     GeoreferencingPanel* georeferencing_ = nullptr;
     HapticsController* haptics_ = nullptr;
-    ConnectionMark connection_mark_;
+    std::optional<CrashMarker> connection_marker_; // while a device is connected
     HapticsPanel* haptics_panel_ = nullptr;
     SpaceMouseController* spacemouse_ = nullptr;
     ContactSounds* sounds_ = nullptr;

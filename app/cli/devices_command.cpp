@@ -5,7 +5,7 @@
 #include "app/cli/commands.h"
 #include "app/console/text_output.h"
 #include "haptics/device/device_registry.h"
-#include "haptics/device/load_marker.h"
+#include "haptics/device/plugin_call.h"
 #include "haptics/drivers/built_in_drivers.h"
 
 #include <CLI/CLI.hpp>
@@ -51,7 +51,7 @@ std::string stateOf(const FoundDevice& device)
 Status runDevices(const Options& options)
 {
     if (options.tries_again) {
-        LoadMarker::forgetFailures(LoadMarker::defaultFolder());
+        CrashMarker::forget(CrashMarker::defaultFolder());
     }
     DeviceRegistry registry(builtInDrivers());
     const std::vector<FoundDevice> devices = registry.find();

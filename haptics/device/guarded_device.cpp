@@ -32,7 +32,7 @@ GuardedDevice::~GuardedDevice()
     }
     // If it cannot be marked, for example because another program crashed in this plugin, the
     // device is closed without a marker.
-    Result<LoadMarker> closing = LoadMarker::make(marker_folder_, plugin_, PluginCall::Close);
+    Result<CrashMarker> closing = markPluginCall(marker_folder_, plugin_, PluginCall::Close);
     marker_.reset();
     device_.reset();
 }
@@ -104,7 +104,7 @@ void GuardedDevice::mark()
     if (!is_on_trial_ || marker_) {
         return;
     }
-    Result<LoadMarker> marker = LoadMarker::make(marker_folder_, plugin_, PluginCall::Run);
+    Result<CrashMarker> marker = markPluginCall(marker_folder_, plugin_, PluginCall::Run);
     if (marker) {
         marker_.emplace(std::move(*marker));
     }

@@ -4,7 +4,7 @@
 #include "core/base/file_lock.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/last_trouble.h"
-#include "haptics/device/load_marker.h"
+#include "haptics/device/plugin_call.h"
 
 #include <atomic>
 #include <chrono>
@@ -19,7 +19,7 @@
 
 namespace marsview {
 
-/// Keeps a LoadMarker on disk until the device has been read kReadsOfTrial times, and again while
+/// Keeps a CrashMarker on disk until the device has been read kReadsOfTrial times, and again while
 /// it closes. If the program crashes in start_clock, in the first reads and writes, or in close,
 /// the next start therefore knows which plugin was running. If the device is not read for `idle`,
 /// the marker is removed until the next read, so that unrelated crashes are not blamed on the
@@ -34,7 +34,7 @@ public:
         std::unique_ptr<HapticDevice> device{}; // not null
         std::filesystem::path plugin{};
         std::filesystem::path marker_folder{};
-        std::optional<LoadMarker> marker{}; // of PluginCall::Run
+        std::optional<CrashMarker> marker{}; // of PluginCall::Run
         std::optional<FileLock> lock{};
         std::optional<LastTrouble> last_trouble{};
         std::chrono::milliseconds idle{10'000};
@@ -67,7 +67,7 @@ private:
 
     std::mutex mutex_; // guards the members below; the servo thread does not lock it
     std::condition_variable_any wake_;
-    std::optional<LoadMarker> marker_;
+    std::optional<CrashMarker> marker_;
     bool is_on_trial_ = true;
     std::jthread watcher_; // last member: its thread uses all the others
 };

@@ -4,7 +4,7 @@
 #include "haptics/device/device_lock.h"
 #include "haptics/device/guarded_device.h"
 #include "haptics/device/last_trouble.h"
-#include "haptics/device/load_marker.h"
+#include "haptics/device/plugin_call.h"
 #include "haptics/device/watched_call.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ void exitWithoutUnloading()
 {
     on_exit(
         [](int status, void* /*nothing*/) {
-            LoadMarker::clearAtExit();
+            CrashMarker::clearAtExit();
             std::fflush(nullptr);
             _exit(status);
         },
@@ -131,7 +131,7 @@ PluginOptions PluginOptions::standard()
             options.folders.push_back(std::move(folder));
         }
     }
-    options.marker_folder = LoadMarker::defaultFolder();
+    options.marker_folder = CrashMarker::defaultFolder();
     options.lock_folder = deviceLockFolder();
     return options;
 }
@@ -159,7 +159,7 @@ Result<Library> PluginDriver::load(const fs::path& file)
         }
         known_.erase(known);
     }
-    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file, PluginCall::Load);
+    Result<CrashMarker> marker = markPluginCall(options_.marker_folder, file, PluginCall::Load);
     if (!marker) {
         return std::move(marker).error();
     }
@@ -184,8 +184,8 @@ Result<Library> PluginDriver::load(const fs::path& file)
 
 Result<std::vector<PluginEntry>> PluginDriver::list(const fs::path& file, const Library& library)
 {
-    Result<LoadMarker> marker =
-        LoadMarker::make(options_.marker_folder, file, PluginCall::Enumerate);
+    Result<CrashMarker> marker =
+        markPluginCall(options_.marker_folder, file, PluginCall::Enumerate);
     if (!marker) {
         return std::move(marker).error();
     }
@@ -313,7 +313,7 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
         return std::move(lock).error();
     }
     const LastTrouble last(options_.marker_folder, *name);
-    Result<LoadMarker> marker = LoadMarker::make(options_.marker_folder, file, PluginCall::Open);
+    Result<CrashMarker> marker = markPluginCall(options_.marker_folder, file, PluginCall::Open);
     if (!marker) {
         return std::move(marker).error();
     }
@@ -330,8 +330,8 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
                         if (opened) {
                             // The new marker is made before the old one is removed, so that there
                             // is no unmarked interval.
-                            Result<LoadMarker> running = LoadMarker::make(
-                                guard.marker_folder, guard.plugin, PluginCall::Run);
+                            Result<CrashMarker> running =
+                                markPluginCall(guard.marker_folder, guard.plugin, PluginCall::Run);
                             if (running) {
                                 guard.marker.emplace(std::move(*running));
                             }
@@ -356,7 +356,7 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
 
 void PluginDriver::forgetFailures()
 {
-    LoadMarker::forgetFailures(options_.marker_folder);
+    CrashMarker::forget(options_.marker_folder);
     for (auto known = known_.begin(); known != known_.end();) {
         known = known->second.library ? std::next(known) : known_.erase(known);
     }

@@ -19,7 +19,7 @@ namespace marsview {
 
 struct PluginOptions {
     std::vector<std::filesystem::path> folders; // searched for plugins in this order
-    std::filesystem::path marker_folder;        // see LoadMarker, LastTrouble
+    std::filesystem::path marker_folder;        // see CrashMarker, LastTrouble
     std::filesystem::path lock_folder;          // see lockDevice(); empty: devices are not locked
     /// Time limit for loading a plugin, listing its devices, and opening a device.
     std::chrono::milliseconds patience{3000};
@@ -39,9 +39,10 @@ installedPluginFolders(const std::filesystem::path& program_folder);
 /// "plugin:/path/of/it.so", or "plugin:it.so" in one of the folders; append "#id" to select one of
 /// several devices. A plugin cannot crash the program repeatedly: it is loaded, queried and opened
 /// on watched threads, and a plugin that crashed the program in one of these calls, in its first
-/// seconds of running, or while it was closed, is skipped from then on (LoadMarker, GuardedDevice).
-/// The last problem with a device is shown when the device is found again (LastTrouble). Only one
-/// program at a time can use a device. Every find() scans the folders again.
+/// seconds of running, or while it was closed, is skipped from then on (CrashMarker,
+/// GuardedDevice). The last problem with a device is shown when the device is found again
+/// (LastTrouble). Only one program at a time can use a device. Every find() scans the folders
+/// again.
 class PluginDriver final : public DeviceDriver {
 public:
     explicit PluginDriver(PluginOptions options = PluginOptions::standard());

@@ -452,7 +452,7 @@ TEST(GuardedDevice, IsMarkedOnlyWhileItRuns)
     }
     // A second guard around it, with a short timeout.
     const fs::path markers = folder.options().marker_folder;
-    auto marker = LoadMarker::make(markers, file, PluginCall::Run);
+    auto marker = markPluginCall(markers, file, PluginCall::Run);
     ASSERT_TRUE(marker);
     GuardedDevice guarded({.device = std::move(*device),
                            .plugin = file,
@@ -470,7 +470,7 @@ TEST(GuardedDevice, IsMarkedOnlyWhileItRuns)
     }
 }
 
-TEST(LoadMarker, OfOneProgramIsNeitherClearedNorBlamedByAnother)
+TEST(CrashMarker, OfOneProgramIsNeitherClearedNorBlamedByAnother)
 {
     const PluginFolder folder;
     const fs::path file = folder.add("is_good");
@@ -481,7 +481,7 @@ TEST(LoadMarker, OfOneProgramIsNeitherClearedNorBlamedByAnother)
     ASSERT_EQ(pipe(done), 0);
     const pid_t other = fork();
     if (other == 0) {
-        const auto marker = LoadMarker::make(markers, file, PluginCall::Open);
+        const auto marker = markPluginCall(markers, file, PluginCall::Open);
         char byte = marker ? 'y' : 'n';
         (void)!write(ready[1], &byte, 1);
         (void)!read(done[0], &byte, 1);
@@ -491,16 +491,16 @@ TEST(LoadMarker, OfOneProgramIsNeitherClearedNorBlamedByAnother)
     ASSERT_EQ(read(ready[0], &byte, 1), 1);
     ASSERT_EQ(byte, 'y');
     {
-        const auto own = LoadMarker::make(markers, file, PluginCall::Load);
+        const auto own = markPluginCall(markers, file, PluginCall::Load);
         ASSERT_TRUE(own) << own.error().message;
         EXPECT_EQ(folder.markers(), 2U);
-        LoadMarker::forgetFailures(markers);
+        CrashMarker::forget(markers);
         EXPECT_EQ(folder.markers(), 2U) << "both are in use";
     }
     EXPECT_EQ(folder.markers(), 1U);
     ASSERT_EQ(write(done[1], &byte, 1), 1);
     ASSERT_EQ(waitpid(other, nullptr, 0), other);
-    const auto after = LoadMarker::make(markers, file, PluginCall::Load);
+    const auto after = markPluginCall(markers, file, PluginCall::Load);
     ASSERT_FALSE(after);
     EXPECT_THAT(after.error().message, HasSubstr("while this plugin was opening a device"));
     for (const int end : {ready[0], ready[1], done[0], done[1]}) {
@@ -660,9 +660,9 @@ TEST(PluginDriverDeathTest, LeavesOutWhatEndsTheProgramFromWithin)
     EXPECT_THAT(only(driver).reason, HasSubstr("ended while this plugin was opening a device"));
 }
 
-using LoadMarkerDeathTest = testing::Test;
+using CrashMarkerDeathTest = testing::Test;
 
-TEST(LoadMarkerDeathTest, OfAnEarlierProcessWithTheSameNumberStays)
+TEST(CrashMarkerDeathTest, OfAnEarlierProcessWithTheSameNumberStays)
 {
     const PluginFolder folder;
     const fs::path crashed = folder.add("is_good", "crashed");
@@ -672,17 +672,17 @@ TEST(LoadMarkerDeathTest, OfAnEarlierProcessWithTheSameNumberStays)
         {
             std::string left;
             {
-                const auto marker = LoadMarker::make(markers, crashed, PluginCall::Load);
+                const auto marker = markPluginCall(markers, crashed, PluginCall::Load);
                 left = fs::directory_iterator(markers)->path().string();
             }
             std::ofstream(left) << getpid() << '\n'; // without a lock on the file
-            const auto marker = LoadMarker::make(markers, hanging, PluginCall::Load);
+            const auto marker = markPluginCall(markers, hanging, PluginCall::Load);
             std::exit(marker && folder.markers() == 2 ? 7 : 8);
         },
         testing::ExitedWithCode(7), "");
     EXPECT_EQ(folder.markers(), 1U);
-    EXPECT_FALSE(LoadMarker::make(markers, crashed, PluginCall::Load));
-    EXPECT_TRUE(LoadMarker::make(markers, hanging, PluginCall::Load));
+    EXPECT_FALSE(markPluginCall(markers, crashed, PluginCall::Load));
+    EXPECT_TRUE(markPluginCall(markers, hanging, PluginCall::Load));
 }
 
 TEST(PluginOptions, LookIntoChosenUsersAndSystemsFoldersInThisOrder)
