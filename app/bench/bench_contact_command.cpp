@@ -4,7 +4,6 @@
 #include "app/bench/contact_bench.h"
 #include "app/bench/reference/fractal_heights.h"
 #include "app/bench/svg_plot.h"
-#include "app/cli/commands.h"
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
 #include "app/console/map_options.h"
