@@ -35,10 +35,18 @@ LoadStatus::LoadStatus(QWidget* parent)
     cancel_->setText(QStringLiteral("✕"));
     cancel_->setAutoRaise(true);
     connect(cancel_, &QToolButton::clicked, this, [this] {
-        if (is_loading_) {
+        switch (work()) {
+        case Work::None:
+            break;
+        case Work::Loading:
             Q_EMIT cancelRequested();
-        } else {
+            break;
+        case Work::Saving:
+            Q_EMIT cancelSavingRequested();
+            break;
+        case Work::Preparing:
             Q_EMIT stopPreparingRequested();
+            break;
         }
     });
     auto* layout = new QHBoxLayout(this);
@@ -46,30 +54,57 @@ LoadStatus::LoadStatus(QWidget* parent)
     layout->addWidget(label_);
     layout->addWidget(bar_);
     layout->addWidget(cancel_);
+    cancel_->setAccessibleName(tr("Cancel Loading"));
     showWhatGoesOn();
+}
+
+LoadStatus::Work LoadStatus::work() const
+{
+    return is_loading_     ? Work::Loading
+           : is_saving_    ? Work::Saving
+           : is_preparing_ ? Work::Preparing
+                           : Work::None;
 }
 
 void LoadStatus::showReport(const LoadReport& report)
 {
     is_loading_ = true;
-    showWhatGoesOn();
     const QString file = isolated(QFileInfo(report.file).fileName());
-    QString text;
-    if (report.count > 1) {
-        //: %1 is a file, %2 which one it is of %3 files
-        text = tr("%1 (%2 of %3)").arg(file).arg(report.position).arg(report.count);
-    } else {
-        //: In the status bar: %1 is a file
-        text = tr("Reading %1").arg(file);
-    }
-    label_->setToolTip(report.file);
-    label_->setText(label_->fontMetrics().elidedText(text, Qt::ElideMiddle, kLabelWidth));
-    bar_->setValue(static_cast<int>(std::lround(report.fraction * 100.0)));
+    const QString text = report.count > 1
+                             //: %1 is a file, %2 which one it is of %3 files
+                             ? tr("%1 (%2 of %3)").arg(file).arg(report.position).arg(report.count)
+                             //: In the status bar: %1 is a file
+                             : tr("Reading %1").arg(file);
+    loading_ = {.text = label_->fontMetrics().elidedText(text, Qt::ElideMiddle, kLabelWidth),
+                .tip = report.file,
+                .percent = static_cast<int>(std::lround(report.fraction * 100.0))};
+    showWhatGoesOn();
 }
 
 void LoadStatus::endLoading()
 {
     is_loading_ = false;
+    showWhatGoesOn();
+}
+
+void LoadStatus::showSaving(const QString& file, double share)
+{
+    is_saving_ = true;
+    const QString name = isolated(QFileInfo(file).fileName());
+    const QString text = share < 1.0
+                             //: In the status bar: %1 is the file of a picture
+                             ? tr("Drawing %1").arg(name)
+                             //: In the status bar: %1 is the file of a picture
+                             : tr("Writing %1").arg(name);
+    saving_ = {.text = label_->fontMetrics().elidedText(text, Qt::ElideMiddle, kLabelWidth),
+               .tip = file,
+               .percent = static_cast<int>(std::floor(share * 100.0))};
+    showWhatGoesOn();
+}
+
+void LoadStatus::endSaving()
+{
+    is_saving_ = false;
     showWhatGoesOn();
 }
 
@@ -89,14 +124,14 @@ void LoadStatus::showPreparing(const PrepareProgress& progress)
     const QFontMetrics metrics = label_->fontMetrics();
     const int room =
         kPreparingLabelWidth - metrics.horizontalAdvance(sentence.arg(QString(), rest));
-    preparing_text_ = sentence.arg(
+    preparing_.text = sentence.arg(
         isolated(metrics.elidedText(QFileInfo(path).fileName(), Qt::ElideMiddle, room)), rest);
-    preparing_tip_ = path;
+    preparing_.tip = path;
     if (progress.waiting_count > 0) {
         //: Tool tip: %1 is a file, %n the number of maps whose turn is after it
-        preparing_tip_ = tr("%1\n%n more waiting", nullptr, progress.waiting_count).arg(path);
+        preparing_.tip = tr("%1\n%n more waiting", nullptr, progress.waiting_count).arg(path);
     }
-    preparing_fraction_ = progress.fraction;
+    preparing_.percent = static_cast<int>(std::lround(progress.fraction * 100.0));
     showWhatGoesOn();
 }
 
@@ -108,20 +143,39 @@ void LoadStatus::endPreparing()
 
 void LoadStatus::showWhatGoesOn()
 {
-    setVisible(is_loading_ || is_preparing_);
-    const bool is_loading = is_loading_ || !is_preparing_;
+    const Work now = work();
+    setVisible(now != Work::None);
+    const bool is_preparing = now == Work::Preparing;
     // As wide for every file.
-    label_->setFixedWidth(is_loading ? kLabelWidth : kPreparingLabelWidth);
-    bar_->setFixedWidth(is_loading ? kBarWidth : kPreparingBarWidth);
-    bar_->setTextVisible(is_loading);
-    cancel_->setAccessibleName(is_loading ? tr("Cancel Loading") : tr("Stop Building"));
-    cancel_->setToolTip(is_loading ? tr("Cancel loading (Esc)")
-                                   : tr("Stop building overviews; it can be resumed later"));
-    if (!is_loading) {
-        label_->setText(preparing_text_);
-        label_->setToolTip(preparing_tip_);
-        bar_->setValue(static_cast<int>(std::lround(preparing_fraction_ * 100.0)));
+    label_->setFixedWidth(is_preparing ? kPreparingLabelWidth : kLabelWidth);
+    bar_->setFixedWidth(is_preparing ? kPreparingBarWidth : kBarWidth);
+    bar_->setTextVisible(!is_preparing);
+    switch (now) {
+    case Work::None:
+        break;
+    case Work::Loading:
+        cancel_->setAccessibleName(tr("Cancel Loading"));
+        cancel_->setToolTip(tr("Cancel loading (Esc)"));
+        showProgress(loading_);
+        break;
+    case Work::Saving:
+        cancel_->setAccessibleName(tr("Cancel Saving"));
+        cancel_->setToolTip(tr("Cancel saving the picture (Esc)"));
+        showProgress(saving_);
+        break;
+    case Work::Preparing:
+        cancel_->setAccessibleName(tr("Stop Building"));
+        cancel_->setToolTip(tr("Stop building overviews; it can be resumed later"));
+        showProgress(preparing_);
+        break;
     }
+}
+
+void LoadStatus::showProgress(const Shown& shown)
+{
+    label_->setText(shown.text);
+    label_->setToolTip(shown.tip);
+    bar_->setValue(shown.percent);
 }
 
 } // namespace marsview

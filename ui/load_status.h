@@ -1,6 +1,7 @@
 // Progress of loading and of building overviews, in the status bar.
 #pragma once
 
+#include <QString>
 #include <QWidget>
 
 class QLabel;
@@ -12,8 +13,8 @@ namespace marsview {
 struct LoadReport;
 struct PrepareProgress;
 
-/// The file that is read, or else the map whose overviews are built, with progress and a button
-/// that stops it. Hidden otherwise.
+/// The file that is read, or else the picture that is saved, or else the map whose overviews are
+/// built, with progress and a button that stops it. Hidden otherwise.
 class LoadStatus final : public QWidget {
     Q_OBJECT
 
@@ -22,22 +23,35 @@ public:
 
     void showReport(const LoadReport& report);
     void endLoading();
-    /// Shown while nothing loads.
+    /// Shown while nothing loads. `share` of it is drawn; 1 while it is written.
+    void showSaving(const QString& file, double share);
+    void endSaving();
+    /// Shown while nothing loads and no picture is saved.
     void showPreparing(const PrepareProgress& progress);
     void endPreparing();
 
 Q_SIGNALS:
     void cancelRequested();
+    void cancelSavingRequested();
     void stopPreparingRequested();
 
 private:
+    enum class Work { None, Loading, Saving, Preparing };
+    struct Shown {
+        QString text;
+        QString tip;
+        int percent = 0;
+    };
+    Work work() const;
     void showWhatGoesOn();
+    void showProgress(const Shown& shown);
 
     bool is_loading_ = false;
+    bool is_saving_ = false;
     bool is_preparing_ = false;
-    QString preparing_text_;
-    QString preparing_tip_;
-    double preparing_fraction_ = 0.0;
+    Shown loading_;
+    Shown saving_;
+    Shown preparing_;
     QLabel* label_ = nullptr;
     QProgressBar* bar_ = nullptr;
     QToolButton* cancel_ = nullptr;

@@ -247,7 +247,8 @@ void MainWindow::connectActions()
     on(actions_->open_folder, [this] { chooseFolder(); });
     on(actions_->open_address, [this] { chooseAddress(); });
     on(actions_->save_picture, [this] { savePicture(); });
-    on(actions_->cancel_loading, [this] { cancelLoading(); });
+    on(actions_->cancel_loading,
+       [this] { controller_->isBusy() ? cancelLoading() : picture_saver_->cancel(); });
     on(actions_->stop_preparing, [this] { controller_->stopPreparing(); });
     on(actions_->quit, [this] { close(); });
     on(actions_->preferences, [this] { showPreferences(); });
@@ -329,6 +330,24 @@ void MainWindow::connectPanels()
     connect(load_status_, &LoadStatus::stopPreparingRequested, controller_,
             &SessionController::stopPreparing);
     connect(recent_, &RecentFiles::chosen, this, &MainWindow::open);
+    connect(load_status_, &LoadStatus::cancelSavingRequested, picture_saver_,
+            &PictureSaver::cancel);
+    connect(picture_saver_, &PictureSaver::progressed, this,
+            [this](const QString& file, double share) {
+                load_status_->showSaving(file, share);
+                showCancel();
+            });
+    const auto end_saving = [this] {
+        load_status_->endSaving();
+        showCancel();
+    };
+    connect(picture_saver_, &PictureSaver::failed, this, end_saving);
+    connect(picture_saver_, &PictureSaver::saved, this, end_saving);
+    connect(picture_saver_, &PictureSaver::canceled, this, end_saving);
+    connect(picture_saver_, &PictureSaver::canceled, this, [this] {
+        //: In the status bar, for a few seconds
+        statusBar()->showMessage(tr("Saving canceled"), kMessageDuration);
+    });
     connect(picture_saver_, &PictureSaver::saved, this, [this](const QString& file) {
         //: In the status bar, for a few seconds; %1 is a file
         statusBar()->showMessage(tr("Saved %1").arg(isolated(QDir::toNativeSeparators(file))),
@@ -346,12 +365,12 @@ void MainWindow::connectController()
                 load_status_->showReport(report);
                 //: Shown in the middle of the window while the first map comes; %1 is a file
                 view_->setHint(tr("Opening %1…").arg(isolated(QFileInfo(report.file).fileName())));
-                actions_->cancel_loading->setEnabled(true);
+                showCancel();
             });
     connect(controller_, &SessionController::loadingEnded, this, [this] {
         load_status_->endLoading();
         view_->setHint({});
-        actions_->cancel_loading->setEnabled(false);
+        showCancel();
         settleIfIdle();
     });
     connect(controller_, &SessionController::loadingCancelled, this, [this] {
@@ -720,6 +739,15 @@ void MainWindow::reportFailure(const QString& title, const QString& problem)
     }
 }
 
+void MainWindow::showCancel()
+{
+    actions_->cancel_loading->setEnabled(controller_->isBusy() || picture_saver_->isSaving());
+    actions_->cancel_loading->setText(picture_saver_->isSaving() && !controller_->isBusy()
+                                          ? tr("&Cancel Saving")
+                                          : tr("&Cancel Loading"));
+    actions_->save_picture->setEnabled(!picture_saver_->isSaving());
+}
+
 void MainWindow::savePicture()
 {
     const Layer* active = activeLayer(session());
@@ -737,7 +765,8 @@ void MainWindow::goToCoordinate()
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &GoToDialog::placeChosen, this, [this, dialog](GridPoint grid) {
         last_place_ = dialog->entry();
-        view_->flyTo(grid, 0.0);
+        view_->goTo(grid);
+        overlays_->markPlace(grid);
     });
     dialog->open();
 }
@@ -770,6 +799,8 @@ void MainWindow::showPreferences()
     auto* dialog = new PreferencesDialog(
         preferences_,
         {.folder = options_.opener.resources.folder, .tile_bytes = standard_tile_bytes_}, this);
+    const Layer* active = activeLayer(session());
+    dialog->setBody(active != nullptr ? active->map->info().body : nullptr);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &PreferencesDialog::preferencesChanged, this, &MainWindow::setPreferences);
     dialog->open();
@@ -898,6 +929,8 @@ void MainWindow::keyPressEvent(QKeyEvent* event)
         QMainWindow::keyPressEvent(event);
     } else if (isFullScreen()) {
         actions_->full_screen->trigger();
+    } else if (overlays_->isPlaceMarked()) {
+        overlays_->clearMark();
     } else if (overlays_->isHintOffered()) {
         overlays_->dismissHint();
     } else {

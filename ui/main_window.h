@@ -152,6 +152,7 @@ private:
     void reportFailure(const QString& title, const QString& problem);
     static QStringList rasterFilters();
     void savePicture();
+    void showCancel();
     void openLightPopup();
     void settleIfIdle();
 

@@ -1,18 +1,19 @@
 #include "ui/picture_saver.h"
 
+#include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
 #include "ui/canvas/terrain_view.h"
-#include "ui/overlay/map_overlays.h"
 
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QGuiApplication>
+#include <QPainter>
 #include <QRegularExpression>
 #include <QSettings>
 #include <QStandardPaths>
 
 #include <algorithm>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -30,10 +31,16 @@ PictureSaver::PictureSaver(TerrainView& view, MapOverlays& overlays, Memory memo
     , overlays_(overlays)
     , memory_(memory)
     , window_(parent)
+    , jobs_(*this)
 {
     if (memory_ == Memory::Settings) {
         folder_ = QSettings().value(folderKeyOfPictures()).toString();
     }
+}
+
+PictureSaver::~PictureSaver()
+{
+    end();
 }
 
 QString PictureSaver::folder() const
@@ -85,35 +92,79 @@ void PictureSaver::chooseFile(const QString& name,
     dialog->open();
 }
 
-QImage PictureSaver::picture(const OrbitCamera& camera, const PictureChoice& choice)
-{
-    Result<QImage> picture = view_.drawnPicture(camera, choice.size);
-    if (!picture) {
-        Q_EMIT failed(QString::fromStdString(picture.error().message));
-        return {};
-    }
-    overlays_.paintOver(*picture, {.has_legend = choice.has_legend, .has_scale = choice.has_scale});
-    return *picture;
-}
-
 void PictureSaver::save(const QString& file, const OrbitCamera& camera, const PictureChoice& choice)
 {
-    QGuiApplication::setOverrideCursor(Qt::WaitCursor);
-    const QImage picture = this->picture(camera, choice);
-    const Status written = picture.isNull() ? Status(Done{}) : writePictureFile(picture, file);
-    QGuiApplication::restoreOverrideCursor();
-    if (picture.isNull()) {
-        return; // failed() was emitted
+    file_ = file;
+    parts_ = overlays_.partsFor(choice.size,
+                                {.has_legend = choice.has_legend, .has_scale = choice.has_scale});
+    monitor_ = std::make_shared<JobMonitor>();
+    drawing_ = std::make_unique<PictureDrawing>(view_, camera, choice.size);
+    connect(drawing_.get(), &PictureDrawing::progressed, this,
+            [this](double share) { Q_EMIT progressed(file_, share); });
+    // Queued: the drawing goes with its end.
+    connect(drawing_.get(), &PictureDrawing::finished, this, &PictureSaver::write,
+            Qt::QueuedConnection);
+    connect(
+        drawing_.get(), &PictureDrawing::failed, this,
+        [this](const QString& problem) {
+            end();
+            Q_EMIT failed(problem);
+        },
+        Qt::QueuedConnection);
+    Q_EMIT progressed(file_, 0.0);
+}
+
+void PictureSaver::write(QImage picture)
+{
+    if (!drawing_) {
+        return; // it was canceled as it was finished
     }
-    if (!written) {
-        Q_EMIT failed(QString::fromStdString(written.error().message));
-        return;
+    drawing_.reset();
+    QPainter painter(&picture);
+    for (const MapOverlays::PicturePart& part : parts_) {
+        painter.drawImage(part.at, part.image);
     }
-    folder_ = QFileInfo(file).absolutePath();
-    if (memory_ == Memory::Settings) {
-        QSettings().setValue(folderKeyOfPictures(), folder_);
+    painter.end();
+    parts_.clear();
+    jobs_.run(
+        [this, picture = std::move(picture), file = file_, monitor = monitor_](const auto& outlet) {
+            const Status written = writePictureFile(picture, file, monitor.get());
+            const QString problem =
+                written ? QString() : QString::fromStdString(written.error().message);
+            outlet->post([this, file, problem, monitor] {
+                if (monitor != monitor_) {
+                    return; // canceled
+                }
+                end();
+                if (!problem.isEmpty()) {
+                    Q_EMIT failed(problem);
+                    return;
+                }
+                folder_ = QFileInfo(file).absolutePath();
+                if (memory_ == Memory::Settings) {
+                    QSettings().setValue(folderKeyOfPictures(), folder_);
+                }
+                Q_EMIT saved(file);
+            });
+        });
+}
+
+void PictureSaver::cancel()
+{
+    if (isSaving()) {
+        end();
+        Q_EMIT canceled();
     }
-    Q_EMIT saved(file);
+}
+
+void PictureSaver::end()
+{
+    if (monitor_) {
+        monitor_->cancel();
+    }
+    monitor_.reset();
+    drawing_.reset();
+    parts_.clear();
 }
 
 } // namespace marsview

@@ -45,14 +45,14 @@ StatusReadout::StatusReadout(QWidget* parent)
     , coordinate_(new CoordinateField(this))
     , format_button_(new QToolButton(this))
     , height_(new ReservedLabel({}, this))
-    , detail_(new ReservedLabel(tr("detail %1 px").arg(QStringLiteral("00.0")), this))
+    , detail_(new ReservedLabel(leftToRight(tr("detail %1 px").arg(QStringLiteral("00.0"))), this))
     , height_rule_(makeRule(this))
     , detail_rule_(makeRule(this))
 {
-    coordinate_->setAccessibleName(tr("Position under the pointer or the crosshair"));
+    coordinate_->setAccessibleName(tr("Position under the pointer, the stylus or the crosshair"));
     coordinate_->setAccessibleDescription(tr("Ctrl+C copies it"));
     coordinate_->setObjectName(QStringLiteral("coordinates"));
-    height_->setAccessibleName(tr("Elevation under the pointer or the crosshair"));
+    height_->setAccessibleName(tr("Elevation under the pointer, the stylus or the crosshair"));
     height_->setObjectName(QStringLiteral("elevation"));
     detail_->setAccessibleName(tr("Largest error of the picture"));
     format_button_->setObjectName(QStringLiteral("coordinateFormat"));
@@ -161,7 +161,7 @@ void StatusReadout::showDetail()
                               //: In place of how far the picture may be from the full map
                               ? tr("preview")
                               //: How far the picture may be from the full map, in pixels
-                              : tr("detail %1 px").arg(numberText(detail_px_, 1)));
+                              : leftToRight(tr("detail %1 px").arg(numberText(detail_px_, 1))));
 }
 
 QString StatusReadout::coordinateLabel() const

@@ -1,4 +1,4 @@
-// The status bar's readout: position and elevation under the pointer or the crosshair.
+// The status bar's readout: position and elevation under the pointer, the stylus or the crosshair.
 #pragma once
 
 #include "core/terrain/ray_cast.h"

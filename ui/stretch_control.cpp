@@ -43,6 +43,9 @@ StretchControl::StretchControl(SessionController& session,
             [this](const std::optional<SlopeRange>& slopes) {
                 session_.setSlopeRange(session_.session().active, slopes);
             });
+    connect(dialog_, &StretchDialog::slopesDragged, this, [this](const SlopeRange& slopes) {
+        session_.setSlopeRange(session_.session().active, slopes, ChangeKind::OfDrag);
+    });
     connect(dialog_, &StretchDialog::dragEnded, &session_, &SessionController::endDrag);
     connect(dialog_, &StretchDialog::stretchToViewRequested, this, stretch_to_view);
     connect(&session_, &SessionController::sessionChanged, this, &StretchControl::show);
@@ -119,7 +122,8 @@ void StretchControl::show()
          .histogram = histograms_->find(layer->map),
          .is_in_picture = std::find(shown.begin(), shown.end(), layer) != shown.end(),
          .slopes = is_slope ? std::optional(session_.slopeRangeOf(*layer)) : std::nullopt,
-         .are_slopes_chosen = layer->slope_range.has_value()});
+         .are_slopes_chosen = layer->slope_range.has_value(),
+         .slope_histogram = is_slope ? layer->map->slopes() : SlopeHistogram{}});
 }
 
 } // namespace marsview

@@ -43,10 +43,11 @@ void explainControls(const ExplainedControls& controls)
         "WhatsThis", "The length of the bar on the terrain in the middle of the picture.")));
     controls.overlays->legend()->setWhatsThis(
         helpTr(QT_TRANSLATE_NOOP("WhatsThis", "What the colors of the terrain represent.")));
-    controls.readout->setWhatsThis(helpTr(
-        QT_TRANSLATE_NOOP("WhatsThis",
-                          "Position and elevation under the pointer, read from the full-resolution "
-                          "surface, and how far the drawn surface is off, in pixels.")));
+    controls.readout->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
+        "WhatsThis",
+        "Position and elevation under the pointer or under the stylus of a haptic "
+        "device, read from the full-resolution surface, and how far the drawn "
+        "surface is off, in pixels.")));
     controls.load_status->setWhatsThis(helpTr(QT_TRANSLATE_NOOP(
         "WhatsThis",
         "Maps that are loading or being built, with their progress and a button to stop.")));

@@ -186,7 +186,8 @@ void WindowActions::makeEditMenu(QMainWindow& window, QUndoStack& undo_stack)
         tr("Copy the position under the pointer, or under the crosshair, to the clipboard"));
     menu->addSeparator();
     preferences = menu->addAction(tr("&Preferences…"));
-    preferences->setShortcuts(QKeySequence::Preferences);
+    // Few desktops other than macOS set this one.
+    preferences->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Comma));
     preferences->setMenuRole(QAction::PreferencesRole);
 }
 

@@ -4,6 +4,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/haptics_controller.h"
 #include "ui/controllers/session_controller.h"
+#include "ui/text/haptics_text.h"
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/notice_center.h"
@@ -12,8 +13,6 @@
 
 namespace marsview {
 namespace {
-
-constexpr int kSampleNoticeDuration = 20000; // ms
 
 // A name in a sentence, cut short in its middle if it would fill a line.
 QString shortName(const std::string& name)
@@ -61,7 +60,7 @@ QList<Notice> WindowNotices::ofDevice() const
     }
     const QString problem = haptics.notice();
     if (problem.isEmpty()) {
-        return {};
+        return ofReplay();
     }
     Notice notice{.id = QStringLiteral("device: ") + problem,
                   .text = problem,
@@ -71,6 +70,21 @@ QList<Notice> WindowNotices::ofDevice() const
         notice.actions.append({tr("Save Diagnostic Log…"), commands_.save_diagnostic_log});
     }
     return {notice};
+}
+
+// A decision: it stays until another recording is replayed or another device is connected.
+QList<Notice> WindowNotices::ofReplay() const
+{
+    HapticsController& haptics = parts_.haptics;
+    const QString file = haptics.replayedToItsEnd();
+    if (file.isEmpty()) {
+        return {};
+    }
+    return {{.id = QStringLiteral("replayed: ") + file,
+             .text = replayEndText(file),
+             //: On a button: after a recording of a touch was replayed
+             .actions = {{tr("Replay Again"), [&haptics] { haptics.replayAgain(); }}},
+             .show_details = commands_.show_haptics}};
 }
 
 QList<Notice> WindowNotices::ofPicture() const
@@ -105,8 +119,7 @@ QList<Notice> WindowNotices::ofSample() const
              .actions = {{name.isEmpty() ? tr("Keep Sample")
                                          //: On a button: keep the sample map; %1 is a body
                                          : tr("Keep %1").arg(name),
-                          [&session] { session.keepSample(); }}},
-             .duration_ms = kSampleNoticeDuration}};
+                          [&session] { session.keepSample(); }}}}};
 }
 
 QList<Notice> WindowNotices::ofLayer(const Layer& layer) const

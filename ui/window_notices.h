@@ -49,6 +49,7 @@ public:
 
 private:
     QList<Notice> ofDevice() const;
+    QList<Notice> ofReplay() const;
     QList<Notice> ofPicture() const;
     QList<Notice> ofSample() const;
     QList<Notice> ofLayer(const Layer& layer) const;

@@ -94,7 +94,7 @@ std::string longitudeRange(const Extent& extent)
     const auto text = [&extent](double degrees) {
         const double shown = std::round(degrees * 1e4) / 1e4;
         if (extent.west >= -0.1) { // a sample placed at 0 has its edge before 0
-            return fmt::format("{}°", shown == 0.0 ? 0.0 : shown);
+            return fmt::format("{}{}°", shown < 0.0 ? "−" : "", std::abs(shown));
         }
         return fmt::format("{}°{}", std::abs(shown), shown < 0.0 ? " W" : shown > 0.0 ? " E" : "");
     };

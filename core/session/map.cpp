@@ -39,14 +39,6 @@ ReliefTileId wholeReliefOf(const Heightfield& heightfield)
     return wholeRelief(heightfield.columns(), heightfield.rows());
 }
 
-// Of the relief of the whole map.
-SlopeRange slopesOf(const ReliefTile& whole, const Heightfield& heightfield, double slope_max)
-{
-    const std::size_t step = std::size_t{1} << wholeReliefOf(heightfield).level;
-    return slopeRange(whole, (heightfield.columns() + step - 1) / step,
-                      (heightfield.rows() + step - 1) / step, slope_max);
-}
-
 // Closes the raster, so that GDAL's blocks are gone before the surface is analyzed.
 Result<MapSource> readSource(OpenRaster raster, JobMonitor& monitor, std::size_t memory_bytes_max)
 {
@@ -82,7 +74,12 @@ Map::Map(MapSource source, std::shared_ptr<const SurfaceAnalysis> analysis)
 
 void Map::setRelief(ReliefTile relief)
 {
-    slope_range_ = slopesOf(relief, source_.heightfield, slope_max_);
+    const Heightfield& heightfield = source_.heightfield;
+    const std::size_t step = std::size_t{1} << wholeReliefOf(heightfield).level;
+    const std::size_t columns = (heightfield.columns() + step - 1) / step;
+    const std::size_t rows = (heightfield.rows() + step - 1) / step;
+    slope_range_ = marsview::slopeRange(relief, columns, rows, slope_max_);
+    slopes_ = slopeHistogram(relief, columns, rows, slope_max_);
     relief_ = std::make_shared<const ReliefTile>(std::move(relief));
 }
 

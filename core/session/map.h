@@ -73,6 +73,8 @@ public:
     const HeightRange& tintRange() const noexcept { return tint_range_; }
     /// The slopes over which slope colors are spread.
     const SlopeRange& slopeRange() const noexcept { return slope_range_; }
+    /// Of the relief of the whole map.
+    const SlopeHistogram& slopes() const noexcept { return slopes_; }
     /// The steepest slope, a gradient, that relief tiles can hold.
     double slopeMax() const noexcept { return slope_max_; }
     /// The relief of the whole map, the first that drawing needs. Never null.
@@ -94,6 +96,7 @@ private:
     std::shared_ptr<const MapLevels> levels_;
     HeightRange tint_range_;
     SlopeRange slope_range_;
+    SlopeHistogram slopes_;
     double slope_max_ = 1.0;
     std::shared_ptr<const ReliefTile> relief_;
 };

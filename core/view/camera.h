@@ -30,6 +30,14 @@ struct PixelPoint {
     double y = 0.0;
 };
 
+/// A part of a picture, in pixels from the lower left as OpenGL counts them.
+struct PixelArea {
+    int left = 0;
+    int bottom = 0;
+    int width = 0;
+    int height = 0;
+};
+
 /// A half-line. The direction has length 1.
 struct Ray {
     ScenePoint origin;

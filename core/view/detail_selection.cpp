@@ -103,7 +103,8 @@ DetailSelection DetailSelector::select(const DetailView& view, const DetailTarge
     const double pixels =
         view.viewport.height / (2.0 * std::tan(view.camera.field_of_view.radians() / 2.0));
     Pass pass{.eye = eyeOf(view.camera),
-              .frustum = {view.camera, view.viewport},
+              .frustum = view.part ? Frustum(view.camera, view.viewport, *view.part)
+                                   : Frustum(view.camera, view.viewport),
               .target = target,
               .pixels = pixels,
               .range_per_error = pixels * view.exaggeration / target.error_px,

@@ -29,6 +29,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace marsview {
@@ -59,6 +60,7 @@ struct DetailView {
     OrbitCamera camera;
     Viewport viewport;
     double exaggeration = 1.0;
+    std::optional<PixelArea> part{}; // of the viewport that is drawn; nothing for all of it
 };
 
 /// The requested quality.

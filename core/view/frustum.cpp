@@ -16,14 +16,19 @@ double furthestInside(const Vec3& low, const Vec3& high, const Vec3& inward)
 
 } // namespace
 
-Frustum::Frustum(const OrbitCamera& camera, const Viewport& viewport)
+Frustum::Frustum(const OrbitCamera& camera, const Viewport& viewport, const PixelArea& part)
     : eye_(eyeOf(camera))
 {
     const CameraAxes axes = axesOf(camera);
-    const double up = std::tan(camera.field_of_view.radians() / 2.0);
-    const double right = up * viewport.aspect();
-    inward_ = {axes.forward * right - axes.right, axes.forward * right + axes.right,
-               axes.forward * up - axes.up, axes.forward * up + axes.up, axes.forward};
+    const double half_height = std::tan(camera.field_of_view.radians() / 2.0);
+    const double half_width = half_height * viewport.aspect();
+    // Of the part's sides, at a depth of 1.
+    const auto across = [&](int x) { return half_width * (2.0 * x / viewport.width - 1.0); };
+    const auto upward = [&](int y) { return half_height * (2.0 * y / viewport.height - 1.0); };
+    inward_ = {axes.forward * across(part.left + part.width) - axes.right,
+               axes.right - axes.forward * across(part.left),
+               axes.forward * upward(part.bottom + part.height) - axes.up,
+               axes.up - axes.forward * upward(part.bottom), axes.forward};
 }
 
 bool Frustum::isOutside(const SceneBox& box) const noexcept

@@ -8,10 +8,14 @@
 
 namespace marsview {
 
-/// The view pyramid, without near and far planes.
+/// The view pyramid, or the part of it behind a part of the picture, without near and far planes.
 class Frustum {
 public:
-    Frustum(const OrbitCamera& camera, const Viewport& viewport);
+    Frustum(const OrbitCamera& camera, const Viewport& viewport)
+        : Frustum(camera, viewport, {0, 0, viewport.width, viewport.height})
+    {}
+    /// Behind a part of the picture.
+    Frustum(const OrbitCamera& camera, const Viewport& viewport, const PixelArea& part);
 
     /// True only if no point of the box is in the picture. May be false for boxes outside near the
     /// edges.

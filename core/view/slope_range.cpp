@@ -29,10 +29,9 @@ double roundDegreesAbove(double degrees)
     return kMostDegrees;
 }
 
-} // namespace
-
-SlopeRange
-slopeRange(const ReliefTile& whole, std::size_t columns, std::size_t rows, double slope_max)
+// As rise over run, of the texels that are mostly not void.
+std::vector<double>
+slopesOf(const ReliefTile& whole, std::size_t columns, std::size_t rows, double slope_max)
 {
     const ReliefTile::Level& finest = whole.levels.front();
     const double unit = slope_max / 32767.0;
@@ -47,6 +46,15 @@ slopeRange(const ReliefTile& whole, std::size_t columns, std::size_t rows, doubl
             }
         }
     }
+    return slopes;
+}
+
+} // namespace
+
+SlopeRange
+slopeRange(const ReliefTile& whole, std::size_t columns, std::size_t rows, double slope_max)
+{
+    std::vector<double> slopes = slopesOf(whole, columns, rows, slope_max);
     double steep_degrees = 0.0;
     if (!slopes.empty()) {
         const auto steep =
@@ -56,6 +64,27 @@ slopeRange(const ReliefTile& whole, std::size_t columns, std::size_t rows, doubl
         steep_degrees = Angle::radians(std::atan(*steep)).degrees();
     }
     return {.minimum = {}, .maximum = Angle::degrees(roundDegreesAbove(steep_degrees))};
+}
+
+SlopeHistogram slopeHistogram(const ReliefTile& whole,
+                              std::size_t columns,
+                              std::size_t rows,
+                              double slope_max,
+                              std::size_t bin_count)
+{
+    const std::vector<double> slopes = slopesOf(whole, columns, rows, slope_max);
+    if (slopes.empty()) {
+        return {};
+    }
+    const double steepest = std::atan(*std::max_element(slopes.begin(), slopes.end()));
+    SlopeHistogram histogram{.maximum = Angle::radians(steepest),
+                             .counts = std::vector<std::uint64_t>(bin_count, 0)};
+    const double bins_per_radian = steepest > 0.0 ? static_cast<double>(bin_count) / steepest : 0.0;
+    for (const double slope : slopes) {
+        const auto bin = static_cast<std::size_t>(std::atan(slope) * bins_per_radian);
+        ++histogram.counts[std::min(bin, bin_count - 1)];
+    }
+    return histogram;
 }
 
 } // namespace marsview

@@ -5,6 +5,8 @@
 #include "core/terrain/relief_tile.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace marsview {
 
@@ -22,5 +24,18 @@ struct SlopeRange {
 /// without its border; `slope_max` is that of the relief. Any thread.
 SlopeRange
 slopeRange(const ReliefTile& whole, std::size_t columns, std::size_t rows, double slope_max);
+
+/// How the slopes of a map are distributed.
+struct SlopeHistogram {
+    Angle maximum{};                     // of the steepest texel
+    std::vector<std::uint64_t> counts{}; // of texels, in equal parts from 0 to `maximum`
+};
+
+/// Of the same texels. Without counts where all of them are void. Any thread.
+SlopeHistogram slopeHistogram(const ReliefTile& whole,
+                              std::size_t columns,
+                              std::size_t rows,
+                              double slope_max,
+                              std::size_t bin_count = 64);
 
 } // namespace marsview

@@ -1,4 +1,4 @@
-#include "tests/ui/test_map.h"
+#include "tests/ui/map_window.h"
 #include "tests/ui/widget_walk.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/address_dialog.h"
@@ -27,14 +27,11 @@
 namespace marsview {
 namespace {
 
-class AccessibilityTest : public testing::Test {
+class AccessibilityTest : public MapWindowTest {
 protected:
     void SetUp() override
     {
-        window_ = std::make_unique<MainWindow>(testWindowOptions());
-        window_->resize(1280, 800);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // without a window manager
+        makeWindow(kWithPanels);
         window_->controller().open({maps_.mars(), maps_.hill()});
         ASSERT_TRUE(waitUntilSettled(*window_));
     }
@@ -70,9 +67,6 @@ protected:
             }
         }
     }
-
-    TestMaps maps_;
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(AccessibilityTest, EveryControlHasAName)

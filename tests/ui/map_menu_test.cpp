@@ -1,9 +1,7 @@
 // The context menu of a point on the map, by mouse and by keyboard.
 
 #include "core/terrain/surface_slope.h"
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
-#include "ui/canvas/terrain_view.h"
+#include "tests/ui/map_window.h"
 #include "ui/dialogs/place_dialog.h"
 #include "ui/map_menu.h"
 
@@ -24,21 +22,17 @@
 namespace marsview {
 namespace {
 
-class MapMenuTest : public testing::Test {
+class MapMenuTest : public MapWindowTest {
 protected:
     void SetUp() override
     {
-        window_ = std::make_unique<MainWindow>(testWindowOptions());
-        window_->resize(1000, 700);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // possibly without a window manager
+        makeWindow(kSmall);
         // Rises by 6 m to the east and 3 m to the north per cell of 30 m.
         ASSERT_TRUE(openAndWait(
             *window_, maps_.write(QStringLiteral("plane.asc"), {}, [](int column, int row) {
                 return 6.0 * column - 3.0 * row + 1000.0;
             })));
-        view().setFocus();
-        ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
+        ASSERT_TRUE(focusMap());
     }
     void TearDown() override
     {
@@ -46,10 +40,8 @@ protected:
         window_.reset();
     }
 
-    TerrainView& view() { return *window_->view(); }
     QMenu* menu() { return window_->mapMenu()->menu(); }
     PlaceDialog* card() { return window_->mapMenu()->card(); }
-    QPointF middle() { return QRectF(view().rect()).center(); }
     QPointF placeOf(GridPoint grid) { return view().positionOf(grid).value(); }
     void rightClick(QPointF at)
     {
@@ -79,9 +71,6 @@ protected:
         }
         return {};
     }
-
-    TestMaps maps_;
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(MapMenuTest, CopiesTheElevationOfThePlaceThatIsClicked)

@@ -1,9 +1,8 @@
 // Saving pictures: sizes, formats, contents, folders.
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
+#include "tests/ui/map_window.h"
+#include "ui/canvas/picture_drawing.h"
 #include "ui/canvas/picture_writer.h"
-#include "ui/canvas/terrain_view.h"
-#include "ui/overlay/map_overlays.h"
+#include "ui/load_status.h"
 #include "ui/picture_saver.h"
 #include "ui/window_actions.h"
 
@@ -15,25 +14,27 @@
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QProgressBar>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QSpinBox>
 #include <QStandardPaths>
 #include <QTest>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace marsview {
 namespace {
 
-class PictureSaverTest : public testing::Test {
+class PictureSaverTest : public MapWindowTest {
 protected:
     void SetUp() override
     {
-        window_ = std::make_unique<MainWindow>(testWindowOptions());
-        window_->resize(900, 600);
-        window_->show();
+        makeWindow({900, 600});
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     }
 
@@ -46,7 +47,7 @@ protected:
         window_->actionSet().save_picture->trigger();
         return window_->findChild<SavePictureDialog*>();
     }
-    // Closes the dialog with this file name.
+    // Closes the dialog with this file name and waits for the picture.
     void saveAs(SavePictureDialog* dialog, const QString& file)
     {
         dialog->accept();
@@ -55,10 +56,16 @@ protected:
         Q_EMIT files->fileSelected(file);
         files->reject();
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        const QList<PictureSaver*> savers = window_->findChildren<PictureSaver*>();
+        ASSERT_TRUE(waitFor([&] {
+            return std::none_of(savers.begin(), savers.end(),
+                                [](const PictureSaver* saver) { return saver->isSaving(); });
+        }));
     }
-
-    TestMaps maps_;
-    std::unique_ptr<MainWindow> window_;
+    static PictureChoice choiceOf(const QSize& size)
+    {
+        return {.size = size, .has_legend = true, .has_scale = true};
+    }
 };
 
 TEST_F(PictureSaverTest, WritesEachFormatByItsEnding)
@@ -124,10 +131,12 @@ TEST_F(PictureSaverTest, LeavesOutOverlaysThatAreNotWanted)
 {
     PictureSaver saver(*window_->view(), *window_->overlays(), PictureSaver::Memory::WindowOnly,
                        window_.get());
-    const OrbitCamera camera = window_->view()->camera();
     const auto picture = [&](bool has_legend, bool has_scale) {
-        return saver.picture(
-            camera, {.size = viewSize(), .has_legend = has_legend, .has_scale = has_scale});
+        const QString file = maps_.path(QStringLiteral("overlays.png"));
+        saver.save(file, view().camera(),
+                   {.size = viewSize(), .has_legend = has_legend, .has_scale = has_scale});
+        EXPECT_TRUE(waitFor([&] { return !saver.isSaving(); }));
+        return QImage(file);
     };
     const QImage none = picture(false, false);
     const QImage legend = picture(true, false);
@@ -147,6 +156,89 @@ TEST_F(PictureSaverTest, LeavesOutOverlaysThatAreNotWanted)
     EXPECT_FALSE(differs(legend, true));
     EXPECT_FALSE(differs(scale, false));
     EXPECT_TRUE(differs(scale, true));
+}
+
+// Blocks meet without a seam, and show what one frame buffer for all of it would.
+TEST_F(PictureSaverTest, DrawsBlockByBlockWhatTheWindowShows)
+{
+    window_->resize(1290, 800); // blocks of 512 do not fit
+    ASSERT_TRUE(waitFor([this] { return view().isPictureComplete(); }));
+    ASSERT_GT(viewSize().width(), 700);
+    PictureDrawing drawing(view(), view().camera(), viewSize());
+    QImage drawn;
+    QObject::connect(&drawing, &PictureDrawing::finished,
+                     [&drawn](const QImage& picture) { drawn = picture; });
+    ASSERT_TRUE(waitFor([&] { return !drawn.isNull(); }));
+    const QImage shown = view().terrainPicture();
+    ASSERT_EQ(drawn.size(), shown.size());
+    int differing = 0;
+    for (int y = 0; y < shown.height(); ++y) {
+        for (int x = 0; x < shown.width(); ++x) {
+            const QColor a = drawn.pixelColor(x, y);
+            const QColor b = shown.pixelColor(x, y);
+            differing += std::abs(a.red() - b.red()) > 3 || std::abs(a.green() - b.green()) > 3 ||
+                                 std::abs(a.blue() - b.blue()) > 3
+                             ? 1
+                             : 0;
+        }
+    }
+    EXPECT_LT(differing, shown.width() * shown.height() / 1000);
+}
+
+TEST_F(PictureSaverTest, TheWindowStaysUsableAndALargePictureCanBeCanceled)
+{
+    auto* saver = window_->findChild<PictureSaver*>();
+    auto* status = window_->findChild<LoadStatus*>();
+    auto* button = status->findChild<QToolButton*>(QStringLiteral("cancelLoading"));
+    auto* bar = status->findChild<QProgressBar*>();
+    const QString file = maps_.path(QStringLiteral("large.png"));
+    { // what is there stays there
+        QFile before(file);
+        ASSERT_TRUE(before.open(QIODevice::WriteOnly));
+        before.write("before");
+    }
+    QSignalSpy canceled(saver, &PictureSaver::canceled);
+    QSignalSpy saved(saver, &PictureSaver::saved);
+    for (const bool is_by_key : {false, true}) {
+        saver->save(file, view().camera(), choiceOf({8192, 4096}));
+        EXPECT_TRUE(status->isVisible());
+        EXPECT_FALSE(window_->actionSet().save_picture->isEnabled());
+        // Events come in between: the camera moves while blocks are drawn.
+        const OrbitCamera before = view().camera();
+        ASSERT_TRUE(waitFor([&] { return bar->value() > 1; }));
+        view().step(NavigationStep::TurnLeft);
+        ASSERT_TRUE(waitFor([&] { return !view().isMoving(); }));
+        EXPECT_NE(view().camera(), before);
+        ASSERT_TRUE(saver->isSaving()) << "too small to try this";
+        if (is_by_key) {
+            view().setFocus();
+            QTest::keyClick(&view(), Qt::Key_Escape);
+        } else {
+            QTest::mouseClick(button, Qt::LeftButton);
+        }
+        EXPECT_FALSE(saver->isSaving());
+        EXPECT_TRUE(status->isHidden());
+        EXPECT_TRUE(window_->actionSet().save_picture->isEnabled());
+    }
+    EXPECT_EQ(canceled.count(), 2);
+    EXPECT_EQ(saved.count(), 0);
+    QFile after(file);
+    ASSERT_TRUE(after.open(QIODevice::ReadOnly));
+    EXPECT_EQ(after.readAll(), QByteArray("before"));
+}
+
+TEST_F(PictureSaverTest, WritesNothingOnceItIsCanceled)
+{
+    JobMonitor monitor;
+    monitor.cancel();
+    const QImage picture(4, 4, QImage::Format_RGB888);
+    for (const char* name : {"a.png", "a.jpg", "a.tif"}) {
+        const QString file = maps_.path(QLatin1String(name));
+        const Status written = writePictureFile(picture, file, &monitor);
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().code, ErrorCode::Cancelled);
+        EXPECT_FALSE(QFileInfo::exists(file)) << name;
+    }
 }
 
 TEST_F(PictureSaverTest, RefusesMoreThanTheDriverDraws)

@@ -1,6 +1,4 @@
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
-#include "ui/canvas/terrain_view.h"
+#include "tests/ui/map_window.h"
 #include "ui/overlay/crosshair.h"
 #include "ui/overlay/map_overlays.h"
 #include "ui/overlay/minimap.h"
@@ -24,17 +22,10 @@
 namespace marsview {
 namespace {
 
-class StatusReadoutTest : public testing::Test {
+class StatusReadoutTest : public MapWindowTest {
 protected:
-    void SetUp() override
-    {
-        window_ = std::make_unique<MainWindow>(testWindowOptions());
-        window_->resize(1280, 800);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // without a window manager
-    }
+    void SetUp() override { makeWindow(kWithPanels); }
 
-    TerrainView& view() { return *window_->view(); }
     StatusReadout& readout() { return *window_->readout(); }
     bool isRead(const QString& coordinates)
     {
@@ -49,11 +40,6 @@ protected:
         QTest::mouseMove(&view(), middle);
         ASSERT_TRUE(QTest::qWaitFor([&] { return !readout().heightLabel().isEmpty(); }, kTimeout));
     }
-    void leaveTheMap()
-    {
-        QEvent leave(QEvent::Leave);
-        QApplication::sendEvent(&view(), &leave);
-    }
     QAction* choice(const QString& text)
     {
         menu_.clear();
@@ -65,16 +51,15 @@ protected:
         }
         return nullptr;
     }
-    QString positionOfTheMiddle()
+    QString positionOfTheMiddle() { return positionAt(middle()); }
+    QString positionAt(QPointF place)
     {
-        const auto hit = view().surfaceAt(QPointF(view().width() / 2.0, view().height() / 2.0));
+        const auto hit = view().surfaceAt(place);
         return hit ? positionText(readout().format(), *view().map(), hit->grid,
                                   view().metresPerPoint(*hit))
                    : QString();
     }
 
-    TestMaps maps_;
-    std::unique_ptr<MainWindow> window_;
     QMenu menu_;
 };
 
@@ -124,6 +109,35 @@ TEST_F(StatusReadoutTest, ReadsTheMiddleOfThePictureForTheKeyboard)
     EXPECT_EQ(readout().coordinateLabel(), QStringLiteral("outside the map"));
     readout().coordinateField()->setFocus(Qt::TabFocusReason);
     EXPECT_TRUE(crosshair->isVisible());
+}
+
+TEST_F(StatusReadoutTest, ReadsThePlaceUnderTheStylusOfADevice)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    window_->datasetPanel()->setFocus(); // no crosshair
+    leaveTheMap();
+    const Map& mars = *view().map();
+    StylusPose pose;
+    pose.is_in_contact = true;
+    // Elevations are 20 m a column, from −300 m on.
+    for (const double column : {30.0, 12.0}) {
+        pose.proxy = mars.georeference().sceneFrame().toScene(
+            {column, 8.0}, (20.0 * column - 300.0) * view().exaggeration());
+        view().showDevice(pose);
+        EXPECT_EQ(readout().coordinateLabel(),
+                  positionText(readout().format(), mars, {column, 8.0},
+                               view().metresPerPoint(*view().reading())));
+        EXPECT_TRUE(readout().heightLabel().startsWith(numberText(20.0 * column - 300.0, 0)))
+            << readout().heightLabel().toStdString();
+    }
+    const QString under_stylus = readout().coordinateLabel();
+    // The pointer is read while it moves, and the stylus again a while after it has come to rest.
+    pointAtTheMiddle();
+    EXPECT_TRUE(isRead(positionAt(view().rect().center())));
+    EXPECT_TRUE(isRead(under_stylus));
+    leaveTheMap();
+    view().showDevice(std::nullopt);
+    EXPECT_TRUE(readout().heightLabel().isEmpty());
 }
 
 TEST_F(StatusReadoutTest, CopiesThePositionByKeysAndByAClick)

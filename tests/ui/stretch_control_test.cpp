@@ -12,8 +12,10 @@
 
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
 #include <QComboBox>
 #include <QHelpEvent>
+#include <QImage>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPushButton>
@@ -254,6 +256,41 @@ TEST_F(StretchTest, OfSlopesIsInDegrees)
     EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Slope Colors of slope.asc"));
     choose(StretchKind::Automatic);
     EXPECT_FALSE(layer().slope_range);
+}
+
+TEST_F(StretchTest, OfSlopesHasAHistogramAndNothingThatIsEmpty)
+{
+    window_->actionSet().edit_stretch->trigger();
+    controller().setShading(ShadingMode::Slope);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return dialog().isVisible(); }, kTimeout));
+    auto& plot = *dialog().findChild<StretchPlot*>();
+    EXPECT_TRUE(plot.isVisible());
+    EXPECT_EQ(plot.accessibleName(), QStringLiteral("Histogram of slopes"));
+    // Bars, in colors of the ramp.
+    const QImage bars = plot.grab().toImage();
+    const QRgb background = plot.palette().color(QPalette::Base).rgb();
+    int colored = 0;
+    for (int x = 10; x < bars.width() - 10; ++x) {
+        for (int y = 4; y < bars.height() - 12; ++y) {
+            colored += bars.pixel(x, y) != background ? 1 : 0;
+        }
+    }
+    EXPECT_GT(colored, bars.width());
+    EXPECT_LE(dialog().height(), dialog().sizeHint().height() + 4);
+    // Its ends can be dragged, as one step of undo.
+    const int steps = window_->undoStack().index();
+    const double before = controller().slopeRangeOf(layer()).maximum.degrees();
+    const QPoint end(plot.positionOf(before), plot.height() / 2);
+    QTest::mousePress(&plot, Qt::LeftButton, {}, end);
+    for (const int moved : {10, 30, 60}) {
+        QMouseEvent move(QEvent::MouseMove, end - QPoint(moved, 0),
+                         plot.mapToGlobal(end - QPoint(moved, 0)), Qt::NoButton, Qt::LeftButton,
+                         Qt::NoModifier);
+        QApplication::sendEvent(&plot, &move);
+    }
+    QTest::mouseRelease(&plot, Qt::LeftButton, {}, end - QPoint(60, 0));
+    EXPECT_LT(controller().slopeRangeOf(layer()).maximum.degrees(), before);
+    EXPECT_EQ(window_->undoStack().index(), steps + 1);
 }
 
 TEST_F(StretchTest, OfAConstantMapDoesNoHarm)

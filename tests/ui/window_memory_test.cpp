@@ -15,6 +15,7 @@
 #include <QFile>
 #include <QFileDialog>
 #include <QImage>
+#include <QLabel>
 #include <QMenu>
 #include <QSettings>
 #include <QTest>
@@ -139,6 +140,30 @@ TEST_F(WindowMemoryTest, RemembersTenFilesAndSaysWhichAreGone)
     EXPECT_TRUE(window->recentFiles()->files().isEmpty());
     EXPECT_FALSE(window->actionSet().recent->isEnabled());
     EXPECT_TRUE(QSettings().value(QStringLiteral("files/recent")).toStringList().isEmpty());
+}
+
+TEST_F(WindowMemoryTest, CoordinatePreferencesAreOfTheBodyThatIsLookedAt)
+{
+    MainWindow window(testWindowOptions());
+    window.show();
+    ASSERT_TRUE(openAndWait(window, maps_.moon()));
+    window.showPreferences();
+    auto* dialog = window.findChild<PreferencesDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    auto* page = dialog->findChild<CoordinatesPage*>();
+    auto* body = page->findChild<QComboBox*>(QStringLiteral("latitudeBody"));
+    auto* kind = page->findChild<QComboBox*>(QStringLiteral("latitudeKind"));
+    EXPECT_EQ(body->currentText(), QStringLiteral("Moon"));
+    EXPECT_FALSE(kind->isEnabled()) << "on a sphere there is one";
+    body->setCurrentText(QStringLiteral("Mars"));
+    EXPECT_TRUE(kind->isEnabled());
+    // One place in each notation, whichever is chosen.
+    const auto example = [page](int i) {
+        return page->findChild<QLabel*>(QStringLiteral("example%1").arg(i))->text();
+    };
+    EXPECT_EQ(example(0), QStringLiteral("18.65° N, 226.20° E"));
+    EXPECT_TRUE(example(1).contains(QStringLiteral("39′"))) << example(1).toStdString();
+    EXPECT_TRUE(example(2).contains(QStringLiteral("562345.5"))) << example(2).toStdString();
 }
 
 TEST_F(WindowMemoryTest, AppliesPreferencesWhileTheDialogIsOpen)

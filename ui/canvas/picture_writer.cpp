@@ -15,6 +15,29 @@ namespace {
 
 constexpr int kJpegQuality = 92;
 
+// Takes no more once the job is cancelled, which ends the encoder that writes to it.
+class CancellableFile final : public QIODevice {
+public:
+    CancellableFile(QSaveFile& file, const JobMonitor* monitor)
+        : file_(file)
+        , monitor_(monitor)
+    {
+        open(QIODevice::WriteOnly);
+    }
+    bool isCancelled() const { return monitor_ != nullptr && monitor_->isCancelled(); }
+
+protected:
+    qint64 readData(char* /*data*/, qint64 /*size_max*/) override { return -1; }
+    qint64 writeData(const char* data, qint64 size) override
+    {
+        return isCancelled() ? -1 : file_.write(data, size);
+    }
+
+private:
+    QSaveFile& file_;
+    const JobMonitor* monitor_;
+};
+
 Status writeAsTiff(const QImage& image, const QString& file)
 {
     const QImage rgb = image.convertToFormat(QImage::Format_RGB888);
@@ -30,8 +53,12 @@ Status writeAsTiff(const QImage& image, const QString& file)
 
 } // namespace
 
-Status writePictureFile(const QImage& picture, const QString& file)
+Status writePictureFile(const QImage& picture, const QString& file, const JobMonitor* monitor)
 {
+    const Error cancelled{ErrorCode::Cancelled, "canceled"};
+    if (monitor != nullptr && monitor->isCancelled()) {
+        return cancelled;
+    }
     const QString ending = QFileInfo(file).suffix().toLower();
     if (ending == QLatin1String("tif") || ending == QLatin1String("tiff")) {
         return writeAsTiff(picture, file);
@@ -60,12 +87,18 @@ Status writePictureFile(const QImage& picture, const QString& file)
     if (!out.open(QIODevice::WriteOnly)) {
         return refusal(out.errorString());
     }
-    QImageWriter writer(&out, is_jpeg ? "jpeg" : "png");
+    CancellableFile device(out, monitor);
+    QImageWriter writer(&device, is_jpeg ? "jpeg" : "png");
     if (is_jpeg) {
         writer.setQuality(kJpegQuality);
     }
-    if (!writer.write(picture)) {
-        return refusal(writer.errorString());
+    const bool is_written = writer.write(picture);
+    if (device.isCancelled()) {
+        return cancelled;
+    }
+    if (!is_written || out.error() != QFileDevice::NoError) {
+        return refusal(out.error() != QFileDevice::NoError ? out.errorString()
+                                                           : writer.errorString());
     }
     return out.commit() ? Status(Done{}) : Status(refusal(out.errorString()));
 }

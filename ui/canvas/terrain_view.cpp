@@ -76,7 +76,7 @@ TerrainView::TerrainView(QWidget* parent)
     setAccessibleName(tr("Map"));
     setAccessibleDescription(
         tr("The terrain in perspective; the status bar shows the position and elevation under the "
-           "pointer, or at the crosshair in the middle while the keyboard is used"));
+           "pointer or the stylus, or at the crosshair in the middle while the keyboard is used"));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(160, 120);
@@ -95,6 +95,8 @@ TerrainView::TerrainView(QWidget* parent)
     layout->addWidget(empty_hint_);
     pointer_timer_.setSingleShot(true);
     connect(&pointer_timer_, &QTimer::timeout, this, &TerrainView::readUnderPointer);
+    lead_timer_.setSingleShot(true);
+    connect(&lead_timer_, &QTimer::timeout, this, &TerrainView::reportPointer);
     touch_timer_.setInterval(kTouchInterval);
     connect(&touch_timer_, &QTimer::timeout, this, &TerrainView::refreshTouch);
     still_timer_.setSingleShot(true);
@@ -391,6 +393,19 @@ void TerrainView::flyTo(GridPoint grid, double distance_m)
     navigator_.moveTo(goal, kFlyDuration);
 }
 
+void TerrainView::goTo(GridPoint grid)
+{
+    if (ground_.isEmpty()) {
+        return;
+    }
+    setFocus(Qt::OtherFocusReason);
+    flyTo(grid, 0.0);
+    typed_place_ = {.place = map_->georeference().sceneFrame().toScene(grid, 0.0),
+                    .goal = navigator_.goal()};
+    setKeyboardUsed(true);
+    reportPointer();
+}
+
 void TerrainView::flyToPlace(const ScenePoint& place)
 {
     if (ground_.isEmpty()) {
@@ -434,14 +449,15 @@ bool TerrainView::isInPicture(const ScenePoint& place) const
 std::optional<RayHit> TerrainView::surfaceAt(QPointF position) const
 {
     const std::optional<GroundPoint> ground = groundUnder(position);
-    if (!ground) {
-        return std::nullopt;
-    }
-    const ScenePoint place = ground_.maps()[ground->index].frame.toScene(ground->grid, 0.0);
-    return RayHit{.grid = ground->index == 0 ? ground->grid
-                                             : ground_.maps().front().frame.toGrid(place),
-                  .height_m = ground->height_m,
-                  .t = ground->distance_m};
+    return ground ? std::optional(onTopmost(*ground)) : std::nullopt;
+}
+
+RayHit TerrainView::onTopmost(const GroundPoint& ground) const
+{
+    const ScenePoint place = ground_.maps()[ground.index].frame.toScene(ground.grid, 0.0);
+    return {.grid = ground.index == 0 ? ground.grid : ground_.maps().front().frame.toGrid(place),
+            .height_m = ground.height_m,
+            .t = ground.distance_m};
 }
 
 std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const

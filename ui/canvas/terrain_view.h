@@ -107,6 +107,9 @@ public:
     void turnNorthUp();
     /// Flies to a place of the topmost layer; `distance_m` of 0 keeps the distance.
     void flyTo(GridPoint grid, double distance_m);
+    /// The same at the same distance, with the focus, for a place that was typed: it is what is
+    /// read until the pointer or the camera moves.
+    void goTo(GridPoint grid);
     /// The same to a place of the scene, from the same side and distance.
     void flyToPlace(const ScenePoint& place);
     /// Flies to what surfaceAt() found, and much nearer to it.
@@ -121,7 +124,8 @@ public:
     std::optional<RayHit> surfaceAt(QPointF position) const;
     /// The same with the map that it is on, and the place on that map's own grid.
     std::optional<GroundPoint> groundUnder(QPointF position) const;
-    /// The place that is read: under the pointer; or at the crosshair in the middle of the picture,
+    /// The place that is read: under the stylus of a haptic device, unless the pointer or a key has
+    /// just moved; otherwise under the pointer; or at the crosshair in the middle of the picture,
     /// while the view has the focus and the pointer is not over it or a key moved the camera last.
     /// Nothing where no surface is there.
     std::optional<RayHit> reading() const;
@@ -153,9 +157,12 @@ public:
     const std::optional<StylusPose>& shownStylus() const noexcept;
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture();
-    /// The terrain from another camera or in another size (pixels), drawn whole: waits for all that
-    /// is missing. OutOfRange where the driver has no frame buffer of that size.
-    Result<QImage> drawnPicture(const OrbitCamera& camera, QSize size);
+    /// The exaggeration and look of now.
+    const DrawStyle& style() const noexcept { return style_; }
+    /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
+    /// False, and nothing drawn, while pieces of it are missing: they are on their way.
+    Result<bool>
+    drawPart(const OrbitCamera& camera, const DrawStyle& style, const QRect& part, QImage& picture);
     /// Pixels a side that the graphics driver draws; 0 without a graphics context.
     int pictureSideMax();
 
@@ -244,7 +251,10 @@ private:
     bool moveByGrab(QPointF from, QPointF to);
     void setGrabbing(bool is_grabbing);
     void moveStylus();
-    std::optional<QPointF> readPosition() const;
+    bool isStylusRead() const;
+    std::optional<GroundPoint> groundRead() const;
+    void leadReading();
+    RayHit onTopmost(const GroundPoint& ground) const;
     void setKeyboardUsed(bool is_used);
     void forgetPointer();
     bool isOverOverlay(QPointF position) const;
@@ -282,6 +292,7 @@ private:
     QString problem_;
     bool is_cursor_shown_ = true;
     QTimer pointer_timer_; // runs until what is under the pointer has been read
+    QTimer lead_timer_;    // runs for a while after pointer or keys moved: they are read
     QTimer touch_timer_;   // runs while finer ground may come below the stylus
     QTimer still_timer_;   // runs out when nothing has moved for a while
     std::chrono::steady_clock::time_point last_paint_{};
@@ -297,6 +308,11 @@ private:
     double grabbed_z_m_ = 0.0;       // of what the drag, or the stylus, has hold of
     std::optional<QPointF> pointer_; // over the map, and not over an overlay
     bool is_keyboard_used_ = false;  // to navigate, since the pointer moved last
+    struct TypedPlace {
+        ScenePoint place;
+        OrbitCamera goal; // that looks at it
+    };
+    std::optional<TypedPlace> typed_place_;
     bool is_read_elsewhere_ = false;
     bool is_crosshair_allowed_ = true;
     bool was_crosshair_shown_ = false;

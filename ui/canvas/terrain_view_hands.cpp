@@ -75,6 +75,9 @@ void TerrainView::beginDrag(MapAction action)
 void TerrainView::mouseMoveEvent(QMouseEvent* event)
 {
     is_keyboard_used_ = is_keyboard_used_ && pointer_ == event->position(); // reported again
+    if (pointer_ != event->position()) {
+        leadReading();
+    }
     if (drag_action_ == MapAction::None && isOverOverlay(event->position())) {
         forgetPointer();
         return;
@@ -248,6 +251,9 @@ void TerrainView::showDevice(const std::optional<StylusPose>& pose)
     device_ = pose;
     update();
     Q_EMIT stylusMoved();
+    if (!device_ || isStylusRead()) {
+        reportPointer();
+    }
 }
 
 const std::optional<StylusPose>& TerrainView::shownStylus() const noexcept

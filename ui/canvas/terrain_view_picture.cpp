@@ -21,8 +21,7 @@ constexpr int kShadowSides = 24;
 // No part of the cursor is further from its place and its shadow than this.
 constexpr double kCursorReachPoints = 32.0;
 
-// Pictures for files have smooth edges up to so many pixels: a frame buffer of 1 GB.
-constexpr double kSmoothPixelsMax = 3.2e7;
+// Of pictures for files, a pixel.
 constexpr int kSmoothSamples = 4;
 
 } // namespace
@@ -41,7 +40,10 @@ QImage TerrainView::terrainPicture()
     return picture;
 }
 
-Result<QImage> TerrainView::drawnPicture(const OrbitCamera& camera, QSize size)
+Result<bool> TerrainView::drawPart(const OrbitCamera& camera,
+                                   const DrawStyle& style,
+                                   const QRect& part,
+                                   QImage& picture)
 {
     if (!renderer_) {
         return Error{ErrorCode::Unsupported,
@@ -52,23 +54,23 @@ Result<QImage> TerrainView::drawnPicture(const OrbitCamera& camera, QSize size)
     if (!std::exchange(are_layers_sent_, true)) {
         renderer_->setLayers(layers_);
     }
-    const bool is_smooth =
-        has_antialiasing_ &&
-        static_cast<double>(size.width()) * static_cast<double>(size.height()) <= kSmoothPixelsMax;
-    auto drawn = drawOffscreen(*renderer_,
-                               {.camera = camera,
-                                .viewport = {.width = size.width(), .height = size.height()},
-                                .samples = is_smooth ? kSmoothSamples : 1},
-                               style_, DepthUse::No);
+    const auto drawn = marsview::drawPart(
+        *renderer_,
+        {.camera = camera,
+         .viewport = {.width = picture.width(), .height = picture.height()},
+         .samples = has_antialiasing_ ? kSmoothSamples : 1,
+         .part = PixelArea{.left = part.left(),
+                           .bottom = picture.height() - part.bottom() - 1,
+                           .width = part.width(),
+                           .height = part.height()}},
+        style,
+        {.first = picture.scanLine(part.top()) + static_cast<qsizetype>(3) * part.left(),
+         .line_length = picture.bytesPerLine()});
     doneCurrent();
-    redrawTerrain(); // the picture that was kept for the window is gone
     if (!drawn) {
-        return std::move(drawn).error();
+        return drawn.error();
     }
-    const Picture& colors = drawn->colors;
-    return QImage(colors.rgb.data(), colors.width, colors.height,
-                  static_cast<qsizetype>(3) * colors.width, QImage::Format_RGB888)
-        .copy();
+    return drawn->is_complete;
 }
 
 int TerrainView::pictureSideMax()

@@ -1,5 +1,5 @@
-// The place that the status bar reads: under the pointer, or in the middle of the picture for the
-// keyboard.
+// The place that the status bar reads: under the pointer, under the stylus of a device, or in the
+// middle of the picture for the keyboard.
 
 #include "ui/canvas/terrain_view.h"
 
@@ -20,27 +20,61 @@ constexpr milliseconds kRestInterval{120};
 // The interval at which samples that were requested are looked for.
 constexpr milliseconds kArrivalInterval{40};
 
+// The pointer is read for so long after it moved, in place of the stylus of a device.
+constexpr milliseconds kLeadInterval{2000};
+
+std::optional<GroundPoint> groundBelow(const SceneSurface& ground, const ScenePoint& place)
+{
+    const auto index = ground.mapAt(place.x, place.y);
+    if (!index) {
+        return std::nullopt;
+    }
+    return GroundPoint{.index = *index,
+                       .grid = ground.maps()[*index].frame.toGrid(place),
+                       .height_m = ground.height(place.x, place.y)};
+}
+
 } // namespace
 
 bool TerrainView::isCrosshairShown() const
 {
     const bool is_keyboard_here = hasFocus() || is_read_elsewhere_;
     return is_crosshair_allowed_ && map_ && drag_action_ == MapAction::None && is_keyboard_here &&
-           (!pointer_ || is_keyboard_used_);
+           (!pointer_ || is_keyboard_used_) && !isStylusRead();
 }
 
-std::optional<QPointF> TerrainView::readPosition() const
+bool TerrainView::isStylusRead() const
 {
-    if (isCrosshairShown()) {
-        return QPointF(width() / 2.0, height() / 2.0);
+    return device_ && !lead_timer_.isActive();
+}
+
+// The pointer, or the keys, have moved: with a device at hand as well, they are read for a while.
+void TerrainView::leadReading()
+{
+    if (device_) {
+        lead_timer_.start(kLeadInterval);
     }
-    return pointer_;
+}
+
+std::optional<GroundPoint> TerrainView::groundRead() const
+{
+    if (isStylusRead()) {
+        return groundBelow(ground_, device_->proxy);
+    }
+    if (isCrosshairShown()) {
+        // A ridge in front of the place would be read instead of it.
+        if (typed_place_ && typed_place_->goal == navigator_.goal()) {
+            return groundBelow(ground_, typed_place_->place);
+        }
+        return groundUnder(QRectF(rect()).center());
+    }
+    return pointer_ ? groundUnder(*pointer_) : std::nullopt;
 }
 
 std::optional<RayHit> TerrainView::reading() const
 {
-    const auto position = readPosition();
-    return position ? surfaceAt(*position) : std::nullopt;
+    const std::optional<GroundPoint> ground = groundRead();
+    return ground ? std::optional(onTopmost(*ground)) : std::nullopt;
 }
 
 double TerrainView::metresPerPoint(const RayHit& hit) const
@@ -67,6 +101,9 @@ void TerrainView::setCrosshairAllowed(bool is_allowed)
 
 void TerrainView::setKeyboardUsed(bool is_used)
 {
+    if (is_used) {
+        leadReading();
+    }
     if (is_used != is_keyboard_used_) {
         is_keyboard_used_ = is_used;
         reportPointer();
@@ -124,10 +161,9 @@ void TerrainView::reportPointer()
         was_crosshair_shown_ = is_crosshair;
         Q_EMIT crosshairChanged(is_crosshair);
     }
-    const auto position = readPosition();
-    Q_EMIT pointerMoved(position ? surfaceAt(*position) : std::nullopt);
+    const auto ground = groundRead();
+    Q_EMIT pointerMoved(ground ? std::optional(onTopmost(*ground)) : std::nullopt);
     // A ray takes what is loaded. Where the pointer rests, the samples themselves are read.
-    const auto ground = position ? groundUnder(*position) : std::optional<GroundPoint>();
     if (ground && !ground_.maps()[ground->index].map->heightfield().isExact(ground->grid)) {
         pointer_timer_.start(kRestInterval);
     }
@@ -135,8 +171,7 @@ void TerrainView::reportPointer()
 
 void TerrainView::readUnderPointer()
 {
-    const auto position = readPosition();
-    const auto ground = position ? groundUnder(*position) : std::optional<GroundPoint>();
+    const auto ground = groundRead();
     if (!ground) {
         return;
     }

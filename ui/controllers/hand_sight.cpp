@@ -1,6 +1,7 @@
 #include "ui/controllers/hand_sight.h"
 
 #include "core/view/footprint.h"
+#include "core/view/navigation.h"
 #include "haptics/interaction/workspace_walls.h"
 
 #include <algorithm>
@@ -93,14 +94,25 @@ CellRectangle largestRectangle(const Probes& probes)
     return best;
 }
 
-} // namespace
+// The same picture, its target on the terrain in the middle: the box's floor, at which a view of
+// the whole map is aimed, may be far below.
+OrbitCamera onGround(const OrbitCamera& camera, const SceneSurface& ground, double exaggeration)
+{
+    constexpr double kFarthest = 4.0; // of the distance: further is the horizon
+    const auto hit =
+        ground.cast({.origin = eyeOf(camera), .direction = axesOf(camera).forward}, exaggeration);
+    const bool is_near =
+        hit && hit->distance_m > 0.0 && hit->distance_m < kFarthest * camera.distance_m;
+    return is_near ? retargeted(camera, hit->distance_m) : camera;
+}
 
-std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
-                                           const Viewport& viewport,
-                                           const SceneSurface& ground,
-                                           double exaggeration,
-                                           const WorkspaceFrame& frame,
-                                           const WorkspaceBox& reach)
+// The rectangle within `reach` all of whose probes are well inside the picture.
+std::optional<WorkspaceBox> probedSight(const OrbitCamera& camera,
+                                        const Viewport& viewport,
+                                        const SceneSurface& ground,
+                                        double exaggeration,
+                                        const WorkspaceFrame& frame,
+                                        const WorkspaceBox& reach)
 {
     const double left = kMarginShare * viewport.width;
     const double top = kMarginShare * viewport.height;
@@ -140,12 +152,31 @@ std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
     return strokes;
 }
 
-WorkspaceFrame frameForSight(const OrbitCamera& camera,
+} // namespace
+
+std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
+                                           const Viewport& viewport,
+                                           const SceneSurface& ground,
+                                           double exaggeration,
+                                           const WorkspaceFrame& frame,
+                                           const WorkspaceBox& reach)
+{
+    const auto probe = [&](const WorkspaceBox& within) {
+        return probedSight(camera, viewport, ground, exaggeration, frame, within);
+    };
+    // Once more within what was found: on rough terrain a ridge between two probes may leave the
+    // picture.
+    const std::optional<WorkspaceBox> found = probe(reach);
+    return found ? std::optional(probe(*found).value_or(*found)) : std::nullopt;
+}
+
+WorkspaceFrame frameForSight(const OrbitCamera& sight,
                              const Viewport& viewport,
                              const SceneSurface& ground,
                              double exaggeration,
                              const WorkspaceBox& walls)
 {
+    const OrbitCamera camera = onGround(sight, ground, exaggeration);
     const MapPlan plan = planOf(ground.maps().front());
     SceneBox box = ground.box(exaggeration);
     const WorkspaceBox reach = reachWithin(walls);

@@ -11,7 +11,7 @@ namespace marsview {
 
 /// The frame in which a hand within `walls` reaches all of the ground that the camera sees, from
 /// its lowest to its highest place and a little beyond. `ground` is not empty.
-WorkspaceFrame frameForSight(const OrbitCamera& camera,
+WorkspaceFrame frameForSight(const OrbitCamera& sight,
                              const Viewport& viewport,
                              const SceneSurface& ground,
                              double exaggeration,

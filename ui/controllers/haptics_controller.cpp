@@ -180,6 +180,7 @@ void HapticsController::connectTo(const QString& uri)
     }
     is_quiet_ = false;
     is_coming_back_ = false;
+    replay_uri_.clear();
     uri_ = uri;
     connection_ = HapticsConnection::Opening;
     setProblem({});
@@ -225,6 +226,19 @@ void HapticsController::stopReplay()
     }
 }
 
+QString HapticsController::replayedToItsEnd() const
+{
+    return replay_uri_.isEmpty() ? QString()
+                                 : QString::fromStdString(replayedFile(replay_uri_.toStdString()));
+}
+
+void HapticsController::replayAgain()
+{
+    if (!replay_uri_.isEmpty()) {
+        connectTo(QString(replay_uri_));
+    }
+}
+
 void HapticsController::setAtRest()
 {
     if (canBeSetAtRest()) {
@@ -234,6 +248,7 @@ void HapticsController::setAtRest()
 
 void HapticsController::disconnectDevice()
 {
+    replay_uri_.clear();
     wanted_uri_.clear();
     interrupted_uri_.clear();
     const bool is_device = !isPlayedBack(uri_);
@@ -315,8 +330,9 @@ void HapticsController::finishLost(const LoopState& state)
     close();
     const bool is_replay = isPlayedBack(uri); // which may end while everything is let go of
     if (state.reason == ForceOffReason::DeviceFinished || (is_replay && trouble.empty())) {
-        // Where a device comes back there is nothing to be done about it.
-        resumeInterrupted(interrupted_uri_.isEmpty() ? tr("The recording has ended") : QString());
+        replay_uri_ = uri;
+        Q_EMIT replayEnded(QString::fromStdString(replayedFile(uri.toStdString())));
+        resumeInterrupted({});
         return;
     }
     const QString problem = trouble.empty() ? tr("%1 was lost; plug it in again").arg(name)
@@ -337,7 +353,9 @@ void HapticsController::finishLost(const LoopState& state)
 void HapticsController::resumeInterrupted(const QString& problem)
 {
     if (!interrupted_uri_.isEmpty()) {
+        const QString replayed = replay_uri_;
         connectTo(QString(interrupted_uri_)); // which is cleared by it
+        replay_uri_ = replayed;
         is_coming_back_ = true;
     }
     was_wanted_gone_ = true; // for all that was seen meanwhile
@@ -713,6 +731,9 @@ void HapticsController::push()
     loop_settings_.is_grabbing = is_grabbing_;
     const bool was_running = loop_->isRunning();
     loop_->set(loop_settings_);
+    if (loop_->hasEnded()) {
+        return; // which poll() reports
+    }
     if (loop_->isRunning() != was_running) {
         loop_->isRunning() ? poll_timer_.start() : poll_timer_.stop();
         Q_EMIT recordingChanged();

@@ -81,6 +81,11 @@ public:
     bool canBeSetAtRest() const;
     /// Connects it anew: it is in its rest position now. Somebody stands beside it and sees that.
     void setAtRest();
+    /// The recording that was replayed to its end last, until something else is connected than the
+    /// device whose place it took; empty for none.
+    QString replayedToItsEnd() const;
+    /// Starts that replay again.
+    void replayAgain();
     /// Of what is connected or being opened.
     const QString& uri() const noexcept { return uri_; }
     /// Nothing unless connected.
@@ -151,6 +156,8 @@ Q_SIGNALS:
     void ticksSaved(const SavedTicks& saved);
     /// "FILE: WHY".
     void savingFailed(const QString& problem);
+    /// A recording was replayed to its end.
+    void replayEnded(const QString& file);
     /// Some sixty times a second while the loop runs.
     void polled(const LoopState& state);
 
@@ -193,6 +200,7 @@ private:
     QString wanted_uri_;                  // of a device that was lost
     QString interrupted_uri_;             // of one that a recording has taken the place of
     bool is_coming_back_ = false;         // that one is being connected again
+    QString replay_uri_;                  // of the recording that was replayed to its end
     std::optional<ReplayFit> replay_fit_; // of the recording that is replayed, once it is known
     int replay_check_ = 0;                // which of the checks counts
     bool was_wanted_gone_ = false;

@@ -379,17 +379,25 @@ void SessionController::setStretch(LayerId id, const ColorStretch& stretch, Chan
     if (const Layer* layer = layerOf(session_, id)) {
         //: Continues "Undo …"; %1 is a layer
         change(tr("Color Stretch of %1").arg(nameOf(*layer)), withStretch(session_, id, stretch),
-               kind == ChangeKind::OfDrag
-                   ? SessionRun{.kind = SessionRun::Kind::Stretch, .serial = drag_serial_}
-                   : SessionRun{});
+               runOf(kind, SessionRun::Kind::Stretch));
     }
 }
 
-void SessionController::setSlopeRange(LayerId id, const std::optional<SlopeRange>& range)
+// Steps of one drag become one step of undo.
+SessionRun SessionController::runOf(ChangeKind kind, SessionRun::Kind what) const
+{
+    return kind == ChangeKind::OfDrag ? SessionRun{.kind = what, .serial = drag_serial_}
+                                      : SessionRun{};
+}
+
+void SessionController::setSlopeRange(LayerId id,
+                                      const std::optional<SlopeRange>& range,
+                                      ChangeKind kind)
 {
     if (const Layer* layer = layerOf(session_, id)) {
         //: Continues "Undo …"; %1 is a layer
-        change(tr("Slope Colors of %1").arg(nameOf(*layer)), withSlopeRange(session_, id, range));
+        change(tr("Slope Colors of %1").arg(nameOf(*layer)), withSlopeRange(session_, id, range),
+               runOf(kind, SessionRun::Kind::Stretch));
     }
 }
 
@@ -446,10 +454,7 @@ void SessionController::setExaggeration(double exaggeration, ChangeKind kind)
     }
     const ExaggerationRange range = exaggerationRange(suitableExaggeration(*shown.front()->map));
     const double bounded = std::clamp(exaggeration, range.least, range.most);
-    const SessionRun run =
-        kind == ChangeKind::OfDrag
-            ? SessionRun{.kind = SessionRun::Kind::Exaggeration, .serial = drag_serial_}
-            : SessionRun{};
+    const SessionRun run = runOf(kind, SessionRun::Kind::Exaggeration);
     //: Continues "Undo …"; %1 is a factor
     change(tr("Exaggeration ×%1").arg(shortNumberText(bounded, 3)),
            withExaggeration(session_, bounded), run);

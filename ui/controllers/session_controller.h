@@ -104,7 +104,9 @@ public:
     /// Over which elevations the layer's ramp is spread.
     void setStretch(LayerId id, const ColorStretch& stretch, ChangeKind kind = ChangeKind::Single);
     /// Over which slopes it is spread; nothing for the slopes that suit the map.
-    void setSlopeRange(LayerId id, const std::optional<SlopeRange>& range);
+    void setSlopeRange(LayerId id,
+                       const std::optional<SlopeRange>& range,
+                       ChangeKind kind = ChangeKind::Single);
     /// Over which slopes it is spread now.
     SlopeRange slopeRangeOf(const Layer& layer) const;
     /// From the lowest to the highest elevation of the layer in the picture. Nothing where the
@@ -182,6 +184,7 @@ private:
     void lookAfterPreviews();
     bool isCompleting(LayerId id) const;
     void change(const QString& text, const Session& after, SessionRun run = {});
+    SessionRun runOf(ChangeKind kind, SessionRun::Kind what) const;
     void apply(const Session& session);
     void show();
     void revealWhatCame();

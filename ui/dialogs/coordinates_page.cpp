@@ -5,16 +5,21 @@
 
 #include <QComboBox>
 #include <QFormLayout>
+#include <QGridLayout>
+#include <QGroupBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
+#include <QVBoxLayout>
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace marsview {
 namespace {
 
 enum class Notation { Decimal, Sexagesimal, Map };
+constexpr std::array kNotations{Notation::Decimal, Notation::Sexagesimal, Notation::Map};
 
 constexpr int kUsual = -1;
 
@@ -23,6 +28,25 @@ Notation notationOf(const CoordinateFormat& format)
     return format.system == PositionSystem::Map             ? Notation::Map
            : format.angles == AngleNotation::DecimalDegrees ? Notation::Decimal
                                                             : Notation::Sexagesimal;
+}
+
+AngleNotation anglesOf(Notation notation)
+{
+    return notation == Notation::Decimal ? AngleNotation::DecimalDegrees
+                                         : AngleNotation::DegreesMinutesSeconds;
+}
+
+QString notationText(Notation notation)
+{
+    switch (notation) {
+    case Notation::Decimal:
+        return CoordinatesPage::tr("Decimal degrees");
+    case Notation::Sexagesimal:
+        return CoordinatesPage::tr("Degrees, minutes, seconds");
+    case Notation::Map:
+        return CoordinatesPage::tr("Map coordinates (CRS)");
+    }
+    return {};
 }
 
 QString bodyText(const Body& body)
@@ -38,12 +62,11 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
     , longitudes_(new QComboBox(this))
     , body_(new QComboBox(this))
     , latitudes_(new QComboBox(this))
-    , example_(new QLabel(this))
 {
     notation_->setAccessibleName(tr("Coordinate format"));
-    notation_->addItem(tr("Decimal degrees"), static_cast<int>(Notation::Decimal));
-    notation_->addItem(tr("Degrees, minutes, seconds"), static_cast<int>(Notation::Sexagesimal));
-    notation_->addItem(tr("Map coordinates (CRS)"), static_cast<int>(Notation::Map));
+    for (const Notation notation : kNotations) {
+        notation_->addItem(notationText(notation), static_cast<int>(notation));
+    }
     longitudes_->setAccessibleName(tr("Range of longitudes"));
     //: The range of longitudes that suits each body
     longitudes_->addItem(tr("As usual on the body"), kUsual);
@@ -52,30 +75,36 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
         longitudes_->addItem(longitudeNotationText(notation), static_cast<int>(notation));
     }
     body_->setAccessibleName(tr("Body whose kind of latitude is chosen"));
+    body_->setObjectName(QStringLiteral("latitudeBody"));
     for (const Body& body : knownBodies()) {
-        if (!body.ellipsoid.isSphere()) {
-            body_->addItem(bodyText(body));
-        }
+        body_->addItem(bodyText(body));
     }
-    body_->setCurrentText(QStringLiteral("Mars"));
     latitudes_->setAccessibleName(tr("Kind of latitude on the body"));
-    example_->setAccessibleName(tr("Example of the coordinate format"));
-    example_->setObjectName(QStringLiteral("coordinateExample"));
+    latitudes_->setObjectName(QStringLiteral("latitudeKind"));
+    auto* format_group = new QGroupBox(tr("Format"), this);
+    auto* format = new QFormLayout(format_group);
+    format->addRow(tr("&Coordinates"), notation_);
+    format->addRow(tr("&Longitude"), longitudes_);
     auto* latitude_row = new QHBoxLayout;
     latitude_row->addWidget(body_);
     latitude_row->addWidget(latitudes_, 1);
-    auto* form = new QFormLayout(this);
-    form->addRow(tr("&Coordinates"), notation_);
-    form->addRow(tr("&Longitude"), longitudes_);
     //: In front of a body and a kind of latitude
     auto* latitude_label = new QLabel(tr("L&atitude on"), this);
     latitude_label->setBuddy(body_);
-    form->addRow(latitude_label, latitude_row);
-    form->addRow(tr("Example"), example_);
+    format->addRow(latitude_label, latitude_row);
+    //: A group: one place in each format of coordinates
+    auto* example_group = new QGroupBox(tr("Examples"), this);
+    auto* examples = new QGridLayout(example_group);
+    addExamples(*examples);
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(format_group);
+    layout->addWidget(example_group);
+    layout->addStretch(1);
+    setBody(nullptr);
     fill({});
 
     const auto tell = [this] {
-        showExample();
+        showExamples();
         Q_EMIT changed();
     };
     connect(notation_, &QComboBox::currentIndexChanged, this, [this, tell] {
@@ -83,8 +112,7 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
         format_.system =
             notation == Notation::Map ? PositionSystem::Map : PositionSystem::Geographic;
         if (notation != Notation::Map) {
-            format_.angles = notation == Notation::Decimal ? AngleNotation::DecimalDegrees
-                                                           : AngleNotation::DegreesMinutesSeconds;
+            format_.angles = anglesOf(notation);
         }
         tell();
     });
@@ -96,7 +124,7 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
     });
     connect(body_, &QComboBox::currentIndexChanged, this, [this] {
         showLatitudes();
-        showExample();
+        showExamples();
     });
     connect(latitudes_, &QComboBox::currentIndexChanged, this, [this, tell] {
         format_.setLatitudesOn(bodyNamed(body_->currentText().toStdString()),
@@ -114,7 +142,28 @@ void CoordinatesPage::fill(const CoordinateFormat& format)
     longitudes_->setCurrentIndex(
         longitudes_->findData(format.longitudes ? static_cast<int>(*format.longitudes) : kUsual));
     showLatitudes();
-    showExample();
+    showExamples();
+}
+
+void CoordinatesPage::setBody(const Body* body)
+{
+    body_->setCurrentText(body != nullptr ? bodyText(*body) : QStringLiteral("Mars"));
+}
+
+void CoordinatesPage::addExamples(QGridLayout& grid)
+{
+    for (std::size_t i = 0; i < kNotations.size(); ++i) {
+        const QString name = notationText(kNotations[i]);
+        examples_[i] = {.name = new QLabel(name, this), .text = new QLabel(this)};
+        examples_[i].text->setAccessibleName(name);
+        examples_[i].text->setObjectName(QStringLiteral("example%1").arg(i));
+        examples_[i].text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        const int row = static_cast<int>(i);
+        grid.addWidget(examples_[i].name, row, 0);
+        grid.addWidget(examples_[i].text, row, 1);
+    }
+    grid.setColumnStretch(1, 1);
+    grid.setHorizontalSpacing(16);
 }
 
 void CoordinatesPage::showLatitudes()
@@ -130,26 +179,41 @@ void CoordinatesPage::showLatitudes()
         latitudes_->addItem(name, static_cast<int>(kind));
     }
     latitudes_->setCurrentIndex(latitudes_->findData(static_cast<int>(format_.latitudesOn(body))));
+    const bool has_kinds = !body->ellipsoid.isSphere();
+    latitudes_->setEnabled(has_kinds);
+    latitudes_->setToolTip(has_kinds ? QString()
+                                     : tr("All kinds of latitude are the same on a sphere"));
 }
 
-// A place that shows all differences: west of the meridian, at a middle latitude.
-void CoordinatesPage::showExample()
+// A place that shows all differences: west of the meridian, at a middle latitude. The chosen
+// notation stands out.
+void CoordinatesPage::showExamples()
 {
-    const Body* body = bodyNamed(body_->currentText().toStdString());
-    if (body == nullptr || format_.system == PositionSystem::Map) {
-        example_->setText(leftToRight(
-            QStringLiteral("%1, %2 m").arg(numberText(562345.5, 1), numberText(5117890.0, 1))));
-        return;
-    }
     RasterInfo info;
-    info.body = body;
-    info.crs = Crs::geographic(*body, body->ellipsoid);
-    const int digits = digitsFor(
-        format_.angles,
-        Angle::degrees(format_.angles == AngleNotation::DecimalDegrees ? 0.01 : 1.0 / 3600.0));
-    example_->setText(
-        geographicText({.longitude = Angle::degrees(-133.8), .latitude = Angle::degrees(18.65)},
-                       format_, info, digits));
+    info.body = bodyNamed(body_->currentText().toStdString());
+    info.crs = Crs::geographic(*info.body, info.body->ellipsoid);
+    for (std::size_t i = 0; i < kNotations.size(); ++i) {
+        const Notation notation = kNotations[i];
+        const bool is_chosen = notation == notationOf(format_);
+        for (QLabel* label : {examples_[i].name, examples_[i].text}) {
+            QFont font = label->font();
+            font.setBold(is_chosen);
+            label->setFont(font);
+        }
+        if (notation == Notation::Map) {
+            examples_[i].text->setText(leftToRight(
+                QStringLiteral("%1, %2 m").arg(numberText(562345.5, 1), numberText(5117890.0, 1))));
+            continue;
+        }
+        CoordinateFormat format = format_;
+        format.system = PositionSystem::Geographic;
+        format.angles = anglesOf(notation);
+        const int digits = digitsFor(
+            format.angles, Angle::degrees(notation == Notation::Decimal ? 0.01 : 1.0 / 3600.0));
+        examples_[i].text->setText(
+            geographicText({.longitude = Angle::degrees(-133.8), .latitude = Angle::degrees(18.65)},
+                           format, info, digits));
+    }
 }
 
 } // namespace marsview

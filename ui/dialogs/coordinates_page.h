@@ -5,12 +5,16 @@
 
 #include <QWidget>
 
+#include <array>
+
 class QComboBox;
 class QLabel;
+class QGridLayout;
 
 namespace marsview {
 
-/// Chooses the format of positions. The kind of latitude is chosen for one body at a time.
+/// Chooses the format of positions, with an example of each notation. The kind of latitude is
+/// chosen for one body at a time.
 class CoordinatesPage final : public QWidget {
     Q_OBJECT
 
@@ -18,6 +22,8 @@ public:
     explicit CoordinatesPage(QWidget* parent = nullptr);
 
     void fill(const CoordinateFormat& format);
+    /// The body whose kind of latitude and examples are shown first; null for Mars.
+    void setBody(const Body* body);
     const CoordinateFormat& format() const noexcept { return format_; }
 
 Q_SIGNALS:
@@ -25,15 +31,20 @@ Q_SIGNALS:
     void changed();
 
 private:
+    void addExamples(QGridLayout& grid);
     void showLatitudes();
-    void showExample();
+    void showExamples();
 
     CoordinateFormat format_;
     QComboBox* notation_ = nullptr;
     QComboBox* longitudes_ = nullptr;
     QComboBox* body_ = nullptr;
     QComboBox* latitudes_ = nullptr;
-    QLabel* example_ = nullptr;
+    struct Example {
+        QLabel* name = nullptr;
+        QLabel* text = nullptr;
+    };
+    std::array<Example, 3> examples_; // of the notations
 };
 
 } // namespace marsview

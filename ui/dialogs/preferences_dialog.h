@@ -24,6 +24,8 @@ public:
                       QWidget* parent = nullptr);
 
     QTabWidget* pages() const noexcept { return pages_; }
+    /// Of the map that is looked at; null for none. What is chosen for a body is for it at first.
+    void setBody(const Body* body) { coordinates_->setBody(body); }
 
     Preferences preferences() const;
 

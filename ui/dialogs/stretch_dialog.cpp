@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace marsview {
 namespace {
@@ -97,11 +99,7 @@ StretchDialog::StretchDialog(QWidget* parent)
     connect(low_, &QDoubleSpinBox::valueChanged, this, &StretchDialog::requestEnds);
     connect(high_, &QDoubleSpinBox::valueChanged, this, &StretchDialog::requestEnds);
     connect(to_view_, &QPushButton::clicked, this, &StretchDialog::stretchToViewRequested);
-    connect(plot_, &StretchPlot::endsDragged, this, [this](double low_m, double high_m) {
-        ColorStretch stretch = fixedStretch(low_m, high_m);
-        stretch.cut_percent = content_.stretch.cut_percent;
-        Q_EMIT stretchDragged(stretch);
-    });
+    connect(plot_, &StretchPlot::endsDragged, this, &StretchDialog::drag);
     connect(plot_, &StretchPlot::dragEnded, this, &StretchDialog::dragEnded);
     fill();
 }
@@ -137,7 +135,7 @@ void StretchDialog::fill()
                        ? tr("Color Stretch — %1").arg(content_.layer)
                        : tr("Color Stretch"));
     const bool is_slope = content_.slopes.has_value();
-    plot_->setVisible(!is_slope);
+    plot_->setAccessibleName(is_slope ? tr("Histogram of slopes") : tr("Histogram of elevations"));
     form_->setRowVisible(cut_, !is_slope);
     to_view_->setVisible(!is_slope);
     for (QWidget* part : std::initializer_list<QWidget*>{plot_, kind_, low_, high_}) {
@@ -156,10 +154,35 @@ void StretchDialog::fill()
     const QSignalBlocker kind_blocker(kind_);
     kind_->setCurrentIndex(kind_->findData(static_cast<int>(kind)));
     is_slope ? fillSlopes() : fillHeights();
+    if (is_slope != was_slope_) { // fields come or go; the plot keeps its height
+        was_slope_ = is_slope;
+        layout()->activate();
+        resize(width(), sizeHint().height());
+    }
+}
+
+void StretchDialog::drag(double low, double high)
+{
+    if (content_.slopes) {
+        Q_EMIT slopesDragged({.minimum = Angle::degrees(low), .maximum = Angle::degrees(high)});
+        return;
+    }
+    ColorStretch stretch = fixedStretch(low, high);
+    stretch.cut_percent = content_.stretch.cut_percent;
+    Q_EMIT stretchDragged(stretch);
 }
 
 void StretchDialog::fillSlopes()
 {
+    const PlotRange stretched{.low = content_.slopes->minimum.degrees(),
+                              .high = content_.slopes->maximum.degrees()};
+    const double steepest = content_.slope_histogram.maximum.degrees();
+    plot_->setContent({.counts = content_.slope_histogram.counts,
+                       .counted = {.low = 0.0, .high = steepest},
+                       .all = {.low = 0.0, .high = std::max(steepest, stretched.high)},
+                       .stretched = stretched,
+                       .tinted = stretched,
+                       .ramp = content_.ramp});
     for (ElevationBox* box : {low_, high_}) {
         const QSignalBlocker blocker(box);
         box->setSuffix(QStringLiteral("°"));
@@ -171,17 +194,25 @@ void StretchDialog::fillSlopes()
     high_->setAccessibleName(tr("Maximum slope"));
     const QSignalBlocker low_blocker(low_);
     const QSignalBlocker high_blocker(high_);
-    low_->setValue(content_.slopes->minimum.degrees());
-    high_->setValue(content_.slopes->maximum.degrees());
-    note_->clear();
+    low_->setValue(stretched.low);
+    high_->setValue(stretched.high);
+    note_->setText(tr("Slopes averaged over the map's overview; single samples may be steeper."));
 }
 
 void StretchDialog::fillHeights()
 {
-    plot_->setContent({.histogram = content_.histogram,
-                       .all = content_.all,
-                       .stretched = content_.stretched,
-                       .ramp = content_.ramp});
+    const auto plotted = [](const HeightRange& range) {
+        return PlotRange{.low = range.minimum_m, .high = range.maximum_m};
+    };
+    plot_->setContent(
+        {.counts = content_.histogram ? content_.histogram->counts : std::vector<std::uint64_t>{},
+         .counted = plotted(content_.all),
+         .all = plotted(content_.all),
+         .stretched = plotted(content_.stretched),
+         .tinted =
+             plotted(content_.ramp != nullptr ? tintedRange(*content_.ramp, content_.stretched)
+                                              : content_.stretched),
+         .ramp = content_.ramp});
     const QSignalBlocker cut_blocker(cut_);
     cut_->setValue(content_.stretch.cut_percent);
     low_->setAccessibleName(tr("Minimum elevation"));

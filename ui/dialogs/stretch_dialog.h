@@ -1,4 +1,4 @@
-// Choosing over which elevations a layer's color ramp is spread.
+// Choosing over which elevations or slopes a layer's color ramp is spread.
 #pragma once
 
 #include "core/terrain/height_histogram.h"
@@ -32,9 +32,11 @@ struct StretchContent {
     const ColorRamp* ramp = nullptr;
     std::shared_ptr<const HeightHistogram> histogram{}; // null while it is being counted
     bool is_in_picture = false;
-    /// The colors show slopes: over which, and whether that was chosen. Elevations are left out.
+    /// The colors show slopes: over which, whether that was chosen, and how those of the map are
+    /// distributed. Elevations are left out.
     std::optional<SlopeRange> slopes{};
     bool are_slopes_chosen = false;
+    SlopeHistogram slope_histogram{};
 };
 
 /// Stays open while people work with the map. Every choice takes effect at once and can be undone.
@@ -58,16 +60,20 @@ Q_SIGNALS:
     void stretchToViewRequested();
     /// Nothing for what suits the layer.
     void slopesRequested(const std::optional<SlopeRange>& slopes);
+    /// As slopesRequested(), while an end is dragged.
+    void slopesDragged(const SlopeRange& slopes);
 
 private:
     void fill();
     void requestKind();
     void requestEnds();
+    void drag(double low, double high);
     void requestSlopes();
     void fillSlopes();
     void fillHeights();
 
     StretchContent content_;
+    bool was_slope_ = false;
     HeightUnit unit_ = HeightUnit::Metres;
     QFormLayout* form_ = nullptr;
     StretchPlot* plot_ = nullptr;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace marsview {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kLeastShare = 1e-3;   // of the plot between the ends
 StretchPlot::StretchPlot(QWidget* parent)
     : QWidget(parent)
 {
-    setAccessibleName(tr("Histogram of elevations"));
+    setAccessibleName(tr("Histogram"));
     setAccessibleDescription(tr("The lines mark the ends of the color stretch"));
     setToolTip(tr("Drag the lines to change the ends of the color stretch"));
     setMouseTracking(true);
@@ -41,30 +42,50 @@ QRect StretchPlot::plot() const
     return rect().adjusted(kMargin, 2, -kMargin, -kMarkHeight - 2);
 }
 
-int StretchPlot::positionOf(double height_m) const
+int StretchPlot::positionOf(double value) const
 {
     const QRect area = plot();
-    const double extent = content_.all.maximum_m - content_.all.minimum_m;
-    const double share = extent > 0.0 ? (height_m - content_.all.minimum_m) / extent : 0.5;
+    const double extent = content_.all.extent();
+    const double share = extent > 0.0 ? (value - content_.all.low) / extent : 0.5;
     return area.left() +
            static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * (area.width() - 1)));
 }
 
-double StretchPlot::heightAt(int x) const
+double StretchPlot::valueAt(int x) const
 {
     const QRect area = plot();
     const double share = static_cast<double>(x - area.left()) / std::max(1, area.width() - 1);
-    return content_.all.minimum_m +
-           std::clamp(share, 0.0, 1.0) * (content_.all.maximum_m - content_.all.minimum_m);
+    return content_.all.low + std::clamp(share, 0.0, 1.0) * content_.all.extent();
+}
+
+// How high the bar is there, of the plot's height; 0 where nothing was counted.
+double StretchPlot::shareAt(int x) const
+{
+    const auto& counts = content_.counts;
+    const double value = valueAt(x);
+    const double extent = content_.counted.extent();
+    if (value < content_.counted.low || value > content_.counted.high) {
+        return 0.0;
+    }
+    const double place = extent > 0.0 ? (value - content_.counted.low) / extent : 0.0;
+    const std::size_t bin = std::min(
+        counts.size() - 1, static_cast<std::size_t>(place * static_cast<double>(counts.size())));
+    const double mean =
+        static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})) /
+        static_cast<double>(counts.size());
+    const double top =
+        std::min(static_cast<double>(*std::max_element(counts.begin(), counts.end())),
+                 kTallestOfMean * mean);
+    return top > 0.0 ? std::min(1.0, static_cast<double>(counts[bin]) / top) : 0.0;
 }
 
 std::optional<StretchPlot::End> StretchPlot::endAt(int x) const
 {
-    if (!(content_.all.maximum_m > content_.all.minimum_m)) {
+    if (!(content_.all.extent() > 0.0)) {
         return std::nullopt;
     }
-    const int to_low = std::abs(x - positionOf(content_.stretched.minimum_m));
-    const int to_high = std::abs(x - positionOf(content_.stretched.maximum_m));
+    const int to_low = std::abs(x - positionOf(content_.stretched.low));
+    const int to_high = std::abs(x - positionOf(content_.stretched.high));
     if (std::min(to_low, to_high) > kReach) {
         return std::nullopt;
     }
@@ -73,16 +94,15 @@ std::optional<StretchPlot::End> StretchPlot::endAt(int x) const
 
 void StretchPlot::drag(int x)
 {
-    double low_m = content_.stretched.minimum_m;
-    double high_m = content_.stretched.maximum_m;
-    const double least_m = kLeastShare * (content_.all.maximum_m - content_.all.minimum_m);
+    PlotRange ends = content_.stretched;
+    const double least = kLeastShare * content_.all.extent();
     if (*dragged_ == End::Low) {
-        low_m = std::min(heightAt(x), high_m - least_m);
+        ends.low = std::min(valueAt(x), ends.high - least);
     } else {
-        high_m = std::max(heightAt(x), low_m + least_m);
+        ends.high = std::max(valueAt(x), ends.low + least);
     }
-    if (isStretchRange(low_m, high_m)) {
-        Q_EMIT endsDragged(low_m, high_m);
+    if (isStretchRange(ends.low, ends.high)) {
+        Q_EMIT endsDragged(ends.low, ends.high);
     }
 }
 
@@ -116,26 +136,14 @@ void StretchPlot::paintEvent(QPaintEvent* /*event*/)
     QPainter painter(this);
     const QRect area = plot();
     painter.fillRect(area, palette().color(QPalette::Base));
-    const bool has_range = content_.all.maximum_m > content_.all.minimum_m;
-    if (content_.histogram && !content_.histogram->counts.empty() && content_.ramp != nullptr &&
-        has_range) {
-        const auto& counts = content_.histogram->counts;
-        const double mean = static_cast<double>(content_.histogram->sample_count) /
-                            static_cast<double>(counts.size());
-        const double top =
-            std::min(static_cast<double>(*std::max_element(counts.begin(), counts.end())),
-                     kTallestOfMean * mean);
+    const bool has_range = content_.all.extent() > 0.0;
+    if (!content_.counts.empty() && content_.ramp != nullptr && has_range) {
         const auto colors = sampledRamp(*content_.ramp);
-        const HeightRange tinted = tintedRange(*content_.ramp, content_.stretched);
-        const double tinted_m = tinted.maximum_m - tinted.minimum_m;
-        for (int x = area.left(); x <= area.right() && top > 0.0; ++x) {
-            const auto bin = std::min(counts.size() - 1,
-                                      static_cast<std::size_t>(x - area.left()) * counts.size() /
-                                          static_cast<std::size_t>(area.width()));
-            const double share = std::min(1.0, static_cast<double>(counts[bin]) / top);
-            const int height =
-                counts[bin] == 0 ? 0 : std::max(1, qRound(share * (area.height() - 2)));
-            const double along = tinted_m > 0.0 ? (heightAt(x) - tinted.minimum_m) / tinted_m : 0.5;
+        for (int x = area.left(); x <= area.right(); ++x) {
+            const double share = shareAt(x);
+            const int height = share > 0.0 ? std::max(1, qRound(share * (area.height() - 2))) : 0;
+            const double tinted = content_.tinted.extent();
+            const double along = tinted > 0.0 ? (valueAt(x) - content_.tinted.low) / tinted : 0.5;
             const auto i = static_cast<std::size_t>(std::clamp(along, 0.0, 1.0) * 255.0);
             painter.fillRect(x, area.bottom() + 1 - height, 1, height, colorFrom(colors[i]));
         }
@@ -147,8 +155,8 @@ void StretchPlot::paintEvent(QPaintEvent* /*event*/)
     }
     const QColor line = palette().color(QPalette::WindowText);
     painter.setRenderHint(QPainter::Antialiasing);
-    for (const double end_m : {content_.stretched.minimum_m, content_.stretched.maximum_m}) {
-        const int x = positionOf(end_m);
+    for (const double end : {content_.stretched.low, content_.stretched.high}) {
+        const int x = positionOf(end);
         painter.fillRect(QRectF(x - 0.5, area.top(), 1.5, area.height()), line);
         QPainterPath mark;
         mark.moveTo(x + 0.25, area.bottom() + 1);

@@ -1,20 +1,30 @@
-// A histogram of elevations with the ends of a color stretch.
+// A histogram of elevations or slopes with the ends of a color stretch.
 #pragma once
 
-#include "core/terrain/height_histogram.h"
 #include "core/view/color_ramp.h"
 
 #include <QWidget>
 
-#include <memory>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace marsview {
 
+/// Elevations in metres, or slopes in degrees.
+struct PlotRange {
+    double low = 0.0;
+    double high = 0.0;
+
+    double extent() const noexcept { return high - low; }
+};
+
 struct StretchPlotContent {
-    std::shared_ptr<const HeightHistogram> histogram; // null while it is being counted
-    HeightRange all{};                                // of the layer: the ends of the plot
-    HeightRange stretched{};                          // the ends that can be dragged
+    std::vector<std::uint64_t> counts; // in equal parts of `counted`; empty while it is counted
+    PlotRange counted{};
+    PlotRange all{};       // the ends of the plot
+    PlotRange stretched{}; // the ends that can be dragged
+    PlotRange tinted{};    // over which the ramp is spread
     const ColorRamp* ramp = nullptr;
 };
 
@@ -30,12 +40,12 @@ public:
     QSize sizeHint() const override { return {320, 110}; }
     QSize minimumSizeHint() const override { return {200, 80}; }
 
-    /// Horizontal position of an elevation in the widget; beyond the plot at its edge.
-    int positionOf(double height_m) const;
+    /// Horizontal position of a value in the widget; beyond the plot at its edge.
+    int positionOf(double value) const;
 
 Q_SIGNALS:
-    /// Metres, low < high.
-    void endsDragged(double low_m, double high_m);
+    /// low < high, as in the content.
+    void endsDragged(double low, double high);
     /// A drag begins or has ended.
     void dragEnded();
 
@@ -49,7 +59,8 @@ private:
     enum class End { Low, High };
 
     QRect plot() const;
-    double heightAt(int x) const;
+    double valueAt(int x) const;
+    double shareAt(int x) const;
     std::optional<End> endAt(int x) const;
     void drag(int x);
 

@@ -27,6 +27,12 @@ constexpr double kRimShown = 0.85;
 // Forces weaker than this share of the largest have no direction worth showing.
 constexpr double kDirectionFrom = 0.01;
 
+QString forceText(double force_n, double step_n)
+{
+    //: A force in newtons
+    return leftToRight(ForceMeter::tr("%1 N").arg(numberText(force_n, step_n)));
+}
+
 } // namespace
 
 ForceMeter::ForceMeter(QWidget* parent)
@@ -78,15 +84,13 @@ double ForceMeter::step() const
 
 QString ForceMeter::text() const
 {
-    //: A force in newtons
-    return tr("%1 N").arg(numberText(length(force_n_), step()));
+    return forceText(length(force_n_), step());
 }
 
 QString ForceMeter::spokenText() const
 {
     //: %1 is a force, for example "1.2 N", coarse enough not to change all the time
-    return tr("Force %1")
-        .arg(tr("%1 N").arg(numberText(length(force_n_), roundNumberAbove(force_n_max_ / 20.0))));
+    return tr("Force %1").arg(forceText(length(force_n_), roundNumberAbove(force_n_max_ / 20.0)));
 }
 
 QSize ForceMeter::sizeHint() const
@@ -95,7 +99,7 @@ QSize ForceMeter::sizeHint() const
         return {0, 0};
     }
     const QFontMetrics metrics(font());
-    const int number = metrics.horizontalAdvance(tr("%1 N").arg(numberText(force_n_max_, step())));
+    const int number = metrics.horizontalAdvance(forceText(force_n_max_, step()));
     const int space = metrics.height() * 9 / 4;
     return {space + kGap + kBarWidth + kGap + number + 2 * kPlatePadding,
             space + 2 * (kPlatePadding - 3)};

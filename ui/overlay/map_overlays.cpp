@@ -13,18 +13,21 @@
 #include "ui/overlay/minimap.h"
 #include "ui/overlay/overlay_layout.h"
 #include "ui/overlay/overview_picture.h"
+#include "ui/overlay/place_mark.h"
 #include "ui/overlay/scale_bar_view.h"
 
 #include <QAction>
 #include <QApplication>
 #include <QHelpEvent>
 #include <QImage>
+#include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace marsview {
 namespace {
@@ -41,6 +44,7 @@ MapOverlays::MapOverlays(TerrainView& view)
     , minimap_(new Minimap(&view))
     , compass_(new Compass(&view))
     , crosshair_(new Crosshair(&view))
+    , place_mark_(new PlaceMark(&view))
     , scale_bar_(new ScaleBarView(&view))
     , legend_(new Legend(&view))
     , force_meter_(new ForceMeter(&view))
@@ -71,6 +75,8 @@ MapOverlays::MapOverlays(TerrainView& view)
     view_.installEventFilter(this); // the legend is transparent to the mouse
     connect(&view_, &TerrainView::crosshairChanged, crosshair_, &QWidget::setVisible);
     connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::placeCrosshair);
+    connect(&view_, &TerrainView::sightChanged, this, &MapOverlays::showMark);
+    place_mark_->lower();
     crosshair_->lower();
     for (QWidget* plate : std::initializer_list<QWidget*>{legend_, scale_bar_}) {
         plate->setProperty(kHidesTerrain, true);
@@ -116,25 +122,32 @@ void MapOverlays::makeAction(const QString& text, const QString& name, const QLi
     actions_.append(action);
 }
 
-void MapOverlays::paintOver(QImage& picture, const PictureParts& parts) const
+std::vector<MapOverlays::PicturePart> MapOverlays::partsFor(const QSize& picture,
+                                                            const PictureParts& parts) const
 {
     // The view's angle is vertical: what is as high shows the same metres per pixel.
     const double scale = static_cast<double>(picture.height()) / view_.height();
     const int more_width = qRound(picture.width() / scale) - view_.width();
-    picture.setDevicePixelRatio(scale);
-    QPainter painter(&picture);
-    const auto paint = [&](QWidget* part, bool is_wanted) {
-        if (is_wanted && part->isVisible()) {
-            const bool is_at_right = part->geometry().center().x() > view_.width() / 2;
-            part->render(&painter, part->pos() + QPoint(is_at_right ? more_width : 0, 0), QRegion(),
-                         QWidget::DrawChildren);
+    std::vector<PicturePart> made;
+    const auto add = [&](QWidget* part, bool is_wanted) {
+        if (!is_wanted || !part->isVisible()) {
+            return;
         }
+        QImage image((QSizeF(part->size()) * scale).toSize(), QImage::Format_ARGB32_Premultiplied);
+        image.setDevicePixelRatio(scale);
+        image.fill(Qt::transparent);
+        QPainter painter(&image);
+        part->render(&painter, {}, {}, QWidget::DrawChildren);
+        painter.end();
+        image.setDevicePixelRatio(1.0);
+        const bool is_at_right = part->geometry().center().x() > view_.width() / 2;
+        const QPointF at = part->pos() + QPoint(is_at_right ? more_width : 0, 0);
+        made.push_back({.image = std::move(image), .at = (at * scale).toPoint()});
     };
-    paint(legend_, parts.has_legend);
-    paint(compass_, parts.has_scale);
-    paint(scale_bar_, parts.has_scale);
-    painter.end();
-    picture.setDevicePixelRatio(1.0);
+    add(legend_, parts.has_legend);
+    add(compass_, parts.has_scale);
+    add(scale_bar_, parts.has_scale);
+    return made;
 }
 
 void MapOverlays::setCovered(int height)
@@ -144,8 +157,47 @@ void MapOverlays::setCovered(int height)
     showHand();
 }
 
+void MapOverlays::markPlace(GridPoint grid)
+{
+    marked_ = MarkedPlace{.map = view_.map(), .grid = grid};
+    showMark();
+}
+
+void MapOverlays::clearMark()
+{
+    marked_.reset();
+    showMark();
+}
+
+void MapOverlays::showMark()
+{
+    if (marked_ && marked_->map.lock() != view_.map()) {
+        marked_.reset();
+    }
+    const auto place = marked_ ? view_.positionOf(marked_->grid) : std::nullopt;
+    if (place && view_.rect().contains(place->toPoint())) {
+        place_mark_->pointAt(*place);
+    } else {
+        place_mark_->hide();
+    }
+}
+
+// A drag looks around the place, a click has done with it.
+void MapOverlays::clearMarkOnClick(const QMouseEvent& event)
+{
+    if (event.button() != Qt::LeftButton) {
+        return;
+    }
+    if (event.type() == QEvent::MouseButtonPress) {
+        pressed_at_ = event.pos();
+    } else if ((event.pos() - pressed_at_).manhattanLength() < QApplication::startDragDistance()) {
+        clearMark();
+    }
+}
+
 void MapOverlays::showMap()
 {
+    showMark();
     layout_->setWanted(compass_, bool(view_.map()) && actions_.back()->isChecked());
     layout_->setWanted(hint_, bool(view_.map()) && is_hint_offered_);
     if (!view_.map()) {
@@ -196,6 +248,11 @@ bool MapOverlays::eventFilter(QObject* watched, QEvent* event)
             QToolTip::showText(help->globalPos(), legend_->summary(), &view_, legend_->geometry());
             return true;
         }
+    }
+    if (watched == &view_ && marked_ &&
+        (event->type() == QEvent::MouseButtonPress ||
+         event->type() == QEvent::MouseButtonRelease)) {
+        clearMarkOnClick(static_cast<const QMouseEvent&>(*event));
     }
     return QObject::eventFilter(watched, event);
 }

@@ -1,18 +1,22 @@
 // What lies over the map, kept true to it.
 #pragma once
 
+#include "core/geo/frames.h"
 #include "core/session/session.h"
 #include "ui/text/number_text.h"
 
+#include <QImage>
 #include <QList>
 #include <QObject>
 #include <QTimer>
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
 class QAction;
-class QImage;
+class QMouseEvent;
 
 namespace marsview {
 
@@ -24,6 +28,7 @@ class HandPointer;
 class Legend;
 class Minimap;
 class OverlayLayout;
+class PlaceMark;
 class ScaleBarView;
 class TerrainView;
 
@@ -50,14 +55,25 @@ public:
     bool isHintOffered() const noexcept { return is_hint_offered_; }
     void dismissHint();
 
+    /// Puts a pin at a place of the topmost layer, in place of the one before. It stays until it is
+    /// cleared, the map is clicked, or another map is topmost.
+    void markPlace(GridPoint grid);
+    bool isPlaceMarked() const noexcept { return marked_.has_value(); }
+    void clearMark();
+    PlaceMark* placeMark() const noexcept { return place_mark_; }
+
     /// Which overlays a picture gets, as far as they are shown in the view.
     struct PictureParts {
         bool has_legend = true;
         bool has_scale = true; // compass and scale bar
     };
-    /// Puts overlays into a picture of the view of any size: as large as in the view where it is as
-    /// high, and at the same distance from their corners.
-    void paintOver(QImage& picture, const PictureParts& parts) const;
+    struct PicturePart {
+        QImage image;
+        QPoint at; // of its upper left corner in the picture
+    };
+    /// Overlays for a picture of the view of any size, as they are now: as large as in the view
+    /// where it is as high, and at the same distance from their corners.
+    std::vector<PicturePart> partsFor(const QSize& picture, const PictureParts& parts) const;
 
     /// Names of layers, and which one is active. After the view shows them.
     void setSession(const Session& session);
@@ -87,11 +103,14 @@ private:
     void showTouch();
     void showHand();
     void placeCrosshair();
+    void showMark();
+    void clearMarkOnClick(const QMouseEvent& event);
 
     TerrainView& view_;
     Minimap* minimap_ = nullptr;
     Compass* compass_ = nullptr;
     Crosshair* crosshair_ = nullptr; // below all others
+    PlaceMark* place_mark_ = nullptr;
     ScaleBarView* scale_bar_ = nullptr;
     Legend* legend_ = nullptr;
     ForceMeter* force_meter_ = nullptr;
@@ -103,6 +122,12 @@ private:
     HeightUnit height_unit_ = HeightUnit::Metres;
     std::vector<bool> seen_; // which of the view's layers, top first; empty: not known yet
     QTimer probe_timer_;
+    struct MarkedPlace {
+        std::weak_ptr<const Map> map;
+        GridPoint grid; // of it
+    };
+    std::optional<MarkedPlace> marked_;
+    QPoint pressed_at_; // by the left button
     int covered_height_ = 0;
     QList<QAction*> actions_;
 };

@@ -7,6 +7,7 @@
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
 #include "ui/widgets/elided_label.h"
+#include "ui/widgets/scroll_area.h"
 
 #include <QFormLayout>
 #include <QLabel>
@@ -66,16 +67,6 @@ QStringList overriddenNames(const RasterOverrides& overrides)
     return names;
 }
 
-// Scrolls what is too tall; what is too wide wraps.
-QScrollArea* makeScrollArea(QWidget* parent)
-{
-    auto* scroll = new QScrollArea(parent);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    return scroll;
-}
-
 } // namespace
 
 GeoreferencingPanel::GeoreferencingPanel(QWidget* parent)
@@ -83,7 +74,7 @@ GeoreferencingPanel::GeoreferencingPanel(QWidget* parent)
     , pages_(new QStackedWidget(this))
 {
     makeFactsPage();
-    makeFormPage();
+    makeForm();
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(pages_);
@@ -117,18 +108,16 @@ void GeoreferencingPanel::makeFactsPage()
     pages_->addWidget(scroll);
 }
 
-void GeoreferencingPanel::makeFormPage()
+void GeoreferencingPanel::makeForm()
 {
-    form_page_ = makeScrollArea(pages_);
-    form_ = new OverrideForm(form_page_);
+    form_ = new OverrideForm(pages_);
     connect(form_, &OverrideForm::overridesRequested, this,
             &GeoreferencingPanel::overridesRequested);
     connect(form_, &OverrideForm::closed, this, [this] {
         pages_->setCurrentWidget(facts_page_);
         override_button_->setFocus();
     });
-    form_page_->setWidget(form_);
-    pages_->addWidget(form_page_);
+    pages_->addWidget(form_);
 }
 
 void GeoreferencingPanel::setMap(const std::shared_ptr<const Map>& map)
@@ -150,7 +139,7 @@ void GeoreferencingPanel::setMap(const std::shared_ptr<const Map>& map)
 void GeoreferencingPanel::edit()
 {
     if (map_) {
-        pages_->setCurrentWidget(form_page_);
+        pages_->setCurrentWidget(form_);
         form_->focusFirstField();
     }
 }

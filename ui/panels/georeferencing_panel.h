@@ -46,7 +46,7 @@ Q_SIGNALS:
 
 private:
     void makeFactsPage();
-    void makeFormPage();
+    void makeForm();
     void fillFacts();
     void addFact(const QString& name, const QString& value);
     void addLongFact(const QString& name, const QString& value);
@@ -60,7 +60,6 @@ private:
     CoordinateFormat coordinates_;
     QStackedWidget* pages_ = nullptr;
     QScrollArea* facts_page_ = nullptr;
-    QScrollArea* form_page_ = nullptr;
     OverrideForm* form_ = nullptr;
     QFormLayout* facts_ = nullptr;
     QVBoxLayout* notices_ = nullptr; // one label for each

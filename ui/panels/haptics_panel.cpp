@@ -6,6 +6,8 @@
 #include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/caption.h"
+#include "ui/widgets/limit_slider.h"
+#include "ui/widgets/scroll_area.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -40,6 +42,12 @@ constexpr int kShareStep = 5;      // %
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kUsableRole = Qt::UserRole + 1;
 
+QString forceText(double force_n)
+{
+    //: A force in newtons
+    return leftToRight(HapticsPanel::tr("%1 N").arg(numberText(force_n, 2)));
+}
+
 QLabel* makeText(QWidget* parent, const QString& name)
 {
     auto* label = new QLabel(parent);
@@ -57,10 +65,7 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     , controller_(controller)
     , model_actions_(contact_models)
 {
-    auto* scroll = new QScrollArea(this);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    QScrollArea* scroll = makeScrollArea(this);
     scroll->setFocusPolicy(Qt::NoFocus); // its controls scroll into sight
     auto* content = new QWidget(scroll);
     auto* layout = new QVBoxLayout(content);
@@ -88,6 +93,8 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     connect(&controller_, &HapticsController::stoppedChanged, this, &HapticsPanel::showStopped);
     connect(&controller_, &HapticsController::recordingChanged, this, &HapticsPanel::showRecording);
     connect(&controller_, &HapticsController::polled, this, &HapticsPanel::showState);
+    connect(&controller_, &HapticsController::replayEnded, recording_,
+            [this](const QString& file) { recording_->setText(replayEndText(file)); });
     connect(&controller_, &HapticsController::recordingFailed, recording_, &QLabel::setText);
     connect(&controller_, &HapticsController::savingFailed, recording_, &QLabel::setText);
     connect(&controller_, &HapticsController::ticksSaved, recording_,
@@ -167,38 +174,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     layout.addWidget(reason_);
     layout.addWidget(rest_);
 
-    const auto make_slider = [&](QSlider*& slider, QLabel*& value, const QString& text,
-                                 const QString& name) {
-        QLabel* caption = makeCaption(text, this);
-        value = new QLabel(this);
-        slider = new QSlider(Qt::Horizontal, this);
-        slider->setObjectName(name);
-        slider->setAccessibleName(QString(text).remove(QLatin1Char('&')));
-        caption->setBuddy(slider);
-        layout.addLayout(makeCaptionLine(caption, value));
-        layout.addWidget(slider);
-    };
-    make_slider(stiffness_, stiffness_text_, tr("Surface st&iffness"), QStringLiteral("stiffness"));
-    stiffness_->setSingleStep(1);
-    stiffness_->setPageStep(5);
-    connect(stiffness_, &QSlider::valueChanged, this, [this](int value) {
-        if (!is_filling_) {
-            HapticsSettings settings = controller_.settings();
-            settings.stiffness_n_per_m = value * kStiffnessStep;
-            controller_.setSettings(settings);
-        }
-    });
-    make_slider(share_, share_text_, tr("F&orce scale"), QStringLiteral("forceScale"));
-    share_->setRange(0, 100 / kShareStep);
-    share_->setPageStep(5);
-    connect(share_, &QSlider::valueChanged, this, [this](int value) {
-        if (!is_filling_) {
-            HapticsSettings settings = controller_.settings();
-            settings.force_share = value * kShareStep / 100.0;
-            controller_.setSettings(settings);
-        }
-    });
-
+    makeSliders(layout);
     QLabel* caption = makeCaption(tr("Contact &model"), this);
     layout.addWidget(caption);
     models_ = new QComboBox(this);
@@ -227,6 +203,53 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     });
     layout.addWidget(walls_);
     layout.addSpacing(6);
+}
+
+void HapticsPanel::makeSliders(QBoxLayout& layout)
+{
+    const auto add_slider = [&](QSlider* slider, QLabel*& value, const QString& text) {
+        QLabel* caption = makeCaption(text, this);
+        value = new QLabel(this);
+        slider->setAccessibleName(QString(text).remove(QLatin1Char('&')));
+        caption->setBuddy(slider);
+        layout.addLayout(makeCaptionLine(caption, value));
+        layout.addWidget(slider);
+    };
+    stiffness_ = new LimitSlider(this);
+    stiffness_->setObjectName(QStringLiteral("stiffness"));
+    add_slider(stiffness_, stiffness_text_, tr("Surface st&iffness"));
+    stiffness_->setRange(static_cast<int>(kStiffnessMin) / kStiffnessStep,
+                         static_cast<int>(kStiffnessMax) / kStiffnessStep);
+    stiffness_->setSingleStep(1);
+    stiffness_->setPageStep(5);
+    connect(stiffness_, &QSlider::valueChanged, this, [this](int value) {
+        if (!is_filling_) {
+            HapticsSettings settings = controller_.settings();
+            settings.stiffness_n_per_m = value * kStiffnessStep;
+            controller_.setSettings(settings);
+        }
+    });
+    // Its room stays when it is hidden: what is below does not move.
+    stiffness_limit_ = makeCaption({}, this);
+    stiffness_limit_->setObjectName(QStringLiteral("stiffnessLimit"));
+    stiffness_limit_->setAccessibleName(tr("Limit of the stiffness"));
+    stiffness_limit_->setWordWrap(true);
+    QSizePolicy policy = stiffness_limit_->sizePolicy();
+    policy.setRetainSizeWhenHidden(true);
+    stiffness_limit_->setSizePolicy(policy);
+    layout.addWidget(stiffness_limit_);
+    share_ = new QSlider(Qt::Horizontal, this);
+    share_->setObjectName(QStringLiteral("forceScale"));
+    add_slider(share_, share_text_, tr("F&orce scale"));
+    share_->setRange(0, 100 / kShareStep);
+    share_->setPageStep(5);
+    connect(share_, &QSlider::valueChanged, this, [this](int value) {
+        if (!is_filling_) {
+            HapticsSettings settings = controller_.settings();
+            settings.force_share = value * kShareStep / 100.0;
+            controller_.setSettings(settings);
+        }
+    });
 }
 
 void HapticsPanel::makeRecording(QBoxLayout& layout)
@@ -403,10 +426,12 @@ void HapticsPanel::showConnection()
             break;
         }
         const DeviceCapabilities& device = controller_.loop()->device();
-        //: %1 is a device, %2 a force in newtons
+        //: %1 is a device, %2 a force
         status_->setText(
-            tr("%1, up to %2 N")
-                .arg(QString::fromStdString(device.name), shortNumberText(device.force_n_peak, 2)));
+            tr("%1, up to %2")
+                .arg(isolated(QString::fromStdString(device.name)),
+                     //: A force in newtons
+                     leftToRight(tr("%1 N").arg(shortNumberText(device.force_n_peak, 2)))));
         break;
     }
     }
@@ -420,20 +445,10 @@ void HapticsPanel::showSettings()
 {
     const QScopedValueRollback filling(is_filling_, true);
     const HapticsSettings& settings = controller_.settings();
-    const double most = controller_.stiffnessMax();
-    stiffness_->setRange(static_cast<int>(kStiffnessMin) / kStiffnessStep,
-                         static_cast<int>(most) / kStiffnessStep);
-    const double stiffness = std::min(settings.stiffness_n_per_m, most);
-    stiffness_->setValue(static_cast<int>(std::lround(stiffness / kStiffnessStep)));
-    //: Newtons per metre
-    stiffness_text_->setText(tr("%1 N/m").arg(numberText(stiffness, 0)));
-    stiffness_->setToolTip(controller_.loop() != nullptr
-                               //: %1 is a number of newtons per metre
-                               ? tr("The device is stable up to %1 N/m").arg(numberText(most, 0))
-                               : tr("Surface stiffness"));
+    showStiffness();
     share_->setValue(static_cast<int>(std::lround(settings.force_share * 100.0 / kShareStep)));
     share_->setToolTip(tr("Share of the computed force that the device renders"));
-    share_text_->setText(tr("%1 %").arg(numberText(settings.force_share * 100.0, 0)));
+    share_text_->setText(leftToRight(tr("%1 %").arg(numberText(settings.force_share * 100.0, 0))));
     walls_->setChecked(settings.has_walls);
     const QList<QAction*> models = model_actions_.actions();
     for (int i = 0; i < models.size(); ++i) {
@@ -441,6 +456,29 @@ void HapticsPanel::showSettings()
             models_->setCurrentIndex(i);
         }
     }
+}
+
+// What was chosen, whatever the device stands: another device may stand more.
+void HapticsPanel::showStiffness()
+{
+    const double chosen = controller_.settings().stiffness_n_per_m;
+    const double most = controller_.stiffnessMax();
+    const auto text = [](double n_per_m) {
+        //: Newtons per metre
+        return leftToRight(tr("%1 N/m").arg(numberText(n_per_m, 0)));
+    };
+    stiffness_->setValue(static_cast<int>(std::lround(chosen / kStiffnessStep)));
+    stiffness_->setLimit(most < kStiffnessMax
+                             ? std::optional(static_cast<int>(most) / kStiffnessStep)
+                             : std::nullopt);
+    stiffness_text_->setText(text(chosen));
+    stiffness_->setToolTip(most < kStiffnessMax
+                               //: %1 is a stiffness in newtons per metre
+                               ? tr("The mark is the limit of the device: %1").arg(text(most))
+                               : tr("Surface stiffness"));
+    //: Below a slider that is set to more; %1 is a stiffness in newtons per metre
+    stiffness_limit_->setText(tr("Limited to %1 by the device").arg(text(most)));
+    stiffness_limit_->setVisible(most < chosen);
 }
 
 void HapticsPanel::showStopped()
@@ -465,7 +503,7 @@ void HapticsPanel::showNoState()
 {
     if (!controller_.canRecord()) {
         force_->setValue(0);
-        force_->setFormat(tr("%1 N").arg(numberText(0.0, 2)));
+        force_->setFormat(forceText(0.0));
         reason_->setText(controller_.loop() != nullptr ? letGoText(ForceOffReason::NoTouch)
                                                        : QString());
         rest_->hide();
@@ -486,9 +524,7 @@ void HapticsPanel::showState(const LoopState& state)
         most_n > 0.0 ? static_cast<int>(std::lround(std::min(1.0, force_n / most_n) * kForceSteps))
                      : 0);
     const bool is_replay = controller_.isReplaying();
-    //: A force in newtons
-    force_->setFormat(is_replay ? tr("no force in a replay")
-                                : tr("%1 N").arg(numberText(force_n, 2)));
+    force_->setFormat(is_replay ? tr("no force in a replay") : forceText(force_n));
     if (is_replay) {
         replayed_->setValue(
             static_cast<int>(std::lround(controller_.replayedShare() * kReplaySteps)));

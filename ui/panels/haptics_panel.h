@@ -18,6 +18,7 @@ class QSlider;
 
 namespace marsview {
 
+class LimitSlider;
 class LoopTimes;
 
 /// Devices, what is felt, how punctual the loop is, and recordings of it. Shows what the controller
@@ -49,12 +50,14 @@ private:
     void makeDevices(QBoxLayout& layout);
     void makeStop(QBoxLayout& layout);
     void makeForce(QBoxLayout& layout);
+    void makeSliders(QBoxLayout& layout);
     void makeRecording(QBoxLayout& layout);
     void showDevices();
     void markConnected();
     void showConnection();
     void showConnectButton();
     void showSettings();
+    void showStiffness();
     void showStopped();
     void showRecording();
     void showState(const LoopState& state);
@@ -70,8 +73,9 @@ private:
     QPushButton* stop_ = nullptr;
     QProgressBar* force_ = nullptr;
     QLabel* reason_ = nullptr;
-    QSlider* stiffness_ = nullptr;
+    LimitSlider* stiffness_ = nullptr;
     QLabel* stiffness_text_ = nullptr;
+    QLabel* stiffness_limit_ = nullptr; // shown where the device stands less than was chosen
     QSlider* share_ = nullptr;
     QLabel* share_text_ = nullptr;
     QComboBox* models_ = nullptr;

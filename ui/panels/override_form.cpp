@@ -2,8 +2,10 @@
 
 #include "core/session/map.h"
 #include "ui/panels/crs_field.h"
+#include "ui/text/number_text.h"
 #include "ui/text/sentence.h"
 #include "ui/widgets/form_field.h"
+#include "ui/widgets/scroll_area.h"
 
 #include <QComboBox>
 #include <QGridLayout>
@@ -11,6 +13,7 @@
 #include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -71,9 +74,12 @@ QString notANumber(const QString& text)
 OverrideForm::OverrideForm(QWidget* parent)
     : QWidget(parent)
 {
-    auto* layout = new QVBoxLayout(this);
+    QScrollArea* scroll = makeScrollArea(this);
+    scroll->setFocusPolicy(Qt::NoFocus); // its fields scroll into sight
+    auto* fields = new QWidget(scroll);
+    auto* layout = new QVBoxLayout(fields);
     layout->setSpacing(8);
-    auto* intro = new QLabel(this);
+    auto* intro = new QLabel(fields);
     intro->setWordWrap(true);
     intro->setText(tr("Leave blank to keep the file's value. The file itself is never changed."));
     layout->addWidget(intro);
@@ -104,8 +110,13 @@ OverrideForm::OverrideForm(QWidget* parent)
     datum_ = addEdit(*layout, tr("Vertical &datum"), "datum", OverrideField::VerticalDatum);
     nodata_ = addEdit(*layout, tr("&Nodata value"), "nodata", OverrideField::Nodata);
     addTransform(*layout);
-    addButtons(*layout);
     layout->addStretch(1);
+    scroll->setWidget(fields);
+    auto* outer = new QVBoxLayout(this);
+    outer->setContentsMargins(0, 0, 0, 0);
+    outer->setSpacing(0);
+    outer->addWidget(scroll, 1);
+    addButtons(*outer);
     numbers_ = {equatorial_, polar_, scale_, offset_, nodata_};
     for (QLineEdit* term : terms_) {
         numbers_.append(term);
@@ -224,7 +235,13 @@ void OverrideForm::addButtons(QVBoxLayout& layout)
             Q_EMIT overridesRequested(RasterOverrides{});
         }
     });
+    auto* rule = new QFrame(this);
+    rule->setFrameShape(QFrame::HLine);
+    rule->setFrameShadow(QFrame::Plain);
+    rule->setForegroundRole(QPalette::Mid);
+    layout.addWidget(rule);
     auto* buttons = new QGridLayout;
+    buttons->setContentsMargins(9, 6, 9, 6);
     buttons->addWidget(apply_button, 0, 0);
     buttons->addWidget(cancel_button, 0, 1);
     buttons->addWidget(reset_button, 1, 0, 1, 2);
@@ -277,8 +294,8 @@ void OverrideForm::fill()
     const RasterOverrides overrides = map_ ? map_->spec().overrides : RasterOverrides{};
     const auto fill_number = [](QLineEdit* field, const std::optional<double>& value,
                                 const std::optional<double>& in_file) {
-        field->setText(value ? exactNumber(*value) : QString());
-        field->setPlaceholderText(in_file ? exactNumber(*in_file) : QString());
+        field->setText(value ? withMinusSigns(exactNumber(*value)) : QString());
+        field->setPlaceholderText(in_file ? withMinusSigns(exactNumber(*in_file)) : QString());
     };
     const auto choose = [](QComboBox* box, const std::optional<std::string>& value,
                            std::string_view in_file) {

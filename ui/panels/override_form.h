@@ -23,7 +23,8 @@ class Map;
 class FormField;
 
 /// Fields that are empty keep the file's value. Asks for changes, makes none. What cannot be used
-/// is said below its field, which gets the focus; what was entered stays.
+/// is said below its field, which gets the focus; what was entered stays. The fields scroll; the
+/// buttons below them do not.
 class OverrideForm final : public QWidget {
     Q_OBJECT
 

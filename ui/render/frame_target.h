@@ -8,14 +8,6 @@
 
 namespace marsview {
 
-/// A part of a picture, in pixels from the lower left as OpenGL counts them.
-struct PixelArea {
-    int left = 0;
-    int bottom = 0;
-    int width = 0;
-    int height = 0;
-};
-
 /// A frame buffer with colour and depth that is kept between frames of the same kind.
 class FrameTarget {
 public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <fmt/format.h>
 #include <limits>
 
@@ -13,6 +14,13 @@ namespace {
 std::size_t pixelCount(const Viewport& size)
 {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+}
+
+Error noFrameBuffer(const Viewport& size)
+{
+    return {ErrorCode::OutOfRange,
+            fmt::format("{} × {} pixels: this driver has no frame buffer of that size", size.width,
+                        size.height)};
 }
 
 // OpenGL's rows begin at the bottom.
@@ -37,6 +45,40 @@ int offscreenSideMax()
     return side_max;
 }
 
+Result<DrawReport> drawPart(TerrainRenderer& renderer,
+                            const DrawRequest& request,
+                            const DrawStyle& style,
+                            const PartTarget& target)
+{
+    const Viewport size{.width = request.part->width, .height = request.part->height};
+    const FrameBuffer drawn(size, request.samples);
+    const FrameBuffer merged(size);
+    if (!drawn.isComplete() || !merged.isComplete()) {
+        return noFrameBuffer(size);
+    }
+    DrawRequest straight = request;
+    straight.samples = 1; // the target has them
+    DrawReport report = renderer.draw(straight, style, drawn.id());
+    if (report.is_complete) {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn.id());
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, merged.id());
+        glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height,
+                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, merged.id());
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        const auto row_length = static_cast<std::size_t>(size.width) * 3;
+        std::vector<std::uint8_t> rgb(pixelCount(size) * 3);
+        glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+        for (int y = 0; y < size.height; ++y) {
+            const auto row = static_cast<std::size_t>(size.height - 1 - y);
+            std::memcpy(target.first + y * target.line_length, rgb.data() + row * row_length,
+                        row_length);
+        }
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return report;
+}
+
 Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
                                        const DrawRequest& request,
                                        const DrawStyle& style,
@@ -51,9 +93,7 @@ Result<OffscreenPicture> drawOffscreen(TerrainRenderer& renderer,
     }
     const FrameBuffer frame(size);
     if (!frame.isComplete()) {
-        return Error{ErrorCode::OutOfRange,
-                     fmt::format("{} × {} pixels: this driver has no frame buffer of that size",
-                                 size.width, size.height)};
+        return noFrameBuffer(size);
     }
     OffscreenPicture picture;
     picture.report = renderer.drawComplete(request, style, frame.id());

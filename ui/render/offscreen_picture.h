@@ -4,6 +4,8 @@
 #include "core/files/picture_file.h"
 #include "ui/render/terrain_renderer.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace marsview {
@@ -21,6 +23,20 @@ enum class DepthUse { No, Yes };
 
 /// Pixels a side that the driver of the current context draws.
 int offscreenSideMax();
+
+/// Rows of red, green and blue from the top, into a larger picture.
+struct PartTarget {
+    std::uint8_t* first = nullptr;  // of the part's top left pixel
+    std::ptrdiff_t line_length = 0; // bytes from one row of the picture to the next
+};
+
+/// Draws `request.part`, which must be set, with `request.samples` a pixel, and reads it back. By
+/// what there is: where the report says that it is incomplete, the target is left as it was.
+/// OutOfRange where the driver has no frame buffer of the part's size.
+Result<DrawReport> drawPart(TerrainRenderer& renderer,
+                            const DrawRequest& request,
+                            const DrawStyle& style,
+                            const PartTarget& target);
 
 /// Draws `request` whole and reads it back. OutOfRange where the driver has no frame buffer of that
 /// size.

@@ -355,9 +355,11 @@ TerrainRenderer::Impl::select(Layer& layer, const DrawRequest& request, double e
         target.texel_px *= kRemoteTexel;
     }
     for (int i = 0;; ++i) {
-        DetailSelection selection = layer.selector.select(
-            {.camera = request.camera, .viewport = request.viewport, .exaggeration = exaggeration},
-            target);
+        DetailSelection selection = layer.selector.select({.camera = request.camera,
+                                                           .viewport = request.viewport,
+                                                           .exaggeration = exaggeration,
+                                                           .part = request.part},
+                                                          target);
         if (reliefCount(selection) <= room || i == kCoarserMax) {
             return selection;
         }
@@ -672,12 +674,14 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
         .height =
             std::max(1, static_cast<int>(std::lround(request.viewport.height * request.scale)))};
     const bool is_straight = request.scale == 1.0 && request.samples <= 1 && !request.is_kept;
+    MARSVIEW_CHECK(is_straight || !request.part);
     if (is_straight) {
         glBindFramebuffer(GL_FRAMEBUFFER, target);
     } else {
         impl.frame_target.begin(drawn, request.samples);
     }
-    glViewport(0, 0, drawn.width, drawn.height);
+    const PixelArea part = request.part.value_or(PixelArea{});
+    glViewport(-part.left, -part.bottom, drawn.width, drawn.height);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LEQUAL);  // the sky lies at the far end

@@ -37,6 +37,9 @@ struct DrawRequest {
     /// For pictures in motion: takes up only some of the shading that has come, and, in software,
     /// from the nearest level of its texture instead of two.
     bool is_hasty = false;
+    /// Draws this part of the viewport alone, into a target of its size: at scale 1, not kept, with
+    /// the samples that the target has.
+    std::optional<PixelArea> part{};
 };
 
 /// What a picture took and what it shows.

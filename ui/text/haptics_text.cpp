@@ -149,17 +149,18 @@ QString replayText(const QString& file, const ReplayFit& fit, const TouchedGroun
     return sentences.join(QLatin1Char(' '));
 }
 
+QString replayEndText(const QString& file)
+{
+    //: %1 is a file
+    return tr("%1 was replayed to its end").arg(isolated(QFileInfo(file).fileName()));
+}
+
 QString spanText(std::chrono::nanoseconds span)
 {
     const double us = static_cast<double>(span.count()) / 1e3;
-    if (us < 9.95) {
-        return tr("%1 µs").arg(numberText(us, 1));
-    }
-    if (us < 999.5) {
-        return tr("%1 µs").arg(numberText(us, 0));
-    }
-    return us < 9950.0 ? tr("%1 ms").arg(numberText(us / 1e3, 1))
-                       : tr("%1 ms").arg(numberText(us / 1e3, 0));
+    const QString text = us < 999.5 ? tr("%1 µs").arg(numberText(us, us < 9.95 ? 1 : 0))
+                                    : tr("%1 ms").arg(numberText(us / 1e3, us < 9950.0 ? 1 : 0));
+    return leftToRight(text);
 }
 
 } // namespace marsview

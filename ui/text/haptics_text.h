@@ -29,6 +29,8 @@ QString savedTicksText(const SavedTicks& saved);
 /// Sentences: where a recording does not go with the maps that are open, or was touched in another
 /// way than `ground` is; empty where all is the same.
 QString replayText(const QString& file, const ReplayFit& fit, const TouchedGround& ground);
+/// That a recording was replayed to its end.
+QString replayEndText(const QString& file);
 /// "12 µs", "3.4 ms"; two significant digits at least.
 QString spanText(std::chrono::nanoseconds span);
 

@@ -3,6 +3,7 @@
 
 #include "ui/text/number_text.h"
 
+#include <QRegularExpression>
 #include <QString>
 
 #include <string>
@@ -14,6 +15,9 @@ inline QString asSentence(QString text)
     if (!text.isEmpty()) {
         text[0] = text[0].toUpper();
     }
+    // Numbers alone: names of files and definitions of systems keep their hyphens.
+    static const QRegularExpression kMinus(QStringLiteral("(?<=[ (])-(?=[0-9])"));
+    text.replace(kMinus, QString(QChar(0x2212)));
     return isolated(text); // the core writes English, whatever the layout
 }
 

@@ -26,8 +26,6 @@ struct Notice {
     QString menu_text{};
     /// Shows where the notice comes from. Empty if there is nothing more to see.
     std::function<void()> show_details{};
-    /// The notice closes itself after this time in milliseconds; 0: it stays.
-    int duration_ms = 0;
 };
 
 } // namespace marsview

@@ -57,8 +57,7 @@ NoticeBar::NoticeBar(QWidget* parent)
     const int side = style()->pixelMetric(QStyle::PM_SmallIconSize);
     icon->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(side, side));
     action_->setObjectName(QStringLiteral("noticeAction"));
-    action_->setAccessibleName(tr("Remedy")); // until a notice names its own
-    action_->setAccessibleName(tr("Action"));
+    action_->setAccessibleName(tr("Action")); // until a notice names its own
     action_->setPopupMode(QToolButton::InstantPopup);
     action_->setFocusPolicy(Qt::StrongFocus);
     details_->setObjectName(QStringLiteral("noticeDetails"));
@@ -144,7 +143,7 @@ void NoticeBar::showNotice(int index)
         action_->setText(notice.actions.isEmpty() ? QString() : notice.actions.front().text);
     }
     if (!action_->text().isEmpty()) {
-        action_->setAccessibleName(action_->text().isEmpty() ? tr("Action") : action_->text());
+        action_->setAccessibleName(action_->text());
     }
     action_->setVisible(!notice.actions.isEmpty());
     details_->setVisible(notice.show_details != nullptr);

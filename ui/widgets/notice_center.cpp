@@ -2,8 +2,6 @@
 
 #include "ui/widgets/notice_bar.h"
 
-#include <QTimer>
-
 #include <algorithm>
 
 namespace marsview {
@@ -35,24 +33,6 @@ void NoticeCenter::setNotices(NoticeSource source, const QList<Notice>& notices)
             return std::none_of(notices.begin(), notices.end(),
                                 [&id](const Notice& notice) { return notice.id == id; });
         });
-    }
-    for (const Notice& notice : notices) {
-        if (notice.duration_ms > 0 && !timed_.contains(notice.id)) {
-            timed_.insert(notice.id);
-            QTimer::singleShot(notice.duration_ms, this, [this, id = notice.id] { dismiss(id); });
-        }
-    }
-    update();
-}
-
-void NoticeCenter::dismiss(const QString& id)
-{
-    for (std::size_t i = 0; i < kSourceCount; ++i) {
-        for (const Notice& notice : notices_[i]) {
-            if (notice.id == id) {
-                dismissed_[i].insert(id);
-            }
-        }
     }
     update();
 }

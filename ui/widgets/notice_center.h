@@ -34,8 +34,6 @@ public:
 
     /// Replaces the notices of one source, the most important first.
     void setNotices(NoticeSource source, const QList<Notice>& notices);
-    /// Closes a notice.
-    void dismiss(const QString& id);
     /// Those that are not closed, the most important first.
     QList<Notice> open() const;
 
@@ -50,7 +48,6 @@ private:
     NoticeBar& bar_;
     std::array<QList<Notice>, kSourceCount> notices_;
     std::array<QSet<QString>, kSourceCount> dismissed_;
-    QSet<QString> timed_; // notices whose time runs
 };
 
 } // namespace marsview

@@ -4,6 +4,7 @@
 #include "core/files/opening_job.h"
 #include "core/raster/raster_file.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/support/temp_folder.h"
 
 #include <gmock/gmock.h>
@@ -24,16 +25,6 @@ using testing::HasSubstr;
 
 class OpenGuardTest : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        setenv("MARSVIEW_CACHE_DIR", folder_.file("cache").c_str(), 1); // NOLINT
-        setenv("GDAL_DRIVER_PATH", MARSVIEW_TEST_GDAL_DRIVERS, 1);      // NOLINT
-    }
-    void TearDown() override
-    {
-        unsetenv("MARSVIEW_CACHE_DIR"); // NOLINT
-        unsetenv("GDAL_DRIVER_PATH");   // NOLINT
-    }
     bool remembersSomething() const
     {
         return fs::exists(folder_.file("cache/opened")) &&
@@ -46,6 +37,8 @@ protected:
     }
 
     test::TempFolder folder_;
+    const test::ScopedVariable cache_{"MARSVIEW_CACHE_DIR", folder_.file("cache").c_str()};
+    const test::ScopedVariable drivers_{"GDAL_DRIVER_PATH", MARSVIEW_TEST_GDAL_DRIVERS};
 };
 
 TEST_F(OpenGuardTest, PlainFilesNeedNoChild)

@@ -1,6 +1,7 @@
 #include "core/prepare/map_folder.h"
 #include "core/prepare/tiled_geotiff.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/support/temp_folder.h"
 
 #include <gmock/gmock.h>
@@ -50,46 +51,27 @@ std::vector<std::string> namesIn(const MapFolder& folder)
     return names;
 }
 
-// Restores the variable.
-class Variable {
-public:
-    Variable(const char* name, const char* value)
-        : name_(name)
-    {
-        if (const char* before = std::getenv(name)) { // NOLINT(concurrency-mt-unsafe)
-            before_ = before;
-        }
-        set(value);
-    }
-    ~Variable() { set(before_ ? before_->c_str() : nullptr); }
-    Variable(const Variable&) = delete;
-    Variable& operator=(const Variable&) = delete;
-
-private:
-    void set(const char* value)
-    {
-        if (value != nullptr) {
-            setenv(name_, value, 1); // NOLINT(concurrency-mt-unsafe)
-        } else {
-            unsetenv(name_); // NOLINT(concurrency-mt-unsafe)
-        }
-    }
-    const char* name_;
-    std::optional<std::string> before_;
-};
-
 } // namespace
 
 TEST(MapFolder, LiesWhereTheUserOrTheSystemSays)
 {
-    const Variable home("HOME", "/home/someone");
-    const Variable cache("XDG_CACHE_HOME", nullptr);
-    const Variable chosen("MARSVIEW_CACHE_DIR", nullptr);
+    const test::ScopedVariable home("HOME", "/home/someone");
+    const test::ScopedVariable cache("XDG_CACHE_HOME", nullptr);
+    const test::ScopedVariable chosen("MARSVIEW_CACHE_DIR", nullptr);
     EXPECT_EQ(MapFolder::defaultPath(), "/home/someone/.cache/marsview/maps");
-    const Variable other_cache("XDG_CACHE_HOME", "/var/caches");
+    const test::ScopedVariable other_cache("XDG_CACHE_HOME", "/var/caches");
     EXPECT_EQ(MapFolder::defaultPath(), "/var/caches/marsview/maps");
-    const Variable other_folder("MARSVIEW_CACHE_DIR", "/big/disk");
+    const test::ScopedVariable other_folder("MARSVIEW_CACHE_DIR", "/big/disk");
     EXPECT_EQ(MapFolder::defaultPath(), "/big/disk");
+}
+
+TEST(MapFolder, IsATemporaryOneForTests)
+{
+    const fs::path temporary = fs::temp_directory_path();
+    const fs::path folder = MapFolder::defaultPath();
+    EXPECT_EQ(std::mismatch(temporary.begin(), temporary.end(), folder.begin(), folder.end()).first,
+              temporary.end())
+        << folder;
 }
 
 TEST(MapFolder, IsMadeWhereItIsMissing)

@@ -132,6 +132,9 @@ TEST(CrsSuggestion, SaysOnWhichSideOfTheMeridianTheExtentLies)
               "its extent is 105.5° W – 105.3° W, 40.13° N – 40.25° N");
     EXPECT_EQ(suggestCrs(gridAt(-180, 0, 0.25, 1440, 360))->reason,
               "its extent is 180° W – 180° E, 90° S – 0°");
+    // Half a sample before 0: with a true minus sign.
+    EXPECT_EQ(suggestCrs(gridAt(-1.0 / 2400, 40.25, 1.0 / 1200, 240, 144))->reason,
+              "its extent is −0.0004° – 0.1996°, 40.13° N – 40.25° N");
 }
 
 struct Placed {

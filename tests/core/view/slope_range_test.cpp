@@ -78,5 +78,37 @@ TEST(SlopeRange, LeavesOutVoids)
     EXPECT_NEAR(rangeOf(field).maximum.degrees(), 2.0, 1e-9);
 }
 
+TEST(SlopeHistogram, CountsTheTexelsOfEachSlope)
+{
+    // 50 of 200 rows rise by 20 degrees, the others by 10.
+    const Heightfield field = roof(10.0, 20.0, 50);
+    const SceneFrame frame = test::northUpFrame(field.columns(), field.rows(), 1.0);
+    const SlopeHistogram histogram = slopeHistogram(
+        makeReliefTile(field, frame, {0, 0, 0}, kSlopeMax), field.columns(), 49, kSlopeMax, 4);
+    ASSERT_EQ(histogram.counts.size(), 4U);
+    EXPECT_NEAR(histogram.maximum.degrees(), 20.0, 0.1);
+    EXPECT_EQ(histogram.counts[3], 200U * 49U) << "49 rows of the steep part";
+    const SlopeHistogram below =
+        slopeHistogram(makeReliefTile(roof(10.0, 10.0, 0), frame, {0, 0, 0}, kSlopeMax),
+                       field.columns(), field.rows(), kSlopeMax, 4);
+    EXPECT_NEAR(below.maximum.degrees(), 10.0, 0.1);
+    EXPECT_EQ(below.counts[0] + below.counts[1] + below.counts[2] + below.counts[3], 200U * 200U);
+}
+
+TEST(SlopeHistogram, OfLevelGroundAndOfVoidsDoesNoHarm)
+{
+    const Heightfield level = roof(0.0, 0.0, 0);
+    const SceneFrame frame = test::northUpFrame(level.columns(), level.rows(), 1.0);
+    const SlopeHistogram flat = slopeHistogram(makeReliefTile(level, frame, {0, 0, 0}, kSlopeMax),
+                                               level.columns(), level.rows(), kSlopeMax, 4);
+    EXPECT_EQ(flat.maximum, Angle());
+    EXPECT_EQ(flat.counts[0], 200U * 200U);
+    ReliefTile voids = makeReliefTile(level, frame, {0, 0, 0}, kSlopeMax);
+    for (ReliefTexel& texel : voids.levels.front().texels) {
+        texel = {};
+    }
+    EXPECT_TRUE(slopeHistogram(voids, 200, 200, kSlopeMax).counts.empty());
+}
+
 } // namespace
 } // namespace marsview

@@ -1,10 +1,8 @@
 // The tools of the left button, by mouse and by keyboard, in the real window.
 
 #include "core/view/navigation.h"
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
+#include "tests/ui/map_window.h"
 #include "ui/canvas/gestures.h"
-#include "ui/canvas/terrain_view.h"
 #include "ui/keys_dialog.h"
 #include "ui/overlay/compass.h"
 #include "ui/overlay/map_overlays.h"
@@ -32,22 +30,16 @@
 namespace marsview {
 namespace {
 
-class ToolsTest : public testing::Test {
+class ToolsTest : public MapWindowTest {
 protected:
     void SetUp() override
     {
-        window_ = std::make_unique<MainWindow>(testWindowOptions());
-        window_->resize(1000, 700);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // possibly without a window manager
+        makeWindow(kSmall);
         ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
-        view().setFocus();
-        ASSERT_TRUE(QTest::qWaitFor([this] { return view().hasFocus(); }, kTimeout));
+        ASSERT_TRUE(focusMap());
         hover(middle());
     }
 
-    TerrainView& view() { return *window_->view(); }
-    QPointF middle() { return QRectF(view().rect()).center(); }
     void send(QEvent::Type type,
               QPointF at,
               Qt::MouseButton button,
@@ -90,9 +82,6 @@ protected:
         }
         return nullptr;
     }
-
-    TestMaps maps_;
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(ToolsTest, ALeftDragPansToBeginWith)

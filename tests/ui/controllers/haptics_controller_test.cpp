@@ -11,10 +11,12 @@
 #include "ui/overlay/map_overlays.h"
 #include "ui/window_actions.h"
 
+#include <QDeadlineTimer>
 #include <QFile>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTest>
+#include <QThread>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +48,48 @@ QByteArray contentOf(const QString& file)
     QFile content(file);
     EXPECT_TRUE(content.open(QIODevice::ReadOnly));
     return content.readAll();
+}
+
+// Every proxy that is seen in a second or two of strokes, from far and near, is in the picture.
+void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
+{
+    const auto wait_for = [](auto condition) { return QTest::qWaitFor(condition, kTimeout); };
+    const OrbitCamera home = view.camera();
+    struct Sight {
+        const char* name;
+        double distance_share;
+        double tilt_deg;
+        double azimuth_deg;
+        double exaggeration;
+    };
+    const double suitable = view.exaggeration();
+    for (const Sight& sight :
+         {Sight{"home", 1.0, home.tilt.degrees(), 0.0, 1.0}, Sight{"oblique", 0.5, 75.0, 40.0, 1.0},
+          Sight{"near", 0.1, 60.0, 200.0, 1.0}, Sight{"from above", 0.3, 0.0, 130.0, 1.0},
+          Sight{"exaggerated", 0.6, 60.0, -50.0, 10.0}}) {
+        SCOPED_TRACE(sight.name);
+        OrbitCamera camera = home;
+        camera.distance_m *= sight.distance_share;
+        camera.tilt = Angle::degrees(sight.tilt_deg);
+        camera.azimuth = Angle::degrees(sight.azimuth_deg);
+        view.setExaggeration(suitable * sight.exaggeration);
+        view.setCamera(camera);
+        const std::uint64_t begin = haptics.loop()->state().tick;
+        constexpr std::uint64_t kReturnTicks = 700; // from where the hand was before
+        ASSERT_TRUE(wait_for([&] { return haptics.loop()->state().tick > begin + kReturnTicks; }));
+        int seen = 0;
+        int outside = 0;
+        ASSERT_TRUE(wait_for([&] {
+            const LoopState now = haptics.loop()->state();
+            if (now.contact.is_in_contact) {
+                ++seen;
+                outside += view.isInPicture(now.contact.proxy) ? 0 : 1;
+            }
+            return now.tick > begin + kReturnTicks + 2000;
+        }));
+        EXPECT_GT(seen, 10);
+        EXPECT_EQ(outside, 0) << "of " << seen;
+    }
 }
 
 class HapticsControllerTest : public HandWindowTest {
@@ -82,6 +126,23 @@ protected:
         EXPECT_EQ(state().counts.not_recorded, 0U);
         return is_long_enough && recorded.count() == 1 && recorded[0][1].toULongLong() > 500;
     }
+    // At a corner of the map, from near by; the summit is out of sight.
+    OrbitCamera lookAtACorner()
+    {
+        OrbitCamera camera = view().camera();
+        camera.target = {-700.0, -400.0, camera.target.z};
+        camera.distance_m = 300.0;
+        view().setCamera(camera);
+        return view().camera();
+    }
+    // A minute deep below the summit, until the camera has gone there.
+    bool replayOutOfSight(const QString& file, const OrbitCamera& before)
+    {
+        writeGoals(file, 60'000, "500900,4000600,0");
+        return connectTo(QStringLiteral("replay:") + file) &&
+               waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); });
+    }
+
     // The batch equivalent: only the goals, fed to a model without earlier contact.
     void expectSameProxies(const QString& file)
     {
@@ -379,21 +440,37 @@ TEST_F(HapticsControllerTest, TheEmergencyStopHoldsForADeviceThatIsBeingOpened)
 TEST_F(HapticsControllerTest, AReplayThatEndsWhileStoppedIsNotLost)
 {
     const QString file = maps_.path(QStringLiteral("short.csv"));
-    {
-        QFile text(file);
-        ASSERT_TRUE(text.open(QIODevice::WriteOnly));
-        text.write("x,y,z\n");
-        for (int i = 0; i < 400; ++i) {
-            text.write("500900,4000600,5000\n");
-        }
-    }
+    writeGoals(file, 400, "500900,4000600,5000");
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     haptics().setStopped(true);
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+    EXPECT_EQ(haptics().problem(), QString());
+    EXPECT_EQ(haptics().replayedToItsEnd(), file);
     EXPECT_FALSE(haptics().isLost());
     EXPECT_FALSE(haptics().canBeStopped()); // the program is not waiting for anything
     haptics().setStopped(false);
+}
+
+// As when the camera flies after the hand in the moment in which the recording ends.
+TEST_F(HapticsControllerTest, AReplayEndsThoughTheCameraMovesAsItDoes)
+{
+    const QString file = maps_.path(QStringLiteral("short.csv"));
+    writeGoals(file, 400, "500900,4000600,5000");
+    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
+    ASSERT_TRUE(waitFor([&] { return state().tick > 0; }));
+    const QDeadlineTimer deadline(kTimeout);
+    while (!haptics().loop()->hasEnded() && !deadline.hasExpired()) {
+        QThread::msleep(1); // without events: nothing is polled
+    }
+    ASSERT_TRUE(haptics().loop()->hasEnded());
+    OrbitCamera camera = view().camera();
+    camera.distance_m *= 0.9;
+    view().setCamera(camera);
+    EXPECT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
+    EXPECT_EQ(haptics().replayedToItsEnd(), file);
+    haptics().replayAgain();
+    EXPECT_TRUE(isConnectedSoon());
+    EXPECT_TRUE(haptics().isReplaying());
 }
 
 TEST_F(HapticsControllerTest, SaysThatARecordingCannotBegin)
@@ -504,10 +581,7 @@ TEST_F(HapticsControllerTest, SaysWhereARecordingIsOfAnotherMapOrTouch)
 
 TEST_F(HapticsControllerTest, KeepsTheHandOfARecordingInThePicture)
 {
-    OrbitCamera camera = view().camera();
-    camera.target = {-700.0, -400.0, camera.target.z};
-    camera.distance_m = 300.0;
-    view().setCamera(camera);
+    lookAtACorner();
     const ScenePoint summit{0.0, 0.0, 0.0};
     ASSERT_FALSE(view().isInPicture(summit));
     const QString file = maps_.path(QStringLiteral("touch.csv"));
@@ -521,58 +595,32 @@ TEST_F(HapticsControllerTest, KeepsTheHandOfARecordingInThePicture)
     EXPECT_NEAR(view().camera().distance_m, 300.0, 50.0) << "only sideways";
 }
 
-// All proxies observed in a second or two of strokes.
 TEST_F(HapticsControllerTest, ASimulatedHandStrokesWithinThePicture)
 {
     ASSERT_TRUE(connectTo(QStringLiteral("sim:speed=0.3,lift_s=0")));
-    const OrbitCamera home = view().camera();
-    struct Sight {
-        const char* name;
-        double distance_share;
-        double tilt_deg;
-        double azimuth_deg;
-        double exaggeration;
-    };
-    for (const Sight& sight :
-         {Sight{"home", 1.0, home.tilt.degrees(), 0.0, 1.0}, Sight{"oblique", 0.5, 75.0, 40.0, 1.0},
-          Sight{"near", 0.1, 60.0, 200.0, 1.0}, Sight{"from above", 0.3, 0.0, 130.0, 1.0},
-          Sight{"exaggerated", 0.6, 60.0, -50.0, 10.0}}) {
-        SCOPED_TRACE(sight.name);
-        OrbitCamera camera = home;
-        camera.distance_m *= sight.distance_share;
-        camera.tilt = Angle::degrees(sight.tilt_deg);
-        camera.azimuth = Angle::degrees(sight.azimuth_deg);
-        view().setExaggeration(sight.exaggeration);
-        view().setCamera(camera);
-        const std::uint64_t begin = state().tick;
-        constexpr std::uint64_t kReturnTicks = 700; // from the previous device position
-        ASSERT_TRUE(waitFor([&] { return state().tick > begin + kReturnTicks; }));
-        int seen = 0;
-        int outside = 0;
-        ASSERT_TRUE(waitFor([&] {
-            const LoopState now = state();
-            if (now.contact.is_in_contact) {
-                ++seen;
-                outside += view().isInPicture(now.contact.proxy) ? 0 : 1;
-            }
-            return now.tick > begin + kReturnTicks + 2000;
-        }));
-        EXPECT_GT(seen, 10);
-        EXPECT_EQ(outside, 0) << "of " << seen;
+    expectStrokesInPicture(view(), haptics());
+}
+
+TEST_F(HapticsControllerTest, ASimulatedHandStrokesWithinThePictureOfAnyMap)
+{
+    const QString global =
+        maps_.placed("global", "IAU_2015:49900", {-180.0, 9.0, 0.0, 90.0, 0.0, -6.0});
+    const QString projected =
+        maps_.placed("projected", "EPSG:32611", {500000.0, 30.0, 0.0, 4000000.0, 0.0, -30.0});
+    for (const QString& map : {global, projected}) {
+        SCOPED_TRACE(map.toStdString());
+        haptics().disconnectDevice();
+        ASSERT_TRUE(openAndWait(*window_, map));
+        ASSERT_TRUE(connectTo(QStringLiteral("sim:"))); // with the path that it has by default
+        expectStrokesInPicture(view(), haptics());
     }
 }
 
 TEST_F(HapticsControllerTest, TheCameraReturnsWhenAReplayEndsOrIsStopped)
 {
-    OrbitCamera camera = view().camera();
-    camera.target = {-700.0, -400.0, camera.target.z};
-    camera.distance_m = 300.0;
-    view().setCamera(camera);
-    const OrbitCamera before = view().camera();
+    const OrbitCamera before = lookAtACorner();
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    writeGoals(file, 60'000, "500900,4000600,0"); // out of view
-    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); }));
+    ASSERT_TRUE(replayOutOfSight(file, before));
     EXPECT_GT(haptics().replayedShare(), 0.0);
     EXPECT_LT(haptics().replayedShare(), 1.0);
     haptics().stopReplay();
@@ -589,15 +637,7 @@ TEST_F(HapticsControllerTest, TheCameraReturnsWhenAReplayEndsOrIsStopped)
 
 TEST_F(HapticsControllerTest, TheCameraStaysWhereTheUserMovesItDuringAReplay)
 {
-    OrbitCamera camera = view().camera();
-    camera.target = {-700.0, -400.0, camera.target.z};
-    camera.distance_m = 300.0;
-    view().setCamera(camera);
-    const OrbitCamera before = view().camera();
-    const QString file = maps_.path(QStringLiteral("touch.csv"));
-    writeGoals(file, 60'000, "500900,4000600,0");
-    ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
-    ASSERT_TRUE(waitFor([&] { return view().cameraGoal() != before && !view().isMoving(); }));
+    ASSERT_TRUE(replayOutOfSight(maps_.path(QStringLiteral("touch.csv")), lookAtACorner()));
     view().step(NavigationStep::TurnLeft);
     ASSERT_TRUE(waitFor([&] { return !view().isMoving(); }));
     const OrbitCamera chosen = view().camera();
@@ -640,7 +680,7 @@ TEST_F(HapticsControllerTest, ARecordingOfALowerMapIsReplayed)
     writeGoals(file, 1000, "16,15,5000"); // outside the topmost map
     ASSERT_TRUE(connectTo(QStringLiteral("replay:") + file));
     ASSERT_TRUE(waitFor([&] { return haptics().connection() == HapticsConnection::None; }));
-    EXPECT_EQ(haptics().problem(), QStringLiteral("The recording has ended"));
+    EXPECT_EQ(haptics().replayedToItsEnd(), file);
 }
 
 // Also if it was unplugged in the meantime.
@@ -818,6 +858,14 @@ TEST_F(HapticsControllerOfTiles, TouchesTheGroundAtFullResolution)
     haptics_->connectTo(QStringLiteral("hand:"));
     EXPECT_TRUE(comesToTouch({0.0, 0.0, -0.055}, kExactM));
     EXPECT_TRUE(comesToTouch({-0.04, 0.02, -0.055}, kExactM));
+}
+
+TEST_F(HapticsControllerOfTiles, ASimulatedHandStrokesWithinThePicture)
+{
+    ASSERT_TRUE(QTest::qWaitFor([&] { return view_->isPictureComplete(); }, kTimeout));
+    haptics_->connectTo(QStringLiteral("sim:"));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return haptics_->loop() != nullptr; }, kTimeout));
+    expectStrokesInPicture(*view_, *haptics_);
 }
 
 // A disk that returns no data when contact begins, not even the coarsest tile.

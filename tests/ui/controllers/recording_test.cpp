@@ -121,7 +121,12 @@ TEST_F(RecordingTest, OfAMapBelowAnotherIsTheSameAgain)
     view().setCamera(camera);
     ASSERT_TRUE(connectTo(QStringLiteral("hand:")));
     ASSERT_TRUE(moveTo({0.01, -0.02, -0.055}));
-    ASSERT_TRUE(waitFor([&] { return state().contact.is_in_contact; }));
+    // Below the hand, and no more at the edge of the upper map.
+    ASSERT_TRUE(waitFor([&] {
+        const LoopState now = state();
+        const double beside_m = now.contact.proxy.x - now.frame.toScene(now.hand).x;
+        return now.contact.is_in_contact && std::abs(beside_m) < 20'000.0;
+    }));
     ASSERT_NE(view().ground().maps()[1].frame,
               view().ground().maps()[1].map->georeference().sceneFrame());
     const QString file = maps_.path(QStringLiteral("touch.csv"));

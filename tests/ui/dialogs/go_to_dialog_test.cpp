@@ -1,12 +1,20 @@
 #include "tests/ui/test_map.h"
+#include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/dialogs/go_to_dialog.h"
+#include "ui/overlay/map_overlays.h"
+#include "ui/overlay/place_mark.h"
+#include "ui/panels/layers_panel.h"
+#include "ui/status_readout.h"
 #include "ui/window_actions.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QLineF>
+#include <QListView>
 #include <QLocale>
 #include <QPushButton>
 #include <QTest>
@@ -181,6 +189,65 @@ TEST_F(GoToDialogTest, FliesThereAndRemembersWhatWasAsked)
         } else {
             EXPECT_EQ(field->text(), QStringLiteral("17 N 13 E"));
         }
+    }
+}
+
+// By mouse and by keyboard: the map has the focus, the place a pin, and the status bar reads it.
+TEST_F(GoToDialogTest, MarksThePlaceUntilItIsDoneWith)
+{
+    MainWindow window(testWindowOptions());
+    window.resize(1280, 800);
+    window.show();
+    QApplication::setActiveWindow(&window); // there is no window manager
+    ASSERT_TRUE(openAndWait(window, maps_.mars()));
+    TerrainView& view = *window.view();
+    const PlaceMark& mark = *window.overlays()->placeMark();
+    const auto soon = [](auto condition) { return QTest::qWaitFor(condition, kTimeout); };
+    for (const bool is_by_mouse : {true, false}) {
+        SCOPED_TRACE(is_by_mouse ? "mouse" : "keyboard");
+        window.datasetPanel()->list()->setFocus();
+        QTest::mouseMove(&view, view.rect().center() + QPoint(60, 40));
+        EXPECT_FALSE(mark.isVisible());
+        window.actionSet().go_to_coordinate->trigger();
+        auto* dialog = window.findChild<GoToDialog*>();
+        ASSERT_NE(dialog, nullptr);
+        auto* field = dialog->findChild<QLineEdit*>(QStringLiteral("coordinate"));
+        field->setText(QStringLiteral("17 N 13 E"));
+        if (is_by_mouse) {
+            for (auto* button : dialog->findChildren<QPushButton*>()) {
+                if (button->isDefault()) {
+                    QTest::mouseClick(button, Qt::LeftButton);
+                }
+            }
+        } else {
+            QTest::keyClick(field, Qt::Key_Return);
+        }
+        ASSERT_TRUE(soon([&] { return window.findChild<GoToDialog*>() == nullptr; }));
+        QApplication::setActiveWindow(&window);
+        ASSERT_TRUE(soon([&] { return !view.isMoving() && view.isPictureComplete(); }));
+        EXPECT_TRUE(view.hasFocus());
+        ASSERT_TRUE(mark.isVisible());
+        // 10° E, 20° N is the corner; samples are 0.25° apart, the first half of that inside.
+        const QPointF place = view.positionOf({11.5, 11.5}).value();
+        EXPECT_LT(QLineF(mark.tip(), place).length(), 1.0);
+        EXPECT_LT(QLineF(mark.tip(), QRectF(view.rect()).center()).length(), 3.0);
+        EXPECT_TRUE(soon([&] { return view.isCrosshairShown(); }));
+        // As typed, and the elevation there: 20 m a column, from −300 m on.
+        const QString position = window.readout()->coordinateLabel();
+        EXPECT_TRUE(position.startsWith(QStringLiteral("17.00"))) << position.toStdString();
+        EXPECT_TRUE(position.contains(QStringLiteral(" 13.00"))) << position.toStdString();
+        EXPECT_TRUE(window.readout()->heightLabel().startsWith(QStringLiteral("−70")))
+            << window.readout()->heightLabel().toStdString();
+        // It stays on its place while people look around, and goes with a click or Esc.
+        view.step(NavigationStep::PanLeft);
+        ASSERT_TRUE(soon([&] { return !view.isMoving(); }));
+        EXPECT_LT(QLineF(mark.tip(), view.positionOf({11.5, 11.5}).value()).length(), 1.0);
+        if (is_by_mouse) {
+            QTest::mouseClick(&view, Qt::LeftButton, {}, view.rect().center() + QPoint(90, 30));
+        } else {
+            QTest::keyClick(&view, Qt::Key_Escape);
+        }
+        EXPECT_FALSE(mark.isVisible());
     }
 }
 

@@ -2,6 +2,7 @@
 #include "core/tiles/tile_disk_cache.h"
 #include "tests/support/grid_tile_source.h"
 #include "tests/support/make_terrain.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/support/temp_folder.h"
 #include "tests/ui/test_map.h"
 #include "ui/canvas/terrain_view.h"
@@ -58,6 +59,9 @@ protected:
 
     test::TempFolder root_;
     std::filesystem::path folder_;
+    // It would go before what is chosen.
+    const test::ScopedVariable cache_home_{"XDG_CACHE_HOME", root_.path().c_str()};
+    const test::ScopedVariable no_cache_folder_{"MARSVIEW_CACHE_DIR", nullptr};
 };
 
 TEST_F(LargeMapsPageTest, ListsWhatWasPreparedAndRemovesIt)

@@ -1,8 +1,8 @@
 #include "tests/ui/hand_window.h"
-#include "ui/canvas/terrain_view.h"
 #include "ui/overlay/force_meter.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/time_plot.h"
+#include "ui/widgets/limit_slider.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
 
@@ -17,6 +17,7 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTest>
+#include <QToolButton>
 
 #include <gtest/gtest.h>
 
@@ -41,6 +42,13 @@ protected:
         return *panel().findChild<T*>(QLatin1String(name));
     }
     QString text(const char* name) { return part<QLabel>(name).text(); }
+    // Goals below the surface.
+    static void writeGoals(const QString& file, int count)
+    {
+        QFile goals(file);
+        ASSERT_TRUE(goals.open(QIODevice::WriteOnly));
+        goals.write("x,y,z\n" + QByteArray("500900,4000600,0\n").repeated(count));
+    }
     bool connectByKeys(int row)
     {
         list().setFocus();
@@ -112,13 +120,7 @@ TEST_F(HapticsPanelTest, TheStopButtonStopsAndLetsReturn)
 TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
 {
     const QString file = maps_.path(QStringLiteral("touch.csv"));
-    QFile goals(file);
-    ASSERT_TRUE(goals.open(QIODevice::WriteOnly));
-    goals.write("x,y,z\n");
-    for (int i = 0; i < 60'000; ++i) {
-        goals.write("500900,4000600,0\n"); // below the surface
-    }
-    goals.close();
+    writeGoals(file, 60'000);
     auto& progress = part<QProgressBar>("replayProgress");
     auto& replay = part<QPushButton>("replay");
     EXPECT_TRUE(progress.isHidden());
@@ -139,17 +141,51 @@ TEST_F(HapticsPanelTest, ShowsAReplaysProgressAndStopsIt)
     EXPECT_EQ(replay.text(), before);
 }
 
-TEST_F(HapticsPanelTest, SlidersAreBoundedByTheDevice)
+TEST_F(HapticsPanelTest, SaysThatAReplayHasEndedAndOffersItAgain)
 {
-    auto& stiffness = part<QSlider>("stiffness");
-    stiffness.setValue(stiffness.maximum());
-    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax);
+    const QString file = maps_.path(QStringLiteral("touch.csv"));
+    writeGoals(file, 1500);
     ASSERT_TRUE(connectByKeys(0));
-    EXPECT_EQ(stiffness.value(), stiffness.maximum());
-    EXPECT_EQ(haptics().settings().stiffness_n_per_m, kStiffnessMax); // as chosen
+    QStringList states;
+    QObject::connect(&haptics(), &HapticsController::polled, &panel(),
+                     [&] { states.append(text("letGoReason")); });
+    haptics().connectTo(QStringLiteral("replay:") + file);
+    // The device comes back by itself, and what has ended is said until it is closed.
+    ASSERT_TRUE(waitFor([&] { return !haptics().replayedToItsEnd().isEmpty(); }));
+    ASSERT_TRUE(waitFor([&] { return haptics().loop() != nullptr; }));
+    EXPECT_EQ(haptics().uri(), QStringLiteral("hand:"));
+    const QString ended = QStringLiteral("touch.csv was replayed to its end");
+    EXPECT_EQ(text("recording"), ended);
+    const auto& bar = *window_->findChild<NoticeBar*>();
+    const auto* notice = bar.findChild<QLabel*>(QStringLiteral("noticeText"));
+    auto* again = bar.findChild<QToolButton*>(QStringLiteral("noticeAction"));
+    EXPECT_EQ(notice->text(), ended);
+    EXPECT_EQ(again->text(), QStringLiteral("Replay Again"));
+    again->click();
+    EXPECT_TRUE(waitFor([&] { return haptics().isReplaying(); }));
+    EXPECT_NE(notice->text(), ended);
+    EXPECT_TRUE(states.filter(QStringLiteral("no layer")).isEmpty())
+        << states.join(QLatin1Char('|')).toStdString();
+}
+
+TEST_F(HapticsPanelTest, TheStiffnessStaysAsChosenAndTheDevicesLimitIsMarked)
+{
+    auto& stiffness = part<LimitSlider>("stiffness");
+    stiffness.setValue(150);
+    ASSERT_EQ(haptics().settings().stiffness_n_per_m, 1500.0);
+    EXPECT_FALSE(stiffness.limit());
+    EXPECT_TRUE(part<QLabel>("stiffnessLimit").isHidden());
+    ASSERT_TRUE(connectByKeys(0)); // stands 400 N/m
+    EXPECT_EQ(stiffness.value(), 150);
+    EXPECT_EQ(stiffness.maximum(), 200);
+    EXPECT_EQ(stiffness.limit(), 40);
+    EXPECT_TRUE(part<QLabel>("stiffnessLimit").isVisible());
+    EXPECT_EQ(text("stiffnessLimit"), QStringLiteral("Limited to 400 N/m by the device"));
     stiffness.setFocus();
     QTest::keyClick(&stiffness, Qt::Key_Left);
-    EXPECT_EQ(haptics().settings().stiffness_n_per_m, 390.0);
+    EXPECT_EQ(haptics().settings().stiffness_n_per_m, 1490.0);
+    stiffness.setValue(39);
+    EXPECT_TRUE(part<QLabel>("stiffnessLimit").isHidden());
     part<QSlider>("forceScale").setValue(10);
     EXPECT_EQ(haptics().settings().force_share, 0.5);
     part<QCheckBox>("walls").click();

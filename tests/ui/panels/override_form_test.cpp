@@ -1,9 +1,7 @@
 // The form for body, CRS and more, operated by mouse and keyboard in a window.
 
 #include "tests/ui/color_contrast.h"
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
-#include "ui/canvas/terrain_view.h"
+#include "tests/ui/map_window.h"
 #include "ui/panels/crs_field.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/override_form.h"
@@ -28,16 +26,13 @@
 namespace marsview {
 namespace {
 
-class OverrideFormTest : public testing::Test {
+class OverrideFormTest : public MapWindowTest {
 protected:
     void SetUp() override
     {
         WindowOptions options = testWindowOptions();
         options.failures = WindowOptions::Failures::InDialogs;
-        window_ = std::make_unique<MainWindow>(options);
-        window_->resize(1280, 900);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // without a window manager
+        makeWindow({1280, 900}, options);
         ASSERT_TRUE(waitUntilSettled(*window_));
     }
 
@@ -65,10 +60,42 @@ protected:
         EXPECT_TRUE(window_->view()->map()->spec().overrides.isEmpty());
     }
     const RasterInfo& info() { return activeLayer(window_->session())->map->info(); }
-
-    TestMaps maps_;
-    std::unique_ptr<MainWindow> window_;
 };
+
+TEST_F(OverrideFormTest, ItsButtonsStayInSightWhateverIsScrolled)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
+    window_->resize(kWithPanels);
+    openForm();
+    for (const char* last : {"crs", "nodata", "term5"}) {
+        field<QWidget>(last)->setFocus();
+        EXPECT_TRUE(waitFor([&] { return !field<QWidget>(last)->visibleRegion().isEmpty(); }))
+            << last;
+        for (const char* name : {"apply", "close", "reset"}) {
+            const auto* button = field<QPushButton>(name);
+            EXPECT_EQ(button->visibleRegion().boundingRect(), button->rect())
+                << name << " with the focus on " << last;
+        }
+    }
+}
+
+TEST_F(OverrideFormTest, WritesAndReadsTrueMinusSigns)
+{
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    openForm();
+    // 0.25 degrees per row, from north to south.
+    EXPECT_EQ(field("term5")->placeholderText(), QStringLiteral("−0.25"));
+    for (const char* entered : {"-1737.4", "−1737.4"}) {
+        field("offset")->setText(QString::fromUtf8(entered));
+        apply();
+        ASSERT_TRUE(waitFor([&] { return info().offset == -1737.4; })) << entered;
+        openForm();
+        EXPECT_EQ(field("offset")->text(), QStringLiteral("−1737.4"));
+        QTest::mouseClick(field<QPushButton>("reset"), Qt::LeftButton);
+        ASSERT_TRUE(waitFor([&] { return info().offset == 0.0; }));
+        openForm();
+    }
+}
 
 TEST_F(OverrideFormTest, ReportsAnUnknownCrsBelowItsField)
 {

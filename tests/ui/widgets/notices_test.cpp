@@ -1,8 +1,6 @@
 // Notices: which are on the bar, the effect of their buttons, and that closed ones stay closed.
 
-#include "tests/ui/test_map.h"
-#include "tests/ui/timeout.h"
-#include "ui/canvas/terrain_view.h"
+#include "tests/ui/map_window.h"
 #include "ui/controllers/contact_sounds.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/widgets/notice_bar.h"
@@ -117,31 +115,15 @@ TEST_F(NoticeCenterTest, RunsTheActionOfTheNoticeThatIsShown)
     EXPECT_EQ(done.mid(1), (QStringList{QStringLiteral("Moon"), QStringLiteral("details")}));
 }
 
-TEST_F(NoticeCenterTest, ClosesATimedNoticeByItself)
-{
-    Notice notice = noticeNamed(QStringLiteral("brief"));
-    notice.duration_ms = 1;
-    center_.setNotices(NoticeSource::Sample, {notice});
-    EXPECT_TRUE(QTest::qWaitFor([this] { return bar_.isHidden(); }, kTimeout));
-    center_.setNotices(NoticeSource::Sample, {notice});
-    EXPECT_TRUE(bar_.isHidden());
-}
-
-class NoticesTest : public testing::Test {
+class NoticesTest : public MapWindowTest {
 protected:
     void SetUp() override
     {
-        window_ = std::make_unique<MainWindow>(testWindowOptions());
-        window_->resize(1280, 500);
-        window_->show();
-        QApplication::setActiveWindow(window_.get()); // without a window manager
+        makeWindow({1280, 500});
         ASSERT_TRUE(waitUntilSettled(*window_));
     }
     NoticeBar& bar() { return *window_->findChild<NoticeBar*>(); }
     QString shown() { return textOn(bar()); }
-
-    TestMaps maps_;
-    std::unique_ptr<MainWindow> window_;
 };
 
 TEST_F(NoticesTest, StayClosedAfterUndoAndWhenLayersChange)

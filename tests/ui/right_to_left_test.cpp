@@ -1,0 +1,70 @@
+// Numbers with their units in a window that runs from right to left: each in its own order.
+
+#include "tests/ui/hand_window.h"
+#include "tests/ui/widget_walk.h"
+#include "ui/panels/haptics_panel.h"
+#include "ui/status_readout.h"
+#include "ui/window_actions.h"
+
+#include <QApplication>
+#include <QProgressBar>
+#include <QRegularExpression>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace marsview {
+namespace {
+
+// The text without what is isolated as running from left to right.
+QString outsideIsolates(const QString& text)
+{
+    QString rest;
+    int depth = 0;
+    for (const QChar c : text) {
+        if (c == QChar(0x2066)) {
+            ++depth;
+        } else if (c == QChar(0x2069)) {
+            depth = std::max(0, depth - 1);
+        } else if (depth == 0) {
+            rest += c;
+        }
+    }
+    return rest;
+}
+
+class RightToLeftTest : public HandWindowTest {
+protected:
+    void SetUp() override { QGuiApplication::setLayoutDirection(Qt::RightToLeft); }
+    void TearDown() override
+    {
+        window_.reset();
+        QGuiApplication::setLayoutDirection(Qt::LeftToRight);
+    }
+};
+
+TEST_F(RightToLeftTest, NumbersStayBeforeTheirUnits)
+{
+    makeWindow(kWithPanels);
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    window_->actionSet().haptic_devices->trigger();
+    ASSERT_TRUE(connectTo(QStringLiteral("sim:")));
+    auto* force = window_->hapticsPanel()->findChild<QProgressBar*>(QStringLiteral("force"));
+    ASSERT_TRUE(waitFor([&] { return force->value() > 0; }));
+    ASSERT_TRUE(waitFor([&] { return !window_->readout()->heightLabel().isEmpty(); }));
+    // A number of its own direction, and a unit outside of it, would change places.
+    static const QRegularExpression kUnitAlone(
+        QStringLiteral("^\\s*(N|N/m|m|km|ft|px|%|µs|ms|s|°)(\\s|$)"));
+    QList<FoundText> texts = textsOf(*window_);
+    texts.append({QStringLiteral("force bar"), force->format()});
+    for (const FoundText& found : texts) {
+        EXPECT_FALSE(kUnitAlone.match(outsideIsolates(found.text)).hasMatch() &&
+                     found.text.contains(QChar(0x2066)))
+            << found.place.toStdString() << ": " << found.text.toStdString();
+    }
+    EXPECT_EQ(outsideIsolates(force->format()), QString());
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,70 @@
+#include "ui/canvas/picture_drawing.h"
+
+#include "ui/canvas/terrain_view.h"
+
+#include <chrono>
+
+namespace marsview {
+namespace {
+
+// Pixels a side. In software a block takes some 50 ms, and so long does input wait.
+constexpr int kBlockSide = 512;
+
+// The interval at which pieces of a block that were missing are looked for.
+constexpr std::chrono::milliseconds kArrivalInterval{20};
+
+int blocksAlong(int pixels)
+{
+    return (pixels + kBlockSide - 1) / kBlockSide;
+}
+
+} // namespace
+
+PictureDrawing::PictureDrawing(TerrainView& view,
+                               const OrbitCamera& camera,
+                               const QSize& size,
+                               QObject* parent)
+    : QObject(parent)
+    , view_(view)
+    , camera_(camera)
+    , style_(view.style())
+    , picture_(size, QImage::Format_RGB888)
+{
+    timer_.setSingleShot(true);
+    connect(&timer_, &QTimer::timeout, this, &PictureDrawing::drawNext);
+    connect(&view_, &TerrainView::layersChanged, this, [this] { next_ = 0; });
+    timer_.start(0);
+}
+
+void PictureDrawing::drawNext()
+{
+    if (picture_.isNull()) {
+        Q_EMIT failed(
+            tr("There is not enough memory for a picture of this size; choose a smaller "
+               "one"));
+        return;
+    }
+    const int columns = blocksAlong(picture_.width());
+    const int count = columns * blocksAlong(picture_.height());
+    const QRect block(next_ % columns * kBlockSide, next_ / columns * kBlockSide, kBlockSide,
+                      kBlockSide);
+    const Result<bool> drawn =
+        view_.drawPart(camera_, style_, block.intersected(picture_.rect()), picture_);
+    if (!drawn) {
+        Q_EMIT failed(QString::fromStdString(drawn.error().message));
+        return;
+    }
+    if (!*drawn) {
+        timer_.start(kArrivalInterval);
+        return;
+    }
+    ++next_;
+    Q_EMIT progressed(static_cast<double>(next_) / count);
+    if (next_ == count) {
+        Q_EMIT finished(picture_);
+    } else {
+        timer_.start(0);
+    }
+}
+
+} // namespace marsview
