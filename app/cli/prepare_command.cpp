@@ -136,7 +136,7 @@ Status runPrepare(const Options& options)
     if (!work) {
         return work.error();
     }
-    printNotices(raster->info); // before the work, as they may say how long it takes
+    printNotices(raster->file.info()); // first: one may say how long it takes
     LongJob job("preparing");
     Result<PrepareReport> report = prepare(*raster, *work, job.monitor());
     if (!report) {

@@ -218,8 +218,8 @@ void TileDiskCache::Impl::refuse(int error)
     const std::lock_guard lock(settings_mutex);
     if (!trouble) {
         trouble = fmt::format(
-            "{}: fetched tiles cannot be kept here ({}) and will be fetched "
-            "again; make room, or choose another folder",
+            "{}: downloaded tiles cannot be cached here ({}) and will be "
+            "downloaded again; free space or choose another folder",
             options_now.folder, std::generic_category().message(error));
     }
 }

@@ -141,8 +141,7 @@ TEST(InfoCommand, TellsOfNumbersInTheEnvironmentThatAreNone)
     const ProgramOutput output = runCliWith({"MARSVIEW_HELD_MB=abc"}, {"info", bundledMars()});
     EXPECT_EQ(output.exit_status, 0);
     EXPECT_THAT(output.err,
-                testing::HasSubstr("MARSVIEW_HELD_MB=\"abc\" in the environment is not a "
-                                   "number of megabytes"));
+                testing::HasSubstr("MARSVIEW_HELD_MB is \"abc\", not a number of megabytes"));
 }
 
 TEST(InfoCommand, TellsFeetFromMetres)

@@ -383,7 +383,7 @@ TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)
         runCli({"loop", bundledMars(), "--device", "record:/dev/full,sim:", "--seconds", "0.2"});
     EXPECT_EQ(full.exit_status, 1);
     EXPECT_THAT(full.err, StartsWith("marsview-cli: record:/dev/full: cannot be written (No space "
-                                     "left on device); make room"));
+                                     "left on device); free disk space"));
     for (const char* option : {"--record", "--flight"}) {
         const ProgramOutput other = runCli({"loop", bundledMars(), "--device", "sim:", "--seconds",
                                             "0.2", option, "/nowhere/a.csv"});
