@@ -12,10 +12,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace marsview {
@@ -159,6 +161,14 @@ Json asJson(const FlightResult& flight)
             {"resting_poses", poses}};
 }
 
+Json asJson(const ColorError& error)
+{
+    return {{"pixel_count", error.pixel_count},
+            {"mean_levels", error.mean_levels},
+            {"p99_levels", error.p99_levels},
+            {"max_levels", error.max_levels}};
+}
+
 Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
 {
     Json flights = Json::array();
@@ -168,11 +178,11 @@ Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
     Json colors = Json::array();
     for (const ColorResult& color : result.colors) {
         Json poses = Json::array();
-        for (const ColorError& pose : color.poses) {
-            poses.push_back({{"pixel_count", pose.pixel_count},
-                             {"mean_levels", pose.mean_levels},
-                             {"p99_levels", pose.p99_levels},
-                             {"max_levels", pose.max_levels}});
+        for (const ColorPose& pose : color.poses) {
+            Json means = asJson(pose.means);
+            means["center_p99_levels"] = pose.means.center_p99_levels;
+            Json& entry = poses.emplace_back(asJson(pose.centers));
+            entry["against_means"] = std::move(means);
         }
         colors.push_back({{"exaggeration", color.exaggeration}, {"poses", poses}});
     }
@@ -268,31 +278,41 @@ void printPoses(const ViewBenchResult& result, double error_px)
     }
 }
 
+// Median and maximum over all poses.
+std::string spreadOf(const std::vector<ColorPose>& poses, double (*value)(const ColorPose&))
+{
+    std::vector<double> values;
+    std::transform(poses.begin(), poses.end(), std::back_inserter(values), value);
+    return fmt::format("{:>9.1f}{:>9.1f}", quantile(values, 0.5), quantile(values, 1.0));
+}
+
 // Over all poses at an exaggeration: medians and maxima.
 void printColors(const ViewBenchResult& result)
 {
     if (result.colors.empty()) {
         return;
     }
-    printLine("\ncolors at rest against those of the surface at full resolution, levels of 255");
-    printLine(fmt::format("{:<13}{:>9}{:>13}{:>14}{:>14}", "exaggeration", "mean", "p99 median",
-                          "p99 largest", "max largest"));
+    printLine(
+        "\ncolors at rest against those of the surface at full resolution: 99 % are within "
+        "so many levels of 255");
+    printLine(
+        "sharp: against the color at the center of each pixel; smooth: against the mean over "
+        "it; center: that color against that mean");
+    printLine(fmt::format("{:<13}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}", "exaggeration", "sharp", "",
+                          "smooth", "", "center", ""));
+    printLine(fmt::format("{:<13}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}", "", "median", "largest", "median",
+                          "largest", "median", "largest"));
     for (const ColorResult& colors : result.colors) {
-        std::vector<double> p99;
-        double mean = 0.0;
-        double most = 0.0;
-        for (const ColorError& pose : colors.poses) {
-            p99.push_back(pose.p99_levels);
-            mean += pose.mean_levels / static_cast<double>(colors.poses.size());
-            most = std::max(most, pose.max_levels);
+        if (!colors.poses.empty()) {
+            const auto spread = [&](double (*value)(const ColorPose&)) {
+                return spreadOf(colors.poses, value);
+            };
+            printLine(fmt::format(
+                "{:<13}{}{}{}", asText(colors.exaggeration),
+                spread([](const ColorPose& pose) { return pose.centers.p99_levels; }),
+                spread([](const ColorPose& pose) { return pose.means.p99_levels; }),
+                spread([](const ColorPose& pose) { return pose.means.center_p99_levels; })));
         }
-        if (p99.empty()) {
-            continue;
-        }
-        std::sort(p99.begin(), p99.end());
-        printLine(fmt::format("{:<13}{:>9.2f}{:>13.1f}{:>14.1f}{:>14.1f}",
-                              asText(colors.exaggeration), mean, p99[p99.size() / 2], p99.back(),
-                              most));
     }
 }
 

@@ -26,8 +26,12 @@ using Clock = std::chrono::steady_clock;
 // A visible difference between neighboring areas, of 255.
 constexpr int kVisibleLevels = 8;
 
-// One in four pixels is used for the color measurement.
-constexpr std::size_t kColorStride = 2;
+// Between pixels at which colors are measured. A mean takes 17 rays.
+constexpr std::size_t kCenterStride = 3;
+constexpr std::size_t kMeanStride = 8;
+
+// A pixel of the smooth picture, as in the window.
+constexpr int kSmoothSamples = 4;
 
 // Notified on the renderer's threads when shading is ready. It may outlive the bench.
 class News {
@@ -204,31 +208,52 @@ public:
         return pose;
     }
 
-    Result<ColorError> colors(const OrbitCamera& camera)
+    Result<ColorPose> colors(const OrbitCamera& camera)
+    {
+        const Result<LitColors> sharp = litColors(camera, 1);
+        const Result<LitColors> smooth = litColors(camera, kSmoothSamples);
+        if (!sharp || !smooth) {
+            return sharp ? smooth.error() : sharp.error();
+        }
+        const TintedScene tinted{.drawn = {scene_.map->heightfield(),
+                                           scene_.map->georeference().sceneFrame(), exaggeration_},
+                                 .bounds = scene_.map->analysis()->bounds,
+                                 .ramp = scene_.ramp(),
+                                 .range = tintedRange(scene_.ramp(), scene_.map->tintRange())};
+        const auto error_of = [&](const LitColors& colors, const ColorSampling& sampling) {
+            return measureColorError(tinted, camera, options_.viewport,
+                                     {.tint = colors.tint.colors.rgb,
+                                      .light = colors.light.colors.rgb,
+                                      .depths_m = sharp->tint.depths_m},
+                                     sampling);
+        };
+        return ColorPose{.centers = error_of(*sharp, {ColorReference::Center, kCenterStride}),
+                         .means = error_of(*smooth, {ColorReference::Mean, kMeanStride})};
+    }
+
+private:
+    struct LitColors {
+        OffscreenPicture tint; // with depths where it has one sample a pixel
+        OffscreenPicture light;
+    };
+
+    Result<LitColors> litColors(const OrbitCamera& camera, int samples)
     {
         DrawRequest request{.camera = camera, .viewport = options_.viewport};
         request.detail = {.error_px = options_.error_px, .texel_px = 1.0};
+        request.samples = samples;
         DrawStyle style = style_;
-        const Result<OffscreenPicture> tint =
-            drawOffscreen(*scene_.renderer, request, style, DepthUse::Yes);
+        Result<OffscreenPicture> tint = drawOffscreen(*scene_.renderer, request, style,
+                                                      samples > 1 ? DepthUse::No : DepthUse::Yes);
         style.look.mode = ShadingMode::Hillshade;
-        const Result<OffscreenPicture> light =
+        Result<OffscreenPicture> light =
             drawOffscreen(*scene_.renderer, request, style, DepthUse::No);
         if (!tint || !light) {
             return tint ? light.error() : tint.error();
         }
-        return measureColorError(
-            {.drawn = {scene_.map->heightfield(), scene_.map->georeference().sceneFrame(),
-                       exaggeration_},
-             .bounds = scene_.map->analysis()->bounds,
-             .ramp = scene_.ramp(),
-             .range = tintedRange(scene_.ramp(), scene_.map->tintRange())},
-            camera, options_.viewport,
-            {.tint = tint->colors.rgb, .light = light->colors.rgb, .depths_m = tint->depths_m},
-            kColorStride);
+        return LitColors{std::move(tint).value(), std::move(light).value()};
     }
 
-private:
     // The area around a cursor in the center of the picture.
     PixelArea cursorArea() const
     {
@@ -326,11 +351,11 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
         colors.exaggeration = exaggeration;
         for (const Flight flight : kFlights) {
             for (int i = 0; i < options.pose_count; ++i) {
-                const Result<ColorError> error = other.colors(other.camera(flight, pose_moment(i)));
-                if (!error) {
-                    return error.error();
+                const Result<ColorPose> pose = other.colors(other.camera(flight, pose_moment(i)));
+                if (!pose) {
+                    return pose.error();
                 }
-                colors.poses.push_back(*error);
+                colors.poses.push_back(*pose);
                 if (!go_on()) {
                     return cancelled;
                 }

@@ -53,10 +53,16 @@ struct RestingPose {
     std::optional<ColorDifference> difference;
 };
 
-/// The colors of pictures at rest at one exaggeration, compared with those of the surface.
+/// The colors of one view at rest, compared with those of the surface.
+struct ColorPose {
+    ColorError centers; // of the sharp picture, which has one sample per pixel
+    ColorError means;   // of the smooth picture that follows it
+};
+
+/// The colors of pictures at rest at one exaggeration.
 struct ColorResult {
     double exaggeration = 1.0;
-    std::vector<ColorError> poses; // of all flights
+    std::vector<ColorPose> poses; // of all flights
 };
 
 struct FlightResult {

@@ -59,13 +59,16 @@ void RenderTest::TearDown()
 OffscreenPicture RenderTest::draw(const OrbitCamera& camera,
                                   const Viewport& viewport,
                                   const DetailTarget& detail,
-                                  DrawStyle style)
+                                  DrawStyle style,
+                                  int samples)
 {
     style.sky_top = kSkyColor;
     style.sky_bottom = kSkyColor;
     OffscreenPicture picture =
-        drawOffscreen(*renderer_, {.camera = camera, .viewport = viewport, .detail = detail}, style,
-                      DepthUse::Yes)
+        drawOffscreen(
+            *renderer_,
+            {.camera = camera, .viewport = viewport, .detail = detail, .samples = samples}, style,
+            samples > 1 ? DepthUse::No : DepthUse::Yes)
             .value();
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     EXPECT_TRUE(picture.report.is_complete);

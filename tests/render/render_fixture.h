@@ -36,11 +36,13 @@ protected:
     void SetUp() override;
     void TearDown() override;
 
-    /// One sample per pixel, under a sky of kSkyColor. Checks that OpenGL reports no errors.
+    /// Under a sky of kSkyColor. Checks that OpenGL reports no errors. With more than one sample
+    /// per pixel there are no depths.
     OffscreenPicture draw(const OrbitCamera& camera,
                           const Viewport& viewport,
                           const DetailTarget& detail,
-                          DrawStyle style);
+                          DrawStyle style,
+                          int samples = 1);
 
     std::unique_ptr<EglContext> context_;       // outlives the renderer
     std::unique_ptr<TerrainRenderer> renderer_; // null only if tests are skipped

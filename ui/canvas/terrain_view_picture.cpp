@@ -165,6 +165,7 @@ void TerrainView::paintTerrain()
         picture_->paint({.camera = navigator_.camera(),
                          .viewport = viewport(),
                          .stage = stage_,
+                         .last_stage = lastStage(),
                          .is_touching = buttons_.is_pressing || (device_ && device_->is_in_contact),
                          .is_kept = true},
                         style_, defaultFramebufferObject());

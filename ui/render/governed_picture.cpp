@@ -38,6 +38,7 @@ GovernedPicture::paint(const PictureRequest& request, const DrawStyle& style, un
     draw.viewport = request.viewport;
     draw.is_kept = request.is_kept;
     draw.is_hasty = request.stage == PictureStage::Moving;
+    draw.is_interim = request.stage != request.last_stage;
     const double pixel_count =
         static_cast<double>(request.viewport.width) * static_cast<double>(request.viewport.height);
     plan_ = {};

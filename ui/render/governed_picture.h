@@ -26,8 +26,9 @@ struct PictureRequest {
     OrbitCamera camera;
     Viewport viewport;
     PictureStage stage = PictureStage::Moving;
-    bool is_touching = false; // see FrameRequest
-    bool is_kept = false;     // for TerrainRenderer::present()
+    PictureStage last_stage = PictureStage::Smooth; // after which no better one follows
+    bool is_touching = false;                       // see FrameRequest
+    bool is_kept = false;                           // for TerrainRenderer::present()
 };
 
 /// Chooses the detail of each picture by what the ones before took (core/view/frame_governor.h).

@@ -217,6 +217,15 @@ std::size_t reliefCount(const DetailSelection& selection)
     return seen.size();
 }
 
+// In pixels that are drawn.
+Viewport drawnSize(const DrawRequest& request)
+{
+    const auto scaled = [&request](int pixels) {
+        return std::max(1, static_cast<int>(std::lround(pixels * request.scale)));
+    };
+    return {.width = scaled(request.viewport.width), .height = scaled(request.viewport.height)};
+}
+
 std::array<GLfloat, 16> asFloats(const Matrix4& matrix)
 {
     std::array<GLfloat, 16> values{};
@@ -285,7 +294,13 @@ struct TerrainRenderer::Impl {
                      const DrawRequest& request,
                      const DrawStyle& style,
                      GridPoint anchor) const;
-    void drawBatches(bool is_hasty);
+    void drawBatches(const DrawRequest& request);
+    // Pictures in motion leave out what takes a software driver long.
+    bool isCheap(const DrawRequest& request) const { return request.is_hasty && is_software; }
+    void setRays(const GlProgram& program,
+                 const DrawRequest& request,
+                 const SceneFrame& frame,
+                 double exaggeration) const;
     void drawInstances(std::vector<NodeInstance>& instances_of, const IndexRange& range) const;
     ClipRange clip(const OrbitCamera& camera, double exaggeration) const;
 };
@@ -377,10 +392,12 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
     const GridPoint anchor = nodeAnchor(layer.source.frame.toGrid(eyeOf(request.camera)),
                                         heightfield.columns(), heightfield.rows());
     const auto cover_count = static_cast<int>(std::min<std::size_t>(index, kCoversMax));
-    const GlProgram& program = shaders.terrain({.mode = style.look.mode,
-                                                .has_contours = style.look.has_contours,
-                                                .has_voids = layer.hasVoids(),
-                                                .cover_count = cover_count});
+    const GlProgram& program = shaders.terrain(
+        {.mode = style.look.mode,
+         .has_contours = style.look.has_contours,
+         .has_voids = layer.hasVoids(),
+         .is_ray_corrected = !isCheap(request) && !(request.is_interim && is_software),
+         .cover_count = cover_count});
     glUseProgram(program.id());
     setUniforms(program, index, request, style, anchor);
 
@@ -402,7 +419,7 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         };
         std::optional<HeightAtlas::Place> slot = place_of();
         if (!slot) {
-            drawBatches(request.is_hasty);
+            drawBatches(request);
             atlas.beginRound();
             slot = place_of();
         }
@@ -423,10 +440,10 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
             }
         }
     }
-    drawBatches(request.is_hasty);
+    drawBatches(request);
 }
 
-void TerrainRenderer::Impl::drawBatches(bool is_hasty)
+void TerrainRenderer::Impl::drawBatches(const DrawRequest& request)
 {
     glBindVertexArray(node_array.id());
     glBindBuffer(GL_ARRAY_BUFFER, instances.id());
@@ -436,8 +453,8 @@ void TerrainRenderer::Impl::drawBatches(bool is_hasty)
             continue;
         }
         reliefs.bind(page, GL_TEXTURE0 + Relief,
-                     is_hasty && is_software ? ReliefCache::Mixing::OneLevel
-                                             : ReliefCache::Mixing::TwoLevels);
+                     isCheap(request) ? ReliefCache::Mixing::OneLevel
+                                      : ReliefCache::Mixing::TwoLevels);
         constexpr auto kAll = static_cast<GLsizei>(kQuadrantCount);
         drawInstances(batch.nodes, {.first = 0, .count = kAll * kQuadrantIndices});
         for (std::size_t i = 0; i < kQuadrantCount; ++i) {
@@ -509,6 +526,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
     set("u_last_sample", static_cast<double>(heightfield.columns() - 1) - anchor.column,
         static_cast<double>(heightfield.rows() - 1) - anchor.row);
 
+    setRays(program, request, frame, style.exaggeration);
     set("u_mesh_depth",
         request.detail.has_every_sample
             ? kAllDepths
@@ -568,6 +586,37 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         set(("u_cover_texture" + element).c_str(), to.column_scale, to.row_scale, to.column_offset,
             to.row_offset);
     }
+}
+
+// The rays through the pixels that are drawn, from their lower left corner.
+void TerrainRenderer::Impl::setRays(const GlProgram& program,
+                                    const DrawRequest& request,
+                                    const SceneFrame& frame,
+                                    double exaggeration) const
+{
+    const Viewport drawn = drawnSize(request);
+    const Matrix4 rotation = viewRotation(request.camera);
+    const auto axis = [&rotation](std::size_t row) {
+        return Vec3{rotation(row, 0), rotation(row, 1), rotation(row, 2)};
+    };
+    const double half_height = std::tan(request.camera.field_of_view.radians() / 2.0);
+    const double half_width = half_height * request.viewport.aspect();
+    const std::array<Vec3, 3> rays{axis(0) * -half_width - axis(1) * half_height - axis(2),
+                                   axis(0) * (2.0 * half_width / drawn.width),
+                                   axis(1) * (2.0 * half_height / drawn.height)};
+    std::array<GLfloat, 9> values{};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        values.at(3 * i) = static_cast<GLfloat>(rays.at(i).x);
+        values.at(3 * i + 1) = static_cast<GLfloat>(rays.at(i).y);
+        values.at(3 * i + 2) = static_cast<GLfloat>(rays.at(i).z / exaggeration);
+    }
+    glUniform3fv(program.uniform("u_ray"), 3, values.data());
+    const double determinant =
+        frame.east_per_column * frame.north_per_row - frame.east_per_row * frame.north_per_column;
+    glUniform4f(program.uniform("u_grid"), static_cast<GLfloat>(frame.north_per_row / determinant),
+                static_cast<GLfloat>(-frame.east_per_row / determinant),
+                static_cast<GLfloat>(-frame.north_per_column / determinant),
+                static_cast<GLfloat>(frame.east_per_column / determinant));
 }
 
 // All layers share one depth range, so that their depths can be compared.
@@ -669,10 +718,7 @@ TerrainRenderer::draw(const DrawRequest& request, const DrawStyle& style, unsign
         report.node_count += selections.back().nodes.size();
         report.error_px = std::max(report.error_px, selections.back().error_px);
     }
-    const Viewport drawn{
-        .width = std::max(1, static_cast<int>(std::lround(request.viewport.width * request.scale))),
-        .height =
-            std::max(1, static_cast<int>(std::lround(request.viewport.height * request.scale)))};
+    const Viewport drawn = drawnSize(request);
     const bool is_straight = request.scale == 1.0 && request.samples <= 1 && !request.is_kept;
     MARSVIEW_CHECK(is_straight || !request.part);
     if (is_straight) {

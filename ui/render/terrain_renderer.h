@@ -40,6 +40,8 @@ struct DrawRequest {
     /// Draws this part of the viewport alone, into a target of its size: at scale 1, not kept, with
     /// the samples that the target has.
     std::optional<PixelArea> part{};
+    /// A better picture follows at once: in software, colors are those of the mesh's place.
+    bool is_interim = false;
 };
 
 /// What a picture took and what it shows.

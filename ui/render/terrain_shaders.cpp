@@ -30,6 +30,7 @@ out vec2 v_relief;
 out vec2 v_sample; // relative to the anchor
 flat out float v_layer;
 flat out vec3 v_color_heights;
+flat out float v_relief_per_sample;
 invariant gl_Position;
 
 const float kNodeCells = 32.0;
@@ -82,6 +83,7 @@ void main()
     v_relief = (p.xy - a_place.xy) * a_relief.x + a_relief.yz;
     v_layer = a_relief.w;
     v_color_heights = a_color_heights;
+    v_relief_per_sample = a_relief.x;
     gl_Position = u_clip_from_eye * vec4(fromEye(p), 1.0);
 }
 )";
@@ -194,12 +196,49 @@ float colorHeight(float relief)
     return mix(relief * v_color_heights.x + v_color_heights.y, v_height, own);
 }
 
+// Of ground that is partly void, the mean of the rest.
+vec4 withoutVoids(vec4 relief)
+{
+#ifdef VOIDS
+    relief.rgb /= max(relief.a, 0.5);
+#endif
+    return relief;
+}
+
+#ifdef RAY_CORRECTED
+flat in float v_relief_per_sample;
+uniform vec3 u_ray[3]; // east, north and true height of a ray: [0] + pixel x × [1] + pixel y × [2]
+uniform vec4 u_grid;   // column per east, per north, row per east, per north
+
+const float kFacingMin = 0.1;       // of the sine of the angle between ray and ground
+const float kShiftMax = 6.0 / 272.0; // texels: fewer than a tile's border
+
+// The mesh may be off by a pixel: where that shows other ground, colors are off by far more than a
+// pixel's worth on slopes. A Newton step along the ray from the mesh to the relief, with its slope.
+vec4 reliefOnRay(vec4 relief)
+{
+    vec3 ray = u_ray[0] + gl_FragCoord.x * u_ray[1] + gl_FragCoord.y * u_ray[2];
+    float facing = dot(relief.rg, ray.xy) * u_slope_unit_true - ray.z;
+    float way = (v_height - colorHeight(relief.b)) / max(facing, kFacingMin * length(ray));
+    vec2 shift = vec2(dot(u_grid.xy, ray.xy), dot(u_grid.zw, ray.xy)) * (way * v_relief_per_sample);
+    vec2 place = v_relief + clamp(shift, -kShiftMax, kShiftMax);
+    vec4 met = textureGrad(u_relief, vec3(place, v_layer), dFdx(v_relief), dFdy(v_relief));
+#ifdef VOIDS
+    return met.a < 0.5 ? relief : withoutVoids(met);
+#else
+    return met;
+#endif
+}
+#endif
+
 void main()
 {
-    vec4 relief = texture(u_relief, vec3(v_relief, v_layer));
+    vec4 relief = withoutVoids(texture(u_relief, vec3(v_relief, v_layer)));
 #ifdef VOIDS
     float share = relief.a;
-    relief.rgb /= max(share, 0.5);
+#endif
+#ifdef RAY_CORRECTED
+    relief = reliefOnRay(relief);
 #endif
     vec2 slope = relief.rg;
     float height = colorHeight(relief.b);
@@ -261,10 +300,11 @@ Result<GlProgram> compiledTerrain(const TerrainShaderKey& key)
 {
     const std::string fragment = fmt::format(
         "#version 330 core\n#define RAMP_TEXELS {}.0\n#define HILLSHADE_WHITE {:.4f}\n"
-        "#define MODE {}\n#define COVERS {}\n{}{}{}",
+        "#define MODE {}\n#define COVERS {}\n{}{}{}{}",
         kRampTexels, kHillshadeWhite, static_cast<int>(key.mode), key.cover_count,
-        key.has_contours ? "#define CONTOURS\n" : "", key.has_voids ? "#define VOIDS\n" : "",
-        kTerrainFragment);
+        key.has_contours ? "#define CONTOURS\n" : "",
+        key.is_ray_corrected ? "#define RAY_CORRECTED\n" : "",
+        key.has_voids ? "#define VOIDS\n" : "", kTerrainFragment);
     return GlProgram::create(kTerrainVertex, fragment.c_str());
 }
 

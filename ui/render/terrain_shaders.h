@@ -19,6 +19,9 @@ struct TerrainShaderKey {
     ShadingMode mode = ShadingMode::Tint;
     bool has_contours = false;
     bool has_voids = false;
+    /// Colors and light are those of the point where the ray through the pixel meets the relief
+    /// instead of the mesh.
+    bool is_ray_corrected = false;
     int cover_count = 0; // maps that lie over this one, at most kCoversMax
     auto operator<=>(const TerrainShaderKey&) const = default;
 };

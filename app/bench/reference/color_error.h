@@ -17,6 +17,20 @@ struct ColorError {
     double mean_levels = 0.0;
     double p99_levels = 0.0;
     double max_levels = 0.0;
+    /// Against means only: 99 % of the colors at the centers of the pixels are within this of them.
+    double center_p99_levels = 0.0;
+};
+
+/// What the color of a pixel is compared with.
+enum class ColorReference {
+    Center, // the color of the surface on the ray through the center
+    Mean,   // the mean of those on 4 × 4 rays spread evenly over the pixel
+};
+
+/// Every `stride`-th pixel of every `stride`-th row.
+struct ColorSampling {
+    ColorReference reference = ColorReference::Center;
+    std::size_t stride = 1;
 };
 
 /// The content of a picture in the mode Tint.
@@ -34,14 +48,15 @@ struct ColorPictures {
     std::span<const double> depths_m;    // along the view axis, infinite in the sky
 };
 
-/// Compares colors with those of the ramp at the elevations where the rays through the pixel
-/// centers meet the surface at full resolution, in the light of the picture. Uses every `stride`-th
-/// pixel of every `stride`-th row. Skips pixels in which either shows sky, and those whose light
-/// exceeds a byte. Uses all cores.
+/// Compares colors with those of the ramp at the elevations where rays meet the surface at full
+/// resolution, in the light of the picture. The color at one point represents a pixel if the
+/// surface hardly changes within it. A pixel that covers many samples shows their mean: means are
+/// taken of colors as they are displayed, in sRGB. Skips pixels in which the picture or a ray shows
+/// sky, and those whose light exceeds a byte. Uses all cores.
 ColorError measureColorError(const TintedScene& scene,
                              const OrbitCamera& camera,
                              const Viewport& viewport,
                              const ColorPictures& pictures,
-                             std::size_t stride);
+                             const ColorSampling& sampling);
 
 } // namespace marsview
