@@ -573,7 +573,7 @@ TEST(PluginDriver, ForgetsTheTroubleOfADeviceThatWorkedSince)
     const fs::path file = fs::canonical(folder.add("is_good"));
     LastTrouble(folder.options().marker_folder, "plugin:" + file.string()).set("it was cold");
     PluginDriver driver(folder.options());
-    EXPECT_EQ(only(driver).reason, "the last time it was used: it was cold");
+    EXPECT_EQ(only(driver).reason, "last time it was used: it was cold");
     auto device = driver.open("x.so"); // a different name for the same plugin
     ASSERT_TRUE(device) << device.error().message;
     DeviceSample sample;
