@@ -166,7 +166,7 @@ Status makeLevels(const OpenRaster& raster,
             return there.error(); // what is damaged would be vouched for
         }
         if (there.error().code != ErrorCode::NotFound) {
-            report.notes.push_back(withoutRemedy(there.error().message) + "; it is made anew");
+            report.notes.push_back(withoutRemedy(there.error().message) + "; it is rebuilt");
         }
     }
     const LevelBuild build{
@@ -271,7 +271,7 @@ Status makeFiles(const OpenRaster& raster,
     std::error_code ignored;
     std::filesystem::remove(report.raster_path, ignored);
     report.notes.push_back(
-        fmt::format("{}: was damaged while it was measured; it is made anew", report.raster_path));
+        fmt::format("{}: was damaged while it was measured; it is rebuilt", report.raster_path));
     PrepareJob again = job;
     again.when_there = PrepareJob::WhenThere::Replace;
     Status copied = makeCopy(raster, again, report, monitor);
@@ -362,7 +362,7 @@ prepareMapFiles(const OpenRaster& raster, const PrepareJob& job, JobMonitor& mon
     if (is_raster && report.is_source_used) {
         return what;
     }
-    report.notes = {withoutRemedy(what.message) + "; it is made anew"};
+    report.notes = {withoutRemedy(what.message) + "; it is rebuilt"};
     PrepareJob again = job;
     again.when_there = PrepareJob::WhenThere::Replace;
     // A copy stays where only its levels are damaged.
@@ -412,7 +412,7 @@ prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& moni
     }
     if (damage) {
         folder->forgetDamage(*kept);
-        prepared->notes.insert(prepared->notes.begin(), withoutRemedy(*damage) + "; made anew");
+        prepared->notes.insert(prepared->notes.begin(), withoutRemedy(*damage) + "; rebuilt");
     }
     // Only now, so that nothing is given up for a map that could not be made.
     const std::uint64_t bytes_max =

@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kRestInterval{120};
 
 // The interval at which samples that were requested are looked for.
-constexpr milliseconds kArrivalInterval{40};
+constexpr milliseconds kPointerInterval{40};
 
 // The pointer is read for so long after it moved, in place of the stylus of a device.
 constexpr milliseconds kLeadInterval{2000};
@@ -179,7 +179,7 @@ void TerrainView::readUnderPointer()
     if (!heightfield.isExact(ground->grid)) {
         static_cast<void>(heightfield.height(ground->grid)); // requests it
         if (heightfield.tiles()->isLoading()) {
-            pointer_timer_.start(kArrivalInterval);
+            pointer_timer_.start(kPointerInterval);
             return;
         }
     }

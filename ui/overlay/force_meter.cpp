@@ -2,6 +2,7 @@
 
 #include "core/view/round_numbers.h"
 #include "ui/overlay/overlay_text.h"
+#include "ui/text/number_text.h"
 #include "ui/widgets/plate.h"
 
 #include <QFontMetrics>

@@ -45,7 +45,7 @@ TEST(KeptSource, SaysThatAnotherProgramHasMadeTheMapAnew)
     EXPECT_EQ(source->open().error().message, "x.map.tif.marsview: was made from another raster");
     fs::last_write_time(level_path, fs::last_write_time(level_path) + std::chrono::hours(1));
     EXPECT_EQ(source->open().error().message,
-              "mars.tif: was found damaged and has been prepared anew since it was opened; open it "
+              "mars.tif: was found damaged and has been rebuilt since it was opened; open it "
               "again");
     EXPECT_FALSE(maps.damage(path)) << "the current file is not damaged";
 }

@@ -106,7 +106,7 @@ TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
         noticed_late += is_left ? 1U : 0U;
         const Result<PrepareReport> report = run(job(WhenThere::Check));
         ASSERT_TRUE(report) << report.error().message;
-        EXPECT_THAT(report->notes, Contains(EndsWith(is_left ? "it is made anew"
+        EXPECT_THAT(report->notes, Contains(EndsWith(is_left ? "it is rebuilt"
                                                              : "every tile is as it was then")))
             << share;
         EXPECT_TRUE(test::readFile(out) == whole) << share;
@@ -129,7 +129,7 @@ TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
         overwrite(out, share);
         const Result<PrepareReport> report = run(job(WhenThere::Trust));
         ASSERT_TRUE(report) << report.error().message;
-        EXPECT_THAT(report->notes, Contains(EndsWith("it is made anew"))) << share;
+        EXPECT_THAT(report->notes, Contains(EndsWith("it is rebuilt"))) << share;
         EXPECT_FALSE(report->copy.is_there);
         EXPECT_TRUE(test::readFile(out) == whole) << share;
         const Result<PrepareReport> again = run(job(WhenThere::Check));
@@ -166,7 +166,7 @@ TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
         overwrite(levels, share);
         const Result<PrepareReport> report = run(job(WhenThere::Check));
         ASSERT_TRUE(report) << report.error().message;
-        EXPECT_THAT(report->notes, Contains(EndsWith("it is made anew"))) << share;
+        EXPECT_THAT(report->notes, Contains(EndsWith("it is rebuilt"))) << share;
         // Without the checksums, nothing proves that the copy is undamaged.
         const fs::file_time_type now = fs::last_write_time(folder_.file("out.tif"));
         EXPECT_TRUE(now == copied || share < 0.01 || share > 0.5) << share;

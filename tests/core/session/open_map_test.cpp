@@ -224,7 +224,7 @@ TEST_F(OpenMap, TellsOnceOfNumbersInTheEnvironmentThatAreNone)
         const auto second = openMap({.path = tiff}, resources, monitor);
         ASSERT_TRUE(first && second);
         const auto sentence =
-            HasSubstr(std::string("MARSVIEW_HELD_MB=\"") + text + "\" in the environment is no");
+            HasSubstr(std::string("MARSVIEW_HELD_MB is \"") + text + "\", not a number");
         EXPECT_THAT((*first)->info().notices, testing::Contains(sentence));
         EXPECT_THAT((*second)->info().notices, testing::Not(testing::Contains(sentence)));
     }
@@ -315,7 +315,8 @@ TEST_F(OpenMap, SaysWhyALevelFileBesideTheRasterIsNotUsed)
     const std::vector<std::pair<std::string, std::string>> cases{
         {good.substr(0, 1000), "cut short"},
         {of_another_version, "is of version 9"},
-        {"hello, this is not a level file, whatever it may be called by its name", "is no level"},
+        {"hello, this is not a level file, whatever it may be called by its name",
+         "is not a level file"},
         {"", "has only 0 bytes"}};
     for (const auto& [content, why] : cases) {
         std::ofstream(levels, std::ios::binary) << content;

@@ -298,7 +298,7 @@ TEST_F(OpenHapticsDriverTest, RestsAfterAnErrorOfForcesAndGoesOn)
     hd().frame_error = 0;
     run(1);
     EXPECT_EQ(state.read, DeviceStatus::Unready);
-    EXPECT_THAT(device.trouble(), HasSubstr("warm"));
+    EXPECT_THAT(device.trouble(), HasSubstr("overheated"));
     EXPECT_EQ(hd().enabled_force_output, 0U);
     run(498);
     EXPECT_EQ(state.read, DeviceStatus::Unready);

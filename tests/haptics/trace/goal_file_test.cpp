@@ -48,8 +48,7 @@ TEST(GoalFile, ReadsTheGroundOfARecording)
 
     const auto refused = readGoalRecording(header + "1,2,3" + touch + "felt/x\n", "a.csv");
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message,
-              "a.csv: line 2 has the ground \"felt/x\", which is none that a recording tells of");
+    EXPECT_EQ(refused.error().message, "a.csv: line 2 has the invalid ground \"felt/x\"");
     // A file from an earlier version of the program.
     const auto older = readGoalRecording(
         "x,y,z,map,part,model,radius_m,exaggeration\n1,2,3,1,7,god-object,0.5,2\n", "a.csv");
