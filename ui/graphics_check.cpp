@@ -44,7 +44,7 @@ GraphicsCheck checkGraphics()
     };
     const QString platform = QGuiApplication::platformName();
     if (platform == QStringLiteral("offscreen") || platform == QStringLiteral("minimal")) {
-        // A context may be had there, but a window cannot show what is drawn with it.
+        // A context may exist there, but a window cannot show its pictures.
         return failed(tr("the Qt platform \"%1\" cannot show OpenGL windows; start with a display, "
                          "for example under xvfb-run")
                           .arg(platform));

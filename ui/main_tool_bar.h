@@ -1,4 +1,4 @@
-// The toolbar: what is used all the time.
+// The toolbar with the most frequent actions.
 #pragma once
 
 #include "core/view/exaggeration.h"
@@ -22,7 +22,7 @@ public:
     void showExaggeration(double exaggeration);
     void setExaggerationRange(const ExaggerationRange& range);
     void setExaggerationEnabled(bool is_enabled);
-    /// The button of the light, or the toolbar where it has no room for it.
+    /// The button of the light, or the toolbar if that button is hidden for lack of space.
     const QWidget& lightAnchor() const;
 
 protected:
@@ -39,7 +39,7 @@ Q_SIGNALS:
 private:
     void fitTexts();
 
-    /// Those without a text first, where there is no room for all texts.
+    /// These lose their texts first if the toolbar is too narrow.
     QList<QToolButton*> general_buttons_;
     QList<QToolButton*> special_buttons_; // tools and menus
     QAction* caption_ = nullptr;          // of the exaggeration

@@ -47,9 +47,9 @@ struct WindowOptions {
     /// Size, place, docks, recent files and preferences are taken from, and left for, the next
     /// window; or all of it is as on the first day.
     enum class Geometry { Remembered, Fixed } geometry = Geometry::Remembered;
-    /// Where failures are told besides the signal.
+    /// Where failures are reported besides the signal.
     enum class Failures { InDialogs, BySignalOnly } failures = Failures::InDialogs;
-    /// How maps are read, and what they share where the user prefers nothing else.
+    /// How maps are read, and the resources they share unless preferences override them.
     MapOpener opener{};
     /// Of haptic devices; empty for those that come with the program.
     DriverMaker make_drivers{};
@@ -70,7 +70,7 @@ public:
     void open(const QString& file);
     /// As a map to look at until the user opens one.
     void openSample(const QString& file);
-    /// Stops what is loading.
+    /// Cancels the load in progress.
     void cancelLoading();
     /// Asks for files, then opens them.
     void chooseFile();

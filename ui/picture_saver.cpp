@@ -57,7 +57,7 @@ void PictureSaver::start(const QString& name)
     const Viewport size = view_.viewport();
     PictureLimits limits;
     limits.side_max = std::max(view_.pictureSideMax(), std::max(size.width, size.height));
-    // Of what is seen now: a device may move the map while the dialog is open.
+    // The current camera: a device may move the map while the dialog is open.
     const OrbitCamera camera = view_.camera();
     auto* dialog = new SavePictureDialog({size.width, size.height}, limits, window_);
     dialog->setAttribute(Qt::WA_DeleteOnClose);

@@ -12,8 +12,8 @@ namespace marsview {
 QPalette lightPalette();
 QPalette darkPalette();
 
-/// Gives the whole application a theme, at once. System goes by the palette that the desktop gave
-/// the application at its start: Qt 6.4 tells no more.
+/// Applies a theme to the whole application immediately. System uses the desktop's palette at
+/// application start, because Qt 6.4 does not report later changes.
 void applyTheme(Theme theme);
 
 } // namespace marsview

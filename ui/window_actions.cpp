@@ -79,7 +79,7 @@ struct StretchAction {
 
 constexpr std::array kStretchActions{
     StretchAction{StretchKind::Automatic,
-                  //: A color stretch: what is cut off at either end of the elevations
+                  //: A color stretch: ignores the rarest elevations at either end
                   QT_TRANSLATE_NOOP("WindowActions", "&Automatic"),
                   QT_TRANSLATE_NOOP("WindowActions",
                                     "Spread the color ramp over all but the rarest half percent of "
@@ -146,7 +146,7 @@ void WindowActions::makeFileMenu(QMainWindow& window)
     open_folder->setToolTip(tr("Open the adjoining rasters in a folder as one map"));
     open_address = menu->addAction(tr("Open &Address…"));
     open_address->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_U));
-    open_address->setToolTip(tr("Open a cloud-optimised GeoTIFF on a server"));
+    open_address->setToolTip(tr("Open a cloud-optimized GeoTIFF on a server"));
     recent = menu->addMenu(tr("Open &Recent"));
     menu->addSeparator();
     save_picture = menu->addAction(tr("Save &Picture…"));

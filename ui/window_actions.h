@@ -1,4 +1,4 @@
-// Everything that the window can be told to do, and the menus that offer it.
+// All actions of the window, and its menus.
 #pragma once
 
 #include "core/contact/contact_model.h"
@@ -18,8 +18,8 @@ class QWidget;
 
 namespace marsview {
 
-/// The actions with their texts, keys and hints, and the menus. What they do is connected by the
-/// window. Owned by the window.
+/// The actions with their texts, keys and hints, and the menus. The window owns them and connects
+/// them to its functions.
 struct WindowActions {
     /// Makes actions and menu bar. Keys for moving act while `map` has the focus, those for layers
     /// while their list has it, so that fields keep their arrows and letters.

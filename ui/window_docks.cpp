@@ -132,7 +132,7 @@ void WindowDocks::fit()
 
 void WindowDocks::save(QSettings& settings)
 {
-    // What is only folded is open.
+    // A folded panel counts as open.
     const QScopedValueRollback fitting(is_fitting_, true);
     for (Dock* dock : all()) {
         fold(*dock, false);

@@ -1,4 +1,4 @@
-// The panels beside the map, and how much width they may take.
+// The panels next to the map, and the width they may take.
 #pragma once
 
 #include <QObject>
@@ -19,10 +19,10 @@ struct DockContents {
     QWidget* haptics = nullptr;
 };
 
-/// Datasets on the left; georeferencing, and behind it in tabs haptics, which is closed at first,
-/// on the right. Docked panels leave two thirds of the width
-/// to the map and are never too narrow to be read: where there is no room for all they make way,
-/// first the one that was asked for longest ago, and come back with the room.
+/// Layers on the left; georeferencing on the right, with haptics as a second tab, closed at first.
+/// Docked panels leave two thirds of the width to the map and never become too narrow to read. In a
+/// narrow window, panels are hidden, the least recently requested first; they return when the
+/// window is wide enough.
 class WindowDocks final : public QObject {
     Q_OBJECT
 

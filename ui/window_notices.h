@@ -1,5 +1,5 @@
-// The notices of the window: what is reported about the active layer, the picture and the haptic
-// device, with the buttons that go with it.
+// The notices of the window about the active layer, the picture and the haptic device, with their
+// buttons.
 #pragma once
 
 #include "ui/widgets/notice.h"
@@ -27,8 +27,8 @@ struct NoticeCommands {
     std::function<void()> save_diagnostic_log;
 };
 
-/// Collects the notices and gives them to the center. GUI thread; must not outlive what it is made
-/// from.
+/// Collects the notices and passes them to the center. GUI thread; must not outlive its constructor
+/// arguments.
 class WindowNotices final : public QObject {
     Q_OBJECT
 
@@ -44,7 +44,7 @@ public:
 
     WindowNotices(Parts parts, NoticeCommands commands, QObject* parent = nullptr);
 
-    /// To be called when anything of what is reported may have changed. Cheap if nothing did.
+    /// Call when the reported state may have changed. Cheap if nothing did.
     void update();
 
 private:

@@ -113,7 +113,7 @@ TerrainView::TerrainView(QWidget* parent)
 TerrainView::~TerrainView()
 {
     if (context() != nullptr) {
-        // The base class destroys the context when nothing of this class is left to be told.
+        // The base class destroys the context after this class's members are gone.
         disconnect(context(), nullptr, this, nullptr);
     }
     releaseGraphics();
@@ -137,7 +137,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
     if (map_ && is_other_map) {
         rememberSight();
     }
-    // What is seen of a preview is seen of its map, whatever would suit that better.
+    // A map that replaces its preview keeps the preview's view, even if another would suit it.
     const bool is_suited =
         map_ && !is_completed && style_.exaggeration == suitableExaggeration(*map_);
     const double exaggeration_before = style_.exaggeration;
@@ -158,7 +158,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
     if (is_other_place) {
         sight = sightToGoOnWith(before);
     } else if (map_ && is_suited) {
-        // The same place may have other heights now, as when its voids were told of.
+        // The heights may have changed, as when the user sets the nodata value.
         const double suitable = suitableExaggeration(*map_);
         sight = Sight{.map = map_,
                       .camera = reexaggerated(navigator_.goal(), style_.exaggeration, suitable),
@@ -179,7 +179,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
         style_.exaggeration = *exaggeration;
     }
     if (isCompletionOf(before, ground_)) {
-        releaseTouch(); // what is pressed into is no more
+        releaseTouch(); // its surface is gone
     }
     // Before the camera moves, which aims the stylus.
     stylus_.setGround(ground_, style_.exaggeration);
@@ -339,9 +339,9 @@ void TerrainView::step(NavigationStep step)
     navigator_.moveTo(camera, kKeyDuration);
 }
 
-// What is steered by is looked for where a motion or a turn begins, and while it goes nearer. In a
-// view along the ground the middle of the picture leaps from ridge to ridge: a speed and a pivot
-// that went with it in each frame would leap, too.
+// The reference point is found where a motion or a turn begins, and while the camera approaches. In
+// a grazing view the center of the picture jumps from ridge to ridge: a speed and a pivot found
+// again in each frame would jump, too.
 void TerrainView::steer(const CapRates& rates, double seconds)
 {
     if (ground_.isEmpty() || !doesSteer(rates)) {

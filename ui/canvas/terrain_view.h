@@ -50,27 +50,26 @@ public:
     explicit TerrainView(QWidget* parent = nullptr);
     ~TerrainView() override;
 
-    /// Puts these layers in place of those shown, top first; none for an empty view. All lie in one
-    /// CRS. What is in sight stays there if one of its maps does, or a preview of it did, and a map
-    /// that was shown before is seen as it was left; otherwise the camera goes to the new one's
-    /// opening view. mapShown() follows. Without an exaggeration the view chooses one: that of what
-    /// stays in sight, the one a map was left with, or the one that suits a new map.
+    /// Replaces the layers shown, top first; none for an empty view. All have one CRS. The camera
+    /// stays if one of the maps in sight, or the map of a preview in sight, is among the new
+    /// layers. A map that was shown before gets its last view, a new one its opening view.
+    /// mapShown() follows. Without an exaggeration the view chooses one: the current one if the
+    /// camera stays, the map's last one, or the one that suits a new map.
     void setLayers(const std::vector<ShownLayer>& top_first,
                    std::optional<double> exaggeration = std::nullopt);
     /// As they were set, top first.
     const std::vector<ShownLayer>& shownLayers() const noexcept { return shown_; }
-    /// `map` is going to be shown in place of `preview`: it is seen as that was left. To be told
-    /// before setLayers().
+    /// `map` is about to replace `preview` and takes over its view. Call before setLayers().
     void replacePreview(const std::shared_ptr<const Map>& preview,
                         const std::shared_ptr<const Map>& map);
     /// The topmost map shown; none where there is none.
     const std::shared_ptr<const Map>& map() const noexcept { return map_; }
-    /// Its colours; null where there is no map.
+    /// Its color ramp; null without a map.
     const ColorRamp* ramp() const noexcept { return ramp_; }
     /// Everything that is shown.
     const SceneSurface& ground() const noexcept { return ground_; }
 
-    /// What is said in the middle while nothing is shown; empty: how to open a map.
+    /// The text in the middle of an empty view; if empty, how to open a map.
     void setHint(const QString& hint);
     void setLook(const TerrainLook& look);
     const TerrainLook& look() const noexcept { return style_.look; }
@@ -152,8 +151,8 @@ public:
     const std::optional<StylusPose>& stylus() const noexcept { return stylus_.pose(); }
     /// Where a haptic device has its stylus; nothing for none.
     void showDevice(const std::optional<StylusPose>& pose);
-    /// What is drawn: a device's stylus, unless the mouse presses or grabs with the Touch tool;
-    /// the mouse's with the Touch tool only.
+    /// The stylus drawn: the device's, unless the mouse presses or grabs with the Touch tool. The
+    /// mouse has a stylus with the Touch tool only.
     const std::optional<StylusPose>& shownStylus() const noexcept;
     /// The picture of the terrain alone, without cursor.
     QImage terrainPicture();
@@ -181,7 +180,7 @@ Q_SIGNALS:
     void exaggerationChanged(double exaggeration);
     /// Camera or size of the picture changed.
     void sightChanged();
-    /// The screen-space error of what is drawn, in pixels.
+    /// The screen-space error of the picture, in pixels.
     void detailChanged(double pixels);
     /// Whether pieces that the picture at rest lacks are on their way.
     void loadingChanged(bool is_loading);
@@ -191,7 +190,7 @@ Q_SIGNALS:
     void stylusMoved();
     /// isCrosshairShown() changed.
     void crosshairChanged(bool is_shown);
-    /// The key that grabs is held, or is no more.
+    /// The grab key was pressed or released.
     void grabbingChanged(bool is_grabbing);
     void toolChanged(Tool tool);
     /// A gesture of the mouse moved the camera or the stylus, or asked for the menu.
@@ -281,8 +280,8 @@ private:
     SceneSurface ground_;
     std::vector<TerrainLayer> layers_;
     bool are_layers_sent_ = true;
-    std::vector<Sight> sights_;       // of maps that somebody still holds
-    bool is_at_opening_view_ = false; // nobody has moved since
+    std::vector<Sight> sights_;       // of maps that are still alive
+    bool is_at_opening_view_ = false; // the camera has not moved since
 
     PictureStage stage_ = PictureStage::Moving;
     bool is_terrain_current_ = false; // the picture that was kept is of now

@@ -264,7 +264,7 @@ const std::optional<StylusPose>& TerrainView::shownStylus() const noexcept
     return device_ && !is_mouse_at_work ? device_ : mouse;
 }
 
-// The scene point under a position: on the surface, or else where `camera` finds one beside it.
+// The scene point under a position: on the surface, or else where `camera` places one off the map.
 ScenePoint TerrainView::anchorAt(QPointF position, const OrbitCamera& camera) const
 {
     const Ray ray = pickRay(navigator_.camera(), viewport(), pixelAt(position));
@@ -313,7 +313,7 @@ void TerrainView::moveStylus()
         stylus_.aim(*ground, buttons_,
                     metresPerPixel(navigator_.camera(), viewport(), at) * devicePixelRatioF());
         if (!was_panning && stylus_.pose()->mode == StylusMode::Pan) {
-            grabbed_z_m_ = at.z; // what is under the pointer stays under it
+            grabbed_z_m_ = at.z; // the grabbed point stays under the pointer
         }
     } else if (!buttons_.is_pressing && !buttons_.is_grabbing) {
         stylus_.lift();

@@ -36,7 +36,7 @@ QImage TerrainView::terrainPicture()
     is_cursor_shown_ = false;
     QImage picture = grabFramebuffer();
     is_cursor_shown_ = true;
-    update(); // what was grabbed may come on screen
+    update(); // the grabbed frame, without the cursor, may reach the screen
     return picture;
 }
 
@@ -47,8 +47,7 @@ Result<bool> TerrainView::drawPart(const OrbitCamera& camera,
 {
     if (!renderer_) {
         return Error{ErrorCode::Unsupported,
-                     "there is no graphics context to draw a picture with; install the graphics "
-                     "driver"};
+                     "cannot draw a picture: no graphics context; install the graphics driver"};
     }
     makeCurrent();
     if (!std::exchange(are_layers_sent_, true)) {
@@ -173,7 +172,7 @@ void TerrainView::paintTerrain()
     is_terrain_current_ = true;
     this->report(report);
     if (stage_ == PictureStage::Moving) {
-        if (!still_timer_.isActive()) { // news of shading is no motion
+        if (!still_timer_.isActive()) { // new shading is not a motion
             still_timer_.start(kStillAfter);
         }
     } else if (report.is_complete) {
@@ -199,7 +198,7 @@ void TerrainView::report(const DrawReport& report)
             this,
             [this] {
                 Q_EMIT problemChanged(problem_);
-                reportPointer(); // what is under it may have come, too
+                reportPointer(); // the tile under it may have arrived, too
             },
             Qt::QueuedConnection);
     }
@@ -278,7 +277,7 @@ PixelArea TerrainView::areaOf(const CursorPicture& cursor) const
             .height = std::max(0, inside(size.height - std::floor(top), size.height) - first_row)};
 }
 
-// Something of the picture changed: first what is ready in time.
+// The picture changed: first draws the detail that is ready within the frame time.
 void TerrainView::redrawTerrain()
 {
     stage_ = PictureStage::Moving;

@@ -26,7 +26,7 @@ std::int64_t nowNs()
 
 struct ContactSounds::Opening {
     std::mutex mutex;
-    ContactSounds* owner = nullptr; // null once nobody waits any more
+    ContactSounds* owner = nullptr; // null once the owner is destroyed
 };
 
 ContactSounds::ContactSounds(TerrainView& view, OpenPlayer open, QObject* parent)
@@ -72,7 +72,7 @@ void ContactSounds::setOn(bool is_on)
     Q_EMIT onChanged(is_on);
 }
 
-// Finding out that there is no output may take a second.
+// Detecting that no output exists may take a second.
 void ContactSounds::open()
 {
     if (opening_) {

@@ -34,7 +34,7 @@ public:
     bool isOn() const noexcept { return is_on_; }
     /// The output is open.
     bool isReady() const noexcept { return player_.has_value(); }
-    /// What was asked to be played last.
+    /// The last sound requested.
     const SoundState& sound() const noexcept { return sound_; }
     /// Null until it is open: for tests with an output into memory.
     SoundPlayer* player() noexcept { return player_ ? &*player_ : nullptr; }
@@ -43,7 +43,7 @@ Q_SIGNALS:
     void onChanged(bool is_on);
     /// The output is open.
     void opened();
-    /// There is no output, for the reason in the sentence. It is off again.
+    /// No output is available; `why` is a sentence. Sound is off again.
     void failed(const QString& why);
 
 private:

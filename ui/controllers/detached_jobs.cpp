@@ -34,7 +34,7 @@ void DetachedJobs::run(Job job)
         {
             const std::lock_guard one_at_a_time(outlet->running_);
             job(outlet);
-            job = nullptr; // what it holds goes before the owner may
+            job = nullptr; // releases its captures before the owner can be destroyed
         }
         const std::lock_guard lock(outlet->mutex_);
         --outlet->jobs_;

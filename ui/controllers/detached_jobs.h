@@ -1,4 +1,4 @@
-// Work that may never end, on threads that nobody waits for.
+// Work that may never end, on detached threads.
 #pragma once
 
 #include <QObject>
@@ -11,9 +11,9 @@
 
 namespace marsview {
 
-/// Jobs of one object, each on a thread of its own, one after the other. Made, used and destroyed
-/// in the owner's thread; where a job hangs while the owner goes it is left alone, and what it has
-/// to tell goes nowhere. So a job must not touch the owner, nor anything else that may be gone.
+/// Jobs of one object, each on its own thread, one after the other. Created, used and destroyed in
+/// the owner's thread. A job that hangs while the owner is destroyed keeps running, and its results
+/// are discarded. So a job must not access the owner, nor anything else that may be destroyed.
 class DetachedJobs {
 public:
     /// The way back to the owner; copies of the pointer live as long as they like.

@@ -55,7 +55,7 @@ void DeviceFinder::open(const QString& uri)
 {
     jobs_.run([this, drivers = drivers_, uri = uri.toStdString(),
                number = ++opening_](const auto& outlet) {
-        // Shared, as what is posted is copied; a device that nobody takes is closed with it.
+        // Shared because posted functors are copied; a device that is not taken is closed with it.
         auto device = std::make_shared<std::unique_ptr<HapticDevice>>();
         QString problem;
         bool is_absent = false;

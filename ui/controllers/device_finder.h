@@ -31,16 +31,16 @@ public:
     bool isFinding() const noexcept { return is_finding_; }
     /// opened() or refused() follows, unless cancelled or another one is opened meanwhile.
     void open(const QString& uri);
-    /// What is being opened is closed as soon as it is there.
+    /// A device that is being opened is closed as soon as it is open.
     void cancelOpening() { ++opening_; }
 
-    /// The device that opened() told of; null where it was taken.
+    /// The device that opened() announced; null if it was taken.
     std::unique_ptr<HapticDevice> takeOpened() { return std::move(opened_); }
 
 Q_SIGNALS:
     void found(const std::vector<FoundDevice>& devices);
     void opened();
-    /// "URI: WHY", and whether that is because there is no such device at present.
+    /// "URI: WHY", and whether the reason is that the device is not connected.
     void refused(const QString& problem, bool is_absent);
 
 private:

@@ -307,7 +307,7 @@ void HapticsController::poll()
     const LoopState state = loop_->state();
     LoopEvent event;
     while (loop_->nextEvent(event)) {
-        // What they tell is in the state as well; they are only kept from filling up.
+        // The state has the same information; reading empties the queue.
     }
     if (loop_->hasEnded()) {
         finishLost(state);
@@ -328,7 +328,7 @@ void HapticsController::finishLost(const LoopState& state)
     const std::string trouble = loop_->trouble();
     const QString uri = lastingUri(uri_);
     close();
-    const bool is_replay = isPlayedBack(uri); // which may end while everything is let go of
+    const bool is_replay = isPlayedBack(uri); // may end while the force is off
     if (state.reason == ForceOffReason::DeviceFinished || (is_replay && trouble.empty())) {
         replay_uri_ = uri;
         Q_EMIT replayEnded(QString::fromStdString(replayedFile(uri.toStdString())));
@@ -349,7 +349,7 @@ void HapticsController::finishLost(const LoopState& state)
     setLooking(is_looking_);
 }
 
-// A recording is over: what it took the place of, if anything, is connected again.
+// A recording has ended: the device that it replaced, if any, is connected again.
 void HapticsController::resumeInterrupted(const QString& problem)
 {
     if (!interrupted_uri_.isEmpty()) {
@@ -483,7 +483,7 @@ Status HapticsController::startRecording(const QString& file)
     return Done{};
 }
 
-// What a recording must not be written over: the maps that are open, and what is replayed.
+// A recording must not overwrite the open maps or the recording that is replayed.
 Status HapticsController::checkWritable(const QString& file) const
 {
     FilesInUse files{.maps = {}, .read = {}, .written = {file.toStdString()}};
@@ -539,7 +539,7 @@ void HapticsController::takeGround()
     checkReplay();
 }
 
-// Whether the recording goes with the maps that are there now.
+// Whether the recording matches the current maps.
 void HapticsController::checkReplay()
 {
     replay_fit_.reset();
@@ -598,11 +598,11 @@ void HapticsController::setMap(std::size_t index)
     push();
 }
 
-// The same map otherwise: the hand goes on where it is.
+// The map is the same; the HIP continues at its position.
 void HapticsController::makeMapAgain()
 {
     if (hand_map_) {
-        loop_settings_.map = hand_map_->make(model_, exaggeration_); // a recording goes on with it
+        loop_settings_.map = hand_map_->make(model_, exaggeration_); // recordings continue
     }
 }
 
@@ -632,7 +632,7 @@ void HapticsController::chooseMap(const LoopState& state)
     }
 }
 
-// Others have moved the camera: the hand reaches what is seen now.
+// The user or a flight moved the camera: the workspace is mapped to the visible area again.
 void HapticsController::takeSight()
 {
     if (!loop_ || is_following_ || view_.ground().isEmpty()) {
@@ -647,7 +647,7 @@ void HapticsController::takeSight()
     push();
 }
 
-// Where a simulated hand stays in the picture; where it sees no terrain it strokes on as before.
+// Keeps the strokes of a simulated hand within the picture; without terrain in sight they stay.
 void HapticsController::takeStrokes()
 {
     if (!isSimulated(uri_)) {
@@ -660,8 +660,8 @@ void HapticsController::takeStrokes()
     }
 }
 
-// The hand has moved the map: the camera moves along, as far as it may, and where it may not the
-// hand's map comes back to it.
+// The device has moved the map: the camera follows within its limits, and beyond them the device's
+// frame returns to the camera.
 void HapticsController::followHand(const LoopState& state)
 {
     if (state.frame_number != loop_settings_.frame_number || state.frame == hand_view_.frame) {
@@ -696,7 +696,7 @@ void HapticsController::showHand(const LoopState& state)
                                 .force_n_max = loop_->device().force_n_peak});
 }
 
-// A recording tells where the hand was, but not what was seen of the map.
+// A recording contains the device's positions, but not the camera.
 void HapticsController::keepReplayInPicture(const LoopState& state)
 {
     const bool is_user_moving = view_.isMoving() || QGuiApplication::mouseButtons() != Qt::NoButton;
@@ -710,7 +710,7 @@ void HapticsController::keepReplayInPicture(const LoopState& state)
     }
 }
 
-// Unless somebody has moved the camera since the replay did: then they look where they want to.
+// Unless the user has moved the camera since the replay did: then it stays.
 void HapticsController::returnCamera()
 {
     if (excursion_ && excursion_->sent_to == view_.cameraGoal()) {

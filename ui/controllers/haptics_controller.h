@@ -29,43 +29,44 @@ class TerrainView;
 
 enum class HapticsConnection { None, Opening, Connected };
 
-/// Connects one device at a time and lets it touch what the view shows: the device reaches what is
-/// in sight, and a hand that pulls, zooms or turns the map moves the view's camera. The servo loop
-/// runs while a device is connected and a map is shown. Lives in the GUI thread, which waits for a
-/// device only while its force fades out, some milliseconds; must not outlive the view.
+/// Connects one device at a time and maps its workspace to the visible terrain. A device that pans,
+/// zooms or turns the map moves the view's camera. The servo loop runs while a device is connected
+/// and a map is shown. GUI thread, which waits for a device only during its force ramp-down, some
+/// milliseconds; must not outlive the view.
 class HapticsController final : public QObject {
     Q_OBJECT
 
 public:
     HapticsController(TerrainView& view, DriverMaker make_drivers, QObject* parent = nullptr);
-    /// Without a word: nothing is told any more.
+    /// Emits no signals.
     ~HapticsController() override;
 
     // Devices.
 
-    /// What was found last, usable ones first, without what has no place in a window; see
+    /// The devices found last, usable ones first, without those only for the command line; see
     /// devicesChanged().
     const std::vector<FoundDevice>& devices() const noexcept { return devices_; }
     void findDevices();
     bool isFinding() const noexcept { return finder_->isFinding(); }
-    /// Looks for devices every few seconds while nothing is connected, and connects anew to one
-    /// that was lost and is there again.
+    /// Searches for devices every few seconds while none is connected, and reconnects to one that
+    /// was lost and is found again.
     void setLooking(bool is_looking);
-    /// Tells the files of all maps that are open, shown or not: nothing is recorded over them.
+    /// `paths` returns the files of all open maps, shown or not; recordings never overwrite them.
     void setMapsInUse(std::function<std::vector<std::string>()> paths)
     {
         maps_in_use_ = std::move(paths);
     }
 
-    /// In place of what is connected. Where that is a device and `uri` a recording, the device is
+    /// Replaces the current connection. If that is a device and `uri` a recording, the device is
     /// connected again when the recording has ended.
     void connectTo(const QString& uri);
-    /// The device of the settings. Where it is not there nobody is bothered; it is connected when
-    /// it is found.
+    /// Connects to the device of the settings. If it is missing, no notice appears; it is connected
+    /// when it is found.
     void connectToRemembered();
-    /// Instead: tells that the program ended unexpectedly while it was connected.
+    /// Instead of connectToRemembered(): reports that the program ended unexpectedly while that
+    /// device was connected.
     void holdBackRemembered();
-    /// And forgets it; the end of a recording that is replayed makes no device forgotten.
+    /// Also removes the device from the settings, unless a recording is replayed.
     void disconnectDevice();
     /// The same, but it is connected again at the next start.
     void close();
@@ -74,12 +75,13 @@ public:
     bool isReplaying() const;
     /// How much of it has been played back, 0 to 1.
     double replayedShare() const { return loop_ ? loop_->playedShare() : 0.0; }
-    /// Ends the replay. The device whose place it took is connected again, and the camera returns
-    /// as at the recording's own end. Does nothing unless isReplaying().
+    /// Ends the replay. The device that it replaced is connected again, and the camera returns as
+    /// at the end of the recording. Does nothing unless isReplaying().
     void stopReplay();
-    /// Whether it is an arm that can be told where it is.
+    /// Whether the device is calibrated by setting its home position.
     bool canBeSetAtRest() const;
-    /// Connects it anew: it is in its rest position now. Somebody stands beside it and sees that.
+    /// Reconnects the device and takes its current position as the home position. The user must
+    /// have placed it there.
     void setAtRest();
     /// The recording that was replayed to its end last, until something else is connected than the
     /// device whose place it took; empty for none.
@@ -88,28 +90,27 @@ public:
     void replayAgain();
     /// Of what is connected or being opened.
     const QString& uri() const noexcept { return uri_; }
-    /// Nothing unless connected.
+    /// Null unless connected.
     const ServoLoop* loop() const noexcept { return loop_.get(); }
-    /// Why the last device or recording was refused, or is no longer connected, or what does not
-    /// suit a recording that is replayed; empty where all is well. Sentences for people.
+    /// Why the last device or recording was refused or disconnected, or why a replayed recording
+    /// does not match the maps. Sentences for people; empty without a problem.
     const QString& problem() const noexcept { return problem_; }
-    /// The same, but empty where it can wait until somebody looks for it.
+    /// The same, but empty if only the panel should show it.
     QString notice() const { return is_quiet_ ? QString() : problem_; }
 
-    // What is felt.
+    // Forces.
 
     const HapticsSettings& settings() const noexcept { return settings_; }
     /// Takes effect with the next tick. The device in it is only remembered, see connectTo().
     void setSettings(const HapticsSettings& settings);
-    /// What the device that is connected stands; kStiffnessMax where there is none.
+    /// The largest stiffness that the connected device renders; kStiffnessMax without a device.
     double stiffnessMax() const;
     void setContactModel(ContactModelKind kind);
 
-    /// Lets go of everything with the next tick, until it is taken back; also for devices that are
-    /// connected later.
+    /// Disables the force from the next tick until called with false; also for devices connected
+    /// later.
     void setStopped(bool is_stopped);
-    /// Whether there is something to be stopped: a device that is connected, is being opened, or
-    /// will be as soon as it is there.
+    /// Whether a device is connected, is being opened, or will be connected when it is found.
     bool canBeStopped() const noexcept
     {
         return connection_ != HapticsConnection::None || !wanted_uri_.isEmpty();
@@ -118,23 +119,23 @@ public:
 
     // Recording.
 
-    /// Of what is touched from now on, also in the middle of a touch, until the map, its
-    /// exaggeration or the contact model is another, or the device is disconnected. Needs a loop
-    /// that runs; recordingFailed() follows where it cannot begin. The file begins with the first
-    /// update of a contact model of its own, so that `trace --goals` gives the same proxies to the
-    /// bit; the hand feels nothing of the change.
+    /// Records from now on, also in the middle of a touch, until the map, its exaggeration or the
+    /// contact model changes, or the device is disconnected. Needs a running loop;
+    /// recordingFailed() follows if the recording cannot begin. The file begins with the first
+    /// update of a new contact model, so that `trace --goals` reproduces the proxies bit for bit;
+    /// the force is continuous.
     Status startRecording(const QString& file);
     void stopRecording(RecordingEnd end = RecordingEnd::AsWanted);
     bool isRecording() const noexcept { return recorder_ != nullptr; }
     const QString& recordingFile() const noexcept { return recording_file_; }
     bool canRecord() const noexcept { return loop_ != nullptr && loop_->isRunning(); }
 
-    // The last seconds, whatever happened in them.
+    // The diagnostic log of the last seconds.
 
     /// Whether lastTicks() has any, or will in a moment.
     bool hasTicks() const;
-    /// The last ten seconds or so of the device that is connected, or else was; where it was lost
-    /// and came back, after those of before. Takes a millisecond or two.
+    /// About the last ten seconds of the device that is, or was, connected. After a reconnection
+    /// they follow those of the earlier connection. Takes 1 to 2 ms.
     std::vector<TickRecord> lastTicks() const;
     /// On another thread; ticksSaved() or savingFailed() follows.
     void saveTicks(std::vector<TickRecord> ticks, const QString& file);
@@ -195,7 +196,7 @@ private:
     std::function<std::vector<std::string>()> maps_in_use_;
     DeviceFinder* finder_ = nullptr;
     std::vector<FoundDevice> devices_;
-    QTimer look_timer_; // runs only while nothing is connected and somebody looks
+    QTimer look_timer_; // runs only while no device is connected and is_looking_
     bool is_looking_ = false;
     QString wanted_uri_;                  // of a device that was lost
     QString interrupted_uri_;             // of one that a recording has taken the place of
@@ -208,7 +209,7 @@ private:
     HapticsConnection connection_ = HapticsConnection::None;
     QString uri_;
     QString problem_;
-    bool is_quiet_ = false; // nobody has asked for the device this time
+    bool is_quiet_ = false; // the user has not requested this device in this run
     HapticsSettings settings_;
     ContactModelKind model_ = kContactModelDefault;
     bool is_stopped_ = false;

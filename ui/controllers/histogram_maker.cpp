@@ -14,7 +14,7 @@ HistogramMaker::~HistogramMaker()
 {
     monitor_.cancel();
     pool_.clear();
-    pool_.waitForDone(); // what it posted goes with this object
+    pool_.waitForDone(); // posted results are discarded with this object
 }
 
 std::shared_ptr<const HeightHistogram> HistogramMaker::find(const std::shared_ptr<const Map>& map)

@@ -22,7 +22,7 @@ public:
     explicit HistogramMaker(QObject* parent = nullptr);
     ~HistogramMaker() override;
 
-    /// Null while it is being counted; made() tells when it is there.
+    /// Null while it is being counted; made() follows.
     std::shared_ptr<const HeightHistogram> find(const std::shared_ptr<const Map>& map);
 
 Q_SIGNALS:

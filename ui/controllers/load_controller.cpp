@@ -36,7 +36,8 @@ LoadController::~LoadController()
     if (job_) {
         job_->monitor.cancel();
     }
-    // Jobs post to this object: none may be left when it goes. What they posted goes with it.
+    // Jobs post to this object, so all must end before it is destroyed. Posted results are
+    // discarded with it.
     pool_.waitForDone();
 }
 

@@ -36,8 +36,8 @@ struct Preferences {
 
 /// Defaults for whatever is missing or makes no sense.
 Preferences preferencesFrom(const QSettings& settings);
-/// What maps share: `standard`, and what is preferred in its place. What the environment says goes
-/// before preferences.
+/// The resources that maps share: `standard`, overridden by preferences, which are overridden by
+/// environment variables.
 MapResources resourcesFor(const MapResources& standard, const Preferences& preferences);
 /// How many bytes tiles from servers may take on disk.
 std::uint64_t fetchedBytesMax(const Preferences& preferences);

@@ -125,7 +125,7 @@ void RecentFiles::fillMenu()
     for (auto file = ordered.begin(); file != ordered.end(); ++file) {
         const QString name = isolated(withoutMnemonics(names[file - ordered.begin()]));
         QAction* action = menu_.addAction(
-            //: In the list of recent files: %1 is a file that is no longer there
+            //: In the list of recent files: %1 is a file that no longer exists
             file < gone ? name : tr("%1 (missing)").arg(name), this,
             [this, path = *file] { Q_EMIT chosen(path); });
         action->setToolTip(isAddress(*file) ? *file : QDir::toNativeSeparators(*file));

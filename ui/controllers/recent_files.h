@@ -11,9 +11,8 @@ namespace marsview {
 /// Whether a name is an address (https://…), which is opened as it is.
 bool isAddress(const QString& file);
 
-/// What a list shows for each of these files or addresses: its name, and for names that occur more
-/// than once the last folders of its path, as many as it takes to tell the files apart:
-/// "dem.tif — mars/".
+/// The text of each file or address in a list: its name, and for names that occur more than once
+/// as many of the last folders of its path as distinguish the files: "dem.tif — mars/".
 QStringList namesFor(const QStringList& files);
 
 /// Remembers ten files or addresses, the last opened first, for this and for later windows. Files

@@ -41,7 +41,7 @@ GridPoint placeOn(const Map& map, double column_share, double row_share)
             row_share * static_cast<double>(map.heightfield().rows() - 1)};
 }
 
-// With a layer in the picture: on top if it cannot be shown together with what is shown now.
+// With a layer in the picture: on top if it cannot be shown together with the current layers.
 Session shownIn(const Session& session, LayerId id)
 {
     Session after = withVisibility(session, id, true);

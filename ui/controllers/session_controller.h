@@ -120,7 +120,7 @@ public:
     void setExaggeration(double exaggeration, ChangeKind kind = ChangeKind::Single);
     /// The next round number above, or below for steps < 0.
     void stepExaggeration(int steps);
-    /// What is dragged next is a step of undo of its own.
+    /// Ends merging: the next drag is a separate undo step.
     void endDrag();
     void setShading(ShadingMode mode);
     void setContours(bool has_contours);

@@ -27,7 +27,7 @@ CapRates capOf(const SpaceMouseRates& rates)
     return {.push = rates.push, .turn = rates.turn};
 }
 
-// The first that is not somebody else's or out of bounds; null where there is none.
+// The first device that can be opened; null if there is none.
 std::unique_ptr<SpaceMouse> openFirst(const HidApi& api, const std::function<void()>& notify)
 {
     for (const FoundDevice& found : SpaceMouse::find(api)) {
@@ -73,7 +73,7 @@ void SpaceMouseController::look()
     const HidApi& api = options_.api != nullptr ? *options_.api : systemHidApi();
     jobs_.run([this, &api](const auto& outlet) {
         const auto notify = [this, outlet] { outlet->post([this] { wake(); }); };
-        // Shared, as what is posted is copied; a mouse that nobody takes is closed with it.
+        // Shared because posted functors are copied; a mouse that is not taken is closed with it.
         const auto mouse = std::make_shared<std::unique_ptr<SpaceMouse>>(openFirst(api, notify));
         outlet->post([this, mouse] {
             is_looking_ = false;
@@ -131,7 +131,7 @@ void SpaceMouseController::advance()
         frame_timer_.stop();
     } else if (const milliseconds wanted = is_heard ? kFrame : kUnheardInterval;
                wanted != frame_timer_.intervalAsDuration()) {
-        frame_timer_.setInterval(wanted); // begins it anew
+        frame_timer_.setInterval(wanted); // restarts it
     }
 }
 

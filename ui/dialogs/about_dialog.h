@@ -1,4 +1,4 @@
-// What this program is and what it runs on.
+// The About dialog: version, license, libraries and graphics driver.
 #pragma once
 
 #include <QDialog>

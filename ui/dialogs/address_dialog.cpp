@@ -60,8 +60,8 @@ AddressDialog::AddressDialog(const QStringList& history, QWidget* parent)
     field_->lineEdit()->setClearButtonEnabled(true);
     field_->lineEdit()->setAccessibleName(tr("Address"));
     auto* about = new QLabel(
-        tr("A cloud-optimised GeoTIFF is read in pieces: only what is looked at or touched is "
-           "fetched, and kept for the next time."),
+        tr("A cloud-optimized GeoTIFF is read in pieces: only the tiles shown or touched are "
+           "downloaded, and kept on disk for later."),
         this);
     about->setWordWrap(true);
     answer_->setAccessibleName(tr("Whether this address can be opened"));

@@ -10,7 +10,7 @@ class QPushButton;
 
 namespace marsview {
 
-/// What is wrong with an address, as a sentence; empty where it may be opened.
+/// The error in an address, as a sentence; empty if the address may be opened.
 QString problemOfAddress(const QString& address);
 
 /// Asks for an address and says what can be opened there.

@@ -96,7 +96,7 @@ bool isOnlyMapPoint(const QString& text)
     return point && (std::abs(point->x) > 360.0 || std::abs(point->y) > 360.0);
 }
 
-// The outermost half pixel has no surface; a place there means the sample beside it.
+// The outermost half pixel has no surface; a position there is moved to the nearest sample.
 std::optional<GridPoint> onSurface(const Heightfield& heights, GridPoint grid)
 {
     const auto bounded = [](double place, std::size_t count) {
@@ -287,7 +287,7 @@ QString GoToDialog::answerFor(const FoundPlace& place)
     }
     const Heightfield& heightfield = map_->heightfield();
     const bool is_there = heightfield.isExact(place.grid);  // before the elevation is read
-    const double height_m = heightfield.height(place.grid); // requests what is not loaded yet
+    const double height_m = heightfield.height(place.grid); // requests a tile that is not loaded
     if (!is_there && (heightfield.tiles()->isLoading() || heightfield.isExact(place.grid))) {
         arrival_timer_.start(kArrivalInterval);
     }

@@ -36,17 +36,17 @@ struct GoToEntry {
 
 struct FoundPlace {
     GridPoint grid;
-    ReadAs read_as; // which may differ from what was asked for, where the text leaves no choice
+    ReadAs read_as; // differs from the requested one if the text is unambiguous
 };
 
 /// The place on the map's grid that a text names. Letters N, S, E or W and degree signs make it a
 /// latitude and a longitude, numbers beyond 360 map coordinates, whatever `read_as` is. A longitude
-/// without a letter is west-positive where the format is. Errors say what is wrong with the text,
-/// or what the map covers if the place is elsewhere.
+/// without a letter is west-positive where the format is. Errors name the invalid part of the text,
+/// or the map's limits if the place is outside.
 Result<FoundPlace>
 placeOnMap(const Map& map, const CoordinateFormat& format, ReadAs read_as, const QString& text);
 
-/// Shows while the user types how the text is understood, or what is wrong with it.
+/// Shows the position that the text names, or the error in it, while the user types.
 class GoToDialog final : public QDialog {
     Q_OBJECT
 
@@ -71,7 +71,7 @@ private:
     std::shared_ptr<const Map> map_;
     Preferences preferences_;
     QTimer arrival_timer_;       // runs while the elevation of the place is loading
-    QLineEdit* field_ = nullptr; // first: what is created first has the focus first
+    QLineEdit* field_ = nullptr; // first: the first child created gets the focus
     QComboBox* kind_ = nullptr;
     QLabel* answer_ = nullptr;
     QPushButton* go_button_ = nullptr;

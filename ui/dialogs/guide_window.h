@@ -20,7 +20,7 @@ struct GuidePage {
 };
 
 /// The pages in `folder`, in the order in which README.md links to them. Pages that cannot be read
-/// are left out; empty if there is no README.md.
+/// are left out; empty if README.md is missing.
 QVector<GuidePage> guidePagesIn(const QString& folder);
 
 /// The folder of the guide that comes with this program; empty if it is missing.

@@ -157,7 +157,7 @@ void LargeMapsPage::apply(Preferences& preferences) const
     preferences.map_folder = chosen_folder_;
 }
 
-// What came from servers lies beside what was prepared.
+// The tiles from servers are stored next to the prepared maps.
 QWidget* LargeMapsPage::makeFetchedBox()
 {
     fetched_folder_->setReadOnly(true);
@@ -180,7 +180,7 @@ QWidget* LargeMapsPage::makeFetchedBox()
     foot->addWidget(empty_button_);
     auto* box = new QWidget(this);
     auto* form = new QFormLayout(box);
-    form->setContentsMargins(0, 12, 0, 0); // apart from what is above
+    form->setContentsMargins(0, 12, 0, 0); // a gap above
     form->addRow(tr("Tiles from servers"), fetched_folder_);
     form->addRow(tr("Ma&ximum size"), fetched_bound_);
     form->addRow(foot);

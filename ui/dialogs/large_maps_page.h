@@ -36,7 +36,7 @@ public:
     QSpinBox* memoryField() const noexcept { return memory_; }
 
     void fill(const Preferences& preferences);
-    /// Puts what is chosen here in its place.
+    /// Writes the values of this page into `preferences`.
     void apply(Preferences& preferences) const;
 
 Q_SIGNALS:

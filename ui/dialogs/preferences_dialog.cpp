@@ -68,7 +68,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     groups->addStretch(1);
     auto* buttons =
         new QDialogButtonBox(QDialogButtonBox::Close | QDialogButtonBox::RestoreDefaults, this);
-    // The Enter key must not undo what was just chosen.
+    // The Enter key must not discard the user's choices.
     buttons->button(QDialogButtonBox::RestoreDefaults)->setAutoDefault(false);
     buttons->button(QDialogButtonBox::Close)->setDefault(true);
     pages_->setFocusPolicy(Qt::NoFocus); // its tabs have the focus
@@ -95,7 +95,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
             [this, tell] {
                 fill(Preferences{});
-                tell(); // the folder alone tells nothing
+                tell(); // a change of only the folder emits no signal
             });
 }
 

@@ -252,7 +252,7 @@ void StretchDialog::requestKind()
     }
     if (stretch.kind == StretchKind::Fixed) {
         if (!isStretchRange(content_.stretched.minimum_m, content_.stretched.maximum_m)) {
-            fill(); // there is no range to begin with
+            fill(); // no valid range to begin with
             return;
         }
         stretch.low = content_.stretched.minimum_m;
@@ -262,7 +262,7 @@ void StretchDialog::requestKind()
     edit(stretch.kind);
 }
 
-// An end that nobody typed stays as exact as it is.
+// An end that the user did not type keeps its full precision.
 void StretchDialog::requestEnds()
 {
     if (content_.slopes) {

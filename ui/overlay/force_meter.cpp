@@ -77,7 +77,7 @@ void ForceMeter::release()
     }
 }
 
-// Two digits of the largest force are what a hand can tell.
+// A hand distinguishes about two digits of the largest force.
 double ForceMeter::step() const
 {
     return roundNumberBelow(force_n_max_ / 100.0);

@@ -15,8 +15,8 @@ class ForceMeter final : public QWidget {
 public:
     explicit ForceMeter(QWidget* parent = nullptr);
 
-    /// The force on the hand: x right, y away from the user, z up. What is not finite is none.
-    /// `force_n_max` > 0 fills the bar.
+    /// The force on the hand: x right, y away from the user, z up. A force that is not finite
+    /// counts as zero. `force_n_max` > 0 fills the bar.
     void setForce(const Vec3& force_n, double force_n_max);
     /// Nothing is touched any more.
     void release();

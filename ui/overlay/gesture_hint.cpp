@@ -81,7 +81,7 @@ GestureHint::GestureHint(QWidget* parent)
         grid->addWidget(new QLabel(texts[i].gesture, this), row, 0);
         grid->addWidget(new QLabel(texts[i].effect, this), row, 1);
         add_mark(i, texts[i].action, row);
-        //: A list that is read aloud: %1 is what comes before, %2 a gesture, %3 what it does
+        //: A list for screen readers: %1 is the list so far, %2 a gesture, %3 its effect
         all = tr("%1. %2: %3").arg(all, texts[i].gesture, texts[i].effect);
     }
     auto* touch = new QLabel(tr("Press T and drag to feel the terrain"), this);

@@ -142,7 +142,7 @@ QString Legend::title() const
         .arg(kilo() == 1000.0 ? QStringLiteral("km") : unitSymbol(content_.unit));
 }
 
-// Above the ramp: the layer, what is shown, what it refers to.
+// Above the ramp: the layer, the quantity and its datum.
 QStringList Legend::headings() const
 {
     QStringList lines;
@@ -260,7 +260,7 @@ void Legend::paintEvent(QPaintEvent* /*event*/)
     const auto placed = [&](const QRect& r) {
         return QStyle::visualRect(layoutDirection(), inside, r);
     };
-    // Like QStyle::visualRect, this keeps numbers beside their marks in either direction.
+    // Like QStyle::visualRect, this keeps numbers next to their marks in either direction.
     const Qt::Alignment leading =
         QStyle::visualAlignment(layoutDirection(), Qt::AlignLeft) | Qt::AlignVCenter;
     int top = inside.top();

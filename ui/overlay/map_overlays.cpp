@@ -125,7 +125,7 @@ void MapOverlays::makeAction(const QString& text, const QString& name, const QLi
 std::vector<MapOverlays::PicturePart> MapOverlays::partsFor(const QSize& picture,
                                                             const PictureParts& parts) const
 {
-    // The view's angle is vertical: what is as high shows the same metres per pixel.
+    // The field of view is vertical: equal heights of the picture have equal meters per pixel.
     const double scale = static_cast<double>(picture.height()) / view_.height();
     const int more_width = qRound(picture.width() / scale) - view_.width();
     std::vector<PicturePart> made;

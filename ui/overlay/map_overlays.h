@@ -32,8 +32,8 @@ class PlaceMark;
 class ScaleBarView;
 class TerrainView;
 
-/// Makes the overlays of a view, tells them what it shows, and takes their requests to it. A child
-/// of the view.
+/// Creates the overlays of a view, updates them when the view changes, and passes their requests to
+/// it. A child of the view.
 class MapOverlays final : public QObject {
     Q_OBJECT
 

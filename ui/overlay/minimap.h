@@ -28,7 +28,7 @@ public:
     /// core/view/map_preview.h makes it. A null image is shown as an empty plate.
     void
     setMap(const QImage& preview, const SceneFrame& frame, std::size_t columns, std::size_t rows);
-    /// There is no map.
+    /// Removes the map.
     void clear();
     /// `viewport` is the map's in device pixels.
     void setCamera(const OrbitCamera& camera, const Viewport& viewport);
@@ -39,8 +39,8 @@ public:
     /// Empty without a map and where the largest size has no room for a useful picture.
     QSize sizeHint() const override;
 
-    /// A place of the scene in the widget, and back: on the map's level through the camera's
-    /// target, and moved to the nearest edge where the position is beside the map.
+    /// Converts a scene point to a widget position, and back: at the height of the camera's target,
+    /// and clamped to the map's edge if the position is outside.
     QPointF positionOf(const ScenePoint& place) const;
     ScenePoint placeAt(QPointF position) const;
 

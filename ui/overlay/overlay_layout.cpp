@@ -130,7 +130,7 @@ void OverlayLayout::arrange()
         }
     };
 
-    // In the order of what is missed most. right + 1 is the first pixel outside.
+    // The most important overlay first. right + 1 is the first pixel outside.
     const int right = inside.right() + 1;
     const int bottom = inside.bottom() + 1;
     int free_right = right;

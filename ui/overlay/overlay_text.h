@@ -10,8 +10,8 @@ namespace marsview {
 /// "500 km", "20 m", "0.5 m": a round length with the digits that it has, thousands separated.
 QString lengthText(double round_length_m);
 
-/// A number with so many decimals as `step` needs to be told from its neighbours; with a true minus
-/// sign, never "−0".
+/// A number with enough decimals to distinguish multiples of `step`; with a true minus sign, never
+/// "−0".
 QString numberText(double value, double step);
 
 /// "332° (north-north-west)": the heading as a whole number of degrees from 0 to 359 and in words

@@ -9,8 +9,8 @@
 
 namespace marsview {
 
-/// Shows a round length at the camera's target. The plate keeps its width, so that nothing beside
-/// it moves while the bar grows and shrinks. Lets the mouse through.
+/// Shows a round length at the camera's target. The plate keeps its width, so that its neighbors
+/// stay in place while the bar grows and shrinks. Ignores the mouse.
 class ScaleBarView final : public QWidget {
     Q_OBJECT
 
@@ -19,7 +19,7 @@ public:
 
     /// `viewport` is the map's in device pixels.
     void setCamera(const OrbitCamera& camera, const Viewport& viewport);
-    /// There is no map.
+    /// Hides the bar: no map is shown.
     void clear();
     /// The length of the bar, in pixels, when it is longest. Positive.
     void setLongestBar(int width);

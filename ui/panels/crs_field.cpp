@@ -148,7 +148,7 @@ void CrsField::keyPressEvent(QKeyEvent* event)
             event->ignore(); // it chooses from the list
             return;
         }
-        completer_->popup()->hide(); // nothing is chosen there: what is typed counts
+        completer_->popup()->hide(); // without a choice there, the typed text counts
     }
     if (event->key() == Qt::Key_Down && !completer_->popup()->isVisible() && !text().isEmpty()) {
         search();

@@ -25,7 +25,7 @@
 namespace marsview {
 namespace {
 
-// Digits enough to read, not to compute: nine tell a millimetre from 1000 km.
+// For display only: nine digits resolve a millimeter in 1000 km.
 QString number(double value)
 {
     return shortNumberText(value, 9);
@@ -132,7 +132,7 @@ void GeoreferencingPanel::setMap(const std::shared_ptr<const Map>& map)
     override_button_->setEnabled(map_ != nullptr);
     fillFacts();
     if (!is_same) {
-        pages_->setCurrentWidget(facts_page_); // what was applied shows in the facts
+        pages_->setCurrentWidget(facts_page_); // shows the applied overrides
     }
 }
 
@@ -234,7 +234,7 @@ void GeoreferencingPanel::addNotice(const QString& text)
     notices_->addWidget(label);
 }
 
-// A name above its value: side by side there is no room in a narrow panel.
+// The name is above its value because a narrow panel cannot fit them in one line.
 void GeoreferencingPanel::addFact(const QString& name, const QString& value)
 {
     QLabel* caption = makeCaption(name, this);
@@ -346,7 +346,7 @@ void GeoreferencingPanel::addSampleFacts(const Map& map)
                                       ? tr("unknown")
                                       : QString::fromStdString(info.vertical_datum));
     if (info.scale != 1.0 || info.offset != 0.0) {
-        //: How elevations follow from samples: %1 is the factor, %2 what is added, %3 their unit
+        //: How elevations follow from samples: %1 is the factor, %2 the offset, %3 their unit
         addFact(tr("Scale, offset"),
                 tr("%1, %2 %3").arg(number(info.scale), number(info.offset), unit));
     }

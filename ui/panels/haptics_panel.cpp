@@ -71,8 +71,7 @@ HapticsPanel::HapticsPanel(HapticsController& controller,
     auto* layout = new QVBoxLayout(content);
     layout->setContentsMargins(6, 6, 6, 6);
     layout->setSpacing(4);
-    // What has to be found at once, and what is pressed, stays where it is: texts that come and go
-    // are below it.
+    // The stop button must be found at once, so texts that appear and disappear are below it.
     makeStop(*layout);
     makeDevices(*layout);
     makeForce(*layout);
@@ -162,7 +161,7 @@ void HapticsPanel::makeForce(QBoxLayout& layout)
     layout.addWidget(force_);
     reason_ = makeText(this, tr("Touch state"));
     reason_->setObjectName(QStringLiteral("letGoReason"));
-    // As high with two lines as with one: what is below stays where it is.
+    // As high with one line as with two, so that the widgets below do not move.
     reason_->setMinimumHeight(fontMetrics().height() * 2);
     reason_->setAlignment(Qt::AlignLeading | Qt::AlignTop);
     rest_ = new QPushButton(tr("Set Home Position"), this);
@@ -517,7 +516,7 @@ void HapticsPanel::showState(const LoopState& state)
         return;
     }
     const double most_n = controller_.loop()->device().force_n_peak;
-    // Of a loop that has stalled nobody knows.
+    // The force of a stalled loop is unknown.
     const double force_n =
         state.reason == ForceOffReason::LoopStalled ? 0.0 : length(state.force_n);
     force_->setValue(
@@ -534,7 +533,7 @@ void HapticsPanel::showState(const LoopState& state)
                                     : std::string();
     const QString reason = trouble.empty()
                                ? letGoText(state.reason)
-                               //: %1 says what is wrong with the device
+                               //: %1 is the device's error
                                : tr("Force off: %1").arg(QString::fromStdString(trouble));
     const QString text = !reason.isEmpty() ? reason
                          : is_replay       ? tr("Replaying")
@@ -577,14 +576,14 @@ void HapticsPanel::chooseRecording()
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) {
         folder_ = QFileInfo(file).absolutePath();
-        (void)controller_.startRecording(file); // recordingFailed() tells why not
+        (void)controller_.startRecording(file); // recordingFailed() reports errors
     });
     dialog->open();
 }
 
 void HapticsPanel::chooseFlightRecord()
 {
-    // What is there now: it would be gone when a name has been found.
+    // Copied now: these ticks would be overwritten while the user chooses a file name.
     std::vector<TickRecord> ticks = controller_.lastTicks();
     if (ticks.empty()) {
         recording_->setText(tr("Nothing to save yet"));

@@ -21,8 +21,8 @@ namespace marsview {
 class LimitSlider;
 class LoopTimes;
 
-/// Devices, what is felt, how punctual the loop is, and recordings of it. Shows what the controller
-/// tells and asks it for changes. Looks for devices while it is to be seen.
+/// Devices, forces, timing of the loop, and recordings. Shows the controller's state and requests
+/// changes from it. Searches for devices while it is visible.
 class HapticsPanel final : public QWidget {
     Q_OBJECT
 

@@ -146,7 +146,7 @@ void LayerDelegate::paint(QPainter* painter,
     const QPalette& palette = full.palette;
     const QColor base = palette.color(QPalette::Base);
     const QColor accent = palette.color(QPalette::Highlight);
-    // The active layer is tinted rather than filled, so that its colours stay what they are.
+    // The active layer is tinted rather than filled, so that its colors stay recognizable.
     painter->fillRect(full.rect, is_active ? mixed(base, accent, 0.22) : base);
     if (is_active) {
         const bool is_mirrored = full.direction == Qt::RightToLeft;

@@ -234,7 +234,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
         return reasonAt(index);
     case NoteRole: {
         const QString reason = reasonAt(index);
-        //: Of a layer: what is shown is a smaller version of the map
+        //: Of a layer: a smaller version of the map is shown
         return reason.isEmpty() && layer.map->isPreview() ? tr("Preview") : reason;
     }
     case IsShownRole:

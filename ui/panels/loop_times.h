@@ -22,7 +22,8 @@ class LoopTimes final : public QWidget {
 public:
     explicit LoopTimes(QWidget* parent = nullptr);
 
-    /// Whether what is shown is older than an eye follows. Statistics are not free to copy.
+    /// Whether it is time for an update. Copying the statistics has a cost, so updates are limited
+    /// to a rate that the eye can follow.
     bool isDue() const;
     /// Of the loop that runs, with what its thread has been granted. Nothing changes before its
     /// first update.

@@ -64,7 +64,7 @@ QString withoutOption(const QString& problem, OverrideField field)
 
 QString notANumber(const QString& text)
 {
-    //: Below a field: %1 is what was entered
+    //: Below a field: %1 is the text entered
     return OverrideForm::tr("“%1” is not a number. Enter one such as −1737.4 or 1e-3.")
         .arg(text.trimmed());
 }

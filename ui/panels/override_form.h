@@ -32,7 +32,7 @@ public:
     explicit OverrideForm(QWidget* parent = nullptr);
 
     /// Null for none. Fills the fields, unless it is the same file with the same overrides as
-    /// before: then what is being typed stays.
+    /// before: then unapplied input stays.
     void setMap(const std::shared_ptr<const Map>& map);
     void focusFirstField();
     /// Why overrides could not be applied, "OPTION: WHY", which may follow a path.

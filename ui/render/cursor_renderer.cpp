@@ -1,4 +1,4 @@
-// The meshes are small: they are made anew for each frame, relative to the eye.
+// The meshes are small, so they are rebuilt for each frame, relative to the eye.
 
 #include "ui/render/cursor_renderer.h"
 

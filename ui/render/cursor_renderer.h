@@ -42,8 +42,8 @@ public:
     CursorRenderer(const CursorRenderer&) = delete;
     CursorRenderer& operator=(const CursorRenderer&) = delete;
 
-    /// Draws over a picture of the terrain in the bound frame buffer, hidden by what is in front of
-    /// it. The spring and the goal are seen through the ground.
+    /// Draws over a picture of the terrain in the bound frame buffer. Terrain in front of the
+    /// cursor hides it; the spring and the goal show through the terrain.
     void draw(const CursorPicture& cursor,
               const OrbitCamera& camera,
               const Viewport& viewport,

@@ -11,16 +11,16 @@ namespace marsview {
 /// A frame buffer with colour and depth that is kept between frames of the same kind.
 class FrameTarget {
 public:
-    /// Binds a buffer of that size; `samples` of 0 or 1 is one a pixel, more are as many as the
-    /// driver has up to that.
+    /// Binds a buffer of that size. `samples` of 0 or 1 means one sample per pixel; a larger count
+    /// is limited to the driver's maximum.
     void begin(const Viewport& size, int samples);
-    /// What was begun is drawn.
+    /// Ends the frame and resolves its samples.
     void end();
-    /// Copies colours, smoothed where sizes differ, into `target` and leaves that bound. As often
-    /// as wanted after end().
+    /// Copies the colors into `target` and leaves that bound; interpolates if the sizes differ.
+    /// Call any number of times after end().
     void present(GLuint target, const Viewport& target_size);
-    /// The same for the depths in a part of `target`, whose depth buffer has 24 bits and a stencil
-    /// of 8.
+    /// The same for the depths in an area of `target`, whose depth buffer has 24 bits and 8 bits of
+    /// stencil.
     void presentDepth(GLuint target, const Viewport& target_size, const PixelArea& area);
 
 private:

@@ -13,10 +13,10 @@ constexpr int kSmoothSamples = 4;
 // Shading gives way with the surface, but never so far that it looks blurred.
 constexpr double kTexelPxMax = 2.0;
 
-// The target is for the whole frame; the rest goes to what is around the picture.
+// The target is for the whole frame; the rest is for overlays and presentation.
 constexpr double kPictureShare = 0.85;
 
-// Of the pixels that are drawn: nobody sees more than they show.
+// Counted in drawn pixels: an enlarged picture shows no finer detail than these.
 DetailTarget detailFor(const FramePlan& plan)
 {
     return {.error_px = plan.error_px / plan.scale,

@@ -21,7 +21,7 @@ enum class PictureStage {
     Smooth, // and with smooth edges
 };
 
-/// What is to be painted.
+/// The picture to paint.
 struct PictureRequest {
     OrbitCamera camera;
     Viewport viewport;

@@ -31,8 +31,8 @@ struct LayerNodeHash {
     }
 };
 
-/// One texture of squares of 33 × 33 heights, in metres over the map's base. Filled on demand with
-/// what is in memory, which takes microseconds a node; and again where that was not all.
+/// One texture of squares of 33 × 33 heights, in metres over the map's base. Filled on demand
+/// from the tiles in memory, in microseconds a node; incomplete nodes are filled again.
 class HeightAtlas {
 public:
     struct Place {

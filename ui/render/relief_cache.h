@@ -33,13 +33,13 @@ public:
     std::size_t size() const noexcept { return slots_.size(); }
     std::size_t pageCount() const noexcept { return pages_.size(); }
 
-    /// Sends a tile that is there already.
+    /// Uploads a tile that is already loaded.
     void keep(const LayerNode& key, const ReliefTile& tile) { upload(key, tile); }
-    /// Sends at most `upload_max` finished tiles to the driver and begins to collect what is
-    /// missing. Tiles found from now on stay until the next call.
+    /// Uploads at most `upload_max` finished tiles and begins to collect requests for missing ones.
+    /// Tiles found from now on stay until the next call.
     void beginRound(std::size_t upload_max);
-    /// The finest relief there is for a node; what is missing is asked for. `top` is the level of
-    /// the map's single largest node. Nothing where there is none yet.
+    /// The finest relief available for a node; missing tiles are requested. `top` is the level of
+    /// the map's single largest node. Empty while no relief is available.
     std::optional<Found> find(const ReliefRequest& wanted, std::size_t top);
     /// Has the missing tiles made. Returns true when there is nothing to wait for.
     bool endRound();

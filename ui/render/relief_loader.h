@@ -45,9 +45,8 @@ public:
     ReliefLoader(const ReliefLoader&) = delete;
     ReliefLoader& operator=(const ReliefLoader&) = delete;
 
-    /// What is wanted now, the most urgent first. Takes the place of what was wanted before.
-    /// Returns how many of these can be waited for: what could not be read a moment ago is not
-    /// tried again at once.
+    /// Replaces the pending requests with these, the most urgent first. Returns how many of them
+    /// are pending: tiles that failed to load a moment ago are not tried again at once.
     std::size_t request(std::vector<ReliefRequest> requests);
     /// Why something that was wanted last cannot be made at present.
     const std::optional<Error>& problem() const noexcept { return problem_; }

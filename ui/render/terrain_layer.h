@@ -11,7 +11,7 @@
 
 namespace marsview {
 
-/// One map in the scene. Copies share what is large.
+/// One map in the scene. Copies share the large members.
 struct TerrainLayer {
     std::shared_ptr<const Heightfield> heightfield;
     std::shared_ptr<const SurfaceAnalysis> analysis; // of heightfield

@@ -36,8 +36,9 @@ constexpr GLsizei kQuadrantIndices = 6 * kHalf * kHalf;
 // How many tiles are sent to the driver for a picture in motion: a millisecond each in software.
 constexpr std::size_t kHastyUploads = 8;
 
-// What is held at the driver's. In software it is the processor's memory: a window of 1280 × 800
-// shows some 60 tiles of 0.8 MB and some 500 nodes of 4 kB; a GPU has more pixels to fill.
+// Sizes of the stores in graphics memory. A software driver keeps them in main memory: a window of
+// 1280 × 800 shows some 60 tiles of 0.8 MB and some 500 nodes of 4 kB; a GPU has more pixels to
+// fill.
 struct StoreSizes {
     std::size_t relief_tiles;
     std::size_t atlas_columns;
@@ -74,7 +75,7 @@ struct IndexRange {
     GLsizei count;
 };
 
-// Software drivers keep the triangles of what is not yet flushed, some 100 bytes each.
+// Software drivers keep all triangles until the next flush, some 100 bytes each.
 constexpr std::size_t kNodesPerDraw = 32;
 
 // Texture units.
@@ -150,8 +151,8 @@ struct Layer {
     {
         return requests ? source.heightfield->tiles()->raster().generation() : 0;
     }
-    // Asks for the tiles that this picture lacked: the coarser ones first, so that all of it gets
-    // sharper together. Tells in `report` what can be waited for.
+    // Requests the tiles missing from this picture: the coarser ones first, so that the whole
+    // picture sharpens evenly. Adds the pending ones to `report`.
     void askForMissing(DrawReport& report)
     {
         if (!requests) {
@@ -165,7 +166,7 @@ struct Layer {
                      [&seen](const TileId& id) { return seen.insert(id).second; });
         requests->request(wanted);
         const TiledRaster& raster = source.heightfield->tiles()->raster();
-        // What came between the reading and the asking, nobody else will tell of.
+        // A tile that arrived between the reading and the request causes no other notification.
         if (tell && std::any_of(wanted.begin(), wanted.end(), [&raster](const TileId& id) {
                 return raster.find(id) != nullptr;
             })) {

@@ -44,12 +44,12 @@ struct DrawRequest {
     bool is_interim = false;
 };
 
-/// What a picture took and what it shows.
+/// Cost and detail of a picture.
 struct DrawReport {
     std::size_t triangle_count = 0;
     std::size_t node_count = 0;
     double error_px = 0.0;   // of 99 in 100 pixels; see core/view/detail_selection.h
-    bool is_complete = true; // shading included; otherwise draw again when told
+    bool is_complete = true; // shading included; otherwise draw again when notified
     /// Why pieces of it cannot be read at present, so that coarser ones stand in. They are tried
     /// again for as long as they are wanted.
     std::optional<Error> problem{};
@@ -92,8 +92,8 @@ public:
     DrawReport draw(const DrawRequest& request, const DrawStyle& style, unsigned target);
     /// The colours of the last picture that was kept, once more.
     void present(unsigned target);
-    /// Its depths in a part of `target`, for what is drawn over the picture and may be hidden by
-    /// it. With all of them, a picture takes 4 ms longer in software, 10 ms where it is enlarged.
+    /// Copies its depths into an area of `target`, for drawing that the terrain may hide. Copying
+    /// all depths takes 4 ms a picture in software, 10 ms if the picture is enlarged.
     void presentDepth(unsigned target, const PixelArea& area);
     /// As draw(), waiting for all that is missing.
     DrawReport drawComplete(const DrawRequest& request, const DrawStyle& style, unsigned target);

@@ -42,7 +42,7 @@ void warmUp(TerrainRenderer& renderer)
     const auto heightfield = std::make_shared<const Heightfield>(dome());
     JobMonitor monitor;
     auto analysis = analyze(*heightfield, monitor);
-    MARSVIEW_CHECK(analysis.has_value()); // nobody cancels it
+    MARSVIEW_CHECK(analysis.has_value()); // it is never canceled
     constexpr double kMiddle = static_cast<double>(kSide - 1) / 2.0;
     const SceneFrame frame{.origin = {kMiddle, kMiddle}};
     constexpr double kSlopeMax = 1.0;

@@ -13,7 +13,7 @@ constexpr std::array kWords{
         ContactModelKind::ContinuousWalk,
         //: A contact model: how the touching point (the proxy) follows the hand over the ground
         QT_TRANSLATE_NOOP("WindowActions", "&Continuous Walk (exact)"),
-        //: What a contact model does and what it costs, in the status bar
+        //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
                           "Takes every point of the hand's way in turn, so that even fast strokes "
                           "end where slow ones would; each costs a little more time")},
@@ -21,7 +21,7 @@ constexpr std::array kWords{
         ContactModelKind::SurfaceWalk,
         //: A contact model: how the touching point (the proxy) follows the hand over the ground
         QT_TRANSLATE_NOOP("WindowActions", "&Surface Walk"),
-        //: What a contact model does and what it costs, in the status bar
+        //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
                           "Slides downhill across faces, edges and corners of the ground; quick, "
                           "but a fast stroke may end in a neighbouring dip")},
@@ -29,7 +29,7 @@ constexpr std::array kWords{
         ContactModelKind::ProxyGraph,
         //: A contact model, with the year of its paper
         QT_TRANSLATE_NOOP("WindowActions", "&Proxy Graph (2003)"),
-        //: What a contact model does and what it costs, in the status bar
+        //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
                           "Goes along edges from corner to corner, as the paper does; quick, but "
                           "a fast stroke ends in a neighbouring dip more often")},
@@ -37,23 +37,23 @@ constexpr std::array kWords{
         ContactModelKind::GodObject,
         //: A contact model, by the name that the literature gave it
         QT_TRANSLATE_NOOP("WindowActions", "&God-Object"),
-        //: What a contact model does and what it costs, in the status bar
+        //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
                           "Stops at each face that it hits until the hand moves again; simple, "
                           "but it may stick or float for a moment")},
     ContactModelWords{
         ContactModelKind::GodObjectRelease,
-        //: A contact model: a god-object that lets go of constraints
+        //: A contact model: a god-object that releases constraints
         QT_TRANSLATE_NOOP("WindowActions", "God-Object, Constraints &Released"),
-        //: What a contact model does and what it costs, in the status bar
+        //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
-                          "A god-object that lets go of faces as soon as they no longer hold it; "
-                          "it does not stick, but searches for every face that it comes to")},
+                          "A god-object that releases faces as soon as they no longer hold it; "
+                          "it does not stick, but searches for every face that it reaches")},
     ContactModelWords{
         ContactModelKind::VirtualProxy,
         //: A contact model: a sphere touches the ground in place of a point
         QT_TRANSLATE_NOOP("WindowActions", "&Virtual Proxy (sphere)"),
-        //: What a contact model does and what it costs, in the status bar
+        //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
                           "Touches with a sphere as wide as a cell of the map; it rounds off sharp "
                           "ridges, but does not reach into narrow dips")},

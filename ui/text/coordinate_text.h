@@ -15,7 +15,7 @@ namespace marsview {
 
 class Map;
 
-/// The system that `format` has on a map: map coordinates where there are no longitudes.
+/// The system that `format` has on a map: map coordinates if the map has no geographic coordinates.
 PositionSystem systemOn(const CoordinateFormat& format, const RasterInfo& info);
 
 /// Whether planetocentric and planetographic latitudes differ there: not on a sphere, nor without a

@@ -1,4 +1,4 @@
-// Words for what a servo loop tells.
+// Texts for the state of a servo loop.
 #pragma once
 
 #include "haptics/interaction/mouse_stylus.h"
@@ -16,13 +16,13 @@ struct ReplayFit;
 struct SavedTicks;
 struct TouchedGround;
 
-/// A sentence: why there is no force; empty where there may be.
+/// A sentence: why the force is off; empty if it is on.
 QString letGoText(ForceOffReason reason);
 /// What the hand is doing.
 QString modeText(StylusMode mode, bool is_in_contact);
 /// A sentence, and that all works without.
 QString realTimeText(const RealTimeGrants& grants);
-/// "touch.csv: 12,345 updates recorded", and why it ended where nobody has ended it.
+/// "touch.csv: 12,345 updates recorded", and why it ended if the user did not stop it.
 QString recordedText(const QString& file, qulonglong updates, RecordingEnd end);
 /// "flight.csv: 10,000 ticks of 10.0 s".
 QString savedTicksText(const SavedTicks& saved);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMetresInAFoot = 0.3048;
 
-// Unicode's isolates: what is between them and PDI has a direction of its own.
+// Unicode's isolates: the text between one of them and PDI has its own direction.
 constexpr QChar kLeftToRightIsolate(0x2066);
 constexpr QChar kFirstStrongIsolate(0x2068);
 constexpr QChar kPopIsolate(0x2069);

@@ -34,7 +34,7 @@ QString heightRangeText(const HeightRange& range, HeightUnit unit);
 /// "3.2 GB". Two significant digits, powers of ten.
 QString bytesText(std::uint64_t bytes);
 
-/// "4 min left", no finer than anybody can tell.
+/// "4 min left", rounded to the accuracy of the estimate.
 QString timeLeftText(std::chrono::seconds left);
 
 /// Decimals that show a tenth of `resolution`, at most `most`.

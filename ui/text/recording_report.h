@@ -1,4 +1,4 @@
-// What is told of recordings and diagnostic logs once they are written.
+// Messages about recordings and diagnostic logs once they are written.
 #pragma once
 
 #include <QString>
@@ -7,7 +7,7 @@
 
 namespace marsview {
 
-/// Why a recording came to its end: a file holds what was touched of one map.
+/// Why a recording ended: a file records the touch on one map only.
 enum class RecordingEnd { AsWanted, WithItsMap };
 
 /// A flight record that has been written.

@@ -10,7 +10,7 @@ class QWidget;
 
 namespace marsview {
 
-/// The font of captions beside text in `font`.
+/// The font of captions for text in `font`.
 QFont captionFont(QFont font);
 
 QLabel* makeCaption(const QString& text, QWidget* parent);

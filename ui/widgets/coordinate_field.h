@@ -15,8 +15,8 @@ class CoordinateField final : public ReservedLabel {
 public:
     explicit CoordinateField(QWidget* parent = nullptr);
 
-    /// What is shown while nothing was copied just now. `is_position` is false for a text in place
-    /// of a position, which cannot be copied.
+    /// The text to show, except just after a copy. `is_position` is false for a text that replaces
+    /// a position; it cannot be copied.
     void showText(const QString& text, bool is_position);
     /// Says for a moment that the position was copied.
     void showCopied();

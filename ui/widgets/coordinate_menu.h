@@ -14,7 +14,7 @@ namespace marsview {
 
 /// "180° West to 180° East".
 QString longitudeNotationText(LongitudeNotation notation);
-/// The same for what is usual on a body; null where it is unknown.
+/// The same for the body's usual notation; null if the body is unknown.
 QString usualLongitudesText(const Body* body);
 
 /// Puts the choices for a map into an empty menu. `chosen` gets the whole format; it is called from

@@ -1,4 +1,4 @@
-// One line of text that is shortened in its middle if there is no room for it.
+// One line of text that is elided in the middle if it does not fit.
 #pragma once
 
 #include <QLabel>

@@ -43,7 +43,7 @@ class ExaggerationControl final : public QWidget {
 public:
     explicit ExaggerationControl(QWidget* parent = nullptr);
 
-    /// What can be chosen. Keeps what is shown.
+    /// The exaggerations that can be chosen. Keeps the current value.
     void setRange(const ExaggerationRange& range);
     void showExaggeration(double exaggeration);
 

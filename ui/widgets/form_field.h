@@ -1,4 +1,4 @@
-// A field of a form: its name above it and, below it, what is wrong with its value.
+// A field of a form, with its name above it and an error about its value below it.
 #pragma once
 
 #include <QString>

@@ -1,5 +1,4 @@
-// Something that people should read about a map, the picture or a device, and what they can do
-// about it.
+// A message to the user about a map, the picture or a device, with actions that can solve it.
 #pragma once
 
 #include <QList>

@@ -13,14 +13,14 @@ class QPainterPath;
 
 namespace marsview {
 
-/// Between a plate's edge and what is on it.
+/// Between a plate's edge and its contents, in pixels.
 constexpr int kPlatePadding = 7;
 
 QColor plateColor();
 QColor overlayTextColor();
-/// For what is less important than the text: rims, tick marks, the empty part of a bar.
+/// For details less important than the text: rims, tick marks, the empty part of a bar.
 QColor overlayFaintColor();
-/// For what has the keyboard's focus.
+/// For the element with keyboard focus.
 QColor overlayFocusColor();
 
 /// Text in the direction in which it reads itself: "−5 km" stays in that order in a layout from
@@ -28,7 +28,7 @@ QColor overlayFocusColor();
 void drawText(QPainter& painter, const QRectF& place, Qt::Alignment alignment, const QString& text);
 
 void drawPlate(QPainter& painter, const QRectF& rectangle);
-/// A rim around what has the focus; inside the rectangle.
+/// Draws the focus rim, inside the rectangle.
 void drawFocus(QPainter& painter, const QRectF& rectangle);
 /// A bright line with a dark one around it: seen on any colour.
 void drawContrasting(QPainter& painter,

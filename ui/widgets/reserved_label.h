@@ -6,7 +6,7 @@
 namespace marsview {
 
 /// As wide as the longest usual text. Longer texts are elided, with the whole text as a tool tip. It
-/// shrinks where there is no room.
+/// shrinks in a narrow window.
 class ReservedLabel : public QLabel {
     Q_OBJECT
 
