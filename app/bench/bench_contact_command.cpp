@@ -402,7 +402,7 @@ Status runBenchContact(const Options& given)
             return written;
         }
     }
-    std::fflush(stdout); // before what is said about it
+    std::fflush(stdout); // before messages on stderr
     if (ground.map) {
         printNotices(ground.map->info());
     }

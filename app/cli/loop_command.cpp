@@ -100,7 +100,7 @@ frameFor(const Options& options, const LoopMap& map, const DeviceCapabilities& d
     return frame;
 }
 
-// A URI of a driver that is there. Whether the device is, only opening it tells.
+// The URI of an available driver. The device's presence is only known once it is opened.
 CLI::Validator knownDevice()
 {
     return {[](std::string& uri) {
@@ -121,7 +121,8 @@ CLI::Validator knownDevice()
             ""};
 }
 
-// A simulated hand that swipes counts in cells; only the frame tells how wide these are for it.
+// A simulated hand that swipes counts in cells; their width in its workspace follows from the
+// frame.
 Result<std::unique_ptr<HapticDevice>>
 openDevice(DeviceRegistry& registry, const Options& options, const LoopMap& map)
 {

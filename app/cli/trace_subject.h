@@ -39,7 +39,7 @@ struct Toucher {
 
 struct TraceSubject {
     std::function<Toucher(const TraceTouch&)> make;
-    double radius_m = 1.0;                         // where nobody has told another
+    double radius_m = 1.0;                         // unless given
     std::shared_ptr<const Map> map;                // null for a mesh
     std::shared_ptr<const WaitingTerrain> waiting; // of a map in tiles, or else:
     std::shared_ptr<RecordedGround> recorded;      // the same as a recording felt it

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Another number where drivers, limits or what is read of a file change.
+// Changes whenever drivers, limits or the parts read of a file change.
 constexpr int kFormat = 2;
 
 // Limit for the folder: a few hundred bytes each.

@@ -1,4 +1,4 @@
-// What is remembered of files that were opened in a child process.
+// The cache of results for files that were opened in a child process.
 #pragma once
 
 #include "core/files/open_probe.h"

@@ -1,4 +1,4 @@
-// The level file of a raster: found, checked to belong to it, and what it verifies.
+// The level file of a raster: finds it, checks that it belongs to the raster, and verifies tiles.
 #pragma once
 
 #include "core/base/result.h"
@@ -36,7 +36,7 @@ struct VerifiedTiles {
     std::string notice;                      // why a level file is not used, or empty
 };
 
-/// The tiles of a raster with a level file beside it. Reading one that has changed since the level
+/// The tiles of a raster with a level file next to it. Reading one that has changed since the level
 /// file was built is an error: GDAL may decode a damaged tile to other samples without an error.
 Result<VerifiedTiles> verifiedTiles(const OpenRaster& raster);
 

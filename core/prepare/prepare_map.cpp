@@ -38,7 +38,7 @@ double secondsSince(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// As far as it can be told before the raster is tiled.
+// An upper bound, before the raster is tiled.
 std::uint64_t levelBytesFor(const RasterInfo& info)
 {
     return levelFileBytesMax({.columns = info.columns,
@@ -50,7 +50,7 @@ std::uint64_t levelBytesFor(const RasterInfo& info)
                               .mean_levels = overviewCount(info.columns, info.rows)});
 }
 
-// Of maps that nobody has used for long.
+// Removes the least recently used maps.
 void makeRoomFor(const RasterInfo& info,
                  const PrepareJob& job,
                  const MapFolder& folder,
@@ -63,7 +63,7 @@ void makeRoomFor(const RasterInfo& info,
         const std::uint64_t copy = tiledGeoTiffBytesMax(info);
         bytes += copy - std::min(copy, bytesOnDisk(job.raster_path + ".part"));
     }
-    static_cast<void>(folder.makeRoom(bytes, kept)); // writing reports what is missing
+    static_cast<void>(folder.makeRoom(bytes, kept)); // writing reports missing space
 }
 
 // So that two programs do not write the same level file.
@@ -163,7 +163,7 @@ Status makeLevels(const OpenRaster& raster,
             return Done{};
         }
         if (there.error().code == ErrorCode::Damaged && job.raster_path.empty()) {
-            return there.error(); // what is damaged would be vouched for
+            return there.error(); // a new level file would certify damaged samples
         }
         if (there.error().code != ErrorCode::NotFound) {
             report.notes.push_back(withoutRemedy(there.error().message) + "; it is rebuilt");
@@ -188,8 +188,8 @@ Status makeLevels(const OpenRaster& raster,
     return buildLevelFile(build, monitor);
 }
 
-// Whether a copy that is there can be told from a damaged one: by its level file or, where there is
-// none yet, by itself.
+// An error if the level file of an existing copy cannot be used or, without a level file, if the copy
+// is not a complete tiled GeoTIFF.
 Status checkKnown(const OpenRaster& raster, const PrepareReport& report)
 {
     const Result<LevelWork> work = levelWork(raster, report);
@@ -402,7 +402,7 @@ prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& moni
     const bool is_copy_there = !in_place && fileExists(*kept);
     makeRoomFor(raster.info, prepare, *folder, *kept);
     Result<PrepareReport> prepared = prepareMapFiles(raster, prepare, monitor);
-    // A copy that was there is not made again, and then it is what cannot be read.
+    // An existing copy is not rebuilt, so the error is in that copy.
     if (!prepared && is_copy_there && prepared.error().code != ErrorCode::Cancelled &&
         prepared.error().code != ErrorCode::TooLarge && folder->remove(name)) {
         prepared = prepareMapFiles(raster, prepare, monitor);
@@ -418,7 +418,7 @@ prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& moni
     const std::uint64_t bytes_max =
         job.folder_bytes_max != 0 ? job.folder_bytes_max : folder->defaultBytesMax();
     const Result<FileLock> in_use = folder->use(*kept);
-    static_cast<void>(folder->trim(bytes_max)); // what cannot be removed stays
+    static_cast<void>(folder->trim(bytes_max)); // files that cannot be removed stay
     return prepared;
 }
 

@@ -17,11 +17,11 @@ namespace marsview {
 struct PrepareJob {
     /// Of the tiled GeoTIFF to make; empty where the raster is one that can be used in place.
     std::string raster_path{};
-    /// Of the level file; empty: beside the tiled raster.
+    /// Of the level file; empty: next to the tiled raster.
     std::string level_path{};
     TiledGeoTiffJob::WhenBusy when_busy = TiledGeoTiffJob::WhenBusy::Fail;
-    /// Of what is there and belongs to the raster: taken as it is, read whole against its checksums
-    /// and made anew where it is damaged, or made anew in any case.
+    /// For existing files that belong to the raster: use them as they are; check all checksums and
+    /// rebuild damaged files; or rebuild always.
     enum class WhenThere : std::uint8_t { Trust, Check, Replace };
     WhenThere when_there = WhenThere::Trust;
     std::chrono::milliseconds checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
@@ -46,8 +46,8 @@ Status checkIsLocal(const RasterSpec& spec);
 /// Whether the tiles of the raster can be read where it is.
 bool canBeUsedInPlace(const OpenRaster& raster);
 
-/// Where the prepared form of a raster lies, or is to be put, in a folder of prepared maps, which
-/// need not be there. NotFound where `folder` is empty: nobody keeps any.
+/// The path of the prepared map of a raster in a folder of prepared maps; neither need exist.
+/// NotFound if `folder` is empty: prepared maps are not kept.
 Result<std::string> preparedPathFor(const OpenRaster& raster, const std::filesystem::path& folder);
 
 /// Copies the raster into a tiled GeoTIFF unless it is used in place, then measures it into its
@@ -66,14 +66,13 @@ struct FolderJob {
     std::chrono::milliseconds checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
 };
 
-/// As prepareMapFiles(), in the folder of prepared maps: what was noted there as damaged is made
-/// anew, the maps that were not used for longest make room on the disk where that is enough, and
-/// afterwards the folder is trimmed.
+/// As prepareMapFiles(), in the folder of prepared maps: maps marked as damaged are rebuilt, the
+/// least recently used maps are removed if that frees enough disk space, and afterwards the folder
+/// is trimmed.
 Result<PrepareReport>
 prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& monitor);
 
-/// What is to be done about a raster with a level file that turns out to be damaged: the end of a
-/// sentence.
+/// The remedy for a damaged raster with a level file: the end of a sentence.
 std::string remedyFor(const std::string& raster_path, const std::string& level_path);
 
 } // namespace marsview

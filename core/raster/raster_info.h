@@ -42,7 +42,7 @@ struct RasterInfo {
     std::optional<double> nodata; // raw
     /// Further raw values that mark nodata: special constants of the product's label.
     std::vector<double> other_nodata;
-    bool has_mask_band = false; // voids are also told by a mask beside the samples
+    bool has_mask_band = false; // a mask band marks further voids
 
     double scale = 1.0; // value = raw × scale + offset, in `unit`
     double offset = 0.0;
@@ -124,7 +124,7 @@ void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
 /// datum accordingly. Call whenever scale, unit, CRS or body changed.
 void deduceHeightReference(RasterInfo& info);
 
-/// Refuses, with `path` in the sentence, what has fewer than 2 × 2 samples.
+/// An error with `path` in its message if the raster has fewer than 2 × 2 samples.
 Status checkIsSurface(const std::string& path, const RasterInfo& info);
 
 } // namespace marsview

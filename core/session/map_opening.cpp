@@ -82,7 +82,7 @@ Status MapOpening::choose()
     return Done{};
 }
 
-// Whether there is a level file beside the raster that can be used.
+// Whether a usable level file exists next to the raster.
 Result<bool> MapOpening::useLevelsBeside()
 {
     const std::string& raster_path = raster_.file.info().path;

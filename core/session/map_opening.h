@@ -1,4 +1,4 @@
-// A raster on its way to becoming a map: what is opened here is passed on, never opened again.
+// A raster on its way to becoming a map: files opened here are passed on, never opened again.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -64,7 +64,7 @@ public:
     OpenRaster takeRaster() && { return std::move(raster_); }
 
 private:
-    // Tiles of the whole map, and what was measured over it.
+    // Tiles of the whole map, and its statistics.
     struct Tiles {
         std::shared_ptr<const TileSource> source;
         std::shared_ptr<const MapLevels> levels;

@@ -209,7 +209,7 @@ private:
     HapticsConnection connection_ = HapticsConnection::None;
     QString uri_;
     QString problem_;
-    bool is_quiet_ = false; // the user has not requested this device in this run
+    bool is_quiet_ = false; // the device is connected automatically, not by the user
     HapticsSettings settings_;
     ContactModelKind model_ = kContactModelDefault;
     bool is_stopped_ = false;
