@@ -188,8 +188,8 @@ Status makeLevels(const OpenRaster& raster,
     return buildLevelFile(build, monitor);
 }
 
-// An error if the level file of an existing copy cannot be used or, without a level file, if the copy
-// is not a complete tiled GeoTIFF.
+// An error if the level file of an existing copy cannot be used or, without a level file, if the
+// copy is not a complete tiled GeoTIFF.
 Status checkKnown(const OpenRaster& raster, const PrepareReport& report)
 {
     const Result<LevelWork> work = levelWork(raster, report);

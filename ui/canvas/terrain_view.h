@@ -1,4 +1,4 @@
-// The map on screen, and the hands on it.
+// The view of the map, with the styluses of the mouse and the device.
 #pragma once
 
 #include "core/session/scene_surface.h"
@@ -168,7 +168,7 @@ public:
 Q_SIGNALS:
     /// There is a graphics context.
     void ready();
-    /// There is none that will do.
+    /// No suitable graphics context is available.
     void unavailable(const QString& reason);
     void mapShown(const std::shared_ptr<const Map>& map);
     /// setLayers() or setLook() took effect.

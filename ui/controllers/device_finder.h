@@ -16,9 +16,9 @@ namespace marsview {
 /// Makes the drivers that devices are looked for with. Called once, on another thread.
 using DriverMaker = std::function<std::vector<std::unique_ptr<DeviceDriver>>()>;
 
-/// Looking at buses and opening devices may take seconds, or never end: both happen on threads of
-/// their own, one after the other. Lives in the GUI thread, which never waits for them; where one
-/// hangs while the finder goes it is left alone.
+/// Searching buses and opening devices may take seconds, or never end, so both run on separate
+/// threads, one after the other. Lives in the GUI thread, which never waits for them; a job that
+/// hangs while the finder is destroyed keeps running.
 class DeviceFinder final : public QObject {
     Q_OBJECT
 

@@ -1,4 +1,4 @@
-// How hard the ground pushes back.
+// The meter of the contact force.
 #pragma once
 
 #include "core/base/vec.h"

@@ -1,4 +1,4 @@
-// What lies over the map, kept true to it.
+// The overlays on the map, updated with the view.
 #pragma once
 
 #include "core/geo/frames.h"

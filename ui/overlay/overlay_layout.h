@@ -1,4 +1,4 @@
-// Where the overlays go.
+// The layout of the overlays.
 #pragma once
 
 #include <QObject>
@@ -17,7 +17,7 @@ class Legend;
 class Minimap;
 class ScaleBarView;
 
-/// What lies over the map. Any may be null.
+/// The overlays on the map. Any may be null.
 struct OverlayParts {
     Minimap* minimap = nullptr;
     Legend* legend = nullptr;

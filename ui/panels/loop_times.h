@@ -1,4 +1,4 @@
-// How punctual the servo loop is.
+// The timing of the servo loop.
 #pragma once
 
 #include "haptics/loop/loop_statistics.h"

@@ -1,4 +1,4 @@
-// Places in a store of fixed size, given to whoever needs one most.
+// The slots of a store of fixed size, with least-recently-used eviction.
 #pragma once
 
 #include <cstddef>

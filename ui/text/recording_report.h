@@ -10,7 +10,7 @@ namespace marsview {
 /// Why a recording ended: a file records the touch on one map only.
 enum class RecordingEnd { AsWanted, WithItsMap };
 
-/// A flight record that has been written.
+/// A diagnostic log that has been written.
 struct SavedTicks {
     QString file;
     std::size_t count = 0;
