@@ -71,7 +71,7 @@ namespace marsview {
 namespace {
 
 constexpr QSize kDefaultSize{1280, 800};
-constexpr int kMessageDuration = 4000; // ms
+constexpr int kMessageDuration = 4000;                 // ms
 constexpr const char* kConnected = "window.connected"; // of CrashMarker
 
 // A driver that ends the program shall not do so at every start.

@@ -63,7 +63,7 @@ TEST(OpenedOnce, HoldsForEveryCommandThatReadsAMap)
     const TempFolder folder;
     const std::string map = folder.file("map.tif");
     std::filesystem::copy_file(bundledMars(), map);
-    const std::string goals = folder.write("goals.csv", "0 0 0\n1000 0 0\n");
+    const std::string goals = folder.write("goals.csv", "x,y,z\n0,0,0\n1000,0,0\n");
     const std::vector<std::vector<std::string>> commands{
         {"info", map, "--no-statistics"},
         {"info", map},

@@ -28,7 +28,8 @@ QString problemOfAddress(const QString& address)
         return path ? QString() : asSentence(path.error().message);
     }
     if (!remoteNameFor(address.toStdString()) || !address.contains(QStringLiteral("://"))) {
-        return AddressDialog::tr("An address begins with https://, http://, s3://, gs:// or file://.");
+        return AddressDialog::tr(
+            "An address begins with https://, http://, s3://, gs:// or file://.");
     }
     if (!url.isValid() || url.host().isEmpty()) {
         return AddressDialog::tr(

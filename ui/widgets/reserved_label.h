@@ -5,8 +5,8 @@
 
 namespace marsview {
 
-/// As wide as the longest usual text. Longer texts are elided, with the whole text as a tool tip. It
-/// shrinks in a narrow window.
+/// As wide as the longest usual text. Longer texts are elided, with the whole text as a tool tip.
+/// It shrinks in a narrow window.
 class ReservedLabel : public QLabel {
     Q_OBJECT
 

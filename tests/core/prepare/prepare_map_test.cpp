@@ -106,8 +106,8 @@ TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
         noticed_late += is_left ? 1U : 0U;
         const Result<PrepareReport> report = run(job(WhenThere::Check));
         ASSERT_TRUE(report) << report.error().message;
-        EXPECT_THAT(report->notes, Contains(EndsWith(is_left ? "it is rebuilt"
-                                                             : "every tile is as it was then")))
+        EXPECT_THAT(report->notes,
+                    Contains(EndsWith(is_left ? "it is rebuilt" : "every tile is as it was then")))
             << share;
         EXPECT_TRUE(test::readFile(out) == whole) << share;
         const Result<PrepareReport> again = run(job(WhenThere::Check));

@@ -765,7 +765,7 @@ TEST(TiledGeoTiff, RefusesToWriteOntoItsSource)
           std::pair{vrt, folder.file("other.raw")}}) {
         const Error error = failureOf(jobFor(from, to));
         EXPECT_EQ(error.code, ErrorCode::Invalid);
-        EXPECT_THAT(error.message, StartsWith(to + ": belongs to the map"));
+        EXPECT_THAT(error.message, StartsWith(to + ": belongs to the source map"));
     }
     EXPECT_EQ(test::readFile(source), before);
 }

@@ -3,6 +3,7 @@
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/time_plot.h"
 #include "ui/widgets/limit_slider.h"
+#include "ui/widgets/notice_bar.h"
 #include "ui/window_actions.h"
 #include "ui/window_docks.h"
 
