@@ -436,6 +436,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         "proxy still goes if the goal stands still, tried every 32nd update. minimum: share of\n"
         "updates after which no way over or off the surface leads closer to the goal.");
     command->add_option("DEM", options->map.path, "elevation map; without one, a fractal")
+        ->type_name("FILE")
         ->transform(mapName());
     options->map.addOverridesTo(*command);
     command->add_option("--size", options->size, "columns and rows of the fractal")
@@ -489,6 +490,7 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->capture_default_str()
         ->check(positiveNumber());
     command->add_option("--plot", options->plot, "SVG file: run time against error")
+        ->type_name("FILE")
         ->check(fileNameEndingIn({".svg"}));
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] { run = [options] { return runBenchContact(*options); }; });

@@ -400,6 +400,7 @@ void addBenchViewCommand(CLI::App& bench, CommandAction& run)
         ->add_option("DEM", options->paths,
                      "elevation maps, by default the bundled one; the times of several are "
                      "compared with the first's")
+        ->type_name("FILE")
         ->transform(mapName());
     options->map.addOverridesTo(*command);
     command->add_option("--size", options->size, "width and height in pixels")

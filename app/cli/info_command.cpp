@@ -314,6 +314,7 @@ void addInfoCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("DEM", options->paths,
                      "elevation maps: files, labels, addresses, or GDAL dataset names")
+        ->type_name("FILE")
         ->required()
         ->transform(mapName());
     options->map.addOverridesTo(*command);

@@ -280,6 +280,7 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--device", options->device,
                      "its URI: null:, sim:swipe=10,delay_ms=1, replay:GOALS.csv, …")
+        ->type_name("URI")
         ->required()
         ->check(knownDevice());
     command->add_option("--seconds", options->seconds, "how long, unless the device ends first")
@@ -309,10 +310,14 @@ void addLoopCommand(CLI::App& app, CommandAction& run)
                      "surface stiffness in N/m; limited to the device's stable stiffness")
         ->capture_default_str()
         ->check(positiveNumber());
-    command->add_option("--record", options->record,
-                        "CSV file for the recording; trace --goals and replay: read it");
-    command->add_option("--flight", options->flight,
-                        "CSV file for the last ten seconds of the flight recorder");
+    command
+        ->add_option("--record", options->record,
+                     "CSV file for the recording; trace --goals and replay: read it")
+        ->type_name("FILE");
+    command
+        ->add_option("--flight", options->flight,
+                     "CSV file for the last ten seconds of the flight recorder")
+        ->type_name("FILE");
     command->add_flag("--json", options->is_json, "print JSON");
     command->callback([options, &run] {
         options->loop.kind = contactModelKind(options->model).value_or(kContactModelDefault);

@@ -4,12 +4,15 @@
 #include "app/cli/commands.h"
 #include "app/console/text_output.h"
 #include "app/console/usage.h"
+#include "app/documents/write_documents.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -64,6 +67,35 @@ int refuseUsage(const CLI::App& app,
     return kExitUsage;
 }
 
+// "FOLDER [HELP]": manual pages and completions of this program, or of the one whose help is in the
+// file HELP. For the build, hence not in the help.
+int writeDocuments(const CLI::App& app, const std::vector<std::string>& arguments)
+{
+    if (arguments.size() != 2 && arguments.size() != 3) {
+        marsview::printError("--write-documents: write FOLDER, or FOLDER and HELP", kExitUsage,
+                             marsview::ErrorForm::Line);
+        return kExitUsage;
+    }
+    marsview::DocumentedCommand program = marsview::documentOf(app);
+    if (arguments.size() == 3) {
+        std::ifstream file(arguments[2]);
+        const std::string help(std::istreambuf_iterator<char>(file), {});
+        if (help.empty()) {
+            marsview::printError(arguments[2] + ": no help can be read from it", kExitFailed,
+                                 marsview::ErrorForm::Line);
+            return kExitFailed;
+        }
+        program = marsview::documentOfHelp("marsview", help);
+    }
+    const marsview::Status status =
+        marsview::writeDocuments(program, arguments[1], MARSVIEW_VERSION);
+    if (!status) {
+        marsview::printError(status.error().message, kExitFailed, marsview::ErrorForm::Line);
+        return kExitFailed;
+    }
+    return EXIT_SUCCESS;
+}
+
 int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
 {
     CLI::App app("Explore very large topographic maps from scripts", "marsview-cli");
@@ -85,6 +117,9 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
     marsview::addBenchTerrainCommand(*bench, action);
     marsview::addBenchStabilityCommand(*bench, action);
     addVersionTo(app);
+    if (!arguments.empty() && arguments.front() == "--write-documents") {
+        return writeDocuments(app, arguments);
+    }
     marsview::Result<std::vector<std::string>> words =
         marsview::normalizedArguments(app, arguments);
     if (!words) {

@@ -131,6 +131,7 @@ void addRenderCommand(CLI::App& app, CommandAction& run)
         app.add_subcommand("render", "Draw a picture of the terrain, by default of the whole map");
     options->map.addTo(*command);
     command->add_option("-o,--output", options->output, "PNG file to write")
+        ->type_name("FILE")
         ->required()
         ->check(fileNameEndingIn({".png"}));
     command->add_option("--size", options->size, "width and height in pixels")

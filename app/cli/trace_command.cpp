@@ -327,6 +327,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
         ->add_option("--goals", options->goals,
                      "CSV with the header x,y,z: map coordinates in the raster's CRS and a height "
                      "in metres, not exaggerated; - for standard input")
+        ->type_name("FILE")
         ->required()
         ->transform(mapName());
     std::vector<std::string> names;
@@ -349,8 +350,10 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
                      "vertical exaggeration; default from the recording, else 1")
         ->check(positiveNumber());
     command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
-    command->add_option("--summary", options->summary, "JSON file for totals, means and times");
-    command->add_option("-o,--output", options->output, "CSV file to write, default stdout");
+    command->add_option("--summary", options->summary, "JSON file for totals, means and times")
+        ->type_name("FILE");
+    command->add_option("-o,--output", options->output, "CSV file to write, default stdout")
+        ->type_name("FILE");
     command->callback([options, &run] {
         const auto needs_radius = contactModelName(ContactModelKind::VirtualProxy);
         if (options->radius_m && options->model.value_or("") != needs_radius) {

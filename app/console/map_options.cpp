@@ -74,6 +74,7 @@ void MapOptions::addTo(CLI::App& command)
 {
     command
         .add_option("DEM", path, "elevation map: a file, a label, an address, or a GDAL map name")
+        ->type_name("FILE")
         ->required()
         ->transform(mapName());
     addOverridesTo(command);

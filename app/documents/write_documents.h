@@ -1,0 +1,16 @@
+// Writes the manual pages and completions of a program.
+#pragma once
+
+#include "app/documents/program_document.h"
+#include "core/base/result.h"
+
+namespace marsview {
+
+/// Into `folder`, which is made: man1/PROGRAM.1 and a page a command, bash/PROGRAM, zsh/_PROGRAM
+/// and fish/PROGRAM.fish. Files that are there are replaced. `version` as "0.1.0". The error names
+/// the file that cannot be written.
+Status writeDocuments(const DocumentedCommand& program,
+                      const std::string& folder,
+                      std::string_view version);
+
+} // namespace marsview
