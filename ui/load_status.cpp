@@ -98,7 +98,8 @@ void LoadStatus::showSaving(const QString& file, double share)
                              : tr("Writing %1").arg(name);
     saving_ = {.text = label_->fontMetrics().elidedText(text, Qt::ElideMiddle, kLabelWidth),
                .tip = file,
-               .percent = static_cast<int>(std::floor(share * 100.0))};
+               .percent = share < 1.0 ? std::optional(static_cast<int>(share * 100.0))
+                                      : std::nullopt}; // nothing reports how far writing is
     showWhatGoesOn();
 }
 
@@ -175,7 +176,8 @@ void LoadStatus::showProgress(const Shown& shown)
 {
     label_->setText(shown.text);
     label_->setToolTip(shown.tip);
-    bar_->setValue(shown.percent);
+    bar_->setRange(0, shown.percent ? 100 : 0); // busy without a percentage
+    bar_->setValue(shown.percent.value_or(0));
 }
 
 } // namespace marsview

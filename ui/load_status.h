@@ -4,6 +4,8 @@
 #include <QString>
 #include <QWidget>
 
+#include <optional>
+
 class QLabel;
 class QProgressBar;
 class QToolButton;
@@ -40,7 +42,7 @@ private:
     struct Shown {
         QString text;
         QString tip;
-        int percent = 0;
+        std::optional<int> percent = 0; // empty: unknown
     };
     Work work() const;
     void showWhatGoesOn();

@@ -163,7 +163,9 @@ TEST_F(WindowMemoryTest, CoordinatePreferencesAreOfTheBodyThatIsLookedAt)
     };
     EXPECT_EQ(example(0), QStringLiteral("18.65° N, 226.20° E"));
     EXPECT_TRUE(example(1).contains(QStringLiteral("39′"))) << example(1).toStdString();
-    EXPECT_TRUE(example(2).contains(QStringLiteral("562345.5"))) << example(2).toStdString();
+    // The same place in meters of an equirectangular map: 3396190 m times the angles in radians.
+    EXPECT_TRUE(example(2).contains(QStringLiteral("7930955"))) << example(2).toStdString();
+    EXPECT_TRUE(example(2).contains(QStringLiteral("1105473"))) << example(2).toStdString();
 }
 
 TEST_F(WindowMemoryTest, AppliesPreferencesWhileTheDialogIsOpen)

@@ -23,6 +23,10 @@ constexpr std::array kNotations{Notation::Decimal, Notation::Sexagesimal, Notati
 
 constexpr int kUsual = -1;
 
+// West of the prime meridian, at a middle latitude: all formats differ.
+constexpr Angle kExampleLongitude = Angle::degrees(-133.8);
+constexpr Angle kExampleLatitude = Angle::degrees(18.65);
+
 Notation notationOf(const CoordinateFormat& format)
 {
     return format.system == PositionSystem::Map             ? Notation::Map
@@ -69,7 +73,7 @@ CoordinatesPage::CoordinatesPage(QWidget* parent)
     }
     longitudes_->setAccessibleName(tr("Range of longitudes"));
     //: The range of longitudes that suits each body
-    longitudes_->addItem(tr("As usual on the body"), kUsual);
+    longitudes_->addItem(tr("Default for the body"), kUsual);
     for (const auto notation :
          {LongitudeNotation::East360, LongitudeNotation::EastWest180, LongitudeNotation::West360}) {
         longitudes_->addItem(longitudeNotationText(notation), static_cast<int>(notation));
@@ -201,8 +205,12 @@ void CoordinatesPage::showExamples()
             label->setFont(font);
         }
         if (notation == Notation::Map) {
-            examples_[i].text->setText(leftToRight(
-                QStringLiteral("%1, %2 m").arg(numberText(562345.5, 1), numberText(5117890.0, 1))));
+            // Equirectangular, in meters.
+            const double radius_m = info.body->ellipsoid.equatorial_m;
+            examples_[i].text->setText(
+                leftToRight(QStringLiteral("%1, %2 m")
+                                .arg(numberText(radius_m * kExampleLongitude.radians(), 0),
+                                     numberText(radius_m * kExampleLatitude.radians(), 0))));
             continue;
         }
         CoordinateFormat format = format_;
@@ -210,9 +218,8 @@ void CoordinatesPage::showExamples()
         format.angles = anglesOf(notation);
         const int digits = digitsFor(
             format.angles, Angle::degrees(notation == Notation::Decimal ? 0.01 : 1.0 / 3600.0));
-        examples_[i].text->setText(
-            geographicText({.longitude = Angle::degrees(-133.8), .latitude = Angle::degrees(18.65)},
-                           format, info, digits));
+        examples_[i].text->setText(geographicText(
+            {.longitude = kExampleLongitude, .latitude = kExampleLatitude}, format, info, digits));
     }
 }
 

@@ -3,6 +3,7 @@
 #include "core/levels/level_file.h"
 #include "core/prepare/prepare_map.h"
 #include "tests/support/make_raster.h"
+#include "tests/support/scoped_variable.h"
 #include "tests/ui/test_map.h"
 #include "tests/ui/timeout.h"
 #include "ui/canvas/terrain_view.h"
@@ -165,6 +166,7 @@ TEST_F(PreparationTest, TellsItsProgressWithoutGoingBack)
 
 TEST_F(PreparationTest, SaysWhatIsWrongWithTheFolderAndGoesOnInAnother)
 {
+    const test::ScopedVariable none("MARSVIEW_CACHE_DIR", nullptr); // it overrides the preferences
     // No folder can be created where a file is, even by users who may write everywhere.
     const std::string in_the_way = root_.write("file", "no folder");
     WindowOptions blocked = options();
