@@ -5,7 +5,7 @@
 #include "app/console/map_options.h"
 #include "app/console/text_output.h"
 #include "core/files/remote_raster.h"
-#include "core/session/open_map.h"
+#include "core/session/map_opening.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "app/console/map_options.h"
 #include "core/contact/contact_model.h"
-#include "core/session/open_map.h"
+#include "core/session/map.h"
 #include "core/view/scene_box.h"
 #include "haptics/terrain/clipmap_streamer.h"
 #include "haptics/terrain/servo_map.h"

@@ -2,7 +2,7 @@
 
 #include "app/gui/end_by_signal.h"
 #include "app/gui/window_arguments.h"
-#include "core/session/open_map.h"
+#include "core/session/map_resources.h"
 #include "core/session/sample_map.h"
 #include "ui/graphics_check.h"
 #include "ui/main_window.h"

@@ -33,7 +33,7 @@ std::string notUsed(const std::string& level_path, const Error& why)
 {
     const std::string beginning = level_path + ": ";
     const bool is_about_it = why.message.starts_with(beginning);
-    return fmt::format("the level file beside it is not used: it {}",
+    return fmt::format("its level file is not used: it {}",
                        is_about_it ? why.message.substr(beginning.size())
                                    : "cannot be verified (" + why.message + ")");
 }

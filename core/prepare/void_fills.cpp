@@ -2,7 +2,6 @@
 
 #include "core/base/deflate.h"
 #include "core/base/durable_file.h"
-#include "core/levels/packing.h"
 
 #include <algorithm>
 #include <cerrno>

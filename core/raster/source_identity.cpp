@@ -149,7 +149,7 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
             fmt::format("{}: {}", path,
                         may_be_there
                             ? std::strerror(stat_error) // NOLINT(concurrency-mt-unsafe)
-                            : "there is no such file, or it has no content to identify it by")};
+                            : "the file does not exist or is empty")};
     }
     SourceIdentity identity;
     std::error_code ignored;

@@ -7,7 +7,6 @@
 #include "core/levels/map_tile_source.h"
 #include "core/prepare/map_folder.h"
 #include "core/prepare/prepare_map.h"
-#include "core/raster/source_identity.h"
 #include "core/tiles/mean_samples_source.h"
 #include "core/tiles/tile_disk_cache.h"
 
@@ -60,11 +59,11 @@ Status MapOpening::choose()
     const auto in_place = GeotiffTileSource::of(raster_.file, raster_.voids());
     if (in_place) {
         in_place_ = *in_place;
-        const Result<bool> beside = useLevelsBeside();
-        if (!beside) {
-            return beside.error();
+        const Result<bool> has_levels = useAdjacentLevels();
+        if (!has_levels) {
+            return has_levels.error();
         }
-        if (*beside || is_remote) {
+        if (*has_levels || is_remote) {
             storage_ = MapStorage::Tiled;
             return Done{};
         }
@@ -74,7 +73,7 @@ Status MapOpening::choose()
         return fits ? Status(Done{}) : Status(in_place.error());
     }
     // A prepared map opens at once, however much memory there is.
-    if ((in_place_ && usePrepared(true)) || usePrepared(false)) {
+    if (usePrepared()) {
         storage_ = MapStorage::Tiled;
     } else if (!fits) {
         storage_ = MapStorage::NeedsOverviews;
@@ -83,7 +82,7 @@ Status MapOpening::choose()
 }
 
 // Whether a usable level file exists next to the raster.
-Result<bool> MapOpening::useLevelsBeside()
+Result<bool> MapOpening::useAdjacentLevels()
 {
     const std::string& raster_path = raster_.file.info().path;
     const std::string path = LevelFile::pathFor(raster_path);
@@ -103,32 +102,35 @@ Result<bool> MapOpening::useLevelsBeside()
 
 // Whether the folder of prepared maps has a level file of this raster: of the raster where it is,
 // or of a tiled copy.
-bool MapOpening::usePrepared(bool is_in_place)
+bool MapOpening::usePrepared()
 {
     const MapFolder folder = MapFolder::at(resources_.folder);
     if (resources_.folder.empty() || !folder.hasMaps()) {
-        return false;
+        return false; // and the raster need not be identified
     }
     const Result<std::string> path = preparedPathFor(raster_, resources_.folder);
     if (!path || folder.damage(*path)) {
         return false;
     }
-    KeptMap kept{.folder = folder, .path = *path, .lock = std::nullopt, .is_copy = !is_in_place};
-    // Before it is looked at. In a folder that may not be written to there is no lock.
-    if (Result<FileLock> lock = folder.use(*path)) {
-        kept.lock = std::move(*lock);
-    }
-    const int band = is_in_place ? raster_.spec.band : 1;
+    return (in_place_ && usePreparedAt(*path, false)) || usePreparedAt(*path, true);
+}
+
+bool MapOpening::usePreparedAt(const std::string& path, bool is_copy)
+{
+    // Locked before it is read. A folder without permission to write has no locks.
+    Result<FileLock> lock = MapFolder::at(resources_.folder).use(path);
     Result<RasterLevels> levels =
-        openLevels(LevelFile::pathFor(*path), is_in_place ? raster_.file.info().path : *path, band,
-                   raster_.info);
+        openLevels(LevelFile::pathFor(path), is_copy ? path : raster_.file.info().path,
+                   is_copy ? 1 : raster_.spec.band, raster_.info);
     if (!levels) {
         return false;
     }
     levels_ = std::move(*levels);
-    kept_ = std::move(kept);
-    kept_path_ = *path;
-    is_copy_ = !is_in_place;
+    prepared_path_ = path;
+    is_copy_ = is_copy;
+    if (lock) {
+        lock_ = std::move(*lock);
+    }
     return true;
 }
 
@@ -139,15 +141,15 @@ bool MapOpening::isDamageToPrepared(const Error& error) const
 
 Status MapOpening::discardPrepared()
 {
-    if (kept_path_.empty()) {
+    if (prepared_path_.empty()) {
         return Error{ErrorCode::NotFound,
                      fmt::format("{}: its overviews are not in {}", raster_.spec.path,
                                  resources_.folder.string())};
     }
     levels_.reset();
-    kept_.reset(); // with its lock
+    lock_.reset();
     const Result<MapFolder> folder = MapFolder::open(resources_.folder);
-    return folder ? folder->remove(std::filesystem::path(kept_path_).filename().string())
+    return folder ? folder->remove(std::filesystem::path(prepared_path_).filename().string())
                   : Status(folder.error());
 }
 
@@ -191,12 +193,14 @@ Result<std::shared_ptr<const Map>> MapOpening::finishTiled(JobMonitor& monitor)
     info.notices.insert(info.notices.end(), notices_.begin(), notices_.end());
     if (isEstimated()) {
         info.notices.push_back(notices_.empty()
-                                   ? "its detail is estimated: there is no level file beside it"
+                                   ? "its detail is estimated because it has no level file"
                                    : "its detail is estimated");
     }
-    if (kept_) {
-        opened->source = keptSource(opened->source, std::move(*kept_));
-        kept_.reset();
+    if (!prepared_path_.empty()) {
+        opened->source = keptSource(opened->source, {.folder = MapFolder::at(resources_.folder),
+                                                     .path = prepared_path_,
+                                                     .lock = std::exchange(lock_, std::nullopt),
+                                                     .is_copy = is_copy_});
     }
     Result<std::shared_ptr<const TiledSamples>> tiles =
         TiledSamples::open(TiledRaster(*resources_.tiles, opened->source));
@@ -220,7 +224,7 @@ Result<std::shared_ptr<const GeotiffTileSource>> MapOpening::tiledRaster() const
     if (!is_copy_) {
         return in_place_;
     }
-    const Result<RasterFile> copy = RasterFile::open(kept_path_);
+    const Result<RasterFile> copy = RasterFile::open(prepared_path_);
     if (!copy) {
         return copy.error();
     }

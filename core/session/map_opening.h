@@ -28,21 +28,21 @@ enum class MapStorage {
 class MapOpening {
 public:
     /// Decides by the file and by what was prepared from it. Reads a few dozen kilobytes. Refuses
-    /// rasters that are no surface, and remote ones that can neither be read in pieces nor fetched
-    /// whole. Damaged where the raster was damaged since its level file was built.
+    /// rasters that are not a surface, and remote ones that can neither be read in pieces nor
+    /// fetched whole. Damaged where the raster was damaged since its level file was built.
     static Result<MapOpening> begin(OpenRaster raster, const MapResources& resources);
 
     const OpenRaster& raster() const noexcept { return raster_; }
     /// For the user, such as why a level file is not used.
     const std::vector<std::string>& notices() const noexcept { return notices_; }
     MapStorage storage() const noexcept { return storage_; }
-    /// The level file of a tiled map; nothing where there is none.
+    /// The level file of a tiled map, if it has one.
     std::optional<std::string> levelPath() const
     {
         return levels_ ? std::optional(levels_->path) : std::nullopt;
     }
     /// Whether detail, range and voids of a tiled map are estimated from its overviews: a remote
-    /// raster without a level file beside it.
+    /// raster without a level file next to it.
     bool isEstimated() const noexcept
     {
         return storage_ == MapStorage::Tiled && !levels_.has_value();
@@ -73,8 +73,9 @@ private:
     MapOpening(OpenRaster raster, const MapResources& resources);
 
     Status choose();
-    Result<bool> useLevelsBeside();
-    bool usePrepared(bool is_in_place);
+    Result<bool> useAdjacentLevels();
+    bool usePrepared();
+    bool usePreparedAt(const std::string& path, bool is_copy);
     Result<std::shared_ptr<const GeotiffTileSource>> tiledRaster() const;
     Result<Tiles> tilesWithLevels() const;
     Result<Tiles> estimatedTiles(JobMonitor& monitor) const;
@@ -89,9 +90,9 @@ private:
     MapStorage storage_ = MapStorage::InMemory;
     std::shared_ptr<const GeotiffTileSource> in_place_; // null: cannot be read in tiles as it is
     std::optional<RasterLevels> levels_;
-    std::optional<KeptMap> kept_; // in the folder of prepared maps; finish() takes it
-    std::string kept_path_{};     // its path
-    bool is_copy_ = false;        // tiles are read from a copy in that folder
+    std::string prepared_path_{};  // in the folder of prepared maps; empty: not from there
+    bool is_copy_ = false;         // tiles are read from a copy at prepared_path_
+    std::optional<FileLock> lock_; // keeps prepared_path_ there; finish() takes it
 };
 
 } // namespace marsview

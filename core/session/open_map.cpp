@@ -1,23 +1,8 @@
 #include "core/session/open_map.h"
 
-#include "core/base/check.h"
-#include "core/base/environment.h"
-#include "core/base/plain_number.h"
-#include "core/files/remote_raster.h"
-#include "core/levels/estimated_levels.h"
-#include "core/levels/level_file.h"
-#include "core/levels/level_file_use.h"
-#include "core/levels/map_tile_source.h"
-#include "core/prepare/kept_source.h"
-#include "core/prepare/map_folder.h"
 #include "core/prepare/prepare_map.h"
-#include "core/prepare/tiled_geotiff.h"
-#include "core/raster/raster_file.h"
-#include "core/raster/source_identity.h"
+#include "core/session/map_opening.h"
 #include "core/session/preview.h"
-#include "core/tiles/geotiff_tile_source.h"
-#include "core/tiles/mean_samples_source.h"
-#include "core/tiles/tile_disk_cache.h"
 
 #include <fmt/format.h>
 #include <utility>

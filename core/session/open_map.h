@@ -6,7 +6,6 @@
 #include "core/raster/decimated_read.h"
 #include "core/raster/open_raster.h"
 #include "core/session/map.h"
-#include "core/session/map_opening.h"
 #include "core/session/map_resources.h"
 
 #include <memory>

@@ -65,7 +65,7 @@ struct TileRequests::Impl {
     TileUrgency urgency;
     std::function<void()> notify;
     // The following are guarded by the cache's mutex.
-    std::vector<TileId> wanted;
+    std::vector<TileId> requested;
     std::size_t first_open = 0; // all requested tiles before this one are resident
     int notifications = 0;      // running
 };
@@ -156,8 +156,8 @@ struct TileCache::Impl {
                     continue;
                 }
                 bool is_open = false;
-                for (std::size_t i = request->first_open; i < request->wanted.size(); ++i) {
-                    const Key key{request->raster.number_, request->wanted[i]};
+                for (std::size_t i = request->first_open; i < request->requested.size(); ++i) {
+                    const Key key{request->raster.number_, request->requested[i]};
                     if (entries.contains(key)) {
                         request->first_open = is_open ? request->first_open : i + 1;
                         continue;
@@ -250,26 +250,26 @@ struct TileCache::Impl {
         }
     }
 
-    void notifyWishes(const Key& key, std::unique_lock<std::mutex>& lock)
+    void notifyRequests(const Key& key, std::unique_lock<std::mutex>& lock)
     {
-        std::vector<TileRequests::Impl*> told;
+        std::vector<TileRequests::Impl*> affected;
         for (TileRequests::Impl* request : requests) {
             if (request->notify && request->raster.number_ == key.raster &&
-                std::find(request->wanted.begin(), request->wanted.end(), key.id) !=
-                    request->wanted.end()) {
+                std::find(request->requested.begin(), request->requested.end(), key.id) !=
+                    request->requested.end()) {
                 ++request->notifications;
-                told.push_back(request);
+                affected.push_back(request);
             }
         }
         lock.unlock();
-        for (TileRequests::Impl* request : told) {
+        for (TileRequests::Impl* request : affected) {
             request->notify();
         }
         lock.lock();
-        for (TileRequests::Impl* request : told) {
+        for (TileRequests::Impl* request : affected) {
             --request->notifications;
         }
-        if (!told.empty()) {
+        if (!affected.empty()) {
             has_result.notify_all();
         }
     }
@@ -283,7 +283,7 @@ struct TileCache::Impl {
             if (key) {
                 // The result is in the cache or among the failures.
                 static_cast<void>(load(*key, lock));
-                notifyWishes(*key, lock);
+                notifyRequests(*key, lock);
             } else if (wake_at) {
                 has_work.wait_until(lock, stop, *wake_at, [] { return false; });
             } else {
@@ -428,7 +428,7 @@ Result<std::shared_ptr<const Tile>> TiledRaster::get(const TileId& id) const
         return tile;
     }
     Result<std::shared_ptr<const Tile>> outcome = cache_->load(key, lock);
-    cache_->notifyWishes(key, lock);
+    cache_->notifyRequests(key, lock);
     return outcome;
 }
 
@@ -448,7 +448,7 @@ TileRequests::TileRequests(const TiledRaster& raster,
                            TileUrgency urgency,
                            std::function<void()> notify)
     : impl_(std::make_shared<Impl>(
-          Impl{.raster = raster, .urgency = urgency, .notify = std::move(notify), .wanted = {}}))
+          Impl{.raster = raster, .urgency = urgency, .notify = std::move(notify), .requested = {}}))
 {
     TileCache::Impl& cache = *raster.cache_;
     const std::lock_guard lock(cache.mutex);
@@ -469,14 +469,14 @@ void TileRequests::request(std::span<const TileId> tiles)
     {
         const std::lock_guard lock(cache.mutex);
         const std::unordered_set<TileId, TileIdHash> still(tiles.begin(), tiles.end());
-        for (const TileId& id : impl_->wanted) {
+        for (const TileId& id : impl_->requested) {
             const Key key{impl_->raster.number_, id};
             if (!still.contains(id) && !cache.entries.contains(key) &&
                 !cache.in_work.contains(key)) {
                 ++cache.statistics.cancelled;
             }
         }
-        impl_->wanted.assign(tiles.begin(), tiles.end());
+        impl_->requested.assign(tiles.begin(), tiles.end());
         impl_->first_open = 0;
         // The most urgent are marked as used last, so that they stay the longest.
         for (auto id = tiles.rbegin(); id != tiles.rend(); ++id) {
@@ -492,7 +492,7 @@ void TileRequests::waitForPending() const
     TileCache::Impl& cache = *impl_->raster.cache_;
     std::unique_lock lock(cache.mutex);
     cache.has_result.wait(lock, [&] {
-        return std::none_of(impl_->wanted.begin(), impl_->wanted.end(),
+        return std::none_of(impl_->requested.begin(), impl_->requested.end(),
                             [&](const TileId& id) { return cache.isMissing(*impl_, id); });
     });
 }
@@ -502,7 +502,7 @@ std::size_t TileRequests::missingCount() const
     TileCache::Impl& cache = *impl_->raster.cache_;
     const std::lock_guard lock(cache.mutex);
     return static_cast<std::size_t>(
-        std::count_if(impl_->wanted.begin(), impl_->wanted.end(),
+        std::count_if(impl_->requested.begin(), impl_->requested.end(),
                       [&](const TileId& id) { return cache.isMissing(*impl_, id); }));
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr WorkspaceBox kWorkspace{{-0.08, -0.06, -0.06}, {0.08, 0.06, 0.06}};
 constexpr double kInsideM = 0.01; // strokes reverse this far from the walls
+constexpr double kLiftM = 0.006;  // of a lift, so that the stylus stays in the picture
 
 // The options with the names and units of the URI.
 struct UriNumbers {
@@ -161,7 +162,11 @@ void SimDevice::wander() noexcept
     const double lean_m =
         options_.hand.grip_n_per_m > 0.0 ? options_.press_n / options_.hand.grip_n_per_m : 0.0;
     const double up_m = is_lifting ? 2.0 * lean_m : -lean_m;
-    aim_.z = std::clamp(hand_.position().z + up_m, kWorkspace.low.z, kWorkspace.high.z);
+    if (!is_lifting) {
+        lift_from_m_ = hand_.position().z;
+    }
+    const double highest_m = std::min(kWorkspace.high.z, lift_from_m_ + kLiftM);
+    aim_.z = std::clamp(hand_.position().z + up_m, kWorkspace.low.z, highest_m);
     hand_.aimAt(aim_, velocity);
 }
 

@@ -44,6 +44,7 @@ private:
     double heading_rad_ = 0.0;
     double turn_rad_per_s_ = 0.0;
     double until_turn_s_ = 0.0;
+    double lift_from_m_ = 0.0; // the height at which a lift begins
 };
 
 /// Scheme "sim". The address is a list like "mass=0.1,delay_ms=2,seed=3". Names: mass (kg), damping

@@ -3,7 +3,7 @@
 
 #include "core/contact/contact_model.h"
 #include "core/geo/coordinate_format.h"
-#include "core/session/open_map.h"
+#include "core/session/map_resources.h"
 #include "ui/text/number_text.h"
 
 #include <QString>

@@ -6,7 +6,7 @@
 #include "core/base/result.h"
 #include "core/levels/tile_heights.h"
 #include "core/session/map.h"
-#include "core/session/open_map.h"
+#include "core/session/map_resources.h"
 
 #include <cstddef>
 #include <cstdint>

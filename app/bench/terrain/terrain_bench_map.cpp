@@ -1,4 +1,5 @@
 #include "app/bench/terrain/terrain_bench.h"
+#include "core/session/open_map.h"
 #include "core/terrain/tiled_samples.h"
 
 #include <memory>

@@ -3,6 +3,7 @@
 #include "app/bench/terrain/terrain_stage.h"
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
+#include "core/session/open_map.h"
 
 #include <chrono>
 #include <nlohmann/json.hpp>

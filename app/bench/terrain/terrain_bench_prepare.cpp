@@ -2,6 +2,8 @@
 #include "app/bench/terrain/terrain_bench.h"
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
+#include "core/session/map_opening.h"
+#include "core/session/open_map.h"
 
 #include <chrono>
 #include <filesystem>

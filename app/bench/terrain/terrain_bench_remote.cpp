@@ -3,6 +3,7 @@
 #include "app/console/long_job.h"
 #include "core/files/network_statistics.h"
 #include "core/raster/source_identity.h"
+#include "core/session/open_map.h"
 
 #include <cmath>
 #include <fmt/format.h>

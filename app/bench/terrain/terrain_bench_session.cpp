@@ -3,6 +3,7 @@
 #include "app/bench/terrain/tile_swipe.h"
 #include "app/console/long_job.h"
 #include "app/console/machine.h"
+#include "core/session/open_map.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -2,6 +2,7 @@
 #include "app/bench/terrain/terrain_bench.h"
 #include "app/bench/terrain/tile_swipe.h"
 #include "app/console/long_job.h"
+#include "core/session/open_map.h"
 
 #include <algorithm>
 #include <cmath>

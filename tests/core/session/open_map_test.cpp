@@ -1,6 +1,7 @@
 #include "core/levels/level_file.h"
 #include "core/prepare/map_folder.h"
 #include "core/prepare/prepare_map.h"
+#include "core/session/map_opening.h"
 #include "core/session/open_map.h"
 #include "tests/support/make_raster.h"
 #include "tests/support/run_program.h"

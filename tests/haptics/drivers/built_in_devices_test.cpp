@@ -83,6 +83,24 @@ TEST(SimDevice, LeansOnWhatIsBelowAndStaysWithinItsWorkspace)
     EXPECT_NEAR(pressed, 0.7, 0.05);
 }
 
+// By default for half a second every five seconds.
+TEST(SimDevice, LiftsOnlyALittle)
+{
+    const auto device = opened("sim:");
+    double highest_m = -1.0;
+    int off_ground = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        DeviceSample sample;
+        device->read(sample);
+        const double z = sample.position.z;
+        device->write({0.0, 0.0, z < 0.0 ? -300.0 * z : 0.0});
+        highest_m = std::max(highest_m, z);
+        off_ground += z > 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(off_ground, 1000);
+    EXPECT_LT(highest_m, 0.01);
+}
+
 TEST(SimDevice, SwipesAsManyCellsAnUpdateAsItIsTold)
 {
     const auto device = opened("sim:swipe=10,cell_m=1e-5,encoder_mm=0,lift_s=0");

@@ -81,10 +81,10 @@ void expectStrokesInPicture(TerrainView& view, const HapticsController& haptics)
         int outside = 0;
         ASSERT_TRUE(wait_for([&] {
             const LoopState now = haptics.loop()->state();
-            if (now.contact.is_in_contact) {
-                ++seen;
-                outside += view.isInPicture(now.contact.proxy) ? 0 : 1;
-            }
+            // Also while it lifts off, half a second every five seconds.
+            seen += now.contact.is_in_contact ? 1 : 0;
+            outside +=
+                view.isInPicture(now.contact.is_in_contact ? now.contact.proxy : now.goal) ? 0 : 1;
             return now.tick > begin + kReturnTicks + 2000;
         }));
         EXPECT_GT(seen, 10);
