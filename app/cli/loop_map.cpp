@@ -1,4 +1,5 @@
 #include "app/cli/loop_map.h"
+
 #include "core/session/open_map.h"
 
 #include <utility>

@@ -144,12 +144,11 @@ Result<SourceIdentity> identify(const std::string& path, OverviewFiles overviews
     }
     if (files.empty()) {
         const bool may_be_there = stat_error != 0 && stat_error != ENOENT;
-        return Error{
-            may_be_there ? ErrorCode::Unreadable : ErrorCode::NotFound,
-            fmt::format("{}: {}", path,
-                        may_be_there
-                            ? std::strerror(stat_error) // NOLINT(concurrency-mt-unsafe)
-                            : "the file does not exist or is empty")};
+        return Error{may_be_there ? ErrorCode::Unreadable : ErrorCode::NotFound,
+                     fmt::format("{}: {}", path,
+                                 may_be_there
+                                     ? std::strerror(stat_error) // NOLINT(concurrency-mt-unsafe)
+                                     : "the file does not exist or is empty")};
     }
     SourceIdentity identity;
     std::error_code ignored;
