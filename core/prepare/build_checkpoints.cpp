@@ -1,25 +1,16 @@
 #include "core/prepare/build_checkpoints.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <utility>
 
 namespace marsview {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-// The work between checkpoints takes at least this many times as long as saving one.
-constexpr int kWorkPerSave = 20;
-
-} // namespace
 
 BuildCheckpoints::BuildCheckpoints(std::string path,
                                    std::string subject,
                                    std::chrono::milliseconds interval)
     : path_(std::move(path))
     , subject_(std::move(subject))
-    , interval_(interval)
+    , schedule_(interval)
 {}
 
 std::optional<BuildCheckpoints::Found> BuildCheckpoints::find() const
@@ -47,28 +38,25 @@ Status BuildCheckpoints::run(const Stage& stage,
 {
     std::size_t row = stage.first;
     while (row < stage.end) {
-        const Result<std::size_t> next =
-            readers.eachRow({.first = row, .end = stage.end, .until = Clock::now() + interval_},
-                            stage.work, monitor);
+        const Result<std::size_t> next = readers.eachRow(
+            {.first = row, .end = stage.end, .until = schedule_.next()}, stage.work, monitor);
         if (!next) {
             return next.error();
         }
         row = *next;
         if (row < stage.end) {
-            const Clock::time_point start = Clock::now();
-            save(stage, row, writer);
-            last_save_ = Clock::now() - start;
+            is_there_ = schedule_.run([&] { return save(stage, row, writer); }) || is_there_;
         }
     }
     return Done{};
 }
 
 // A failed checkpoint does not stop the build: writing the level file will report the cause.
-void BuildCheckpoints::save(const Stage& stage, std::size_t row, LevelFileWriter& writer)
+bool BuildCheckpoints::save(const Stage& stage, std::size_t row, LevelFileWriter& writer)
 {
     const std::optional<LevelFileWriter::Written> written = writer.flush();
     if (!written) {
-        return;
+        return false;
     }
     CheckpointWriter to(path_);
     to.putArray(subject_);
@@ -76,9 +64,7 @@ void BuildCheckpoints::save(const Stage& stage, std::size_t row, LevelFileWriter
     to.put(std::uint64_t{row});
     to.put(written->bytes);
     to.put(written->checksum);
-    if (stage.save(to) && to.finish()) {
-        is_there_ = true;
-    }
+    return stage.save(to) && to.finish();
 }
 
 void BuildCheckpoints::remove()

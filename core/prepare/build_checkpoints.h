@@ -4,6 +4,7 @@
 #include "core/base/job_monitor.h"
 #include "core/base/result.h"
 #include "core/prepare/checkpoint_file.h"
+#include "core/prepare/checkpoint_schedule.h"
 #include "core/prepare/level_file_writer.h"
 #include "core/prepare/tile_rows.h"
 
@@ -60,12 +61,11 @@ public:
     void remove();
 
 private:
-    void save(const Stage& stage, std::size_t row, LevelFileWriter& writer);
+    bool save(const Stage& stage, std::size_t row, LevelFileWriter& writer);
 
     std::string path_;
     std::string subject_;
-    std::chrono::milliseconds interval_;
-    std::chrono::steady_clock::duration last_save_{};
+    CheckpointSchedule schedule_;
     bool is_there_ = false;
 };
 

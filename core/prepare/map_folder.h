@@ -13,7 +13,7 @@
 
 namespace marsview {
 
-/// A prepared map in the folder, with its other files: the level file and the journal of an
+/// A prepared map in the folder, with its other files: the level file and the checkpoint of an
 /// interrupted attempt.
 struct PreparedMap {
     std::string name;   // of its file, unique in the folder

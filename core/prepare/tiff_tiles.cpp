@@ -226,7 +226,7 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
 
 Status TiffTiles::trim(std::uint64_t file_bytes)
 {
-    // A kill between flush and journal leaves unrecorded tiles in the file; they will be rewritten
+    // A kill between flush and checkpoint leaves unrecorded tiles in the file; they will be rewritten
     // in their locations if they fit. So these locations stay reserved.
     for (std::size_t page = 0; page < impl_->pages.size(); ++page) {
         TIFF* file = impl_->handles[page].get();

@@ -3,10 +3,11 @@
 #include "core/base/check.h"
 #include "core/base/file_lock.h"
 #include "core/base/parallel.h"
+#include "core/prepare/checkpoint_schedule.h"
+#include "core/prepare/copy_checkpoint.h"
 #include "core/prepare/disk_room.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/overview_builder.h"
-#include "core/prepare/prepare_journal.h"
 #include "core/prepare/tiff_tiles.h"
 #include "core/prepare/tile_encoding.h"
 #include "core/raster/raster_file.h"
@@ -31,18 +32,15 @@ namespace marsview {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 // What is being read while the rows before are written takes at most this, together.
 constexpr std::size_t kWindowBytes = std::size_t{230} << 20;
 // A row of blocks taller than a tile is read at once up to this size.
 constexpr std::size_t kWindowBytesWanted = std::size_t{16} << 20;
 
-// At these rows of tiles, finer levels are in the file and coarser ones in the journal: 3 % of a
-// row of tiles in total.
+// At these rows of tiles, finer levels are in the file and coarser ones in the checkpoint: 3 % of
+// a row of tiles in total.
 constexpr std::size_t kTileRowsPerCheckpoint = 8;
-// Checkpoints take at most one part in this many of the time.
-constexpr int kCheckpointShare = 20;
 
 // Upper bound even for noise; overviews add a third.
 constexpr double kBytesPerRawByte = 1.34;
@@ -168,7 +166,7 @@ public:
     bool hasCheckpoint() const { return tile_rows_noted_ > 0; }
     void discard() const;
     const std::string& partPath() const { return part_path_; }
-    std::string journalPath() const { return part_path_ + ".journal"; }
+    std::string checkpointPath() const { return part_path_ + ".checkpoint"; }
 
 private:
     bool tryResume();
@@ -178,7 +176,7 @@ private:
     Status
     writeLevelRows(std::size_t level, const OverviewBuilder::Rows& rows, std::size_t tile_row);
     Status append(std::size_t page, std::size_t tile_row, EncodedTiles& tiles);
-    Status checkpoint();
+    bool saveRows();
     std::size_t tileRows() const { return tilesAlong(info_.rows); }
 
     const TiledGeoTiffJob& job_;
@@ -196,7 +194,7 @@ private:
     std::vector<std::size_t> mask_pages_;
     std::size_t tile_rows_done_ = 0;
     std::size_t tile_rows_noted_ = 0;
-    Clock::time_point next_checkpoint_;
+    CheckpointSchedule schedule_;
 };
 
 Preparation::Preparation(const TiledGeoTiffJob& job,
@@ -215,14 +213,15 @@ Preparation::Preparation(const TiledGeoTiffJob& job,
     , report_(report)
     , part_path_(job.path + ".part")
     , overviews_(info.columns, info.rows, info.type, info.nodata, info.needsVoidMask())
+    , schedule_(job.checkpoint_interval)
 {}
 
 void Preparation::discard() const
 {
     std::error_code ignored;
     fs::remove(part_path_, ignored);
-    fs::remove(journalPath(), ignored);
-    fs::remove(journalPath() + ".new", ignored);
+    fs::remove(checkpointPath(), ignored);
+    fs::remove(checkpointPath() + ".new", ignored);
 }
 
 // Finds the page of every level by its size.
@@ -261,11 +260,10 @@ bool Preparation::opensAsTheMap() const
 
 bool Preparation::tryResume()
 {
-    const std::optional<PrepareJournal> journal = readJournal(journalPath());
-    const bool is_source_untouched =
-        journal && (journal->source_stamp.empty() || journal->source_stamp == source_stamp_);
-    if (!is_source_untouched || journal->key != key_ || journal->tile_rows > tileRows() ||
-        journal->tile_rows % kTileRowsPerCheckpoint != 0 || journal->tile_rows == 0) {
+    const std::optional<CopyCheckpoint> checkpoint = readCopyCheckpoint(checkpointPath());
+    if (!checkpoint || checkpoint->source_stamp != source_stamp_ || checkpoint->key != key_ ||
+        checkpoint->tile_rows > tileRows() || checkpoint->tile_rows % kTileRowsPerCheckpoint != 0 ||
+        checkpoint->tile_rows == 0) {
         return false;
     }
     Result<TiffTiles> tiles = TiffTiles::open(part_path_);
@@ -273,10 +271,10 @@ bool Preparation::tryResume()
         return false;
     }
     tiles_ = std::move(tiles).value();
-    const auto tile_rows = static_cast<std::size_t>(journal->tile_rows);
+    const auto tile_rows = static_cast<std::size_t>(checkpoint->tile_rows);
     const Result<std::uint64_t> bytes = tiles_->fileBytes();
-    if (!bytes || *bytes < journal->file_bytes || !findPages() ||
-        !overviews_.restore(tile_rows, journal->overviews)) {
+    if (!bytes || *bytes < checkpoint->file_bytes || !findPages() ||
+        !overviews_.restore(tile_rows, checkpoint->overviews)) {
         return false;
     }
     for (const std::vector<std::size_t>* pages : {&pages_, &mask_pages_}) {
@@ -285,14 +283,14 @@ bool Preparation::tryResume()
             const std::size_t complete =
                 level > OverviewBuilder::kStreamedLevels ? 0 : tile_rows >> level;
             const std::size_t noted = complete * tiles_->pages()[page].tile_columns;
-            if (!tiles_->holdsTiles(page, noted, journal->file_bytes) ||
+            if (!tiles_->holdsTiles(page, noted, checkpoint->file_bytes) ||
                 !tiles_->areWhole(page, noted)) {
                 return false;
             }
         }
     }
     tile_rows_done_ = tile_rows;
-    if (!opensAsTheMap() || !tiles_->trim(journal->file_bytes)) {
+    if (!opensAsTheMap() || !tiles_->trim(checkpoint->file_bytes)) {
         return false;
     }
     tile_rows_noted_ = tile_rows;
@@ -302,7 +300,7 @@ bool Preparation::tryResume()
 Status Preparation::begin()
 {
     std::error_code ignored;
-    const bool was_begun = fs::exists(part_path_, ignored) && fs::exists(journalPath(), ignored);
+    const bool was_begun = fs::exists(part_path_, ignored) && fs::exists(checkpointPath(), ignored);
     if (was_begun && tryResume()) {
         report_.notes.push_back(fmt::format("{}: resumed after row {} of {}", job_.path,
                                             std::min(tile_rows_done_ * kTileSide, info_.rows),
@@ -330,7 +328,7 @@ Status Preparation::begin()
             return writeError(part_path_, 0, "was not created with the requested layout");
         }
     }
-    next_checkpoint_ = Clock::now() + job_.checkpoint_interval;
+    schedule_ = CheckpointSchedule(job_.checkpoint_interval);
     return Done{};
 }
 
@@ -414,34 +412,22 @@ Status Preparation::writeLevelRows(std::size_t level,
     return append(mask_pages_[level], tile_row, masks);
 }
 
-Status Preparation::checkpoint()
+// A failed checkpoint does not stop the copy: writing the next tiles will report the cause.
+bool Preparation::saveRows()
 {
-    const Clock::time_point start = Clock::now();
-    if (Status flushed = tiles_->flush(); !flushed) {
-        return flushed;
-    }
-    Result<std::uint64_t> bytes = tiles_->fileBytes();
-    if (!bytes) {
-        return std::move(bytes).error();
-    }
-    PrepareJournal journal;
-    journal.key = key_;
-    journal.source_stamp = source_stamp_;
-    journal.tile_rows = tile_rows_done_;
-    journal.tile_rows_all = tileRows();
-    journal.file_bytes = *bytes;
-    journal.overviews = overviews_.save(tile_rows_done_);
-    if (Status noted = writeJournal(journalPath(), journal); !noted) {
-        return noted;
+    const Status flushed = tiles_->flush();
+    const Result<std::uint64_t> bytes = tiles_->fileBytes();
+    if (!flushed || !bytes ||
+        !saveCheckpoint(checkpointPath(), {.key = key_,
+                                           .source_stamp = source_stamp_,
+                                           .tile_rows = tile_rows_done_,
+                                           .tile_rows_all = tileRows(),
+                                           .file_bytes = *bytes,
+                                           .overviews = overviews_.save(tile_rows_done_)})) {
+        return false;
     }
     tile_rows_noted_ = tile_rows_done_;
-    const Clock::time_point now = Clock::now();
-    const bool is_as_often_as_possible = job_.checkpoint_interval.count() == 0;
-    next_checkpoint_ = is_as_often_as_possible
-                           ? now
-                           : now + std::max<Clock::duration>(job_.checkpoint_interval,
-                                                             (now - start) * kCheckpointShare);
-    return Done{};
+    return true;
 }
 
 Status Preparation::copy(JobMonitor& monitor)
@@ -483,11 +469,8 @@ Status Preparation::copy(JobMonitor& monitor)
                     }
                 }
             }
-            if (!is_last && tile_rows_done_ % kTileRowsPerCheckpoint == 0 &&
-                Clock::now() >= next_checkpoint_) {
-                if (Status noted = checkpoint(); !noted) {
-                    return noted;
-                }
+            if (!is_last && tile_rows_done_ % kTileRowsPerCheckpoint == 0 && schedule_.isDue()) {
+                schedule_.run([this] { return saveRows(); });
             }
             monitor.report(static_cast<double>(tile_rows_done_) / static_cast<double>(tileRows()));
         }
@@ -544,7 +527,7 @@ Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
                                  job.path)};
     }
     for (const std::string& file : files) {
-        for (const char* ending : {"", ".part", ".part.journal", ".lock"}) {
+        for (const char* ending : {"", ".part", ".part.checkpoint", ".lock"}) {
             if (fs::equivalent(job.path + ending, file, ignored)) {
                 return Error{
                     ErrorCode::Invalid,
@@ -558,10 +541,10 @@ Status checkIsNotSource(const TiledGeoTiffJob& job, const RasterFile& source)
 // Reports the progress of the program that holds the lock.
 void reportOthersProgress(const std::string& path, JobMonitor& monitor)
 {
-    const std::optional<PrepareJournal> journal = readJournal(path + ".part.journal");
-    if (journal && journal->tile_rows_all > 0) {
-        monitor.report(static_cast<double>(journal->tile_rows) /
-                       static_cast<double>(journal->tile_rows_all));
+    const std::optional<CopyCheckpoint> checkpoint = readCopyCheckpoint(path + ".part.checkpoint");
+    if (checkpoint && checkpoint->tile_rows_all > 0) {
+        monitor.report(static_cast<double>(checkpoint->tile_rows) /
+                       static_cast<double>(checkpoint->tile_rows_all));
     }
 }
 

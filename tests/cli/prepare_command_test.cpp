@@ -122,9 +122,9 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
         fs::remove(path);
     }
     // Once more, from a kill that left unfinished files.
-    const std::string journal = path + ".part.journal";
+    const std::string checkpoint = path + ".part.checkpoint";
     fs::remove(path);
-    for (int i = 0; i < 100 && !fs::exists(journal); ++i) {
+    for (int i = 0; i < 100 && !fs::exists(checkpoint); ++i) {
         RunningProgram program(
             {MARSVIEW_CLI, "prepare", source, "-o", path, "--checkpoint", kOften},
             folder.file("messages"));
@@ -136,7 +136,7 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
             fs::remove(path);
         }
     }
-    ASSERT_TRUE(fs::exists(journal));
+    ASSERT_TRUE(fs::exists(checkpoint));
     const ProgramOutput last = runCli({"prepare", source, "-o", path, "--checkpoint", kOften});
     ASSERT_EQ(last.exit_status, 0) << last.err;
     EXPECT_THAT(last.err, HasSubstr("resumed after row"));
@@ -144,7 +144,7 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
     // Few bytes remain of data that was written after the last checkpoint.
     EXPECT_LT(static_cast<double>(fs::file_size(path)),
               1.02 * static_cast<double>(fs::file_size(whole)));
-    for (const char* ending : {".part", ".part.journal", ".part.journal.new", ".lock"}) {
+    for (const char* ending : {".part", ".part.checkpoint", ".part.checkpoint.new", ".lock"}) {
         EXPECT_FALSE(fs::exists(path + ending)) << ending;
     }
     std::printf("%d kills, %d finished before theirs\n", kills, finished);
@@ -158,7 +158,7 @@ TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
     const std::string messages = folder.file("messages");
     RunningProgram program({MARSVIEW_CLI, "prepare", source, "-o", path, "--checkpoint", "0"},
                            messages);
-    while (!fs::exists(path + ".part.journal") && !fs::exists(path)) {
+    while (!fs::exists(path + ".part.checkpoint") && !fs::exists(path)) {
         poll(nullptr, 0, 1);
     }
     program.signal(SIGINT);

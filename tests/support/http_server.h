@@ -1,4 +1,6 @@
-// A real HTTP server for tests of maps opened by address.
+// A real HTTP server for tests of maps opened by address. Own code because cpp-httplib 0.11, which
+// Debian 12 has, neither limits ranges to the end of the file nor places several of them correctly,
+// and cannot close idle connections.
 #pragma once
 
 #include <chrono>

@@ -259,7 +259,7 @@ TEST(MapFolder, RemovesOneWithAllThatBelongsToIt)
     const MapFolder folder = folderAt(temp.path());
     addMap(temp, "a", 100, std::chrono::hours(2));
     temp.write("b.map.tif.part", "x");
-    temp.write("b.map.tif.part.journal", "x");
+    temp.write("b.map.tif.part.checkpoint", "x");
     EXPECT_TRUE(folder.remove("a.map.tif"));
     EXPECT_TRUE(folder.remove("b.map.tif"));
     EXPECT_TRUE(fs::is_empty(temp.path()));

@@ -2,7 +2,7 @@
 #include "core/base/file_lock.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/overview_builder.h"
-#include "core/prepare/prepare_journal.h"
+#include "core/prepare/copy_checkpoint.h"
 #include "core/prepare/tiled_geotiff.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/source_identity.h"
@@ -116,7 +116,7 @@ std::string samplesOf(const std::string& path, int overview = -1, const std::str
 void expectNothingLeftBeside(const std::string& path)
 {
     for (const char* ending :
-         {".part", ".part.journal", ".part.journal.new", ".lock", ".aux.xml"}) {
+         {".part", ".part.checkpoint", ".part.checkpoint.new", ".lock", ".aux.xml"}) {
         EXPECT_FALSE(fs::exists(path + ending)) << path << ending;
     }
 }
@@ -556,24 +556,24 @@ TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
     const nlohmann::json truth = checksumsOf(whole.path);
     TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
     const std::string part = job.path + ".part";
-    const std::string journal = part + ".journal";
+    const std::string checkpoint = part + ".checkpoint";
     const std::vector<std::pair<const char*, std::function<void()>>> damages{
-        {"cut", [&] { fs::resize_file(part, readJournal(journal)->file_bytes - 1); }},
+        {"cut", [&] { fs::resize_file(part, readCopyCheckpoint(checkpoint)->file_bytes - 1); }},
         {"empty", [&] { fs::resize_file(part, 0); }},
         {"no TIFF", [&] { folder.write("copy.tif.part", std::string(100'000, 'x')); }},
         {"zeroed tiles",
          [&] {
              std::string bytes = test::readFile(part);
-             const auto noted = static_cast<std::ptrdiff_t>(readJournal(journal)->file_bytes);
+             const auto noted = static_cast<std::ptrdiff_t>(readCopyCheckpoint(checkpoint)->file_bytes);
              std::fill(bytes.begin() + noted / 2, bytes.end(), '\0');
              folder.write("copy.tif.part", bytes);
          }},
-        {"journal of nonsense", [&] { folder.write("copy.tif.part.journal", "nonsense"); }},
-        {"journal with a flipped bit",
+        {"checkpoint of nonsense", [&] { folder.write("copy.tif.part.checkpoint", "nonsense"); }},
+        {"checkpoint with a flipped bit",
          [&] {
-             std::string bytes = test::readFile(journal);
+             std::string bytes = test::readFile(checkpoint);
              bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
-             folder.write("copy.tif.part.journal", bytes);
+             folder.write("copy.tif.part.checkpoint", bytes);
          }},
         {"another source's",
          [&] {
@@ -585,7 +585,7 @@ TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
     for (const auto& [name, damage] : damages) {
         SCOPED_TRACE(name);
         ASSERT_FALSE(prepareUntil(job, 0.5));
-        ASSERT_TRUE(fs::exists(journal));
+        ASSERT_TRUE(fs::exists(checkpoint));
         damage();
         const TiledGeoTiffReport report = prepare(job);
         ASSERT_EQ(report.notes.size(), 1U);
@@ -608,7 +608,7 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
     const std::string source = tallMap(folder, "source");
     TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
     const std::string part = job.path + ".part";
-    const std::string journal_path = part + ".journal";
+    const std::string checkpoint_path = part + ".checkpoint";
     const std::string empty = folder.file("empty.tif"); // the file as it is before the first tile
     Result<RasterFile> file = RasterFile::open(source);
     ASSERT_TRUE(file);
@@ -616,9 +616,9 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
     ASSERT_FALSE(prepareUntil(job, 0.5));
     job.checkpoint_interval = TiledGeoTiffJob{}.checkpoint_interval;
     const std::string left = test::readFile(part);
-    const std::string journal = test::readFile(journal_path);
+    const std::string checkpoint = test::readFile(checkpoint_path);
     const std::uint64_t begin = fs::file_size(empty) + 1000; // the real key is longer
-    const std::uint64_t end = readJournal(journal_path)->file_bytes;
+    const std::uint64_t end = readCopyCheckpoint(checkpoint_path)->file_bytes;
     ASSERT_GT(end, 10 * begin);
     const std::string truth = samplesOf(source);
     test::Random random;
@@ -628,7 +628,7 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
         const std::uint64_t at = begin + random.below(end - begin);
         damaged[at] = static_cast<char>(damaged[at] ^ (1 << random.below(8)));
         folder.write("copy.tif.part", damaged);
-        folder.write("copy.tif.part.journal", journal);
+        folder.write("copy.tif.part.checkpoint", checkpoint);
         const TiledGeoTiffReport report = prepare(job);
         ASSERT_EQ(report.notes.size(), 1U);
         const bool is_begun_again = report.notes[0].ends_with("restarted");
@@ -707,30 +707,12 @@ TEST(TiledGeoTiff, BeginsAgainWhereTheSourceWasOverwrittenWithinItsSecondMeanwhi
     setModified(raw, {1'700'000'000, 20'000'000});
     const TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
     ASSERT_FALSE(prepareUntil(job, 0.5));
-    ASSERT_TRUE(fs::exists(job.path + ".part.journal"));
+    ASSERT_TRUE(fs::exists(job.path + ".part.checkpoint"));
     overwriteWithinTheSecond(source, raw);
     const TiledGeoTiffReport report = prepare(job);
     ASSERT_EQ(report.notes.size(), 1U);
     EXPECT_THAT(report.notes[0], HasSubstr("restarted"));
     EXPECT_EQ(report.samples_read, report.samples);
-    EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
-}
-
-TEST(TiledGeoTiff, GoesOnFromAJournalThatHasNoStamp)
-{
-    const test::TempFolder folder;
-    const std::string source = tallMap(folder, "source");
-    const TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
-    ASSERT_FALSE(prepareUntil(job, 0.5));
-    const std::string path = job.path + ".part.journal";
-    std::optional<PrepareJournal> journal = readJournal(path);
-    ASSERT_TRUE(journal);
-    EXPECT_FALSE(journal->source_stamp.empty());
-    journal->source_stamp.clear();
-    ASSERT_TRUE(writeJournal(path, *journal));
-    const TiledGeoTiffReport report = prepare(job);
-    ASSERT_EQ(report.notes.size(), 1U);
-    EXPECT_THAT(report.notes[0], HasSubstr("resumed after row"));
     EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
 }
 
@@ -821,7 +803,7 @@ TEST(TiledGeoTiff, DoesNothingTwice)
     TiledGeoTiffJob job = jobFor(source, folder.file("copy.tif"));
     EXPECT_EQ(prepare(job).samples_read, 4U);
     const std::string before = test::readFile(job.path);
-    folder.write("copy.tif.part.journal", "of a kill in the moment of publishing");
+    folder.write("copy.tif.part.checkpoint", "of a kill in the moment of publishing");
     const TiledGeoTiffReport again = prepare(job);
     EXPECT_EQ(again.samples_read, 0U);
     EXPECT_EQ(again.bytes, before.size());
