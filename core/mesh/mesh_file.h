@@ -1,4 +1,5 @@
-// Triangle meshes from files.
+// Triangle meshes from files. Own readers because contact needs vertices and triangles exactly as
+// they are in the file, and people an error that names the line or byte.
 #pragma once
 
 #include "core/base/job_monitor.h"

@@ -1,5 +1,7 @@
 // The format of prepared rasters larger than memory: a tiled GeoTIFF with overviews, which other
-// programs can read too.
+// programs can read too. GDAL creates the file and libtiff stores the tiles; the order of the work
+// is our own because GDAL's copies cannot resume after a kill and read the source once per
+// overview.
 #pragma once
 
 #include "core/base/job_monitor.h"

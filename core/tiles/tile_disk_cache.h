@@ -1,4 +1,5 @@
-// A cache of tiles on disk, so that tiles from a server are fetched only once.
+// A cache of tiles on disk, so that tiles from a server are fetched only once. Own code because
+// GDAL keeps ranges in memory only, and in a database one damaged page could cost all tiles.
 #pragma once
 
 #include "core/base/result.h"
