@@ -42,7 +42,7 @@ constexpr double kFractalStep = 1.0 / 64.0;
 // Mean errors below this, in cells, are plotted in the floor band.
 constexpr double kPlotFloor = 1e-6;
 
-struct Options {
+struct BenchContactOptions {
     MapOptions map;
     std::size_t size = 4096;
     std::uint64_t seed = 20031;
@@ -99,7 +99,7 @@ void fillRows(SampleGrid& grid, const FractalHeights& fractal, double gain, JobM
     });
 }
 
-Result<Ground> fractalGround(const Options& options, JobMonitor& monitor)
+Result<Ground> fractalGround(const BenchContactOptions& options, JobMonitor& monitor)
 {
     const bool is_int16 = options.sample_type == "int16";
     Result<SampleGrid> grid = SampleGrid::create(is_int16 ? SampleType::Int16 : SampleType::Float32,
@@ -134,7 +134,7 @@ Result<Ground> fractalGround(const Options& options, JobMonitor& monitor)
     return ground;
 }
 
-Result<Ground> mapGround(const Options& options, JobMonitor& monitor)
+Result<Ground> mapGround(const BenchContactOptions& options, JobMonitor& monitor)
 {
     Result<std::shared_ptr<const Map>> opened =
         openMap(options.map.spec(), defaultMapResources(), monitor, {.is_in_memory = true});
@@ -193,7 +193,9 @@ Json asJson(const ContactBenchRow& row)
     return json;
 }
 
-void printJson(const Options& options, const Ground& ground, const ContactBenchResult& result)
+void printJson(const BenchContactOptions& options,
+               const Ground& ground,
+               const ContactBenchResult& result)
 {
     Json rows = Json::array();
     for (const ContactBenchRow& row : result.rows) {
@@ -279,7 +281,9 @@ rowsOf(const ContactBenchResult& result, double scale, bool is_free)
     return rows;
 }
 
-void printForPeople(const Options& options, const Ground& ground, const ContactBenchResult& result)
+void printForPeople(const BenchContactOptions& options,
+                    const Ground& ground,
+                    const ContactBenchResult& result)
 {
     const ContactBenchOptions& bench = options.bench;
     printLine(
@@ -320,7 +324,9 @@ void printForPeople(const Options& options, const Ground& ground, const ContactB
     }
 }
 
-Plot plotOf(const Options& options, const Ground& ground, const ContactBenchResult& result)
+Plot plotOf(const BenchContactOptions& options,
+            const Ground& ground,
+            const ContactBenchResult& result)
 {
     Plot plot;
     plot.title = "Contact models: run time against error";
@@ -352,9 +358,9 @@ Plot plotOf(const Options& options, const Ground& ground, const ContactBenchResu
     return plot;
 }
 
-Status runBenchContact(const Options& given)
+Status runBenchContact(const BenchContactOptions& given)
 {
-    Options options = given;
+    BenchContactOptions options = given;
     if (!options.models.empty()) {
         options.bench.models.clear();
         for (const ContactModelKind kind : kContactModelKinds) {
@@ -418,7 +424,7 @@ Status runBenchContact(const Options& given)
 
 void addBenchContactCommand(CLI::App& bench, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BenchContactOptions>();
     CLI::App* command = bench.add_subcommand(
         "contact", "Move a hand over a map and measure run time and error of contact models");
     command->footer(

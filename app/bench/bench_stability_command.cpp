@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array kDelaysS{0.0, 1e-3, 2e-3, 3e-3};
 
-struct Options {
+struct BenchStabilityOptions {
     double most_n_per_m = 4000.0;
     double jitter_ms = 0.2;
     std::uint64_t seed = 1;
@@ -79,7 +79,7 @@ std::vector<Row> worstOf(const std::vector<Row>& rows, const Variant& variant)
     return worst;
 }
 
-std::string line(std::string_view name, const Row& row, const Options& options)
+std::string line(std::string_view name, const Row& row, const BenchStabilityOptions& options)
 {
     std::string text = fmt::format("| {} |", name);
     for (const double largest : row.largest_n_per_m) {
@@ -90,7 +90,7 @@ std::string line(std::string_view name, const Row& row, const Options& options)
 
 constexpr const char* kDelayColumns = " | 0 ms | 1 ms | 2 ms | 3 ms |\n|---|---|---|---|---|\n";
 
-std::string tableOf(const std::vector<Row>& rows, const Options& options)
+std::string tableOf(const std::vector<Row>& rows, const BenchStabilityOptions& options)
 {
     std::string text;
     for (const Variant& variant : kVariants) {
@@ -115,7 +115,7 @@ std::string tableOf(const std::vector<Row>& rows, const Options& options)
     return text;
 }
 
-Status runBench(const Options& options)
+Status runBench(const BenchStabilityOptions& options)
 {
     std::vector<Row> rows;
     for (const Variant& variant : kVariants) {
@@ -170,7 +170,7 @@ Status runBench(const Options& options)
 
 void addBenchStabilityCommand(CLI::App& bench, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BenchStabilityOptions>();
     CLI::App* command = bench.add_subcommand(
         "stability", "Press a simulated hand on difficult surfaces at increasing stiffness");
     command->add_option("--most", options->most_n_per_m, "largest stiffness to test, N/m")

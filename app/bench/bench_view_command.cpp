@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 // Number of columns for the error threshold over time in the text table.
 constexpr std::size_t kCourseColumns = 12;
 
-struct Options {
+struct BenchViewOptions {
     std::vector<std::string> paths;
     MapOptions map;
     std::string size = "1280x800";
@@ -201,7 +201,7 @@ Json asJson(const ViewBenchResult& result, const ViewBenchResult& first)
             {"flights", flights}};
 }
 
-void printJson(const Options& options, const std::vector<ViewBenchResult>& results)
+void printJson(const BenchViewOptions& options, const std::vector<ViewBenchResult>& results)
 {
     const ViewBenchOptions& bench = options.bench;
     Json maps = Json::array();
@@ -316,7 +316,7 @@ void printColors(const ViewBenchResult& result)
     }
 }
 
-void printForPeople(const Options& options, const std::vector<ViewBenchResult>& results)
+void printForPeople(const BenchViewOptions& options, const std::vector<ViewBenchResult>& results)
 {
     const ViewBenchOptions& bench = options.bench;
     printLine(fmt::format("{}, {} cores; {}", processorName(), std::thread::hardware_concurrency(),
@@ -347,9 +347,9 @@ void printForPeople(const Options& options, const std::vector<ViewBenchResult>& 
     }
 }
 
-Status runBenchView(const Options& given)
+Status runBenchView(const BenchViewOptions& given)
 {
-    Options options = given;
+    BenchViewOptions options = given;
     const Result<Viewport> viewport = viewportFrom(options.size);
     if (!viewport) {
         return viewport.error();
@@ -393,7 +393,7 @@ Status runBenchView(const Options& given)
 
 void addBenchViewCommand(CLI::App& bench, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BenchViewOptions>();
     CLI::App* command = bench.add_subcommand(
         "view", "Fly over maps and measure the time and the error of the window's pictures");
     command

@@ -56,12 +56,12 @@ double meanOf(const std::vector<double>& values)
     return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-class Bench {
+class ContactBench {
 public:
-    Bench(const std::shared_ptr<const FilledHeightfield>& terrain,
-          const SceneFrame& frame,
-          const ContactBenchOptions& options,
-          JobMonitor& monitor)
+    ContactBench(const std::shared_ptr<const FilledHeightfield>& terrain,
+                 const SceneFrame& frame,
+                 const ContactBenchOptions& options,
+                 JobMonitor& monitor)
         : terrain_(terrain)
         , frame_(frame)
         , options_(options)
@@ -423,7 +423,7 @@ Result<ContactBenchResult> benchContact(const std::shared_ptr<const FilledHeight
                                         const ContactBenchOptions& options,
                                         JobMonitor& monitor)
 {
-    return Bench(terrain, frame, options, monitor).run();
+    return ContactBench(terrain, frame, options, monitor).run();
 }
 
 } // namespace marsview

@@ -89,13 +89,13 @@ ColorDifference differenceOf(const Picture& a, const Picture& b)
 }
 
 // Draws one map as ui/canvas/terrain_view.cpp does.
-class Bench {
+class ViewBench {
 public:
-    Bench(const Scene& scene,
-          double exaggeration,
-          const ViewBenchOptions& options,
-          News& news,
-          JobMonitor& monitor)
+    ViewBench(const Scene& scene,
+              double exaggeration,
+              const ViewBenchOptions& options,
+              News& news,
+              JobMonitor& monitor)
         : scene_(scene)
         , exaggeration_(exaggeration)
         , options_(options)
@@ -113,8 +113,8 @@ public:
         picture_.setTarget(options.target);
         style_.exaggeration = exaggeration;
     }
-    Bench(const Bench&) = delete;
-    Bench& operator=(const Bench&) = delete;
+    ViewBench(const ViewBench&) = delete;
+    ViewBench& operator=(const ViewBench&) = delete;
 
     bool canDraw() const { return buffer_.isComplete(); }
 
@@ -295,7 +295,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     scene->exaggeration = options.exaggeration.value_or(scene->exaggeration);
     const RasterInfo& info = scene->map->info();
     LongJob job("flying");
-    Bench bench(*scene, scene->exaggeration, options, *news, job.monitor());
+    ViewBench bench(*scene, scene->exaggeration, options, *news, job.monitor());
     if (!bench.canDraw()) {
         return Error{ErrorCode::OutOfRange,
                      fmt::format("{} × {} pixels: this driver has no frame buffer of that size",
@@ -346,7 +346,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
         }
     }
     for (const double exaggeration : options.color_exaggerations) {
-        Bench other(*scene, exaggeration, options, *news, job.monitor());
+        ViewBench other(*scene, exaggeration, options, *news, job.monitor());
         ColorResult& colors = result.colors.emplace_back();
         colors.exaggeration = exaggeration;
         for (const Flight flight : kFlights) {

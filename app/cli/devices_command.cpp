@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct DevicesOptions {
     bool is_json = false;
     bool tries_again = false;
 };
@@ -48,7 +48,7 @@ std::string stateOf(const FoundDevice& device)
     return (device.isUsable() ? "ready; " : "") + shown(device.reason);
 }
 
-Status runDevices(const Options& options)
+Status runDevices(const DevicesOptions& options)
 {
     if (options.tries_again) {
         CrashMarker::forget(CrashMarker::defaultFolder());
@@ -106,7 +106,7 @@ Json devicesAsJson(const std::vector<FoundDevice>& devices, const std::vector<st
 
 void addDevicesCommand(CLI::App& app, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DevicesOptions>();
     CLI::App* command =
         app.add_subcommand("devices", "List haptic devices and plugins, and why one is not usable");
     command->add_flag("--json", options->is_json, "print JSON");

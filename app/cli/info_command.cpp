@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-struct Options {
+struct InfoOptions {
     std::vector<std::string> paths;
     MapOptions map; // of each
     bool is_json = false;
@@ -258,7 +258,7 @@ Result<Description> describe(const MapOptions& options, bool has_statistics)
 }
 
 // Describes every file; if several fail, all errors but the last are printed here.
-Status runInfo(const Options& options)
+Status runInfo(const InfoOptions& options)
 {
     const ErrorForm form = options.is_json ? ErrorForm::Json : ErrorForm::Line;
     Json array = Json::array();
@@ -308,7 +308,7 @@ Status runInfo(const Options& options)
 
 void addInfoCommand(CLI::App& app, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
         app.add_subcommand("info", "Describe rasters: type, placement, units, range");
     command

@@ -35,7 +35,7 @@
 namespace marsview {
 namespace {
 
-struct Options {
+struct LoopOptions {
     MapOptions map;
     std::string device;
     LoopMapOptions loop;
@@ -90,7 +90,7 @@ private:
 
 // The frame in which the workspace covers the whole map, or the middle of it.
 WorkspaceFrame
-frameFor(const Options& options, const LoopMap& map, const DeviceCapabilities& device)
+frameFor(const LoopOptions& options, const LoopMap& map, const DeviceCapabilities& device)
 {
     const WorkspaceBox reach = reachWithin(device.workspace);
     WorkspaceFrame frame = frameForMap(map.box, reach);
@@ -124,7 +124,7 @@ CLI::Validator knownDevice()
 // A simulated hand that swipes counts in cells; their width in its workspace follows from the
 // frame.
 Result<std::unique_ptr<HapticDevice>>
-openDevice(DeviceRegistry& registry, const Options& options, const LoopMap& map)
+openDevice(DeviceRegistry& registry, const LoopOptions& options, const LoopMap& map)
 {
     const std::string& uri = options.device;
     const bool is_swipe = uri.starts_with("sim:") && uri.find("swipe=") != std::string::npos &&
@@ -156,7 +156,7 @@ LoopWatch::Clock::time_point watchedUntil(double seconds)
                                          std::chrono::duration<double>(patient_s));
 }
 
-Status runLoop(const Options& options)
+Status runLoop(const LoopOptions& options)
 {
     FilesInUse files{.maps = {options.map.path},
                      .read = {},
@@ -273,7 +273,7 @@ Status runLoop(const Options& options)
 
 void addLoopCommand(CLI::App& app, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<LoopOptions>();
     CLI::App* command = app.add_subcommand(
         "loop", "Run the servo loop on a device and print how long its updates took");
     options->map.addTo(*command);

@@ -31,7 +31,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PrepareOptions {
     MapOptions map;
     std::string output;
     bool is_waiting = false;
@@ -51,7 +51,7 @@ std::uint64_t bytesOf(const std::string& path)
     return ignored ? 0 : bytes;
 }
 
-Result<Work> workFor(const Options& options, const OpenRaster& raster)
+Result<Work> workFor(const PrepareOptions& options, const OpenRaster& raster)
 {
     Work work;
     PrepareJob& job = work.job;
@@ -121,7 +121,7 @@ void print(const Json& json)
     line("peak memory", fmt::format("{:.0f} MB", json["peak_memory_bytes"].get<double>() / 1e6));
 }
 
-Status runPrepare(const Options& options)
+Status runPrepare(const PrepareOptions& options)
 {
     if (options.output.empty()) {
         if (Status local = checkIsLocal(options.map.spec()); !local) {
@@ -174,7 +174,7 @@ Status runPrepare(const Options& options)
 
 void addPrepareCommand(CLI::App& app, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PrepareOptions>();
     CLI::App* command = app.add_subcommand(
         "prepare",
         "Build overviews for a map larger than memory, so that it opens at once: a tiled "

@@ -20,7 +20,7 @@
 namespace marsview {
 namespace {
 
-struct Options {
+struct RenderOptions {
     MapOptions map;
     std::string output;
     std::string size = "1280x800";
@@ -38,7 +38,7 @@ struct Options {
     bool has_contours = false;
 };
 
-Result<OrbitCamera> cameraFrom(const Options& options,
+Result<OrbitCamera> cameraFrom(const RenderOptions& options,
                                const Scene& scene,
                                double exaggeration,
                                const Viewport& viewport)
@@ -69,7 +69,7 @@ Result<OrbitCamera> cameraFrom(const Options& options,
     return scene.bounded(camera, exaggeration, Scene::Ground::Waiting);
 }
 
-Status runRender(const Options& options)
+Status runRender(const RenderOptions& options)
 {
     if (Status checked =
             checkOutputs({.maps = {options.map.path}, .read = {}, .written = {options.output}});
@@ -126,7 +126,7 @@ Status runRender(const Options& options)
 
 void addRenderCommand(CLI::App& app, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "Draw a picture of the terrain, by default of the whole map");
     options->map.addTo(*command);

@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 enum class PositionFrame { Map, LonLat, Pixel };
 
-struct Options {
+struct SampleOptions {
     MapOptions map;
     PositionFrame frame = PositionFrame::Map;
     std::pair<double, double> position;
@@ -43,7 +43,9 @@ struct Position {
 class Sampler {
 public:
     // `tiles`: of the raster, where a level file verifies them; may be null.
-    Sampler(OpenRaster& raster, const Options& options, std::shared_ptr<const TileSource> tiles)
+    Sampler(OpenRaster& raster,
+            const SampleOptions& options,
+            std::shared_ptr<const TileSource> tiles)
         : info_(raster.info)
         , georeference_(georeferenceOf(raster.info))
         , reader_(raster.file, raster.info, georeference_, std::move(tiles))
@@ -194,7 +196,7 @@ Status sampleStdin(Sampler& sampler)
     return Done{};
 }
 
-Status runSample(const Options& options)
+Status runSample(const SampleOptions& options)
 {
     if (options.is_stdin) {
         allowLargeBlockCache();
@@ -231,7 +233,7 @@ Status runSample(const Options& options)
 
 void addSampleCommand(CLI::App& app, CommandAction& run, bool has_stdin)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SampleOptions>();
     CLI::App* command =
         app.add_subcommand("sample", "Print the elevation at a position, in meters");
     options->map.addTo(*command);

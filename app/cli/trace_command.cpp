@@ -30,7 +30,7 @@
 namespace marsview {
 namespace {
 
-struct Options {
+struct TraceOptions {
     MapOptions map;
     std::string goals;
     std::optional<std::string> model; // these three: default from the recording, else the program's
@@ -41,9 +41,9 @@ struct Options {
     std::string output;
 };
 
-// Options on the command line apply throughout; otherwise the recording's settings apply.
+// TraceOptions on the command line apply throughout; otherwise the recording's settings apply.
 Result<std::vector<TraceTouch>>
-touchesOf(const Options& options, const GoalRecording& recording, const TraceSubject& subject)
+touchesOf(const TraceOptions& options, const GoalRecording& recording, const TraceSubject& subject)
 {
     TraceTouch said{.kind =
                         contactModelKind(options.model.value_or("")).value_or(kContactModelDefault),
@@ -147,7 +147,7 @@ private:
 
 // The number of updates whose result differs from the recorded one; empty if the file has no
 // results, or if options changed the settings.
-std::optional<std::size_t> differingCount(const Options& options,
+std::optional<std::size_t> differingCount(const TraceOptions& options,
                                           const GoalRecording& recording,
                                           const std::vector<TraceUpdate>& updates)
 {
@@ -165,7 +165,7 @@ std::optional<std::size_t> differingCount(const Options& options,
 }
 
 // Notices about the goals; empty if there are none.
-std::string noticeOf(const Options& options,
+std::string noticeOf(const TraceOptions& options,
                      const GoalRecording& recording,
                      const TraceSubject& subject,
                      const std::vector<TraceUpdate>& updates)
@@ -209,7 +209,7 @@ nlohmann::ordered_json touchJson(const TraceTouch& touch)
 }
 
 // The summary of the first goals; "parts" has all, if there are several.
-nlohmann::ordered_json summaryOf(const Options& options,
+nlohmann::ordered_json summaryOf(const TraceOptions& options,
                                  const GoalRecording& recording,
                                  const std::vector<TraceTouch>& touches,
                                  const std::vector<TraceUpdate>& updates)
@@ -231,7 +231,7 @@ nlohmann::ordered_json summaryOf(const Options& options,
     return summary;
 }
 
-Result<TraceSubject> openMesh(const Options& options, JobMonitor& monitor)
+Result<TraceSubject> openMesh(const TraceOptions& options, JobMonitor& monitor)
 {
     if (options.map.hasOverrides()) {
         return Error{
@@ -246,7 +246,7 @@ Result<TraceSubject> openMesh(const Options& options, JobMonitor& monitor)
     return meshSubject(options.map, options.exaggeration.value_or(1.0), monitor);
 }
 
-Status runTrace(const Options& options)
+Status runTrace(const TraceOptions& options)
 {
     if (Status checked = checkOutputs({.maps = {options.map.path},
                                        .read = {options.goals == "-" ? "" : options.goals},
@@ -317,7 +317,7 @@ Status runTrace(const Options& options)
 
 void addTraceCommand(CLI::App& app, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<TraceOptions>();
     CLI::App* command = app.add_subcommand(
         "trace",
         "Run a contact model over a list of goals and print the proxy's path. DEM may also be "

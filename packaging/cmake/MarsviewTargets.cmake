@@ -47,7 +47,7 @@ endfunction()
 # marsview_compile_together(): compiles the targets defined after this call several files at a time,
 # which takes a third of the time if headers dominate. Not for performance-critical code, nor for
 # daily work: a change in one file recompiles the others of its group.
-option(MARSVIEW_COMPILE_TOGETHER "Compile tests and window several files at a time" OFF)
+option(MARSVIEW_COMPILE_TOGETHER "Compile tests, window and commands several files at a time" OFF)
 macro(marsview_compile_together)
   if(MARSVIEW_COMPILE_TOGETHER)
     set(CMAKE_UNITY_BUILD ON)

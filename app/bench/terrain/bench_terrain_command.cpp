@@ -53,7 +53,7 @@ constexpr std::array kMeasurements{
 // A part of "open".
 constexpr Measurement kPicture{"picture", "a first picture", measureFirstPicture};
 
-struct Options {
+struct BenchTerrainOptions {
     MakeTerrainOptions make;
     std::string size = kSizeDefault;
     std::string layout = "tiles";
@@ -140,7 +140,7 @@ Result<std::string> bundledMap()
     return sample.string();
 }
 
-Status runMake(const Options& options)
+Status runMake(const BenchTerrainOptions& options)
 {
     MakeTerrainOptions make = options.make;
     const GridSize size = gridSizeFrom(options.size).value();
@@ -187,7 +187,7 @@ Status runMake(const Options& options)
 }
 
 // The same options for a process that runs one measurement.
-std::vector<std::string> argumentsFor(const Options& options, const char* measurement)
+std::vector<std::string> argumentsFor(const BenchTerrainOptions& options, const char* measurement)
 {
     const TerrainBenchOptions& bench = options.bench;
     std::vector<std::string> words{"bench",  "terrain", bench.map.path, "--json",
@@ -230,7 +230,8 @@ Result<BenchJson> runChild(const std::vector<std::string>& arguments)
 }
 
 // Cold and warm, with the map prepared and not prepared.
-Result<BenchJson> measureOpen(const Options& options, const std::filesystem::path& empty)
+Result<BenchJson> measureOpen(const BenchTerrainOptions& options,
+                              const std::filesystem::path& empty)
 {
     BenchJson json{{"openings", BenchJson::array()}, {"left_out", BenchJson::array()}};
     const std::string folder = options.folder;
@@ -259,7 +260,7 @@ Result<BenchJson> measureOpen(const Options& options, const std::filesystem::pat
     return json;
 }
 
-Status printOne(const Options& options, const Measurement& measurement)
+Status printOne(const BenchTerrainOptions& options, const Measurement& measurement)
 {
     const Result<BenchJson> found = measurement.measure(options.bench);
     if (!found) {
@@ -273,13 +274,13 @@ Status printOne(const Options& options, const Measurement& measurement)
     return Done{};
 }
 
-bool isWanted(const Options& options, std::string_view name)
+bool isWanted(const BenchTerrainOptions& options, std::string_view name)
 {
     return options.only.empty() ||
            std::find(options.only.begin(), options.only.end(), name) != options.only.end();
 }
 
-Status runMeasurements(const Options& options, const std::filesystem::path& empty)
+Status runMeasurements(const BenchTerrainOptions& options, const std::filesystem::path& empty)
 {
     BenchJson json{{"file", options.bench.map.path},
                    {"processor", processorName()},
@@ -319,12 +320,12 @@ Status runMeasurements(const Options& options, const std::filesystem::path& empt
     return Done{};
 }
 
-Status runTerrain(const Options& given)
+Status runTerrain(const BenchTerrainOptions& given)
 {
     if (!given.make.path.empty()) {
         return runMake(given);
     }
-    Options options = given;
+    BenchTerrainOptions options = given;
     if (options.bench.map.path.empty()) {
         Result<std::string> sample = bundledMap();
         if (!sample) {
@@ -358,7 +359,7 @@ Status runTerrain(const Options& given)
 
 void addBenchTerrainCommand(CLI::App& bench, CommandAction& run)
 {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BenchTerrainOptions>();
     CLI::App* command = bench.add_subcommand("terrain", "Measure maps that are larger than memory");
     command->add_option("DEM", options->bench.map.path, "elevation map, by default the bundled one")
         ->type_name("FILE")
