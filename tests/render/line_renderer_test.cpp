@@ -1,0 +1,231 @@
+// Lines on the terrain: their width, their color, and what the terrain does to them.
+
+#include "app/bench/reference/fractal_heights.h"
+#include "core/terrain/ray_cast.h"
+#include "tests/render/render_fixture.h"
+#include "ui/render/frame_buffer.h"
+#include "ui/render/line_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+constexpr Viewport kPictureSize{.width = 640, .height = 400};
+constexpr Rgb8 kLineColor{0, 0, 255}; // the gray terrain has no such color
+
+class LineRendererTest : public RenderTest {
+protected:
+    void SetUp() override
+    {
+        RenderTest::SetUp();
+        if (renderer_) {
+            lines_ = LineRenderer::create().value();
+        }
+    }
+    void TearDown() override
+    {
+        lines_.reset();
+        RenderTest::TearDown();
+    }
+
+    // Red, green, blue, rows from the bottom.
+    std::vector<std::uint8_t> drawn(const DrawnMap& map,
+                                    const OrbitCamera& camera,
+                                    const std::vector<DrapedLine>& lines,
+                                    double pixels_per_point = 1.0)
+    {
+        renderer_->setLayers({map.layer()});
+        DrawStyle style;
+        style.look.mode = ShadingMode::Hillshade;
+        const FrameBuffer frame(kPictureSize);
+        renderer_->drawComplete({.camera = camera, .viewport = kPictureSize}, style, frame.id());
+        glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
+        lines_->draw(lines, camera, kPictureSize, renderer_->clip(camera, style.exaggeration),
+                     pixels_per_point);
+        EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+        std::vector<std::uint8_t> rgb(std::size_t{3} * kPictureSize.width * kPictureSize.height);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glReadPixels(0, 0, kPictureSize.width, kPictureSize.height, GL_RGB, GL_UNSIGNED_BYTE,
+                     rgb.data());
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        return rgb;
+    }
+
+    std::unique_ptr<LineRenderer> lines_;
+};
+
+std::size_t offsetOf(int x, int y_up)
+{
+    return 3 * (static_cast<std::size_t>(y_up) * kPictureSize.width + static_cast<std::size_t>(x));
+}
+
+// How much of a pixel has the color of the line, 0 to 1: blue over the gray of the rest.
+double lineShare(const std::vector<std::uint8_t>& rgb, int x, int y_up)
+{
+    const std::size_t at = offsetOf(x, y_up);
+    return (static_cast<double>(rgb[at + 2]) - static_cast<double>(rgb[at])) / 255.0;
+}
+
+DrawnMap plain()
+{
+    return {floatTerrain(257, 257, [](std::size_t, std::size_t) { return 0.0; }),
+            northUpFrame(257, 257, 10.0)};
+}
+
+OrbitCamera fromAbove(double distance_m)
+{
+    OrbitCamera camera;
+    camera.distance_m = distance_m;
+    return camera;
+}
+
+TEST_F(LineRendererTest, LinesHaveTheirWidthAtEveryDistance)
+{
+    const DrapedLine line{.points = {{0.0, -5000.0, 0.0}, {0.0, 5000.0, 0.0}},
+                          .color = kLineColor,
+                          .width_points = 3.0};
+    for (const double distance_m : {300.0, 900.0, 2000.0}) {
+        for (const double pixels_per_point : {1.0, 2.0}) {
+            const auto rgb = drawn(plain(), fromAbove(distance_m), {line}, pixels_per_point);
+            double width_px = 0.0;
+            for (int x = 0; x < kPictureSize.width; ++x) {
+                width_px += lineShare(rgb, x, kPictureSize.height / 2);
+            }
+            EXPECT_NEAR(width_px, 3.0 * pixels_per_point, 0.05) << distance_m;
+        }
+    }
+}
+
+TEST_F(LineRendererTest, ADarkBorderSeparatesALineFromTheGround)
+{
+    const DrapedLine line{.points = {{0.0, -500.0, 0.0}, {0.0, 500.0, 0.0}},
+                          .color = kLineColor,
+                          .width_points = 4.0};
+    const auto without = drawn(plain(), fromAbove(900.0), {});
+    const auto rgb = drawn(plain(), fromAbove(900.0), {line});
+    for (const int x : {kPictureSize.width / 2 - 3, kPictureSize.width / 2 + 2}) {
+        const std::size_t at = offsetOf(x, kPictureSize.height / 2);
+        EXPECT_LT(rgb[at], 0.7 * without[at]) << x;
+    }
+    const std::size_t beyond = offsetOf(kPictureSize.width / 2 + 8, kPictureSize.height / 2);
+    EXPECT_EQ(rgb[beyond], without[beyond]);
+}
+
+TEST_F(LineRendererTest, ChangesNothingOutsideItsArea)
+{
+    const std::vector<DrapedLine> lines{
+        {.points = {{-200.0, -80.0, 0.0}, {150.0, 30.0, 0.0}, {120.0, 90.0, 0.0}},
+         .color = kLineColor,
+         .width_points = 5.0}};
+    const OrbitCamera camera = fromAbove(900.0);
+    const auto without = drawn(plain(), camera, {});
+    const auto rgb = drawn(plain(), camera, lines);
+    const PixelArea area = areaOf(lines, camera, kPictureSize, 1.0);
+    ASSERT_GT(area.width, 0);
+    ASSERT_LT(area.width, kPictureSize.width);
+    std::size_t changed = 0;
+    for (int y = 0; y < kPictureSize.height; ++y) {
+        for (int x = 0; x < kPictureSize.width; ++x) {
+            const std::size_t at = offsetOf(x, y);
+            if (rgb[at] == without[at] && rgb[at + 2] == without[at + 2]) {
+                continue;
+            }
+            ++changed;
+            EXPECT_TRUE(x >= area.left && x < area.left + area.width && y >= area.bottom &&
+                        y < area.bottom + area.height)
+                << x << ", " << y;
+        }
+    }
+    EXPECT_GT(changed, 500U);
+}
+
+// Whether terrain lies in front of a point on the ground is found by casting a ray.
+TEST_F(LineRendererTest, PartsThatTheTerrainHidesAreFaintAndTheOthersAreNot)
+{
+    Random random;
+    const auto heights = fractalHeights(random, 513, 513, 4000.0, 0.6);
+    const DrawnMap map{floatTerrain(513, 513, heightsFrom(heights, 513)),
+                       northUpFrame(513, 513, 30.0)};
+    std::size_t shown = 0;
+    std::size_t hidden = 0;
+    std::size_t wrong = 0;
+    for (const double azimuth_deg : {20.0, 140.0, 260.0}) {
+        OrbitCamera camera;
+        camera.target = {0.0, 0.0, map.ground(0.0, 0.0, 1.0)};
+        camera.distance_m = 9000.0;
+        camera.tilt = Angle::degrees(80.0);
+        camera.azimuth = Angle::degrees(azimuth_deg);
+        for (int k = -6; k <= 6; ++k) {
+            DrapedLine line{.points = {}, .color = kLineColor, .width_points = 4.0};
+            for (double x = -5000.0; x <= 5000.0; x += 5.0) {
+                const double y = 500.0 * k + 0.3 * x;
+                line.points.push_back({x, y, map.ground(x, y, 1.0)});
+            }
+            const auto rgb = drawn(map, camera, {line});
+            for (std::size_t i = 0; i < line.points.size(); i += 7) {
+                const auto pixel = project(camera, kPictureSize, line.points[i]);
+                if (!pixel || pixel->x < 2 || pixel->x > kPictureSize.width - 2 || pixel->y < 2 ||
+                    pixel->y > kPictureSize.height - 2) {
+                    continue;
+                }
+                // Clear cases only: the mesh of the picture is off by up to a pixel.
+                const double way_m = length(line.points[i] - eyeOf(camera));
+                const double pixel_m = metresPerPixel(camera, kPictureSize, line.points[i]);
+                const auto hitOf = [&](double rise_px) {
+                    const ScenePoint aim = line.points[i] + Vec3{0.0, 0.0, rise_px * pixel_m};
+                    const Vec3 direction = normalized(aim - eyeOf(camera));
+                    const auto hit = castRay(*map.field, map.analysis->bounds,
+                                             gridRay(eyeOf(camera), direction, map.frame, 1.0));
+                    return hit ? length(map.frame.toScene(hit->grid, hit->height_m) - eyeOf(camera))
+                               : 1e30;
+                };
+                const bool is_clear = hitOf(-2.0) > 0.97 * way_m && hitOf(0.1) > 0.995 * way_m;
+                const bool is_covered = hitOf(4.0) < 0.97 * way_m;
+                if (is_clear == is_covered) {
+                    continue;
+                }
+                const double share =
+                    lineShare(rgb, static_cast<int>(pixel->x),
+                              kPictureSize.height - 1 - static_cast<int>(pixel->y));
+                (is_clear ? shown : hidden) += 1U;
+                // A visible part of the same line may cover a hidden one.
+                wrong += (is_clear ? share < 0.6 : share < 0.1) ? 1U : 0U;
+            }
+        }
+    }
+    std::printf("%zu places shown, %zu hidden, %zu drawn wrong\n", shown, hidden, wrong);
+    EXPECT_GT(shown, 2000U);
+    EXPECT_GT(hidden, 300U);
+    EXPECT_LE(wrong, (shown + hidden) / 100);
+}
+
+TEST_F(LineRendererTest, HiddenPartsHaveNoDarkerJoints)
+{
+    // A wall in front of a plain.
+    const DrawnMap map{floatTerrain(257, 257,
+                                    [](std::size_t, std::size_t row) {
+                                        return row > 140 && row < 150 ? 900.0 : 0.0;
+                                    }),
+                       northUpFrame(257, 257, 10.0)};
+    OrbitCamera camera;
+    camera.distance_m = 2500.0;
+    camera.tilt = Angle::degrees(70.0);
+    DrapedLine line{.points = {}, .color = kLineColor, .width_points = 5.0};
+    for (double x = -300.0; x <= 300.0; x += 7.0) {
+        line.points.push_back({x, 200.0, 0.0});
+    }
+    const auto rgb = drawn(map, camera, {line});
+    const auto pixel = project(camera, kPictureSize, {0.0, 200.0, 0.0});
+    ASSERT_TRUE(pixel);
+    const int y = kPictureSize.height - 1 - static_cast<int>(pixel->y);
+    for (int x = kPictureSize.width / 2 - 60; x < kPictureSize.width / 2 + 60; ++x) {
+        EXPECT_NEAR(lineShare(rgb, x, y), 0.35, 0.02) << x;
+    }
+}
+
+} // namespace
+} // namespace marsview::test

@@ -1,0 +1,355 @@
+// Each segment is a rectangle on the screen, in which the fragment shader draws what lies within
+// half a width of the segment. Ends are round, so that segments join without gaps.
+
+#include "ui/render/line_renderer.h"
+
+#include "core/view/matrix.h"
+#include "ui/render/gl_objects.h"
+#include "ui/render/gl_program.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr double kBorderPoints = 1.25;
+constexpr float kBorderAlpha = 0.6F;
+constexpr float kHiddenAlpha = 0.35F;
+
+// Toward the eye, as a share of the depth range: the mesh of the terrain is off by up to a pixel.
+constexpr float kLift = 4e-4F;
+
+constexpr const char* kVertex = R"(#version 330 core
+layout(location = 0) in vec3 a_device;
+layout(location = 1) in vec4 a_ends; // of the segment, in pixels
+layout(location = 2) in vec3 a_color;
+layout(location = 3) in float a_half_width; // in pixels
+uniform float u_lift;
+flat out vec4 v_ends;
+flat out vec3 v_color;
+flat out float v_half_width;
+void main()
+{
+    v_ends = a_ends;
+    v_color = a_color;
+    v_half_width = a_half_width;
+    gl_Position = vec4(a_device.xy, a_device.z - u_lift, 1.0);
+}
+)";
+
+constexpr const char* kFragment = R"(#version 330 core
+flat in vec4 v_ends;
+flat in vec3 v_color;
+flat in float v_half_width;
+uniform float u_border; // in pixels
+uniform vec4 u_paint;   // a: alpha; rgb: the color where the line's is not used
+uniform bool u_has_own_color;
+uniform bool u_is_hard; // whole pixels only
+out vec4 color;
+void main()
+{
+    vec2 along = v_ends.zw - v_ends.xy;
+    vec2 from_begin = gl_FragCoord.xy - v_ends.xy;
+    float share = clamp(dot(from_begin, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
+    float coverage = clamp(v_half_width + u_border + 0.5 - length(from_begin - share * along),
+                           0.0, 1.0);
+    if (u_is_hard) {
+        coverage = step(0.5, coverage);
+    }
+    if (coverage <= 0.0) {
+        discard;
+    }
+    color = vec4(u_has_own_color ? v_color : u_paint.rgb, u_paint.a * coverage);
+}
+)";
+
+struct Vertex {
+    std::array<float, 3> device; // normalized device coordinates
+    std::array<float, 4> ends;
+    std::array<float, 3> color;
+    float half_width;
+};
+
+// Homogeneous clip coordinates.
+struct ClipPoint {
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+    double w = 0.0;
+};
+
+ClipPoint between(const ClipPoint& a, const ClipPoint& b, double share)
+{
+    const auto mix = [share](double from, double to) { return from + (to - from) * share; };
+    return {mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z), mix(a.w, b.w)};
+}
+
+struct DevicePoint {
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+};
+
+struct DeviceSegment {
+    DevicePoint begin;
+    DevicePoint end;
+};
+
+// Scene to screen for one picture.
+class Screen {
+public:
+    Screen(const OrbitCamera& camera, const Viewport& viewport, const ClipRange& clip)
+        : eye_(eyeOf(camera))
+        , matrix_(projection(camera, viewport, clip) * viewRotation(camera))
+        , viewport_(viewport)
+    {}
+
+    // The part of a segment before the near plane and the far one, and within a few pictures to
+    // the sides, so that positions keep their precision as floats.
+    std::optional<DeviceSegment> segment(const ScenePoint& from, const ScenePoint& to) const
+    {
+        const ClipPoint a = clipPoint(from);
+        const ClipPoint b = clipPoint(to);
+        double begin = 0.0;
+        double end = 1.0;
+        constexpr double kMargin = 3.0; // half pictures
+        const auto keep = [&](double at_a, double at_b) {
+            if (at_a < 0.0 && at_b < 0.0) {
+                begin = 2.0;
+            } else if (at_a < 0.0) {
+                begin = std::max(begin, at_a / (at_a - at_b));
+            } else if (at_b < 0.0) {
+                end = std::min(end, at_a / (at_a - at_b));
+            }
+        };
+        keep(a.w + a.z, b.w + b.z);
+        keep(a.w - a.z, b.w - b.z);
+        keep(kMargin * a.w + a.x, kMargin * b.w + b.x);
+        keep(kMargin * a.w - a.x, kMargin * b.w - b.x);
+        keep(kMargin * a.w + a.y, kMargin * b.w + b.y);
+        keep(kMargin * a.w - a.y, kMargin * b.w - b.y);
+        if (begin > end) {
+            return std::nullopt;
+        }
+        return DeviceSegment{devicePoint(between(a, b, begin)), devicePoint(between(a, b, end))};
+    }
+
+    PixelPoint pixel(const DevicePoint& p) const
+    {
+        return {(p.x + 1.0) * 0.5 * viewport_.width, (p.y + 1.0) * 0.5 * viewport_.height};
+    }
+    DevicePoint device(const PixelPoint& pixel, double z) const
+    {
+        return {pixel.x * 2.0 / viewport_.width - 1.0, pixel.y * 2.0 / viewport_.height - 1.0, z};
+    }
+
+private:
+    ClipPoint clipPoint(const ScenePoint& point) const
+    {
+        const Vec3 p = point - eye_;
+        const auto row = [&](std::size_t r) {
+            return matrix_(r, 0) * p.x + matrix_(r, 1) * p.y + matrix_(r, 2) * p.z + matrix_(r, 3);
+        };
+        return {row(0), row(1), row(2), row(3)};
+    }
+    static DevicePoint devicePoint(const ClipPoint& p) { return {p.x / p.w, p.y / p.w, p.z / p.w}; }
+
+    ScenePoint eye_;
+    Matrix4 matrix_;
+    Viewport viewport_;
+};
+
+// The rectangle around a segment that its line can cover: `reach` pixels to all sides.
+void addSegment(std::vector<Vertex>& triangles,
+                const Screen& screen,
+                const DeviceSegment& segment,
+                double reach,
+                const Vertex& paint)
+{
+    const PixelPoint a = screen.pixel(segment.begin);
+    const PixelPoint b = screen.pixel(segment.end);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const double along_x = length > 0.0 ? (b.x - a.x) / length : 1.0;
+    const double along_y = length > 0.0 ? (b.y - a.y) / length : 0.0;
+    const auto corner = [&](const PixelPoint& end, double z, double along, double aside) {
+        const DevicePoint p = screen.device({end.x + reach * (along * along_x - aside * along_y),
+                                             end.y + reach * (along * along_y + aside * along_x)},
+                                            z);
+        Vertex vertex = paint;
+        vertex.device = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        vertex.ends = {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
+                       static_cast<float>(b.y)};
+        return vertex;
+    };
+    const Vertex v0 = corner(a, segment.begin.z, -1.0, -1.0);
+    const Vertex v1 = corner(a, segment.begin.z, -1.0, 1.0);
+    const Vertex v2 = corner(b, segment.end.z, 1.0, -1.0);
+    const Vertex v3 = corner(b, segment.end.z, 1.0, 1.0);
+    triangles.insert(triangles.end(), {v0, v1, v2, v2, v1, v3});
+}
+
+} // namespace
+
+struct LineRenderer::Impl {
+    GlProgram program;
+    GlBuffer vertices;
+    GlVertexArray array;
+
+    explicit Impl(GlProgram compiled)
+        : program(std::move(compiled))
+    {
+        glBindVertexArray(array.id());
+        glBindBuffer(GL_ARRAY_BUFFER, vertices.id());
+        const auto attribute = [](GLuint location, GLint count, std::size_t offset) {
+            glEnableVertexAttribArray(location);
+            glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                                  reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL's way
+        };
+        attribute(0, 3, offsetof(Vertex, device));
+        attribute(1, 4, offsetof(Vertex, ends));
+        attribute(2, 3, offsetof(Vertex, color));
+        attribute(3, 1, offsetof(Vertex, half_width));
+        glBindVertexArray(0);
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+    }
+
+    struct Pass {
+        double border_px = 0.0;
+        float alpha = 1.0F;
+        bool has_own_color = true;
+        bool is_hard = false;
+    };
+
+    void draw(const Pass& pass, std::size_t vertex_count) const
+    {
+        glUniform1f(program.uniform("u_border"), static_cast<GLfloat>(pass.border_px));
+        glUniform4f(program.uniform("u_paint"), 0.0F, 0.0F, 0.0F, pass.alpha);
+        glUniform1i(program.uniform("u_has_own_color"), pass.has_own_color ? 1 : 0);
+        glUniform1i(program.uniform("u_is_hard"), pass.is_hard ? 1 : 0);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertex_count));
+    }
+
+    // Every pixel once, or parts with several segments would be less faint.
+    void drawHidden(std::size_t vertex_count) const
+    {
+        glDepthFunc(GL_GREATER);
+        glEnable(GL_STENCIL_TEST);
+        glStencilMask(0xFF);
+        glClearStencil(0);
+        glClear(GL_STENCIL_BUFFER_BIT);
+        glStencilFunc(GL_NOTEQUAL, 1, 0xFF);
+        glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+        draw({.alpha = kHiddenAlpha, .is_hard = true}, vertex_count);
+        glDisable(GL_STENCIL_TEST);
+    }
+};
+
+LineRenderer::LineRenderer(std::unique_ptr<Impl> impl)
+    : impl_(std::move(impl))
+{}
+
+LineRenderer::~LineRenderer() = default;
+
+Result<std::unique_ptr<LineRenderer>> LineRenderer::create()
+{
+    Result<GlProgram> program = GlProgram::create(kVertex, kFragment);
+    if (!program) {
+        return std::move(program).error();
+    }
+    return std::unique_ptr<LineRenderer>(
+        new LineRenderer(std::make_unique<Impl>(std::move(program).value())));
+}
+
+void LineRenderer::draw(std::span<const DrapedLine> lines,
+                        const OrbitCamera& camera,
+                        const Viewport& viewport,
+                        const ClipRange& clip,
+                        double pixels_per_point)
+{
+    const Screen screen(camera, viewport, clip);
+    const double border_px = kBorderPoints * pixels_per_point;
+    std::vector<Vertex> triangles;
+    for (const DrapedLine& line : lines) {
+        const double half_width = 0.5 * line.width_points * pixels_per_point;
+        const Vertex paint{.device = {},
+                           .ends = {},
+                           .color = {static_cast<float>(line.color.red) / 255.0F,
+                                     static_cast<float>(line.color.green) / 255.0F,
+                                     static_cast<float>(line.color.blue) / 255.0F},
+                           .half_width = static_cast<float>(half_width)};
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            if (const auto segment = screen.segment(line.points[i - 1], line.points[i])) {
+                addSegment(triangles, screen, *segment, half_width + border_px + 1.0, paint);
+            }
+        }
+    }
+    if (triangles.empty()) {
+        return;
+    }
+    glUseProgram(impl_->program.id());
+    glBindVertexArray(impl_->array.id());
+    glBindBuffer(GL_ARRAY_BUFFER, impl_->vertices.id());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size() * sizeof(Vertex)),
+                 triangles.data(), GL_STREAM_DRAW);
+    glUniform1f(impl_->program.uniform("u_lift"), kLift);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+    impl_->drawHidden(triangles.size());
+    glDepthFunc(GL_LEQUAL);
+    impl_->draw({.border_px = border_px, .alpha = kBorderAlpha, .has_own_color = false},
+                triangles.size());
+    impl_->draw({}, triangles.size());
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glBindVertexArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    glUseProgram(0);
+}
+
+PixelArea areaOf(std::span<const DrapedLine> lines,
+                 const OrbitCamera& camera,
+                 const Viewport& viewport,
+                 double pixels_per_point)
+{
+    // Only positions on the screen count, so that any depths do.
+    const Screen screen(camera, viewport,
+                        {.near_m = 1e-3 * camera.distance_m, .far_m = 1e3 * camera.distance_m});
+    double left = viewport.width;
+    double right = 0.0;
+    double bottom = viewport.height;
+    double top = 0.0;
+    for (const DrapedLine& line : lines) {
+        const double reach = (0.5 * line.width_points + kBorderPoints) * pixels_per_point + 1.0;
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            const auto segment = screen.segment(line.points[i - 1], line.points[i]);
+            if (!segment) {
+                continue;
+            }
+            for (const DevicePoint& end : {segment->begin, segment->end}) {
+                const PixelPoint pixel = screen.pixel(end);
+                left = std::min(left, pixel.x - reach);
+                right = std::max(right, pixel.x + reach);
+                bottom = std::min(bottom, pixel.y - reach);
+                top = std::max(top, pixel.y + reach);
+            }
+        }
+    }
+    const auto inside = [](double value, int limit) {
+        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+    };
+    const int first_column = inside(std::floor(left), viewport.width);
+    const int first_row = inside(std::floor(bottom), viewport.height);
+    return {.left = first_column,
+            .bottom = first_row,
+            .width = std::max(0, inside(std::ceil(right), viewport.width) - first_column),
+            .height = std::max(0, inside(std::ceil(top), viewport.height) - first_row)};
+}
+
+} // namespace marsview

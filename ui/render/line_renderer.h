@@ -1,0 +1,53 @@
+// Drawing lines that lie on the terrain.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/view/camera.h"
+#include "core/view/color_ramp.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace marsview {
+
+/// A line through points of the scene. It has the same width on screen at every distance.
+struct DrapedLine {
+    std::vector<ScenePoint>
+        points; // close enough that a straight line between two is on the ground
+    Rgb8 color{255, 255, 255};
+    double width_points = 2.0; // of the screen, > 0
+};
+
+/// Every call needs the context current in which it was created, the destructor included. Leaves no
+/// program, buffer or vertex array bound.
+class LineRenderer {
+public:
+    static Result<std::unique_ptr<LineRenderer>> create();
+    ~LineRenderer();
+    LineRenderer(const LineRenderer&) = delete;
+    LineRenderer& operator=(const LineRenderer&) = delete;
+
+    /// Draws over a picture of the terrain in the bound frame buffer, which has that picture's
+    /// depths and a stencil of 8 bits where the lines are; see areaOf(). A dark border keeps lines
+    /// visible over any color. Parts that the terrain hides are faint and have no border.
+    void draw(std::span<const DrapedLine> lines,
+              const OrbitCamera& camera,
+              const Viewport& viewport,
+              const ClipRange& clip,
+              double pixels_per_point);
+
+private:
+    struct Impl;
+    explicit LineRenderer(std::unique_ptr<Impl> impl);
+
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The part of the picture that draw() changes; its width is 0 where that is nothing.
+PixelArea areaOf(std::span<const DrapedLine> lines,
+                 const OrbitCamera& camera,
+                 const Viewport& viewport,
+                 double pixels_per_point);
+
+} // namespace marsview
