@@ -12,6 +12,8 @@ namespace marsview {
 void addDevicesCommand(CLI::App& app, CommandAction& run);
 void addInfoCommand(CLI::App& app, CommandAction& run);
 void addLoopCommand(CLI::App& app, CommandAction& run);
+/// `measure` with its commands.
+void addMeasureCommand(CLI::App& app, CommandAction& run);
 void addPrepareCommand(CLI::App& app, CommandAction& run);
 void addRenderCommand(CLI::App& app, CommandAction& run);
 /// `has_stdin` is true if `--stdin` is among the arguments: the position options then take no

@@ -105,6 +105,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
     marsview::CommandAction action;
     marsview::addInfoCommand(app, action);
     marsview::addSampleCommand(app, action, has_stdin);
+    marsview::addMeasureCommand(app, action);
     marsview::addTraceCommand(app, action);
     marsview::addLoopCommand(app, action);
     marsview::addPrepareCommand(app, action);

@@ -116,6 +116,16 @@ TEST(JsonPage, ListsTheFieldsOfInfoAndSample)
     expectDocumented("sample", printed({"sample", bundledMars(), "--pixel", "1,2", "--json"}));
 }
 
+TEST(JsonPage, ListsTheFieldsOfMeasurements)
+{
+    const std::string line = "226.2 18.65\n230 20\n";
+    for (const char* command : {"distance", "profile"}) {
+        expectDocumented(
+            fmt::format("measure {}", command),
+            printed({"measure", command, bundledMars(), "--points", "-", "--json"}, line));
+    }
+}
+
 TEST(JsonPage, ListsTheFieldsOfTraceAndLoop)
 {
     const TempFolder folder;

@@ -1,0 +1,257 @@
+#include "app/cli/measure_input.h"
+
+#include "app/console/long_job.h"
+#include "core/base/bounded_text.h"
+#include "core/base/plain_number.h"
+#include "core/levels/level_file_use.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kLineBytesMax = 4096;
+constexpr std::size_t kTextBytesMax = std::size_t{1} << 28;
+
+struct Pair {
+    double first = 0.0;
+    double second = 0.0;
+};
+
+std::vector<std::string> wordsOf(std::string line)
+{
+    for (char& c : line) {
+        if (c == ',' || c == ';' || c == '\t' || c == '\r') {
+            c = ' ';
+        }
+    }
+    std::istringstream in(line);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) {
+        words.push_back(word);
+    }
+    return words;
+}
+
+std::optional<Pair> pairIn(const std::vector<std::string>& words)
+{
+    if (words.size() != 2) {
+        return std::nullopt;
+    }
+    const auto first = parseNumber(words[0]);
+    const auto second = parseNumber(words[1]);
+    const bool is_pair = first && second && std::isfinite(*first) && std::isfinite(*second);
+    return is_pair ? std::optional(Pair{*first, *second}) : std::nullopt;
+}
+
+bool isHeader(const std::vector<std::string>& words)
+{
+    for (const std::string& word : words) {
+        if (parseNumber(word)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+std::string quoted(std::string line)
+{
+    constexpr std::size_t kQuotedMax = 60;
+    if (line.size() > kQuotedMax) {
+        line = line.substr(0, kQuotedMax) + "…";
+    }
+    return line;
+}
+
+Result<std::vector<Pair>> readPairs(std::istream& in, const std::string& name)
+{
+    Result<std::string> text =
+        readBoundedText(in, name, {.bytes_max = kTextBytesMax, .line_bytes_max = kLineBytesMax});
+    if (!text) {
+        return std::move(text).error();
+    }
+    std::vector<Pair> pairs;
+    std::istringstream lines(*text);
+    std::size_t number = 0;
+    bool can_be_header = true;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+        if (number == 1 && line.starts_with(kByteOrderMark)) {
+            line.erase(0, kByteOrderMark.size());
+        }
+        const std::vector<std::string> words = wordsOf(line);
+        if (words.empty()) {
+            continue;
+        }
+        if (const auto pair = pairIn(words)) {
+            pairs.push_back(*pair);
+        } else if (!can_be_header || !isHeader(words)) {
+            return Error{ErrorCode::Invalid,
+                         fmt::format("{}: line {} is \"{}\"; two finite numbers are required", name,
+                                     number, quoted(line))};
+        }
+        can_be_header = false;
+    }
+    return pairs;
+}
+
+Result<std::vector<Pair>> readPairs(const MeasureOptions& options)
+{
+    if (options.points_path == "-") {
+        return readPairs(std::cin, options.positionsName());
+    }
+    std::ifstream file(options.points_path, std::ios::binary);
+    if (!file) {
+        return Error{ErrorCode::NotFound, options.points_path + ": cannot be opened for reading"};
+    }
+    return readPairs(file, options.points_path);
+}
+
+class Placer {
+public:
+    Placer(const MeasureOptions& options, const MeasuredTerrain& terrain, LatitudeKind kind)
+        : options_(options)
+        , terrain_(terrain)
+        , kind_(kind)
+        , is_map_(options.is_map || !terrain.ground().ellipsoid())
+    {}
+
+    Result<GroundPosition> place(Pair pair, std::size_t number) const
+    {
+        if (is_map_) {
+            const auto position = terrain_.fromMap({pair.first, pair.second});
+            if (!position) {
+                return Error{ErrorCode::OutOfRange,
+                             fmt::format("{}: position {} ({}, {}) is outside the map's projection",
+                                         options_.positionsName(), number, pair.first,
+                                         pair.second)};
+            }
+            return *position;
+        }
+        if (std::abs(pair.second) > 90.0) {
+            return Error{ErrorCode::OutOfRange,
+                         fmt::format("{}: position {} has latitude {}, which is outside -90 to 90 "
+                                     "degrees; write longitude before latitude, or add --map for "
+                                     "map coordinates",
+                                     options_.positionsName(), number, pair.second)};
+        }
+        if (kind_ == LatitudeKind::Planetographic) {
+            return GroundPosition{pair.first, pair.second};
+        }
+        const Angle latitude =
+            terrain_.ground().ellipsoid()->planetographic(Angle::degrees(pair.second));
+        return GroundPosition{pair.first, latitude.degrees()};
+    }
+
+private:
+    const MeasureOptions& options_;
+    const MeasuredTerrain& terrain_;
+    LatitudeKind kind_;
+    bool is_map_;
+};
+
+} // namespace
+
+void MeasureOptions::addTo(CLI::App& command)
+{
+    map.addTo(command);
+    const std::string group = "Positions";
+    command
+        .add_option("--points", points_path,
+                    "CSV with one position per line, with or without a header line; - reads "
+                    "standard input")
+        ->type_name("FILE")
+        ->group(group)
+        ->required();
+    auto* lonlat = command.add_flag("--lonlat", is_lonlat,
+                                    "positions are longitude and latitude in degrees, "
+                                    "east-positive (default for a map with a CRS)");
+    lonlat->group(group);
+    command.add_flag("--map", is_map, "positions are x and y in the map's CRS")
+        ->group(group)
+        ->excludes(lonlat);
+    command.add_flag("--json", is_json, "print JSON");
+}
+
+std::string MeasureOptions::positionsName() const
+{
+    return points_path == "-" ? std::string("--points") : points_path;
+}
+
+GroundPosition MeasureInput::lonLat(GroundPosition position) const
+{
+    if (!terrain->ground().ellipsoid()) {
+        return {kNan, kNan};
+    }
+    if (latitude_kind == LatitudeKind::Planetocentric) {
+        position.y =
+            terrain->ground().ellipsoid()->planetocentric(Angle::degrees(position.y)).degrees();
+    }
+    return position;
+}
+
+Result<MeasureInput> openMeasureInput(const MeasureOptions& options)
+{
+    allowLargeBlockCache();
+    Result<OpenRaster> raster = openRaster(options.map);
+    if (!raster) {
+        return std::move(raster).error();
+    }
+    if (Status surface = checkIsSurface(options.map.path, raster->info); !surface) {
+        return std::move(surface).error();
+    }
+    Result<VerifiedTiles> verified = verifiedTiles(*raster);
+    if (!verified) {
+        return std::move(verified).error();
+    }
+    MeasureInput input;
+    input.raster = std::make_unique<OpenRaster>(std::move(*raster));
+    RasterInfo& info = input.raster->info;
+    if (!verified->notice.empty()) {
+        info.notices.push_back(std::move(verified->notice));
+    }
+    input.terrain = std::make_unique<MeasuredTerrain>(
+        georeferenceOf(info), readSamples(*input.raster, std::move(verified->tiles)));
+    if (options.is_lonlat && !input.terrain->ground().ellipsoid()) {
+        return Error{
+            ErrorCode::Invalid,
+            fmt::format("{}: has no CRS, so it has no longitude and latitude; set one with "
+                        "--crs or --body, or write map coordinates with --map",
+                        options.map.path)};
+    }
+    input.latitude_kind = options.map.latitudeKind(info.body);
+    const Result<std::vector<Pair>> pairs = readPairs(options);
+    if (!pairs) {
+        return pairs.error();
+    }
+    const Placer placer(options, *input.terrain, input.latitude_kind);
+    for (std::size_t i = 0; i < pairs->size(); ++i) {
+        const Result<GroundPosition> position = placer.place((*pairs)[i], i + 1);
+        if (!position) {
+            return position.error();
+        }
+        input.positions.push_back(*position);
+    }
+    return input;
+}
+
+Error measureError(const MeasureOptions& options, Error error)
+{
+    if (error.code == ErrorCode::Invalid || error.code == ErrorCode::OutOfRange) {
+        error.message = options.positionsName() + ": " + error.message;
+    } else if (error.code == ErrorCode::Cancelled) {
+        error.message = options.map.path + ": " + error.message;
+    }
+    return error;
+}
+
+} // namespace marsview

@@ -1,0 +1,155 @@
+#include "core/measure/measured_terrain.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+bool isOnBody(const Georeference& georeference)
+{
+    return georeference.crs() && georeference.crs()->kind() != CrsKind::Local &&
+           georeference.crs()->ellipsoid();
+}
+
+double metresPerUnit(const Georeference& georeference)
+{
+    return georeference.crs() ? georeference.crs()->unit() : 1.0;
+}
+
+} // namespace
+
+MeasuredTerrain::MeasuredTerrain(const Georeference& georeference,
+                                 std::unique_ptr<SampleReader> samples)
+    : georeference_(georeference)
+    , ground_(isOnBody(georeference) ? Ground::onEllipsoid(*georeference.crs()->ellipsoid())
+                                     : Ground::onPlane())
+    , samples_(std::move(samples))
+{
+    const std::size_t step = samples_->step();
+    const auto axis = [step](std::size_t count) {
+        return Axis{.cells = (count - 1 + step - 1) / step, .step = step, .last = count - 1};
+    };
+    columns_ = axis(georeference_.columns());
+    rows_ = axis(georeference_.rows());
+    const GeoTransform::Terms& terms = georeference_.transform().terms();
+    if (isOnBody(georeference) && georeference_.crs()->turn()) {
+        const auto centre = georeference_.toGeographic(georeference_.sceneFrame().origin);
+        centre_longitude_deg_ = centre ? centre->longitude.degrees() : 0.0;
+    }
+    if (isOnBody(georeference) && georeference_.crs()->turn() && terms[2] == 0.0 &&
+        terms[4] == 0.0) {
+        constexpr double kRounding = 1e-6; // columns
+        const auto count = static_cast<double>(georeference_.columns());
+        period_ = *georeference_.crs()->turn() / std::abs(terms[1]);
+        if (std::abs(period_ - count) < kRounding) {
+            period_ = count;
+        }
+        turn_begin_ = 0.5 * (count - 1.0) - 0.5 * period_;
+        if (georeference_.wrapsAround()) {
+            columns_.cells += 1;
+            columns_.seam_end = period_;
+        }
+    }
+}
+
+std::optional<GroundPosition> MeasuredTerrain::fromMap(MapPoint map) const
+{
+    if (!ground_.ellipsoid()) {
+        const double unit_m = metresPerUnit(georeference_);
+        return GroundPosition{map.x * unit_m, map.y * unit_m};
+    }
+    const auto geographic = georeference_.crs()->toGeographic(map);
+    return geographic ? std::optional(ground_.position(*geographic)) : std::nullopt;
+}
+
+std::optional<GroundPosition> MeasuredTerrain::fromGrid(GridPoint grid) const
+{
+    if (!ground_.ellipsoid()) {
+        return fromMap(georeference_.toMap(grid));
+    }
+    const auto geographic = georeference_.toGeographic(grid);
+    return geographic ? std::optional(ground_.position(*geographic)) : std::nullopt;
+}
+
+std::optional<GridPoint> MeasuredTerrain::toGrid(GroundPosition position) const
+{
+    if (!ground_.ellipsoid()) {
+        const double unit_m = metresPerUnit(georeference_);
+        return georeference_.toGrid(MapPoint{position.x / unit_m, position.y / unit_m});
+    }
+    return georeference_.toGrid(ground_.geographic(position));
+}
+
+std::optional<MapPoint> MeasuredTerrain::toMap(GroundPosition position) const
+{
+    const auto grid = toGrid(position);
+    return grid ? std::optional(georeference_.toMap(*grid)) : std::nullopt;
+}
+
+GroundPosition MeasuredTerrain::inTurn(GroundPosition position) const
+{
+    if (ground_.ellipsoid()) {
+        const double turns = std::round((centre_longitude_deg_ - position.x) / 360.0);
+        if (turns != 0.0) {
+            position.x += 360.0 * turns;
+        }
+    }
+    return position;
+}
+
+std::optional<CellPlace> MeasuredTerrain::placeOf(GridPoint grid) const
+{
+    double column = grid.column - turnOf(grid.column) * period_;
+    if (columns_.seam_end != 0.0 && column < 0.0) {
+        column += period_;
+    }
+    const auto find = [](const Axis& axis, double at, std::size_t& cell, double& share) {
+        const double end = axis.line(axis.cells);
+        if (!(at >= 0.0 && at <= end)) {
+            return false;
+        }
+        cell = std::min(static_cast<std::size_t>(at) / axis.step, axis.cells - 1);
+        if (at < axis.line(cell)) { // in the last cell before a seam
+            --cell;
+        } else if (cell + 1 < axis.cells && at >= axis.line(cell + 1)) {
+            ++cell;
+        }
+        const double begin = axis.line(cell);
+        share = std::clamp((at - begin) / (axis.line(cell + 1) - begin), 0.0, 1.0);
+        return true;
+    };
+    CellPlace place;
+    if (!find(columns_, column, place.column, place.u) ||
+        !find(rows_, grid.row, place.row, place.v)) {
+        return std::nullopt;
+    }
+    return place;
+}
+
+CellHeights MeasuredTerrain::cell(std::size_t column, std::size_t row)
+{
+    const std::size_t left = columns_.sample(column);
+    const std::size_t right = columns_.sample(column + 1);
+    const std::size_t upper = rows_.sample(row);
+    const std::size_t lower = rows_.sample(row + 1);
+    return {samples_->sample(left, upper), samples_->sample(right, upper),
+            samples_->sample(left, lower), samples_->sample(right, lower)};
+}
+
+double MeasuredTerrain::elevation(const CellPlace& place)
+{
+    return heightInCell(cell(place.column, place.row), place.u, place.v);
+}
+
+double MeasuredTerrain::elevation(GroundPosition position)
+{
+    const auto grid = toGrid(position);
+    const auto place = grid ? placeOf(*grid) : std::nullopt;
+    return place ? elevation(*place) : kNan;
+}
+
+} // namespace marsview

@@ -1,0 +1,115 @@
+// The terrain that measurements are made on.
+#pragma once
+
+#include "core/geo/georeference.h"
+#include "core/measure/ground.h"
+#include "core/measure/sample_reader.h"
+#include "core/terrain/triangulation.h"
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+namespace marsview {
+
+/// A position in a cell of the triangulated surface (triangulation.h).
+struct CellPlace {
+    std::size_t column = 0; // counted in cells
+    std::size_t row = 0;
+    double u = 0.0; // in [0, 1]
+    double v = 0.0;
+};
+
+/// The triangulated surface of a raster, on the ground of its body: the ellipsoid of its CRS, or a
+/// plane without a CRS. The samples may be every 2^k-th ones: the surface is then approximate. For
+/// one thread at a time.
+///
+/// Columns may be counted beyond the grid: where longitude is periodic, they are those of the next
+/// turn, and on a map around the whole body the last and the first column are neighbors.
+class MeasuredTerrain {
+public:
+    /// `samples` are those of `georeference`'s raster, at least 2 × 2.
+    MeasuredTerrain(const Georeference& georeference, std::unique_ptr<SampleReader> samples);
+
+    const Georeference& georeference() const noexcept { return georeference_; }
+    const Ground& ground() const noexcept { return ground_; }
+    bool isApproximate() const noexcept { return samples_->step() > 1; }
+    /// Why a sample could not be read; elevations are NaN there.
+    const std::optional<Error>& failure() const noexcept { return samples_->failure(); }
+
+    /// Positions of the raster's map coordinates; empty outside its projection.
+    std::optional<GroundPosition> fromMap(MapPoint map) const;
+    std::optional<GroundPosition> fromGrid(GridPoint grid) const;
+    /// Empty outside the projection. Columns are those nearest to the center of the raster.
+    std::optional<GridPoint> toGrid(GroundPosition position) const;
+
+    /// Map coordinates in the raster's CRS; empty outside its projection.
+    std::optional<MapPoint> toMap(GroundPosition position) const;
+    /// The position with its longitude in the turn in which Georeference counts longitudes: nearest
+    /// to the center of a map on which longitude is periodic, otherwise in [-180°, 180°].
+    GroundPosition inTurn(GroundPosition position) const;
+
+    /// Elevation in meters; NaN outside the outermost samples and in voids.
+    double elevation(GroundPosition position);
+    double elevation(const CellPlace& place);
+    /// As elevation(), of the corners of a cell.
+    CellHeights cell(std::size_t column, std::size_t row);
+
+    // The cells. Those of the seam of a map around the whole body come last.
+
+    std::size_t cellColumns() const noexcept { return columns_.cells; }
+    std::size_t cellRows() const noexcept { return rows_.cells; }
+    /// The columns of a turn of longitude; 0 where longitude is not periodic along columns.
+    double period() const noexcept { return period_; }
+    bool wrapsAround() const noexcept { return georeference_.wrapsAround(); }
+    /// The grid position of a line between cells: index in [0, cellColumns()].
+    double columnLine(std::size_t index) const noexcept { return columns_.line(index); }
+    double rowLine(std::size_t index) const noexcept { return rows_.line(index); }
+    /// The turn that a column is in: columns of turn 0 are nearest to the center of the raster.
+    double turnOf(double column) const noexcept
+    {
+        return period_ > 0.0 ? std::floor((column - turn_begin_) / period_) : 0.0;
+    }
+    /// The cell of a position in any turn; empty outside. At a line it is the next cell, except at
+    /// the last one.
+    std::optional<CellPlace> placeOf(GridPoint grid) const;
+
+private:
+    // Lines between cells along an axis: every step-th sample, the last one, and the first one of
+    // the next turn.
+    struct Axis {
+        std::size_t cells = 0;
+        std::size_t step = 1;
+        std::size_t last = 0;  // sample
+        double seam_end = 0.0; // line after the seam; 0: none
+
+        double line(std::size_t index) const noexcept
+        {
+            const std::size_t sample = index * step;
+            if (sample <= last || seam_end == 0.0) {
+                return static_cast<double>(sample < last ? sample : last);
+            }
+            return index == cells ? seam_end : static_cast<double>(last);
+        }
+        std::size_t sample(std::size_t index) const noexcept
+        {
+            if (seam_end != 0.0 && index == cells) {
+                return 0;
+            }
+            const std::size_t sample = index * step;
+            return sample < last ? sample : last;
+        }
+    };
+
+    Georeference georeference_;
+    Ground ground_;
+    std::unique_ptr<SampleReader> samples_;
+    Axis columns_;
+    Axis rows_;
+    double period_ = 0.0;
+    double turn_begin_ = 0.0;
+    double centre_longitude_deg_ = 0.0;
+};
+
+} // namespace marsview

@@ -1,0 +1,70 @@
+// Lines on the ground as they cross the triangles of the terrain.
+#pragma once
+
+#include "core/base/job_monitor.h"
+#include "core/base/result.h"
+#include "core/measure/measured_terrain.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace marsview {
+
+/// A part of a line as a cubic curve on the grid, within 1e-7 of a sample. Columns continue without
+/// a jump where longitude is periodic.
+struct GridCurve {
+    double begin_m = 0.0; // along the line
+    double end_m = 0.0;
+    bool is_on_map = true;          // false: outside the projection, or across its edge
+    std::array<double, 4> column{}; // coefficients of t^0 … t^3, t in [0, 1]
+    std::array<double, 4> row{};
+
+    GridPoint at(double t) const noexcept
+    {
+        return {((column[3] * t + column[2]) * t + column[1]) * t + column[0],
+                ((row[3] * t + row[2]) * t + row[1]) * t + row[0]};
+    }
+};
+
+/// The whole of `line`, from its start to its end, in order.
+std::vector<GridCurve> gridCurves(const MeasuredTerrain& terrain, const GroundLine& line);
+
+/// A part of a line within one triangle of the terrain, or without terrain. Between its ends the
+/// elevation is linear along the line, within 0.1 mm.
+struct PathPiece {
+    double begin_m = 0.0; // along the line
+    double end_m = 0.0;
+    bool has_terrain = false;
+    bool is_on_map = true; // false: beyond the outermost samples, or outside the projection
+    // NaN where a sample that counts there is void.
+    double begin_elevation_m = 0.0;
+    double end_elevation_m = 0.0;
+};
+
+/// Receives the parts of a line, in order.
+class PathVisitor {
+public:
+    virtual ~PathVisitor() = default;
+    virtual void visit(const PathPiece& piece) = 0;
+};
+
+/// Cuts `line` at every edge of the terrain's triangles that it crosses. Along an edge, the
+/// elevation is that of its two ends. Reads only cells on the line. Cancelled when `monitor` is,
+/// and the first error of reading.
+Status tracePath(MeasuredTerrain& terrain,
+                 const GroundLine& line,
+                 JobMonitor& monitor,
+                 PathVisitor& visitor);
+
+/// An upper estimate of how many parts the lines between these positions have; for choosing a
+/// coarser level. Calls PROJ a few hundred times.
+double estimatedPieces(const MeasuredTerrain& terrain, std::span<const GroundPosition> positions);
+
+/// Where a curve, as one of its coordinates, passes `value`: parameters in [0, 1], ascending, into
+/// `found`, which is cleared. At most three.
+void crossings(const std::array<double, 4>& cubic, double value, std::vector<double>& found);
+
+} // namespace marsview

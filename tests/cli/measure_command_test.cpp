@@ -1,0 +1,190 @@
+#include "tests/cli/run_cli.h"
+#include "tests/support/reference_ellipsoid.h"
+#include "tests/support/run_program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace marsview::test {
+namespace {
+
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+ProgramOutput measured(const std::string& what,
+                       const std::string& map,
+                       const std::string& positions,
+                       Words more = {})
+{
+    Words words{"measure", what, map, "--points", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    return runCli(words, positions);
+}
+
+nlohmann::json measuredJson(const std::string& what,
+                            const std::string& map,
+                            const std::string& positions,
+                            Words more = {})
+{
+    more.emplace_back("--json");
+    const ProgramOutput output = measured(what, map, positions, more);
+    EXPECT_EQ(output.exit_status, 0) << output.err;
+    return nlohmann::json::parse(output.out);
+}
+
+struct CsvTable {
+    std::string header;
+    std::vector<std::vector<double>> rows;
+};
+
+CsvTable tableIn(const std::string& text)
+{
+    CsvTable table;
+    std::istringstream lines(text);
+    std::getline(lines, table.header);
+    for (std::string line; std::getline(lines, line);) {
+        table.rows.emplace_back();
+        std::istringstream fields(line);
+        for (std::string field; std::getline(fields, field, ',');) {
+            table.rows.back().push_back(std::stod(field));
+        }
+    }
+    return table;
+}
+
+} // namespace
+
+TEST(MeasureDistance, IsThatOfGeodSolveOnTheBodyOfTheMap)
+{
+    // The map is planetocentric on a sphere of 3396 km; on an ellipsoid, latitudes are converted.
+    const auto geodesic_m = [](double polar_m, bool is_centric) {
+        const auto latitude = [&](double degrees) {
+            return is_centric
+                       ? static_cast<double>(graphicLatitude_deg(3396190.0L, polar_m, degrees))
+                       : degrees;
+        };
+        const std::string input =
+            fmt::format("{:.15f} 226.2 {:.15f} 255.5\n", latitude(18.65), latitude(11.8));
+        const std::string out = runTool({"GeodSolve", "-i", "-p", "10", "-e", "3396190",
+                                         fmt::format("{:.17g}", (3396190.0 - polar_m) / 3396190.0)},
+                                        input);
+        return numbersIn(out.substr(out.rfind(' ') + 1)).front();
+    };
+    const std::string positions = "lon,lat\n226.2,18.65\n255.5,11.8\n";
+    const Words sphere{"--radii", "3396190"};
+    const Words ellipsoid{"--radii", "3396190,3376200"};
+    EXPECT_NEAR(
+        measuredJson("distance", bundledMars(), positions, sphere)["geodesic_m"].get<double>(),
+        geodesic_m(3396190.0, false), 1e-3);
+    EXPECT_NEAR(
+        measuredJson("distance", bundledMars(), positions, ellipsoid)["geodesic_m"].get<double>(),
+        geodesic_m(3376200.0, true), 1e-3);
+}
+
+TEST(MeasureDistance, ReadsPositionsInEveryForm)
+{
+    const std::string truth = measured("distance", bundledMars(), "226.2 18.65\n230 20\n").out;
+    const TempFolder folder;
+    for (const char* text :
+         {"226.2,18.65\n230,20\n", "lon;lat\r\n226.2;18.65\r\n230;20\r\n",
+          "\xEF\xBB\xBF"
+          "226.2\t18.65\n\n230\t20",
+          "Longitude Latitude\n226.2 18.65\n+230 2e1\n", "-133.8 18.65\n590 20\n"}) {
+        const ProgramOutput output = measured("distance", bundledMars(), text, {"--lonlat"});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        EXPECT_EQ(output.out.substr(0, 33), truth.substr(0, 33)) << text;
+    }
+    const std::string file = folder.write("points.csv", "226.2 18.65\n230 20\n");
+    EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--points", file}).out, truth);
+    // Map coordinates of a geographic map are the same numbers.
+    EXPECT_EQ(measured("distance", bundledMars(), "226.2 18.65\n230 20\n", {"--map"}).out, truth);
+}
+
+TEST(MeasureDistance, RefusesBadPositionsWithOneSentence)
+{
+    const auto refusal = [](const std::string& positions, Words more = {}) {
+        const ProgramOutput output = measured("distance", bundledMars(), positions, more);
+        EXPECT_EQ(output.exit_status, 1);
+        EXPECT_EQ(output.out, "");
+        return output.err;
+    };
+    EXPECT_EQ(refusal(""),
+              "marsview-cli: --points: a distance needs at least 2 positions, but there are 0\n");
+    EXPECT_EQ(refusal("1 2\n3\n"),
+              "marsview-cli: --points: line 2 is \"3\"; two finite numbers are required\n");
+    EXPECT_EQ(refusal("1 2\nx y\n"),
+              "marsview-cli: --points: line 2 is \"x y\"; two finite numbers are required\n");
+    EXPECT_EQ(refusal("1 2\n18 226\n"),
+              "marsview-cli: --points: position 2 has latitude 226, which is outside -90 to 90 "
+              "degrees; write longitude before latitude, or add --map for map coordinates\n");
+    EXPECT_EQ(refusal("1 2\nnan 3\n"),
+              "marsview-cli: --points: line 2 is \"nan 3\"; two finite numbers are required\n");
+    const ProgramOutput missing =
+        runCli({"measure", "distance", bundledMars(), "--points", "/no/such/file.csv"});
+    EXPECT_EQ(missing.exit_status, 1);
+    EXPECT_EQ(missing.err, "marsview-cli: /no/such/file.csv: cannot be opened for reading\n");
+    EXPECT_EQ(runCli({"measure", "distance", bundledMars()}).exit_status, 2);
+    EXPECT_EQ(runCli({"measure", "distence", bundledMars()}).exit_status, 2);
+    EXPECT_EQ(measured("distance", bundledMars(), "1 2\n3 4\n", {"--map", "--lonlat"}).exit_status,
+              2);
+    const ProgramOutput endless =
+        runCli({"measure", "distance", bundledMars(), "--points", "/dev/zero"});
+    EXPECT_EQ(endless.exit_status, 1);
+}
+
+TEST(MeasureProfile, IsCsvWithThePositionsOfEveryPoint)
+{
+    const ProgramOutput output =
+        measured("profile", bundledMountain(), "-122.2 46.19\n-122.18 46.2\n");
+    ASSERT_EQ(output.exit_status, 0) << output.err;
+    const CsvTable table = tableIn(output.out);
+    EXPECT_EQ(table.header, "distance_m,lon,lat,x,y,elevation_m");
+    ASSERT_GT(table.rows.size(), 100U);
+    std::string lonlat;
+    std::string xy;
+    for (const auto& row : table.rows) {
+        ASSERT_EQ(row.size(), 6U);
+        lonlat += fmt::format("{} {}\n", row[1], row[2]);
+        xy += fmt::format("{} {}\n", row[3], row[4]);
+    }
+    const auto by_lonlat =
+        numbersIn(runCli({"sample", bundledMountain(), "--lonlat", "--stdin"}, lonlat).out);
+    const auto by_map =
+        numbersIn(runCli({"sample", bundledMountain(), "--map", "--stdin"}, xy).out);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        EXPECT_NEAR(table.rows[i][5], by_lonlat[i], 1e-4);
+        EXPECT_NEAR(table.rows[i][5], by_map[i], 1e-4);
+    }
+    const CsvTable stepped = tableIn(
+        measured("profile", bundledMountain(), "-122.2 46.19\n-122.18 46.2\n", {"--step", "50"})
+            .out);
+    EXPECT_EQ(stepped.rows[3][0], 150.0);
+    EXPECT_EQ(stepped.rows.back()[0], table.rows.back()[0]);
+    EXPECT_EQ(measured("profile", bundledMountain(), "0 0\n1 1\n", {"--step", "0"}).exit_status, 2);
+}
+
+TEST(MeasureProfile, ShowsGapsAsNan)
+{
+    const ProgramOutput output =
+        measured("profile", bundledMountain(), "-122.2 46.19\n-121 46.2\n");
+    const CsvTable table = tableIn(output.out);
+    ASSERT_GT(table.rows.size(), 10U);
+    EXPECT_TRUE(std::isfinite(table.rows.front()[5]));
+    EXPECT_TRUE(std::isnan(table.rows.back()[5]));
+    const nlohmann::json distance =
+        measuredJson("distance", bundledMountain(), "-122.2 46.19\n-121 46.2\n");
+    EXPECT_TRUE(distance["surface_m"].is_null());
+    EXPECT_TRUE(distance["rise_m"].is_null());
+    EXPECT_GT(distance["geodesic_m"].get<double>(), 90'000.0);
+}
+
+} // namespace marsview::test
