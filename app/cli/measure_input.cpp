@@ -17,7 +17,6 @@
 namespace marsview {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLineBytesMax = 4096;
 constexpr std::size_t kTextBytesMax = std::size_t{1} << 28;
 
@@ -190,7 +189,8 @@ std::string MeasureOptions::positionsName() const
 GroundPosition MeasureInput::lonLat(GroundPosition position) const
 {
     if (!terrain->ground().ellipsoid()) {
-        return {kNan, kNan};
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        return {kNone, kNone};
     }
     if (latitude_kind == LatitudeKind::Planetocentric) {
         position.y =
