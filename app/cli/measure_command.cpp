@@ -5,7 +5,9 @@
 #include "app/console/long_job.h"
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
+#include "core/measure/attitude.h"
 #include "core/measure/line_measures.h"
+#include "core/measure/terrain_slope.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -137,6 +139,179 @@ Status runProfile(const ProfileOptions& options)
     return Done{};
 }
 
+struct AttitudeCommand {
+    MeasureOptions common;
+    std::optional<double> elevation_error_m;
+};
+
+Json reportOf(const Attitude& attitude, GroundPosition center)
+{
+    const AttitudeUncertainty& uncertainty = attitude.uncertainty;
+    Json axes = Json::array();
+    for (const PoleAxis& axis : uncertainty.axes) {
+        axes.push_back({{"half_angle_deg", asJson(axis.half_angle_deg)},
+                        {"trend_deg", asJson(axis.trend_deg)},
+                        {"plunge_deg", asJson(axis.plunge_deg)}});
+    }
+    Json residuals = Json::array();
+    for (const double residual_m : attitude.residuals_m) {
+        residuals.push_back(asJson(residual_m));
+    }
+    return {{"strike_deg", asJson(attitude.strike_deg)},
+            {"dip_deg", asJson(attitude.dip_deg)},
+            {"dip_direction_deg", asJson(attitude.dip_direction_deg)},
+            {"rms_m", asJson(attitude.rms_m)},
+            {"pole",
+             {{"trend_deg", asJson(attitude.poleTrendDeg())},
+              {"plunge_deg", asJson(attitude.polePlungeDeg())},
+              {"east", asJson(attitude.normal.x)},
+              {"north", asJson(attitude.normal.y)},
+              {"up", asJson(attitude.normal.z)}}},
+            {"uncertainty",
+             {{"confidence", uncertainty.confidence},
+              {"dip_error_deg", asJson(uncertainty.dip_error_deg)},
+              {"strike_error_deg", asJson(uncertainty.strike_error_deg)},
+              {"axes", std::move(axes)},
+              {"elevation_error_m", uncertainty.elevation_error_m
+                                        ? asJson(*uncertainty.elevation_error_m)
+                                        : Json(nullptr)}}},
+            {"points", attitude.points},
+            {"residuals_m", std::move(residuals)},
+            {"lon", asJson(center.x)},
+            {"lat", asJson(center.y)},
+            {"elevation_m", asJson(attitude.center_elevation_m)}};
+}
+
+void printForPeople(const Attitude& attitude)
+{
+    const auto line = [](const char* label, const std::string& text) {
+        printLine(fmt::format("{:<16}{}", label, text));
+    };
+    const AttitudeUncertainty& uncertainty = attitude.uncertainty;
+    line("Strike:", fmt::format("{}° ± {}°", asText(attitude.strike_deg),
+                                asText(uncertainty.strike_error_deg)));
+    line("Dip:",
+         fmt::format("{}° ± {}°", asText(attitude.dip_deg), asText(uncertainty.dip_error_deg)));
+    line("Dip direction:", fmt::format("{}°", asText(attitude.dip_direction_deg)));
+    line("RMS:", fmt::format("{} m", asText(attitude.rms_m)));
+    line("Points:", std::to_string(attitude.points));
+}
+
+Status runAttitude(const AttitudeCommand& options)
+{
+    Result<MeasureInput> input = openMeasureInput(options.common);
+    if (!input) {
+        return std::move(input).error();
+    }
+    double elevation_m = 0.0;
+    if (!input->positions.empty()) {
+        elevation_m = input->terrain->elevation(input->positions.front());
+    }
+    const Result<Attitude> attitude = measureAttitude(
+        *input->terrain, input->positions,
+        {.elevation_error_m = options.elevation_error_m,
+         .default_elevation_error_m = elevationStepError(input->raster->info, elevation_m)});
+    if (!attitude) {
+        return measureError(options.common, attitude.error());
+    }
+    if (options.common.is_json) {
+        printJson(withSchema(
+            reportOf(*attitude, input->lonLat(input->terrain->inTurn(attitude->center)))));
+    } else {
+        printForPeople(*attitude);
+    }
+    if (!options.elevation_error_m && attitude->uncertainty.elevation_error_m) {
+        std::fprintf(stderr,
+                     "marsview-cli: %s: three points have no residuals; the errors follow from an "
+                     "elevation error of %s m, half the step of the samples; state another with "
+                     "--elevation-error\n",
+                     asOneLine(options.common.map.path).c_str(),
+                     asText(*attitude->uncertainty.elevation_error_m).c_str());
+    }
+    printNotices(input->raster->info);
+    return Done{};
+}
+
+struct SlopeOptions {
+    MeasureOptions common;
+    std::optional<double> baseline_m;
+};
+
+Status runSlope(const SlopeOptions& options)
+{
+    Result<MeasureInput> input = openMeasureInput(options.common);
+    if (!input) {
+        return std::move(input).error();
+    }
+    LongJob job("measuring");
+    Result<std::vector<TerrainSlope>> slopes =
+        measureSlopes(*input->terrain, input->positions, options.baseline_m, job.monitor());
+    if (!slopes) {
+        return measureError(options.common, std::move(slopes).error());
+    }
+    Json json;
+    if (slopes->size() == 1) {
+        json["slope_deg"] = asJson(slopes->front().slope_deg);
+        json["aspect_deg"] = asJson(slopes->front().aspect_deg);
+    }
+    json["positions"] = Json::array();
+    if (!options.common.is_json) {
+        printLine("lon,lat,x,y,elevation_m,slope_deg,aspect_deg");
+    }
+    for (std::size_t i = 0; i < slopes->size(); ++i) {
+        const TerrainSlope& slope = (*slopes)[i];
+        const GroundPosition lonlat = input->lonLat(input->positions[i]);
+        const MapPoint map =
+            input->terrain->toMap(input->positions[i]).value_or(MapPoint{kNan, kNan});
+        if (options.common.is_json) {
+            json["positions"].push_back({{"lon", asJson(lonlat.x)},
+                                         {"lat", asJson(lonlat.y)},
+                                         {"x", asJson(map.x)},
+                                         {"y", asJson(map.y)},
+                                         {"elevation_m", asJson(slope.elevation_m)},
+                                         {"slope_deg", asJson(slope.slope_deg)},
+                                         {"aspect_deg", asJson(slope.aspect_deg)}});
+        } else {
+            printLine(fmt::format("{},{},{},{},{},{},{}", asText(lonlat.x), asText(lonlat.y),
+                                  asText(map.x), asText(map.y), asText(slope.elevation_m),
+                                  asText(slope.slope_deg), asText(slope.aspect_deg)));
+        }
+    }
+    if (options.common.is_json) {
+        printJson(withSchema(json));
+    }
+    printNotices(input->raster->info);
+    return Done{};
+}
+
+void addAttitude(CLI::App& measure, CommandAction& run)
+{
+    const auto options = std::make_shared<AttitudeCommand>();
+    CLI::App* command = measure.add_subcommand(
+        "attitude", "Measure strike and dip of the plane through three or more positions");
+    options->common.addTo(*command);
+    command
+        ->add_option("--elevation-error", options->elevation_error_m,
+                     "standard deviation of elevations in meters, from which the errors follow; by "
+                     "default the residuals, with three positions half the step of the samples")
+        ->check(positiveNumber());
+    command->callback([options, &run] { run = [options] { return runAttitude(*options); }; });
+}
+
+void addSlope(CLI::App& measure, CommandAction& run)
+{
+    const auto options = std::make_shared<SlopeOptions>();
+    CLI::App* command =
+        measure.add_subcommand("slope", "Print slope and aspect of the terrain at positions");
+    options->common.addTo(*command);
+    command
+        ->add_option("--baseline", options->baseline_m,
+                     "length in meters over which the slope is measured; by default the triangle "
+                     "at the position")
+        ->check(positiveNumber());
+    command->callback([options, &run] { run = [options] { return runSlope(*options); }; });
+}
+
 void addDistance(CLI::App& measure, CommandAction& run)
 {
     const auto options = std::make_shared<MeasureOptions>();
@@ -169,6 +344,8 @@ void addMeasureCommand(CLI::App& app, CommandAction& run)
     measure->require_subcommand(1);
     addDistance(*measure, run);
     addProfile(*measure, run);
+    addAttitude(*measure, run);
+    addSlope(*measure, run);
 }
 
 } // namespace marsview

@@ -109,9 +109,11 @@ std::optional<CellPlace> MeasuredTerrain::placeOf(GridPoint grid) const
     }
     const auto find = [](const Axis& axis, double at, std::size_t& cell, double& share) {
         const double end = axis.line(axis.cells);
-        if (!(at >= 0.0 && at <= end)) {
+        constexpr double kBeyond = 1e-6; // rounding of a way there and back
+        if (!(at >= -kBeyond && at <= end + kBeyond)) {
             return false;
         }
+        at = std::clamp(at, 0.0, end);
         cell = std::min(static_cast<std::size_t>(at) / axis.step, axis.cells - 1);
         if (at < axis.line(cell)) { // in the last cell before a seam
             --cell;

@@ -71,8 +71,8 @@ public:
     {
         return period_ > 0.0 ? std::floor((column - turn_begin_) / period_) : 0.0;
     }
-    /// The cell of a position in any turn; empty outside. At a line it is the next cell, except at
-    /// the last one.
+    /// The cell of a position in any turn; empty outside, except within a millionth of a sample. At
+    /// a line it is the next cell, except at the last one.
     std::optional<CellPlace> placeOf(GridPoint grid) const;
 
 private:

@@ -118,8 +118,8 @@ TEST(JsonPage, ListsTheFieldsOfInfoAndSample)
 
 TEST(JsonPage, ListsTheFieldsOfMeasurements)
 {
-    const std::string line = "226.2 18.65\n230 20\n";
-    for (const char* command : {"distance", "profile"}) {
+    const std::string line = "226.2 18.65\n230 20\n228 15\n";
+    for (const char* command : {"distance", "profile", "attitude", "slope"}) {
         expectDocumented(
             fmt::format("measure {}", command),
             printed({"measure", command, bundledMars(), "--points", "-", "--json"}, line));

@@ -187,4 +187,49 @@ TEST(MeasureProfile, ShowsGapsAsNan)
     EXPECT_GT(distance["geodesic_m"].get<double>(), 90'000.0);
 }
 
+TEST(MeasureAttitude, RefusesPointsOnALineAndStatesTheErrorOfThree)
+{
+    const nlohmann::json attitude =
+        measuredJson("attitude", bundledMars(), "226.2 18.65\n230 20\n228 15\n");
+    EXPECT_EQ(attitude["points"], 3);
+    EXPECT_EQ(attitude["uncertainty"]["elevation_error_m"], 0.5); // whole meters
+    EXPECT_GT(attitude["uncertainty"]["dip_error_deg"].get<double>(), 0.0);
+    EXPECT_NEAR(std::remainder(attitude["dip_direction_deg"].get<double>() -
+                                   attitude["strike_deg"].get<double>() - 90.0,
+                               360.0),
+                0.0, 1e-9);
+    const nlohmann::json stated = measuredJson(
+        "attitude", bundledMars(), "226.2 18.65\n230 20\n228 15\n", {"--elevation-error", "5"});
+    EXPECT_NEAR(stated["uncertainty"]["dip_error_deg"].get<double>(),
+                10.0 * attitude["uncertainty"]["dip_error_deg"].get<double>(), 1e-4);
+    const ProgramOutput line = measured("attitude", bundledMars(), "226 18\n227 18\n228 18\n");
+    EXPECT_EQ(line.exit_status, 1);
+    EXPECT_THAT(line.err, HasSubstr("nearly on a line"));
+    const ProgramOutput outside =
+        measured("attitude", bundledMountain(), "-122.2 46.19\n-122.19 46.2\n0 0\n");
+    EXPECT_EQ(outside.err,
+              "marsview-cli: --points: position 3 (0, 0) is outside the map or on nodata; choose "
+              "another position\n");
+}
+
+TEST(MeasureSlope, PrintsSlopeAndAspectOfEachPosition)
+{
+    const std::string positions = "-122.2 46.19\n-122.18 46.2\n0 0\n";
+    const CsvTable table = tableIn(measured("slope", bundledMountain(), positions).out);
+    EXPECT_EQ(table.header, "lon,lat,x,y,elevation_m,slope_deg,aspect_deg");
+    const nlohmann::json json = measuredJson("slope", bundledMountain(), positions);
+    ASSERT_EQ(table.rows.size(), 3U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(json["positions"][i]["slope_deg"].get<double>(), table.rows[i][5]);
+        EXPECT_EQ(json["positions"][i]["aspect_deg"].get<double>(), table.rows[i][6]);
+        EXPECT_GT(table.rows[i][5], 1.0);
+    }
+    EXPECT_TRUE(json["positions"][2]["slope_deg"].is_null());
+    const nlohmann::json single = measuredJson("slope", bundledMountain(), "-122.2 46.19\n");
+    EXPECT_EQ(single["slope_deg"], json["positions"][0]["slope_deg"]);
+    const nlohmann::json wide =
+        measuredJson("slope", bundledMountain(), "-122.2 46.19\n", {"--baseline", "500"});
+    EXPECT_NE(wide["slope_deg"], single["slope_deg"]);
+}
+
 } // namespace marsview::test

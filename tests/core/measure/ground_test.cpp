@@ -1,4 +1,5 @@
 #include "core/measure/ground.h"
+#include "tests/core/measure/measured_map.h"
 #include "tests/support/random.h"
 #include "tests/support/run_program.h"
 
@@ -51,11 +52,6 @@ std::vector<std::vector<double>> rowsOf(const std::string& text)
         }
     }
     return rows;
-}
-
-double angleBetween(double a_deg, double b_deg)
-{
-    return std::abs(std::remainder(a_deg - b_deg, 360.0));
 }
 
 } // namespace

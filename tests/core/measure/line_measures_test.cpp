@@ -1,5 +1,6 @@
 #include "core/measure/line_measures.h"
 #include "core/terrain/seam.h"
+#include "tests/core/measure/measured_map.h"
 #include "tests/support/map_maker.h"
 #include "tests/support/random.h"
 #include "tests/support/shared_data.h"
@@ -19,11 +20,6 @@ namespace marsview::test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-MeasuredTerrain terrainOf(const Map& map, std::size_t level = 0)
-{
-    return {map.georeference(), readSamples(map.heightfield(), level)};
-}
 
 Profile profileOf(MeasuredTerrain& terrain,
                   const std::vector<GroundPosition>& positions,
