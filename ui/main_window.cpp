@@ -455,7 +455,9 @@ void MainWindow::connectReadout()
             [view = view_, readout = readout_](const std::optional<RayHit>& hit) {
                 readout->setPlace(
                     hit ? std::optional(
-                              ReadPlace{.hit = *hit, .screen_pixel_m = view->metresPerPoint(*hit)})
+                              ReadPlace{.hit = *hit,
+                                        .screen_pixel_m = view->metresPerPoint(*hit),
+                                        .source = sourceName(view->readingSource())})
                         : std::nullopt);
             });
     connect(readout_, &StatusReadout::focusChanged, view_, &TerrainView::setReadElsewhere);

@@ -27,6 +27,20 @@ QString outsideText()
     return StatusReadout::tr("outside the map");
 }
 
+// As wide as the longest name of a source.
+QString longestSource(const QFontMetrics& metrics)
+{
+    QString longest;
+    for (const ReadingSource source :
+         {ReadingSource::Pointer, ReadingSource::Stylus, ReadingSource::Crosshair}) {
+        const QString name = sourceName(source);
+        if (metrics.horizontalAdvance(name) > metrics.horizontalAdvance(longest)) {
+            longest = name;
+        }
+    }
+    return longest;
+}
+
 // A thin line between two parts of the readout.
 QWidget* makeRule(QWidget* parent)
 {
@@ -40,8 +54,25 @@ QWidget* makeRule(QWidget* parent)
 
 } // namespace
 
+QString sourceName(ReadingSource source)
+{
+    switch (source) {
+    case ReadingSource::Stylus:
+        //: Before a coordinate: the place under the stylus of a haptic device
+        return StatusReadout::tr("Stylus");
+    case ReadingSource::Crosshair:
+        //: Before a coordinate: the place in the middle of the picture
+        return StatusReadout::tr("Center");
+    case ReadingSource::Pointer:
+        break;
+    }
+    //: Before a coordinate: the place under the mouse pointer
+    return StatusReadout::tr("Pointer");
+}
+
 StatusReadout::StatusReadout(QWidget* parent)
     : QWidget(parent)
+    , source_(new ReservedLabel(longestSource(fontMetrics()), this))
     , coordinate_(new CoordinateField(this))
     , format_button_(new QToolButton(this))
     , height_(new ReservedLabel({}, this))
@@ -49,6 +80,9 @@ StatusReadout::StatusReadout(QWidget* parent)
     , height_rule_(makeRule(this))
     , detail_rule_(makeRule(this))
 {
+    source_->setAccessibleName(tr("What the position lies under"));
+    source_->setObjectName(QStringLiteral("readingSource"));
+    source_->setForegroundRole(QPalette::PlaceholderText);
     coordinate_->setAccessibleName(tr("Position under the pointer, the stylus or the crosshair"));
     coordinate_->setAccessibleDescription(tr("Ctrl+C copies it"));
     coordinate_->setObjectName(QStringLiteral("coordinates"));
@@ -81,6 +115,7 @@ StatusReadout::StatusReadout(QWidget* parent)
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(kPartGap, 0, kPartGap, 0);
     layout->setSpacing(kPartGap);
+    layout->addWidget(source_);
     layout->addWidget(coordinate_);
     layout->addWidget(format_button_);
     layout->addWidget(height_rule_);
@@ -99,8 +134,8 @@ void StatusReadout::setMaps(const std::shared_ptr<const Map>& scene,
     }
     scene_ = scene;
     active_ = active;
-    for (QWidget* part : std::initializer_list<QWidget*>{coordinate_, format_button_, height_rule_,
-                                                         height_, detail_rule_, detail_}) {
+    for (QWidget* part : std::initializer_list<QWidget*>{
+             source_, coordinate_, format_button_, height_rule_, height_, detail_rule_, detail_}) {
         part->setVisible(scene_ != nullptr);
     }
     reserveWidths();
@@ -162,6 +197,11 @@ void StatusReadout::showDetail()
                               ? tr("preview")
                               //: How far the picture may be from the full map, in pixels
                               : leftToRight(tr("detail %1 px").arg(numberText(detail_px_, 1))));
+}
+
+QString StatusReadout::sourceLabel() const
+{
+    return source_->wholeText();
 }
 
 QString StatusReadout::coordinateLabel() const
@@ -266,10 +306,12 @@ void StatusReadout::refresh()
 {
     if (!scene_ || !place_) {
         coordinate_->showText(scene_ ? outsideText() : QString(), false);
+        source_->setWholeText({});
         height_->setWholeText({});
         height_->setHint({});
         return;
     }
+    source_->setWholeText(place_->source);
     coordinate_->showText(positionText(format_, *scene_, place_->hit.grid, place_->screen_pixel_m),
                           true);
     const ReadHeight height = heightAt(place_->hit);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/terrain/ray_cast.h"
+#include "ui/canvas/terrain_view.h"
 #include "ui/text/coordinate_text.h"
 
 #include <QWidget>
@@ -22,7 +23,11 @@ class ReservedLabel;
 struct ReadPlace {
     RayHit hit;                  // on the scene's grid
     double screen_pixel_m = 0.0; // metres on the terrain in one point of the screen; 0: unknown
+    QString source{};            // what it lies under: "Pointer"
 };
+
+/// "Pointer", "Stylus" or "Center".
+QString sourceName(ReadingSource source);
 
 /// Shows a position in the chosen format, the elevation there, and how sharp the picture is. Its
 /// parts keep their width while numbers change.
@@ -48,6 +53,7 @@ public:
     /// Why pieces of the picture cannot be read; empty where all can.
     void setProblem(const QString& problem);
 
+    QString sourceLabel() const;
     QString coordinateLabel() const;
     QString heightLabel() const;
     QString detailLabel() const;
@@ -84,6 +90,7 @@ private:
     double detail_px_ = 0.0;
     bool is_loading_ = false;
     bool has_problem_ = false;
+    ReservedLabel* source_ = nullptr;
     CoordinateField* coordinate_ = nullptr;
     QToolButton* format_button_ = nullptr;
     ReservedLabel* height_ = nullptr;

@@ -94,9 +94,11 @@ TEST_F(StatusReadoutTest, ReadsTheMiddleOfThePictureForTheKeyboard)
     ASSERT_FALSE(positionOfTheMiddle().isEmpty());
     EXPECT_TRUE(isRead(positionOfTheMiddle()));
     EXPECT_FALSE(readout().heightLabel().isEmpty());
+    EXPECT_EQ(readout().sourceLabel(), QStringLiteral("Center"));
 
     // The pointer takes over when it moves, and a navigation key hands back to the middle.
     ASSERT_NO_FATAL_FAILURE(pointAtTheMiddle());
+    EXPECT_EQ(readout().sourceLabel(), QStringLiteral("Pointer"));
     EXPECT_FALSE(crosshair->isVisible());
     QTest::keyClick(&view(), Qt::Key_Left);
     EXPECT_TRUE(crosshair->isVisible());
@@ -107,6 +109,7 @@ TEST_F(StatusReadoutTest, ReadsTheMiddleOfThePictureForTheKeyboard)
     window_->datasetPanel()->setFocus();
     EXPECT_FALSE(crosshair->isVisible());
     EXPECT_EQ(readout().coordinateLabel(), QStringLiteral("outside the map"));
+    EXPECT_TRUE(readout().sourceLabel().isEmpty());
     readout().coordinateField()->setFocus(Qt::TabFocusReason);
     EXPECT_TRUE(crosshair->isVisible());
 }
@@ -130,6 +133,7 @@ TEST_F(StatusReadoutTest, ReadsThePlaceUnderTheStylusOfADevice)
         EXPECT_TRUE(readout().heightLabel().startsWith(numberText(20.0 * column - 300.0, 0)))
             << readout().heightLabel().toStdString();
     }
+    EXPECT_EQ(readout().sourceLabel(), QStringLiteral("Stylus"));
     const QString under_stylus = readout().coordinateLabel();
     // The pointer is read while it moves, and the stylus again a while after it has come to rest.
     pointAtTheMiddle();
@@ -247,7 +251,7 @@ TEST_F(StatusReadoutTest, HasEvenGapsAndOneButton)
     }
     std::sort(places.begin(), places.end(),
               [](const QRect& a, const QRect& b) { return a.left() < b.left(); });
-    ASSERT_EQ(places.size(), 6); // position, format, rule, elevation, rule, detail
+    ASSERT_EQ(places.size(), 7); // source, position, format, rule, elevation, rule, detail
     for (qsizetype i = 1; i < places.size(); ++i) {
         EXPECT_EQ(places[i].left() - places[i - 1].right(), places[1].left() - places[0].right());
     }

@@ -38,6 +38,9 @@ enum class NavigationStep {
     TiltDown,
 };
 
+/// What the place that is read lies under.
+enum class ReadingSource { Pointer, Stylus, Crosshair };
+
 /// A property of children of the view that hide the terrain, though the mouse goes through them.
 inline constexpr const char* kHidesTerrain = "hidesTerrain";
 
@@ -128,6 +131,8 @@ public:
     /// while the view has the focus and the pointer is not over it or a key moved the camera last.
     /// Nothing where no surface is there.
     std::optional<RayHit> reading() const;
+    /// What reading() is the place of.
+    ReadingSource readingSource() const;
     bool isCrosshairShown() const;
     /// Metres on the terrain in one point of the screen at a place that surfaceAt() found.
     double metresPerPoint(const RayHit& hit) const;

@@ -71,6 +71,13 @@ std::optional<GroundPoint> TerrainView::groundRead() const
     return pointer_ ? groundUnder(*pointer_) : std::nullopt;
 }
 
+ReadingSource TerrainView::readingSource() const
+{
+    return isStylusRead()       ? ReadingSource::Stylus
+           : isCrosshairShown() ? ReadingSource::Crosshair
+                                : ReadingSource::Pointer;
+}
+
 std::optional<RayHit> TerrainView::reading() const
 {
     const std::optional<GroundPoint> ground = groundRead();

@@ -119,7 +119,6 @@ void HapticsPanel::makeDevices(QBoxLayout& layout)
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setResizeMode(QListView::Adjust);
     list_->setSpacing(2);
-    list_->setFixedHeight(fontMetrics().height() * 9);
     connect(list_, &QListWidget::currentItemChanged, this, &HapticsPanel::showConnectButton);
     connect(list_, &QListWidget::itemActivated, this, [this](QListWidgetItem* item) {
         if (item->data(kUsableRole).toBool()) {
@@ -228,14 +227,10 @@ void HapticsPanel::makeSliders(QBoxLayout& layout)
             controller_.setSettings(settings);
         }
     });
-    // Its room stays when it is hidden: what is below does not move.
     stiffness_limit_ = makeCaption({}, this);
     stiffness_limit_->setObjectName(QStringLiteral("stiffnessLimit"));
     stiffness_limit_->setAccessibleName(tr("Limit of the stiffness"));
     stiffness_limit_->setWordWrap(true);
-    QSizePolicy policy = stiffness_limit_->sizePolicy();
-    policy.setRetainSizeWhenHidden(true);
-    stiffness_limit_->setSizePolicy(policy);
     layout.addWidget(stiffness_limit_);
     share_ = new QSlider(Qt::Horizontal, this);
     share_->setObjectName(QStringLiteral("forceScale"));
@@ -270,21 +265,17 @@ void HapticsPanel::makeRecording(QBoxLayout& layout)
         line->addWidget(button);
     }
     layout.addLayout(line);
-    // Its room stays when it is hidden: the buttons below do not move.
     replayed_ = new QProgressBar(this);
     replayed_->setObjectName(QStringLiteral("replayProgress"));
     replayed_->setAccessibleName(tr("Replayed"));
     replayed_->setRange(0, kReplaySteps);
-    QSizePolicy policy = replayed_->sizePolicy();
-    policy.setRetainSizeWhenHidden(true);
-    replayed_->setSizePolicy(policy);
-    layout.addWidget(replayed_);
     flight_ = new QPushButton(tr("Save Diagnostic &Log…"), this);
     flight_->setObjectName(QStringLiteral("saveFlight"));
     flight_->setToolTip(
         tr("Save the last ten seconds of the device, tick by tick, for troubleshooting"));
     connect(flight_, &QPushButton::clicked, this, &HapticsPanel::chooseFlightRecord);
     layout.addWidget(flight_);
+    layout.addWidget(replayed_);
     recording_ = makeText(this, tr("Recording"));
     recording_->setObjectName(QStringLiteral("recording"));
     layout.addWidget(recording_);
@@ -293,6 +284,7 @@ void HapticsPanel::makeRecording(QBoxLayout& layout)
 void HapticsPanel::showEvent(QShowEvent* event)
 {
     QWidget::showEvent(event);
+    fitList();
     controller_.setLooking(true);
     controller_.findDevices(); // once also while one is connected
     showConnection();
@@ -347,8 +339,21 @@ void HapticsPanel::showDevices()
             }
         }
     }
+    fitList();
     markConnected();
     showConnectButton();
+}
+
+// As high as its devices need, within limits.
+void HapticsPanel::fitList()
+{
+    list_->doItemsLayout();
+    int height = 2 * list_->frameWidth() + 2 * list_->spacing();
+    for (int i = 0; i < list_->count(); ++i) {
+        height += list_->visualItemRect(list_->item(i)).height() + 2 * list_->spacing();
+    }
+    const int line = fontMetrics().height();
+    list_->setFixedHeight(std::clamp(height, 3 * line, 9 * line));
 }
 
 QString HapticsPanel::chosenUri() const
@@ -477,6 +482,10 @@ void HapticsPanel::showStiffness()
                                : tr("Surface stiffness"));
     //: Below a slider that is set to more; %1 is a stiffness in newtons per metre
     stiffness_limit_->setText(tr("Limited to %1 by the device").arg(text(most)));
+    // A device with a limit keeps room for the text, so that nothing moves during a drag.
+    QSizePolicy policy = stiffness_limit_->sizePolicy();
+    policy.setRetainSizeWhenHidden(most < kStiffnessMax);
+    stiffness_limit_->setSizePolicy(policy);
     stiffness_limit_->setVisible(most < chosen);
 }
 

@@ -53,6 +53,7 @@ private:
     void makeSliders(QBoxLayout& layout);
     void makeRecording(QBoxLayout& layout);
     void showDevices();
+    void fitList();
     void markConnected();
     void showConnection();
     void showConnectButton();

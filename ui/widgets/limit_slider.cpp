@@ -1,13 +1,13 @@
 #include "ui/widgets/limit_slider.h"
 
 #include <QPainter>
-#include <QPainterPath>
+#include <QRegion>
 #include <QStyleOptionSlider>
 
 namespace marsview {
 namespace {
 
-constexpr double kMarkSide = 7.0;
+constexpr double kMarkWidth = 1.5;
 
 } // namespace
 
@@ -26,7 +26,7 @@ void LimitSlider::setLimit(std::optional<int> value)
     }
 }
 
-// A triangle at the lower edge, where the handle hides least of it.
+// Beyond the limit the groove is faded.
 void LimitSlider::paintEvent(QPaintEvent* event)
 {
     QSlider::paintEvent(event);
@@ -42,14 +42,18 @@ void LimitSlider::paintEvent(QPaintEvent* event)
     const double x = groove.left() + handle / 2.0 +
                      QStyle::sliderPositionFromValue(minimum(), maximum(), *limit_,
                                                      groove.width() - handle, option.upsideDown);
+    QRectF beyond(groove);
+    (option.upsideDown ? beyond.setRight(x) : beyond.setLeft(x));
+    QColor cover = palette().color(QPalette::Window);
+    cover.setAlpha(170);
     QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    QPainterPath mark;
-    mark.moveTo(x, height() - kMarkSide);
-    mark.lineTo(x - kMarkSide / 2.0, height());
-    mark.lineTo(x + kMarkSide / 2.0, height());
-    mark.closeSubpath();
-    painter.fillPath(mark, palette().color(QPalette::WindowText));
+    // The handle stays as it is.
+    const QRect handle_now =
+        style()->subControlRect(QStyle::CC_Slider, &option, QStyle::SC_SliderHandle, this);
+    painter.setClipRegion(QRegion(rect()) - handle_now);
+    painter.fillRect(beyond, cover);
+    painter.fillRect(QRectF(x - kMarkWidth / 2.0, 0.0, kMarkWidth, height()),
+                     palette().color(QPalette::WindowText));
 }
 
 } // namespace marsview
