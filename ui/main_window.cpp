@@ -453,11 +453,10 @@ void MainWindow::connectReadout()
 {
     connect(view_, &TerrainView::pointerMoved, readout_,
             [view = view_, readout = readout_](const std::optional<RayHit>& hit) {
+                readout->setSource(view->readingSource());
                 readout->setPlace(
                     hit ? std::optional(
-                              ReadPlace{.hit = *hit,
-                                        .screen_pixel_m = view->metresPerPoint(*hit),
-                                        .source = sourceName(view->readingSource())})
+                              ReadPlace{.hit = *hit, .screen_pixel_m = view->metresPerPoint(*hit)})
                         : std::nullopt);
             });
     connect(readout_, &StatusReadout::focusChanged, view_, &TerrainView::setReadElsewhere);

@@ -27,6 +27,22 @@ QString outsideText()
     return StatusReadout::tr("outside the map");
 }
 
+QString sourceName(ReadingSource source)
+{
+    switch (source) {
+    case ReadingSource::Stylus:
+        //: Before a coordinate: the place under the stylus of a haptic device
+        return StatusReadout::tr("Stylus");
+    case ReadingSource::Crosshair:
+        //: Before a coordinate: the place in the middle of the picture
+        return StatusReadout::tr("Center");
+    case ReadingSource::Pointer:
+        break;
+    }
+    //: Before a coordinate: the place under the mouse pointer
+    return StatusReadout::tr("Pointer");
+}
+
 // As wide as the longest name of a source.
 QString longestSource(const QFontMetrics& metrics)
 {
@@ -53,22 +69,6 @@ QWidget* makeRule(QWidget* parent)
 }
 
 } // namespace
-
-QString sourceName(ReadingSource source)
-{
-    switch (source) {
-    case ReadingSource::Stylus:
-        //: Before a coordinate: the place under the stylus of a haptic device
-        return StatusReadout::tr("Stylus");
-    case ReadingSource::Crosshair:
-        //: Before a coordinate: the place in the middle of the picture
-        return StatusReadout::tr("Center");
-    case ReadingSource::Pointer:
-        break;
-    }
-    //: Before a coordinate: the place under the mouse pointer
-    return StatusReadout::tr("Pointer");
-}
 
 StatusReadout::StatusReadout(QWidget* parent)
     : QWidget(parent)
@@ -123,6 +123,7 @@ StatusReadout::StatusReadout(QWidget* parent)
     layout->addWidget(detail_rule_);
     layout->addWidget(detail_);
     layout->addStretch(1);
+    setSource(ReadingSource::Pointer);
     setMaps(nullptr, nullptr);
 }
 
@@ -147,6 +148,11 @@ void StatusReadout::setPlace(const std::optional<ReadPlace>& place)
 {
     place_ = place;
     refresh();
+}
+
+void StatusReadout::setSource(ReadingSource source)
+{
+    source_->setWholeText(sourceName(source));
 }
 
 void StatusReadout::setFormat(const CoordinateFormat& format)
@@ -306,12 +312,10 @@ void StatusReadout::refresh()
 {
     if (!scene_ || !place_) {
         coordinate_->showText(scene_ ? outsideText() : QString(), false);
-        source_->setWholeText({});
         height_->setWholeText({});
         height_->setHint({});
         return;
     }
-    source_->setWholeText(place_->source);
     coordinate_->showText(positionText(format_, *scene_, place_->hit.grid, place_->screen_pixel_m),
                           true);
     const ReadHeight height = heightAt(place_->hit);

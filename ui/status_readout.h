@@ -23,11 +23,7 @@ class ReservedLabel;
 struct ReadPlace {
     RayHit hit;                  // on the scene's grid
     double screen_pixel_m = 0.0; // metres on the terrain in one point of the screen; 0: unknown
-    QString source{};            // what it lies under: "Pointer"
 };
-
-/// "Pointer", "Stylus" or "Center".
-QString sourceName(ReadingSource source);
 
 /// Shows a position in the chosen format, the elevation there, and how sharp the picture is. Its
 /// parts keep their width while numbers change.
@@ -43,6 +39,8 @@ public:
     void setMaps(const std::shared_ptr<const Map>& scene, const std::shared_ptr<const Map>& active);
     /// Nothing where no position of the map is pointed at.
     void setPlace(const std::optional<ReadPlace>& place);
+    /// What setPlace() is the place of; the pointer to begin with.
+    void setSource(ReadingSource source);
     void setFormat(const CoordinateFormat& format);
     const CoordinateFormat& format() const noexcept { return format_; }
     void setHeightUnit(HeightUnit unit);

@@ -75,6 +75,7 @@ struct StretchAction {
     StretchKind kind;
     const char* text;
     const char* tip;
+    const char* slope_tip = nullptr; // with colors by slope, for those that slopes have
 };
 
 constexpr std::array kStretchActions{
@@ -83,7 +84,10 @@ constexpr std::array kStretchActions{
                   QT_TRANSLATE_NOOP("WindowActions", "&Automatic"),
                   QT_TRANSLATE_NOOP("WindowActions",
                                     "Spread the color ramp over all but the rarest half percent of "
-                                    "elevations at either end")},
+                                    "elevations at either end"),
+                  QT_TRANSLATE_NOOP("WindowActions",
+                                    "Spread the color ramp over all but the steepest percent of "
+                                    "the slopes")},
     StretchAction{StretchKind::Full,
                   //: A color stretch
                   QT_TRANSLATE_NOOP("WindowActions", "&Full Range"),
@@ -99,8 +103,15 @@ constexpr std::array kStretchActions{
         StretchKind::Fixed,
         //: A color stretch: minimum and maximum are typed
         QT_TRANSLATE_NOOP("WindowActions", "&Minimum and Maximum…"),
-        QT_TRANSLATE_NOOP("WindowActions", "Enter the values at the ends of the color ramp")},
+        QT_TRANSLATE_NOOP("WindowActions", "Enter the values at the ends of the color ramp"),
+        QT_TRANSLATE_NOOP("WindowActions", "Enter the slopes at the ends of the color ramp")},
 };
+
+const StretchAction& stretchAction(StretchKind kind)
+{
+    return *std::find_if(kStretchActions.begin(), kStretchActions.end(),
+                         [kind](const StretchAction& action) { return action.kind == kind; });
+}
 
 StretchKind shownStretch(const Layer& layer, ShadingMode mode)
 {
@@ -428,11 +439,16 @@ void WindowActions::showSession(const Session& session)
     for (QAction* action : stretch_group->actions()) {
         const auto kind = static_cast<StretchKind>(action->data().toInt());
         const bool is_for_slopes = kind == StretchKind::Automatic || kind == StretchKind::Fixed;
-        action->setEnabled(active != nullptr && (!is_slope || is_for_slopes));
+        action->setEnabled(active != nullptr);
+        action->setVisible(!is_slope || is_for_slopes);
+        const StretchAction& entry = stretchAction(kind);
+        action->setStatusTip(
+            tr(is_slope && entry.slope_tip != nullptr ? entry.slope_tip : entry.tip));
         action->setChecked(active != nullptr && kind == shownStretch(*active, session.look.mode));
     }
     stretch_to_view->setEnabled(active != nullptr && index < states.size() &&
-                                states[index] == LayerState::Shown && !is_slope);
+                                states[index] == LayerState::Shown);
+    stretch_to_view->setVisible(!is_slope);
     edit_stretch->setEnabled(active != nullptr);
     for (QAction* action : shading_group->actions()) {
         action->setChecked(action->data().toInt() == static_cast<int>(session.look.mode));

@@ -109,7 +109,7 @@ TEST_F(StatusReadoutTest, ReadsTheMiddleOfThePictureForTheKeyboard)
     window_->datasetPanel()->setFocus();
     EXPECT_FALSE(crosshair->isVisible());
     EXPECT_EQ(readout().coordinateLabel(), QStringLiteral("outside the map"));
-    EXPECT_TRUE(readout().sourceLabel().isEmpty());
+    EXPECT_EQ(readout().sourceLabel(), QStringLiteral("Pointer"));
     readout().coordinateField()->setFocus(Qt::TabFocusReason);
     EXPECT_TRUE(crosshair->isVisible());
 }

@@ -245,7 +245,13 @@ TEST_F(StretchTest, OfSlopesIsInDegrees)
     controller().setShading(ShadingMode::Slope);
     Legend& legend = *window_->overlays()->legend();
     EXPECT_EQ(legend.content().slopes, window_->view()->map()->slopeRange());
-    EXPECT_FALSE(window_->actionSet().stretch_to_view->isEnabled());
+    EXPECT_FALSE(window_->actionSet().stretch_to_view->isVisible());
+    for (const QAction* action : window_->actionSet().stretch_group->actions()) {
+        const auto kind = static_cast<StretchKind>(action->data().toInt());
+        EXPECT_EQ(action->isVisible(),
+                  kind == StretchKind::Automatic || kind == StretchKind::Fixed);
+        EXPECT_EQ(action->isVisible(), action->statusTip().contains(QStringLiteral("slope")));
+    }
     choose(StretchKind::Fixed);
     ASSERT_TRUE(dialog().isVisible());
     type(part<ElevationBox>("high"), QStringLiteral("12.5"));

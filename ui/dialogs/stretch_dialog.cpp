@@ -177,12 +177,17 @@ void StretchDialog::fillSlopes()
     const PlotRange stretched{.low = content_.slopes->minimum.degrees(),
                               .high = content_.slopes->maximum.degrees()};
     const double steepest = content_.slope_histogram.maximum.degrees();
+    const auto degrees = [](double value) {
+        return leftToRight(numberText(value, decimalsFor(value / 10.0, 2)) + QStringLiteral("°"));
+    };
     plot_->setContent({.counts = content_.slope_histogram.counts,
                        .counted = {.low = 0.0, .high = steepest},
                        .all = {.low = 0.0, .high = std::max(steepest, stretched.high)},
                        .stretched = stretched,
                        .tinted = stretched,
-                       .ramp = content_.ramp});
+                       .ramp = content_.ramp,
+                       .low_text = degrees(0.0),
+                       .high_text = degrees(std::max(steepest, stretched.high))});
     for (ElevationBox* box : {low_, high_}) {
         const QSignalBlocker blocker(box);
         box->setSuffix(QStringLiteral("°"));
@@ -204,6 +209,15 @@ void StretchDialog::fillHeights()
     const auto plotted = [](const HeightRange& range) {
         return PlotRange{.low = range.minimum_m, .high = range.maximum_m};
     };
+    const double low = inUnit(content_.stretched.minimum_m, unit_);
+    const double high = inUnit(content_.stretched.maximum_m, unit_);
+    const double extent = std::max(
+        inUnit(content_.all.maximum_m, unit_) - inUnit(content_.all.minimum_m, unit_), high - low);
+    const auto height_text = [&](double height_m) {
+        return leftToRight(
+            withUnit(numberText(inUnit(height_m, unit_), decimalsFor(extent / 100.0, 2)),
+                     unitSymbol(unit_)));
+    };
     plot_->setContent(
         {.counts = content_.histogram ? content_.histogram->counts : std::vector<std::uint64_t>{},
          .counted = plotted(content_.all),
@@ -212,15 +226,13 @@ void StretchDialog::fillHeights()
          .tinted =
              plotted(content_.ramp != nullptr ? tintedRange(*content_.ramp, content_.stretched)
                                               : content_.stretched),
-         .ramp = content_.ramp});
+         .ramp = content_.ramp,
+         .low_text = height_text(content_.all.minimum_m),
+         .high_text = height_text(content_.all.maximum_m)});
     const QSignalBlocker cut_blocker(cut_);
     cut_->setValue(content_.stretch.cut_percent);
     low_->setAccessibleName(tr("Minimum elevation"));
     high_->setAccessibleName(tr("Maximum elevation"));
-    const double low = inUnit(content_.stretched.minimum_m, unit_);
-    const double high = inUnit(content_.stretched.maximum_m, unit_);
-    const double extent = std::max(
-        inUnit(content_.all.maximum_m, unit_) - inUnit(content_.all.minimum_m, unit_), high - low);
     for (ElevationBox* box : {low_, high_}) {
         const QSignalBlocker blocker(box);
         box->setElevationRange();

@@ -39,7 +39,7 @@ void StretchPlot::setContent(const StretchPlotContent& content)
 
 QRect StretchPlot::plot() const
 {
-    return rect().adjusted(kMargin, 2, -kMargin, -kMarkHeight - 2);
+    return rect().adjusted(kMargin, 2, -kMargin, -kMarkHeight - 2 - fontMetrics().height());
 }
 
 int StretchPlot::positionOf(double value) const
@@ -165,6 +165,10 @@ void StretchPlot::paintEvent(QPaintEvent* /*event*/)
         mark.closeSubpath();
         painter.fillPath(mark, line);
     }
+    painter.setPen(palette().color(QPalette::PlaceholderText));
+    const QRect below = rect().adjusted(kMargin, area.bottom() + 1 + kMarkHeight, -kMargin, 0);
+    painter.drawText(below, Qt::AlignLeft | Qt::AlignBottom, content_.low_text);
+    painter.drawText(below, Qt::AlignRight | Qt::AlignBottom, content_.high_text);
 }
 
 } // namespace marsview

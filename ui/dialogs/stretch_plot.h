@@ -3,6 +3,7 @@
 
 #include "core/view/color_ramp.h"
 
+#include <QString>
 #include <QWidget>
 
 #include <cstdint>
@@ -26,6 +27,9 @@ struct StretchPlotContent {
     PlotRange stretched{}; // the ends that can be dragged
     PlotRange tinted{};    // over which the ramp is spread
     const ColorRamp* ramp = nullptr;
+    // The ends of the plot, with their unit, as they are written below it.
+    QString low_text{};
+    QString high_text{};
 };
 
 /// Bars in the colors of the terrain; two lines mark the ends of the stretch and can be dragged
@@ -37,8 +41,8 @@ public:
     explicit StretchPlot(QWidget* parent = nullptr);
 
     void setContent(const StretchPlotContent& content);
-    QSize sizeHint() const override { return {320, 110}; }
-    QSize minimumSizeHint() const override { return {200, 80}; }
+    QSize sizeHint() const override { return {320, 110 + fontMetrics().height()}; }
+    QSize minimumSizeHint() const override { return {200, 80 + fontMetrics().height()}; }
 
     /// Horizontal position of a value in the widget; beyond the plot at its edge.
     int positionOf(double value) const;
