@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/contact/contact_model.h"
-#include "haptics/drivers/simulated_hand.h"
+#include "haptics/drivers/simulated/simulated_hand.h"
 #include "haptics/loop/haptic_tick.h"
 
 #include <array>

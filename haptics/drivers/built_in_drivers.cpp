@@ -1,14 +1,14 @@
 #include "haptics/drivers/built_in_drivers.h"
 
 #include "haptics/device/plugin_driver.h"
-#include "haptics/drivers/mouse_driver.h"
+#include "haptics/drivers/mouse/mouse_driver.h"
 #include "haptics/drivers/null_driver.h"
-#include "haptics/drivers/openhaptics_driver.h"
-#include "haptics/drivers/polhem_driver.h"
+#include "haptics/drivers/openhaptics/openhaptics_driver.h"
+#include "haptics/drivers/polhem/polhem_driver.h"
 #include "haptics/drivers/record_driver.h"
 #include "haptics/drivers/replay_driver.h"
-#include "haptics/drivers/sim_driver.h"
-#include "haptics/drivers/spacemouse.h"
+#include "haptics/drivers/simulated/sim_driver.h"
+#include "haptics/drivers/spacemouse/spacemouse.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
-#include "haptics/drivers/mouse_device.h"
+#include "haptics/drivers/mouse/mouse_device.h"
 
 #include <memory>
 #include <vector>

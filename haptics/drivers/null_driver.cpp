@@ -1,6 +1,6 @@
 #include "haptics/drivers/null_driver.h"
 
-#include "haptics/drivers/uri_parameters.h"
+#include "haptics/drivers/support/uri_parameters.h"
 
 #include <fmt/format.h>
 

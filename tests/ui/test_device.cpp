@@ -1,7 +1,7 @@
 #include "tests/ui/test_device.h"
 
 #include "haptics/drivers/replay_driver.h"
-#include "haptics/drivers/sim_driver.h"
+#include "haptics/drivers/simulated/sim_driver.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 #include "ui/controllers/haptics_controller.h"
 
 #include "core/raster/output_check.h"
-#include "haptics/drivers/polhem_driver.h"
+#include "haptics/drivers/polhem/polhem_driver.h"
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/interaction/workspace_walls.h"
 #include "ui/canvas/terrain_view.h"

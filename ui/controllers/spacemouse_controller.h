@@ -1,7 +1,7 @@
 // A SpaceMouse in the window: it moves the view's camera.
 #pragma once
 
-#include "haptics/drivers/spacemouse.h"
+#include "haptics/drivers/spacemouse/spacemouse.h"
 #include "ui/controllers/detached_jobs.h"
 
 #include <QObject>

@@ -4,8 +4,8 @@
 // of the same length, with other angles and axes. OpenHaptics' frame and its conversion must
 // therefore agree with the Polhem driver on the position of the end effector and on the torques
 // that produce a force there.
-#include "haptics/drivers/openhaptics_frame.h"
-#include "haptics/drivers/polhem_kinematics.h"
+#include "haptics/drivers/openhaptics/openhaptics_frame.h"
+#include "haptics/drivers/polhem/polhem_kinematics.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>

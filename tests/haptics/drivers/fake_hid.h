@@ -2,7 +2,7 @@
 // them.
 #pragma once
 
-#include "haptics/drivers/hid_api.h"
+#include "haptics/drivers/hid/hid_api.h"
 
 #include <condition_variable>
 #include <cstdint>

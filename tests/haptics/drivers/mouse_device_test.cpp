@@ -1,5 +1,5 @@
 #include "haptics/device/capability_check.h"
-#include "haptics/drivers/mouse_driver.h"
+#include "haptics/drivers/mouse/mouse_driver.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The whole driver, against a stand-in library with the vendor's symbols.
-#include "haptics/drivers/openhaptics_driver.h"
-#include "haptics/drivers/openhaptics_frame.h"
+#include "haptics/drivers/openhaptics/openhaptics_driver.h"
+#include "haptics/drivers/openhaptics/openhaptics_frame.h"
 #include "tests/haptics/drivers/stand_in_hd.h"
 #include "tests/support/temp_folder.h"
 

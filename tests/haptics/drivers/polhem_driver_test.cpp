@@ -1,6 +1,6 @@
 // The whole driver for WoodenHaptics and Polhem arms, against simulated HID devices.
-#include "haptics/drivers/polhem_driver.h"
-#include "haptics/drivers/polhem_report.h"
+#include "haptics/drivers/polhem/polhem_driver.h"
+#include "haptics/drivers/polhem/polhem_report.h"
 #include "tests/haptics/drivers/fake_hid.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"

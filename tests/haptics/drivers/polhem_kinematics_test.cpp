@@ -1,5 +1,5 @@
-#include "haptics/drivers/polhem_kinematics.h"
-#include "haptics/drivers/polhem_parameters.h"
+#include "haptics/drivers/polhem/polhem_kinematics.h"
+#include "haptics/drivers/polhem/polhem_parameters.h"
 #include "tests/support/random.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"

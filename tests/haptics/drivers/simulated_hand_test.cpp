@@ -1,4 +1,4 @@
-#include "haptics/drivers/simulated_hand.h"
+#include "haptics/drivers/simulated/simulated_hand.h"
 
 #include <gtest/gtest.h>
 

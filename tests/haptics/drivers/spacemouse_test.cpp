@@ -1,4 +1,4 @@
-#include "haptics/drivers/spacemouse.h"
+#include "haptics/drivers/spacemouse/spacemouse.h"
 #include "tests/haptics/drivers/fake_hid.h"
 
 #include <gmock/gmock.h>

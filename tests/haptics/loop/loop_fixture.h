@@ -1,7 +1,7 @@
 // Loops and simulated hands for tests of the loop and of its recordings.
 #pragma once
 
-#include "haptics/drivers/sim_driver.h"
+#include "haptics/drivers/simulated/sim_driver.h"
 #include "haptics/loop/servo_loop.h"
 #include "tests/haptics/loop/tick_fixture.h"
 

@@ -1,5 +1,5 @@
 // An arm that was unplugged is found again at another path, in the same window and in the next.
-#include "haptics/drivers/polhem_driver.h"
+#include "haptics/drivers/polhem/polhem_driver.h"
 #include "tests/haptics/drivers/fake_hid.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"

@@ -1,4 +1,4 @@
-#include "haptics/drivers/uri_parameters.h"
+#include "haptics/drivers/support/uri_parameters.h"
 
 #include "core/base/plain_number.h"
 

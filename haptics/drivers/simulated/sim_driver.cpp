@@ -1,7 +1,7 @@
-#include "haptics/drivers/sim_driver.h"
+#include "haptics/drivers/simulated/sim_driver.h"
 
 #include "core/base/split_mix.h"
-#include "haptics/drivers/uri_parameters.h"
+#include "haptics/drivers/support/uri_parameters.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "haptics/drivers/polhem_kinematics.h"
+#include "haptics/drivers/polhem/polhem_kinematics.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "haptics/drivers/polhem_device.h"
+#include "haptics/drivers/polhem/polhem_device.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "haptics/drivers/hid_api.h"
+#include "haptics/drivers/hid/hid_api.h"
 
 #include <cstdint>
 #include <functional>

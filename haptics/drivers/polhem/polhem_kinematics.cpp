@@ -1,4 +1,4 @@
-#include "haptics/drivers/polhem_kinematics.h"
+#include "haptics/drivers/polhem/polhem_kinematics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "haptics/drivers/openhaptics_device.h"
+#include "haptics/drivers/openhaptics/openhaptics_device.h"
 
 #include "core/base/check.h"
 #include "haptics/device/capability_check.h"
 #include "haptics/device/checked_device.h"
-#include "haptics/drivers/openhaptics_frame.h"
+#include "haptics/drivers/openhaptics/openhaptics_frame.h"
 
 #include <array>
 #include <cmath>

@@ -3,9 +3,9 @@
 
 #include "core/base/file_lock.h"
 #include "haptics/device/haptic_device.h"
-#include "haptics/drivers/hid_list.h"
-#include "haptics/drivers/polhem_kinematics.h"
-#include "haptics/drivers/polhem_report.h"
+#include "haptics/drivers/hid/hid_list.h"
+#include "haptics/drivers/polhem/polhem_kinematics.h"
+#include "haptics/drivers/polhem/polhem_report.h"
 #include "haptics/sync/seq_lock.h"
 
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "haptics/drivers/hid_list.h"
+#include "haptics/drivers/hid/hid_list.h"
 
 #include <hidapi.h>
 

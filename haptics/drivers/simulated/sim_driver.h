@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
-#include "haptics/drivers/simulated_hand.h"
+#include "haptics/drivers/simulated/simulated_hand.h"
 
 #include <memory>
 

@@ -3,7 +3,7 @@
 
 #include "core/base/file_lock.h"
 #include "haptics/device/haptic_device.h"
-#include "haptics/drivers/openhaptics_api.h"
+#include "haptics/drivers/openhaptics/openhaptics_api.h"
 
 #include <atomic>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "haptics/drivers/openhaptics_api.h"
+#include "haptics/drivers/openhaptics/openhaptics_api.h"
 
 #include <algorithm>
 #include <dlfcn.h>

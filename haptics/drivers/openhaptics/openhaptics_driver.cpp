@@ -1,9 +1,9 @@
-#include "haptics/drivers/openhaptics_driver.h"
+#include "haptics/drivers/openhaptics/openhaptics_driver.h"
 
 #include "core/base/environment.h"
 #include "haptics/device/device_lock.h"
 #include "haptics/device/watched_call.h"
-#include "haptics/drivers/openhaptics_device.h"
+#include "haptics/drivers/openhaptics/openhaptics_device.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "haptics/drivers/polhem_parameters.h"
+#include "haptics/drivers/polhem/polhem_parameters.h"
 
 #include "core/base/bounded_text.h"
 

@@ -1,4 +1,4 @@
-#include "haptics/drivers/spacemouse.h"
+#include "haptics/drivers/spacemouse/spacemouse.h"
 
 #include <algorithm>
 #include <array>

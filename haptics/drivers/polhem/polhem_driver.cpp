@@ -1,13 +1,13 @@
-#include "haptics/drivers/polhem_driver.h"
+#include "haptics/drivers/polhem/polhem_driver.h"
 
 #include "core/base/bundled_file.h"
 #include "core/base/environment.h"
 #include "haptics/device/capability_check.h"
 #include "haptics/device/checked_device.h"
 #include "haptics/device/device_lock.h"
-#include "haptics/drivers/hid_list.h"
-#include "haptics/drivers/polhem_device.h"
-#include "haptics/drivers/polhem_parameters.h"
+#include "haptics/drivers/hid/hid_list.h"
+#include "haptics/drivers/polhem/polhem_device.h"
+#include "haptics/drivers/polhem/polhem_parameters.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "haptics/drivers/hid_api.h"
+#include "haptics/drivers/hid/hid_api.h"
 
 #include <hidapi.h>
 

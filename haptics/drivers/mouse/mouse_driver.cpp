@@ -1,4 +1,4 @@
-#include "haptics/drivers/mouse_driver.h"
+#include "haptics/drivers/mouse/mouse_driver.h"
 
 #include <fmt/format.h>
 #include <utility>

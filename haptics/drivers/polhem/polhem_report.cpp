@@ -1,4 +1,4 @@
-#include "haptics/drivers/polhem_report.h"
+#include "haptics/drivers/polhem/polhem_report.h"
 
 #include <algorithm>
 #include <cmath>

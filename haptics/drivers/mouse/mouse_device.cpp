@@ -1,4 +1,4 @@
-#include "haptics/drivers/mouse_device.h"
+#include "haptics/drivers/mouse/mouse_device.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Reports of WoodenHaptics and Polhem boards: encoding and decoding.
 #pragma once
 
-#include "haptics/drivers/polhem_kinematics.h"
+#include "haptics/drivers/polhem/polhem_kinematics.h"
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
-#include "haptics/drivers/openhaptics_api.h"
+#include "haptics/drivers/openhaptics/openhaptics_api.h"
 
 #include <chrono>
 #include <filesystem>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
-#include "haptics/drivers/hid_list.h"
-#include "haptics/drivers/spacemouse_report.h"
+#include "haptics/drivers/hid/hid_list.h"
+#include "haptics/drivers/spacemouse/spacemouse_report.h"
 #include "haptics/sync/seq_lock.h"
 
 #include <atomic>

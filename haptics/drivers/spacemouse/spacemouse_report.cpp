@@ -1,4 +1,4 @@
-#include "haptics/drivers/spacemouse_report.h"
+#include "haptics/drivers/spacemouse/spacemouse_report.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "haptics/device/device_driver.h"
-#include "haptics/drivers/hid_api.h"
+#include "haptics/drivers/hid/hid_api.h"
 
 #include <filesystem>
 #include <string>
