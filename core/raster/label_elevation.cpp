@@ -509,10 +509,11 @@ void applyLabel(RasterInfo& info, const LabelElevation& label)
         return declared && std::abs(*declared - applied) > 1e-12 * std::abs(applied);
     };
     if (label.scale == 0.0) {
-        info.notices.push_back(fmt::format(
+        info.scale_notice = fmt::format(
             "the label {} gives the scale 0, which would make all elevations equal; {} is used "
             "instead; set the scale that the product's documentation gives (--scale)",
-            CPLGetFilename(label.path.c_str()), info.scale));
+            CPLGetFilename(label.path.c_str()), info.scale);
+        info.notices.push_back(info.scale_notice);
     } else if (isOther(label.scale, info.scale)) {
         note("scale", fmt::format("{}", *label.scale), fmt::format("{}", info.scale));
         info.scale = *label.scale;

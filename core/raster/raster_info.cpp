@@ -98,6 +98,7 @@ Status applyVertical(RasterInfo& info, const RasterOverrides& overrides)
                            ErrorCode::OutOfRange);
         }
         info.scale = *overrides.scale;
+        std::erase(info.notices, info.scale_notice); // done as it asks
     }
     if (overrides.offset) {
         if (!std::isfinite(*overrides.offset)) {

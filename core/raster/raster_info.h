@@ -46,6 +46,8 @@ struct RasterInfo {
 
     double scale = 1.0; // value = raw × scale + offset, in `unit`
     double offset = 0.0;
+    /// Why the scale of a label is not used; also among the notices. Usually empty.
+    std::string scale_notice;
     VerticalUnit unit;
     bool is_unit_declared = false;     // otherwise meters are assumed
     std::optional<double> typical_raw; // a valid sample, if one was searched for

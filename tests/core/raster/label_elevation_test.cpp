@@ -521,6 +521,11 @@ TEST(Pds3Label, DoesNotMakeAllElevationsEqual)
         expectElevations(file, samples, 1.0, 0.0);
         EXPECT_THAT(file.info().notices,
                     Contains(AllOf(HasSubstr("z.lbl gives the scale 0"), HasSubstr("--scale"))));
+        RasterOverrides overrides;
+        overrides.scale = 0.5;
+        EXPECT_THAT(withOverrides(file.info(), overrides)->notices,
+                    Not(Contains(HasSubstr("gives the scale 0"))))
+            << "with the scale that the notice asks for";
     }
 }
 
