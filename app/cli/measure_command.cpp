@@ -6,12 +6,16 @@
 #include "app/console/number_checks.h"
 #include "app/console/text_output.h"
 #include "core/measure/attitude.h"
+#include "core/measure/crater.h"
 #include "core/measure/line_measures.h"
+#include "core/measure/terrain_area.h"
 #include "core/measure/terrain_slope.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -232,6 +236,148 @@ Status runAttitude(const AttitudeCommand& options)
     return Done{};
 }
 
+struct AreaCommand {
+    MeasureOptions common;
+    std::string base;
+
+    AreaOptions options() const
+    {
+        if (base.empty()) {
+            return {};
+        }
+        const std::optional<double> elevation_m = parseNumber(base);
+        return elevation_m ? AreaOptions{VolumeBase::Elevation, *elevation_m}
+                           : AreaOptions{VolumeBase::BorderPlane, 0.0};
+    }
+};
+
+CLI::Validator volumeBase()
+{
+    return {[](std::string& text) {
+                const std::optional<double> value = parseNumber(text);
+                return text == "plane" || (value && std::isfinite(*value))
+                           ? std::string()
+                           : fmt::format("\"{}\" is neither an elevation in meters nor plane",
+                                         text);
+            },
+            ""};
+}
+
+// What of a polygon has no terrain, beyond the accuracy of sums over cells.
+void printUncoveredNotice(const MeasureOptions& options, const TerrainArea& area)
+{
+    constexpr double kShareMin = 1e-4;
+    const double missing_m2 = area.geodesic_m2 - area.covered_m2;
+    if (missing_m2 > kShareMin * area.geodesic_m2) {
+        std::fprintf(
+            stderr,
+            "marsview-cli: %s: %.3g %% of the polygon are outside the map or on nodata and "
+            "do not count for the terrain\n",
+            asOneLine(options.map.path).c_str(), 100.0 * missing_m2 / area.geodesic_m2);
+    }
+    if (area.crosses_itself) {
+        std::fprintf(stderr,
+                     "marsview-cli: %s: edges of the polygon cross; parts enclosed in opposite "
+                     "directions cancel\n",
+                     asOneLine(options.positionsName()).c_str());
+    }
+}
+
+Json reportOf(const TerrainArea& area)
+{
+    Json json = {{"geodesic_m2", asJson(area.geodesic_m2)},
+                 {"perimeter_m", asJson(area.perimeter_m)},
+                 {"surface_m2", asJson(area.surface_m2)},
+                 {"covered_m2", asJson(area.covered_m2)},
+                 {"min_m", asJson(area.min_m)},
+                 {"max_m", asJson(area.max_m)},
+                 {"mean_m", asJson(area.mean_m)}};
+    if (area.volume_above_m3) {
+        json["volume_above_m3"] = asJson(*area.volume_above_m3);
+        json["volume_below_m3"] = asJson(*area.volume_below_m3);
+    }
+    return json;
+}
+
+void printForPeople(const TerrainArea& area)
+{
+    const auto line = [](const char* label, double value, const char* unit) {
+        printLine(fmt::format("{:<20}{} {}", label, asText(value), unit));
+    };
+    line("Geodesic area:", area.geodesic_m2, "m²");
+    line("Perimeter:", area.perimeter_m, "m");
+    line("Terrain area:", area.surface_m2, "m²");
+    line("Lowest elevation:", area.min_m, "m");
+    line("Highest elevation:", area.max_m, "m");
+    line("Mean elevation:", area.mean_m, "m");
+    if (area.volume_above_m3) {
+        line("Volume above base:", *area.volume_above_m3, "m³");
+        line("Volume below base:", *area.volume_below_m3, "m³");
+    }
+}
+
+Status runArea(const AreaCommand& options)
+{
+    Result<MeasureInput> input = openMeasureInput(options.common);
+    if (!input) {
+        return std::move(input).error();
+    }
+    LongJob job("measuring");
+    const Result<TerrainArea> area =
+        measureArea(*input->terrain, input->positions, options.options(), job.monitor());
+    if (!area) {
+        return measureError(options.common, area.error());
+    }
+    if (options.common.is_json) {
+        printJson(withSchema(reportOf(*area)));
+    } else {
+        printForPeople(*area);
+    }
+    printUncoveredNotice(options.common, *area);
+    printNotices(input->raster->info);
+    return Done{};
+}
+
+Status runCrater(const MeasureOptions& options)
+{
+    Result<MeasureInput> input = openMeasureInput(options);
+    if (!input) {
+        return std::move(input).error();
+    }
+    LongJob job("measuring");
+    const Result<Crater> crater = measureCrater(*input->terrain, input->positions, job.monitor());
+    if (!crater) {
+        return measureError(options, crater.error());
+    }
+    const GroundPosition center = input->lonLat(input->terrain->inTurn(crater->center));
+    if (options.is_json) {
+        const MapPoint map = input->terrain->toMap(crater->center).value_or(MapPoint{kNan, kNan});
+        printJson(withSchema({{"lon", asJson(center.x)},
+                              {"lat", asJson(center.y)},
+                              {"x", asJson(map.x)},
+                              {"y", asJson(map.y)},
+                              {"diameter_m", asJson(crater->diameter_m)},
+                              {"depth_m", asJson(crater->depth_m)},
+                              {"rim_m", asJson(crater->rim_m)},
+                              {"floor_m", asJson(crater->floor_m)},
+                              {"rms_m", asJson(crater->rms_m)},
+                              {"points", crater->points}}));
+    } else {
+        const auto line = [](const char* label, const std::string& text) {
+            printLine(fmt::format("{:<12}{}", label, text));
+        };
+        line("Center:", fmt::format("{}, {}", asText(center.x), asText(center.y)));
+        line("Diameter:", asText(crater->diameter_m) + " m");
+        line("Depth:", asText(crater->depth_m) + " m");
+        line("d/D:", asText(crater->depth_m / crater->diameter_m));
+        line("Rim:", asText(crater->rim_m) + " m");
+        line("Floor:", asText(crater->floor_m) + " m");
+        line("RMS:", asText(crater->rms_m) + " m");
+    }
+    printNotices(input->raster->info);
+    return Done{};
+}
+
 struct SlopeOptions {
     MeasureOptions common;
     std::optional<double> baseline_m;
@@ -298,6 +444,30 @@ void addAttitude(CLI::App& measure, CommandAction& run)
     command->callback([options, &run] { run = [options] { return runAttitude(*options); }; });
 }
 
+void addArea(CLI::App& measure, CommandAction& run)
+{
+    const auto options = std::make_shared<AreaCommand>();
+    CLI::App* command = measure.add_subcommand(
+        "area", "Measure area, elevations and volume inside a closed polygon");
+    options->common.addTo(*command);
+    command
+        ->add_option("--base", options->base,
+                     "measure the volume above and below this elevation in meters, or above and "
+                     "below the best plane through the terrain along the border (plane)")
+        ->type_name("H|plane")
+        ->check(volumeBase());
+    command->callback([options, &run] { run = [options] { return runArea(*options); }; });
+}
+
+void addCrater(CLI::App& measure, CommandAction& run)
+{
+    const auto options = std::make_shared<MeasureOptions>();
+    CLI::App* command = measure.add_subcommand(
+        "crater", "Measure diameter and depth of a crater through three or more rim positions");
+    options->addTo(*command);
+    command->callback([options, &run] { run = [options] { return runCrater(*options); }; });
+}
+
 void addSlope(CLI::App& measure, CommandAction& run)
 {
     const auto options = std::make_shared<SlopeOptions>();
@@ -343,8 +513,10 @@ void addMeasureCommand(CLI::App& app, CommandAction& run)
         app.add_subcommand("measure", "Measure on the terrain, on the ellipsoid of its body");
     measure->require_subcommand(1);
     addDistance(*measure, run);
+    addArea(*measure, run);
     addProfile(*measure, run);
     addAttitude(*measure, run);
+    addCrater(*measure, run);
     addSlope(*measure, run);
 }
 

@@ -101,35 +101,38 @@ GroundPosition MeasuredTerrain::inTurn(GroundPosition position) const
     return position;
 }
 
-std::optional<CellPlace> MeasuredTerrain::placeOf(GridPoint grid) const
+std::optional<CellPlace> MeasuredTerrain::placeInColumns(double column) const
 {
-    double column = grid.column - turnOf(grid.column) * period_;
+    column -= turnOf(column) * period_;
     if (columns_.seam_end != 0.0 && column < 0.0) {
         column += period_;
     }
-    const auto find = [](const Axis& axis, double at, std::size_t& cell, double& share) {
-        const double end = axis.line(axis.cells);
-        constexpr double kBeyond = 1e-6; // rounding of a way there and back
-        if (!(at >= -kBeyond && at <= end + kBeyond)) {
-            return false;
-        }
-        at = std::clamp(at, 0.0, end);
-        cell = std::min(static_cast<std::size_t>(at) / axis.step, axis.cells - 1);
-        if (at < axis.line(cell)) { // in the last cell before a seam
-            --cell;
-        } else if (cell + 1 < axis.cells && at >= axis.line(cell + 1)) {
-            ++cell;
-        }
-        const double begin = axis.line(cell);
-        share = std::clamp((at - begin) / (axis.line(cell + 1) - begin), 0.0, 1.0);
-        return true;
-    };
     CellPlace place;
-    if (!find(columns_, column, place.column, place.u) ||
-        !find(rows_, grid.row, place.row, place.v)) {
-        return std::nullopt;
+    return columns_.find(column, place.column, place.u) ? std::optional(place) : std::nullopt;
+}
+
+std::optional<CellPlace> MeasuredTerrain::placeOf(GridPoint grid) const
+{
+    std::optional<CellPlace> place = placeInColumns(grid.column);
+    return place && rows_.find(grid.row, place->row, place->v) ? place : std::nullopt;
+}
+
+bool MeasuredTerrain::Axis::find(double at, std::size_t& cell, double& share) const
+{
+    const double end = line(cells);
+    constexpr double kBeyond = 1e-6; // rounding of a way there and back
+    if (!(at >= -kBeyond && at <= end + kBeyond)) {
+        return false;
     }
-    return place;
+    at = std::clamp(at, 0.0, end);
+    cell = std::min(static_cast<std::size_t>(at) / step, cells - 1);
+    if (at < line(cell)) { // in the last cell before a seam
+        --cell;
+    } else if (cell + 1 < cells && at >= line(cell + 1)) {
+        ++cell;
+    }
+    share = std::clamp((at - line(cell)) / (line(cell + 1) - line(cell)), 0.0, 1.0);
+    return true;
 }
 
 CellHeights MeasuredTerrain::cell(std::size_t column, std::size_t row)

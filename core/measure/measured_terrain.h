@@ -53,6 +53,11 @@ public:
     /// Elevation in meters; NaN outside the outermost samples and in voids.
     double elevation(GroundPosition position);
     double elevation(const CellPlace& place);
+    /// Of the crossing of two lines between cells; column in [0, cellColumns()].
+    double vertex(std::size_t column, std::size_t row)
+    {
+        return samples_->sample(columns_.sample(column), rows_.sample(row));
+    }
     /// As elevation(), of the corners of a cell.
     CellHeights cell(std::size_t column, std::size_t row);
 
@@ -74,6 +79,8 @@ public:
     /// The cell of a position in any turn; empty outside, except within a millionth of a sample. At
     /// a line it is the next cell, except at the last one.
     std::optional<CellPlace> placeOf(GridPoint grid) const;
+    /// The column of cells alone, for positions beyond the first or last row; v and row are 0.
+    std::optional<CellPlace> placeInColumns(double column) const;
 
 private:
     // Lines between cells along an axis: every step-th sample, the last one, and the first one of
@@ -92,6 +99,8 @@ private:
             }
             return index == cells ? seam_end : static_cast<double>(last);
         }
+        // The cell of a position and the position's share of it; false outside.
+        bool find(double at, std::size_t& cell, double& share) const;
         std::size_t sample(std::size_t index) const noexcept
         {
             if (seam_end != 0.0 && index == cells) {

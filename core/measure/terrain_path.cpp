@@ -202,42 +202,14 @@ double rootBetween(const std::array<double, 4>& a, double value, double low, dou
     return t;
 }
 
-// A parameter at which a curve meets a line between cells.
-struct Cut {
-    double t = 0.0;
-    double column = kNan; // the line's, if it is one between columns
-    double row = kNan;
-};
-
-class PathTracer {
+class CutFinder {
 public:
-    PathTracer(MeasuredTerrain& terrain, PathVisitor& visitor)
+    CutFinder(const MeasuredTerrain& terrain, std::vector<CellCut>& cuts)
         : terrain_(terrain)
-        , visitor_(visitor)
+        , cuts_(cuts)
     {}
 
-    Status trace(const GridCurve& curve, JobMonitor& monitor)
-    {
-        if (!curve.is_on_map) {
-            visitor_.visit({curve.begin_m, curve.end_m, false, false, kNan, kNan});
-            return Done{};
-        }
-        findCuts(curve);
-        for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
-            constexpr std::size_t kCutsBetweenLooks = 256;
-            if (i % kCutsBetweenLooks == 0 && monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "measuring was cancelled"};
-            }
-            traceCell(curve, cuts_[i], cuts_[i + 1]);
-            if (terrain_.failure()) {
-                return *terrain_.failure();
-            }
-        }
-        return Done{};
-    }
-
-private:
-    void findCuts(const GridCurve& curve)
+    void run(const GridCurve& curve)
     {
         cuts_.clear();
         cuts_.push_back({.t = 0.0});
@@ -250,7 +222,8 @@ private:
             [this](std::size_t index) { return terrain_.rowLine(index); },
             [this](double t, double line) { cuts_.push_back({.t = t, .row = line}); });
         cuts_.push_back({.t = 1.0});
-        std::sort(cuts_.begin(), cuts_.end(), [](const Cut& a, const Cut& b) { return a.t < b.t; });
+        std::sort(cuts_.begin(), cuts_.end(),
+                  [](const CellCut& a, const CellCut& b) { return a.t < b.t; });
         // Through a sample a curve meets two lines at once, in the order of rounding.
         std::size_t kept = 0;
         for (std::size_t i = 1; i < cuts_.size(); ++i) {
@@ -258,7 +231,7 @@ private:
             const GridPoint b = curve.at(cuts_[i].t);
             if (std::hypot(a.column - b.column, a.row - b.row) <= kSameCut &&
                 cuts_[i].t - cuts_[kept].t <= 0.5) {
-                Cut& cut = cuts_[kept];
+                CellCut& cut = cuts_[kept];
                 cut.column = std::isnan(cut.column) ? cuts_[i].column : cut.column;
                 cut.row = std::isnan(cut.row) ? cuts_[i].row : cut.row;
                 if (cuts_[i].t == 1.0) {
@@ -274,6 +247,7 @@ private:
         cuts_.resize(kept + 1);
     }
 
+private:
     template <typename Line, typename Add>
     void addCuts(const std::array<double, 4>& cubic,
                  std::size_t cells,
@@ -328,8 +302,40 @@ private:
         return low;
     }
 
+    const MeasuredTerrain& terrain_;
+    std::vector<CellCut>& cuts_;
+};
+
+class PathTracer {
+public:
+    PathTracer(MeasuredTerrain& terrain, PathVisitor& visitor)
+        : terrain_(terrain)
+        , visitor_(visitor)
+    {}
+
+    Status trace(const GridCurve& curve, JobMonitor& monitor)
+    {
+        if (!curve.is_on_map) {
+            visitor_.visit({curve.begin_m, curve.end_m, false, false, kNan, kNan});
+            return Done{};
+        }
+        findCellCuts(terrain_, curve, cuts_);
+        for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+            constexpr std::size_t kCutsBetweenLooks = 256;
+            if (i % kCutsBetweenLooks == 0 && monitor.isCancelled()) {
+                return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            }
+            traceCell(curve, cuts_[i], cuts_[i + 1]);
+            if (terrain_.failure()) {
+                return *terrain_.failure();
+            }
+        }
+        return Done{};
+    }
+
+private:
     // The part of the curve between two cuts, which is in one cell.
-    void traceCell(const GridCurve& curve, const Cut& begin, const Cut& end)
+    void traceCell(const GridCurve& curve, const CellCut& begin, const CellCut& end)
     {
         const std::optional<CellPlace> middle = terrain_.placeOf(curve.at(0.5 * (begin.t + end.t)));
         if (!middle) {
@@ -368,7 +374,7 @@ private:
         double v = 0.0;
     };
 
-    Local localAt(const GridCurve& curve, const Cut& cut) const
+    Local localAt(const GridCurve& curve, const CellCut& cut) const
     {
         const GridPoint grid = curve.at(cut.t);
         const double column = std::isnan(cut.column) ? grid.column : cut.column;
@@ -376,7 +382,10 @@ private:
         return {cut.t, std::clamp((column - cell_.left) / cell_.width, 0.0, 1.0),
                 std::clamp((row - cell_.top) / cell_.height, 0.0, 1.0)};
     }
-    Local localAt(const GridCurve& curve, double t) const { return localAt(curve, Cut{.t = t}); }
+    Local localAt(const GridCurve& curve, double t) const
+    {
+        return localAt(curve, CellCut{.t = t});
+    }
 
     double heightAt(const Local& at) const { return heightInCell(cell_.heights, at.u, at.v); }
 
@@ -458,11 +467,18 @@ private:
 
     MeasuredTerrain& terrain_;
     PathVisitor& visitor_;
-    std::vector<Cut> cuts_;
+    std::vector<CellCut> cuts_;
     Cell cell_;
 };
 
 } // namespace
+
+void findCellCuts(const MeasuredTerrain& terrain,
+                  const GridCurve& curve,
+                  std::vector<CellCut>& cuts)
+{
+    CutFinder(terrain, cuts).run(curve);
+}
 
 std::vector<GridCurve> gridCurves(const MeasuredTerrain& terrain, const GroundLine& line)
 {
@@ -504,23 +520,6 @@ double estimatedPieces(const MeasuredTerrain& terrain, std::span<const GroundPos
         }
     }
     return pieces;
-}
-
-void crossings(const std::array<double, 4>& cubic, double value, std::vector<double>& found)
-{
-    found.clear();
-    std::array<double, 2> turning{};
-    const int count = extrema(cubic, turning);
-    double begin_t = 0.0;
-    for (int part = 0; part <= count; ++part) {
-        const double end_t = part == count ? 1.0 : turning[static_cast<std::size_t>(part)];
-        const double from = valueAt(cubic, begin_t);
-        const double to = valueAt(cubic, end_t);
-        if (value > std::min(from, to) && value < std::max(from, to)) {
-            found.push_back(rootBetween(cubic, value, begin_t, end_t));
-        }
-        begin_t = end_t;
-    }
 }
 
 } // namespace marsview

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -63,8 +64,18 @@ Status tracePath(MeasuredTerrain& terrain,
 /// coarser level. Calls PROJ a few hundred times.
 double estimatedPieces(const MeasuredTerrain& terrain, std::span<const GroundPosition> positions);
 
-/// Where a curve, as one of its coordinates, passes `value`: parameters in [0, 1], ascending, into
-/// `found`, which is cleared. At most three.
-void crossings(const std::array<double, 4>& cubic, double value, std::vector<double>& found);
+/// A parameter at which a curve meets a line between cells.
+struct CellCut {
+    double t = 0.0;
+    // The line's grid position, if it is one between columns or rows; NaN otherwise.
+    double column = std::numeric_limits<double>::quiet_NaN();
+    double row = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Where a curve enters another cell, ascending, into `cuts`, with t = 0 and t = 1. Columns are
+/// those of the curve: in any turn.
+void findCellCuts(const MeasuredTerrain& terrain,
+                  const GridCurve& curve,
+                  std::vector<CellCut>& cuts);
 
 } // namespace marsview

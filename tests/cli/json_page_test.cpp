@@ -119,11 +119,17 @@ TEST(JsonPage, ListsTheFieldsOfInfoAndSample)
 TEST(JsonPage, ListsTheFieldsOfMeasurements)
 {
     const std::string line = "226.2 18.65\n230 20\n228 15\n";
-    for (const char* command : {"distance", "profile", "attitude", "slope"}) {
+    for (const char* command : {"distance", "area", "profile", "attitude", "crater", "slope"}) {
         expectDocumented(
             fmt::format("measure {}", command),
             printed({"measure", command, bundledMars(), "--points", "-", "--json"}, line));
     }
+    expectDocumented("measure area", printed({"measure", "area", bundledMars(), "--points", "-",
+                                              "--base", "plane", "--json"},
+                                             line));
+    expectDocumented(
+        "measure slope",
+        printed({"measure", "slope", bundledMars(), "--points", "-", "--json"}, "226 18"));
 }
 
 TEST(JsonPage, ListsTheFieldsOfTraceAndLoop)

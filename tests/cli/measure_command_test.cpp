@@ -212,6 +212,55 @@ TEST(MeasureAttitude, RefusesPointsOnALineAndStatesTheErrorOfThree)
               "another position\n");
 }
 
+TEST(MeasureArea, IsThatOfPlanimeterWithVolumesOnRequest)
+{
+    const std::string polygon = "220 10\n235 12\n230 28\n";
+    const nlohmann::json area = measuredJson("area", bundledMars(), polygon);
+    const std::string planimeter =
+        runTool({"Planimeter", "-e", "3396000", "0", "-p", "8"}, "10 220\n12 235\n28 230\n");
+    std::istringstream words(planimeter);
+    double count = 0.0;
+    double perimeter_m = 0.0;
+    double area_m2 = 0.0;
+    words >> count >> perimeter_m >> area_m2;
+    EXPECT_NEAR(area["geodesic_m2"].get<double>(), area_m2, 1e-9 * area_m2);
+    EXPECT_NEAR(area["perimeter_m"].get<double>(), perimeter_m, 1e-9 * perimeter_m);
+    EXPECT_GT(area["surface_m2"].get<double>(), area_m2);
+    EXPECT_GT(area["max_m"].get<double>(), 21'000.0); // Olympus Mons
+    EXPECT_FALSE(area.contains("volume_above_m3"));
+    const nlohmann::json low = measuredJson("area", bundledMars(), polygon, {"--base", "-20000"});
+    EXPECT_EQ(low["volume_below_m3"].get<double>(), 0.0);
+    EXPECT_NEAR(low["volume_above_m3"].get<double>(),
+                (low["mean_m"].get<double>() + 20'000.0) * low["covered_m2"].get<double>(),
+                1e-9 * low["volume_above_m3"].get<double>());
+    EXPECT_TRUE(measuredJson("area", bundledMars(), polygon, {"--base", "plane"})
+                    .contains("volume_below_m3"));
+    EXPECT_EQ(measured("area", bundledMars(), polygon, {"--base", "high"}).exit_status, 2);
+    EXPECT_EQ(measured("area", bundledMars(), polygon, {"--base", "nan"}).exit_status, 2);
+    const ProgramOutput outside =
+        measured("area", bundledMountain(), "-122.2 46.19\n-121 46.2\n-122 47\n");
+    EXPECT_EQ(outside.exit_status, 0);
+    EXPECT_THAT(outside.err, HasSubstr("outside the map or on nodata"));
+    const ProgramOutput crossed =
+        measured("area", bundledMars(), "220 10\n230 20\n230 10\n220 18\n");
+    EXPECT_THAT(crossed.err, HasSubstr("edges of the polygon cross"));
+}
+
+TEST(MeasureCrater, FindsTheCalderaOfOlympusMons)
+{
+    const nlohmann::json crater =
+        measuredJson("crater", bundledMars(), "226.1 18.9\n227.4 18.5\n226.4 17.8\n227.2 18.9\n");
+    EXPECT_NEAR(crater["lon"].get<double>(), 226.8, 0.5);
+    EXPECT_NEAR(crater["lat"].get<double>(), 18.4, 0.5);
+    EXPECT_GT(crater["diameter_m"].get<double>(), 50'000.0);
+    EXPECT_LT(crater["diameter_m"].get<double>(), 100'000.0);
+    EXPECT_NEAR(crater["depth_m"].get<double>(),
+                crater["rim_m"].get<double>() - crater["floor_m"].get<double>(), 1e-9);
+    const ProgramOutput line = measured("crater", bundledMars(), "226 18\n227 18\n228 18\n");
+    EXPECT_EQ(line.exit_status, 1);
+    EXPECT_THAT(line.err, HasSubstr("nearly on a line"));
+}
+
 TEST(MeasureSlope, PrintsSlopeAndAspectOfEachPosition)
 {
     const std::string positions = "-122.2 46.19\n-122.18 46.2\n0 0\n";

@@ -1,0 +1,808 @@
+// A polygon on the grid is summed up cell by cell, as a font renderer fills outlines: in each
+// column of cells, going down the rows, the region below an edge is covered once if the edge runs
+// to the right, and minus once if it runs to the left. Inside the polygon the sum is one, outside
+// zero. It works on a cylinder too, that is on a map around the whole body, where a polygon around
+// a pole covers all below its edges, or all above them. In a cell with edges, the region is a
+// signed sum of trapezoids, each of which is clipped by both triangles and by the base of volumes,
+// so that all integrals are exact for the triangulated surface.
+
+#include "core/measure/terrain_area.h"
+
+#include "core/measure/grid_field.h"
+#include "core/measure/grid_steps.h"
+#include "core/measure/line_measures.h"
+#include "core/measure/polygon_outline.h"
+#include "core/measure/terrain_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBorderShare = 0.1; // of the time
+
+// How often a column of cells is covered at the current row, as a step function of u.
+class Coverage {
+public:
+    void reset(double weight)
+    {
+        steps_.clear();
+        add(0.0, 1.0, weight);
+        normalize();
+    }
+    void add(double from, double to, double weight)
+    {
+        if (from < to && weight != 0.0) {
+            steps_.push_back({from, weight});
+            steps_.push_back({to, -weight});
+        }
+    }
+    // After additions.
+    void normalize()
+    {
+        std::sort(steps_.begin(), steps_.end(),
+                  [](const Step& a, const Step& b) { return a.u < b.u; });
+        std::size_t kept = 0;
+        for (const Step& step : steps_) {
+            constexpr double kSame = 1e-12; // ends of edges, computed from both sides
+            if (kept > 0 && step.u - steps_[kept - 1].u <= kSame) {
+                steps_[kept - 1].change += step.change;
+            } else {
+                steps_[kept++] = step;
+            }
+        }
+        steps_.resize(kept);
+        std::erase_if(steps_, [](const Step& step) { return step.change == 0.0; });
+    }
+
+    bool isEmpty() const { return steps_.empty(); }
+    // The weight, if it is the same everywhere.
+    std::optional<double> whole() const
+    {
+        if (steps_.empty()) {
+            return 0.0;
+        }
+        return steps_.size() == 2 && steps_[0].u <= kEdge && steps_[1].u >= 1.0 - kEdge
+                   ? std::optional(steps_[0].change)
+                   : std::nullopt;
+    }
+    double at(double u) const
+    {
+        double weight = 0.0;
+        for (const Step& step : steps_) {
+            weight += step.u <= u ? step.change : 0.0;
+        }
+        return weight;
+    }
+    template <typename F>
+    void forEach(const F& function) const
+    {
+        double weight = 0.0;
+        for (std::size_t i = 0; i + 1 < steps_.size(); ++i) {
+            weight += steps_[i].change;
+            if (weight != 0.0) {
+                function(steps_[i].u, steps_[i + 1].u, weight);
+            }
+        }
+    }
+
+private:
+    static constexpr double kEdge = 1e-12;
+    struct Step {
+        double u;
+        double change;
+    };
+    std::vector<Step> steps_;
+};
+
+struct UvPoint {
+    double u = 0.0;
+    double v = 0.0;
+    double g = 0.0; // height above the base
+};
+// Four corners clipped by two lines and the base have at most seven.
+struct ConvexPart {
+    std::array<UvPoint, 8> points;
+    std::size_t count = 0;
+
+    void add(const UvPoint& point)
+    {
+        if (count < points.size()) {
+            points[count++] = point;
+        }
+    }
+};
+
+// The part where `side` is not negative.
+template <typename Side>
+ConvexPart clipped(const ConvexPart& part, const Side& side)
+{
+    ConvexPart kept;
+    for (std::size_t i = 0; i < part.count; ++i) {
+        const UvPoint& a = part.points[i];
+        const UvPoint& b = part.points[(i + 1) % part.count];
+        const double sa = side(a);
+        const double sb = side(b);
+        if (sa >= 0.0) {
+            kept.add(a);
+        }
+        if ((sa > 0.0 && sb < 0.0) || (sa < 0.0 && sb > 0.0)) {
+            const double t = sa / (sa - sb);
+            kept.add({a.u + t * (b.u - a.u), a.v + t * (b.v - a.v), a.g + t * (b.g - a.g)});
+        }
+    }
+    return kept;
+}
+
+// A linear function in a cell.
+struct Linear {
+    double at_corner = 0.0; // u = v = 0
+    double per_u = 0.0;
+    double per_v = 0.0;
+
+    double operator()(const UvPoint& p) const { return at_corner + p.u * per_u + p.v * per_v; }
+};
+
+struct PartSum {
+    double area_m2 = 0.0;
+    double first = 0.0; // integral of a linear function over that area
+};
+
+// `cell_m2` is the area of a cell as the ground around a point has it. It changes across a cell, by
+// a quarter next to a pole of a map in degrees.
+template <typename Value>
+PartSum sumOver(const ConvexPart& part, const Linear& cell_m2, const Value& value)
+{
+    PartSum sum;
+    for (std::size_t i = 1; i + 1 < part.count; ++i) {
+        const UvPoint& o = part.points[0];
+        const UvPoint& a = part.points[i];
+        const UvPoint& b = part.points[i + 1];
+        const double cells = 0.5 * std::abs((a.u - o.u) * (b.v - o.v) - (b.u - o.u) * (a.v - o.v));
+        const double area_m2 = cells * cell_m2({(o.u + a.u + b.u) / 3.0, (o.v + a.v + b.v) / 3.0});
+        sum.area_m2 += area_m2;
+        sum.first += area_m2 * (value(o) + value(a) + value(b)) / 3.0;
+    }
+    return sum;
+}
+
+// Products of the ground vectors of one column and one row, in square meters. Unlike the vectors'
+// components, they are smooth at a pole.
+struct Metric {
+    double columns = 0.0;
+    double mixed = 0.0;
+    double rows = 0.0;
+
+    double cellArea() const { return std::sqrt(std::max(0.0, columns * rows - mixed * mixed)); }
+    // Of a cell of this size whose sides rise by these heights.
+    double surface(double width, double height, double rise, double rise_down) const
+    {
+        const double a = columns * width * width + rise * rise;
+        const double b = rows * height * height + rise_down * rise_down;
+        const double ab = mixed * width * height + rise * rise_down;
+        return std::sqrt(std::max(0.0, a * b - ab * ab));
+    }
+};
+
+// Lengths of the grid on the ground.
+class MetricField {
+public:
+    // `low` and `high` are the corners of what is measured.
+    static std::unique_ptr<MetricField>
+    of(const MeasuredTerrain& terrain, GridPoint low, GridPoint high)
+    {
+        auto field = std::make_unique<MetricField>(terrain);
+        const GeoTransform::Terms& t = terrain.georeference().transform().terms();
+        const bool is_upright = t[2] == 0.0 && t[4] == 0.0;
+        field->is_by_row_ = !terrain.ground().ellipsoid() || (is_upright && terrain.period() > 0.0);
+        if (!field->is_by_row_) {
+            constexpr double kTolerance = 1e-7;
+            field->table_ = GridField<3>::of(
+                low, high, kTolerance, [&](GridPoint grid) -> std::optional<std::array<double, 3>> {
+                    const auto metric = metricAt(terrain, grid);
+                    return metric ? std::optional(
+                                        std::array{metric->columns, metric->mixed, metric->rows})
+                                  : std::nullopt;
+                });
+        }
+        return field;
+    }
+
+    explicit MetricField(const MeasuredTerrain& terrain)
+        : terrain_(terrain)
+    {}
+
+    Metric at(GridPoint grid)
+    {
+        if (table_) {
+            const auto v = table_->at(grid);
+            return {v[0], v[1], v[2]};
+        }
+        // Where the projection ends, cells have no area.
+        if (!is_by_row_) {
+            return metricAt(terrain_, grid).value_or(Metric{});
+        }
+        Row& known = rows_[static_cast<std::size_t>(std::llround(grid.row * 3.0)) % kRows];
+        if (known.row != grid.row) {
+            const double centre = 0.5 * static_cast<double>(terrain_.georeference().columns());
+            known = {grid.row, metricAt(terrain_, {centre, grid.row}).value_or(Metric{})};
+        }
+        return known.metric;
+    }
+
+private:
+    static std::optional<Metric> metricAt(const MeasuredTerrain& terrain, GridPoint grid)
+    {
+        const auto s = gridSteps(terrain, grid);
+        if (!s) {
+            return std::nullopt;
+        }
+        return Metric{s->east_per_column * s->east_per_column +
+                          s->north_per_column * s->north_per_column,
+                      s->east_per_column * s->east_per_row + s->north_per_column * s->north_per_row,
+                      s->east_per_row * s->east_per_row + s->north_per_row * s->north_per_row};
+    }
+
+    static constexpr std::size_t kRows = 64;
+    struct Row {
+        double row = kNan;
+        Metric metric{};
+    };
+
+    const MeasuredTerrain& terrain_;
+    bool is_by_row_ = false;
+    std::optional<GridField<3>> table_;
+    std::array<Row, kRows> rows_;
+};
+
+// Elevation of the base of volumes.
+struct Base {
+    VolumeBase kind = VolumeBase::None;
+    double level_m = 0.0;
+    double per_east = 0.0;
+    double per_north = 0.0;
+    std::optional<GridField<2>> east_north{}; // of grid positions
+    double middle_column = 0.0;               // of the field, where columns are periodic
+    double period = 0.0;
+
+    double at(GridPoint grid) const
+    {
+        if (kind != VolumeBase::BorderPlane) {
+            return level_m;
+        }
+        if (period > 0.0) {
+            grid.column += period * std::round((middle_column - grid.column) / period);
+        }
+        const auto en = east_north->at(grid);
+        return level_m + per_east * en[0] + per_north * en[1];
+    }
+};
+
+// The terrain along the polygon's edges.
+class BorderVisitor final : public PathVisitor {
+public:
+    explicit BorderVisitor(const Ground& ground, const LocalFrame& frame)
+        : ground_(ground)
+        , frame_(frame)
+    {}
+
+    void begin(const GroundLine& line) { line_ = &line; }
+
+    void visit(const PathPiece& piece) override
+    {
+        for (const double elevation_m : {piece.begin_elevation_m, piece.end_elevation_m}) {
+            if (std::isfinite(elevation_m)) {
+                min_m = std::fmin(min_m, elevation_m);
+                max_m = std::fmax(max_m, elevation_m);
+            }
+        }
+        if (!piece.has_terrain) {
+            return;
+        }
+        const double length_m = piece.end_m - piece.begin_m;
+        const double middle_m = 0.5 * (piece.begin_elevation_m + piece.end_elevation_m);
+        const Vec3 local =
+            frame_.toLocal(ground_.cartesian(line_->at(0.5 * (piece.begin_m + piece.end_m)), 0.0));
+        add(local.x, local.y, middle_m, length_m);
+    }
+
+    // The plane by least squares; false without enough terrain.
+    bool solve(Base& base) const
+    {
+        if (!(weight_ > 0.0)) {
+            return false;
+        }
+        const double e = sum_[0] / weight_;
+        const double n = sum_[1] / weight_;
+        const double z = sum_[2] / weight_;
+        const double ee = square_[0] / weight_ - e * e;
+        const double nn = square_[1] / weight_ - n * n;
+        const double en = square_[2] / weight_ - e * n;
+        const double ez = square_[3] / weight_ - e * z;
+        const double nz = square_[4] / weight_ - n * z;
+        const double determinant = ee * nn - en * en;
+        if (!(determinant > 1e-8 * ee * nn)) {
+            return false;
+        }
+        base.per_east = (ez * nn - nz * en) / determinant;
+        base.per_north = (nz * ee - ez * en) / determinant;
+        base.level_m = z - base.per_east * e - base.per_north * n;
+        return true;
+    }
+
+    double min_m = kNan;
+    double max_m = kNan;
+
+private:
+    void add(double e, double n, double z, double w)
+    {
+        weight_ += w;
+        sum_[0] += w * e;
+        sum_[1] += w * n;
+        sum_[2] += w * z;
+        square_[0] += w * e * e;
+        square_[1] += w * n * n;
+        square_[2] += w * e * n;
+        square_[3] += w * e * z;
+        square_[4] += w * n * z;
+    }
+
+    const Ground& ground_;
+    LocalFrame frame_;
+    const GroundLine* line_ = nullptr;
+    double weight_ = 0.0;
+    std::array<double, 3> sum_{};
+    std::array<double, 5> square_{};
+};
+
+class AreaSummer {
+public:
+    AreaSummer(MeasuredTerrain& terrain, MetricField& metric, const Base& base)
+        : terrain_(terrain)
+        , metric_(metric)
+        , base_(base)
+    {}
+
+    // `outside` and `sign` turn a count of the edges above into a share of the polygon.
+    Status run(std::vector<EdgePart> parts, double outside, double sign, JobMonitor& monitor)
+    {
+        sign_ = sign;
+        constexpr std::size_t kChunk = 256; // columns: those of one or two tiles
+        const std::size_t columns = terrain_.cellColumns();
+        std::sort(parts.begin(), parts.end(), [](const EdgePart& a, const EdgePart& b) {
+            if (a.column / kChunk != b.column / kChunk) {
+                return a.column < b.column;
+            }
+            if (a.is_above != b.is_above) {
+                return a.is_above;
+            }
+            return a.row != b.row ? a.row < b.row : a.column < b.column;
+        });
+        std::size_t next = 0;
+        for (std::size_t first = 0; first < columns; first += kChunk) {
+            const std::size_t last = std::min(first + kChunk, columns);
+            std::size_t end = next;
+            while (end < parts.size() && parts[end].column < last) {
+                ++end;
+            }
+            if (end > next || outside != 0.0) {
+                const JobPart part(monitor,
+                                   static_cast<double>(first) / static_cast<double>(columns),
+                                   static_cast<double>(last) / static_cast<double>(columns));
+                if (Status status = runChunk(
+                        first, last, std::span(parts).subspan(next, end - next), outside, monitor);
+                    !status) {
+                    return status;
+                }
+            }
+            next = end;
+        }
+        return Done{};
+    }
+
+    double covered_m2 = 0.0;
+    double surface_m2 = 0.0;
+    double height_m3 = 0.0; // ∫ elevation
+    double above_m3 = 0.0;
+    double below_m3 = 0.0;
+    double min_m = kNan;
+    double max_m = kNan;
+    bool crosses_itself = false;
+
+private:
+    Status runChunk(std::size_t first,
+                    std::size_t last,
+                    std::span<const EdgePart> parts,
+                    double outside,
+                    JobMonitor& monitor)
+    {
+        std::vector<Coverage> coverage(last - first);
+        for (Coverage& column : coverage) {
+            column.reset(outside);
+        }
+        std::size_t next = 0;
+        for (; next < parts.size() && parts[next].is_above; ++next) {
+            cover(coverage[parts[next].column - first], parts[next]);
+        }
+        for (Coverage& column : coverage) {
+            column.normalize();
+        }
+        upper_row_ = kNoRow;
+        lower_row_ = kNoRow;
+        std::size_t row = 0;
+        const std::size_t rows = terrain_.cellRows();
+        while (row < rows) {
+            const bool is_covered = std::any_of(coverage.begin(), coverage.end(),
+                                                [](const Coverage& c) { return !c.isEmpty(); });
+            if (!is_covered) {
+                if (next >= parts.size()) {
+                    break;
+                }
+                row = parts[next].row;
+            }
+            readRows(first, last, row);
+            for (std::size_t column = first; column < last; ++column) {
+                std::size_t end = next;
+                while (end < parts.size() && parts[end].row == row && parts[end].column == column) {
+                    ++end;
+                }
+                addCell(column, row, coverage[column - first], parts.subspan(next, end - next),
+                        column - first);
+                next = end;
+            }
+            if (terrain_.failure()) {
+                return *terrain_.failure();
+            }
+            if (monitor.isCancelled()) {
+                return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            }
+            ++row;
+            monitor.report(static_cast<double>(row) / static_cast<double>(rows));
+        }
+        return Done{};
+    }
+
+    void readRows(std::size_t first, std::size_t last, std::size_t row)
+    {
+        if (lower_row_ == row) {
+            upper_.swap(lower_);
+            upper_row_ = row;
+        }
+        const auto read = [&](std::vector<double>& heights, std::size_t line) {
+            heights.resize(last - first + 1);
+            for (std::size_t i = 0; i < heights.size(); ++i) {
+                heights[i] = terrain_.vertex(first + i, line);
+            }
+        };
+        if (upper_row_ != row) {
+            read(upper_, row);
+            upper_row_ = row;
+        }
+        read(lower_, row + 1);
+        lower_row_ = row + 1;
+    }
+
+    double signOf(const EdgePart& part) const { return part.u1 > part.u0 ? sign_ : -sign_; }
+
+    void cover(Coverage& coverage, const EdgePart& part) const
+    {
+        coverage.add(std::min(part.u0, part.u1), std::max(part.u0, part.u1), signOf(part));
+    }
+
+    void addCell(std::size_t column,
+                 std::size_t row,
+                 Coverage& coverage,
+                 std::span<const EdgePart> parts,
+                 std::size_t i)
+    {
+        if (parts.empty() && coverage.isEmpty()) {
+            return;
+        }
+        const CellHeights z{upper_[i], upper_[i + 1], lower_[i], lower_[i + 1]};
+        // A sample belongs to the polygon if the terrain right below it does, or left of it.
+        constexpr double kNextTo = 1e-9;
+        if (inside(coverage.at(kNextTo))) {
+            addHeight(z.upper_left);
+        }
+        if (column + 1 == terrain_.cellColumns() && inside(coverage.at(1.0 - kNextTo))) {
+            addHeight(z.upper_right);
+        }
+        beginCell(column, row, z, !parts.empty() || !coverage.whole());
+        coverage.forEach([&](double from, double to, double weight) {
+            constexpr double kRounding = 1e-6;
+            crosses_itself = crosses_itself || weight > 1.0 + kRounding || weight < -kRounding;
+            addRegion({from, 0.0}, {to, 0.0}, weight);
+        });
+        for (const EdgePart& part : parts) {
+            if (part.u0 != part.u1) {
+                const bool is_right = part.u1 > part.u0;
+                addRegion(is_right ? UvPoint{part.u0, part.v0} : UvPoint{part.u1, part.v1},
+                          is_right ? UvPoint{part.u1, part.v1} : UvPoint{part.u0, part.v0},
+                          signOf(part));
+                cover(coverage, part);
+            }
+        }
+        if (!parts.empty()) {
+            coverage.normalize();
+        }
+        if (row + 1 == terrain_.cellRows()) {
+            if (inside(coverage.at(kNextTo))) {
+                addHeight(z.lower_left);
+            }
+            if (column + 1 == terrain_.cellColumns() && inside(coverage.at(1.0 - kNextTo))) {
+                addHeight(z.lower_right);
+            }
+        }
+    }
+
+    static bool inside(double weight) { return weight > 0.5; }
+
+    void addHeight(double height_m)
+    {
+        min_m = std::fmin(min_m, height_m); // of two, fmin and fmax ignore NaN
+        max_m = std::fmax(max_m, height_m);
+    }
+
+    // One of the two triangles of a cell.
+    struct Triangle {
+        bool has_terrain = false;
+        Linear cell_m2{};     // area of the cell
+        double stretch = 1.0; // of the terrain: its area over that of the ground
+        Linear elevation_m{};
+        Linear base_m{};
+    };
+
+    void beginCell(std::size_t column, std::size_t row, const CellHeights& z, bool is_partial)
+    {
+        const double left = terrain_.columnLine(column);
+        const double right = terrain_.columnLine(column + 1);
+        const double top = terrain_.rowLine(row);
+        const double bottom = terrain_.rowLine(row + 1);
+        CellHeights base{};
+        if (base_.kind != VolumeBase::None) {
+            base = {base_.at({left, top}), base_.at({right, top}), base_.at({left, bottom}),
+                    base_.at({right, bottom})};
+        }
+        const double width = right - left;
+        const double height = bottom - top;
+        CellHeights areas{};
+        if (is_partial) { // a whole triangle has the area of its center
+            const auto area = [&](double c, double r) { return metric_.at({c, r}).cellArea(); };
+            areas = {area(left, top), area(right, top), area(left, bottom), area(right, bottom)};
+        }
+        const auto linear = [](const CellHeights& c, bool is_upper) {
+            return Linear{
+                .at_corner = c.upper_left,
+                .per_u = is_upper ? c.upper_right - c.upper_left : c.lower_right - c.lower_left,
+                .per_v = is_upper ? c.lower_right - c.upper_right : c.lower_left - c.upper_left};
+        };
+        const auto make = [&](bool is_upper) {
+            Triangle t{.elevation_m = linear(z, is_upper), .base_m = linear(base, is_upper)};
+            const Linear& m = t.elevation_m;
+            t.has_terrain = std::isfinite(m.at_corner + m.per_u + m.per_v);
+            const double share = is_upper ? 1.0 / 3.0 : 2.0 / 3.0;
+            const UvPoint center{1.0 - share, share};
+            const Metric metric = metric_.at({left + center.u * width, top + center.v * height});
+            const double cell_m2 = metric.cellArea() * width * height;
+            t.cell_m2 = linear(areas, is_upper);
+            t.cell_m2.per_u *= width * height;
+            t.cell_m2.per_v *= width * height;
+            t.cell_m2.at_corner = cell_m2 - center.u * t.cell_m2.per_u - center.v * t.cell_m2.per_v;
+            t.stretch =
+                cell_m2 > 0.0 ? metric.surface(width, height, m.per_u, m.per_v) / cell_m2 : 1.0;
+            return t;
+        };
+        triangles_ = {make(true), make(false)};
+    }
+
+    // The part of the cell below the straight line from `a` to `b`, which runs to the right.
+    void addRegion(const UvPoint& a, const UvPoint& b, double weight)
+    {
+        ConvexPart region;
+        region.add(a);
+        region.add(b);
+        region.add({b.u, 1.0});
+        region.add({a.u, 1.0});
+        const ConvexPart upper = clipped(region, [](const UvPoint& p) { return p.u - p.v; });
+        const ConvexPart lower = clipped(region, [](const UvPoint& p) { return p.v - p.u; });
+        addPart(upper, triangles_[0], weight);
+        addPart(lower, triangles_[1], weight);
+    }
+
+    void addPart(ConvexPart part, const Triangle& t, double weight)
+    {
+        if (!t.has_terrain) {
+            return;
+        }
+        const PartSum sum = sumOver(part, t.cell_m2, t.elevation_m);
+        covered_m2 += weight * sum.area_m2;
+        surface_m2 += weight * sum.area_m2 * t.stretch;
+        height_m3 += weight * sum.first;
+        if (base_.kind == VolumeBase::None) {
+            return;
+        }
+        for (std::size_t i = 0; i < part.count; ++i) {
+            UvPoint& p = part.points[i];
+            p.g = t.elevation_m(p) - t.base_m(p);
+        }
+        const auto g = [](const UvPoint& p) { return p.g; };
+        const auto minus_g = [](const UvPoint& p) { return -p.g; };
+        above_m3 += weight * sumOver(clipped(part, g), t.cell_m2, g).first;
+        below_m3 += weight * sumOver(clipped(part, minus_g), t.cell_m2, minus_g).first;
+    }
+
+    static constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
+
+    MeasuredTerrain& terrain_;
+    MetricField& metric_;
+    const Base& base_;
+    double sign_ = 1.0;
+    std::vector<double> upper_;
+    std::vector<double> lower_;
+    std::size_t upper_row_ = kNoRow;
+    std::size_t lower_row_ = kNoRow;
+    std::array<Triangle, 2> triangles_;
+};
+
+// How the count of edges above a place becomes a share of the polygon.
+struct Sides {
+    double outside = 0.0;
+    double sign = 1.0;
+};
+
+// Of the two sides of the polygon, the smaller one counts.
+Sides sidesOf(const MeasuredTerrain& terrain, const PolygonOutline& outline, double signed_area_m2)
+{
+    const GeoTransform::Terms& t = terrain.georeference().transform().terms();
+    const Crs* crs = terrain.ground().ellipsoid() ? &*terrain.georeference().crs() : nullptr;
+    const double east = crs != nullptr ? crs->eastSign() : 1.0;
+    const double north = crs != nullptr ? crs->northSign() : 1.0;
+    // Whether columns to rows is counterclockwise on the ground: for a map with north up it is not.
+    const bool is_mirrored = (t[1] * t[5] - t[2] * t[4]) * east * north < 0.0;
+    const bool is_left_smaller = signed_area_m2 >= 0.0;
+    if (terrain.period() > 0.0 && std::abs(outline.turn_columns) > 0.5 * terrain.period()) {
+        // Around a pole. To the right along the columns, the side below the edges is the right one
+        // on a mirrored map.
+        const bool runs_right = outline.turn_columns > 0.0;
+        const bool is_below_left = runs_right ? !is_mirrored : is_mirrored;
+        const double sign = runs_right ? 1.0 : -1.0;
+        return is_below_left == is_left_smaller ? Sides{0.0, sign} : Sides{1.0, -sign};
+    }
+    const double sign = outline.area >= 0.0 ? 1.0 : -1.0;
+    const bool is_inner_left = (outline.area >= 0.0) != is_mirrored;
+    return is_inner_left == is_left_smaller ? Sides{0.0, sign} : Sides{1.0, -sign};
+}
+
+Status setPlane(const MeasuredTerrain& terrain,
+                const BorderVisitor& border,
+                const LocalFrame& frame,
+                double reach_m,
+                GridPoint low,
+                GridPoint high,
+                Base& base)
+{
+    if (terrain.ground().ellipsoid() &&
+        reach_m > terrain.ground().ellipsoid()->equatorial_m * std::numbers::pi / 6.0) {
+        return Error{ErrorCode::OutOfRange,
+                     "the polygon is too large for a plane through its border; state the base's "
+                     "elevation instead"};
+    }
+    if (!border.solve(base)) {
+        return Error{
+            ErrorCode::Invalid,
+            "there is too little terrain along the polygon's border for a plane; state the "
+            "base's elevation instead"};
+    }
+    constexpr double kTolerance = 1e-8;
+    base.east_north = GridField<2>::of(
+        low, high, kTolerance, [&](GridPoint grid) -> std::optional<std::array<double, 2>> {
+            const auto position = terrain.fromGrid(grid);
+            if (!position) {
+                return std::nullopt;
+            }
+            const Vec3 local = frame.toLocal(terrain.ground().cartesian(*position, 0.0));
+            return std::array{local.x, local.y};
+        });
+    if (!base.east_north) {
+        return Error{ErrorCode::OutOfRange,
+                     "the polygon reaches the edge of the map's projection, where no plane can be "
+                     "placed; state the base's elevation instead"};
+    }
+    return Done{};
+}
+
+} // namespace
+
+Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
+                                std::span<const GroundPosition> vertices,
+                                const AreaOptions& options,
+                                JobMonitor& monitor)
+{
+    if (vertices.size() > 3 && vertices.front() == vertices.back()) {
+        vertices = vertices.first(vertices.size() - 1); // written closed
+    }
+    const Ground& ground = terrain.ground();
+    if (Status status = checkPositions(ground, vertices, 3, "an area"); !status) {
+        return std::move(status).error();
+    }
+    const GroundPolygon polygon = ground.polygon(vertices);
+    Result<PolygonOutline> edges = outlineOf(terrain, vertices);
+    if (!edges) {
+        return std::move(edges).error();
+    }
+    PolygonOutline& outline = *edges;
+    TerrainArea area;
+    area.is_approximate = terrain.isApproximate();
+    area.geodesic_m2 = std::abs(polygon.area_m2);
+    area.perimeter_m = polygon.perimeter_m;
+
+    Vec3 middle;
+    for (const GroundPosition& vertex : vertices) {
+        middle =
+            middle + ground.cartesian(vertex, 0.0) * (1.0 / static_cast<double>(vertices.size()));
+    }
+    const GroundPosition center = ground.positionOf(middle);
+    const LocalFrame frame = ground.frameAt(center);
+    double reach_m = 0.0;
+    BorderVisitor border(ground, frame);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const GroundLine line = ground.line(vertices[i], vertices[(i + 1) % vertices.size()]);
+        reach_m = std::max(reach_m, ground.distanceM(center, vertices[i]));
+        const auto share = [&](std::size_t k) {
+            return kBorderShare * static_cast<double>(k) / static_cast<double>(vertices.size());
+        };
+        const JobPart part(monitor, share(i), share(i + 1));
+        border.begin(line);
+        if (Status status = tracePath(terrain, line, monitor, border); !status) {
+            return std::move(status).error();
+        }
+    }
+    const Sides sides = sidesOf(terrain, outline, polygon.area_m2);
+    // Whole cells are summed up. Where columns are periodic, the outline may be in any turn.
+    const double last_column = terrain.columnLine(terrain.cellColumns());
+    const double last_row = terrain.rowLine(terrain.cellRows());
+    const auto column = [&](double at) {
+        return terrain.period() > 0.0 ? at : std::clamp(at, 0.0, last_column);
+    };
+    const double margin = terrain.columnLine(1);
+    const GridPoint from{column(outline.low.column - margin),
+                         std::clamp(outline.low.row - margin, 0.0, last_row)};
+    const GridPoint to{column(outline.high.column + margin),
+                       std::clamp(outline.high.row + margin, 0.0, last_row)};
+    Base base{.kind = options.base, .level_m = options.base_m};
+    base.period = terrain.period();
+    base.middle_column = 0.5 * (outline.low.column + outline.high.column);
+    if (options.base == VolumeBase::BorderPlane) {
+        if (Status status = setPlane(terrain, border, frame, reach_m, from, to, base); !status) {
+            return std::move(status).error();
+        }
+    }
+    const std::unique_ptr<MetricField> metric = MetricField::of(terrain, from, to);
+    AreaSummer sum(terrain, *metric, base);
+    const JobPart part(monitor, kBorderShare, 1.0);
+    if (Status status = sum.run(std::move(outline.parts), sides.outside, sides.sign, monitor);
+        !status) {
+        return std::move(status).error();
+    }
+    area.covered_m2 = sum.covered_m2;
+    area.surface_m2 = sum.surface_m2;
+    area.mean_m = sum.covered_m2 != 0.0 ? sum.height_m3 / sum.covered_m2 : kNan;
+    area.min_m = std::fmin(sum.min_m, border.min_m);
+    area.max_m = std::fmax(sum.max_m, border.max_m);
+    area.crosses_itself = sum.crosses_itself;
+    if (options.base != VolumeBase::None) {
+        area.volume_above_m3 = sum.above_m3;
+        area.volume_below_m3 = sum.below_m3;
+    }
+    return area;
+}
+
+} // namespace marsview
