@@ -23,11 +23,13 @@ double metresPerUnit(const Georeference& georeference)
 } // namespace
 
 MeasuredTerrain::MeasuredTerrain(const Georeference& georeference,
-                                 std::unique_ptr<SampleReader> samples)
+                                 std::unique_ptr<SampleReader> samples,
+                                 TerrainDetail detail)
     : georeference_(georeference)
     , ground_(isOnBody(georeference) ? Ground::onEllipsoid(*georeference.crs()->ellipsoid())
                                      : Ground::onPlane())
     , samples_(std::move(samples))
+    , detail_(detail)
 {
     const std::size_t step = samples_->step();
     const auto axis = [step](std::size_t count) {

@@ -21,6 +21,9 @@ struct CellPlace {
     double v = 0.0;
 };
 
+/// Whether samples are those of the raster, or fewer, as in a preview.
+enum class TerrainDetail { OfSamples, Approximate };
+
 /// The triangulated surface of a raster, on the ground of its body: the ellipsoid of its CRS, or a
 /// plane without a CRS. The samples may be every 2^k-th ones: the surface is then approximate. For
 /// one thread at a time.
@@ -30,11 +33,17 @@ struct CellPlace {
 class MeasuredTerrain {
 public:
     /// `samples` are those of `georeference`'s raster, at least 2 × 2.
-    MeasuredTerrain(const Georeference& georeference, std::unique_ptr<SampleReader> samples);
+    MeasuredTerrain(const Georeference& georeference,
+                    std::unique_ptr<SampleReader> samples,
+                    TerrainDetail detail = TerrainDetail::OfSamples);
 
     const Georeference& georeference() const noexcept { return georeference_; }
     const Ground& ground() const noexcept { return ground_; }
-    bool isApproximate() const noexcept { return samples_->step() > 1; }
+    /// Of a preview, or of a coarser level.
+    bool isApproximate() const noexcept
+    {
+        return detail_ == TerrainDetail::Approximate || samples_->step() > 1;
+    }
     /// Why a sample could not be read; elevations are NaN there.
     const std::optional<Error>& failure() const noexcept { return samples_->failure(); }
 
@@ -114,6 +123,7 @@ private:
     Georeference georeference_;
     Ground ground_;
     std::unique_ptr<SampleReader> samples_;
+    TerrainDetail detail_;
     Axis columns_;
     Axis rows_;
     double period_ = 0.0;
