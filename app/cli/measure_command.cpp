@@ -212,7 +212,7 @@ Status runAttitude(const AttitudeCommand& options)
         elevation_m = input->terrain->elevation(input->positions.front());
     }
     const Result<Attitude> attitude = measureAttitude(
-        *input->terrain, input->positions,
+        *input->terrain, input->openPositions(),
         {.elevation_error_m = options.elevation_error_m,
          .default_elevation_error_m = elevationStepError(input->raster->info, elevation_m)});
     if (!attitude) {
@@ -345,7 +345,8 @@ Status runCrater(const MeasureOptions& options)
         return std::move(input).error();
     }
     LongJob job("measuring");
-    const Result<Crater> crater = measureCrater(*input->terrain, input->positions, job.monitor());
+    const Result<Crater> crater =
+        measureCrater(*input->terrain, input->openPositions(), job.monitor());
     if (!crater) {
         return measureError(options, crater.error());
     }
@@ -441,7 +442,10 @@ void addAttitude(CLI::App& measure, CommandAction& run)
                      "standard deviation of elevations in meters, from which the errors follow; by "
                      "default the residuals, with three positions half the step of the samples")
         ->check(positiveNumber());
-    command->callback([options, &run] { run = [options] { return runAttitude(*options); }; });
+    command->callback([options, &run] {
+        options->common.checkSource();
+        run = [options] { return runAttitude(*options); };
+    });
 }
 
 void addArea(CLI::App& measure, CommandAction& run)
@@ -456,7 +460,10 @@ void addArea(CLI::App& measure, CommandAction& run)
                      "below the best plane through the terrain along the border (plane)")
         ->type_name("H|plane")
         ->check(volumeBase());
-    command->callback([options, &run] { run = [options] { return runArea(*options); }; });
+    command->callback([options, &run] {
+        options->common.checkSource();
+        run = [options] { return runArea(*options); };
+    });
 }
 
 void addCrater(CLI::App& measure, CommandAction& run)
@@ -465,7 +472,10 @@ void addCrater(CLI::App& measure, CommandAction& run)
     CLI::App* command = measure.add_subcommand(
         "crater", "Measure diameter and depth of a crater through three or more rim positions");
     options->addTo(*command);
-    command->callback([options, &run] { run = [options] { return runCrater(*options); }; });
+    command->callback([options, &run] {
+        options->checkSource();
+        run = [options] { return runCrater(*options); };
+    });
 }
 
 void addSlope(CLI::App& measure, CommandAction& run)
@@ -479,7 +489,10 @@ void addSlope(CLI::App& measure, CommandAction& run)
                      "length in meters over which the slope is measured; by default the triangle "
                      "at the position")
         ->check(positiveNumber());
-    command->callback([options, &run] { run = [options] { return runSlope(*options); }; });
+    command->callback([options, &run] {
+        options->common.checkSource();
+        run = [options] { return runSlope(*options); };
+    });
 }
 
 void addDistance(CLI::App& measure, CommandAction& run)
@@ -488,7 +501,10 @@ void addDistance(CLI::App& measure, CommandAction& run)
     CLI::App* command = measure.add_subcommand(
         "distance", "Measure the distance along positions: geodesic, along the terrain, straight");
     options->addTo(*command);
-    command->callback([options, &run] { run = [options] { return runDistance(*options); }; });
+    command->callback([options, &run] {
+        options->checkSource();
+        run = [options] { return runDistance(*options); };
+    });
 }
 
 void addProfile(CLI::App& measure, CommandAction& run)
@@ -502,7 +518,10 @@ void addProfile(CLI::App& measure, CommandAction& run)
                      "distance between points in meters; by default a point at every edge of the "
                      "terrain's triangles")
         ->check(positiveNumber());
-    command->callback([options, &run] { run = [options] { return runProfile(*options); }; });
+    command->callback([options, &run] {
+        options->common.checkSource();
+        run = [options] { return runProfile(*options); };
+    });
 }
 
 } // namespace

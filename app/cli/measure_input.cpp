@@ -4,6 +4,7 @@
 #include "core/base/bounded_text.h"
 #include "core/base/plain_number.h"
 #include "core/levels/level_file_use.h"
+#include "core/vector/vector_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -158,6 +159,60 @@ private:
     bool is_map_;
 };
 
+// The vertices of the first line or polygon, or all points before it.
+std::vector<MapPoint> firstGeometry(const FeatureCollection& content)
+{
+    std::vector<MapPoint> points;
+    for (const FeatureLayer& layer : content.layers) {
+        for (const Feature& feature : layer.features) {
+            const std::vector<MapPoint>& part = feature.parts.front().points;
+            if (feature.shape != FeatureShape::Point) {
+                return points.empty() ? part : points;
+            }
+            points.insert(points.end(), part.begin(), part.end());
+        }
+    }
+    return points;
+}
+
+// In the CRS of the file; without one, as --lonlat and --map say.
+Result<std::vector<GroundPosition>> readVector(const MeasureOptions& options,
+                                               const RasterInfo& info,
+                                               const Placer& placer,
+                                               const MeasuredTerrain& terrain)
+{
+    LongJob job("reading");
+    const Result<VectorFile> file = readVectorFile(options.vector_path, job.monitor());
+    if (!file) {
+        return file.error();
+    }
+    const FeatureCollection& content = file->content;
+    if (Status same = checkSameBody(options.vector_path, content, info.crs, info.body); !same) {
+        return std::move(same).error();
+    }
+    std::vector<GroundPosition> positions;
+    for (const MapPoint& point : firstGeometry(content)) {
+        const std::size_t number = positions.size() + 1;
+        if (!content.crs || !terrain.ground().ellipsoid()) {
+            Result<GroundPosition> position = placer.place({point.x, point.y}, number);
+            if (!position) {
+                return std::move(position).error();
+            }
+            positions.push_back(*position);
+            continue;
+        }
+        const auto geographic = content.crs->toGeographic(point);
+        if (!geographic) {
+            return Error{ErrorCode::OutOfRange,
+                         fmt::format("{}: position {} ({}, {}) is outside the projection of the "
+                                     "file's CRS",
+                                     options.vector_path, number, point.x, point.y)};
+        }
+        positions.push_back(terrain.ground().position(*geographic));
+    }
+    return positions;
+}
+
 } // namespace
 
 void MeasureOptions::addTo(CLI::App& command)
@@ -169,8 +224,13 @@ void MeasureOptions::addTo(CLI::App& command)
                     "CSV with one position per line, with or without a header line; - reads "
                     "standard input")
         ->type_name("FILE")
-        ->group(group)
-        ->required();
+        ->group(group);
+    command
+        .add_option("--vector", vector_path,
+                    "GeoPackage, GeoJSON, KML, Shapefile or CSV: its first line or polygon, or its "
+                    "points; its own CRS applies")
+        ->type_name("FILE")
+        ->group(group);
     auto* lonlat = command.add_flag("--lonlat", is_lonlat,
                                     "positions are longitude and latitude in degrees, "
                                     "east-positive (default for a map with a CRS)");
@@ -183,7 +243,26 @@ void MeasureOptions::addTo(CLI::App& command)
 
 std::string MeasureOptions::positionsName() const
 {
+    if (!vector_path.empty()) {
+        return vector_path;
+    }
     return points_path == "-" ? std::string("--points") : points_path;
+}
+
+void MeasureOptions::checkSource() const
+{
+    if (points_path.empty() == vector_path.empty()) {
+        throw CLI::ValidationError("--points, --vector", "exactly one is required");
+    }
+}
+
+std::vector<GroundPosition> MeasureInput::openPositions() const
+{
+    std::vector<GroundPosition> open = positions;
+    if (open.size() > 1 && open.front() == open.back()) {
+        open.pop_back();
+    }
+    return open;
 }
 
 GroundPosition MeasureInput::lonLat(GroundPosition position) const
@@ -229,11 +308,20 @@ Result<MeasureInput> openMeasureInput(const MeasureOptions& options)
                         options.map.path)};
     }
     input.latitude_kind = options.map.latitudeKind(info.body);
+    const Placer placer(options, *input.terrain, input.latitude_kind);
+    if (!options.vector_path.empty()) {
+        Result<std::vector<GroundPosition>> positions =
+            readVector(options, info, placer, *input.terrain);
+        if (!positions) {
+            return std::move(positions).error();
+        }
+        input.positions = std::move(*positions);
+        return input;
+    }
     const Result<std::vector<Pair>> pairs = readPairs(options);
     if (!pairs) {
         return pairs.error();
     }
-    const Placer placer(options, *input.terrain, input.latitude_kind);
     for (std::size_t i = 0; i < pairs->size(); ++i) {
         const Result<GroundPosition> position = placer.place((*pairs)[i], i + 1);
         if (!position) {

@@ -19,13 +19,16 @@ namespace marsview {
 /// Filled by the parser.
 struct MeasureOptions {
     MapOptions map;
-    std::string points_path;
+    std::string points_path; // this or the next
+    std::string vector_path;
     bool is_lonlat = false;
     bool is_map = false;
     bool is_json = false;
 
     /// Adds the map, the positions and --json to a command.
     void addTo(CLI::App& command);
+    /// For the command's callback: throws a usage error unless there is one source of positions.
+    void checkSource() const;
     /// How errors call the source of the positions.
     std::string positionsName() const;
 };
@@ -34,9 +37,12 @@ struct MeasureOptions {
 struct MeasureInput {
     std::unique_ptr<OpenRaster> raster;
     std::unique_ptr<MeasuredTerrain> terrain;
+    /// Of a polygon in a vector file, the last position is the first one.
     std::vector<GroundPosition> positions;
     LatitudeKind latitude_kind = LatitudeKind::Planetocentric; // of positions that people read
 
+    /// Without the repetition of the first position at the end.
+    std::vector<GroundPosition> openPositions() const;
     /// Longitude and latitude in degrees of that kind; NaN on a map without a CRS.
     GroundPosition lonLat(GroundPosition position) const;
 };

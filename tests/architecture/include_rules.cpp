@@ -38,6 +38,7 @@ const std::vector<Layer>& layers()
         {"core/measure/",
          {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/",
           "core/measure/"}},
+        {"core/vector/", {"core/base/", "core/geo/", "core/files/", "core/vector/"}},
         {"core/view/", {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/view/"}},
         {"core/session/", {"core/"}},
         {"haptics/", {"core/", "haptics/"}},
@@ -111,10 +112,11 @@ bool mayUseQt(std::string_view path)
 
 bool mayUseGdal(std::string_view path)
 {
-    constexpr std::array<std::string_view, 6> kFolders{"core/geo/",
+    constexpr std::array<std::string_view, 7> kFolders{"core/geo/",
                                                        "core/files/",
                                                        "core/raster/",
                                                        "core/prepare/",
+                                                       "core/vector/",
                                                        "app/bench/reference/computed_raster.",
                                                        "tests/support/faulty_driver/"};
     return startsWithAny(path, kFolders);

@@ -141,6 +141,36 @@ TEST(MeasureDistance, RefusesBadPositionsWithOneSentence)
     EXPECT_EQ(endless.exit_status, 1);
 }
 
+TEST(MeasureDistance, ReadsPositionsFromVectorFiles)
+{
+    const TempFolder folder;
+    const std::string truth = measured("distance", bundledMars(), "226.2 18.65\n230 20\n").out;
+    const std::string wkt = folder.write("line.csv", "wkt,name\n\"LINESTRING(226.2 18.65,230 20)\",a\n");
+    for (const char* name : {"line.gpkg", "line.geojson", "line.shp"}) {
+        const std::string file = folder.file(name);
+        runTool({"ogr2ogr", "-a_srs", "IAU_2015:49900", "-nlt", "LINESTRING", file, wkt});
+        const ProgramOutput output =
+            runCli({"measure", "distance", bundledMars(), "--vector", file});
+        EXPECT_EQ(output.exit_status, 0) << output.err;
+        EXPECT_EQ(output.out.substr(0, 33), truth.substr(0, 33)) << name;
+    }
+    EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--vector", wkt}).out, truth);
+    const std::string earth = folder.file("earth.gpkg");
+    runTool({"ogr2ogr", "-a_srs", "EPSG:4326", "-nlt", "LINESTRING", earth, wkt});
+    const ProgramOutput refused = runCli({"measure", "distance", bundledMars(), "--vector", earth});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("is on Earth, but the map is on Mars"));
+    EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--vector", "/no/such.gpkg"}).err,
+              "marsview-cli: /no/such.gpkg: does not exist\n");
+    EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--vector", "/dev/zero"}).exit_status,
+              1);
+    EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--vector", bundledMars()}).exit_status,
+              1);
+    EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--vector", wkt, "--points", "-"})
+                  .exit_status,
+              2);
+}
+
 TEST(MeasureProfile, IsCsvWithThePositionsOfEveryPoint)
 {
     const ProgramOutput output =
