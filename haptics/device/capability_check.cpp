@@ -11,6 +11,7 @@ namespace {
 constexpr double kSideMMin = 0.001;
 constexpr double kReachMMax = 10.0;
 constexpr double kForceNMax = 1000.0;
+constexpr double kTorqueNmMax = 1000.0;
 constexpr double kStiffnessMax = 1e6;
 constexpr double kRateHzMin = 200.0; // a force would stay on too long between two samples
 constexpr double kRateHzMax = 10'000.0;
@@ -53,6 +54,7 @@ std::optional<std::string> impossibilityOf(const DeviceCapabilities& c)
     for (const Bound& bound :
          {Bound{"peak force", c.force_n_peak, "N", 0.0, kForceNMax},
           Bound{"continuous force", c.force_n_continuous, "N", 0.0, kForceNMax},
+          Bound{"peak torque", c.torque_nm_peak, "N·m", 0.0, kTorqueNmMax},
           Bound{"maximum stiffness", c.stiffness_n_per_m_max, "N/m", 0.0, kStiffnessMax},
           Bound{"rate", c.rate_hz, "Hz", kRateHzMin, kRateHzMax}}) {
         if (isOutside(bound.value, bound.low, bound.high)) {

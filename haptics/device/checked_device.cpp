@@ -46,7 +46,7 @@ CheckedDevice::Fault CheckedDevice::faultOf(const DeviceSample& sample) const no
 {
     const WorkspacePoint& p = sample.position;
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) ||
-        !std::isfinite(sample.twist_rad)) {
+        !std::isfinite(sample.twist_rad) || !isUnit(sample.orientation)) {
         return Fault::NotFinite;
     }
     if (!isInside(reach_, p)) {
@@ -126,7 +126,7 @@ std::string CheckedDevice::trouble() const
     case Fault::None:
         return device_->trouble();
     case Fault::NotFinite:
-        return "its samples contain numbers that are not finite";
+        return "its samples contain invalid numbers";
     case Fault::OutOfReach:
         return "its samples lie far outside the workspace that it states; its units may be wrong";
     case Fault::Jump:

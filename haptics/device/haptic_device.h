@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact/goal_frame.h"
+#include "haptics/device/orientation.h"
 #include "haptics/device/workspace.h"
 
 #include <chrono>
@@ -17,6 +18,7 @@ struct DeviceCapabilities {
     double force_n_peak = 0.0;          // short-term; 0: position input only, no force output
     double force_n_continuous = 0.0;    // without overheating; 0: not stated, the peak applies
     double stiffness_n_per_m_max = 0.0; // for a stable wall, from the maker; 0: not stated
+    double torque_nm_peak = 0.0;        // short-term; 0: no torque output
     double rate_hz = 1000.0;            // sample rate
     std::uint8_t axes_in = 3;           // 3: position; 6: orientation as well
     std::uint8_t axes_out = 3;          // force axes
@@ -26,13 +28,19 @@ struct DeviceCapabilities {
     bool owns_clock = false;
     /// The device reports whether it is held: an inkwell or a dead-man switch.
     bool has_presence = false;
+    /// The device is calibrated by a person: hold it in its home position and open it with ",home"
+    /// at the end of its address. Until then it is Unready, with advice as its trouble.
+    bool can_set_home = false;
 };
 
 /// One reading of a device.
 struct DeviceSample {
     WorkspacePoint position{};
-    double twist_rad = 0.0;    // of the stylus about its axis; 0 where axes_in is 3
-    std::uint32_t buttons = 0; // bit 0: the stylus button
+    /// Of the stylus about its axis, from any reference; 0 where axes_in is 3. Positive
+    /// counter-clockwise seen from the stylus's back end, which is from above with the tip down.
+    double twist_rad = 0.0;
+    Orientation orientation{};
+    std::uint32_t buttons = 0; // bit 0: the stylus button, bit 1: its second button
     /// False in the inkwell or with the dead-man switch released: the device must not push.
     bool is_held = true;
     /// When the device measured this; steady clock. The loop turns the force off if samples are

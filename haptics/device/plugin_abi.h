@@ -5,19 +5,29 @@
  * table of functions. Put it into ~/.local/share/marsview/plugins, into lib/marsview/plugins of the
  * program's installation, or anywhere with MARSVIEW_PLUGIN_PATH or "plugin:/path/of/it.so".
  *
- * Units and axes. Meters, newtons, radians, nanoseconds. x right, y away from the user, z up. A
- * plugin converts its device's units and axes to these.
+ * Units and axes. Meters, newtons, radians, nanoseconds. The workspace frame is right-handed: x
+ * right, y away from the user, z up, as seen by a user in front of the device. A plugin converts
+ * its device's units and axes to these.
+ *
+ * Orientation. The reference orientation of a stylus is level, with the tip away from the user (+y)
+ * and the back end toward the user (-y). `orientation` is the rotation from there to the present
+ * orientation, in the workspace frame; rotations are positive by the right-hand rule. `twist_rad`
+ * is the turn of the stylus about its own axis, positive counter-clockwise seen from its back end:
+ * with the tip down, seen from above. While the stylus grabs, the map turns in the same sense.
+ * Vendors differ: the third gimbal angle of OpenHaptics, for example, is positive clockwise.
  *
  * Compatibility. New fields are added only at the end of a struct. A table states how large its
  * structs were when the plugin was compiled; the program passes at least that much zeroed memory
  * and treats missing fields as zero. So plugins keep working with newer programs, and their authors
  * need not check sizes.
  *
- * Threads. Calls for one device never overlap. `open`, `capabilities` and `close` may take a second
- * or two and may be called from any thread. `read` and `write` are called by the servo thread every
- * millisecond: they take microseconds, and do not wait, allocate or lock. A device whose transport
- * blocks needs its own thread and returns the latest value. While no tick runs, another thread may
- * also call `write`, with zero, to bring the motors to rest.
+ * Threads. Calls for one device never overlap, except for `message`. `open`, `capabilities` and
+ * `close` may take a second or two and may be called from any thread. `read` and `write` are called
+ * by the servo thread every millisecond: they take microseconds, and do not wait, allocate or lock.
+ * A device whose transport blocks needs its own thread and returns the latest value. While no tick
+ * runs, another thread may also call `write`, with zero, to bring the motors to rest. `message` is
+ * called by another thread than `read` and `write`, possibly while they run, but never after
+ * `close` was called.
  *
  * Safety. A force stays on until the next `write`, so the plugin or the device itself must turn it
  * off if no `write` has arrived for 20 ms: the program cannot do so while `read` or `write` hangs,
@@ -72,17 +82,21 @@ typedef struct MarsviewCapabilities {
     uint32_t axes_out;            /* of force: 0 to 6 */
     uint32_t buttons;             /* 0 to 32 */
     uint32_t flags;
-    char name[64]; /* for people: maker and model; UTF-8 */
+    char name[64];         /* for people: maker and model; UTF-8 */
+    double torque_nm_peak; /* short-term, about any axis; 0: no torque output */
 } MarsviewCapabilities;
 
 typedef struct MarsviewSample {
     double position_m[3];
-    double twist_rad; /* of the stylus about its axis; 0 if axes_in is 3 */
+    double twist_rad; /* see Orientation above; from any reference; 0 if axes_in is 3 */
     /* CLOCK_MONOTONIC time of the measurement; 0 means now. The force goes to zero if the time is
      * more than 15 ms in the past or in the future, as happens with another clock. */
     int64_t time_ns;
-    uint32_t buttons; /* bit 0: the stylus button */
+    /* Bit 0: the stylus button, which grabs. Bit 1: the second button of the stylus. */
+    uint32_t buttons;
     uint32_t is_held; /* 0 in the inkwell; used only with MARSVIEW_HAS_PRESENCE */
+    /* Unit quaternion w, x, y, z; see Orientation above. All zero: not measured. */
+    double orientation[4];
 } MarsviewSample;
 
 /* A device that can be opened, or the reason why it cannot. */
@@ -132,6 +146,26 @@ typedef struct MarsviewPlugin {
      * After stop_clock has returned, no tick runs or begins. */
     uint32_t (*start_clock)(MarsviewDevice* device, MarsviewTick tick, void* self);
     void (*stop_clock)(MarsviewDevice* device);
+
+    /* The following may be null. */
+
+    /* Why the last result was MARSVIEW_UNREADY or MARSVIEW_LOST and what to do about it, as one
+     * sentence in UTF-8 that follows the device's name and a colon: "is not calibrated; put the
+     * stylus into its holder". `text` has room for text_bytes including the terminating 0 and is
+     * empty when passed. At most a few calls a second. */
+    void (*message)(MarsviewDevice* device, char* text, uint32_t text_bytes);
+
+    /* The user states that the device is held in its home position: calibrates it there. Called
+     * after `open` and before the first `read`; the device is closed again unless the result is
+     * MARSVIEW_FINE. A device whose plugin has this function is offered to the user for calibration
+     * while `read` returns MARSVIEW_UNREADY; `message` describes the home position. */
+    uint32_t (*calibrate)(MarsviewDevice* device);
+
+    /* Replaces `write` where it is present: force and torque together, in the workspace frame. The
+     * torque is zero at present, since the terrain is touched with a point. */
+    uint32_t (*write_wrench)(MarsviewDevice* device,
+                             const double force_n[3],
+                             const double torque_nm[3]);
 } MarsviewPlugin;
 
 /* The exported function. The table must stay valid as long as the program runs. */

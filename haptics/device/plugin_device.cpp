@@ -1,6 +1,7 @@
 #include "haptics/device/plugin_device.h"
 
 #include "haptics/device/capability_check.h"
+#include "haptics/device/plugin_text.h"
 #include "haptics/device/watched_call.h"
 
 #include <algorithm>
@@ -14,6 +15,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kClosePatience{2000};
+constexpr std::chrono::milliseconds kMessagePatience{500};
+constexpr std::chrono::milliseconds kMessageInterval{250};
+constexpr std::size_t kMessageBytes = 400;
 constexpr std::uint32_t kSmallNumberMax = 255;
 
 // A status that the interface does not define means a broken device.
@@ -92,6 +96,8 @@ std::optional<std::string> PluginDevice::describe(const std::string& plugin_name
     capabilities_.buttons = smallNumber(c.buttons);
     capabilities_.owns_clock = (c.flags & MARSVIEW_OWNS_CLOCK) != 0;
     capabilities_.has_presence = (c.flags & MARSVIEW_HAS_PRESENCE) != 0;
+    capabilities_.can_set_home = table_.calibrate != nullptr;
+    capabilities_.torque_nm_peak = c.torque_nm_peak;
     if (capabilities_.owns_clock && table_.start_clock == nullptr) {
         return "states that it owns the clock but has no function to start it";
     }
@@ -101,8 +107,10 @@ std::optional<std::string> PluginDevice::describe(const std::string& plugin_name
 DeviceStatus PluginDevice::read(DeviceSample& sample) noexcept
 {
     sample_.fill(std::byte{0});
-    const DeviceStatus status =
-        noted(table_.read(device_, reinterpret_cast<MarsviewSample*>(sample_.data())));
+    const std::uint32_t answer =
+        table_.read(device_, reinterpret_cast<MarsviewSample*>(sample_.data()));
+    answer_.store(answer, std::memory_order_relaxed);
+    const DeviceStatus status = noted(answer);
     if (status != DeviceStatus::Fine) {
         return status;
     }
@@ -110,6 +118,9 @@ DeviceStatus PluginDevice::read(DeviceSample& sample) noexcept
     std::memcpy(&theirs, sample_.data(), sizeof theirs);
     sample.position = {theirs.position_m[0], theirs.position_m[1], theirs.position_m[2]};
     sample.twist_rad = theirs.twist_rad;
+    const double(&q)[4] = theirs.orientation; // NOLINT(modernize-avoid-c-arrays): C's
+    const bool is_measured = q[0] != 0.0 || q[1] != 0.0 || q[2] != 0.0 || q[3] != 0.0;
+    sample.orientation = is_measured ? Orientation{q[0], q[1], q[2], q[3]} : Orientation{};
     sample.buttons = theirs.buttons;
     sample.is_held = !capabilities_.has_presence || theirs.is_held != 0;
     sample.time = timeOf(theirs.time_ns);
@@ -119,7 +130,14 @@ DeviceStatus PluginDevice::read(DeviceSample& sample) noexcept
 DeviceStatus PluginDevice::write(const Vec3& force_n) noexcept
 {
     const double force[3] = {force_n.x, force_n.y, force_n.z}; // NOLINT(modernize-avoid-c-arrays)
-    return noted(table_.write(device_, force));
+    const double torque[3] = {};                               // NOLINT(modernize-avoid-c-arrays)
+    const std::uint32_t answer = table_.write_wrench != nullptr
+                                     ? table_.write_wrench(device_, force, torque)
+                                     : table_.write(device_, force);
+    if (answer != MARSVIEW_FINE) { // the status of `read` stays known otherwise
+        answer_.store(answer, std::memory_order_relaxed);
+    }
+    return noted(answer);
 }
 
 DeviceStatus PluginDevice::noted(std::uint32_t answer) noexcept
@@ -130,14 +148,55 @@ DeviceStatus PluginDevice::noted(std::uint32_t answer) noexcept
     return statusOf(answer);
 }
 
+std::optional<std::string> PluginDevice::calibrate()
+{
+    if (table_.calibrate == nullptr) {
+        return "cannot be calibrated by \",home\"; its plugin has no function for it";
+    }
+    const std::uint32_t answer = table_.calibrate(device_);
+    if (noted(answer) == DeviceStatus::Fine) {
+        return std::nullopt;
+    }
+    answer_.store(answer, std::memory_order_relaxed);
+    const std::string why = message();
+    return why.empty() ? "could not be calibrated; its plugin gave no reason" : why;
+}
+
 std::string PluginDevice::trouble() const
 {
     const std::uint32_t answer = strange_answer_.load(std::memory_order_relaxed);
-    return answer == 0 ? std::string()
-                       : fmt::format(
-                             "its plugin returned {}, an unknown status; report it to the "
-                             "plugin's makers",
-                             answer);
+    if (answer != 0) {
+        return fmt::format(
+            "its plugin returned {}, an unknown status; report it to the plugin's "
+            "makers",
+            answer);
+    }
+    return message();
+}
+
+std::string PluginDevice::message() const
+{
+    const std::uint32_t answer = answer_.load(std::memory_order_relaxed);
+    if (table_.message == nullptr || (answer != MARSVIEW_UNREADY && answer != MARSVIEW_LOST)) {
+        return {};
+    }
+    const std::lock_guard lock(message_mutex_);
+    const Clock::time_point now = Clock::now();
+    if (is_mute_ || (answer == message_answer_ && now - message_time_ < kMessageInterval)) {
+        return message_;
+    }
+    const auto said = callWatched(kMessagePatience, [ask = table_.message, device = device_] {
+        std::array<char, kMessageBytes> text{};
+        ask(device, text.data(), text.size());
+        return shownPluginText(text.data(), text.size());
+    });
+    is_mute_ = !said.has_value();
+    message_ = said.value_or(
+        "did not return from being asked why it is not ready; report it to "
+        "the plugin's makers");
+    message_answer_ = answer;
+    message_time_ = now;
+    return message_;
 }
 
 bool PluginDevice::startClock(ClockTick tick, void* self) noexcept

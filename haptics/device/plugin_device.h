@@ -6,8 +6,10 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -42,8 +44,13 @@ public:
     void stopClock() noexcept override;
     std::string trouble() const override;
 
+    /// Calibrates the device, which is in its home position. Call after describe(), before anything
+    /// else. Returns the reason if that fails, phrased to follow the device's name.
+    std::optional<std::string> calibrate();
+
 private:
     DeviceStatus noted(std::uint32_t answer) noexcept;
+    std::string message() const;
 
     MarsviewPlugin table_;
     MarsviewDevice* device_;
@@ -51,6 +58,15 @@ private:
     ClockTick tick_ = nullptr;
     void* tick_self_ = nullptr;
     std::atomic<std::uint32_t> strange_answer_{0}; // last unknown status; 0: none
+    std::atomic<std::uint32_t> answer_{MARSVIEW_FINE};
+
+    // The plugin is asked for its message on a watched thread, rarely, and never again once it did
+    // not return.
+    mutable std::mutex message_mutex_;
+    mutable std::string message_;
+    mutable std::uint32_t message_answer_ = MARSVIEW_FINE; // the status that the message is about
+    mutable std::chrono::steady_clock::time_point message_time_;
+    mutable bool is_mute_ = false;
     // The plugin may have been compiled with a larger sample struct than this program has.
     alignas(std::max_align_t) std::array<std::byte, kSampleBytesMax> sample_{};
 };

@@ -3,6 +3,7 @@
 #include "core/base/environment.h"
 #include "haptics/device/device_lock.h"
 #include "haptics/device/guarded_device.h"
+#include "haptics/device/home_option.h"
 #include "haptics/device/last_trouble.h"
 #include "haptics/device/plugin_call.h"
 #include "haptics/device/watched_call.h"
@@ -290,6 +291,7 @@ std::string PluginDriver::folderNames() const
 Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view address)
 {
     const std::string uri = fmt::format("{}:{}", scheme(), address);
+    const PluginHoming homing = takeHomeOption(address) ? PluginHoming::AtHome : PluginHoming::None;
     const auto [named, id] = split(address);
     const fs::path file = fileNamed(named);
     if (file.empty()) {
@@ -320,13 +322,13 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
     using Opened = Result<std::unique_ptr<HapticDevice>>;
     auto device =
         callWatched(options_.patience,
-                    [library = *library, id = id, uri,
+                    [library = *library, id = id, uri, homing,
                      guard = GuardedDevice::Options{.plugin = file,
                                                     .marker_folder = options_.marker_folder,
                                                     .lock = std::move(*lock),
                                                     .last_trouble = last},
                      held = std::optional(std::move(*marker))]() mutable -> Opened {
-                        Opened opened = library->open(id, uri);
+                        Opened opened = library->open(id, uri, homing);
                         if (opened) {
                             // The new marker is made before the old one is removed, so that there
                             // is no unmarked interval.

@@ -37,12 +37,12 @@ std::vector<std::filesystem::path>
 installedPluginFolders(const std::filesystem::path& program_folder);
 
 /// "plugin:/path/of/it.so", or "plugin:it.so" in one of the folders; append "#id" to select one of
-/// several devices. A plugin cannot crash the program repeatedly: it is loaded, queried and opened
-/// on watched threads, and a plugin that crashed the program in one of these calls, in its first
-/// seconds of running, or while it was closed, is skipped from then on (CrashMarker,
-/// GuardedDevice). The last problem with a device is shown when the device is found again
-/// (LastTrouble). Only one program at a time can use a device. Every find() scans the folders
-/// again.
+/// several devices, and ",home" to calibrate one that is in its home position. A plugin cannot
+/// crash the program repeatedly: it is loaded, queried and opened on watched threads, and a plugin
+/// that crashed the program in one of these calls, in its first seconds of running, or while it was
+/// closed, is skipped from then on (CrashMarker, GuardedDevice). The last problem with a device is
+/// shown when the device is found again (LastTrouble). Only one program at a time can use a device.
+/// Every find() scans the folders again.
 class PluginDriver final : public DeviceDriver {
 public:
     explicit PluginDriver(PluginOptions options = PluginOptions::standard());

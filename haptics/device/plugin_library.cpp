@@ -3,6 +3,7 @@
 #include "haptics/device/checked_device.h"
 #include "haptics/device/loader_message.h"
 #include "haptics/device/plugin_device.h"
+#include "haptics/device/plugin_text.h"
 
 #include <algorithm>
 #include <array>
@@ -25,17 +26,9 @@ static_assert(sizeof(MarsviewFoundDevice) >= kFoundDeviceBytesMin);
 constexpr std::uint32_t kStructBytesMax = 64 * 1024;
 constexpr std::size_t kTextMax = 200;
 
-// A plugin's text may be anything: line breaks are removed, and it is truncated.
 std::string shownText(const char* text)
 {
-    if (text == nullptr) {
-        return {};
-    }
-    std::string shown(text, strnlen(text, kTextMax));
-    std::replace_if(
-        shown.begin(), shown.end(),
-        [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
-    return shown;
+    return shownPluginText(text, kTextMax);
 }
 
 std::string complaintOfLoader(const std::filesystem::path& file)
@@ -146,8 +139,8 @@ std::vector<PluginEntry> PluginLibrary::enumerate() const
     return entries;
 }
 
-Result<std::unique_ptr<HapticDevice>> PluginLibrary::open(const std::string& id,
-                                                          std::string_view uri) const
+Result<std::unique_ptr<HapticDevice>>
+PluginLibrary::open(const std::string& id, std::string_view uri, PluginHoming homing) const
 {
     std::array<char, kTextMax + 1> complaint{};
     MarsviewDevice* opened = table_.open(id.c_str(), complaint.data(), complaint.size());
@@ -162,6 +155,11 @@ Result<std::unique_ptr<HapticDevice>> PluginLibrary::open(const std::string& id,
     if (const auto fault = device->describe(name_)) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: {}; report it to the plugin's makers", uri, *fault)};
+    }
+    if (homing == PluginHoming::AtHome) {
+        if (const auto why = device->calibrate()) {
+            return Error{ErrorCode::Unsupported, fmt::format("{}: {}", uri, *why)};
+        }
     }
     return std::unique_ptr<HapticDevice>(std::make_unique<CheckedDevice>(std::move(device)));
 }

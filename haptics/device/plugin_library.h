@@ -5,6 +5,7 @@
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/plugin_abi.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,6 +21,9 @@ struct PluginEntry {
     std::string reason; // empty if it can be opened
 };
 
+/// Whether a device is calibrated at the pose that it has when it is opened.
+enum class PluginHoming : std::uint8_t { None, AtHome };
+
 /// Loaded libraries stay loaded. All calls run the plugin's code and may hang or crash with it:
 /// PluginDriver guards them. Any thread, one at a time.
 class PluginLibrary {
@@ -32,7 +36,9 @@ public:
     std::vector<PluginEntry> enumerate() const;
     /// Rejects devices with implausible capabilities. The device is wrapped in a CheckedDevice.
     /// Errors begin with `uri`.
-    Result<std::unique_ptr<HapticDevice>> open(const std::string& id, std::string_view uri) const;
+    Result<std::unique_ptr<HapticDevice>> open(const std::string& id,
+                                               std::string_view uri,
+                                               PluginHoming homing = PluginHoming::None) const;
 
 private:
     PluginLibrary(const MarsviewPlugin& table, std::string name)

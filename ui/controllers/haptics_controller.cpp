@@ -1,7 +1,7 @@
 #include "ui/controllers/haptics_controller.h"
 
 #include "core/raster/output_check.h"
-#include "haptics/drivers/polhem/polhem_driver.h"
+#include "haptics/device/home_option.h"
 #include "haptics/drivers/replay_driver.h"
 #include "haptics/interaction/workspace_walls.h"
 #include "ui/canvas/terrain_view.h"
@@ -34,7 +34,7 @@ bool isForWindows(const FoundDevice& device)
 
 QString lastingUri(const QString& uri)
 {
-    return QString::fromStdString(lastingPolhemUri(uri.toStdString()));
+    return QString::fromStdString(marsview::lastingUri(uri.toStdString()));
 }
 
 bool isEmergencyKey(const QKeyEvent& event)
@@ -214,8 +214,8 @@ bool HapticsController::isReplaying() const
 
 bool HapticsController::canBeSetAtRest() const
 {
-    return connection_ == HapticsConnection::Connected &&
-           uri_.startsWith(QStringLiteral("polhem:"));
+    return connection_ == HapticsConnection::Connected && loop_ != nullptr &&
+           loop_->device().can_set_home;
 }
 
 void HapticsController::stopReplay()

@@ -48,6 +48,7 @@ PolhemDevice::PolhemDevice(Options options)
     capabilities_.stiffness_n_per_m_max = parameters_.stiffness_n_per_m_max;
     capabilities_.axes_in = parameters_.twist_counts_per_turn != 0.0 ? 6 : 3;
     capabilities_.axes_out = 3;
+    capabilities_.can_set_home = true;
     capabilities_.buttons = 0; // the board's only button is for calibration
     thread_ = std::thread([this] { run(); });
     sched_param parameters{};

@@ -99,25 +99,6 @@ Result<Address> parseAddress(std::string_view uri, std::string_view address)
 
 } // namespace
 
-std::string lastingPolhemUri(std::string_view uri)
-{
-    constexpr std::string_view kHome = ",home";
-    std::string lasting(uri);
-    if (!uri.starts_with("polhem:")) {
-        return lasting;
-    }
-    for (std::size_t at = lasting.find(kHome); at != std::string::npos;
-         at = lasting.find(kHome, at)) {
-        const std::size_t end = at + kHome.size();
-        if (end == lasting.size() || lasting[end] == ',') {
-            lasting.erase(at, kHome.size());
-        } else {
-            at = end; // the name continues: no match
-        }
-    }
-    return lasting;
-}
-
 PolhemOptions PolhemOptions::standard()
 {
     PolhemOptions options;

@@ -21,10 +21,6 @@ struct PolhemOptions {
     static PolhemOptions standard();
 };
 
-/// The part of a URI that may be saved: without ",home", which states that the device is in its
-/// home position now. URIs of other drivers are returned unchanged.
-std::string lastingPolhemUri(std::string_view uri);
-
 /// "polhem:serial=4711" finds the device whatever its path is; "polhem:usb=1234:0006" does the same
 /// for a device without a serial number if it is the only one of its kind. Invalid, listing the
 /// paths to choose from, if several devices match. "polhem:/dev/hidraw2" opens a path, and

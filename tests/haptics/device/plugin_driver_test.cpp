@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <dlfcn.h>
@@ -218,6 +219,108 @@ TEST(PluginDriver, KeepsWorkingWithPluginsWhoseStructsHaveGrown)
     EXPECT_EQ(sample.position.x, 0.001);
 }
 
+// Compiled against the header as it was before its structs grew.
+TEST(PluginDriver, OpensAPluginBuiltAgainstTheFirstHeader)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("is_first");
+    PluginDriver driver(folder.options());
+    auto device = driver.open(file.string());
+    ASSERT_TRUE(device) << device.error().message;
+    const DeviceCapabilities& c = (*device)->capabilities();
+    EXPECT_EQ(c.name, "Tiny One");
+    EXPECT_EQ(c.axes_in, 6);
+    EXPECT_EQ(c.torque_nm_peak, 0.0);
+    EXPECT_FALSE(c.can_set_home);
+    DeviceSample sample;
+    EXPECT_EQ((*device)->write({1.0, -2.0, 0.5}), DeviceStatus::Fine);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ(sample.position, (WorkspacePoint{0.001, -0.002, 0.0005}));
+    EXPECT_EQ(sample.twist_rad, 0.25);
+    EXPECT_EQ(sample.orientation, Orientation{}) << "not measured";
+    EXPECT_EQ(sample.buttons, 2U);
+    EXPECT_EQ((*device)->trouble(), "");
+    device->reset();
+    EXPECT_THAT(driver.open(file.string() + ",home").error().message,
+                HasSubstr("cannot be calibrated by \",home\""));
+}
+
+TEST(PluginDriver, ShowsTheMessageOfADeviceThatIsNotReady)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    for (const auto& [behaviour, message] :
+         {std::pair{"explains", "is not calibrated; put the stylus into its holder"},
+          std::pair{"is_lost", "its cable is out"}}) {
+        auto device = driver.open(folder.add(behaviour, behaviour).string());
+        ASSERT_TRUE(device) << device.error().message;
+        EXPECT_EQ((*device)->trouble(), "") << "nothing has been read";
+        DeviceSample sample;
+        EXPECT_NE((*device)->read(sample), DeviceStatus::Fine);
+        EXPECT_EQ((*device)->trouble(), message);
+        EXPECT_EQ((*device)->write({}),
+                  behaviour == std::string("is_lost") ? DeviceStatus::Lost : DeviceStatus::Fine);
+        EXPECT_EQ((*device)->trouble(), message) << "writing does not change the reason";
+    }
+}
+
+TEST(PluginDriver, AsksAPluginThatHangsForItsMessageOnlyOnce)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    const fs::path file = folder.add("hangs_explaining");
+    auto device = driver.open(file.string());
+    ASSERT_TRUE(device) << device.error().message;
+    DeviceSample sample;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_THAT((*device)->trouble(), StartsWith("did not return from being asked"));
+    }
+    void* plugin = dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD);
+    ASSERT_NE(plugin, nullptr);
+    EXPECT_EQ(static_cast<const std::atomic<int>*>(dlsym(plugin, "tiny_asked"))->load(), 1);
+    dlclose(plugin);
+}
+
+TEST(PluginDriver, CalibratesADeviceThatTheUserHoldsInItsHomePosition)
+{
+    const PluginFolder folder;
+    const fs::path file = folder.add("calibrates");
+    PluginDriver driver(folder.options());
+    DeviceSample sample;
+    auto device = driver.open(file.string());
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_TRUE((*device)->capabilities().can_set_home);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Unready);
+    device->reset();
+    device = driver.open(file.string() + ",home");
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ((*device)->trouble(), "");
+    device->reset();
+
+    const fs::path other = folder.add("fails_calibrating", "fails");
+    EXPECT_EQ(driver.open(other.string() + ",home").error().message,
+              "plugin:" + other.string() + ",home: is not in its home position");
+}
+
+TEST(PluginDriver, PassesOrientationAndTorqueOn)
+{
+    const PluginFolder folder;
+    PluginDriver driver(folder.options());
+    auto device = driver.open(folder.add("has_six_axes").string());
+    ASSERT_TRUE(device) << device.error().message;
+    EXPECT_EQ((*device)->capabilities().axes_out, 6);
+    EXPECT_EQ((*device)->capabilities().torque_nm_peak, 0.5);
+    DeviceSample sample;
+    EXPECT_EQ((*device)->write({1.0, -2.0, 0.5}), DeviceStatus::Fine);
+    EXPECT_EQ((*device)->read(sample), DeviceStatus::Fine);
+    EXPECT_EQ(sample.position, (WorkspacePoint{0.001, -0.002, 0.0005}));
+    EXPECT_EQ(sample.twist_rad, 0.5) << "the plugin was called with force and torque together";
+    EXPECT_NEAR(sample.orientation.w, std::sqrt(0.5), 1e-15);
+    EXPECT_NEAR(sample.orientation.x, -std::sqrt(0.5), 1e-15);
+}
+
 TEST(PluginDriver, SaysWhyItRefusesALibrary)
 {
     EXPECT_THAT(foundOf("has_other_version").reason,
@@ -275,7 +378,7 @@ TEST(PluginDriver, DropsADeviceWhoseSamplesAreNotFinite)
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
     EXPECT_EQ((*device)->write({1.0, 0.0, 0.0}), DeviceStatus::Lost);
     EXPECT_EQ(sample.position, last.position) << "withheld";
-    EXPECT_EQ((*device)->trouble(), "its samples contain numbers that are not finite");
+    EXPECT_EQ((*device)->trouble(), "its samples contain invalid numbers");
 }
 
 TEST(PluginDriver, DropsADeviceThatSpeaksInMillimetres)
@@ -542,7 +645,7 @@ TEST(PluginDriver, SaysWhatWentWrongTheLastTimeOfADeviceThatCanBeUsed)
           Trouble{"is_empty",
                   "states a workspace from -0.06 to -0.06 m along y; report it "
                   "to the plugin's makers"},
-          Trouble{"says_nan", "its samples contain numbers that are not finite"},
+          Trouble{"says_nan", "its samples contain invalid numbers"},
           Trouble{"says_unready",
                   "its plugin reports that it is not ready, without a reason; check whether it "
                   "needs calibration and whether its emergency stop is pressed"}}) {

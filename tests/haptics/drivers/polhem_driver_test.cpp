@@ -1,4 +1,5 @@
 // The whole driver for WoodenHaptics and Polhem arms, against simulated HID devices.
+#include "haptics/device/home_option.h"
 #include "haptics/drivers/polhem/polhem_driver.h"
 #include "haptics/drivers/polhem/polhem_report.h"
 #include "tests/haptics/drivers/fake_hid.h"
@@ -472,13 +473,12 @@ TEST_F(PolhemDriverTest, SpeaksTheOlderLayoutsToo)
 
 TEST(PolhemUri, IsRememberedWithoutBeingAtHome)
 {
-    EXPECT_EQ(lastingPolhemUri("polhem:/dev/hidraw7,home"), "polhem:/dev/hidraw7");
-    EXPECT_EQ(lastingPolhemUri("polhem:,home,parameters=/a.json,home"),
-              "polhem:,parameters=/a.json");
-    EXPECT_EQ(lastingPolhemUri("polhem:,parameters=/a,homely.json"),
-              "polhem:,parameters=/a,homely.json");
-    EXPECT_EQ(lastingPolhemUri("polhem:/dev/hidraw7"), "polhem:/dev/hidraw7");
-    EXPECT_EQ(lastingPolhemUri("plugin:x,home"), "plugin:x,home");
+    EXPECT_EQ(lastingUri("polhem:/dev/hidraw7,home"), "polhem:/dev/hidraw7");
+    EXPECT_EQ(lastingUri("polhem:,home,parameters=/a.json,home"), "polhem:,parameters=/a.json");
+    EXPECT_EQ(lastingUri("polhem:,parameters=/a,homely.json"), "polhem:,parameters=/a,homely.json");
+    EXPECT_EQ(lastingUri("polhem:/dev/hidraw7"), "polhem:/dev/hidraw7");
+    EXPECT_EQ(lastingUri("plugin:x,home"), "plugin:x");
+    EXPECT_EQ(lastingUri("record:x,home"), "record:x,home");
 }
 
 TEST_F(PolhemDriverTest, SaysWhatItCannotOpen)

@@ -2,7 +2,11 @@
  * library, see tests/CMakeLists.txt. */
 #define _POSIX_C_SOURCE 200809L
 
+#if defined(TINY_IS_FIRST)
+#include "tests/haptics/device/plugins/first_header/plugin_abi.h"
+#else
 #include "haptics/device/plugin_abi.h"
+#endif
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -15,6 +19,8 @@
 
 struct MarsviewDevice {
     double force_n[3];
+    double torque_nm[3];
+    int is_calibrated;
     unsigned reads;
     pthread_t thread;
     atomic_int is_ticking;
@@ -103,9 +109,12 @@ static uint32_t describeDevice(MarsviewDevice* device, MarsviewCapabilities* cap
     c.workspace_high_m[1] = c.workspace_low_m[1];
 #elif defined(TINY_IS_NEGATIVE)
     c.force_n_peak = -3.0;
-#elif defined(TINY_OWNS_CLOCK) || defined(TINY_CRASHES_STARTING) || \
-    defined(TINY_FAILS_STARTING)
+#elif defined(TINY_OWNS_CLOCK) || defined(TINY_CRASHES_STARTING) || defined(TINY_FAILS_STARTING)
     c.flags |= MARSVIEW_OWNS_CLOCK;
+#endif
+#if defined(TINY_HAS_SIX_AXES)
+    c.axes_out = 6;
+    c.torque_nm_peak = 0.5;
 #endif
     *capabilities = c;
     return MARSVIEW_FINE;
@@ -125,6 +134,12 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
     sample->twist_rad = 0.25;
     sample->buttons = 2;
     sample->is_held = 1;
+#if defined(TINY_HAS_SIX_AXES)
+    /* The tip down, the stylus not turned; and a torque, so that a test can check it. */
+    sample->orientation[0] = 0.70710678118654752;
+    sample->orientation[1] = -0.70710678118654752;
+    sample->twist_rad = device->torque_nm[0] + device->torque_nm[1] + device->torque_nm[2];
+#endif
 #if defined(TINY_SAYS_NAN)
     if (device->reads > 2) {
         sample->position_m[1] = 0.0 / 0.0;
@@ -135,8 +150,12 @@ static uint32_t readDevice(MarsviewDevice* device, MarsviewSample* sample)
     abort();
 #elif defined(TINY_HANGS_READING)
     hang();
-#elif defined(TINY_SAYS_UNREADY)
+#elif defined(TINY_SAYS_UNREADY) || defined(TINY_EXPLAINS) || defined(TINY_HANGS_EXPLAINING)
     return MARSVIEW_UNREADY;
+#elif defined(TINY_IS_LOST)
+    return MARSVIEW_LOST;
+#elif defined(TINY_CALIBRATES) || defined(TINY_FAILS_CALIBRATING)
+    return device->is_calibrated ? MARSVIEW_FINE : MARSVIEW_UNREADY;
 #elif defined(TINY_ANSWERS_NONSENSE)
     return 4711;
 #endif
@@ -151,6 +170,55 @@ static uint32_t writeDevice(MarsviewDevice* device, const double force_n[3])
     memcpy(device->force_n, force_n, sizeof device->force_n);
     return MARSVIEW_FINE;
 }
+
+#if defined(TINY_EXPLAINS) || defined(TINY_IS_LOST) || defined(TINY_CALIBRATES) ||                 \
+    defined(TINY_FAILS_CALIBRATING) || defined(TINY_HANGS_EXPLAINING)
+/* How often `message` was called, for tests that look it up. */
+MARSVIEW_PLUGIN_EXPORT atomic_int tiny_asked;
+
+static void explain(MarsviewDevice* device, char* text, uint32_t text_bytes)
+{
+    (void)device;
+    atomic_fetch_add(&tiny_asked, 1);
+#if defined(TINY_HANGS_EXPLAINING)
+    hang();
+#elif defined(TINY_IS_LOST)
+    snprintf(text, text_bytes, "its cable\nis out");
+#elif defined(TINY_FAILS_CALIBRATING)
+    snprintf(text, text_bytes, "is not in its home position");
+#else
+    snprintf(text, text_bytes, "is not calibrated; put the stylus into its holder");
+#endif
+}
+#else
+#define explain NULL
+#endif
+
+#if defined(TINY_CALIBRATES) || defined(TINY_FAILS_CALIBRATING)
+static uint32_t calibrateDevice(MarsviewDevice* device)
+{
+#if defined(TINY_FAILS_CALIBRATING)
+    return MARSVIEW_UNREADY;
+#endif
+    device->is_calibrated = 1;
+    return MARSVIEW_FINE;
+}
+#else
+#define calibrateDevice NULL
+#endif
+
+#if defined(TINY_HAS_SIX_AXES)
+static uint32_t
+writeWrench(MarsviewDevice* device, const double force_n[3], const double torque_nm[3])
+{
+    memcpy(device->torque_nm, torque_nm, sizeof device->torque_nm);
+    device->torque_nm[0] += 0.5; /* shows that this function was called */
+    memcpy(device->force_n, force_n, sizeof device->force_n);
+    return MARSVIEW_FINE;
+}
+#else
+#define writeWrench NULL
+#endif
 
 #if defined(TINY_OWNS_CLOCK)
 static void* runClock(void* self)
@@ -256,7 +324,12 @@ static const struct {
 #else
                readDevice,
 #endif
-               writeDevice, startClock, stopClock},
+               writeDevice, startClock, stopClock
+#if !defined(TINY_IS_FIRST)
+               ,
+               explain, calibrateDevice, writeWrench
+#endif
+           },
            NULL};
 
 #if !defined(TINY_LACKS_SYMBOL)
