@@ -1,8 +1,9 @@
 #include "haptics/drivers/openhaptics/openhaptics_api.h"
 
-#include <algorithm>
-#include <dlfcn.h>
+#include "haptics/drivers/support/vendor_library.h"
+
 #include <fmt/format.h>
+#include <optional>
 
 namespace marsview {
 namespace {
@@ -20,32 +21,14 @@ std::vector<std::string> OpenHapticsApi::defaultNames()
 Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsApi::load(const std::vector<std::string>& names,
                                                              std::string& complaint)
 {
-    void* library = nullptr;
-    complaint.clear();
-    for (const std::string& name : names) {
-        library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        if (library != nullptr) {
-            break;
-        }
-        const char* text = dlerror(); // NOLINT(concurrency-mt-unsafe): glibc's is
-        if (complaint.empty() && text != nullptr) {
-            complaint = text;
-        }
-    }
-    if (library == nullptr) {
+    std::optional<VendorLibrary> library = VendorLibrary::load(names, complaint);
+    if (!library) {
         return Error{ErrorCode::NotFound,
                      "OpenHaptics is not installed; install OpenHaptics and the device's driver "
                      "from 3D Systems"};
     }
     const auto api = std::make_shared<OpenHapticsApi>();
-    std::string missing;
-    const auto find = [&](auto& function, const char* name) {
-        using Function = std::remove_reference_t<decltype(function)>;
-        function = reinterpret_cast<Function>(dlsym(library, name));
-        if (function == nullptr && missing.empty()) {
-            missing = name;
-        }
-    };
+    const auto find = [&](auto& function, const char* name) { library->find(function, name); };
     find(api->init_device, "hdInitDevice");
     find(api->disable_device, "hdDisableDevice");
     find(api->make_current_device, "hdMakeCurrentDevice");
@@ -66,11 +49,11 @@ Result<std::shared_ptr<OpenHapticsApi>> OpenHapticsApi::load(const std::vector<s
     find(api->start_scheduler_, "hdStartScheduler");
     find(api->stop_scheduler_, "hdStopScheduler");
     find(api->set_scheduler_rate_, "hdSetSchedulerRate");
-    if (!missing.empty()) {
+    if (!library->missing().empty()) {
         return Error{ErrorCode::Unsupported,
                      fmt::format("the OpenHaptics library lacks the function {}; install "
                                  "OpenHaptics 3.0 or later",
-                                 missing)};
+                                 library->missing())};
     }
     return api;
 }

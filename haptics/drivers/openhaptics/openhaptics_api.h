@@ -45,6 +45,7 @@ constexpr unsigned int kErrorGroup = 0xFF00;
 constexpr Enum kCurrentButtons = 0x2000;
 constexpr Enum kCurrentInkwellSwitch = 0x2002;
 constexpr Enum kCurrentPosition = 0x2050;     // 3 doubles, mm
+constexpr Enum kCurrentTransform = 0x2052;    // 16 doubles, column-major
 constexpr Enum kCurrentGimbalAngles = 0x2150; // 3 doubles, rad; the third is the stylus twist
 constexpr Enum kDeviceModelType = 0x2501;
 constexpr Enum kDeviceVendor = 0x2503;
@@ -63,6 +64,7 @@ constexpr Enum kMaxForceClamping = 0x4001;
 constexpr Enum kCalibrationOk = 0x5000;
 constexpr Enum kCalibrationNeedsUpdate = 0x5001;
 constexpr Enum kCalibrationNeedsManualInput = 0x5002;
+constexpr int kCalibrationStyleEncoderReset = 1 << 0;
 constexpr int kCalibrationStyleAuto = 1 << 1;
 constexpr int kCalibrationStyleInkwell = 1 << 2;
 

@@ -53,6 +53,7 @@ OpenHapticsDevice::OpenHapticsDevice(Options options, hd::Handle handle)
 Result<std::unique_ptr<HapticDevice>> OpenHapticsDevice::open(Options options)
 {
     const std::string uri = options.uri;
+    const bool is_at_home = options.is_at_home;
     const std::shared_ptr<OpenHapticsApi> api = options.api;
     api->takeErrors();
     const hd::Handle handle =
@@ -74,6 +75,20 @@ Result<std::unique_ptr<HapticDevice>> OpenHapticsDevice::open(Options options)
                      fmt::format("{}: {}, which is implausible; run the vendor's setup program "
                                  "(Touch_Setup) again",
                                  uri, *fault)};
+    }
+    if (is_at_home) {
+        if (!device->capabilities_.can_set_home) {
+            return Error{ErrorCode::Unsupported,
+                         fmt::format("{}: has no encoders to reset in a home position; open it "
+                                     "without \",home\": it {}",
+                                     uri,
+                                     device->calibrationAdvice(hd::kCalibrationNeedsManualInput))};
+        }
+        if (const unsigned int reset_error = device->resetEncoders(); reset_error != hd::kSuccess) {
+            return Error{ErrorCode::Unreadable,
+                         fmt::format("{}: its encoders were not reset: it {}", uri,
+                                     openHapticsErrorText(reset_error))};
+        }
     }
     return std::unique_ptr<HapticDevice>(std::make_unique<CheckedDevice>(std::move(device)));
 }
@@ -118,17 +133,9 @@ void OpenHapticsDevice::describe()
     capabilities_.axes_out = 3;
     capabilities_.buttons = kButtons;
     capabilities_.owns_clock = true;
+    describeCalibration();
     // Devices without an inkwell also report a state for its switch.
-    int styles = 0;
-    const bool has_styles = get(api_->get_integerv, hd::kCalibrationStyle, &styles);
-    const bool has_inkwell = has_styles && (styles & hd::kCalibrationStyleInkwell) != 0;
-    // The third style, resetting the encoders, needs a person who moves the device to its home
-    // position.
-    for (const int style : {hd::kCalibrationStyleAuto, hd::kCalibrationStyleInkwell}) {
-        if (has_styles && calibration_style_ == 0 && (styles & style) != 0) {
-            calibration_style_ = static_cast<hd::Enum>(style);
-        }
-    }
+    const bool has_inkwell = (calibration_styles_ & hd::kCalibrationStyleInkwell) != 0;
     unsigned char switched = 0;
     capabilities_.has_presence =
         has_inkwell && get(api_->get_booleanv, hd::kCurrentInkwellSwitch, &switched);
@@ -136,6 +143,29 @@ void OpenHapticsDevice::describe()
     api_->enable(hd::kForceOutput);
     api_->enable(hd::kMaxForceClamping);
     api_->takeErrors();
+}
+
+// The vendor's order: auto before inkwell before encoder reset. An encoder reset takes the current
+// pose as the neutral one, whatever it is, so only a person's statement starts it, before the
+// scheduler runs.
+void OpenHapticsDevice::describeCalibration()
+{
+    int styles = 0;
+    calibration_styles_ = get(api_->get_integerv, hd::kCalibrationStyle, &styles) ? styles : 0;
+    for (const int style : {hd::kCalibrationStyleAuto, hd::kCalibrationStyleInkwell}) {
+        if (calibration_style_ == 0 && (calibration_styles_ & style) != 0) {
+            calibration_style_ = static_cast<hd::Enum>(style);
+        }
+    }
+    capabilities_.can_set_home =
+        calibration_style_ == 0 && (calibration_styles_ & hd::kCalibrationStyleEncoderReset) != 0;
+}
+
+unsigned int OpenHapticsDevice::resetEncoders()
+{
+    api_->make_current_device(handle_);
+    api_->update_calibration(hd::kCalibrationStyleEncoderReset);
+    return api_->takeErrors();
 }
 
 // The headers of some versions number these parameters one higher: the numbering that gives
@@ -250,18 +280,21 @@ void OpenHapticsDevice::beginFrame(Clock::time_point now) noexcept
     }
     std::array<double, 3> position{};
     std::array<double, 3> gimbal{};
+    std::array<double, 16> transform{};
     int buttons = 0;
     unsigned char is_out_of_inkwell = 1; // the switch is 0 with the stylus in it
     api_->get_doublev(hd::kCurrentPosition, position.data());
     api_->get_integerv(hd::kCurrentButtons, &buttons);
     if (capabilities_.axes_in > 3) {
         api_->get_doublev(hd::kCurrentGimbalAngles, gimbal.data());
+        api_->get_doublev(hd::kCurrentTransform, transform.data());
     }
     if (capabilities_.has_presence) {
         api_->get_booleanv(hd::kCurrentInkwellSwitch, &is_out_of_inkwell);
     }
     sample_.position = fromOpenHaptics(position);
-    sample_.twist_rad = gimbal[2];
+    sample_.twist_rad = twistFromOpenHaptics(gimbal[2]);
+    sample_.orientation = orientationFromOpenHaptics(transform);
     sample_.buttons = static_cast<std::uint32_t>(buttons);
     sample_.is_held = is_out_of_inkwell != 0;
     sample_.time = now;
@@ -315,14 +348,31 @@ std::string OpenHapticsDevice::trouble() const
     if (const unsigned int error = error_.load(std::memory_order_relaxed); error != hd::kSuccess) {
         return openHapticsErrorText(error);
     }
-    switch (calibration_.load(std::memory_order_relaxed)) {
-    case hd::kCalibrationOk:
-        return {};
-    case hd::kCalibrationNeedsUpdate:
-        return "is not calibrated yet; put the stylus into the inkwell for a moment";
-    default:
-        return "is not calibrated; do that with the vendor's setup program (Touch_Setup)";
+    const hd::Enum state = calibration_.load(std::memory_order_relaxed);
+    return state == hd::kCalibrationOk ? std::string() : calibrationAdvice(state);
+}
+
+// The table in README.md says which device has which calibration.
+std::string OpenHapticsDevice::calibrationAdvice(hd::Enum state) const
+{
+    const bool has_inkwell = (calibration_styles_ & hd::kCalibrationStyleInkwell) != 0;
+    if (calibration_style_ == hd::kCalibrationStyleAuto) {
+        return has_inkwell ? "is not calibrated yet; move the stylus through its workspace, or put "
+                             "it into the inkwell"
+                           : "is not calibrated yet; move the stylus through its workspace";
     }
+    if (has_inkwell) {
+        return state == hd::kCalibrationNeedsUpdate
+                   ? "is being calibrated; leave the stylus in the inkwell for a moment"
+                   : "is not calibrated; put the stylus into the inkwell";
+    }
+    if (capabilities_.can_set_home) {
+        return "is not calibrated; hold the stylus in its neutral position, with all links at "
+               "right "
+               "angles, and press Set Home Position, or open it there with \",home\" after its "
+               "address";
+    }
+    return "is not calibrated; calibrate it with the vendor's setup program (Touch_Setup)";
 }
 
 } // namespace marsview

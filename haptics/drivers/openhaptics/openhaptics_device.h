@@ -21,10 +21,12 @@ public:
         std::shared_ptr<OpenHapticsApi> api;
         std::string name;             // as in the vendor's configuration; empty: the default one
         std::string uri;              // for errors
+        bool is_at_home = false;      // resets the encoders of a device that has that calibration
         std::optional<FileLock> lock; // keeps other programs away from it
     };
 
-    /// Takes seconds.
+    /// Takes seconds. Unsupported if the encoders of a device are to be reset that calibrates
+    /// itself otherwise.
     static Result<std::unique_ptr<HapticDevice>> open(Options options);
     /// Stops the clock, and leaves the motors without force.
     ~OpenHapticsDevice() override;
@@ -41,6 +43,9 @@ private:
 
     void describe();
     void describeForces();
+    void describeCalibration();
+    unsigned int resetEncoders();
+    std::string calibrationAdvice(hd::Enum state) const;
     template <typename T, typename Get>
     bool get(Get getter, hd::Enum what, T* values) const;
 
@@ -54,7 +59,8 @@ private:
     std::optional<FileLock> lock_;
     hd::Handle handle_;
     DeviceCapabilities capabilities_;
-    hd::Enum calibration_style_ = 0; // works without user action; 0: none
+    int calibration_styles_ = 0;     // all that the device has
+    hd::Enum calibration_style_ = 0; // that the running scheduler can update; 0: none
 
     // Used by the scheduler's thread.
     DeviceSample sample_;

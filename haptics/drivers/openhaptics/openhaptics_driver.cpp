@@ -2,6 +2,7 @@
 
 #include "core/base/environment.h"
 #include "haptics/device/device_lock.h"
+#include "haptics/device/home_option.h"
 #include "haptics/device/watched_call.h"
 #include "haptics/drivers/openhaptics/openhaptics_device.h"
 
@@ -106,6 +107,7 @@ std::vector<FoundDevice> OpenHapticsDriver::find()
 Result<std::unique_ptr<HapticDevice>> OpenHapticsDriver::open(std::string_view address)
 {
     const std::string uri = fmt::format("{}:{}", scheme(), address);
+    const bool is_at_home = takeHomeOption(address);
     const auto api = load();
     if (!api) {
         return Error{api.error().code, fmt::format("{}: {}", uri, api.error().message)};
@@ -123,6 +125,7 @@ Result<std::unique_ptr<HapticDevice>> OpenHapticsDriver::open(std::string_view a
         [options = OpenHapticsDevice::Options{.api = *api,
                                               .name = std::string(address),
                                               .uri = uri,
+                                              .is_at_home = is_at_home,
                                               .lock = std::move(*lock)}]() mutable -> Opened {
             return OpenHapticsDevice::open(std::move(options));
         });

@@ -28,7 +28,8 @@ struct OpenHapticsOptions {
 };
 
 /// "openhaptics:Default Device" opens a device by its name in the vendor's setup program;
-/// "openhaptics:" opens the default one.
+/// "openhaptics:" opens the default one. Append ",home" to reset the encoders of a device that is
+/// held in its neutral position (PHANTOM Premium).
 class OpenHapticsDriver final : public DeviceDriver {
 public:
     explicit OpenHapticsDriver(OpenHapticsOptions options = OpenHapticsOptions::standard());

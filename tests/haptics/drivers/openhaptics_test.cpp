@@ -197,7 +197,7 @@ TEST_F(OpenHapticsDriverTest, DrivesTheTickFromTheVendorsScheduler)
     hd().position_mm[0] = 10.0;
     hd().position_mm[1] = 20.0;
     hd().position_mm[2] = 30.0;
-    hd().gimbal_rad[2] = 0.75;
+    hd().stylus_clockwise_rad = 0.75;
     hd().buttons = 3;
     Tick state{.device = device, .force_n = {0.5, 0.25, -1.0}};
     const auto before = std::chrono::steady_clock::now();
@@ -208,7 +208,7 @@ TEST_F(OpenHapticsDriverTest, DrivesTheTickFromTheVendorsScheduler)
     EXPECT_EQ(state.read, DeviceStatus::Fine);
     EXPECT_EQ(state.written, DeviceStatus::Fine);
     EXPECT_EQ(state.sample.position, (WorkspacePoint{0.01, -0.03, 0.02}));
-    EXPECT_EQ(state.sample.twist_rad, 0.75);
+    EXPECT_EQ(state.sample.twist_rad, -0.75) << "positive counter-clockwise";
     EXPECT_EQ(state.sample.buttons, 3U);
     EXPECT_TRUE(state.sample.is_held);
     EXPECT_GE(state.sample.time, before);
@@ -234,7 +234,7 @@ TEST_F(OpenHapticsDriverTest, TellsTheInkwell)
     device.stopClock();
     opened_.reset();
 
-    hd().calibration_style = 1; // an arm without an inkwell; its switch state is meaningless
+    hd().calibration_style = 1; // a Premium: no inkwell; the state of its switch is meaningless
     hd().inkwell_switch = 0;
     HapticDevice& arm = open();
     EXPECT_FALSE(arm.capabilities().has_presence);
@@ -245,9 +245,179 @@ TEST_F(OpenHapticsDriverTest, TellsTheInkwell)
     EXPECT_TRUE(other.sample.is_held);
 }
 
+namespace {
+
+// The direction in the workspace of what points along `v` in the reference orientation.
+Vec3 turned(const Orientation& o, const Vec3& v)
+{
+    const Vec3 axis{o.x, o.y, o.z};
+    const Vec3 t = cross(axis, v) * 2.0;
+    return v + t * o.w + cross(axis, t);
+}
+
+constexpr Vec3 kTip{0.0, 1.0, 0.0}; // level, away from the user
+constexpr Vec3 kTop{0.0, 0.0, 1.0}; // a mark on the upper side of the level stylus
+
+void expectDirection(const Vec3& v, const Vec3& expected)
+{
+    EXPECT_NEAR(v.x, expected.x, 1e-12);
+    EXPECT_NEAR(v.y, expected.y, 1e-12);
+    EXPECT_NEAR(v.z, expected.z, 1e-12);
+}
+
+} // namespace
+
+// The device is put into a pose; the table in the driver's README says what its library reports.
+TEST_F(OpenHapticsDriverTest, ReportsHowTheStylusIsHeld)
+{
+    HapticDevice& device = open();
+    Tick state{.device = device};
+    ASSERT_TRUE(device.startClock(tick, &state));
+    const auto pose = [&](const Vec3& tip_to_back, double clockwise_rad) {
+        hd().stylus_axis[0] = tip_to_back.x;
+        hd().stylus_axis[1] = tip_to_back.y;
+        hd().stylus_axis[2] = tip_to_back.z;
+        hd().stylus_clockwise_rad = clockwise_rad;
+        run(1);
+        return state.sample;
+    };
+    // In their axes: x right, y up, z toward the user. Level, the tip away from the user.
+    DeviceSample sample = pose({0.0, 0.0, 1.0}, 0.0);
+    EXPECT_EQ(sample.orientation, Orientation{});
+    // The tip down: the upper side points away from the user.
+    sample = pose({0.0, 1.0, 0.0}, 0.0);
+    expectDirection(turned(sample.orientation, kTip), {0.0, 0.0, -1.0});
+    expectDirection(turned(sample.orientation, kTop), {0.0, 1.0, 0.0});
+    EXPECT_NEAR(sample.twist_rad, 0.0, 1e-15);
+    // Then turned clockwise by a right angle, seen from above: from away from the user to the
+    // right.
+    sample = pose({0.0, 1.0, 0.0}, 1.5707963267948966);
+    expectDirection(turned(sample.orientation, kTip), {0.0, 0.0, -1.0});
+    expectDirection(turned(sample.orientation, kTop), {1.0, 0.0, 0.0});
+    EXPECT_NEAR(sample.twist_rad, -1.5707963267948966, 1e-12);
+    EXPECT_NEAR(twistOf(sample.orientation), sample.twist_rad, 1e-12);
+    // The tip to the right.
+    sample = pose({-1.0, 0.0, 0.0}, 0.0);
+    expectDirection(turned(sample.orientation, kTip), {1.0, 0.0, 0.0});
+}
+
+TEST_F(OpenHapticsDriverTest, PassesBothButtonsOn)
+{
+    HapticDevice& device = open();
+    EXPECT_EQ(device.capabilities().buttons, 2);
+    Tick state{.device = device};
+    ASSERT_TRUE(device.startClock(tick, &state));
+    for (const int buttons : {0, 1, 2, 3}) {
+        hd().buttons = buttons;
+        run(1);
+        EXPECT_EQ(state.sample.buttons, static_cast<std::uint32_t>(buttons));
+    }
+}
+
+// A device without calibration of its own: the PHANTOM Premium.
+TEST_F(OpenHapticsDriverTest, ResetsEncodersOnlyWhereAPersonHoldsTheNeutralPosition)
+{
+    hd().calibration_style = 1;
+    hd().position_mm[0] = 30.0; // where it stands in the axes of its calibrated state
+    for (const unsigned needs : {0x5001U, 0x5002U}) {
+        hd().calibration = needs;
+        HapticDevice& device = open("Left Device");
+        EXPECT_TRUE(device.capabilities().can_set_home);
+        Tick state{.device = device, .force_n = {1.0, 0.0, 0.0}};
+        ASSERT_TRUE(device.startClock(tick, &state));
+        run(300);
+        EXPECT_EQ(state.read, DeviceStatus::Unready);
+        EXPECT_EQ(hd().force_n[0], 0.0);
+        EXPECT_EQ(hd().encoder_resets, 0) << "the current pose is not the neutral one";
+        EXPECT_THAT(device.trouble(), HasSubstr("neutral position"));
+        EXPECT_THAT(device.trouble(), HasSubstr("Set Home Position"));
+        EXPECT_THAT(device.trouble(), testing::Not(HasSubstr("inkwell")));
+        device.stopClock();
+        opened_.reset();
+    }
+    HapticDevice& device = open("Left Device,home");
+    EXPECT_STREQ(hd().opened_name, "Left Device");
+    EXPECT_EQ(hd().encoder_resets, 1);
+    EXPECT_EQ(hd().updated_style, 1U);
+    Tick state{.device = device, .force_n = {1.0, 0.0, 0.0}};
+    ASSERT_TRUE(device.startClock(tick, &state));
+    run(1);
+    EXPECT_EQ(state.read, DeviceStatus::Fine);
+    EXPECT_EQ(state.sample.position, WorkspacePoint{});
+    EXPECT_EQ(hd().force_n[0], 1.0);
+    hd().position_mm[0] = 40.0;
+    run(1);
+    EXPECT_EQ(state.sample.position, (WorkspacePoint{0.01, 0.0, 0.0}));
+    EXPECT_EQ(device.trouble(), "");
+}
+
+TEST_F(OpenHapticsDriverTest, RefusesToResetTheEncodersOfOtherDevices)
+{
+    OpenHapticsDriver driver(options());
+    for (const unsigned styles : {2U, 4U, 6U, 5U, 3U}) {
+        hd().calibration_style = styles;
+        const auto device = driver.open("Left Device,home");
+        ASSERT_FALSE(device) << styles;
+        EXPECT_THAT(device.error().message,
+                    HasSubstr("openhaptics:Left Device,home: has no encoders to reset"));
+    }
+    EXPECT_EQ(hd().encoder_resets, 0);
+}
+
+TEST_F(OpenHapticsDriverTest, AdvisesWhatTheDevicesCalibrationNeeds)
+{
+    struct Case {
+        unsigned styles;
+        unsigned char inkwell_switch; // 1: the stylus is not in it
+        const char* advice;
+    };
+    const std::string start = "is not calibrated";
+    for (const Case& c : {Case{4, 1, "; put the stylus into the inkwell"},
+                          Case{2, 1, " yet; move the stylus through its workspace"},
+                          Case{6, 1,
+                               " yet; move the stylus through its workspace, or put it into "
+                               "the inkwell"},
+                          Case{5, 1, "; put the stylus into the inkwell"}, // prefers the inkwell
+                          Case{0, 1,
+                               "; calibrate it with the vendor's setup program "
+                               "(Touch_Setup)"}}) {
+        hd().calibration_style = c.styles;
+        hd().calibration = 0x5002;
+        hd().inkwell_switch = c.inkwell_switch;
+        HapticDevice& device = open();
+        Tick state{.device = device};
+        ASSERT_TRUE(device.startClock(tick, &state));
+        run(2);
+        EXPECT_EQ(state.read, DeviceStatus::Unready);
+        EXPECT_EQ(device.trouble(), start + c.advice) << c.styles;
+        device.stopClock();
+        opened_.reset();
+    }
+}
+
+TEST_F(OpenHapticsDriverTest, IsCalibratedInTheInkwell)
+{
+    hd().calibration = 0x5001;
+    HapticDevice& device = open();
+    Tick state{.device = device};
+    ASSERT_TRUE(device.startClock(tick, &state));
+    run(3);
+    EXPECT_EQ(state.read, DeviceStatus::Unready) << "the stylus is not in the inkwell";
+    hd().inkwell_switch = 0;
+    run(2);
+    EXPECT_EQ(state.read, DeviceStatus::Fine);
+    EXPECT_FALSE(state.sample.is_held);
+    EXPECT_EQ(hd().updated_style, 4U);
+    hd().inkwell_switch = 1;
+    run(1);
+    EXPECT_EQ(state.read, DeviceStatus::Fine);
+    EXPECT_TRUE(state.sample.is_held);
+}
+
 TEST_F(OpenHapticsDriverTest, IsUnreadyUntilItIsCalibrated)
 {
-    hd().calibration = 0x5002; // by hand
+    hd().calibration_style = 2; // by motion
+    hd().calibration = 0x5002;
     HapticDevice& device = open();
     Tick state{.device = device, .force_n = {1.0, 0.0, 0.0}};
     ASSERT_TRUE(device.startClock(tick, &state));
@@ -257,9 +427,9 @@ TEST_F(OpenHapticsDriverTest, IsUnreadyUntilItIsCalibrated)
     EXPECT_EQ(hd().force_n[0], 0.0);
     EXPECT_THAT(device.trouble(), HasSubstr("not calibrated"));
     EXPECT_EQ(hd().updated_style, 0U);
-    hd().calibration = 0x5001; // by itself, in the inkwell
+    hd().calibration = 0x5001;
     run(2);
-    EXPECT_EQ(hd().updated_style, 4U);
+    EXPECT_EQ(hd().updated_style, 2U);
     EXPECT_EQ(state.read, DeviceStatus::Fine);
     EXPECT_EQ(hd().force_n[0], 1.0);
     EXPECT_EQ(device.trouble(), "");

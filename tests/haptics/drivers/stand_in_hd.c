@@ -1,9 +1,11 @@
-/* A stand-in for the vendor's libHD: its symbols, with a device that a test sets. The scheduler has
- * its own thread, like the real one, but runs only when a test requests it. */
+/* A stand-in for the vendor's libHD: its symbols, with a device that a test sets. Written from the
+ * tables in haptics/drivers/openhaptics/README.md. The scheduler has its own thread, like the real
+ * one, but runs only when a test requests it. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/haptics/drivers/stand_in_hd.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,6 +44,8 @@ static void reset(void)
     state.inkwell_switch = 1;
     state.calibration = 0x5000;
     state.calibration_style = 4;
+    state.input_dof = 6;
+    state.stylus_axis[2] = 1.0; /* the neutral position: level, the tip away from the user */
     error_count = 0;
     turns_wanted = 0;
 }
@@ -181,7 +185,7 @@ EXPORT void hdGetIntegerv(unsigned what, int* values)
         *values = state.buttons;
         break;
     case 0x2553u:
-        *values = 6;
+        *values = state.input_dof;
         break;
     case 0x2555u:
         *values = (int)state.calibration_style;
@@ -194,14 +198,47 @@ EXPORT void hdGetIntegerv(unsigned what, int* values)
     }
 }
 
+/* Of a tip direction in their axes: x right, y up, z toward the user. */
+static void gimbalAngles(double* values)
+{
+    const double* axis = state.stylus_axis;
+    values[0] = atan2(-axis[0], axis[2]); /* the tip to the right: positive */
+    values[1] = asin(axis[1]);            /* the tip down: positive */
+    values[2] = state.stylus_clockwise_rad;
+}
+
+/* The shortest rotation of +z onto the axis, after a clockwise turn about +z; column-major. */
+static void transform(double* m)
+{
+    const double* a = state.stylus_axis;
+    const double c = cos(-state.stylus_clockwise_rad);
+    const double s = sin(-state.stylus_clockwise_rad);
+    const double k = 1.0 / (1.0 + a[2]);
+    const double swing[3][3] = {{1.0 - k * a[0] * a[0], -k * a[0] * a[1], a[0]},
+                                {-k * a[0] * a[1], 1.0 - k * a[1] * a[1], a[1]},
+                                {-a[0], -a[1], a[2]}};
+    for (int row = 0; row < 3; ++row) {
+        m[row] = swing[row][0] * c + swing[row][1] * s;
+        m[4 + row] = -swing[row][0] * s + swing[row][1] * c;
+        m[8 + row] = swing[row][2];
+        m[12 + row] = state.position_mm[row] - state.encoder_zero_mm[row];
+        m[4 * row + 3] = 0.0;
+    }
+    m[15] = 1.0;
+}
+
 EXPORT void hdGetDoublev(unsigned what, double* values)
 {
     const double box[6] = {-80.0, -60.0, -35.0, 81.0, 62.0, 36.0};
     const unsigned shift = state.numbers_are_shifted ? 1 : 0;
     if (what == 0x2050u) {
-        memcpy(values, state.position_mm, sizeof state.position_mm);
+        for (int i = 0; i < 3; ++i) {
+            values[i] = state.position_mm[i] - state.encoder_zero_mm[i];
+        }
+    } else if (what == 0x2052u) {
+        transform(values);
     } else if (what == 0x2150u) {
-        memcpy(values, state.gimbal_rad, sizeof state.gimbal_rad);
+        gimbalAngles(values);
     } else if (what == 0x2551u) {
         memcpy(values, box, sizeof box);
     } else if (state.numbers_are_insane && what >= 0x2602u && what <= 0x2605u) {
@@ -233,13 +270,28 @@ EXPORT void hdSetDoublev(unsigned what, const double* values)
 
 EXPORT unsigned hdCheckCalibration(void)
 {
+    if (state.calibration != 0x5000u && state.calibration_style == 4u) {
+        return state.inkwell_switch ? 0x5002u : 0x5001u;
+    }
     return state.calibration;
 }
 
 EXPORT void hdUpdateCalibration(unsigned style)
 {
+    const int is_one = style == 1u || style == 2u || style == 4u;
     state.updated_style = style;
-    state.calibration = 0x5000u;
+    noteMisuse(!is_one || (style & state.calibration_style) == 0);
+    if (style == 1u) { /* the current pose becomes the neutral one, whatever it is */
+        noteMisuse(state.scheduler_runs);
+        memcpy(state.encoder_zero_mm, state.position_mm, sizeof state.position_mm);
+        state.encoder_resets += 1;
+        state.calibration = 0x5000u;
+        return;
+    }
+    noteMisuse(!state.scheduler_runs);
+    if (style == 2u || state.inkwell_switch == 0) {
+        state.calibration = 0x5000u;
+    }
 }
 
 EXPORT unsigned long hdScheduleAsynchronous(Callback callback, void* user, unsigned short priority)

@@ -6,14 +6,20 @@
 extern "C" {
 #endif
 
-/* Protected by `mutex` inside the library: access only between frames. */
+/* Where the device physically is, and what its library did. The library reports it as the tables in
+ * haptics/drivers/openhaptics/README.md state. Protected by `mutex` inside the library: access only
+ * between frames. */
 typedef struct StandInState {
     double position_mm[3];
-    double gimbal_rad[3];
+    double stylus_axis[3];       /* unit vector from the tip to the back end, in their axes */
+    double stylus_clockwise_rad; /* seen from the back end, from the neutral position on */
     int buttons;
-    unsigned char inkwell_switch;
-    unsigned calibration;
-    unsigned calibration_style;
+    unsigned char inkwell_switch; /* 0: the stylus is in the inkwell */
+    unsigned calibration;         /* 0x5000, or what is missing */
+    unsigned calibration_style;   /* bits: 1 encoder reset, 2 auto, 4 inkwell */
+    int input_dof;
+    double encoder_zero_mm[3]; /* where the encoders were reset */
+    int encoder_resets;
     unsigned updated_style;  /* the style requested from hdUpdateCalibration */
     unsigned init_error;     /* of the next hdInitDevice; 0: success */
     unsigned start_error;    /* of the next hdStartScheduler */
