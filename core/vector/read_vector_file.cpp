@@ -268,7 +268,8 @@ private:
 std::string bodyName(const Body* body, const std::optional<Crs>& crs)
 {
     if (body != nullptr) {
-        return std::string(body->name);
+        const bool has_article = body->name == "Earth" || body->name == "Moon";
+        return (has_article ? "the " : "") + std::string(body->name);
     }
     return crs && crs->ellipsoid()
                ? fmt::format("a body of radius {:.6g} km", crs->ellipsoid()->equatorial_m / 1e3)

@@ -64,7 +64,7 @@ const char* driverOf(VectorFormat format)
     case VectorFormat::GeoJson:
         return "GeoJSON";
     case VectorFormat::Kml:
-        return "KML";
+        return "LIBKML";
     case VectorFormat::Shapefile:
         return "ESRI Shapefile";
     case VectorFormat::Csv:

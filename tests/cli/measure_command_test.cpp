@@ -159,7 +159,7 @@ TEST(MeasureDistance, ReadsPositionsFromVectorFiles)
     runTool({"ogr2ogr", "-a_srs", "EPSG:4326", "-nlt", "LINESTRING", earth, wkt});
     const ProgramOutput refused = runCli({"measure", "distance", bundledMars(), "--vector", earth});
     EXPECT_EQ(refused.exit_status, 1);
-    EXPECT_THAT(refused.err, HasSubstr("is on Earth, but the map is on Mars"));
+    EXPECT_THAT(refused.err, HasSubstr("is on the Earth, but the map is on Mars"));
     EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--vector", "/no/such.gpkg"}).err,
               "marsview-cli: /no/such.gpkg: does not exist\n");
     EXPECT_EQ(runCli({"measure", "distance", bundledMars(), "--vector", "/dev/zero"}).exit_status,
