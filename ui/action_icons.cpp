@@ -42,6 +42,7 @@ void setIcons(const WindowActions& actions)
              std::pair{actions.layer.move_down, "move-down"},
              std::pair{actions.layer.remove, "remove"},
              std::pair{actions.override_georeferencing, "georeferencing"},
+             std::pair{actions.remove_measurement, "remove"},
              std::pair{actions.haptic_devices, "haptics"},
              std::pair{actions.record_touch, "record"},
              std::pair{actions.replay_touch, "replay"},
@@ -69,6 +70,7 @@ void setIcons(const WindowDocks& docks)
              std::pair{docks.datasets(), "layers"},
              std::pair{docks.georeferencing(), "georeferencing"},
              std::pair{docks.haptics(), "haptics"},
+             std::pair{docks.measurements(), "measure"},
          }) {
         dock->setWindowIcon(lineIcon(QString::fromLatin1(name)));
     }

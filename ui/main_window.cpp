@@ -8,6 +8,7 @@
 #include "ui/canvas/terrain_view.h"
 #include "ui/controllers/contact_sounds.h"
 #include "ui/controllers/haptics_controller.h"
+#include "ui/controllers/measure_controller.h"
 #include "ui/controllers/recent_files.h"
 #include "ui/dialogs/about_dialog.h"
 #include "ui/dialogs/address_dialog.h"
@@ -18,9 +19,11 @@
 #include "ui/main_tool_bar.h"
 #include "ui/map_menu.h"
 #include "ui/overlay/map_overlays.h"
+#include "ui/overlay/measure_marks.h"
 #include "ui/panels/georeferencing_panel.h"
 #include "ui/panels/haptics_panel.h"
 #include "ui/panels/layers_panel.h"
+#include "ui/panels/measure_panel.h"
 #include "ui/picture_saver.h"
 #include "ui/status_readout.h"
 #include "ui/stretch_control.h"
@@ -134,9 +137,14 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     , georeferencing_(new GeoreferencingPanel(this))
     , haptics_(new HapticsController(*view_, driversOf(options), this))
     , haptics_panel_(new HapticsPanel(*haptics_, *actions_->contact_model_group, this))
-    , docks_(new WindowDocks(
-          *this,
-          {.datasets = datasets_, .georeferencing = georeferencing_, .haptics = haptics_panel_}))
+    , measure_(new MeasureController(*view_, controller_->undoStack(), this))
+    , measure_marks_(new MeasureMarks(*measure_, view_))
+    , measure_panel_(new MeasurePanel(*measure_, this))
+    , docks_(new WindowDocks(*this,
+                             {.datasets = datasets_,
+                              .georeferencing = georeferencing_,
+                              .haptics = haptics_panel_,
+                              .measurements = measure_panel_}))
     , tool_bar_(new MainToolBar(*actions_, this))
     , readout_(new StatusReadout(this))
     , load_status_(new LoadStatus(this))
@@ -166,6 +174,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     actions_->panels->addAction(docks_->datasets()->toggleViewAction());
     actions_->panels->addAction(docks_->georeferencing()->toggleViewAction());
     actions_->panels->addAction(docks_->haptics()->toggleViewAction());
+    actions_->panels->addAction(docks_->measurements()->toggleViewAction());
     actions_->panels->addSeparator();
     actions_->panels->addActions(overlays_->visibilityActions());
     setIcons(*docks_);
@@ -182,6 +191,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectPanels();
     connectController();
     connectView();
+    connectMeasuring();
     connectHint();
     makeNotices();
     if (isRemembered()) {
@@ -206,6 +216,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
 
 MainWindow::~MainWindow()
 {
+    delete measure_;       // it is the view's tool
     delete sounds_;        // it listens to the view
     delete spacemouse_;    // it moves its camera
     delete haptics_panel_; // it looks at the controller
@@ -414,8 +425,12 @@ void MainWindow::connectView()
     connect(view_, &TerrainView::ready, this, &MainWindow::settleIfIdle, Qt::QueuedConnection);
     connect(view_, &TerrainView::unavailable, this,
             [this](const QString& reason) { reportFailure(tr("Cannot Draw"), reason); });
-    connect(view_, &TerrainView::toolChanged, this,
-            [this](Tool tool) { actions_->showTool(tool); });
+    connect(view_, &TerrainView::toolChanged, this, [this](Tool tool) {
+        actions_->showTool(tool, measure_->kind());
+        if (tool == Tool::Measure) {
+            docks_->measurements()->show();
+        }
+    });
     connect(view_, &TerrainView::exaggerationChanged, tool_bar_, &MainToolBar::showExaggeration);
     connect(view_, &TerrainView::mapShown, this, &MainWindow::showActive);
     connect(view_, &TerrainView::pictureCompleted, this, &MainWindow::settleIfIdle);
@@ -550,6 +565,32 @@ void MainWindow::makeNotices()
                            .show_haptics = [this] { docks_->reveal(*docks_->haptics()); },
                            .save_diagnostic_log = [this] { haptics_panel_->chooseFlightRecord(); }},
                           this);
+}
+
+void MainWindow::connectMeasuring()
+{
+    connect(actions_->measure_kinds, &QActionGroup::triggered, this, [this](QAction* action) {
+        measure_->begin(static_cast<MeasurementKind>(action->data().toInt()));
+        view_->setFocus();
+    });
+    connect(measure_, &MeasureController::kindChanged, this,
+            [this](MeasurementKind kind) { actions_->showTool(view_->tool(), kind); });
+    connect(actions_->finish_measurement, &QAction::triggered, measure_,
+            &MeasureController::finish);
+    connect(actions_->remove_measurement, &QAction::triggered, measure_,
+            [this] { measure_->remove(measure_->state().current); });
+    connect(actions_->remove_measurements, &QAction::triggered, measure_,
+            &MeasureController::removeAll);
+    const auto enable = [this] {
+        const MeasureItem* item = measure_->current();
+        actions_->finish_measurement->setEnabled(item != nullptr && !item->is_finished);
+        actions_->remove_measurement->setEnabled(item != nullptr);
+        actions_->remove_measurements->setEnabled(!measure_->state().items.empty());
+    };
+    connect(measure_, &MeasureController::changed, this, enable);
+    enable();
+    actions_->measure->addAction(docks_->measurements()->toggleViewAction());
+    measure_marks_->lower();
 }
 
 void MainWindow::connectSpaceMouse()
@@ -692,6 +733,7 @@ void MainWindow::showSession()
         tool_bar_->showExaggeration(exaggerationOf(session()));
     }
     overlays_->setSession(session());
+    measure_->setSession(session());
     showActive();
     settleIfIdle();
 }
@@ -817,6 +859,8 @@ void MainWindow::setPreferences(const Preferences& preferences)
     georeferencing_->setHeightUnit(preferences.height_unit);
     overlays_->setHeightUnit(preferences.height_unit);
     stretch_->setHeightUnit(preferences.height_unit);
+    measure_marks_->setHeightUnit(preferences.height_unit);
+    measure_panel_->setHeightUnit(preferences.height_unit);
     georeferencing_->setCoordinateFormat(preferences.coordinates);
     view_->setAntialiasing(preferences.has_antialiasing);
     view_->setFrameTarget(std::chrono::milliseconds(1000 / preferences.frames_per_s));

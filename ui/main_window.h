@@ -26,6 +26,9 @@ class HapticsController;
 class HapticsPanel;
 class LightPopup;
 class LoadStatus;
+class MeasureController;
+class MeasureMarks;
+class MeasurePanel;
 class MapOverlays;
 class MainToolBar;
 class MapMenu;
@@ -83,6 +86,8 @@ public:
     LayersPanel* datasetPanel() const noexcept { return datasets_; }
     GeoreferencingPanel* georeferencingPanel() const noexcept { return georeferencing_; }
     HapticsPanel* hapticsPanel() const noexcept { return haptics_panel_; }
+    MeasureController* measuring() const noexcept { return measure_; }
+    MeasurePanel* measurePanel() const noexcept { return measure_panel_; }
     HapticsController& haptics() noexcept { return *haptics_; }
     const SpaceMouseController& spacemouse() const noexcept { return *spacemouse_; }
     WindowDocks* docks() const noexcept { return docks_; }
@@ -139,6 +144,7 @@ private:
     void connectHint();
     PlaceFacts factsAt(const GroundPoint& ground) const;
     void connectHaptics();
+    void connectMeasuring();
     void connectSpaceMouse();
     void connectSounds();
     void makeNotices();
@@ -175,6 +181,9 @@ private:
     SpaceMouseController* spacemouse_ = nullptr;
     ContactSounds* sounds_ = nullptr;
     bool is_sound_remembered_ = false; // switched on by the settings, not by the user
+    MeasureController* measure_ = nullptr;
+    MeasureMarks* measure_marks_ = nullptr;
+    MeasurePanel* measure_panel_ = nullptr;
     WindowDocks* docks_ = nullptr;
     WindowPlace* place_ = nullptr; // only where the window is remembered
     MainToolBar* tool_bar_ = nullptr;

@@ -1,6 +1,7 @@
 #include "ui/window_actions.h"
 
 #include "core/session/layer_groups.h"
+#include "core/session/measurement.h"
 #include "ui/action_icons.h"
 #include "ui/canvas/terrain_view.h"
 #include "ui/text/contact_model_text.h"
@@ -134,6 +135,7 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
     makeEditMenu(window, undo_stack);
     makeViewMenu(window, map);
     makeMapMenu(window);
+    makeMeasureMenu(window);
     makeLayerMenu(window);
     makeHapticsMenu(window);
     makeHelpMenu(window);
@@ -257,7 +259,6 @@ void WindowActions::makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map)
         map.addAction(action);
         tools->addAction(action);
     }
-    showTool(Tool::Pan);
 }
 
 void WindowActions::makeMapMenu(QMainWindow& window)
@@ -403,11 +404,57 @@ void WindowActions::showContactModel(ContactModelKind model)
     }
 }
 
-void WindowActions::showTool(Tool tool)
+void WindowActions::showTool(Tool tool, MeasurementKind kind)
 {
     for (QAction* action : tools->actions()) {
         action->setChecked(action->data().toInt() == static_cast<int>(tool));
     }
+    for (QAction* action : measure_kinds->actions()) {
+        action->setChecked(tool == Tool::Measure &&
+                           action->data().toInt() == static_cast<int>(kind));
+    }
+}
+
+void WindowActions::makeMeasureMenu(QMainWindow& window)
+{
+    measure = window.menuBar()->addMenu(tr("Mea&sure"));
+    measure_kinds = new QActionGroup(&window);
+    measure_kinds->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+    struct Entry {
+        MeasurementKind kind;
+        const char* text;
+        const char* tip;
+    };
+    for (const Entry& entry : {
+             Entry{MeasurementKind::Profile, QT_TR_NOOP("&Profile"),
+                   QT_TR_NOOP("Click along a line: its elevations, lengths and slopes")},
+             Entry{MeasurementKind::Distance, QT_TR_NOOP("&Distance"),
+                   QT_TR_NOOP("Click along a line: its length on the body and along the terrain")},
+             Entry{MeasurementKind::Area, QT_TR_NOOP("&Area and Volume"),
+                   QT_TR_NOOP("Click around an area: its size, and the volume above and below the "
+                              "plane through its border")},
+             Entry{MeasurementKind::Attitude, QT_TR_NOOP("&Strike and Dip"),
+                   QT_TR_NOOP("Click three or more points on a layer of rock: the plane through "
+                              "them")},
+             Entry{MeasurementKind::Crater, QT_TR_NOOP("&Crater"),
+                   QT_TR_NOOP("Click three or more points on the rim: diameter and depth")},
+             Entry{MeasurementKind::Slope, QT_TR_NOOP("&Elevation and Slope"),
+                   QT_TR_NOOP("Click a point: its elevation, slope and aspect")},
+         }) {
+        QAction* action = measure->addAction(tr(entry.text));
+        action->setStatusTip(tr(entry.tip));
+        action->setCheckable(true);
+        action->setData(static_cast<int>(entry.kind));
+        measure_kinds->addAction(action);
+        for_shown_.append(action);
+    }
+    measure->addSeparator();
+    finish_measurement = measure->addAction(tr("&Finish Measurement"));
+    finish_measurement->setStatusTip(tr("The next click begins another measurement"));
+    remove_measurement = measure->addAction(tr("&Remove Measurement"));
+    remove_measurements = measure->addAction(tr("Remove A&ll Measurements"));
+    measure->addSeparator();
+    showTool(Tool::Pan, MeasurementKind::Profile);
 }
 
 void WindowActions::showSession(const Session& session)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact/contact_model.h"
+#include "core/session/measurement.h"
 #include "core/view/terrain_look.h"
 #include "ui/canvas/tool.h"
 #include "ui/panels/layers_panel.h"
@@ -61,6 +62,12 @@ struct WindowActions {
     QAction* light = nullptr;
     QAction* override_georeferencing = nullptr;
 
+    QActionGroup* measure_kinds = nullptr; // data(): the MeasurementKind
+    QAction* finish_measurement = nullptr;
+    QAction* remove_measurement = nullptr;
+    QAction* remove_measurements = nullptr; // all
+    QMenu* measure = nullptr;               // the window adds the panel
+
     QMenu* contact_models = nullptr;
     QActionGroup* contact_model_group = nullptr; // data(): the ContactModelKind
     QAction* contact_sound = nullptr;            // checkable
@@ -79,8 +86,8 @@ struct WindowActions {
     void showSession(const Session& session);
     /// Checks `model`.
     void showContactModel(ContactModelKind model);
-    /// Checks `tool`.
-    void showTool(Tool tool);
+    /// Checks `tool`, and with Tool::Measure `kind`.
+    void showTool(Tool tool, MeasurementKind kind);
 
 private:
     void makeFileMenu(QMainWindow& window);
@@ -89,6 +96,7 @@ private:
     void makeToolMenu(QMainWindow& window, QMenu& view, QWidget& map);
     void makeMapMenu(QMainWindow& window);
     void makeStretchMenu(QMainWindow& window, QMenu& map);
+    void makeMeasureMenu(QMainWindow& window);
     void makeLayerMenu(QMainWindow& window);
     void makeHapticsMenu(QMainWindow& window);
     void makeHelpMenu(QMainWindow& window);

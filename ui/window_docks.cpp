@@ -38,6 +38,12 @@ WindowDocks::WindowDocks(QMainWindow& window, const DockContents& contents)
     window_.addDockWidget(Qt::RightDockWidgetArea, haptics_.widget);
     window_.tabifyDockWidget(georeferencing_.widget, haptics_.widget);
     haptics_.widget->hide();
+    measurements_ = new QDockWidget(tr("Measurements"), &window_);
+    measurements_->setObjectName(QStringLiteral("measurementsDock"));
+    measurements_->setAllowedAreas(Qt::BottomDockWidgetArea | Qt::TopDockWidgetArea);
+    measurements_->setWidget(contents.measurements);
+    window_.addDockWidget(Qt::BottomDockWidgetArea, measurements_);
+    measurements_->hide();
     for (const Dock* dock : all()) {
         connect(dock->widget, &QDockWidget::topLevelChanged, this, &WindowDocks::fit);
         connect(dock->widget, &QDockWidget::dockLocationChanged, this, &WindowDocks::fit);

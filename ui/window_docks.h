@@ -17,12 +17,13 @@ struct DockContents {
     QWidget* datasets = nullptr;
     QWidget* georeferencing = nullptr;
     QWidget* haptics = nullptr;
+    QWidget* measurements = nullptr;
 };
 
 /// Layers on the left; georeferencing on the right, with haptics as a second tab, closed at first.
 /// Docked panels leave two thirds of the width to the map and never become too narrow to read. In a
 /// narrow window, panels are hidden, the least recently requested first; they return when the
-/// window is wide enough.
+/// window is wide enough. Measurements are below the map, closed at first.
 class WindowDocks final : public QObject {
     Q_OBJECT
 
@@ -33,6 +34,7 @@ public:
     QDockWidget* datasets() const noexcept { return datasets_.widget; }
     QDockWidget* georeferencing() const noexcept { return georeferencing_.widget; }
     QDockWidget* haptics() const noexcept { return haptics_.widget; }
+    QDockWidget* measurements() const noexcept { return measurements_; }
 
     /// Shows a panel, whatever has to make way.
     void reveal(QDockWidget& dock);
@@ -58,6 +60,7 @@ private:
     Dock datasets_;
     Dock georeferencing_;
     Dock haptics_;
+    QDockWidget* measurements_ = nullptr; // below the map, so that it takes no width
     int turn_ = 0;
     bool is_fitting_ = false;
 };

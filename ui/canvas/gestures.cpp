@@ -19,6 +19,11 @@ constexpr std::array kBindings{
     GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Pan, MapAction::Pan},
     GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Touch, MapAction::Touch},
     GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Orbit, MapAction::Orbit},
+    GestureBinding{Gesture::Drag, Qt::LeftButton, Qt::NoModifier, Tool::Measure, MapAction::Pan},
+    GestureBinding{Gesture::Click, Qt::LeftButton, Qt::NoModifier, Tool::Measure,
+                   MapAction::AddPoint},
+    GestureBinding{Gesture::DoubleClick, Qt::LeftButton, Qt::NoModifier, Tool::Measure,
+                   MapAction::FinishMeasurement},
     GestureBinding{Gesture::Drag, Qt::RightButton, Qt::NoModifier, std::nullopt, MapAction::Orbit},
     GestureBinding{Gesture::Drag, Qt::MiddleButton, Qt::NoModifier, std::nullopt, MapAction::Orbit},
     GestureBinding{Gesture::WheelWhilePressing, Qt::NoButton, Qt::NoModifier, Tool::Touch,
@@ -61,7 +66,8 @@ QString plainText(Gesture gesture, Qt::MouseButtons buttons)
     case Gesture::Drag:
         return dragText(buttons);
     case Gesture::Click:
-        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Right click"));
+        return buttons == Qt::LeftButton ? gestureTr(QT_TRANSLATE_NOOP("Gestures", "Click"))
+                                         : gestureTr(QT_TRANSLATE_NOOP("Gestures", "Right click"));
     case Gesture::DoubleClick:
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Double click"));
     case Gesture::Wheel:
@@ -112,6 +118,12 @@ QString actionText(MapAction action)
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Press deeper or less deep"));
     case MapAction::FlyThere:
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Fly there"));
+    case MapAction::AddPoint:
+        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Add a point to the measurement"));
+    case MapAction::MovePoint:
+        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Move a point of the measurement"));
+    case MapAction::FinishMeasurement:
+        return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Finish the measurement"));
     case MapAction::OpenMenu:
         //: Of the place on the map that is clicked
         return gestureTr(QT_TRANSLATE_NOOP("Gestures", "Context menu"));

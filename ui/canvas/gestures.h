@@ -30,6 +30,9 @@ enum class MapAction {
     ZoomFinely,
     PressDeeper,
     FlyThere,
+    AddPoint,  // of a measurement
+    MovePoint, // bound to no gesture: the tool says where a drag does that
+    FinishMeasurement,
     OpenMenu,
 };
 

@@ -50,6 +50,7 @@ MapCursor mapCursor(const PointerState& state)
     case MapAction::Orbit:
         return MapCursor::Rotate;
     case MapAction::Touch:
+    case MapAction::MovePoint:
         return MapCursor::Cross;
     default:
         break;
@@ -61,6 +62,7 @@ MapCursor mapCursor(const PointerState& state)
     case Tool::Pan:
         return MapCursor::OpenHand;
     case Tool::Touch:
+    case Tool::Measure:
         return MapCursor::Cross;
     case Tool::Orbit:
         return MapCursor::Rotate;

@@ -7,9 +7,11 @@
 #include "haptics/interaction/stylus.h"
 #include "ui/canvas/map_cursor.h"
 #include "ui/canvas/navigator.h"
+#include "ui/canvas/place_tool.h"
 #include "ui/canvas/shown_layer.h"
 #include "ui/render/cursor_renderer.h"
 #include "ui/render/governed_picture.h"
+#include "ui/render/line_renderer.h"
 #include "ui/render/terrain_renderer.h"
 
 #include <QOpenGLWidget>
@@ -100,6 +102,11 @@ public:
     /// What a drag with the left button does; Pan to begin with. A drag that is under way ends.
     void setTool(Tool tool);
     Tool tool() const noexcept { return tool_; }
+    /// Hears of clicks, drags and keys while Tool::Measure is chosen. Null for none; otherwise it
+    /// outlives the view or is taken back before.
+    void setPlaceTool(PlaceTool* tool) { place_tool_ = tool; }
+    /// Lines on the terrain, drawn over every picture.
+    void setLines(std::vector<DrapedLine> lines);
 
     void step(NavigationStep step);
     /// Moves as a cap is pushed, for the time since it was asked last: once a frame while the cap
@@ -235,6 +242,7 @@ private:
     void reportUnavailable(const QString& reason);
     void releaseGraphics();
     void paintTerrain();
+    void paintLines();
     void paintCursor();
     PixelArea areaOf(const CursorPicture& cursor) const;
     void refineWhenStill();
@@ -264,6 +272,7 @@ private:
     bool isOverOverlay(QPointF position) const;
     void reportPointer();
     void readUnderPointer();
+    PlaceTool* placeTool() const noexcept { return tool_ == Tool::Measure ? place_tool_ : nullptr; }
     void beginDrag(MapAction action);
     void dragTo(QPointF position);
     void endDrag();
@@ -274,6 +283,8 @@ private:
     std::unique_ptr<TerrainRenderer> renderer_;
     std::unique_ptr<GovernedPicture> picture_;
     std::unique_ptr<CursorRenderer> cursor_;
+    std::unique_ptr<LineRenderer> line_renderer_;
+    std::vector<DrapedLine> lines_;
     Navigator navigator_;
     DrawStyle style_;
     std::chrono::milliseconds frame_target_{33};
@@ -304,6 +315,7 @@ private:
     CapRates cap_; // that moved the camera last, since it was at rest
 
     Tool tool_ = Tool::Pan;
+    PlaceTool* place_tool_ = nullptr;
     MapCursor map_cursor_ = MapCursor::Arrow;
     MapAction drag_action_ = MapAction::None;
     Qt::MouseButton drag_button_ = Qt::NoButton;

@@ -39,6 +39,9 @@ void TerrainView::setTool(Tool tool)
         return;
     }
     endDrag();
+    if (PlaceTool* left = placeTool()) {
+        left->hover(std::nullopt);
+    }
     tool_ = tool;
     moveStylus();
     update(); // the cursor of the mouse's stylus comes or goes
@@ -54,6 +57,12 @@ void TerrainView::mousePressEvent(QMouseEvent* event)
     drag_button_ = event->button();
     drag_position_ = event->position();
     pointer_ = event->position();
+    if (PlaceTool* tool = placeTool(); tool != nullptr && event->button() == Qt::LeftButton &&
+                                       event->modifiers() == Qt::NoModifier &&
+                                       tool->grab(event->position())) {
+        beginDrag(MapAction::MovePoint);
+        return;
+    }
     may_be_click_ =
         actionOf(Gesture::Click, event->button(), event->modifiers(), tool_) != MapAction::None;
     beginDrag(actionOf(Gesture::Drag, event->button(), event->modifiers(), tool_));
@@ -94,6 +103,9 @@ void TerrainView::mouseMoveEvent(QMouseEvent* event)
         }
     }
     dragTo(event->position());
+    if (PlaceTool* tool = placeTool(); tool != nullptr && drag_action_ == MapAction::None) {
+        tool->hover(event->position());
+    }
 }
 
 void TerrainView::dragTo(QPointF position)
@@ -112,6 +124,10 @@ void TerrainView::dragTo(QPointF position)
     case MapAction::Orbit:
         setCamera(
             orbited(navigator_.camera(), kTurnPerPixel * moved.x(), kTurnPerPixel * -moved.y()));
+        break;
+    case MapAction::MovePoint:
+        place_tool_->drag(position);
+        reportPointer();
         break;
     default:
         if (!moveByGrab(from, position)) {
@@ -133,15 +149,21 @@ void TerrainView::mouseReleaseEvent(QMouseEvent* event)
     }
     const bool is_click = std::exchange(may_be_click_, false);
     endDrag();
-    if (is_click && actionOf(Gesture::Click, event->button(), event->modifiers(), tool_) ==
-                        MapAction::OpenMenu) {
+    const MapAction action =
+        is_click ? actionOf(Gesture::Click, event->button(), event->modifiers(), tool_)
+                 : MapAction::None;
+    if (action == MapAction::OpenMenu) {
         Q_EMIT menuRequested(event->position());
+    } else if (PlaceTool* tool = placeTool(); tool != nullptr && action == MapAction::AddPoint) {
+        tool->click(event->position());
     }
 }
 
 void TerrainView::endDrag()
 {
-    drag_action_ = MapAction::None;
+    if (std::exchange(drag_action_, MapAction::None) == MapAction::MovePoint) {
+        place_tool_->release();
+    }
     may_be_click_ = false;
     buttons_.is_pressing = false;
     moveStylus();
@@ -158,9 +180,14 @@ void TerrainView::contextMenuEvent(QContextMenuEvent* event)
 
 void TerrainView::mouseDoubleClickEvent(QMouseEvent* event)
 {
+    const MapAction action =
+        actionOf(Gesture::DoubleClick, event->button(), event->modifiers(), tool_);
+    if (PlaceTool* tool = placeTool(); tool != nullptr && action == MapAction::FinishMeasurement) {
+        tool->doubleClick(event->position());
+        return;
+    }
     const std::optional<RayHit> hit = surfaceAt(event->position());
-    if (!hit || actionOf(Gesture::DoubleClick, event->button(), event->modifiers(), tool_) !=
-                    MapAction::FlyThere) {
+    if (!hit || action != MapAction::FlyThere) {
         return;
     }
     flyNearer(*hit);
@@ -207,6 +234,9 @@ void TerrainView::keyPressEvent(QKeyEvent* event)
         if (!ground_.isEmpty()) { // the other key of the context menu, which Qt leaves out on X11
             Q_EMIT menuRequested(QRectF(rect()).center());
         }
+        return;
+    }
+    if (PlaceTool* tool = placeTool(); tool != nullptr && tool->key(*event)) {
         return;
     }
     QOpenGLWidget::keyPressEvent(event);

@@ -102,7 +102,13 @@ void TerrainView::initializeGL()
         refuse(cursor.error());
         return;
     }
+    auto lines = LineRenderer::create();
+    if (!lines) {
+        refuse(lines.error());
+        return;
+    }
     renderer_ = std::move(renderer).value();
+    line_renderer_ = std::move(lines).value();
     cursor_ = std::move(cursor).value();
     picture_ = std::make_unique<GovernedPicture>(*renderer_);
     picture_->setTarget(frame_target_);
@@ -136,6 +142,7 @@ void TerrainView::releaseGraphics()
     if (renderer_) {
         makeCurrent();
         picture_.reset();
+        line_renderer_.reset();
         cursor_.reset();
         renderer_.reset();
         doneCurrent();
@@ -152,7 +159,28 @@ void TerrainView::paintGL()
     } else {
         renderer_->present(defaultFramebufferObject());
     }
+    paintLines();
     paintCursor();
+}
+
+void TerrainView::setLines(std::vector<DrapedLine> lines)
+{
+    if (!lines.empty() || !lines_.empty()) {
+        lines_ = std::move(lines);
+        update();
+    }
+}
+
+void TerrainView::paintLines()
+{
+    const double scale = devicePixelRatioF();
+    const PixelArea area = marsview::areaOf(lines_, navigator_.camera(), viewport(), scale);
+    if (area.width == 0 || area.height == 0) {
+        return;
+    }
+    renderer_->presentDepth(defaultFramebufferObject(), area);
+    line_renderer_->draw(lines_, navigator_.camera(), viewport(),
+                         renderer_->clip(navigator_.camera(), style_.exaggeration), scale);
 }
 
 void TerrainView::paintTerrain()

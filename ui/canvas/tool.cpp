@@ -12,6 +12,7 @@ constexpr std::array kTools{
     ToolInfo{Tool::Pan, Qt::Key_P, "pan"},
     ToolInfo{Tool::Touch, Qt::Key_T, "touch"},
     ToolInfo{Tool::Orbit, Qt::Key_O, "orbit"},
+    ToolInfo{Tool::Measure, Qt::Key_M, "measure"},
 };
 
 QString toolText(const char* text)
@@ -38,6 +39,9 @@ QString ToolInfo::text() const
     case Tool::Orbit:
         //: A tool: drag turns and tilts the view
         return toolText(QT_TRANSLATE_NOOP("Tool", "&Orbit"));
+    case Tool::Measure:
+        //: A tool: clicks place the points of a measurement
+        return toolText(QT_TRANSLATE_NOOP("Tool", "&Measure"));
     }
     return {};
 }
@@ -57,6 +61,11 @@ QString ToolInfo::tip() const
     case Tool::Orbit:
         //: %1 is a key
         return toolText(QT_TRANSLATE_NOOP("Tool", "Drag to turn and tilt the view (%1)"))
+            .arg(shortcut);
+    case Tool::Measure:
+        //: %1 is a key
+        return toolText(
+                   QT_TRANSLATE_NOOP("Tool", "Click to place the points of a measurement (%1)"))
             .arg(shortcut);
     }
     return {};
@@ -82,6 +91,12 @@ QString ToolInfo::whatsThis() const
             "Tool",
             "A drag with the left button turns and tilts the view about the terrain in the "
             "middle of the picture."));
+    case Tool::Measure:
+        return toolText(QT_TRANSLATE_NOOP(
+            "Tool",
+            "A click, or Enter, places a point of the measurement; a double click, or Enter again "
+            "in the same place, finishes it. Drag a point to move it, drag a line to insert one; "
+            "Backspace removes the last one. Choose what to measure in the Measure menu."));
     }
     return {};
 }

@@ -1,0 +1,269 @@
+// Measuring in the window, by mouse and by keyboard.
+
+#include "core/measure/profile_statistics.h"
+#include "tests/ui/map_window.h"
+#include "tests/ui/test_map.h"
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/panels/measure_panel.h"
+#include "ui/plots/profile_plot.h"
+#include "ui/window_actions.h"
+
+#include <QActionGroup>
+#include <QApplication>
+#include <QClipboard>
+#include <QLabel>
+#include <QTableWidget>
+#include <QTest>
+#include <QTreeWidget>
+#include <QUndoStack>
+
+#include <GeographicLib/Geodesic.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+class MeasureTest : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        window_ = std::make_unique<MainWindow>(testWindowOptions());
+        window_->resize(1300, 800);
+        window_->show();
+        QApplication::setActiveWindow(window_.get());
+        ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    }
+
+    TerrainView& view() { return *window_->view(); }
+    MeasureController& measuring() { return *window_->measuring(); }
+    MeasurePanel& panel() { return *window_->measurePanel(); }
+    void choose(MeasurementKind kind)
+    {
+        for (QAction* action : window_->actionSet().measure_kinds->actions()) {
+            if (action->data().toInt() == static_cast<int>(kind)) {
+                action->trigger();
+            }
+        }
+        // The panel below the map makes it smaller.
+        ASSERT_TRUE(QTest::qWaitFor([this] { return panel().isVisible(); }));
+        QTest::qWait(50);
+    }
+    // So far from the middle of the view, in shares of its sides.
+    QPoint at(double right, double down) const
+    {
+        const QSize size = window_->view()->size();
+        return {static_cast<int>((0.5 + right) * size.width()),
+                static_cast<int>((0.5 + down) * size.height())};
+    }
+    void click(QPoint position) { QTest::mouseClick(&view(), Qt::LeftButton, {}, position); }
+    bool isMeasured()
+    {
+        return QTest::qWaitFor(
+            [this] {
+                const MeasureItem* item = measuring().current();
+                return item != nullptr && measuring().outcome(item->id).result &&
+                       !measuring().outcome(item->id).is_running;
+            },
+            kTimeout);
+    }
+    // Longitude and latitude on the map that a position shows.
+    GeographicPoint placeAt(QPoint position)
+    {
+        const auto hit = view().surfaceAt(position);
+        return *view().map()->georeference().toGeographic(hit->grid);
+    }
+
+    TestMaps maps_;
+    std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(MeasureTest, ClicksMeasureTheGeodesicBetweenTheirPlaces)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    EXPECT_EQ(view().tool(), Tool::Measure);
+    const QPoint from = at(-0.15, 0.05);
+    const QPoint to = at(0.1, -0.05);
+    click(from);
+    click(to);
+    ASSERT_TRUE(isMeasured());
+    const auto* distance = measuring().outcome(measuring().current()->id).as<Distance>();
+    ASSERT_NE(distance, nullptr);
+    // An independent path: GeographicLib on the map's sphere, between the places in the picture.
+    const auto& ellipsoid = *view().map()->georeference().crs()->ellipsoid();
+    const GeographicLib::Geodesic geodesic(ellipsoid.equatorial_m, 0.0);
+    const GeographicPoint a = placeAt(from);
+    const GeographicPoint b = placeAt(to);
+    double expected_m = 0.0;
+    geodesic.Inverse(a.latitude.degrees(), a.longitude.degrees(), b.latitude.degrees(),
+                     b.longitude.degrees(), expected_m);
+    EXPECT_NEAR(distance->geodesic_m / expected_m, 1.0, 1e-6);
+    EXPECT_GT(distance->surface_m, distance->geodesic_m);
+}
+
+TEST_F(MeasureTest, ADoubleClickFinishesAndTheNextClickBeginsAnother)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    click(at(-0.1, 0.0));
+    click(at(0.1, 0.0));
+    QTest::mouseDClick(&view(), Qt::LeftButton, {}, at(0.1, 0.0));
+    ASSERT_NE(measuring().current(), nullptr);
+    EXPECT_TRUE(measuring().current()->is_finished);
+    EXPECT_EQ(measuring().current()->vertices.size(), 2U);
+    click(at(0.0, 0.1));
+    EXPECT_EQ(measuring().state().items.size(), 2U);
+}
+
+TEST_F(MeasureTest, DraggingPansAndDraggingAPointMovesIt)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    const OrbitCamera before = view().camera();
+    QTest::mousePress(&view(), Qt::LeftButton, {}, at(0.0, 0.1));
+    for (const double way : {0.02, 0.05, 0.08}) {
+        QMouseEvent move(QEvent::MouseMove, at(way, 0.1), view().mapToGlobal(at(way, 0.1)),
+                         Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&view(), &move);
+    }
+    QTest::mouseRelease(&view(), Qt::LeftButton, {}, at(0.08, 0.1));
+    EXPECT_FALSE(view().camera() == before);
+    EXPECT_TRUE(measuring().state().items.empty()) << "a drag is no click";
+
+    click(at(-0.1, 0.0));
+    click(at(0.1, 0.0));
+    measuring().finish();
+    const OrbitCamera after = view().camera();
+    const int steps = window_->undoStack().index();
+    const MeasuredVertex old = measuring().current()->vertices[1];
+    QTest::mousePress(&view(), Qt::LeftButton, {}, at(0.1, 0.0));
+    for (const double down : {0.02, 0.06}) {
+        QMouseEvent move(QEvent::MouseMove, at(0.1, down), view().mapToGlobal(at(0.1, down)),
+                         Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&view(), &move);
+    }
+    QTest::mouseRelease(&view(), Qt::LeftButton, {}, at(0.1, 0.06));
+    EXPECT_TRUE(view().camera() == after);
+    EXPECT_FALSE(measuring().current()->vertices[1] == old);
+    EXPECT_EQ(window_->undoStack().index(), steps + 1) << "a drag is one step";
+    EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Move Point"));
+    window_->undoStack().undo();
+    EXPECT_TRUE(measuring().current()->vertices[1] == old);
+}
+
+TEST_F(MeasureTest, ADragOfALineInsertsAPoint)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Profile));
+    click(at(-0.15, 0.0));
+    click(at(0.15, 0.0));
+    measuring().finish();
+    QTest::qWait(0);
+    const auto middle =
+        view().positionOf(*view().map()->georeference().toGrid(placeAt(at(0.0, 0.0))));
+    ASSERT_TRUE(middle);
+    // The line runs through the map's middle row of the picture nearly; look for it.
+    int grabbed_at = -1;
+    for (int y = -40; y <= 40 && grabbed_at < 0; y += 4) {
+        const QPoint place = middle->toPoint() + QPoint(0, y);
+        QTest::mousePress(&view(), Qt::LeftButton, {}, place);
+        if (measuring().current()->vertices.size() == 3) {
+            grabbed_at = y;
+        }
+        QTest::mouseRelease(&view(), Qt::LeftButton, {}, place);
+        if (grabbed_at < 0 && measuring().state().items.size() > 1) {
+            window_->undoStack().undo(); // the click began another one
+            measuring().select(1);
+        }
+    }
+    EXPECT_GE(grabbed_at, -40);
+    ASSERT_EQ(measuring().current()->vertices.size(), 3U);
+    EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("Insert Point"));
+}
+
+TEST_F(MeasureTest, TheKeyboardPlacesRemovesAndFinishes)
+{
+    QTest::keyClick(&view(), Qt::Key_M);
+    EXPECT_EQ(view().tool(), Tool::Measure);
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Distance));
+    view().setFocus();
+    QEvent leave(QEvent::Leave);
+    QApplication::sendEvent(&view(), &leave);
+    ASSERT_TRUE(view().isCrosshairShown());
+    QTest::keyClick(&view(), Qt::Key_Return);
+    QTest::keyClick(&view(), Qt::Key_Right);
+    ASSERT_TRUE(QTest::qWaitFor([this] { return !view().isMoving(); }, kTimeout));
+    QTest::keyClick(&view(), Qt::Key_Return);
+    ASSERT_NE(measuring().current(), nullptr);
+    EXPECT_EQ(measuring().current()->vertices.size(), 2U);
+    QTest::keyClick(&view(), Qt::Key_Backspace);
+    EXPECT_EQ(measuring().current()->vertices.size(), 1U);
+    QTest::keyClick(&view(), Qt::Key_Return);
+    EXPECT_EQ(measuring().current()->vertices.size(), 2U);
+    QTest::keyClick(&view(), Qt::Key_Return); // again in the same place
+    EXPECT_TRUE(measuring().current()->is_finished);
+    QTest::keyClick(&view(), Qt::Key_Escape);
+    EXPECT_EQ(measuring().current(), nullptr) << "deselects";
+    EXPECT_EQ(measuring().state().items.size(), 1U);
+}
+
+TEST_F(MeasureTest, TheProfileShowsTheElevationsOfItsPlaces)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Profile));
+    click(at(-0.15, 0.0));
+    click(at(0.15, 0.02));
+    ASSERT_TRUE(isMeasured());
+    ASSERT_EQ(panel().plot()->curves().size(), 1U);
+    const ProfileCurve& curve = panel().plot()->curves().front();
+    ASSERT_GT(curve.distance_m.size(), 10U);
+    const auto hit = view().surfaceAt(at(0.15, 0.02));
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(curve.elevation_m.back(), hit->height_m, 0.01);
+    // Its cursor is marked on the map, where the line is.
+    Q_EMIT panel().plot()->cursorMoved(curve.distance_m.back());
+    const auto cursor = measuring().profileCursorPlace();
+    ASSERT_TRUE(cursor);
+    EXPECT_NEAR(cursor->x(), at(0.15, 0.02).x(), 2.0);
+    EXPECT_NEAR(cursor->y(), at(0.15, 0.02).y(), 2.0);
+}
+
+TEST_F(MeasureTest, ResultsFollowTheLayersOverrides)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Slope));
+    click(at(0.05, 0.05));
+    ASSERT_TRUE(isMeasured());
+    const std::uint32_t id = measuring().current()->id;
+    const auto elevation = [&] {
+        return measuring().outcome(id).as<std::vector<TerrainSlope>>()->front().elevation_m;
+    };
+    const double before_m = elevation();
+    RasterOverrides overrides = window_->session().layers.front().map->spec().overrides;
+    overrides.offset = 1000.0;
+    window_->controller().overrideGeoreferencing(window_->session().active, overrides);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return isMeasured() && std::abs(elevation() - before_m - 1000.0) < 0.01; }, kTimeout))
+        << before_m << " " << elevation();
+}
+
+TEST_F(MeasureTest, TheListNamesShowsAndRemoves)
+{
+    ASSERT_NO_FATAL_FAILURE(choose(MeasurementKind::Attitude));
+    click(at(-0.05, 0.0));
+    EXPECT_EQ(panel().findChild<QLabel*>(QStringLiteral("measureNote"))->text(),
+              QStringLiteral("Click to place 2 more point(s)."));
+    click(at(0.05, 0.0));
+    click(at(0.0, 0.08));
+    ASSERT_TRUE(isMeasured());
+    ASSERT_EQ(panel().list()->topLevelItemCount(), 1);
+    panel().list()->topLevelItem(0)->setText(0, QStringLiteral("Layer of rock"));
+    EXPECT_EQ(measuring().current()->name, QStringLiteral("Layer of rock"));
+    panel().copyResults();
+    EXPECT_TRUE(QGuiApplication::clipboard()->text().contains(QStringLiteral("Dip\t")));
+    window_->actionSet().remove_measurement->trigger();
+    EXPECT_EQ(panel().list()->topLevelItemCount(), 0);
+    window_->undoStack().undo();
+    EXPECT_EQ(panel().list()->topLevelItemCount(), 1);
+    EXPECT_EQ(measuring().state().items.front().name, QStringLiteral("Layer of rock"));
+}
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,441 @@
+#include "ui/panels/measure_panel.h"
+
+#include "core/measure/profile_statistics.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/plots/profile_plot.h"
+#include "ui/widgets/caption.h"
+
+#include <QClipboard>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QScopedValueRollback>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QTextStream>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include <array>
+#include <cmath>
+
+namespace marsview {
+namespace {
+
+enum Column { NameColumn, ResultColumn, LayerColumn, ColumnCount };
+
+constexpr int kResultsWidthMax = 360; // a value stays near its label
+constexpr int kIdRole = Qt::UserRole;
+constexpr std::array kScales{0.0, 1.0, 2.0, 5.0, 10.0, 20.0}; // 0: fills the plot
+
+QString field(QString text)
+{
+    // As RFC 4180 quotes.
+    if (text.contains(QLatin1Char(',')) || text.contains(QLatin1Char('"')) ||
+        text.contains(QLatin1Char('\n'))) {
+        text.replace(QLatin1Char('"'), QStringLiteral("\"\""));
+        return QLatin1Char('"') + text + QLatin1Char('"');
+    }
+    return text;
+}
+
+QString digits(double value)
+{
+    return std::isfinite(value) ? QString::number(value, 'g', 15) : QStringLiteral("nan");
+}
+
+} // namespace
+
+MeasurePanel::MeasurePanel(MeasureController& controller, QWidget* parent)
+    : QWidget(parent)
+    , controller_(controller)
+{
+    makeList();
+    makeResults();
+    makeProfile();
+    auto* splitter = new QSplitter(Qt::Horizontal, this);
+    splitter->setObjectName(QStringLiteral("measureParts"));
+    splitter->setChildrenCollapsible(false);
+    splitter->addWidget(list_->parentWidget());
+    splitter->addWidget(results_side_);
+    splitter->addWidget(profile_side_);
+    splitter->setStretchFactor(0, 2);
+    splitter->setStretchFactor(1, 2);
+    splitter->setStretchFactor(2, 5);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(6, 4, 6, 6);
+    layout->addWidget(splitter);
+    connect(&controller_, &MeasureController::changed, this, &MeasurePanel::showItems);
+    connect(&controller_, &MeasureController::measured, this, &MeasurePanel::showItems);
+    connect(&controller_, &MeasureController::lineHovered, plot_, &ProfilePlot::setCursorAt);
+    connect(plot_, &ProfilePlot::cursorMoved, &controller_, &MeasureController::setProfileCursor);
+    connect(plot_, &ProfilePlot::stretchPicked, this, &MeasurePanel::showResult);
+    showItems();
+}
+
+void MeasurePanel::makeList()
+{
+    auto* side = new QWidget(this);
+    list_ = new QTreeWidget(side);
+    list_->setObjectName(QStringLiteral("measurements"));
+    list_->setAccessibleName(tr("Measurements"));
+    list_->setRootIsDecorated(false);
+    list_->setUniformRowHeights(true);
+    list_->setColumnCount(ColumnCount);
+    list_->setHeaderLabels({tr("Name"), tr("Result"), tr("Layer")});
+    list_->setEditTriggers(QAbstractItemView::EditKeyPressed);
+    list_->setMinimumWidth(180);
+    auto* save = new QPushButton(tr("Save &Table…"), side);
+    save->setToolTip(tr("Save all measurements with their results and points as CSV"));
+    save->setObjectName(QStringLiteral("saveMeasurements"));
+    connect(save, &QPushButton::clicked, this, &MeasurePanel::saveTable);
+    auto* layout = new QVBoxLayout(side);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(list_);
+    layout->addWidget(save, 0, Qt::AlignLeading);
+    connect(list_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* row) {
+        if (!is_filling_ && row != nullptr) {
+            controller_.select(row->data(NameColumn, kIdRole).toUInt());
+        }
+    });
+    connect(list_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* row) {
+        controller_.show(row->data(NameColumn, kIdRole).toUInt());
+    });
+    connect(list_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* row, int column) {
+        if (!is_filling_ && column == NameColumn) {
+            controller_.rename(row->data(NameColumn, kIdRole).toUInt(), row->text(NameColumn));
+        }
+    });
+}
+
+void MeasurePanel::makeResults()
+{
+    results_side_ = new QWidget(this);
+    results_side_->setMaximumWidth(kResultsWidthMax);
+    title_ = makeCaption({}, results_side_);
+    title_->setWordWrap(true);
+    results_ = new QTableWidget(results_side_);
+    results_->setObjectName(QStringLiteral("measureResults"));
+    results_->setAccessibleName(tr("Results"));
+    results_->setColumnCount(2);
+    results_->horizontalHeader()->hide();
+    results_->verticalHeader()->hide();
+    results_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+    results_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    results_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    results_->setSelectionBehavior(QAbstractItemView::SelectRows);
+    results_->setShowGrid(false);
+    results_->setMinimumWidth(220);
+    note_ = new QLabel(results_side_);
+    note_->setWordWrap(true);
+    note_->setObjectName(QStringLiteral("measureNote"));
+    copy_ = new QPushButton(tr("&Copy"), results_side_);
+    copy_->setToolTip(tr("Copy the results as text"));
+    connect(copy_, &QPushButton::clicked, this, &MeasurePanel::copyResults);
+    remove_ = new QPushButton(tr("&Remove"), results_side_);
+    remove_->setToolTip(tr("Remove this measurement; Undo brings it back"));
+    connect(remove_, &QPushButton::clicked, this,
+            [this] { controller_.remove(controller_.state().current); });
+    auto* buttons = new QHBoxLayout;
+    buttons->addWidget(copy_);
+    buttons->addWidget(remove_);
+    buttons->addStretch(1);
+    auto* layout = new QVBoxLayout(results_side_);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(title_);
+    layout->addWidget(results_, 1);
+    layout->addWidget(note_);
+    layout->addLayout(buttons);
+}
+
+void MeasurePanel::makeProfile()
+{
+    profile_side_ = new QWidget(this);
+    plot_ = new ProfilePlot(profile_side_);
+    scale_ = new QComboBox(profile_side_);
+    scale_->setAccessibleName(tr("Vertical scale of the profile"));
+    scale_->setToolTip(tr("How many times larger elevations are drawn than distances"));
+    for (const double factor : kScales) {
+        scale_->addItem(factor > 0.0 ? leftToRight(QStringLiteral("%1:1").arg(factor))
+                                     //: The plot's vertical scale: as large as there is room
+                                     : tr("Fit"));
+    }
+    connect(scale_, &QComboBox::activated, this, [this](int index) {
+        const double factor = kScales.at(static_cast<std::size_t>(index));
+        plot_->setExaggeration(factor > 0.0 ? std::optional(factor) : std::nullopt);
+    });
+    slope_ = new QToolButton(profile_side_);
+    slope_->setText(tr("Slope"));
+    slope_->setToolTip(tr("Show the slope along the profile"));
+    slope_->setCheckable(true);
+    connect(slope_, &QToolButton::toggled, plot_, &ProfilePlot::setSlopeShown);
+    auto* save = new QPushButton(tr("Save Pro&file…"), profile_side_);
+    save->setToolTip(tr("Save the profile as CSV, PNG, SVG or PDF"));
+    save->setObjectName(QStringLiteral("saveProfile"));
+    connect(save, &QPushButton::clicked, this, &MeasurePanel::saveProfile);
+    stretch_note_ =
+        new QLabel(tr("Drag along the profile to measure a part of it."), profile_side_);
+    stretch_note_->setForegroundRole(QPalette::PlaceholderText);
+    auto* caption = makeCaption(tr("&Vertical scale"), profile_side_);
+    caption->setBuddy(scale_);
+    auto* line = new QHBoxLayout;
+    line->addWidget(caption);
+    line->addWidget(scale_);
+    line->addWidget(slope_);
+    line->addWidget(stretch_note_, 1);
+    line->addWidget(save);
+    auto* layout = new QVBoxLayout(profile_side_);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(plot_, 1);
+    layout->addLayout(line);
+}
+
+void MeasurePanel::setHeightUnit(HeightUnit unit)
+{
+    unit_ = unit;
+    plot_->setHeightUnit(unit);
+    showItems();
+}
+
+void MeasurePanel::showItems()
+{
+    const QScopedValueRollback filling(is_filling_, true);
+    const MeasureState& state = controller_.state();
+    while (list_->topLevelItemCount() > static_cast<int>(state.items.size())) {
+        delete list_->takeTopLevelItem(list_->topLevelItemCount() - 1);
+    }
+    for (std::size_t i = 0; i < state.items.size(); ++i) {
+        const MeasureItem& item = state.items[i];
+        QTreeWidgetItem* row = list_->topLevelItem(static_cast<int>(i));
+        if (row == nullptr) {
+            row = new QTreeWidgetItem(list_);
+            row->setFlags(row->flags() | Qt::ItemIsEditable);
+        }
+        const MeasureOutcome& outcome = controller_.outcome(item.id);
+        const Layer* layer = controller_.layerOf(item);
+        row->setData(NameColumn, kIdRole, item.id);
+        row->setText(NameColumn, item.name);
+        row->setText(ResultColumn,
+                     outcome.result ? measureSummary(*outcome.result, unit_) : QString());
+        row->setText(LayerColumn,
+                     layer != nullptr ? QString::fromStdString(layer->name) : tr("removed"));
+        row->setToolTip(NameColumn, measurementName(item.kind) + QLatin1Char('\n') +
+                                        locale().toString(item.time, QLocale::ShortFormat));
+        if (item.id == state.current) {
+            list_->setCurrentItem(row);
+        }
+    }
+    if (state.current == 0) {
+        list_->setCurrentItem(nullptr);
+    }
+    showProfile();
+    showResult();
+}
+
+void MeasurePanel::showResult()
+{
+    const MeasureItem* item = controller_.current();
+    copy_->setEnabled(item != nullptr);
+    remove_->setEnabled(item != nullptr);
+    std::vector<MeasureRow> rows;
+    QString note;
+    if (item == nullptr) {
+        title_->setText(tr("No measurement is selected"));
+        note = tr("Choose a measurement in the Measure menu, then click on the map.");
+    } else {
+        title_->setText(item->name);
+        const MeasureOutcome& outcome = controller_.outcome(item->id);
+        const std::size_t needed = verticesNeeded(item->kind);
+        if (item->vertices.size() < needed) {
+            //: %1 is a number
+            note = tr("Click to place %n more point(s).", nullptr,
+                      static_cast<int>(needed - item->vertices.size()));
+        } else if (outcome.result && !outcome.result->values) {
+            note = QString::fromStdString(outcome.result->values.error().message);
+            if (!note.isEmpty()) {
+                note[0] = note[0].toUpper();
+            }
+        } else if (outcome.result) {
+            const auto* profile = outcome.as<Profile>();
+            if (profile != nullptr && plot_->stretch()) {
+                Profile part = *profile;
+                const DistanceRange range = *plot_->stretch();
+                std::erase_if(part.points, [&](const ProfilePoint& point) {
+                    return point.distance_m < range.begin_m || point.distance_m > range.end_m;
+                });
+                rows = measureRows({.map = {}, .values = MeasuredValues(std::move(part))}, unit_);
+                title_->setText(tr("%1: from %2 to %3")
+                                    .arg(item->name, measuredLengthText(range.begin_m),
+                                         measuredLengthText(range.end_m)));
+            } else {
+                rows = measureRows(*outcome.result, unit_);
+            }
+            if (outcome.is_running) {
+                note = tr("Approximate; every sample is being read…");
+            } else if (outcome.result->is_approximate) {
+                note = tr("Approximate: measured on a preview.");
+            }
+        } else if (outcome.is_running) {
+            note = tr("Measuring…");
+        }
+    }
+    results_->setRowCount(static_cast<int>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        results_->setItem(static_cast<int>(i), 0, new QTableWidgetItem(rows[i].label));
+        auto* value = new QTableWidgetItem(rows[i].value);
+        value->setTextAlignment(Qt::AlignTrailing | Qt::AlignVCenter);
+        results_->setItem(static_cast<int>(i), 1, value);
+    }
+    results_->resizeRowsToContents();
+    note_->setText(note);
+    note_->setVisible(!note.isEmpty());
+}
+
+void MeasurePanel::showProfile()
+{
+    const MeasureItem* item = controller_.current();
+    const auto* profile = item != nullptr ? controller_.outcome(item->id).as<Profile>() : nullptr;
+    profile_side_->setVisible(item != nullptr && item->kind == MeasurementKind::Profile);
+    if (profile == nullptr) {
+        plot_->setCurves({});
+        return;
+    }
+    ProfileCurve curve;
+    curve.name = item->name;
+    curve.color = palette().color(QPalette::Highlight);
+    curve.is_approximate = profile->is_approximate;
+    curve.vertices_m = profile->vertices_m;
+    for (const ProfilePoint& point : profile->points) {
+        curve.distance_m.push_back(point.distance_m);
+        curve.elevation_m.push_back(point.elevation_m);
+    }
+    plot_->setCurves({std::move(curve)});
+}
+
+QString MeasurePanel::resultsText() const
+{
+    QString text = title_->text();
+    for (int i = 0; i < results_->rowCount(); ++i) {
+        text += QStringLiteral("\n%1\t%2")
+                    .arg(results_->item(i, 0)->text(), results_->item(i, 1)->text());
+    }
+    return text;
+}
+
+void MeasurePanel::copyResults()
+{
+    QGuiApplication::clipboard()->setText(resultsText());
+}
+
+void MeasurePanel::saveProfile()
+{
+    auto* dialog = new QFileDialog(this, tr("Save Profile"), folder_);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setNameFilters({tr("CSV table (*.csv)"), tr("PNG picture (*.png)"),
+                            tr("SVG drawing (*.svg)"), tr("PDF document (*.pdf)")});
+    dialog->setDefaultSuffix(QStringLiteral("csv"));
+    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& filter) {
+        const qsizetype dot = filter.lastIndexOf(QLatin1Char('.'));
+        dialog->setDefaultSuffix(filter.mid(dot + 1, 3));
+    });
+    dialog->selectFile(tr("profile") + QStringLiteral(".csv"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
+        folder_ = QFileInfo(path).absolutePath();
+        if (!writeProfile(path)) {
+            QMessageBox::warning(
+                this, tr("Save Profile"),
+                tr("%1 cannot be written; choose another folder").arg(isolated(path)));
+        }
+    });
+    dialog->open();
+}
+
+// The columns of `marsview-cli measure profile`, without those in the map's own units.
+bool MeasurePanel::writeProfile(const QString& path)
+{
+    if (QFileInfo(path).suffix().toLower() != QStringLiteral("csv")) {
+        return plot_->savePicture(path);
+    }
+    const MeasureItem* item = controller_.current();
+    const auto* profile = item != nullptr ? controller_.outcome(item->id).as<Profile>() : nullptr;
+    QSaveFile file(path);
+    if (profile == nullptr || !file.open(QIODevice::WriteOnly)) {
+        return false;
+    }
+    QTextStream stream(&file);
+    stream << "distance_m,lon,lat,elevation_m\n";
+    for (const ProfilePoint& point : profile->points) {
+        stream << digits(point.distance_m) << ',' << digits(point.position.x) << ','
+               << digits(point.position.y) << ',' << digits(point.elevation_m) << '\n';
+    }
+    stream.flush();
+    return file.commit();
+}
+
+QString MeasurePanel::tableCsv() const
+{
+    QString text = QStringLiteral("name,kind,layer,time,results,points\n");
+    for (const MeasureItem& item : controller_.state().items) {
+        const MeasureOutcome& outcome = controller_.outcome(item.id);
+        const Layer* layer = controller_.layerOf(item);
+        QString results;
+        if (outcome.result) {
+            for (const MeasureRow& row : measureRows(*outcome.result, unit_)) {
+                results += (results.isEmpty() ? QString() : QStringLiteral("; ")) + row.label +
+                           QStringLiteral(": ") + row.value;
+            }
+        }
+        QString points;
+        for (const MeasuredVertex& vertex : item.vertices) {
+            points += points.isEmpty() ? QString() : QStringLiteral("; ");
+            if (const auto* place = std::get_if<GeographicPoint>(&vertex)) {
+                points += digits(place->longitude.degrees()) + QLatin1Char(' ') +
+                          digits(place->latitude.degrees());
+            } else {
+                points += digits(std::get<MapPoint>(vertex).x) + QLatin1Char(' ') +
+                          digits(std::get<MapPoint>(vertex).y);
+            }
+        }
+        const QStringList fields{
+            field(item.name),
+            field(measurementName(item.kind)),
+            field(layer != nullptr ? QString::fromStdString(layer->name) : QString()),
+            item.time.toString(Qt::ISODate),
+            field(results),
+            field(points)};
+        text += fields.join(QLatin1Char(',')) + QLatin1Char('\n');
+    }
+    return text;
+}
+
+void MeasurePanel::saveTable()
+{
+    auto* dialog = new QFileDialog(this, tr("Save Measurements"), folder_);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setNameFilters({tr("CSV table (*.csv)")});
+    dialog->setDefaultSuffix(QStringLiteral("csv"));
+    dialog->selectFile(tr("measurements") + QStringLiteral(".csv"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
+        folder_ = QFileInfo(path).absolutePath();
+        QSaveFile file(path);
+        if (!file.open(QIODevice::WriteOnly) || file.write(tableCsv().toUtf8()) < 0 ||
+            !file.commit()) {
+            QMessageBox::warning(
+                this, tr("Save Measurements"),
+                tr("%1 cannot be written; choose another folder").arg(isolated(path)));
+        }
+    });
+    dialog->open();
+}
+
+} // namespace marsview

@@ -1,0 +1,68 @@
+// The panel of the measurements: what there is, the results of the current one, and its profile.
+#pragma once
+
+#include "ui/text/measure_text.h"
+
+#include <QWidget>
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QTableWidget;
+class QToolButton;
+class QTreeWidget;
+
+namespace marsview {
+
+class MeasureController;
+class ProfilePlot;
+
+/// Requests changes from the controller, and shows its state.
+class MeasurePanel final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit MeasurePanel(MeasureController& controller, QWidget* parent = nullptr);
+
+    void setHeightUnit(HeightUnit unit);
+    QTreeWidget* list() const noexcept { return list_; }
+    ProfilePlot* plot() const noexcept { return plot_; }
+    /// The rows of the current result, a line each: label, tab, value.
+    QString resultsText() const;
+
+public Q_SLOTS:
+    void copyResults();
+    /// Asks for a file: the points of the profile as CSV, or its picture.
+    void saveProfile();
+    /// Asks for a file: all measurements with their results as CSV.
+    void saveTable();
+
+private:
+    void makeList();
+    void makeResults();
+    void makeProfile();
+    void showItems();
+    void showResult();
+    void showProfile();
+    bool writeProfile(const QString& path);
+    QString tableCsv() const;
+
+    MeasureController& controller_;
+    HeightUnit unit_ = HeightUnit::Metres;
+    bool is_filling_ = false;
+    QTreeWidget* list_ = nullptr;
+    QWidget* results_side_ = nullptr;
+    QLabel* title_ = nullptr;
+    QTableWidget* results_ = nullptr;
+    QLabel* note_ = nullptr;
+    QPushButton* copy_ = nullptr;
+    QPushButton* remove_ = nullptr;
+    QWidget* profile_side_ = nullptr;
+    ProfilePlot* plot_ = nullptr;
+    QComboBox* scale_ = nullptr;
+    QToolButton* slope_ = nullptr;
+    QLabel* stretch_note_ = nullptr;
+    QString folder_;
+};
+
+} // namespace marsview

@@ -1,0 +1,258 @@
+#include "ui/text/measure_text.h"
+
+#include "core/measure/profile_statistics.h"
+
+#include <QCoreApplication>
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace marsview {
+namespace {
+
+constexpr double kKilometersFrom = 1000.0;
+constexpr int kDigits = 4; // significant
+
+QString tr(const char* text)
+{
+    return QCoreApplication::translate("Measure", text);
+}
+
+QString missing()
+{
+    //: In place of a number: the terrain has no data there
+    return tr(QT_TRANSLATE_NOOP("Measure", "no data"));
+}
+
+QString withDigits(double value, const QString& unit)
+{
+    const double size = std::abs(value);
+    const int before = size >= 1.0 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 1;
+    return leftToRight(withUnit(numberText(value, std::max(0, kDigits - before)), unit));
+}
+
+// Of a power of the meter: 1 a length, 2 an area, 3 a volume.
+QString powerText(double value, int power, const QString& small, const QString& large)
+{
+    if (!std::isfinite(value)) {
+        return missing();
+    }
+    const double large_unit = std::pow(kKilometersFrom, power);
+    return std::abs(value) >= large_unit ? withDigits(value / large_unit, large)
+                                         : withDigits(value, small);
+}
+
+QString elevationText(double elevation_m, HeightUnit unit)
+{
+    return std::isfinite(elevation_m)
+               ? leftToRight(withUnit(numberText(inUnit(elevation_m, unit), 1), unitSymbol(unit)))
+               : missing();
+}
+
+class Rows {
+public:
+    explicit Rows(HeightUnit unit)
+        : unit_(unit)
+    {}
+
+    void add(const char* label, const QString& value) { rows_.push_back({tr(label), value}); }
+    void addLength(const char* label, double value) { add(label, measuredLengthText(value)); }
+    void addElevation(const char* label, double value) { add(label, elevationText(value, unit_)); }
+    void addAngle(const char* label, double degrees) { add(label, measuredAngleText(degrees)); }
+    std::vector<MeasureRow> take() { return std::move(rows_); }
+
+    // The surface along a line with gaps is unknown.
+    void operator()(const Distance& distance)
+    {
+        addLength(QT_TRANSLATE_NOOP("Measure", "Geodesic distance"), distance.geodesic_m);
+        addLength(QT_TRANSLATE_NOOP("Measure", "Along the terrain"),
+                  distance.void_m > 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                                        : distance.surface_m);
+        addLength(QT_TRANSLATE_NOOP("Measure", "Straight line"), distance.straight_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Rise"), distance.rise_m);
+        if (distance.legs.size() == 1) {
+            addAngle(QT_TRANSLATE_NOOP("Measure", "Azimuth"), distance.legs.front().azimuth_deg);
+            return;
+        }
+        for (std::size_t i = 0; i < distance.legs.size(); ++i) {
+            const LegDistance& leg = distance.legs[i];
+            rows_.push_back(
+                {tr(QT_TRANSLATE_NOOP("Measure", "Leg %1")).arg(i + 1),
+                 tr(QT_TRANSLATE_NOOP("Measure", "%1 toward %2"))
+                     .arg(measuredLengthText(leg.geodesic_m), measuredAngleText(leg.azimuth_deg))});
+        }
+    }
+    void operator()(const Profile& profile)
+    {
+        const double end_m = profile.points.empty() ? 0.0 : profile.points.back().distance_m;
+        addStatistics(profileStatistics(profile, 0.0, end_m));
+    }
+    void addStatistics(const ProfileStatistics& part)
+    {
+        addLength(QT_TRANSLATE_NOOP("Measure", "Geodesic distance"), part.length_m);
+        addLength(QT_TRANSLATE_NOOP("Measure", "Along the terrain"),
+                  part.gap_m > 0.0 ? std::numeric_limits<double>::quiet_NaN() : part.surface_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Lowest"), part.min_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Highest"), part.max_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Mean"), part.mean_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Total ascent"), part.climb_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Total descent"), part.descent_m);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Mean slope"), part.mean_slope_deg);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Steepest slope"), part.steepest_deg);
+    }
+    void operator()(const TerrainArea& area)
+    {
+        add(QT_TRANSLATE_NOOP("Measure", "Geodesic area"), measuredAreaText(area.geodesic_m2));
+        addLength(QT_TRANSLATE_NOOP("Measure", "Perimeter"), area.perimeter_m);
+        add(QT_TRANSLATE_NOOP("Measure", "Terrain area"), measuredAreaText(area.surface_m2));
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Lowest"), area.min_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Highest"), area.max_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Mean"), area.mean_m);
+        if (area.volume_above_m3) {
+            add(QT_TRANSLATE_NOOP("Measure", "Volume above the border's plane"),
+                measuredVolumeText(*area.volume_above_m3));
+        }
+        if (area.volume_below_m3) {
+            add(QT_TRANSLATE_NOOP("Measure", "Volume below it"),
+                measuredVolumeText(*area.volume_below_m3));
+        }
+        if (area.crosses_itself) {
+            add(QT_TRANSLATE_NOOP("Measure", "Note"),
+                tr(QT_TRANSLATE_NOOP("Measure", "The border crosses itself")));
+        }
+    }
+    void operator()(const Attitude& attitude)
+    {
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Strike (right-hand rule)"), attitude.strike_deg);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip"), attitude.dip_deg);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip direction"), attitude.dip_direction_deg);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Dip error (95 %)"),
+                 attitude.uncertainty.dip_error_deg);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Strike error (95 %)"),
+                 attitude.uncertainty.strike_error_deg);
+        addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the plane"), attitude.rms_m);
+        add(QT_TRANSLATE_NOOP("Measure", "Points"), countText(attitude.points));
+    }
+    void operator()(const Crater& crater)
+    {
+        addLength(QT_TRANSLATE_NOOP("Measure", "Diameter"), crater.diameter_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Depth"), crater.depth_m);
+        add(QT_TRANSLATE_NOOP("Measure", "Depth to diameter"),
+            leftToRight(numberText(crater.depth_m / crater.diameter_m, 3)));
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Rim"), crater.rim_m);
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Floor"), crater.floor_m);
+        addLength(QT_TRANSLATE_NOOP("Measure", "RMS distance from the circle"), crater.rms_m);
+        add(QT_TRANSLATE_NOOP("Measure", "Rim points"), countText(crater.points));
+    }
+    void operator()(const std::vector<TerrainSlope>& slopes)
+    {
+        if (slopes.empty()) {
+            return;
+        }
+        addElevation(QT_TRANSLATE_NOOP("Measure", "Elevation"), slopes.front().elevation_m);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Slope"), slopes.front().slope_deg);
+        addAngle(QT_TRANSLATE_NOOP("Measure", "Aspect"), slopes.front().aspect_deg);
+    }
+
+private:
+    HeightUnit unit_;
+    std::vector<MeasureRow> rows_;
+};
+
+struct Summary {
+    HeightUnit unit;
+
+    QString operator()(const Distance& distance) const
+    {
+        return measuredLengthText(distance.geodesic_m);
+    }
+    QString operator()(const Profile& profile) const
+    {
+        return profile.points.empty() ? QString()
+                                      : measuredLengthText(profile.points.back().distance_m);
+    }
+    QString operator()(const TerrainArea& area) const { return measuredAreaText(area.geodesic_m2); }
+    // Strike/dip, as geologists write it.
+    QString operator()(const Attitude& attitude) const
+    {
+        const QString strike = std::isfinite(attitude.strike_deg)
+                                   ? QStringLiteral("%1").arg(std::lround(attitude.strike_deg), 3,
+                                                              10, QLatin1Char('0'))
+                                   : QStringLiteral("–");
+        return leftToRight(
+            QStringLiteral("%1/%2").arg(strike, measuredAngleText(attitude.dip_deg)));
+    }
+    QString operator()(const Crater& crater) const
+    {
+        //: A diameter
+        return tr(QT_TRANSLATE_NOOP("Measure", "⌀ %1")).arg(measuredLengthText(crater.diameter_m));
+    }
+    QString operator()(const std::vector<TerrainSlope>& slopes) const
+    {
+        return slopes.empty() ? QString() : elevationText(slopes.front().elevation_m, unit);
+    }
+};
+
+} // namespace
+
+QString measurementName(MeasurementKind kind)
+{
+    switch (kind) {
+    case MeasurementKind::Distance:
+        return tr(QT_TRANSLATE_NOOP("Measure", "Distance"));
+    case MeasurementKind::Profile:
+        return tr(QT_TRANSLATE_NOOP("Measure", "Profile"));
+    case MeasurementKind::Area:
+        return tr(QT_TRANSLATE_NOOP("Measure", "Area and Volume"));
+    case MeasurementKind::Attitude:
+        return tr(QT_TRANSLATE_NOOP("Measure", "Strike and Dip"));
+    case MeasurementKind::Crater:
+        return tr(QT_TRANSLATE_NOOP("Measure", "Crater"));
+    case MeasurementKind::Slope:
+        break;
+    }
+    return tr(QT_TRANSLATE_NOOP("Measure", "Elevation and Slope"));
+}
+
+QString measuredLengthText(double length_m)
+{
+    return powerText(length_m, 1, QStringLiteral("m"), QStringLiteral("km"));
+}
+
+QString measuredAreaText(double area_m2)
+{
+    return powerText(area_m2, 2, QStringLiteral("m²"), QStringLiteral("km²"));
+}
+
+QString measuredVolumeText(double volume_m3)
+{
+    return powerText(volume_m3, 3, QStringLiteral("m³"), QStringLiteral("km³"));
+}
+
+QString measuredAngleText(double degrees, int decimals)
+{
+    return std::isfinite(degrees) ? leftToRight(numberText(degrees, decimals) + QStringLiteral("°"))
+                                  : missing();
+}
+
+std::vector<MeasureRow> measureRows(const MeasurementResult& result, HeightUnit unit)
+{
+    Rows rows(unit);
+    if (result.values) {
+        std::visit(rows, *result.values);
+    }
+    return rows.take();
+}
+
+QString measureSummary(const MeasurementResult& result, HeightUnit unit)
+{
+    if (!result.values) {
+        return {};
+    }
+    const QString text = std::visit(Summary{unit}, *result.values);
+    return result.is_approximate && !text.isEmpty() ? leftToRight(QStringLiteral("≈ ") + text)
+                                                    : text;
+}
+
+} // namespace marsview
