@@ -86,7 +86,7 @@ Result<Work> workFor(const PrepareOptions& options, const OpenRaster& raster)
     return work;
 }
 
-// Where nothing is said and the raster itself will not do, among the prepared maps.
+// Without --output, and if the raster itself is not usable in place: among the prepared maps.
 Result<PrepareReport> prepare(const OpenRaster& raster, const Work& work, JobMonitor& monitor)
 {
     const PrepareJob& job = work.job;
@@ -189,7 +189,8 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
     command->add_flag("--wait", options->is_waiting,
                       "if another program prepares the same file, wait for it");
     command
-        ->add_option("--checkpoint", options->checkpoint_s, "seconds of work that a stop may lose")
+        ->add_option("--checkpoint", options->checkpoint_s,
+                     "seconds of work that an interruption may lose")
         ->capture_default_str()
         ->check(numberFrom(0.0, 3600.0));
     command->add_flag("--json", options->is_json, "print JSON");

@@ -111,7 +111,7 @@ private:
             monitor.report(static_cast<double>(goal) /
                            static_cast<double>(recording_.goals.size()));
             if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "tracing was cancelled"};
+                return Error{ErrorCode::Cancelled, "tracing was canceled"};
             }
         }
         return followGround(goal);
@@ -129,10 +129,10 @@ private:
                     return followed;
                 }
                 const auto* felt = std::get_if<GroundFelt>(&record);
-                const auto told =
+                const auto toucher =
                     felt != nullptr ? touchers_.find(felt->told_part) : touchers_.end();
-                if (told != touchers_.end()) {
-                    told->second.map_model->terrainChanged();
+                if (toucher != touchers_.end()) {
+                    toucher->second.map_model->terrainChanged();
                 }
             }
         }
@@ -326,7 +326,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--goals", options->goals,
                      "CSV with the header x,y,z: map coordinates in the raster's CRS and a height "
-                     "in metres, not exaggerated; - for standard input")
+                     "in meters, not exaggerated; - for standard input")
         ->type_name("FILE")
         ->required()
         ->transform(mapName());

@@ -80,7 +80,7 @@ constexpr std::array kLeftOut{
     "IRIS",
 };
 
-// README.md, "What it reads". OpenGuard checks the ways in which their files refer to other files.
+// OpenGuard checks the ways in which files of these formats refer to other files.
 constexpr std::array<const char*, 15> kPlain{
     "GTiff", "SRTMHGT", "DTED", "USGSDEM", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
     "ISIS3", "ISIS2",   "PDS",  "PDS4",    "VICAR",   "GSBG",           nullptr};
@@ -135,7 +135,7 @@ std::optional<std::string> recognisingDriverFor(const std::string& name)
 std::optional<std::string> leftOutDriverFor(const std::string& name)
 {
     GDALOpenInfo header(name.c_str(), GA_ReadOnly);
-    constexpr std::string_view kSgi = "\x01\xDA"; // whose driver only recognises what it opens
+    constexpr std::string_view kSgi = "\x01\xDA"; // whose driver only recognizes what it opens
     if (std::string_view(reinterpret_cast<const char*>(header.pabyHeader),
                          static_cast<std::size_t>(header.nHeaderBytes))
             .starts_with(kSgi)) {

@@ -219,7 +219,7 @@ private:
                 }
                 if (!filled || filled_tile_row != tile_row) {
                     if (monitor_.isCancelled()) {
-                        return Error{ErrorCode::Cancelled, "cancelled"};
+                        return Error{ErrorCode::Cancelled, "canceled"};
                     }
                     auto rows = filledRows(survey_.fine_means, means_, tile_row);
                     if (!rows) {
@@ -258,8 +258,8 @@ private:
         auto tile = readTile(reader, source_, id, monitor_);
         if (tile && sampleChecksum(tile->samples) != survey_.checksums->of(id)) {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: changed while it was read; open it again when nothing "
-                                     "writes to it any more",
+                         fmt::format("{}: changed while it was read; open it again when no program "
+                                     "writes to it",
                                      source_.name())};
         }
         return tile;
@@ -419,7 +419,7 @@ private:
     {
         for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
             if (monitor_.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "cancelled"};
+                return Error{ErrorCode::Cancelled, "canceled"};
             }
             const TileId id{.kind = TileKind::Samples,
                             .level = static_cast<std::uint8_t>(band.level),

@@ -226,8 +226,8 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
 
 Status TiffTiles::trim(std::uint64_t file_bytes)
 {
-    // A kill between flush and checkpoint leaves unrecorded tiles in the file; they will be rewritten
-    // in their locations if they fit. So these locations stay reserved.
+    // A kill between flush and checkpoint leaves unrecorded tiles in the file; they will be
+    // rewritten in their locations if they fit. So these locations stay reserved.
     for (std::size_t page = 0; page < impl_->pages.size(); ++page) {
         TIFF* file = impl_->handles[page].get();
         const std::size_t tiles = impl_->pages[page].tile_columns * impl_->pages[page].tile_rows;
@@ -237,7 +237,8 @@ Status TiffTiles::trim(std::uint64_t file_bytes)
             const std::uint64_t bytes = TIFFGetStrileByteCount(file, index);
             constexpr std::uint64_t kBytesMax = std::uint64_t{1} << 48;
             if (offset > kBytesMax || bytes > kBytesMax) {
-                return writeError(impl_->path, 0, "points beyond what a file can hold");
+                return writeError(impl_->path, 0,
+                                  "refers to positions beyond the largest file size");
             }
             file_bytes = std::max(file_bytes, offset + bytes);
         }

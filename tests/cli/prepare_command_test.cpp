@@ -47,7 +47,7 @@ nlohmann::json checksumsOf(const std::string& path)
 
 } // namespace
 
-TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
+TEST(PrepareCommand, ReportsItsResultsAndSpeed)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -68,7 +68,7 @@ TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
     EXPECT_EQ(firstBand(info)["overviews"].size(), 7U);
     // `info` reads these values from the level file; they must equal the ones computed from the
     // source.
-    const auto told = [](const std::string& path) {
+    const auto described = [](const std::string& path) {
         const ProgramOutput output_of_info = runCli({"info", path, "--json"});
         EXPECT_EQ(output_of_info.exit_status, 0) << output_of_info.err;
         nlohmann::json fields = nlohmann::json::parse(output_of_info.out);
@@ -77,13 +77,13 @@ TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
         }
         return fields;
     };
-    EXPECT_EQ(told(folder.file("map.tif")), told(source));
+    EXPECT_EQ(described(folder.file("map.tif")), described(source));
     const ProgramOutput words = runCli({"prepare", source, "-o", folder.file("other.tif")});
     EXPECT_EQ(words.exit_status, 0);
     EXPECT_THAT(words.out, HasSubstr("throughput"));
 }
 
-TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
+TEST(PrepareCommand, ProducesTheSameFileHoweverOftenItIsKilled)
 {
     // Not after every row of tiles: on a disk that takes 20 ms to sync a file, that would take
     // minutes.
@@ -150,7 +150,7 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
     std::printf("%d kills, %d finished before theirs\n", kills, finished);
 }
 
-TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
+TEST(PrepareCommand, StopsOnCtrlCAndResumesLater)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -164,7 +164,7 @@ TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
     program.signal(SIGINT);
     EXPECT_EQ(program.wait(), 1) << readFile(messages);
     EXPECT_EQ(readFile(messages),
-              fmt::format("marsview-cli: {}: preparing was cancelled; prepare it "
+              fmt::format("marsview-cli: {}: preparing was canceled; prepare it "
                           "again to resume\n",
                           path));
     const ProgramOutput second = runCli({"prepare", source, "-o", path});
@@ -173,7 +173,7 @@ TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
     EXPECT_EQ(firstBand(checksumsOf(path))["checksum"], firstBand(checksumsOf(source))["checksum"]);
 }
 
-TEST(PrepareCommand, SaysThatThereIsNoRoomAndGoesOnWhenThereIs)
+TEST(PrepareCommand, ReportsAFullDiskAndResumesWhenThereIsSpace)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -201,7 +201,7 @@ TEST(PrepareCommand, SaysThatThereIsNoRoomAndGoesOnWhenThereIs)
     }
 }
 
-TEST(PrepareCommand, LooksForRoomBeforehand)
+TEST(PrepareCommand, ChecksForDiskSpaceInAdvance)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder); // 42 MB raw
@@ -220,7 +220,7 @@ TEST(PrepareCommand, LooksForRoomBeforehand)
     EXPECT_THAT(output.err, HasSubstr(" MB free"));
 }
 
-TEST(PrepareCommand, UsesAMapInPlaceThatIsTiledAndHasOverviews)
+TEST(PrepareCommand, UsesATiledMapWithOverviewsInPlace)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -261,7 +261,7 @@ TEST(PrepareCommand, OverwritesNothingButPreparedMaps)
     }
 }
 
-TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
+TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedMaps)
 {
     const TempFolder folder;
     const TempFolder maps;
@@ -275,7 +275,7 @@ TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
     EXPECT_EQ(firstBand(checksumsOf(file))["checksum"], firstBand(checksumsOf(source))["checksum"]);
 }
 
-TEST(PrepareCommand, MakesRoomOnAFullDiskByTheMapThatWasNotUsedForLongest)
+TEST(PrepareCommand, RemovesTheLeastRecentlyUsedMapFromAFullDisk)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder); // 42 MB raw
@@ -293,7 +293,7 @@ TEST(PrepareCommand, MakesRoomOnAFullDiskByTheMapThatWasNotUsedForLongest)
     EXPECT_EQ(output.exit_status, 0) << output.err;
 }
 
-TEST(PrepareCommand, WhatItMadeOpensWhereNothingMayBeWritten)
+TEST(PrepareCommand, PreparedMapsOpenFromAReadOnlyFolder)
 {
     const TempFolder folder;
     const TempFolder maps;

@@ -204,7 +204,7 @@ void TerrainView::paintTerrain()
             still_timer_.start(kStillAfter);
         }
     } else if (report.is_complete) {
-        // Input that came meanwhile goes first.
+        // Input that arrived in the meantime is handled first.
         QMetaObject::invokeMethod(this, &TerrainView::finishStage, Qt::QueuedConnection);
     }
 }
@@ -315,7 +315,7 @@ void TerrainView::redrawTerrain()
     update();
 }
 
-// Shading that was missing has come.
+// Missing shading has arrived.
 void TerrainView::redrawWithNews()
 {
     if (!renderer_) {

@@ -120,7 +120,7 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     auto* foot = new QHBoxLayout;
     foot->addWidget(total_, 1);
     foot->addWidget(remove_button_);
-    foot->addSpacing(12); // what takes everything stands apart
+    foot->addSpacing(12); // the button that removes everything is set apart
     foot->addWidget(remove_all_button_);
     auto* layout = new QVBoxLayout(this);
     layout->addLayout(form);
@@ -329,11 +329,11 @@ void LargeMapsPage::countFetched()
 void LargeMapsPage::showFetched(const QString& folder, KeptTiles kept, const QString& problem)
 {
     if (folder != fetched_folder_->text()) {
-        return; // another was chosen meanwhile
+        return; // another folder was chosen in the meantime
     }
     const auto count = static_cast<int>(std::min<std::uint64_t>(kept.count, 1'000'000'000));
     fetched_total_->setText(!problem.isEmpty() ? problem
-                            : kept.bytes == 0  ? tr("Nothing is kept here.")
+                            : kept.bytes == 0  ? tr("No tiles are stored here.")
                             //: %1 is a size
                             : count == 1
                                 ? tr("One tile, %1").arg(bytesText(kept.bytes))
@@ -347,8 +347,8 @@ void LargeMapsPage::emptyFetched()
 {
     auto* box = new QMessageBox(
         QMessageBox::Question, tr("Remove Tiles from Servers"),
-        tr("Remove all tiles that came from servers? They are fetched again when they are looked "
-           "at or touched."),
+        tr("Remove all downloaded tiles? They are downloaded again when they are viewed or "
+           "touched."),
         QMessageBox::Cancel, this);
     QPushButton* remove = box->addButton(tr("&Remove"), QMessageBox::DestructiveRole);
     box->setDefaultButton(QMessageBox::Cancel);

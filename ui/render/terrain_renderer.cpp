@@ -146,7 +146,7 @@ struct Layer {
         }
     }
 
-    // Changes when tiles have come.
+    // Changes when tiles have arrived.
     std::uint64_t generation() const
     {
         return requests ? source.heightfield->tiles()->raster().generation() : 0;
@@ -296,7 +296,7 @@ struct TerrainRenderer::Impl {
                      const DrawStyle& style,
                      GridPoint anchor) const;
     void drawBatches(const DrawRequest& request);
-    // Pictures in motion leave out what takes a software driver long.
+    // Pictures in motion omit effects that are slow in software.
     bool isCheap(const DrawRequest& request) const { return request.is_hasty && is_software; }
     void setRays(const GlProgram& program,
                  const DrawRequest& request,
@@ -643,7 +643,7 @@ Result<std::unique_ptr<TerrainRenderer>> TerrainRenderer::create(std::function<v
     if (!epoxy_is_desktop_gl() || version < 33) {
         return Error{
             ErrorCode::Unsupported,
-            fmt::format("OpenGL 3.3 is needed, the graphics driver offers {}{}.{}; install "
+            fmt::format("OpenGL 3.3 is required, but the graphics driver offers {}{}.{}; install "
                         "a newer driver or Mesa's software one",
                         epoxy_is_desktop_gl() ? "" : "OpenGL ES ", version / 10, version % 10)};
     }
@@ -686,7 +686,7 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
         });
         if (known == before.end()) {
             auto added = std::make_unique<Layer>(layer, impl_->next_layer_number++, impl_->notify);
-            // Nothing is ever without relief: this one stands in for all others.
+            // There is always a relief: this one replaces any that is missing.
             impl_->reliefs.keep({.layer = added->number, .node = added->wholeNode()},
                                 *layer.relief);
             impl_->layers.push_back(std::move(added));

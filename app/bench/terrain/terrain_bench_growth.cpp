@@ -62,14 +62,14 @@ public:
         }
         measure();
         if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            return Error{ErrorCode::Cancelled, "measuring was canceled"};
         }
         for (const auto& [tiles, path] : tiles_) {
             if (tiles->error()) {
                 return *tiles->error();
             }
         }
-        tell(json);
+        addResultsTo(json);
         return json;
     }
 
@@ -186,7 +186,7 @@ private:
         return clock_.nanoseconds(end - begin) / static_cast<double>(options_.update_count);
     }
 
-    void tell(BenchJson& json) const
+    void addResultsTo(BenchJson& json) const
     {
         json["updates"] = options_.update_count;
         json["cells_per_update"] = options_.speeds_cells;

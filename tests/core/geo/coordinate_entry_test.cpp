@@ -22,7 +22,7 @@ struct Case {
     double longitude_deg;
 };
 
-TEST(PlaceFrom, UnderstandsTheWaysPeopleWrite)
+TEST(PlaceFrom, UnderstandsCommonNotations)
 {
     for (const Case& c : std::vector<Case>{
              {"18.65 N 226.2 E", 18.65, 226.2},
@@ -78,7 +78,7 @@ TEST(PlaceFrom, ReadsBareLongitudesInTheDirectionOfTheFormat)
     EXPECT_NEAR(longitude("18.65 N 133.8 W"), -133.8, 1e-12);
 }
 
-TEST(PlaceFrom, SaysWhatIsWrong)
+TEST(PlaceFrom, ErrorsNameTheProblem)
 {
     const auto message = [](const char* text) {
         const auto place = placeFrom(text);
@@ -92,17 +92,17 @@ TEST(PlaceFrom, SaysWhatIsWrong)
     EXPECT_THAT(message("18.65 N 226.2 N"), HasSubstr("N and N are the same direction"));
     EXPECT_THAT(message("91, 0"), HasSubstr("latitude 91 is beyond 90"));
     EXPECT_THAT(message("0, 361"), HasSubstr("longitude 361 is beyond 360"));
-    EXPECT_THAT(message("18 61 N 5 E"), HasSubstr("61 is too large for minutes"));
+    EXPECT_THAT(message("18 61 N 5 E"), HasSubstr("61 is too large; minutes"));
     EXPECT_THAT(message("18.5 30 N 5 E"), HasSubstr("only the last part"));
     EXPECT_THAT(message("-18 N 5 E"), HasSubstr("contradict"));
     EXPECT_THAT(message("18'39° N 5 E"), HasSubstr("out of order"));
-    EXPECT_THAT(message("1,2,3"), HasSubstr("more commas"));
+    EXPECT_THAT(message("1,2,3"), HasSubstr("more than one comma"));
     EXPECT_THAT(message("N E"), HasSubstr("a number is missing"));
     EXPECT_THAT(message("1 2 3 4 N 5 E"), HasSubstr("at most degrees, minutes and seconds"));
     EXPECT_THAT(message("1e4, 2"), HasSubstr("are needed"));
 }
 
-TEST(PlaceFrom, ReadsWhatItWroteInDegreesMinutesAndSeconds)
+TEST(PlaceFrom, ReadsBackDegreesMinutesAndSeconds)
 {
     test::Random random;
     for (int i = 0; i < 2000; ++i) {
@@ -145,7 +145,7 @@ TEST(PlaceFrom, SurvivesAnyText)
     }
 }
 
-TEST(MapPointFrom, TakesTwoPlainNumbers)
+TEST(MapPointFrom, ReadsTwoPlainNumbers)
 {
     for (const char* text :
          {"562345.5 -5117890", "562345.5, -5117890", "562345.5; -5117890",

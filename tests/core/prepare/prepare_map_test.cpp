@@ -91,7 +91,7 @@ TEST_F(PrepareMap, UsesTiledRastersWithOverviewsInPlace)
     EXPECT_FALSE(is_used_in_place(sparse)); // the levels between are missing
 }
 
-TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
+TEST_F(PrepareMap, RebuildsACopyThatIsDamagedAnywhere)
 {
     source("map");
     ASSERT_TRUE(run(job(WhenThere::Check)));
@@ -107,17 +107,17 @@ TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
         const Result<PrepareReport> report = run(job(WhenThere::Check));
         ASSERT_TRUE(report) << report.error().message;
         EXPECT_THAT(report->notes,
-                    Contains(EndsWith(is_left ? "it is rebuilt" : "every tile is as it was then")))
+                    Contains(EndsWith(is_left ? "it is rebuilt" : "all tiles are intact")))
             << share;
         EXPECT_TRUE(test::readFile(out) == whole) << share;
         const Result<PrepareReport> again = run(job(WhenThere::Check));
         ASSERT_TRUE(again);
-        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+        EXPECT_THAT(again->notes, Contains(EndsWith("all tiles are intact")));
     }
     EXPECT_GT(noticed_late, 0U);
 }
 
-TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
+TEST_F(PrepareMap, RebuildsADamagedCopyWithoutALevelFile)
 {
     source("map");
     const std::string out = folder_.file("out.tif");
@@ -134,11 +134,11 @@ TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
         EXPECT_TRUE(test::readFile(out) == whole) << share;
         const Result<PrepareReport> again = run(job(WhenThere::Check));
         ASSERT_TRUE(again);
-        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+        EXPECT_THAT(again->notes, Contains(EndsWith("all tiles are intact")));
     }
 }
 
-TEST_F(PrepareMap, LeavesADamagedRasterOfTheUsersWhereItIs)
+TEST_F(PrepareMap, NeverTouchesADamagedRasterOfTheUser)
 {
     source("map");
     const std::string own = folder_.file("own.tif");
@@ -156,7 +156,7 @@ TEST_F(PrepareMap, LeavesADamagedRasterOfTheUsersWhereItIs)
     }
 }
 
-TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
+TEST_F(PrepareMap, RebuildsALevelFileThatIsDamagedAnywhere)
 {
     source("map");
     ASSERT_TRUE(run(job(WhenThere::Check)));
@@ -173,11 +173,11 @@ TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
         copied = now;
         const Result<PrepareReport> again = run(job(WhenThere::Check));
         ASSERT_TRUE(again);
-        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+        EXPECT_THAT(again->notes, Contains(EndsWith("all tiles are intact")));
     }
 }
 
-TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
+TEST_F(PrepareMap, NamesTheRemedyForADamagedRasterUsedInPlace)
 {
     source("map");
     ASSERT_TRUE(run(job(WhenThere::Check)));
@@ -187,7 +187,7 @@ TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
     ASSERT_TRUE(run(own, {}));
     for (const auto& [path, remedy] :
          {std::pair{out, "prepare it again from " + folder_.file("map.vrt")},
-          std::pair{own, std::string("get it again from where it came")}}) {
+          std::pair{own, std::string("restore or fetch it again")}}) {
         const std::string levels = test::readFile(LevelFile::pathFor(path));
         overwrite(path, 0.5);
         const Result<PrepareReport> report = run(path, {.when_there = WhenThere::Check});
@@ -198,7 +198,7 @@ TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
     }
 }
 
-TEST_F(PrepareMap, LeavesNoMoreInTheFolderThanItMayHold)
+TEST_F(PrepareMap, KeepsTheFolderWithinItsLimit)
 {
     const test::TempFolder maps;
     const MapFolder folder = MapFolder::at(maps.path());
@@ -213,13 +213,13 @@ TEST_F(PrepareMap, LeavesNoMoreInTheFolderThanItMayHold)
     }
 }
 
-TEST_F(PrepareMap, RefusesToWriteBesideWhatLiesAtAServer)
+TEST_F(PrepareMap, RefusesToWriteNextToARemoteRaster)
 {
     const test::TempFolder maps;
     MapResources resources;
     resources.folder = maps.path();
     JobMonitor monitor;
-    const std::string address = "http://localhost:1/mars.tif"; // nothing is asked of it
+    const std::string address = "http://localhost:1/mars.tif"; // it gets no request
     const Status built = buildOverviews({.path = address}, resources, monitor);
     ASSERT_FALSE(built);
     EXPECT_THAT(built.error().message, testing::StartsWith(address + ": is on a server"));

@@ -117,8 +117,8 @@ double difference(Rgb8 a, Rgb8 b)
 
 // The smallest color differences on a ramp, for one type of color vision.
 struct Distinctness {
-    double neighbours = 1e9; // a twelfth of the ramp apart
-    double others = 1e9;     // an eighth or more apart
+    double neighbors = 1e9; // a twelfth of the ramp apart
+    double others = 1e9;    // an eighth or more apart
 };
 
 template <typename See>
@@ -129,7 +129,7 @@ Distinctness distinctness(const ColorRamp& ramp, const See& see)
     Distinctness least;
     for (std::size_t i = 0; i < 256; ++i) {
         if (i + 21 < 256) {
-            least.neighbours = std::min(least.neighbours, difference(colors[i], colors[i + 21]));
+            least.neighbors = std::min(least.neighbors, difference(colors[i], colors[i + 21]));
         }
         for (std::size_t k = i + 32; k < 256; ++k) {
             least.others = std::min(least.others, difference(colors[i], colors[k]));
@@ -154,7 +154,7 @@ double unevenness(const std::array<Rgb8, 256>& colors, std::size_t first, std::s
     return worst;
 }
 
-TEST(ColorRamp, GrowsEvenlyInLightnessWhereItSaysSo)
+TEST(ColorRamp, LightnessRisesEvenlyIfDeclaredEven)
 {
     constexpr double kBound = 0.01;
     for (const ColorRamp& ramp : colorRamps()) {
@@ -180,7 +180,7 @@ TEST(ColorRamp, GrowsEvenlyInLightnessWhereItSaysSo)
 }
 
 // Lightness increases steadily, except for rounding to bytes.
-TEST(ColorRamp, NeverFallsInLightnessWhereItIsEven)
+TEST(ColorRamp, LightnessNeverFallsIfEven)
 {
     for (const ColorRamp& ramp : colorRamps()) {
         if (ramp.evenness == RampEvenness::Even) {
@@ -193,7 +193,7 @@ TEST(ColorRamp, NeverFallsInLightnessWhereItIsEven)
 }
 
 // For even ramps, steps of a seventeenth are between 0.8 and 1.25 times their mean in Oklab.
-TEST(ColorRamp, StepsLookEquallyLargeWhereItIsEven)
+TEST(ColorRamp, StepsLookEquallyLargeIfEven)
 {
     for (const ColorRamp& ramp : colorRamps()) {
         if (ramp.evenness != RampEvenness::Even) {
@@ -214,9 +214,9 @@ TEST(ColorRamp, StepsLookEquallyLargeWhereItIsEven)
     }
 }
 
-TEST(ColorRamp, StaysDistinctToColorBlindEyesWhereItSaysSo)
+TEST(ColorRamp, IsDistinctForColorBlindPeopleIfDeclaredSo)
 {
-    constexpr double kNeighbours = 0.02;
+    constexpr double kNeighbors = 0.02;
     constexpr double kOthers = 0.035;
     for (const ColorRamp& ramp : colorRamps()) {
         bool is_distinct = true;
@@ -225,14 +225,14 @@ TEST(ColorRamp, StaysDistinctToColorBlindEyesWhereItSaysSo)
             const Distinctness least =
                 distinctness(ramp, [&](Rgb8 color) { return vision.seen(color); });
             std::cout << ramp.name << ", " << kMissing[missing] << ": neighbours "
-                      << least.neighbours << ", others " << least.others << '\n';
-            is_distinct = is_distinct && least.neighbours > kNeighbours && least.others > kOthers;
+                      << least.neighbors << ", others " << least.others << '\n';
+            is_distinct = is_distinct && least.neighbors > kNeighbors && least.others > kOthers;
         }
         EXPECT_EQ(is_distinct, ramp.is_color_blind_safe) << ramp.name;
     }
 }
 
-TEST(ColorVision, LeavesGreysAloneAndTakesRedFromGreen)
+TEST(ColorVision, KeepsGraysAndConfusesRedWithGreen)
 {
     for (const auto missing : {ColorVision::Long, ColorVision::Middle, ColorVision::Short}) {
         const ColorVision vision(missing);
@@ -246,7 +246,7 @@ TEST(ColorVision, LeavesGreysAloneAndTakesRedFromGreen)
               0.05);
 }
 
-TEST(ColorRamp, BeginsAndEndsWithItsStops)
+TEST(ColorRamp, StartsAndEndsWithItsStops)
 {
     for (const ColorRamp& ramp : colorRamps()) {
         const auto colors = sampledRamp(ramp);
@@ -281,7 +281,7 @@ TEST(ColorRamp, IsEvenAndSafeByDefault)
     }
 }
 
-TEST(TintedRange, PutsTheDatumInTheMiddleOfACentredRamp)
+TEST(TintedRange, PutsTheDatumInTheMiddleOfACenteredRamp)
 {
     const HeightRange mars{.minimum_m = -8068.0, .maximum_m = 21171.0};
     const HeightRange centred = tintedRange(*colorRampNamed("datum"), mars);
