@@ -38,6 +38,9 @@ CheckpointWriter::~CheckpointWriter()
 
 void CheckpointWriter::putBytes(std::span<const std::byte> bytes)
 {
+    if (bytes.empty()) {
+        return; // it may have no address
+    }
     checksum_ = crc32Of(bytes, checksum_);
     has_failed_ =
         has_failed_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size();

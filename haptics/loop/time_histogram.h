@@ -20,7 +20,7 @@ public:
         const auto ns = span.count() < 0 ? 0U : static_cast<std::uint64_t>(span.count());
         ++counts_[bucketOf(ns)];
         ++count_;
-        sum_ += span.count() < 0 ? Span{0} : span;
+        addToSum(span.count() < 0 ? Span{0} : span);
         maximum_ = span > maximum_ ? span : maximum_;
     }
     void merge(const TimeHistogram& other) noexcept
@@ -29,7 +29,7 @@ public:
             counts_[i] += other.counts_[i];
         }
         count_ += other.count_;
-        sum_ += other.sum_;
+        addToSum(other.sum_);
         maximum_ = other.maximum_ > maximum_ ? other.maximum_ : maximum_;
     }
 
@@ -86,6 +86,12 @@ public:
     }
 
 private:
+    // Stays at the longest duration that can be represented.
+    void addToSum(Span span) noexcept
+    {
+        sum_ = span > Span::max() - sum_ ? Span::max() : sum_ + span;
+    }
+
     static constexpr unsigned kBits = 5; // of the mantissa
     static constexpr std::uint64_t kParts = 1U << kBits;
     static constexpr unsigned kExponentMax = 40;
