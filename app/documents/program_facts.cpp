@@ -23,6 +23,8 @@ constexpr DocumentedFact kVariables[] = {
     {"MARSVIEW_PLUGIN_PATH", "Folders with device plugins, separated by colons."},
     {"MARSVIEW_OPENHAPTICS_LIBRARY",
      "The OpenHaptics library to load instead of the installed one."},
+    {"MARSVIEW_FORCEDIMENSION_LIBRARY",
+     "The Force Dimension library (libdhd) to load instead of the installed one."},
     {"GDAL_CACHEMAX, GDAL_NUM_THREADS, …",
      "GDAL's own settings are respected, including those in its configuration file."},
 };

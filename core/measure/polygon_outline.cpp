@@ -19,7 +19,7 @@ public:
     Status add(const GroundLine& line)
     {
         for (const GridCurve& curve : gridCurves(terrain_, line)) {
-            if (!curve.is_on_map) {
+            if (!curve.is_on_map && !curve.is_along_pole) {
                 return Error{ErrorCode::OutOfRange,
                              "an edge of the polygon leaves the map's projection; choose positions "
                              "on the map"};
@@ -29,24 +29,59 @@ public:
         return Done{};
     }
 
-    PolygonOutline finish() && { return std::move(outline_); }
+    PolygonOutline finish() &&
+    {
+        if (has_begun_) {
+            const double turns = turnsBetween(first_column_, last_column_);
+            joinAt(first_column_ + turns);
+            outline_.turn_columns = turns;
+        }
+        return std::move(outline_);
+    }
 
 private:
+    // Columns of whole turns from `column` to near `other`.
+    double turnsBetween(double column, double other) const
+    {
+        const double period = terrain_.period();
+        return period > 0.0 ? period * std::round((other - column) / period) : 0.0;
+    }
+
+    // Where an edge ends and the next one begins at a pole that is a row of the grid, the outline
+    // continues along that row.
+    void joinAt(double column)
+    {
+        constexpr double kSame = 1e-3; // samples
+        if (terrain_.period() > 0.0 && std::abs(column - last_column_) > kSame) {
+            addCut({.column = {last_column_, column - last_column_, 0.0, 0.0},
+                    .row = {last_row_, 0.0, 0.0, 0.0}},
+                   0.0);
+        }
+        last_column_ = column;
+    }
+
     void addCurve(const GridCurve& curve)
     {
         // Continue the columns of the edge before, so that the area is that of a closed line.
-        const double jump =
-            has_begun_ && terrain_.period() > 0.0
-                ? terrain_.period() *
-                      std::round((last_column_ - curve.at(0.0).column) / terrain_.period())
-                : 0.0;
+        const double begin = curve.at(0.0).column;
+        const double jump = has_begun_ ? turnsBetween(begin, last_column_) : 0.0;
+        if (has_begun_) {
+            joinAt(begin + jump);
+        } else {
+            first_column_ = begin;
+        }
+        addCut(curve, jump);
+        last_column_ = curve.at(1.0).column + jump;
+        last_row_ = curve.at(1.0).row;
+        has_begun_ = true;
+    }
+
+    void addCut(const GridCurve& curve, double jump)
+    {
         findCellCuts(terrain_, curve, cuts_);
         for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
             addBent(curve, cuts_[i], cuts_[i + 1], jump, 0);
         }
-        outline_.turn_columns += curve.at(1.0).column - curve.at(0.0).column;
-        last_column_ = curve.at(1.0).column + jump;
-        has_begun_ = true;
     }
 
     static GridPoint gridAt(const GridCurve& curve, const CellCut& cut)
@@ -121,7 +156,9 @@ private:
     double bottom_;
     std::vector<CellCut> cuts_;
     PolygonOutline outline_;
+    double first_column_ = 0.0;
     double last_column_ = 0.0;
+    double last_row_ = 0.0;
     bool has_begun_ = false;
 };
 

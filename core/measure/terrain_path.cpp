@@ -16,6 +16,7 @@ constexpr double kSameCut = 1e-9;          // samples, as Georeference rounds po
 // A line is halved until a curve fits. What does not fit in 1e-12 of it crosses an edge of the
 // projection.
 constexpr int kDepthMax = 40;
+constexpr std::size_t kCurvesMax = 1'000'000; // a bound on work, not met on any known map
 constexpr int kFlatDepthMax = 10;
 
 double valueAt(const std::array<double, 4>& a, double t)
@@ -98,13 +99,9 @@ private:
             }
         }
         const double middle_m = between(0.5);
-        if (depth >= kDepthMax || !(middle_m > begin_m && middle_m < end_m)) {
-            // Across a jump of the projection, not where positions are rounded.
-            constexpr double kJump = 1e-3; // samples
-            curve.is_on_map = begin && end &&
-                              std::hypot(curve.at(1.0).column - begin->column,
-                                         curve.at(1.0).row - begin->row) < kJump;
-            curves_.push_back(curve);
+        if (depth >= kDepthMax || curves_.size() >= kCurvesMax ||
+            !(middle_m > begin_m && middle_m < end_m)) {
+            addUnfit(begin_m, end_m, begin, end);
             return;
         }
         const Place middle = gridAt(middle_m);
@@ -117,14 +114,51 @@ private:
         fit(middle_m, end_m, middle, end, depth + 1);
     }
 
+    // A jump of the projection, or positions that are rounded by more than the tolerance.
+    void addUnfit(double begin_m, double end_m, const Place& begin, const Place& end)
+    {
+        GridCurve curve{.begin_m = begin_m, .end_m = end_m, .is_on_map = false};
+        if (begin && end) {
+            const Place last = near(end, begin->column);
+            constexpr double kJump = 1e-3; // samples
+            const double columns = last->column - begin->column;
+            const double rows = last->row - begin->row;
+            curve.column = {begin->column, columns, 0.0, 0.0};
+            curve.row = {begin->row, rows, 0.0, 0.0};
+            curve.is_on_map = std::hypot(columns, rows) < kJump;
+            curve.is_along_pole =
+                !curve.is_on_map && terrain_.period() > 0.0 && std::abs(rows) < kJump;
+        }
+        curves_.push_back(curve);
+    }
+
+    // How far a position is beyond the raster, in samples.
+    double beyond(const GridPoint& grid) const
+    {
+        const auto excess = [](double at, double last) { return std::max({0.0, -at, at - last}); };
+        const Georeference& georeference = terrain_.georeference();
+        const double rows = excess(grid.row, static_cast<double>(georeference.rows() - 1));
+        return terrain_.period() > 0.0
+                   ? rows
+                   : std::max(rows,
+                              excess(grid.column, static_cast<double>(georeference.columns() - 1)));
+    }
+
     bool fits(const GridCurve& curve)
     {
+        constexpr double kShareBeyond = 1e-3;
+        double away = std::min(beyond(curve.at(0.0)), beyond(curve.at(1.0)));
         for (const double t : {1.0 / 6.0, 0.5, 5.0 / 6.0}) {
             const GridPoint expected = curve.at(t);
             const Place real =
                 near(gridAt(curve.begin_m + t * (curve.end_m - curve.begin_m)), expected.column);
-            if (!real || !(std::abs(real->column - expected.column) <= tolerance_) ||
-                !(std::abs(real->row - expected.row) <= tolerance_)) {
+            if (!real) {
+                return false;
+            }
+            away = std::min(away, beyond(*real));
+            const double tolerance = tolerance_ + kShareBeyond * away;
+            if (!(std::abs(real->column - expected.column) <= tolerance) ||
+                !(std::abs(real->row - expected.row) <= tolerance)) {
                 return false;
             }
         }

@@ -14,12 +14,16 @@
 
 namespace marsview {
 
-/// A part of a line as a cubic curve on the grid, within 1e-7 of a sample. Columns continue without
-/// a jump where longitude is periodic.
+/// A part of a line as a cubic curve on the grid, within 1e-7 of a sample, or beyond the raster
+/// within a thousandth of the distance to it. Columns continue without a jump where longitude is
+/// periodic.
 struct GridCurve {
     double begin_m = 0.0; // along the line
     double end_m = 0.0;
-    bool is_on_map = true;          // false: outside the projection, or across its edge
+    bool is_on_map = true; // false: outside the projection, or across its edge
+    /// Not on the map, and through a pole that is a row of the grid: the curve is the part of that
+    /// row between the meridians before and after it.
+    bool is_along_pole = false;
     std::array<double, 4> column{}; // coefficients of t^0 … t^3, t in [0, 1]
     std::array<double, 4> row{};
 

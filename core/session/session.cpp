@@ -100,6 +100,67 @@ Session added(Session session, Layer layer)
     return withPictureKept(before, std::move(session));
 }
 
+LayerRecord recordOf(const Layer& layer)
+{
+    return {.spec = layer.map->spec(),
+            .name = layer.name,
+            .is_visible = layer.is_visible,
+            .ramp = layer.ramp,
+            .stretch = layer.stretch,
+            .slope_range = layer.slope_range,
+            .exaggeration = layer.exaggeration};
+}
+
+Layer layerFrom(LayerRecord record, std::shared_ptr<const Map> map)
+{
+    MARSVIEW_CHECK(map != nullptr);
+    Layer layer{.map = std::move(map),
+                .name = std::move(record.name),
+                .is_visible = record.is_visible,
+                .ramp = std::move(record.ramp),
+                .stretch = record.stretch,
+                .slope_range = record.slope_range,
+                .exaggeration = record.exaggeration};
+    if (layer.name.empty()) {
+        layer.name = std::filesystem::path(layer.map->spec().path).filename().string();
+    }
+    if (!(layer.exaggeration > 0.0)) {
+        layer.exaggeration = suitableExaggeration(*layer.map);
+    }
+    return layer;
+}
+
+Session withProjectLayer(Session session, Layer layer, LayerId id)
+{
+    MARSVIEW_CHECK(layer.map != nullptr && layerOf(session, id) == nullptr);
+    layer.id = id;
+    session.next_id = std::max(session.next_id, static_cast<std::uint32_t>(id) + 1);
+    const auto next = std::find_if(session.layers.begin(), session.layers.end(),
+                                   [id](const Layer& other) { return other.id > id; });
+    session.layers.insert(next, std::move(layer));
+    if (session.active == LayerId::None) {
+        session.active = id;
+    }
+    return withoutMissing(std::move(session), id);
+}
+
+Session withMissing(Session session, MissingLayer missing)
+{
+    session.next_id = std::max(session.next_id, static_cast<std::uint32_t>(missing.id) + 1);
+    session = withoutMissing(std::move(session), missing.id);
+    const auto next =
+        std::find_if(session.missing.begin(), session.missing.end(),
+                     [&](const MissingLayer& other) { return other.index > missing.index; });
+    session.missing.insert(next, std::move(missing));
+    return session;
+}
+
+Session withoutMissing(Session session, LayerId id)
+{
+    std::erase_if(session.missing, [id](const MissingLayer& missing) { return missing.id == id; });
+    return session;
+}
+
 Session removed(Session session, LayerId id)
 {
     const std::size_t index = indexOf(session, id);

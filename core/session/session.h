@@ -37,8 +37,33 @@ struct Layer {
     bool operator==(const Layer&) const = default;
 };
 
+/// All of a layer except its samples: enough to open it again.
+struct LayerRecord {
+    RasterSpec spec;
+    std::string name{};
+    bool is_visible = true;
+    std::string ramp{};
+    ColorStretch stretch{};
+    std::optional<SlopeRange> slope_range{};
+    double exaggeration = 0.0; // 0: what suits the map
+
+    bool operator==(const LayerRecord&) const = default;
+};
+
+/// A layer of a project whose file cannot be opened. It keeps everything until the file is located
+/// or the user removes it.
+struct MissingLayer {
+    LayerId id = LayerId::None;
+    LayerRecord record{};
+    std::size_t index = 0; // among all layers of the project, from the top
+    std::string problem{}; // "FILE: WHY"
+
+    bool operator==(const MissingLayer&) const = default;
+};
+
 struct Session {
-    std::vector<Layer> layers; // top first
+    std::vector<Layer> layers;           // top first
+    std::vector<MissingLayer> missing{}; // by index, ascending
     /// The layer that panels and the status bar describe; None only without layers.
     LayerId active = LayerId::None;
     TerrainLook look;
@@ -62,6 +87,18 @@ std::size_t indexOf(const Session& session, LayerId id);
 /// If a layer stays in the picture through a change of layers, the picture keeps its exaggeration:
 /// all layers that are shown adopt it.
 Session added(Session session, Layer layer);
+
+LayerRecord recordOf(const Layer& layer);
+/// The layer that `record` describes, of its map, without an id.
+Layer layerFrom(LayerRecord record, std::shared_ptr<const Map> map);
+
+/// A layer of a project at its place: above the first layer that has a greater id, under the id
+/// `id`. It replaces the missing layer of that id. It becomes active if no layer is.
+Session withProjectLayer(Session session, Layer layer, LayerId id);
+/// Adds a missing layer, or replaces the one with its id.
+Session withMissing(Session session, MissingLayer missing);
+/// Without the missing layer of that id.
+Session withoutMissing(Session session, LayerId id);
 
 // The following leave the session unchanged if the layer does not exist.
 

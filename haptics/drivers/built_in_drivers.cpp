@@ -1,6 +1,7 @@
 #include "haptics/drivers/built_in_drivers.h"
 
 #include "haptics/device/plugin_driver.h"
+#include "haptics/drivers/forcedimension/dhd_driver.h"
 #include "haptics/drivers/mouse/mouse_driver.h"
 #include "haptics/drivers/null_driver.h"
 #include "haptics/drivers/openhaptics/openhaptics_driver.h"
@@ -18,6 +19,7 @@ std::vector<std::unique_ptr<DeviceDriver>> builtInDrivers(std::shared_ptr<MouseL
 {
     std::vector<std::unique_ptr<DeviceDriver>> drivers;
     drivers.push_back(std::make_unique<OpenHapticsDriver>());
+    drivers.push_back(std::make_unique<DhdDriver>());
     drivers.push_back(std::make_unique<PolhemDriver>());
     drivers.push_back(std::make_unique<SpaceMouseDriver>());
     drivers.push_back(std::make_unique<PluginDriver>());

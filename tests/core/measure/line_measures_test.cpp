@@ -301,6 +301,38 @@ TEST(Profile, OfACoarseLevelIsThatOfItsSamples)
     EXPECT_GE(profileLevel(fine, way, 10.0), 1U);
 }
 
+TEST(Profile, ReachesFarBeyondTheProjectionOfAMap)
+{
+    MapMaker maker;
+    const auto level = [](std::size_t, std::size_t) { return 3.0; };
+    for (const MapMaker::Place& place :
+         {MapMaker::Place{.transform = {-1e5, 1e4, 0, 8e4, 0, -1e4}, .srs = kMarsPolar},
+          MapMaker::Place{.transform = {-1e5, 1e4, 0, 8e4, 0, -1e4}, .srs = kMarsConic},
+          MapMaker::Place{.srs = "EPSG:32610"},
+          MapMaker::Place{.transform = {-1e5, 1e4, 0, 8e4, 0, -1e4},
+          .srs = "+proj=sinu +R=1737400"},
+          MapMaker::Place{.transform = {-1e5, 1e4, 0, 8e4, 0, -1e4},
+          .srs = "+proj=ortho +R=1737400"},
+          MapMaker::Place{.transform = {-1e5, 1e4, 0, 8e4, 0, -1e4},
+          .srs = "+proj=gnom +lat_0=30 +R=1737400"},
+          MapMaker::Place{.transform = {-1e5, 1e4, 0, 8e4, 0, -1e4},
+          .srs = "+proj=merc +R=1737400"}}) {
+        SCOPED_TRACE(place.srs);
+        const auto map = maker.make(place, level);
+        MeasuredTerrain terrain = terrainOf(*map);
+        const GroundPosition here = *terrain.fromGrid({10.0, 7.0});
+        for (const GroundPosition& there :
+             {GroundPosition{0.0, 90.0}, GroundPosition{0.0, -90.0},
+              GroundPosition{here.x + 180.0, -here.y}, GroundPosition{here.x + 180.0, here.y},
+              GroundPosition{here.x + 90.0, 0.0}}) {
+            const Distance distance = distanceOf(terrain, {here, there, here});
+            EXPECT_GT(distance.surface_m, 100.0);
+            EXPECT_NEAR(distance.surface_m + distance.void_m, distance.geodesic_m,
+                        1e-6 * distance.geodesic_m);
+        }
+    }
+}
+
 TEST(Distance, OfSectionsAddsUpToTheWhole)
 {
     Random random;

@@ -316,6 +316,15 @@ TEST(TerrainArea, CoversPolygonsAcrossTheSeamAndAroundAPole)
     check({{10, 60}, {130, 55}, {250, 70}}, cap_m2, "north pole");
     check({{10, -60}, {130, -55}, {250, -70}}, cap_m2, "south pole");
     check({{0, 80}, {90, 80}, {180, 80}, {270, 80}}, cap_m2, "square around the north pole");
+    const auto sector = [&](double from, double to) {
+        // The part of the missing cap between these meridians.
+        return cap_m2 * (to - from) / 360.0;
+    };
+    check({{0, 90}, {90, 70}, {180, 70}}, sector(90, 180), "vertex at the north pole");
+    check({{0, -90}, {90, -70}, {180, -70}}, sector(90, 180), "vertex at the south pole");
+    check({{0, 90}, {20, 70}, {110, 70}, {200, 70}, {290, 70}}, sector(20, 290),
+          "three quarters around a pole");
+    check({{10, 80}, {190, 80}, {100, 60}}, sector(10, 190), "edge across the pole");
     check({{10, 5}, {130, -5}, {250, 5}}, cap_m2, "half of the body");
     check({{0, 20},
            {90, 30},

@@ -1,0 +1,685 @@
+#include "core/session/project.h"
+
+#include "core/base/durable_file.h"
+#include "core/files/raster_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "MarsView project";
+constexpr std::uintmax_t kBytesMax = std::uintmax_t{64} << 20;
+constexpr std::size_t kLayersMax = 100000;
+constexpr int kIndent = 2;
+
+template <typename Value>
+struct Named {
+    Value value;
+    const char* name;
+};
+
+constexpr std::array kShadings{
+    Named<ShadingMode>{ShadingMode::Tint, "shaded relief"},
+    Named<ShadingMode>{ShadingMode::Hillshade, "hillshade"},
+    Named<ShadingMode>{ShadingMode::Slope, "slope"},
+};
+constexpr std::array kStretches{
+    Named<StretchKind>{StretchKind::Automatic, "automatic"},
+    Named<StretchKind>{StretchKind::Full, "full"},
+    Named<StretchKind>{StretchKind::Percentile, "percentile"},
+    Named<StretchKind>{StretchKind::Fixed, "fixed"},
+};
+
+template <typename Names, typename Value>
+const char* nameIn(const Names& names, Value value)
+{
+    return std::find_if(names.begin(), names.end(),
+                        [value](const auto& entry) { return entry.value == value; })
+        ->name;
+}
+
+// The shortest decimal number of degrees that gives the angle, if there is one: 15.3, where the
+// division gives 15.300000000000001.
+double degreesOf(Angle angle)
+{
+    const double quotient = angle.degrees();
+    std::array<double, 3> candidates{quotient,
+                                     std::nextafter(quotient, -std::numeric_limits<double>::max()),
+                                     std::nextafter(quotient, std::numeric_limits<double>::max())};
+    for (const int digits : {15, 16}) {
+        const double rounded =
+            std::strtod(fmt::format("{:.{}g}", quotient, digits).c_str(), nullptr);
+        if (Angle::degrees(rounded) == angle) {
+            return rounded;
+        }
+    }
+    const auto* const exact =
+        std::find_if(candidates.begin(), candidates.end(),
+                     [angle](double degrees) { return Angle::degrees(degrees) == angle; });
+    return exact != candidates.end() ? *exact : quotient;
+}
+
+// JSON has no names for these values.
+Json numberJson(double value)
+{
+    if (std::isnan(value)) {
+        return "nan";
+    }
+    if (std::isinf(value)) {
+        return value > 0.0 ? "inf" : "-inf";
+    }
+    return value;
+}
+
+// Whether `path` is below `folder` at any depth. Both are absolute and normal.
+bool isBelow(const fs::path& path, const fs::path& folder)
+{
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+    return end == folder.end() || (end->empty() && std::next(end) == folder.end());
+}
+
+// A name with a scheme, or in a virtual file system of GDAL, rather than a path.
+bool isName(const std::string& path)
+{
+    if (path.starts_with("/vsi")) {
+        return true;
+    }
+    const std::size_t colon = path.find(':');
+    std::error_code ignored;
+    return colon != std::string::npos && colon < path.find('/') && !fs::exists(path, ignored);
+}
+
+void putSource(Json& layer, const std::string& path, const ProjectFolders& folders)
+{
+    if (isName(path)) {
+        layer["dataset"] = path;
+        return;
+    }
+    const fs::path file = fs::absolute(path).lexically_normal();
+    if (!folders.bundled.empty() && isBelow(file, folders.bundled.lexically_normal())) {
+        layer["bundled"] =
+            file.lexically_relative(folders.bundled.lexically_normal()).generic_string();
+        return;
+    }
+    const fs::path folder = (folders.project / "").lexically_normal().parent_path();
+    const fs::path parent = folder.parent_path();
+    const bool is_near =
+        isBelow(file, folder) ||
+        (parent != folder && parent != parent.root_path() && isBelow(file, parent));
+    layer["file"] = is_near ? file.lexically_relative(folder).generic_string() : file.string();
+}
+
+Json overridesJson(const RasterOverrides& overrides)
+{
+    Json json = Json::object();
+    if (overrides.crs) {
+        json["crs"] = *overrides.crs;
+    }
+    if (overrides.body) {
+        json["body"] = *overrides.body;
+    }
+    if (overrides.ellipsoid) {
+        json["equatorial_radius_m"] = numberJson(overrides.ellipsoid->equatorial_m);
+        json["polar_radius_m"] = numberJson(overrides.ellipsoid->polar_m);
+    }
+    if (overrides.transform) {
+        Json terms = Json::array();
+        for (const double term : *overrides.transform) {
+            terms.push_back(numberJson(term));
+        }
+        json["geotransform"] = std::move(terms);
+    }
+    if (overrides.vertical_unit) {
+        json["vertical_unit"] = *overrides.vertical_unit;
+    }
+    if (overrides.scale) {
+        json["scale"] = numberJson(*overrides.scale);
+    }
+    if (overrides.offset) {
+        json["offset"] = numberJson(*overrides.offset);
+    }
+    if (overrides.vertical_datum) {
+        json["vertical_datum"] = *overrides.vertical_datum;
+    }
+    if (overrides.nodata) {
+        json["nodata"] = numberJson(*overrides.nodata);
+    }
+    return json;
+}
+
+Json layerJson(const LayerRecord& layer, const ProjectFolders& folders)
+{
+    Json json = Json::object();
+    json["name"] = layer.name;
+    putSource(json, layer.spec.path, folders);
+    json["band"] = layer.spec.band;
+    json["visible"] = layer.is_visible;
+    json["exaggeration"] = layer.exaggeration;
+    json["ramp"] = layer.ramp;
+    Json stretch = Json::object();
+    stretch["kind"] = nameIn(kStretches, layer.stretch.kind);
+    stretch["cut_percent"] = layer.stretch.cut_percent;
+    stretch["low_m"] = numberJson(layer.stretch.low);
+    stretch["high_m"] = numberJson(layer.stretch.high);
+    json["stretch"] = std::move(stretch);
+    if (layer.slope_range) {
+        json["slope_range"] = {{"minimum_deg", degreesOf(layer.slope_range->minimum)},
+                               {"maximum_deg", degreesOf(layer.slope_range->maximum)}};
+    }
+    if (!layer.spec.overrides.isEmpty()) {
+        json["overrides"] = overridesJson(layer.spec.overrides);
+    }
+    return json;
+}
+
+Json cameraJson(const ProjectCamera& camera)
+{
+    Json json = Json::object();
+    json["x"] = camera.x;
+    json["y"] = camera.y;
+    json["elevation_m"] = camera.elevation_m;
+    json["distance_m"] = camera.distance_m;
+    json["azimuth_deg"] = degreesOf(camera.azimuth);
+    json["tilt_deg"] = degreesOf(camera.tilt);
+    json["field_of_view_deg"] = degreesOf(camera.field_of_view);
+    return json;
+}
+
+Json lookJson(const TerrainLook& look)
+{
+    Json json = Json::object();
+    json["shading"] = nameIn(kShadings, look.mode);
+    json["contours"] = look.has_contours;
+    json["contour_interval_m"] = look.contour_interval_m;
+    json["light_azimuth_deg"] = degreesOf(look.light_azimuth);
+    json["light_altitude_deg"] = degreesOf(look.light_altitude);
+    return json;
+}
+
+// Reads the members of one object and notes the first fault. Members that are absent leave their
+// variable as it is.
+class Members {
+public:
+    Members(const Json& json, std::string place, std::string& fault)
+        : json_(json)
+        , place_(std::move(place))
+        , fault_(fault)
+    {
+        if (!json_.is_object()) {
+            refuse("", "an object");
+        }
+    }
+
+    bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
+    void text(const char* key, std::string& value)
+    {
+        if (has(key)) {
+            if (const Json& member = json_[key]; member.is_string()) {
+                value = member.get<std::string>();
+            } else {
+                refuse(key, "a text");
+            }
+        }
+    }
+
+    void text(const char* key, std::optional<std::string>& value)
+    {
+        if (has(key)) {
+            value.emplace();
+            text(key, *value);
+        }
+    }
+
+    void flag(const char* key, bool& value)
+    {
+        if (has(key)) {
+            if (const Json& member = json_[key]; member.is_boolean()) {
+                value = member.get<bool>();
+            } else {
+                refuse(key, "true or false");
+            }
+        }
+    }
+
+    // Any number, also "nan", "inf" and "-inf".
+    void anyNumber(const char* key, std::optional<double>& value)
+    {
+        if (has(key)) {
+            value = numberIn(json_[key]);
+            if (!value) {
+                refuse(key, "a number");
+            }
+        }
+    }
+
+    template <typename Accepts>
+    void number(const char* key, double& value, Accepts accepts, const char* what)
+    {
+        if (has(key)) {
+            const Json& member = json_[key];
+            const double given = member.is_number() ? member.get<double>()
+                                                    : std::numeric_limits<double>::quiet_NaN();
+            if (std::isfinite(given) && accepts(given)) {
+                value = given;
+            } else {
+                refuse(key, what);
+            }
+        }
+    }
+
+    void number(const char* key, double& value)
+    {
+        number(
+            key, value, [](double) { return true; }, "a number");
+    }
+
+    template <typename Accepts>
+    void angle(const char* key, Angle& value, Accepts accepts, const char* what)
+    {
+        double degrees = 0.0;
+        if (has(key)) {
+            number(key, degrees, accepts, what);
+            value = Angle::degrees(degrees);
+        }
+    }
+
+    void index(const char* key, std::optional<std::size_t>& value, std::size_t count)
+    {
+        if (has(key)) {
+            const Json& member = json_[key];
+            if (member.is_number_unsigned() && member.get<std::size_t>() < count) {
+                value = member.get<std::size_t>();
+            } else {
+                refuse(key, "the index of a layer");
+            }
+        }
+    }
+
+    void count(const char* key, int& value)
+    {
+        if (has(key)) {
+            const Json& member = json_[key];
+            constexpr int kMost = std::numeric_limits<int>::max();
+            if (member.is_number_unsigned() && member.get<std::uint64_t>() >= 1 &&
+                member.get<std::uint64_t>() <= std::uint64_t{kMost}) {
+                value = member.get<int>();
+            } else {
+                refuse(key, "a whole number from 1 up");
+            }
+        }
+    }
+
+    template <typename Names, typename Value>
+    void choice(const char* key, const Names& names, Value& value)
+    {
+        std::string name = nameIn(names, value);
+        text(key, name);
+        const auto* const found = std::find_if(
+            names.begin(), names.end(), [&name](const auto& entry) { return name == entry.name; });
+        if (found == names.end()) {
+            refuse(key, "a known choice");
+        } else {
+            value = found->value;
+        }
+    }
+
+    void terms(const char* key, std::optional<GeoTransform::Terms>& value)
+    {
+        if (!has(key)) {
+            return;
+        }
+        const Json& member = json_[key];
+        GeoTransform::Terms terms{};
+        if (!member.is_array() || member.size() != terms.size()) {
+            refuse(key, "a list of six numbers");
+            return;
+        }
+        for (std::size_t i = 0; i < terms.size(); ++i) {
+            const auto term = numberIn(member[i]);
+            if (!term) {
+                refuse(key, "a list of six numbers");
+                return;
+            }
+            terms[i] = *term;
+        }
+        value = terms;
+    }
+
+    template <typename Read>
+    void object(const char* key, Read read)
+    {
+        if (has(key)) {
+            Members members(json_[key], placeOf(key), fault_);
+            read(members);
+        }
+    }
+
+    void refuse(const char* key, const char* what)
+    {
+        if (fault_.empty()) {
+            fault_ = fmt::format("{} is not {}", placeOf(key), what);
+        }
+    }
+
+private:
+    static std::optional<double> numberIn(const Json& json)
+    {
+        if (json.is_number()) {
+            return json.get<double>();
+        }
+        if (json == "nan") {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        if (json == "inf" || json == "-inf") {
+            const double infinity = std::numeric_limits<double>::infinity();
+            return json == "inf" ? infinity : -infinity;
+        }
+        return std::nullopt;
+    }
+
+    std::string placeOf(const char* key) const
+    {
+        return *key == '\0' ? place_ : place_.empty() ? key : place_ + "." + key;
+    }
+
+    const Json& json_;
+    std::string place_;
+    std::string& fault_;
+};
+
+std::string pathFrom(Members& members, const ProjectFolders& folders)
+{
+    std::string file;
+    std::string bundled;
+    std::string dataset;
+    members.text("file", file);
+    members.text("bundled", bundled);
+    members.text("dataset", dataset);
+    if (!dataset.empty()) {
+        return dataset;
+    }
+    if (!bundled.empty()) {
+        return (folders.bundled / bundled).lexically_normal().string();
+    }
+    if (file.empty()) {
+        members.refuse("file", "the path of a file");
+        return {};
+    }
+    return (folders.project / file).lexically_normal().string();
+}
+
+RasterOverrides overridesFrom(Members& members)
+{
+    RasterOverrides overrides;
+    members.text("crs", overrides.crs);
+    members.text("body", overrides.body);
+    if (members.has("equatorial_radius_m") || members.has("polar_radius_m")) {
+        std::optional<double> equatorial;
+        std::optional<double> polar;
+        members.anyNumber("equatorial_radius_m", equatorial);
+        members.anyNumber("polar_radius_m", polar);
+        overrides.ellipsoid = Ellipsoid{equatorial.value_or(polar.value_or(0.0)),
+                                        polar.value_or(equatorial.value_or(0.0))};
+    }
+    members.terms("geotransform", overrides.transform);
+    members.text("vertical_unit", overrides.vertical_unit);
+    members.anyNumber("scale", overrides.scale);
+    members.anyNumber("offset", overrides.offset);
+    members.text("vertical_datum", overrides.vertical_datum);
+    members.anyNumber("nodata", overrides.nodata);
+    return overrides;
+}
+
+ColorStretch stretchFrom(Members& members)
+{
+    ColorStretch stretch;
+    members.choice("kind", kStretches, stretch.kind);
+    members.number(
+        "cut_percent", stretch.cut_percent,
+        [](double cut) { return cut >= 0.0 && cut <= kStretchCutMax; },
+        "a percentage from 0 to 45");
+    members.number("low_m", stretch.low);
+    members.number("high_m", stretch.high);
+    if (stretch.kind == StretchKind::Fixed && !isStretchRange(stretch.low, stretch.high)) {
+        members.refuse("high_m", "greater than low_m");
+    }
+    return stretch;
+}
+
+SlopeRange slopeRangeFrom(Members& members)
+{
+    SlopeRange range;
+    const auto is_slope = [](double degrees) { return degrees >= 0.0 && degrees <= 90.0; };
+    members.angle("minimum_deg", range.minimum, is_slope, "a slope from 0 to 90");
+    members.angle("maximum_deg", range.maximum, is_slope, "a slope from 0 to 90");
+    if (!(range.minimum < range.maximum)) {
+        members.refuse("maximum_deg", "greater than minimum_deg");
+    }
+    return range;
+}
+
+LayerRecord layerFrom(Members& members, const ProjectFolders& folders)
+{
+    LayerRecord layer;
+    members.text("name", layer.name);
+    layer.spec.path = pathFrom(members, folders);
+    members.count("band", layer.spec.band);
+    members.flag("visible", layer.is_visible);
+    members.number(
+        "exaggeration", layer.exaggeration, [](double factor) { return factor >= 0.0; },
+        "a factor");
+    members.text("ramp", layer.ramp);
+    members.object("stretch", [&](Members& stretch) { layer.stretch = stretchFrom(stretch); });
+    members.object("slope_range",
+                   [&](Members& range) { layer.slope_range = slopeRangeFrom(range); });
+    members.object("overrides",
+                   [&](Members& overrides) { layer.spec.overrides = overridesFrom(overrides); });
+    return layer;
+}
+
+TerrainLook lookFrom(Members& members)
+{
+    TerrainLook look;
+    members.choice("shading", kShadings, look.mode);
+    members.flag("contours", look.has_contours);
+    members.number(
+        "contour_interval_m", look.contour_interval_m,
+        [](double interval) { return interval >= 0.0; }, "a length");
+    members.angle(
+        "light_azimuth_deg", look.light_azimuth, [](double) { return true; }, "an angle");
+    members.angle(
+        "light_altitude_deg", look.light_altitude,
+        [](double degrees) { return degrees >= -90.0 && degrees <= 90.0; },
+        "an angle from -90 to 90");
+    return look;
+}
+
+ProjectCamera cameraFrom(Members& members)
+{
+    ProjectCamera camera;
+    members.number("x", camera.x);
+    members.number("y", camera.y);
+    members.number("elevation_m", camera.elevation_m);
+    members.number(
+        "distance_m", camera.distance_m, [](double distance) { return distance > 0.0; },
+        "a length above 0");
+    members.angle(
+        "azimuth_deg", camera.azimuth, [](double) { return true; }, "an angle");
+    members.angle(
+        "tilt_deg", camera.tilt, [](double degrees) { return degrees >= 0.0 && degrees <= 90.0; },
+        "an angle from 0 to 90");
+    members.angle(
+        "field_of_view_deg", camera.field_of_view,
+        [](double degrees) { return degrees > 0.0 && degrees < 180.0; },
+        "an angle between 0 and 180");
+    return camera;
+}
+
+constexpr std::array kKnownMembers{"format", "version", "active", "look", "camera", "layers"};
+
+} // namespace
+
+Project projectOf(const Session& session)
+{
+    Project project;
+    for (const Layer& layer : session.layers) {
+        if (layer.id == session.active) {
+            project.active = project.layers.size();
+        }
+        project.layers.push_back(recordOf(layer));
+    }
+    for (const MissingLayer& missing : session.missing) {
+        const std::size_t index = std::min(missing.index, project.layers.size());
+        project.layers.insert(project.layers.begin() + static_cast<std::ptrdiff_t>(index),
+                              missing.record);
+        if (project.active && index <= *project.active) {
+            ++*project.active;
+        }
+    }
+    project.look = session.look;
+    return project;
+}
+
+Result<std::string> projectText(const Project& project, const ProjectFolders& folders)
+{
+    Json json = Json::object();
+    json["format"] = kFormat;
+    json["version"] = kProjectVersion;
+    if (project.active) {
+        json["active"] = *project.active;
+    }
+    json["look"] = lookJson(project.look);
+    if (project.camera) {
+        json["camera"] = cameraJson(*project.camera);
+    }
+    Json layers = Json::array();
+    for (const LayerRecord& layer : project.layers) {
+        layers.push_back(layerJson(layer, folders));
+    }
+    json["layers"] = std::move(layers);
+    for (const auto& [key, text] : project.others) {
+        json[key] = Json::parse(text, nullptr, false);
+    }
+    try {
+        return json.dump(kIndent) + "\n";
+    } catch (const Json::type_error&) {
+        return Error{ErrorCode::Invalid, "a layer has a name or path that is not UTF-8; rename it"};
+    }
+}
+
+Result<Project>
+projectFrom(std::string_view text, const ProjectFolders& folders, const std::string& name)
+{
+    const Json json = Json::parse(text, nullptr, false);
+    const auto damaged = [&name](const std::string& why) {
+        return Error{
+            ErrorCode::Damaged,
+            fmt::format("{}: damaged project: {}; open a copy of it or the maps themselves", name,
+                        why)};
+    };
+    if (json.is_discarded()) {
+        return text.find(kFormat) != std::string_view::npos
+                   ? damaged("it is incomplete or not JSON")
+                   : Error{ErrorCode::Invalid, name + ": not a MarsView project"};
+    }
+    if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
+        return Error{ErrorCode::Invalid, name + ": not a MarsView project"};
+    }
+    if (!json.contains("version") || !json["version"].is_number_unsigned() ||
+        json["version"].get<std::uint64_t>() < 1) {
+        return damaged("version is not a whole number from 1 up");
+    }
+    if (const auto version = json["version"].get<std::uint64_t>(); version > kProjectVersion) {
+        return Error{ErrorCode::Unsupported,
+                     fmt::format("{}: saved by a newer version of MarsView: the project has format "
+                                 "version {}, this program reads up to {}; update MarsView",
+                                 name, version, kProjectVersion)};
+    }
+    std::string fault;
+    Project project;
+    Members members(json, "", fault);
+    if (json.contains("layers")) {
+        const Json& layers = json["layers"];
+        if (!layers.is_array() || layers.size() > kLayersMax) {
+            return damaged("layers is not a list of layers");
+        }
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            Members layer(layers[i], fmt::format("layers[{}]", i), fault);
+            project.layers.push_back(layerFrom(layer, folders));
+        }
+    } else {
+        return damaged("the list of layers is missing");
+    }
+    members.index("active", project.active, project.layers.size());
+    members.object("look", [&](Members& look) { project.look = lookFrom(look); });
+    members.object("camera", [&](Members& camera) { project.camera = cameraFrom(camera); });
+    if (!fault.empty()) {
+        return damaged(fault);
+    }
+    for (const auto& [key, value] : json.items()) {
+        if (std::find(kKnownMembers.begin(), kKnownMembers.end(), key) == kKnownMembers.end()) {
+            project.others[key] = value.dump();
+        }
+    }
+    return project;
+}
+
+Result<Project> readProject(const fs::path& path, const fs::path& bundled)
+{
+    const std::string name = path.string();
+    std::error_code problem;
+    if (!fs::exists(path, problem)) {
+        return Error{ErrorCode::NotFound, name + ": no such file"};
+    }
+    if (fs::is_directory(path, problem)) {
+        return Error{ErrorCode::Invalid, name + ": a folder, not a MarsView project"};
+    }
+    if (const auto bytes = fs::file_size(path, problem); !problem && bytes > kBytesMax) {
+        return Error{ErrorCode::TooLarge, name + ": larger than 64 MB, so not a MarsView project"};
+    }
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file || file.bad()) {
+        return Error{ErrorCode::Unreadable,
+                     fmt::format("{}: cannot be read: {}", name, std::strerror(errno))};
+    }
+    return projectFrom(
+        text, {.project = fs::absolute(path).lexically_normal().parent_path(), .bundled = bundled},
+        name);
+}
+
+Status writeProject(const Project& project, const fs::path& path, const fs::path& bundled)
+{
+    const auto text =
+        projectText(project, {.project = fs::absolute(path).lexically_normal().parent_path(),
+                              .bundled = bundled});
+    if (!text) {
+        return Error{text.error().code,
+                     path.string() + ": cannot be saved: " + text.error().message};
+    }
+    return replaceFile(path, *text);
+}
+
+bool isProjectPath(const std::string& path)
+{
+    return lowerCase(fs::path(path).extension().string()) == ".mvproj";
+}
+
+} // namespace marsview

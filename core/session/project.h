@@ -1,0 +1,82 @@
+// The project file (.mvproj): the document as versioned JSON. The guide's page "Projects" describes
+// the format.
+#pragma once
+
+#include "core/base/angle.h"
+#include "core/base/result.h"
+#include "core/session/session.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace marsview {
+
+/// The version that this program writes. Versions up to it are read. It grows when an older program
+/// would misread a file.
+inline constexpr int kProjectVersion = 1;
+
+/// A camera in the map coordinates of the topmost layer in the picture.
+struct ProjectCamera {
+    double x = 0.0; // of the target, in the units of the CRS
+    double y = 0.0;
+    double elevation_m = 0.0; // of the target, without exaggeration
+    double distance_m = 1.0;  // > 0
+    Angle azimuth{};
+    Angle tilt{};
+    Angle field_of_view = Angle::degrees(40.0);
+
+    bool operator==(const ProjectCamera&) const = default;
+};
+
+/// What a project file states.
+struct Project {
+    std::vector<LayerRecord> layers;     // top first
+    std::optional<std::size_t> active{}; // an index of `layers`
+    TerrainLook look{};
+    std::optional<ProjectCamera> camera{};
+    /// Members that this version does not define, as JSON. They are kept when the project is saved.
+    std::map<std::string, std::string> others{};
+
+    bool operator==(const Project&) const = default;
+};
+
+/// Folders that paths in a project refer to.
+struct ProjectFolders {
+    std::filesystem::path project; // where the project file is; absolute
+    std::filesystem::path bundled; // the maps that come with the program; empty if unknown
+};
+
+/// The project of a session: its layers, and the missing ones in their places.
+Project projectOf(const Session& session);
+
+/// The JSON text: members in a fixed order, one value a line, every number exact; only an angle
+/// that no decimal number of degrees gives may be off by one unit in its last place. Files below
+/// the project's folder or below its parent folder get relative paths, bundled maps their name,
+/// other files absolute paths; addresses and GDAL names stay as they are. Invalid if a name or path
+/// is not UTF-8.
+Result<std::string> projectText(const Project& project, const ProjectFolders& folders);
+
+/// The project that `text` describes. `name` is the path of its file, which errors begin with.
+/// Unsupported for versions after kProjectVersion; Damaged with the place of the first fault;
+/// Invalid for files that are not projects. Paths in the result are absolute.
+Result<Project>
+projectFrom(std::string_view text, const ProjectFolders& folders, const std::string& name);
+
+/// Reads a project file of at most 64 MB. Blocks on the disk.
+Result<Project> readProject(const std::filesystem::path& path,
+                            const std::filesystem::path& bundled);
+
+/// Replaces the project file as a whole (replaceFile). Blocks on the disk.
+Status writeProject(const Project& project,
+                    const std::filesystem::path& path,
+                    const std::filesystem::path& bundled);
+
+/// Whether a path has the extension of project files, in either case.
+bool isProjectPath(const std::string& path);
+
+} // namespace marsview
