@@ -18,7 +18,7 @@ struct ChildProgram {
     std::chrono::milliseconds time_max{10'000};
     /// For stdout and stderr each; further output is read and dropped.
     std::size_t output_bytes_max = std::size_t{4} << 20;
-    /// Cancelling the job kills the program. May be null.
+    /// Canceling the job kills the program. May be null.
     const JobMonitor* job = nullptr;
 };
 

@@ -67,7 +67,7 @@ Result<RawArray<std::byte>> FileBytes::read(std::uint64_t offset, std::uint64_t 
 {
     if (offset > size_ || count > size_ - offset) {
         return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: {} bytes at {} were asked for, but it has {}", path_, count,
+                     fmt::format("{}: cannot read {} bytes at {}: the file has {}", path_, count,
                                  offset, size_)};
     }
     const GdalMessages messages;

@@ -135,7 +135,7 @@ std::optional<std::string> recognisingDriverFor(const std::string& name)
 std::optional<std::string> leftOutDriverFor(const std::string& name)
 {
     GDALOpenInfo header(name.c_str(), GA_ReadOnly);
-    constexpr std::string_view kSgi = "\x01\xDA"; // whose driver only recognises what it opens
+    constexpr std::string_view kSgi = "\x01\xDA"; // whose driver only recognizes what it opens
     if (std::string_view(reinterpret_cast<const char*>(header.pabyHeader),
                          static_cast<std::size_t>(header.nHeaderBytes))
             .starts_with(kSgi)) {

@@ -19,7 +19,7 @@ const char* const* plainDrivers();
 /// read in the child process for longer.
 bool isWellTested(const std::string& driver);
 
-/// The name of a driver that recognises the file by its beginning, without opening it.
+/// The name of a driver that recognizes the file by its beginning, without opening it.
 std::optional<std::string> recognisingDriverFor(const std::string& name);
 
 /// The deregistered driver that recognizes the file, if any; for messages.

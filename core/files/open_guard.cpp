@@ -286,8 +286,8 @@ Result<GuardedDataset> openFirst(const std::vector<std::string>& names)
     if (!opened && opened.error().message.empty()) {
         if (const auto driver = leftOutDriverFor(names.front())) {
             return Error{ErrorCode::Unsupported,
-                         fmt::format("is of the format {}, which is not read as elevations; "
-                                     "convert it to GeoTIFF with gdal_translate if it holds any",
+                         fmt::format("is in the format {}, which MarsView does not read; convert "
+                                     "it to GeoTIFF with gdal_translate if it has elevations",
                                      *driver)};
         }
     }

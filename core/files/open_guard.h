@@ -1,4 +1,4 @@
-// The one door through which GDAL is let at files.
+// Opens files with GDAL. Every file that GDAL reads is opened here.
 //
 // A plain file (plainDrivers(), on a disk, naming no other files) is opened in this process, after
 // our own checks. Anything else is opened by a child process first (open_probe.h), unless that was

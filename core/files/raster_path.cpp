@@ -111,7 +111,7 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path)
     }
     if (access(path.c_str(), R_OK) != 0) {
         return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: may not be read ({})", path,
+                     fmt::format("{}: cannot be read ({})", path,
                                  std::strerror(errno))}; // NOLINT(concurrency-mt-unsafe)
     }
     if (status.type() == fs::file_type::directory) {

@@ -18,7 +18,7 @@ Result<std::vector<std::string>> rasterNamesFor(const std::string& path);
 
 bool isFolder(const std::string& path);
 
-/// Whether GDAL reads what has that name out of an archive, by unpacking it.
+/// Whether the name is one of a file in an archive, which GDAL unpacks to read it.
 bool isInArchive(const std::string& name);
 
 /// Of ASCII letters: for extensions, which are written in either case.

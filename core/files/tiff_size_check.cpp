@@ -68,12 +68,12 @@ std::optional<std::uint64_t> growthOf(std::uint64_t compression)
     switch (compression) {
     case 1: // none
         return 1;
-    case 5: // LZW: a code of 9 bits or more stands for up to 4096 bytes
+    case 5: // LZW: a code of 9 bits or more expands to up to 4096 bytes
         return 4096;
     case 8: // deflate: at most 1032
     case 32946:
         return 1040;
-    case 32773: // PackBits: 2 bytes stand for up to 128
+    case 32773: // PackBits: 2 bytes expand to up to 128
         return 64;
     default:
         return std::nullopt;
@@ -222,7 +222,7 @@ Status checkBlocks(Reader& reader, const Directory& directory)
     }
     for (const Entry* entry : {offsets, sizes}) {
         if (entry != nullptr && entry->count < blocks.count) {
-            return cutShort(fmt::format("it promises {} blocks of samples and lists {}",
+            return cutShort(fmt::format("it declares {} blocks of samples but lists {}",
                                         blocks.count, entry->count));
         }
     }
@@ -333,8 +333,8 @@ std::optional<TiffSizes> tiffSizesOf(const std::string& path)
                                         : reader.number(at + 4 + word, word);
             if (isList(tag) && !reader.isWithin(entry.place, bytes)) {
                 promise.fits =
-                    cutShort(fmt::format("it promises a list of {} blocks of samples that takes "
-                                         "{} bytes, the whole file has {}",
+                    cutShort(fmt::format("it declares a list of {} blocks of samples that takes "
+                                         "{} bytes, but the whole file has {}",
                                          entry.count, bytes, reader.bytes()));
                 return promise;
             }

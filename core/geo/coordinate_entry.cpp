@@ -208,11 +208,11 @@ Result<WrittenAngle> angleFrom(std::span<const Token> tokens)
             }
             if (part > 0 && !(token.value < 60.0)) {
                 return Error{ErrorCode::OutOfRange,
-                             fmt::format("{} is too large for minutes or seconds, which end at 60",
+                             fmt::format("{} is too large; minutes and seconds must be below 60",
                                          token.value)};
             }
             if (!is_whole) {
-                return invalid("only the last part of an angle has decimals");
+                return invalid("only the last part of an angle may have decimals");
             }
             is_whole = token.is_whole;
             angle.degrees += token.value / kParts[part];
@@ -222,7 +222,7 @@ Result<WrittenAngle> angleFrom(std::span<const Token> tokens)
             break;
         case TokenKind::Colon:
             if (!may_be_marked) {
-                return invalid("a colon stands between degrees and minutes");
+                return invalid("a colon must follow the degrees or the minutes");
             }
             may_be_marked = false;
             break;
@@ -230,13 +230,13 @@ Result<WrittenAngle> angleFrom(std::span<const Token> tokens)
         case TokenKind::Minutes:
         case TokenKind::Seconds:
             if (!may_be_marked || kMarks[part - 1] != token.kind) {
-                return invalid("the marks of degrees, minutes and seconds are out of order");
+                return invalid("the degree, minute and second marks are out of order");
             }
             may_be_marked = false;
             break;
         case TokenKind::Comma:
         case TokenKind::Semicolon:
-            return invalid("there are more commas than one between latitude and longitude");
+            return invalid("there is more than one comma between latitude and longitude");
         }
     }
     if (part == 0) {
@@ -370,7 +370,7 @@ Result<MapPoint> mapPointFrom(std::string_view text)
     const std::string ascii = inAscii(text);
     Result<std::vector<Token>> tokens = tokensOf(ascii, hasDecimalCommas(ascii));
     if (!tokens) {
-        return Error{ErrorCode::Invalid, "two numbers are needed, x and then y"};
+        return Error{ErrorCode::Invalid, "enter two numbers, x and then y"};
     }
     std::vector<double> numbers;
     std::size_t separators = 0;
@@ -381,12 +381,12 @@ Result<MapPoint> mapPointFrom(std::string_view text)
                    numbers.size() == 1 && separators == 0) {
             ++separators;
         } else {
-            return Error{ErrorCode::Invalid, "two plain numbers are needed, x and then y"};
+            return Error{ErrorCode::Invalid, "enter two plain numbers, x and then y"};
         }
     }
     if (numbers.size() != 2) {
         return Error{ErrorCode::Invalid,
-                     fmt::format("two numbers are needed, x and then y; there "
+                     fmt::format("enter two numbers, x and then y; there "
                                  "{} {}",
                                  numbers.size() == 1 ? "is" : "are", numbers.size())};
     }

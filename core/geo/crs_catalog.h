@@ -32,7 +32,7 @@ public:
     /// The systems that match every word of `query`, best first, at most `count_max`. A word
     /// matches a code, or the beginning of a word of the name, the body or the area; "10N" also
     /// matches "zone 10N", and case is ignored. Systems of `body` come first if it is not null.
-    /// Entries live as long as the catalogue. Takes a few milliseconds.
+    /// Entries live as long as the catalog. Takes a few milliseconds.
     std::vector<const CrsEntry*>
     search(std::string_view query, std::size_t count_max, const Body* body = nullptr) const;
 

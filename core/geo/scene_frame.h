@@ -33,7 +33,7 @@ struct SceneFrame {
                std::abs(area_m2) >= kAreaM2Min;
     }
 
-    /// The mean length in metres of a step to the next column and of one to the next row.
+    /// The mean length in meters of a step to the next column and of one to the next row.
     double meanCellSideM() const noexcept
     {
         return 0.5 * (std::hypot(east_per_column, north_per_column) +

@@ -17,7 +17,7 @@ struct VerticalUnit {
 /// Understands the spellings met in raster files ("metre", "METERS", "feet", "ftUS", "US survey
 /// foot", "km", …), case-insensitive, with a factor in front ("1000*METER", "0.1 m"). A bare foot
 /// is the international one of 0.3048 m, which differs from the survey foot by 2 parts in a
-/// million. Nothing where the text is empty or unknown.
+/// million. Empty if the text is empty or unknown.
 std::optional<VerticalUnit> verticalUnitFrom(std::string_view text);
 
 } // namespace marsview

@@ -92,11 +92,11 @@ TEST(PlaceFrom, SaysWhatIsWrong)
     EXPECT_THAT(message("18.65 N 226.2 N"), HasSubstr("N and N are the same direction"));
     EXPECT_THAT(message("91, 0"), HasSubstr("latitude 91 is beyond 90"));
     EXPECT_THAT(message("0, 361"), HasSubstr("longitude 361 is beyond 360"));
-    EXPECT_THAT(message("18 61 N 5 E"), HasSubstr("61 is too large for minutes"));
+    EXPECT_THAT(message("18 61 N 5 E"), HasSubstr("61 is too large; minutes"));
     EXPECT_THAT(message("18.5 30 N 5 E"), HasSubstr("only the last part"));
     EXPECT_THAT(message("-18 N 5 E"), HasSubstr("contradict"));
     EXPECT_THAT(message("18'39° N 5 E"), HasSubstr("out of order"));
-    EXPECT_THAT(message("1,2,3"), HasSubstr("more commas"));
+    EXPECT_THAT(message("1,2,3"), HasSubstr("more than one comma"));
     EXPECT_THAT(message("N E"), HasSubstr("a number is missing"));
     EXPECT_THAT(message("1 2 3 4 N 5 E"), HasSubstr("at most degrees, minutes and seconds"));
     EXPECT_THAT(message("1e4, 2"), HasSubstr("are needed"));

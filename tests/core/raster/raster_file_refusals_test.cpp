@@ -218,7 +218,7 @@ TEST(Refusal, SgiPicturesAreNamed)
         "picture.rgb", std::string("\x01\xDA\x00\x01\x00\x02", 6) + std::string(600, '\0')));
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message,
-                testing::HasSubstr("is of the format SGI, which is not read as elevations"));
+                testing::HasSubstr("is in the format SGI, which MarsView does not read"));
 }
 
 TEST(Refusal, OnlyVoids)
