@@ -22,7 +22,7 @@ struct LoopMapOptions {
 /// Loads tiles during its lifetime. Until the loop has ended only the servo thread may use the map.
 struct LoopMap {
     std::shared_ptr<const Map> opened;
-    std::unique_ptr<ClipmapStreamer> feeder; // null where the map is held
+    std::unique_ptr<ClipmapStreamer> feeder; // null if the map is in memory
     std::shared_ptr<ServoMap> map;
     SceneBox box;          // of the whole map
     double cell_m = 1.0;   // scene meters, the mean of both sides

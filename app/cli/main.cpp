@@ -111,7 +111,7 @@ int run(const std::vector<std::string>& arguments, marsview::ErrorForm form)
     marsview::addPrepareCommand(app, action);
     marsview::addRenderCommand(app, action);
     marsview::addDevicesCommand(app, action);
-    CLI::App* bench = app.add_subcommand("bench", "Measure how fast and how exact this program is");
+    CLI::App* bench = app.add_subcommand("bench", "Measure the speed and accuracy of this program");
     bench->require_subcommand(1);
     marsview::addBenchViewCommand(*bench, action);
     marsview::addBenchContactCommand(*bench, action);

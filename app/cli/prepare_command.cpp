@@ -86,7 +86,7 @@ Result<Work> workFor(const PrepareOptions& options, const OpenRaster& raster)
     return work;
 }
 
-// Where nothing is said and the raster itself will not do, among the prepared maps.
+// Without --output, and if the raster itself is not usable in place: among the prepared maps.
 Result<PrepareReport> prepare(const OpenRaster& raster, const Work& work, JobMonitor& monitor)
 {
     const PrepareJob& job = work.job;

@@ -326,7 +326,7 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
     command
         ->add_option("--goals", options->goals,
                      "CSV with the header x,y,z: map coordinates in the raster's CRS and a height "
-                     "in metres, not exaggerated; - for standard input")
+                     "in meters, not exaggerated; - for standard input")
         ->type_name("FILE")
         ->required()
         ->transform(mapName());

@@ -42,8 +42,8 @@ struct TraceSubject {
     double radius_m = 1.0;                         // unless given
     std::shared_ptr<const Map> map;                // null for a mesh
     std::shared_ptr<const WaitingTerrain> waiting; // of a map in tiles, or else:
-    std::shared_ptr<RecordedGround> recorded;      // the same as a recording felt it
-    bool is_recorded_on = false;                   // what the recording says of its map holds
+    std::shared_ptr<RecordedGround> recorded; // the same, as it was when the recording was made
+    bool is_recorded_on = false;              // the recording's description of its map matches
 };
 
 /// Whether a path has the extension of a mesh.

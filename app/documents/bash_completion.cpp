@@ -60,7 +60,7 @@ std::string descent(const DocumentedCommand& program)
         patterns);
 }
 
-// What is completed after the option, as assignments of the script.
+// The completions after the option, as assignments of the script.
 std::string answerTo(const DocumentedOption& option)
 {
     if (!option.choices.empty()) {

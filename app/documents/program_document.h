@@ -1,4 +1,4 @@
-// What the documents of a command say: its pages and completions are written from this.
+// The content of a command's documents: its manual page and completions are written from it.
 #pragma once
 
 #include <string>

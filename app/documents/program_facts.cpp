@@ -26,7 +26,7 @@ constexpr DocumentedFact kVariables[] = {
     {"MARSVIEW_FORCEDIMENSION_LIBRARY",
      "The Force Dimension library (libdhd) to load instead of the installed one."},
     {"GDAL_CACHEMAX, GDAL_NUM_THREADS, …",
-     "GDAL's own settings are respected, also those of its configuration file."},
+     "GDAL's own settings are respected, including those in its configuration file."},
 };
 
 constexpr DocumentedFact kFiles[] = {

@@ -6,9 +6,9 @@
 
 namespace marsview {
 
-/// Into `folder`, which is made: man1/PROGRAM.1 and a page a command, bash/PROGRAM, zsh/_PROGRAM
-/// and fish/PROGRAM.fish. Files that are there are replaced. `version` as "0.1.0". The error names
-/// the file that cannot be written.
+/// Into `folder`, which is created: man1/PROGRAM.1 and a page for each command, bash/PROGRAM,
+/// zsh/_PROGRAM and fish/PROGRAM.fish. Existing files are replaced. `version` as "0.1.0". The error
+/// names the file that cannot be written.
 Status writeDocuments(const DocumentedCommand& program,
                       const std::string& folder,
                       std::string_view version);

@@ -52,7 +52,7 @@ private:
         Real y;
         Real z;
     };
-    // Within the outermost samples, the height in scene metres.
+    // Within the outermost samples, the height in scene meters.
     struct Aim {
         Real column;
         Real row;

@@ -52,10 +52,10 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options);
 /// Frame times while flying over the map, and over another one.
 Result<BenchJson> measureFrames(const TerrainBenchOptions& options);
 
-/// The map in tiles however small it is, prepared first where it has to be.
+/// The map in tiles, however small it is; prepared first if necessary.
 Result<std::shared_ptr<const Map>> openInTiles(const TerrainBenchOptions& options,
                                                JobMonitor& monitor);
-/// Resources by which every map comes in tiles.
+/// Resources with which every map is opened in tiles.
 MapResources tiledResources();
 
 /// A tiled map for touching.
