@@ -337,14 +337,14 @@ Result<LevelFile> LevelFile::open(const std::string& path, const LevelFileKey& e
     if (isDamaged(impl->header.key.raster, expected.raster, path)) {
         return Error{
             ErrorCode::Damaged,
-            fmt::format("{}: its samples are not those that {} was made of, though its "
-                        "time is the same: it is damaged; get it again from where it came, "
-                        "or remove {} where it is right as it is",
+            fmt::format("{}: its samples differ from those that {} was built from, but its "
+                        "time is the same: it is damaged; restore or fetch it again, or, if "
+                        "it is correct as it is, remove {}",
                         expected.raster.path, path, path)};
     }
     if (!isSameKey(impl->header.key, expected)) {
-        return damaged(path, fmt::format("was made from another raster than {} is now, or for "
-                                         "another band or void value",
+        return damaged(path, fmt::format("was built from another version of {}, or for another "
+                                         "band or nodata value",
                                          expected.raster.path));
     }
     return LevelFile(std::move(impl));

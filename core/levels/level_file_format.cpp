@@ -117,7 +117,7 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
                      .has_voids = layout.at("has_voids").get<bool>(),
                      .mean_levels = wholeNumberFrom(layout.at("mean_levels"), 40)};
     if (header.layout.columns < 2 || header.layout.rows < 2) {
-        throw std::invalid_argument("there are less than 2 × 2 samples");
+        throw std::invalid_argument("there are fewer than 2 × 2 samples");
     }
     const json& statistics = root.at("statistics");
     header.statistics.raw_minimum = numberFrom(statistics.at("raw_minimum"));
@@ -139,13 +139,13 @@ LevelFileHeader headerFrom(const json& root, std::uint64_t file_bytes)
     header.planes = planesOf(header);
     const json& planes = root.at("planes");
     if (planes.size() != header.planes.size()) {
-        throw std::invalid_argument("the number of arrays is not right");
+        throw std::invalid_argument("the number of arrays is wrong");
     }
     for (std::size_t i = 0; i < header.planes.size(); ++i) {
         LevelPlane& plane = header.planes[i];
         const json& chunks = planes.at(i).at("chunks");
         if (planes.at(i).at("name") != plane.name || chunks.size() != plane.chunkCount()) {
-            throw std::invalid_argument("the array \"" + plane.name + "\" is not as it should be");
+            throw std::invalid_argument("the array \"" + plane.name + "\" has the wrong shape");
         }
         for (const json& chunk : chunks) {
             const FilePart part{.offset = wholeNumberFrom(chunk.at(0), file_bytes),
@@ -207,14 +207,14 @@ readPreamble(std::span<const std::byte> bytes, std::uint64_t file_bytes, const s
                                      .tail_offset = get<std::uint64_t>(bytes, 32),
                                      .header_offset = get<std::uint64_t>(bytes, 40)};
     if (preamble.file_bytes != file_bytes) {
-        return damaged(path, fmt::format("has {} bytes instead of {}: it was cut short, or "
-                                         "something was added",
+        return damaged(path, fmt::format("has {} bytes instead of {}: it was cut short or "
+                                         "extended",
                                          file_bytes, preamble.file_bytes));
     }
     if (!(kPreambleBytes <= preamble.planes_offset &&
           preamble.planes_offset <= preamble.tail_offset &&
           preamble.tail_offset <= preamble.header_offset && preamble.header_offset < file_bytes)) {
-        return damaged(path, "contradicts itself at its beginning");
+        return damaged(path, "is inconsistent at its beginning");
     }
     return preamble;
 }

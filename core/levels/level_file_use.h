@@ -20,8 +20,8 @@ struct RasterLevels {
 };
 
 /// Opens the level file at `level_path` for the raster at `raster_path`, which `info` describes
-/// with overrides. NotFound where there is no such file; any other error says why it cannot be
-/// used. Only where there is one is the raster read, which at a server takes a dozen requests.
+/// with overrides. NotFound if the level file does not exist; any other error says why it cannot be
+/// used. The raster is read only if a level file exists; on a server this takes a dozen requests.
 Result<RasterLevels> openLevels(const std::string& level_path,
                                 const std::string& raster_path,
                                 int band,
@@ -32,7 +32,7 @@ std::string notUsed(const std::string& level_path, const Error& why);
 
 /// Tiles with checksums.
 struct VerifiedTiles {
-    std::shared_ptr<const TileSource> tiles; // null without a level file that can be used
+    std::shared_ptr<const TileSource> tiles; // null without a usable level file
     std::string notice;                      // why a level file is not used, or empty
 };
 

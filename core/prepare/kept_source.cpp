@@ -25,7 +25,7 @@ public:
         Result<std::unique_ptr<TileReader>> reader = source_->open();
         if (!reader) {
             return whenMade() == made_ ? std::move(reader)
-                                       : Result<std::unique_ptr<TileReader>>(anew());
+                                       : Result<std::unique_ptr<TileReader>>(rebuiltError());
         }
         return std::unique_ptr<TileReader>(
             std::make_unique<Reader>(std::move(reader).value(), shared_from_this()));
@@ -64,7 +64,7 @@ private:
 
     // Open readers continue with the old files, and their checksums are still valid. New readers
     // would not match the rebuilt files, so opening one is an error.
-    Error anew() const
+    Error rebuiltError() const
     {
         return {ErrorCode::Invalid,
                 name() +

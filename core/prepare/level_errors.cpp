@@ -258,8 +258,8 @@ private:
         auto tile = readTile(reader, source_, id, monitor_);
         if (tile && sampleChecksum(tile->samples) != survey_.checksums->of(id)) {
             return Error{ErrorCode::Invalid,
-                         fmt::format("{}: changed while it was read; open it again when nothing "
-                                     "writes to it any more",
+                         fmt::format("{}: changed while it was read; open it again when no program "
+                                     "writes to it",
                                      source_.name())};
         }
         return tile;

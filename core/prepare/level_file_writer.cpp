@@ -114,8 +114,9 @@ Result<std::unique_ptr<LevelFileWriter>> LevelFileWriter::resume(const std::stri
     }
     writer->written_ = written;
     if (written.bytes < kPreambleBytes || !writer->hasWhatWasWritten()) {
-        return Error{ErrorCode::Invalid, fmt::format("{}: has not the {} bytes that were written",
-                                                     writer->part_path_, written.bytes)};
+        return Error{ErrorCode::Invalid,
+                     fmt::format("{}: lacks some of the {} bytes that were written",
+                                 writer->part_path_, written.bytes)};
     }
     return writer;
 }
@@ -236,9 +237,10 @@ Status LevelFileWriter::publish()
     std::filesystem::rename(part_path_, path_, problem);
     if (problem) {
         std::remove(part_path_.c_str());
-        return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: cannot be given its name ({}); choose another folder", path_,
-                                 problem.message())};
+        return Error{
+            ErrorCode::Unreadable,
+            fmt::format("{}: cannot be renamed to its final name ({}); choose another folder",
+                        path_, problem.message())};
     }
     is_published_ = true;
     flushFolderToDisk(std::filesystem::path(path_).parent_path());

@@ -81,8 +81,8 @@ lockFor(const std::string& level_path, TiledGeoTiffJob::WhenBusy when_busy, JobM
         }
         if (when_busy == TiledGeoTiffJob::WhenBusy::Fail) {
             return Error{ErrorCode::Unreadable,
-                         fmt::format("{}: is being made by another program (process {}); wait for "
-                                     "it or stop it there",
+                         fmt::format("{}: is being built by another program (process {}); wait for "
+                                     "it or cancel it there",
                                      level_path, FileLock::holder(path))};
         }
         if (monitor.isCancelled()) {
@@ -92,7 +92,7 @@ lockFor(const std::string& level_path, TiledGeoTiffJob::WhenBusy when_busy, JobM
     }
 }
 
-// What makeLevels works on.
+// The input of makeLevels().
 struct LevelWork {
     std::string raster_path;
     std::string level_path;
@@ -100,7 +100,7 @@ struct LevelWork {
     RasterInfo info;
     std::shared_ptr<const GeotiffTileSource> source;
     LevelFileKey key;
-    SourceStamp stamp; // of the raster, before anything of it was read
+    SourceStamp stamp; // of the raster, taken before it was read
 };
 
 Result<LevelWork> levelWork(const OpenRaster& source, const PrepareReport& report)
@@ -181,7 +181,7 @@ Status makeLevels(const OpenRaster& raster,
             }
             return Error{ErrorCode::Invalid,
                          fmt::format("{}: changed while it was being prepared; prepare it again "
-                                     "when it is finished",
+                                     "when no program writes to it",
                                      work->raster_path)};
         },
         .checkpoint_interval = job.checkpoint_interval};
@@ -267,11 +267,11 @@ Status makeFiles(const OpenRaster& raster,
         made.error().code == ErrorCode::TooLarge || isWholeTiledGeoTiff(report.raster_path)) {
         return made;
     }
-    // makeCopy() leaves nothing there but a copy of its own, which was damaged since.
+    // The file there is makeCopy()'s own copy, which has been damaged since.
     std::error_code ignored;
     std::filesystem::remove(report.raster_path, ignored);
     report.notes.push_back(
-        fmt::format("{}: was damaged while it was measured; it is rebuilt", report.raster_path));
+        fmt::format("{}: was damaged during preparation; it is rebuilt", report.raster_path));
     PrepareJob again = job;
     again.when_there = PrepareJob::WhenThere::Replace;
     Status copied = makeCopy(raster, again, report, monitor);
@@ -286,8 +286,8 @@ Status checkIsLocal(const RasterSpec& spec)
         return Done{};
     }
     return Error{ErrorCode::Unsupported,
-                 fmt::format("{}: is on a server, where nothing can be written next to it, and is "
-                             "read from there as it is; name a file to copy it to",
+                 fmt::format("{}: is on a server, where no file can be written next to it, and is "
+                             "read directly; name a file to copy it to",
                              spec.path)};
 }
 
@@ -352,9 +352,9 @@ prepareMapFiles(const OpenRaster& raster, const PrepareJob& job, JobMonitor& mon
     }
     if (!*damage) {
         if (report.notes.empty()) {
-            report.notes.push_back(fmt::format("{}: is prepared already", report.raster_path));
+            report.notes.push_back(fmt::format("{}: is already prepared", report.raster_path));
         }
-        report.notes.back() += "; every tile is as it was then";
+        report.notes.back() += "; all tiles are intact";
         return report;
     }
     const Error& what = (*damage)->error;
@@ -365,7 +365,7 @@ prepareMapFiles(const OpenRaster& raster, const PrepareJob& job, JobMonitor& mon
     report.notes = {withoutRemedy(what.message) + "; it is rebuilt"};
     PrepareJob again = job;
     again.when_there = PrepareJob::WhenThere::Replace;
-    // A copy stays where only its levels are damaged.
+    // The copy is kept if only its levels are damaged.
     Status made = is_raster ? makeFiles(raster, again, report, monitor)
                             : makeLevels(raster, again, report, monitor);
     return made ? Result<PrepareReport>(std::move(report))
@@ -395,7 +395,7 @@ prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& moni
                        .checkpoint_interval = job.checkpoint_interval};
     const std::optional<std::string> damage = folder->damage(*kept);
     if (damage) {
-        // Where some program has it open, it is replaced.
+        // If a program has it open, it is not removed but replaced.
         static_cast<void>(folder->remove(name));
         prepare.when_there = PrepareJob::WhenThere::Replace;
     }
@@ -414,7 +414,7 @@ prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& moni
         folder->forgetDamage(*kept);
         prepared->notes.insert(prepared->notes.begin(), withoutRemedy(*damage) + "; rebuilt");
     }
-    // Only now, so that nothing is given up for a map that could not be made.
+    // Only now, so that no map is removed for one that could not be prepared.
     const std::uint64_t bytes_max =
         job.folder_bytes_max != 0 ? job.folder_bytes_max : folder->defaultBytesMax();
     const Result<FileLock> in_use = folder->use(*kept);
@@ -428,8 +428,8 @@ std::string remedyFor(const std::string& raster_path, const std::string& level_p
         return fmt::format("prepare it again from {}", source);
     }
     return fmt::format(
-        "get it again from where it came or, where it is right as it is now, remove "
-        "{} and prepare the map again",
+        "restore or fetch it again or, if it is correct as it is, remove {} and prepare "
+        "the map again",
         level_path);
 }
 

@@ -1,4 +1,4 @@
-// Making of a raster too large to hold the files by which it is looked at and touched.
+// Builds the files through which a raster larger than memory is viewed and touched.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -15,9 +15,9 @@
 namespace marsview {
 
 struct PrepareJob {
-    /// Of the tiled GeoTIFF to make; empty where the raster is one that can be used in place.
+    /// The tiled GeoTIFF to write; empty if the raster can be used in place.
     std::string raster_path{};
-    /// Of the level file; empty: next to the tiled raster.
+    /// The level file; empty: next to the tiled raster.
     std::string level_path{};
     TiledGeoTiffJob::WhenBusy when_busy = TiledGeoTiffJob::WhenBusy::Fail;
     /// For existing files that belong to the raster: use them as they are; check all checksums and
@@ -31,30 +31,30 @@ struct PrepareReport {
     bool is_source_used = false; // the raster was tiled and had overviews already
     std::string raster_path;
     std::string level_path;
-    TiledGeoTiffReport copy; // of the tiled GeoTIFF, where one was made
+    TiledGeoTiffReport copy; // of the tiled GeoTIFF, if one was written
     std::uint64_t samples = 0;
     double copy_seconds = 0.0;
     double level_seconds = 0.0;
     double check_seconds = 0.0;
-    bool are_levels_there = false;  // they were, and nothing was done
-    std::vector<std::string> notes; // sentences for the user, those of the copy included
+    bool are_levels_there = false;  // they existed already, and nothing was done
+    std::vector<std::string> notes; // sentences for the user, including those of the copy
 };
 
-/// Refuses a remote raster: it is read where it is, and nothing can be written next to it.
+/// Refuses a remote raster: it is read directly, and nothing can be written next to it.
 Status checkIsLocal(const RasterSpec& spec);
 
-/// Whether the tiles of the raster can be read where it is.
+/// Whether the tiles of the raster can be read from the raster itself.
 bool canBeUsedInPlace(const OpenRaster& raster);
 
 /// The path of the prepared map of a raster in a folder of prepared maps; neither need exist.
 /// NotFound if `folder` is empty: prepared maps are not kept.
 Result<std::string> preparedPathFor(const OpenRaster& raster, const std::filesystem::path& folder);
 
-/// Copies the raster into a tiled GeoTIFF unless it is used in place, then measures it into its
-/// level file. Each appears whole or not at all; what is there already and belongs to the raster is
-/// not made again, unless it is damaged or to be replaced. A raster that is used in place and is
-/// damaged is an error: nothing can make it again. Stopped, the work is gone on with the next time.
-/// On all cores; not for the GUI thread. Errors name the file and say what to do.
+/// Copies the raster into a tiled GeoTIFF unless it is used in place, then builds its level file.
+/// Each file appears complete or not at all. Existing files of the raster are kept unless they are
+/// damaged or to be replaced. A damaged raster that is used in place is an error, because it cannot
+/// be rebuilt. After a cancellation, the next call resumes the work. On all cores; not for the GUI
+/// thread. Errors name the file and say what to do.
 Result<PrepareReport>
 prepareMapFiles(const OpenRaster& raster, const PrepareJob& job, JobMonitor& monitor);
 

@@ -237,7 +237,8 @@ Status TiffTiles::trim(std::uint64_t file_bytes)
             const std::uint64_t bytes = TIFFGetStrileByteCount(file, index);
             constexpr std::uint64_t kBytesMax = std::uint64_t{1} << 48;
             if (offset > kBytesMax || bytes > kBytesMax) {
-                return writeError(impl_->path, 0, "points beyond what a file can hold");
+                return writeError(impl_->path, 0,
+                                  "refers to positions beyond the largest file size");
             }
             file_bytes = std::max(file_bytes, offset + bytes);
         }

@@ -19,7 +19,7 @@ GDALDataType gdalTypeOf(SampleType type);
 /// Empty for complex numbers.
 std::optional<SampleType> sampleTypeOf(GDALRasterBand& band);
 
-/// TooLarge, without a path in the message, where no map has so many samples; Unreadable for none.
+/// TooLarge if no map has so many samples; Unreadable if there are none. The message has no path.
 Status checkMapSize(std::size_t columns, std::size_t rows);
 
 } // namespace marsview

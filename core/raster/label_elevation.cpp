@@ -103,7 +103,7 @@ std::optional<double> numberIn(const OdlStatement& group, std::string_view name,
 
 struct Names {
     std::string_view scale, offset, unit;
-    std::span<const std::string_view> nodata; // the first that is there is the nodata value
+    std::span<const std::string_view> nodata; // the first one present is the nodata value
 };
 constexpr std::array<std::string_view, 15> kConstants{"MISSING_CONSTANT",
                                                       "MISSING",
@@ -301,7 +301,7 @@ bool isThere(const std::string& path)
     return VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
 }
 
-// Of those names that are there, in the letter case of the data file's own extension: each costs a
+// Those of the names that exist, in the letter case of the data file's own extension: each costs a
 // request.
 std::vector<std::string> remoteLabelNamesOf(const std::string& path)
 {
@@ -318,7 +318,7 @@ std::vector<std::string> remoteLabelNamesOf(const std::string& path)
     return names;
 }
 
-// Of those names that are there: folders may hold thousands of TIFFs, so none is listed for each.
+// Those of the names that exist: folders may hold thousands of TIFFs, so none is listed for each.
 std::vector<std::string> usualLabelNamesOf(const std::string& path)
 {
     const std::string file = CPLGetFilename(path.c_str());
@@ -392,7 +392,7 @@ bool canBeSample(SampleType type, double value)
                               [value](auto zero) { return Nodata<decltype(zero)>(value).exists; });
 }
 
-// What GDAL reads stays the nodata value where the label has it, too.
+// The value that GDAL reads stays the nodata value if the label has it, too.
 void applyNodata(RasterInfo& info, const std::vector<double>& constants)
 {
     const auto is_known = [&info](double value) {

@@ -40,15 +40,15 @@ labelElevationOf(GDALDataset& dataset, const RasterInfo& info, const std::string
 /// differences.
 void applyLabel(RasterInfo& info, const LabelElevation& label);
 
-/// Where the TIFF with the samples of an ISIS 3 label has another scale or offset of its own, which
-/// is not applied: a sentence. `info` is after applyLabel.
+/// A sentence if the TIFF with the samples of an ISIS 3 label has its own scale or offset that
+/// differs and is not applied. `info` is after applyLabel.
 std::optional<std::string> noticeOfUnusedScale(GDALDataset& dataset, const RasterInfo& info);
 
 bool isJpeg2000Name(const std::string& path);
 
 /// The PDS3, PDS4 or ISIS 3 label that describes a data file in the same folder or archive: one
 /// that names it, or else, for a JPEG2000, one of the same name. At a server only names in the
-/// letter case of the data file's own are tried, with one request each. Empty where there is none.
+/// letter case of the data file's own are tried, with one request each. Empty if there is none.
 std::string labelNextTo(const std::string& data_path);
 
 /// The TIFF or JPEG2000 with the samples of a PDS3 label; the case of its name is ignored. GDAL 3.6

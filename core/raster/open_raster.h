@@ -1,4 +1,4 @@
-// The one way from a name to an open raster with the user's overrides.
+// Opens a raster by its name, with the user's overrides.
 #pragma once
 
 #include "core/base/result.h"
@@ -12,7 +12,7 @@
 
 namespace marsview {
 
-/// Which raster, and what the user knows better than its file: enough to open it again.
+/// A raster and the user's overrides of its metadata: enough to open it again.
 struct RasterSpec {
     std::string path;
     int band = 1; // counted from 1
@@ -26,11 +26,11 @@ struct RasterSpec {
 ///     if (raster) { use(raster->info, raster->file.readWindow(window, raster->voids())); }
 struct OpenRaster {
     RasterSpec spec;
-    RasterFile file; // file.info() is what the file itself states
+    RasterFile file; // file.info() has the metadata of the file itself
     RasterInfo info; // with the overrides of `spec`
 
     VoidRule voids() const { return {info.nodata}; }
-    /// Of all samples, uncompressed.
+    /// The size of all samples, uncompressed.
     std::uint64_t sampleBytes() const
     {
         return std::uint64_t{info.columns} * info.rows * marsview::sampleBytes(info.type);
@@ -41,10 +41,10 @@ struct OpenRaster {
 /// path. Blocks on the disk: not for the GUI thread.
 Result<OpenRaster> openRaster(const RasterSpec& spec);
 
-/// What the file states, with overrides. Errors begin with the path of `spec`.
+/// The metadata of the file, with overrides. Errors begin with the path of `spec`.
 Result<RasterInfo> infoWithOverrides(const RasterInfo& file_info, const RasterSpec& spec);
 
-/// The placement that `info` describes; one map unit a pixel where it has none.
+/// The placement that `info` describes; one map unit per pixel if it has none.
 Georeference georeferenceOf(const RasterInfo& info);
 /// The same for columns × rows samples that share the area of `info` evenly.
 Georeference georeferenceOf(const RasterInfo& info, std::size_t columns, std::size_t rows);

@@ -110,12 +110,12 @@ std::string labelText(const std::string& path)
 
 struct RadiusText {
     std::size_t begin = 0; // of the number
-    std::size_t end = 0;   // behind the number and its unit
+    std::size_t end = 0;   // after the number and its unit
     double value = 0.0;
-    std::string unit; // empty where there is none
+    std::string unit; // empty if missing
 };
 
-// The number behind "A_AXIS_RADIUS =", which `at` is the place of.
+// The number after "A_AXIS_RADIUS"; `at` is the position after that name.
 std::optional<RadiusText> radiusAt(const std::string& label, std::size_t at)
 {
     constexpr std::string_view kSpace = " \t\r\n\"";
@@ -153,7 +153,7 @@ double metresOf(const RadiusText& radius)
 
 } // namespace
 
-std::string withRadiiInKilometres(const std::string& label)
+std::string withRadiiInKilometers(const std::string& label)
 {
     std::string text = label;
     for (const char* name : {"A_AXIS_RADIUS", "B_AXIS_RADIUS", "C_AXIS_RADIUS"}) {
@@ -174,7 +174,7 @@ std::string withRadiiInKilometres(const std::string& label)
 bool hasRadiiInOtherUnits(const std::string& label_path)
 {
     const std::string text = labelText(label_path);
-    return withRadiiInKilometres(text) != text;
+    return withRadiiInKilometers(text) != text;
 }
 
 std::shared_ptr<GDALDataset> openPds3Placement(const std::string& label_path)
@@ -192,7 +192,7 @@ std::shared_ptr<GDALDataset> openPds3Placement(const std::string& label_path)
         writeMemoryFile(folder + "/" + CPLGetFilename(name.c_str()), " ");
     }
     const std::string label = folder + "/marsview_placement.lbl";
-    writeMemoryFile(label, asOfRawImage(withRadiiInKilometres(text)));
+    writeMemoryFile(label, asOfRawImage(withRadiiInKilometers(text)));
     const GdalMessages messages;
     const char* const drivers[] = {"PDS", nullptr};
     std::shared_ptr<GDALDataset> dataset(GDALDataset::Open(label.c_str(), GDAL_OF_RASTER, drivers),

@@ -33,16 +33,16 @@ pds3PlacementShift(const nlohmann::json& label, const GeoTransform& transform, c
 GeoTransform shifted(const GeoTransform& transform, PixelShift shift);
 
 /// A dataset that has the placement and the metadata of a PDS3 label, but no samples: for products
-/// whose samples GDAL does not find through it, or whose radii it reads wrong. Null where the label
-/// has none.
+/// whose samples GDAL does not find through it, or whose radii it misreads. Null if the label has
+/// none.
 std::shared_ptr<GDALDataset> openPds3Placement(const std::string& label_path);
 
-/// The text of a PDS3 label with its radii (A_AXIS_RADIUS, …) in kilometres, which GDAL 3.6 assumes
-/// whatever unit the label gives. Without a unit they are metres where no planet has so many
-/// kilometres. Unchanged where they are in kilometres.
-std::string withRadiiInKilometres(const std::string& label);
+/// The text of a PDS3 label with its radii (A_AXIS_RADIUS, …) in kilometers, which GDAL 3.6 assumes
+/// whatever unit the label gives. Without a unit, values too large for kilometers of any planet are
+/// meters. Unchanged if they are in kilometers.
+std::string withRadiiInKilometers(const std::string& label);
 
-/// Whether the radii of the PDS3 label in that file are in another unit than kilometres.
+/// Whether the radii of the PDS3 label in that file are in a unit other than kilometers.
 bool hasRadiiInOtherUnits(const std::string& label_path);
 
 } // namespace marsview

@@ -185,7 +185,7 @@ Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
     const bool is_other_ellipsoid = overrides.ellipsoid || body != info.body;
     if (!info.crs && overrides.ellipsoid && !fitsInDegrees(info)) {
         return refusal(OverrideField::Radii,
-                       "the raster has no CRS that they could be the radii of, and its grid cannot "
+                       "the raster has no CRS to which they could apply, and its grid cannot "
                        "be in degrees; set the CRS, too");
     }
     if (info.crs && is_other_ellipsoid) {
@@ -362,8 +362,8 @@ Status checkIsSurface(const std::string& path, const RasterInfo& info)
         return Done{};
     }
     return Error{ErrorCode::Invalid,
-                 fmt::format("{}: {} × {} samples make no surface; at least 2 × 2 are needed", path,
-                             info.columns, info.rows)};
+                 fmt::format("{}: {} × {} samples are not a surface; at least 2 × 2 are needed",
+                             path, info.columns, info.rows)};
 }
 
 } // namespace marsview

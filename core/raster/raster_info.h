@@ -70,10 +70,10 @@ struct RasterInfo {
     ElevationScale elevationScale() const noexcept;
     /// Whether the nodata value does not mark all voids.
     bool needsVoidMask() const noexcept { return has_mask_band || !other_nodata.empty(); }
-    /// What decides which samples are void, for keys of what is made from them; empty where
-    /// nothing is declared.
+    /// The settings that decide which samples are void, for the keys of derived files; empty if
+    /// none are declared.
     std::string voidSettings() const;
-    /// Number of triangles of the surface, two a cell.
+    /// Number of triangles of the surface, two per cell.
     std::uint64_t triangleCount() const noexcept;
 };
 

@@ -50,14 +50,15 @@ public:
     const RasterInfo& fileInfo() const noexcept { return source_.file_info; }
     /// With the overrides. That of a preview describes the whole raster.
     const RasterInfo& info() const noexcept { return source_.info; }
-    /// Of the samples that are here. The outer corners of a preview are those of its raster.
+    /// The placement of the samples in memory. The outer corners of a preview are those of its
+    /// raster.
     const Georeference& georeference() const noexcept { return georeference_; }
     const Heightfield& heightfield() const noexcept { return source_.heightfield; }
 
     MapKind kind() const noexcept { return source_.kind; }
     bool isPreview() const noexcept { return source_.kind != MapKind::Whole; }
 
-    /// Elevation in metres. Where the map goes once around the body, the strip between the last
+    /// Elevation in meters. Where the map goes once around the body, the strip between the last
     /// column and the first is interpolated as any other cell. A millionth of a sample beyond the
     /// outermost ones still counts as on them. NaN outside and in voids.
     double height(GeographicPoint geographic) const;
@@ -124,8 +125,8 @@ Error noElevations(const std::string& path, const SampleStatistics& statistics);
 /// Whether `map` is what `preview` is a preview of: the same file with the same overrides, whole.
 bool isOfSameMap(const Map& preview, const Map& map);
 
-/// The same map with other overrides, without reading it again. Unsupported, so that it has to be
-/// opened again, where the nodata value changes and for a map in tiles.
+/// The same map with other overrides, without reading it again. Unsupported if it has to be opened
+/// again: if the nodata value changes, and for a map in tiles.
 Result<std::shared_ptr<const Map>>
 withOverrides(const Map& map, const RasterOverrides& overrides, JobMonitor& monitor);
 

@@ -100,7 +100,7 @@ Result<bool> MapOpening::useAdjacentLevels()
     return false;
 }
 
-// Whether the folder of prepared maps has a level file of this raster: of the raster where it is,
+// Whether the folder of prepared maps has a level file of this raster: of the raster itself,
 // or of a tiled copy.
 bool MapOpening::usePrepared()
 {

@@ -1,4 +1,4 @@
-// A raster on its way to becoming a map: files opened here are passed on, never opened again.
+// Opens a raster as a map: files opened here are passed on, never opened again.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -27,9 +27,9 @@ enum class MapStorage {
 /// An open raster, and how it can become a map. For one thread at a time.
 class MapOpening {
 public:
-    /// Decides by the file and by what was prepared from it. Reads a few dozen kilobytes. Refuses
+    /// Decides by the file and by existing prepared files. Reads a few dozen kilobytes. Refuses
     /// rasters that are not a surface, and remote ones that can neither be read in pieces nor
-    /// fetched whole. Damaged where the raster was damaged since its level file was built.
+    /// fetched whole. Damaged if the raster was damaged since its level file was built.
     static Result<MapOpening> begin(OpenRaster raster, const MapResources& resources);
 
     const OpenRaster& raster() const noexcept { return raster_; }
@@ -54,12 +54,13 @@ public:
     /// them. The user's own files stay.
     Status discardPrepared();
 
-    /// Of all samples: measured when the map was prepared, estimated, or from a scan of the file.
+    /// Statistics of all samples: measured when the map was prepared, estimated, or from a scan of
+    /// the file.
     Result<SampleStatistics> statistics(JobMonitor& monitor);
 
-    // Each of the following takes the raster with it.
+    // Each of the following takes the raster out of this object.
 
-    /// The map, of another storage than NeedsOverviews.
+    /// The map; its storage must not be NeedsOverviews.
     Result<std::shared_ptr<const Map>> finish(JobMonitor& monitor);
     OpenRaster takeRaster() && { return std::move(raster_); }
 
@@ -92,7 +93,7 @@ private:
     std::optional<RasterLevels> levels_;
     std::string prepared_path_{};  // in the folder of prepared maps; empty: not from there
     bool is_copy_ = false;         // tiles are read from a copy at prepared_path_
-    std::optional<FileLock> lock_; // keeps prepared_path_ there; finish() takes it
+    std::optional<FileLock> lock_; // protects prepared_path_ from removal; finish() takes it
 };
 
 } // namespace marsview

@@ -27,10 +27,11 @@ beginPrepared(MapOpening unprepared, const MapResources& resources, JobMonitor& 
     const std::string path = unprepared.raster().spec.path;
     Result<MapOpening> opening = MapOpening::begin(std::move(unprepared).takeRaster(), resources);
     if (opening && opening->storage() == MapStorage::NeedsOverviews) {
-        return Error{ErrorCode::Unreadable,
-                     fmt::format("{}: its overviews were built, but are gone from {}; choose "
-                                 "another folder for prepared maps",
-                                 path, resources.folder.string())};
+        return Error{
+            ErrorCode::Unreadable,
+            fmt::format("{}: its overviews were built but have disappeared from {}; choose "
+                        "another folder for prepared maps",
+                        path, resources.folder.string())};
     }
     return opening;
 }
@@ -63,7 +64,7 @@ Result<std::shared_ptr<const Map>> openMap(const RasterSpec& spec,
     if (map || !opening->isDamageToPrepared(map.error()) || !opening->discardPrepared()) {
         return map;
     }
-    return openMap(spec, resources, monitor, options); // what is gone cannot be damaged again
+    return openMap(spec, resources, monitor, options); // the damaged files are gone, so this ends
 }
 
 Status buildOverviews(const RasterSpec& spec, const MapResources& resources, JobMonitor& monitor)

@@ -1,4 +1,4 @@
-// The one way from a name to a map, of any size: into memory, or in tiles.
+// Opens a map of any size by its name: in memory, or in tiles.
 #pragma once
 
 #include "core/base/job_monitor.h"
@@ -12,7 +12,7 @@
 
 namespace marsview {
 
-/// What becomes of a map that is too large for memory and has no overviews.
+/// How to open a map that is too large for memory and has no overviews.
 enum class WithoutOverviews {
     Build,   // they are built, which takes minutes
     Preview, // a preview is returned

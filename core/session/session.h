@@ -1,7 +1,7 @@
 // The document as a value: the open maps, their order and their appearance.
 //
-// Every change is a pure function from one session to the next, so undo is keeping the one before.
-// Sessions share their maps; a copy costs a few words a layer.
+// Every change is a pure function from one session to the next, so undo keeps the previous one.
+// Sessions share their maps; a copy costs a few words per layer.
 #pragma once
 
 #include "core/session/map.h"
@@ -27,9 +27,9 @@ struct Layer {
     std::string name{};             // as people read it
     bool is_visible = true;         // as far as the user is concerned; see placement()
     std::string ramp{};             // a name of colorRamps(); empty: the one that suits the body
-    bool is_sample = false;         // came by itself, and goes when the user opens something
+    bool is_sample = false;         // opened automatically; removed when the user opens a map
     ColorStretch stretch{};         // over which elevations the ramp is spread
-    std::optional<SlopeRange> slope_range{}; // the same for slopes; nothing: what suits the map
+    std::optional<SlopeRange> slope_range{}; // the same for slopes; empty: chosen for the map
     /// Vertical exaggeration of the scene while this layer is the topmost in it. Positive in a
     /// session; 0 in a layer that is added: suitableExaggeration().
     double exaggeration = 0.0;
@@ -81,8 +81,8 @@ inline const Layer* activeLayer(const Session& session)
 /// Counted from the top; the number of layers if it does not exist.
 std::size_t indexOf(const Session& session, LayerId id);
 
-/// The layer on top, under a new id, and active. Samples make room for what is none. An empty name
-/// becomes the last part of the map's path.
+/// The layer on top, under a new id, and active. Bundled samples are removed when another map is
+/// added. An empty name becomes the last part of the map's path.
 ///
 /// If a layer stays in the picture through a change of layers, the picture keeps its exaggeration:
 /// all layers that are shown adopt it.

@@ -44,7 +44,7 @@ public:
             // A local raster that was intact when it was prepared.
             const bool is_damage = raster_.checksums && raster_.remote_version.empty() &&
                                    samples.error().code == ErrorCode::Unreadable;
-            return is_damage ? damaged(id, "cannot be decoded any more") : samples.error();
+            return is_damage ? damaged(id, "can no longer be decoded") : samples.error();
         }
         if (raster_.checksums && TileChecksums::covers(id) &&
             sampleChecksum(*samples) != raster_.checksums->of(id)) {
@@ -67,7 +67,7 @@ private:
     }
 
     Error damaged(const TileId& id,
-                  const char* how = "are not those that it was prepared with") const
+                  const char* how = "differ from those that it was prepared with") const
     {
         return {ErrorCode::Unreadable,
                 fmt::format("{}: is damaged in the tile at column {}, row {} of {} {}, whose "

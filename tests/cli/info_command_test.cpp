@@ -109,10 +109,10 @@ TEST(InfoCommand, DescribesWhatIsNoSurfaceAndSaysSo)
     EXPECT_EQ(info["maximum"], 5.0);
     EXPECT_EQ(info["triangle_count"], 0);
     EXPECT_THAT(info["notices"].get<std::vector<std::string>>(),
-                testing::Contains("5 × 1 samples make no surface; at least 2 × 2 are needed"));
+                testing::Contains("5 × 1 samples are not a surface; at least 2 × 2 are needed"));
     const ProgramOutput refused = runCli({"prepare", row, "-o", folder.file("prepared.tif")});
     EXPECT_EQ(refused.exit_status, 1);
-    EXPECT_THAT(refused.err, testing::HasSubstr("5 × 1 samples make no surface"));
+    EXPECT_THAT(refused.err, testing::HasSubstr("5 × 1 samples are not a surface"));
 }
 
 TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)

@@ -107,12 +107,12 @@ TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
         const Result<PrepareReport> report = run(job(WhenThere::Check));
         ASSERT_TRUE(report) << report.error().message;
         EXPECT_THAT(report->notes,
-                    Contains(EndsWith(is_left ? "it is rebuilt" : "every tile is as it was then")))
+                    Contains(EndsWith(is_left ? "it is rebuilt" : "all tiles are intact")))
             << share;
         EXPECT_TRUE(test::readFile(out) == whole) << share;
         const Result<PrepareReport> again = run(job(WhenThere::Check));
         ASSERT_TRUE(again);
-        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+        EXPECT_THAT(again->notes, Contains(EndsWith("all tiles are intact")));
     }
     EXPECT_GT(noticed_late, 0U);
 }
@@ -134,7 +134,7 @@ TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
         EXPECT_TRUE(test::readFile(out) == whole) << share;
         const Result<PrepareReport> again = run(job(WhenThere::Check));
         ASSERT_TRUE(again);
-        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+        EXPECT_THAT(again->notes, Contains(EndsWith("all tiles are intact")));
     }
 }
 
@@ -173,7 +173,7 @@ TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
         copied = now;
         const Result<PrepareReport> again = run(job(WhenThere::Check));
         ASSERT_TRUE(again);
-        EXPECT_THAT(again->notes, Contains(EndsWith("every tile is as it was then")));
+        EXPECT_THAT(again->notes, Contains(EndsWith("all tiles are intact")));
     }
 }
 
@@ -187,7 +187,7 @@ TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
     ASSERT_TRUE(run(own, {}));
     for (const auto& [path, remedy] :
          {std::pair{out, "prepare it again from " + folder_.file("map.vrt")},
-          std::pair{own, std::string("get it again from where it came")}}) {
+          std::pair{own, std::string("restore or fetch it again")}}) {
         const std::string levels = test::readFile(LevelFile::pathFor(path));
         overwrite(path, 0.5);
         const Result<PrepareReport> report = run(path, {.when_there = WhenThere::Check});

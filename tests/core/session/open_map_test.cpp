@@ -249,7 +249,7 @@ TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
         if (map) {
             EXPECT_GT(unreadable(*map), 0U);
         } else {
-            EXPECT_THAT(map.error().message, HasSubstr("get it again from where it came"));
+            EXPECT_THAT(map.error().message, HasSubstr("restore or fetch it again"));
         }
         EXPECT_TRUE(test::readFile(levels) == before);
     }
@@ -265,7 +265,7 @@ TEST_F(OpenMap, MakesLevelsAnewWhereOverviewsBesideTheRasterAreOthers)
     ASSERT_TRUE(outdated);
     EXPECT_EQ(outdated->storage(), MapStorage::NeedsOverviews);
     EXPECT_THAT(outdated->notices(),
-                Contains(HasSubstr("level file beside it is not used: it was made from another")));
+                Contains(HasSubstr("its level file is not used: it was built from another")));
     {
         const Result<std::shared_ptr<const Map>> map = open(path); // with levels in the folder
         ASSERT_TRUE(map) << map.error().message;
@@ -386,7 +386,7 @@ TEST_F(OpenMap, RefusesWhatIsNoSurfaceBeforePreparingIt)
         const Result<MapOpening> refused = begin(path);
         ASSERT_FALSE(refused);
         EXPECT_THAT(refused.error().message,
-                    HasSubstr("samples make no surface; at least 2 × 2 are needed"));
+                    HasSubstr("samples are not a surface; at least 2 × 2 are needed"));
         JobMonitor monitor;
         const auto prepared = prepareMapFiles(*openRaster({.path = path}),
                                               {.raster_path = folder_.file("out.tif")}, monitor);
