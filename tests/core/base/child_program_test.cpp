@@ -16,7 +16,7 @@ ChildProgram shell(const std::string& script)
     return program;
 }
 
-TEST(ChildProgram, WhatItPrintsAndItsStatusAreReported)
+TEST(ChildProgram, ReportsOutputAndExitStatus)
 {
     ChildProgram program = shell("cat; echo lost >&2; exit 3");
     program.input = std::string("one\0two", 7);
@@ -28,7 +28,7 @@ TEST(ChildProgram, WhatItPrintsAndItsStatusAreReported)
     EXPECT_EQ(outcome->err, "lost\n");
 }
 
-TEST(ChildProgram, ASignalThatKillsItIsReported)
+TEST(ChildProgram, ReportsTheSignalThatKilledIt)
 {
     const auto outcome = runChild(shell("kill -SEGV $$"));
     ASSERT_TRUE(outcome);
@@ -36,7 +36,7 @@ TEST(ChildProgram, ASignalThatKillsItIsReported)
     EXPECT_EQ(outcome->signal, SIGSEGV);
 }
 
-TEST(ChildProgram, OneThatDoesNotEndIsKilled)
+TEST(ChildProgram, KillsAProgramThatDoesNotEnd)
 {
     ChildProgram program = shell("while :; do :; done");
     program.time_max = std::chrono::milliseconds(50);
@@ -56,7 +56,7 @@ TEST(ChildProgram, OneThatDoesNotEndIsKilled)
     EXPECT_EQ(runChild(program)->end, ChildEnd::TimedOut);
 }
 
-TEST(ChildProgram, MoreOutputThanIsKeptIsDropped)
+TEST(ChildProgram, DropsOutputBeyondTheLimit)
 {
     ChildProgram program = shell("head -c 1000000 /dev/zero; echo end >&2");
     program.output_bytes_max = 1000;
@@ -66,7 +66,7 @@ TEST(ChildProgram, MoreOutputThanIsKeptIsDropped)
     EXPECT_EQ(outcome->err, "end\n");
 }
 
-TEST(ChildProgram, AProgramThatIsMissingIsAnError)
+TEST(ChildProgram, ReportsAMissingProgram)
 {
     ChildProgram program;
     program.path = "/nonexistent/program";

@@ -32,7 +32,7 @@ TEST(Deflate, ChecksumsAreThoseOfTheStandards)
     EXPECT_EQ(adler32Of({}), 1U);
 }
 
-TEST(Deflate, ChecksumsContinueWhereTheyEnded)
+TEST(Deflate, ChecksumsCanBeComputedInParts)
 {
     EXPECT_EQ(crc32Of(bytesOf("6789"), crc32Of(bytesOf("12345"))), 0xCBF43926U);
     EXPECT_EQ(adler32Of(bytesOf("6789"), adler32Of(bytesOf("12345"))), 0x091E01DEU);
@@ -40,7 +40,7 @@ TEST(Deflate, ChecksumsContinueWhereTheyEnded)
     EXPECT_EQ(adler32Of({}, 0x091E01DEU), 0x091E01DEU);
 }
 
-TEST(Deflate, ZlibReadsWhatIsWritten)
+TEST(Deflate, ZlibReadsItsOutput)
 {
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{70'000}}) {
         Bytes plain(count, std::byte{7});
@@ -55,7 +55,7 @@ TEST(Deflate, ZlibReadsWhatIsWritten)
     }
 }
 
-TEST(Deflate, ReadsWhatZlibWrites)
+TEST(Deflate, ReadsOutputOfZlib)
 {
     Bytes plain = bytesOf("the same again, the same again, the same again");
     Bytes stream(compressBound(plain.size()));
@@ -67,7 +67,7 @@ TEST(Deflate, ReadsWhatZlibWrites)
     EXPECT_EQ(read, plain);
 }
 
-TEST(Deflate, RefusesWhatIsNotExactlySuchAStream)
+TEST(Deflate, RefusesDamagedStreamsAndWrongSizes)
 {
     const Bytes plain = bytesOf("the same again, the same again, the same again");
     const Bytes stream = deflated(plain, 6);

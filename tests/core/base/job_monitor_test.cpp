@@ -5,7 +5,7 @@
 namespace marsview {
 namespace {
 
-TEST(JobMonitor, ProgressIsOfTheWholeWork)
+TEST(JobMonitor, ProgressCoversTheWholeWork)
 {
     JobMonitor monitor;
     monitor.report(0.5);

@@ -32,7 +32,7 @@ TEST(ParallelRanges, CoversEachIndexOnceInPartsOfAtMostTheGrain)
     }
 }
 
-TEST(ParallelRanges, HasDoneAllWhenItReturns)
+TEST(ParallelRanges, ReturnsAfterAllWorkIsDone)
 {
     constexpr std::size_t kCount = 5000;
     std::vector<std::size_t> results(kCount);

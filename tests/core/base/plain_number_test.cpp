@@ -30,7 +30,7 @@ TEST(PlainNumber, HasAPointAndNoMoreDigitsThanNeeded)
     EXPECT_EQ(asText(std::numeric_limits<double>::quiet_NaN()), "nan");
 }
 
-TEST(PlainNumber, ReadsWhatPeopleWriteAndNothingElse)
+TEST(PlainNumber, ReadsCommonSpellingsAndNothingElse)
 {
     EXPECT_EQ(parseNumber("+3.5e2"), 350.0);
     EXPECT_TRUE(std::isnan(parseNumber("nan").value_or(0.0)));

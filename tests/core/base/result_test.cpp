@@ -16,7 +16,7 @@ Result<std::unique_ptr<int>> half(int number)
     return std::make_unique<int>(number / 2);
 }
 
-TEST(Result, HoldsAValueOrAnErrorAndTellsWhich)
+TEST(Result, HoldsAValueOrAnErrorAndReportsWhich)
 {
     EXPECT_TRUE(half(4));
     EXPECT_EQ(**half(4), 2);
@@ -25,13 +25,13 @@ TEST(Result, HoldsAValueOrAnErrorAndTellsWhich)
     EXPECT_EQ(half(3).error().message, "odd");
 }
 
-TEST(Result, GivesItsValueAway)
+TEST(Result, MovesItsValueOut)
 {
     const std::unique_ptr<int> owned = half(10).value();
     EXPECT_EQ(*owned, 5);
 }
 
-TEST(ResultDeathTest, AskingForWhatItDoesNotHoldIsABug)
+TEST(ResultDeathTest, AccessingTheMissingAlternativeIsABug)
 {
     EXPECT_DEATH((void)half(3).value(), "check failed");
     EXPECT_DEATH((void)half(4).error(), "check failed");

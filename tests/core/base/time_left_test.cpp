@@ -19,7 +19,7 @@ void run(TimeLeft& estimate, double begin_s, double end_s, const Fraction& fract
     }
 }
 
-TEST(TimeLeft, IsNotToldBeforeAnythingIsKnown)
+TEST(TimeLeft, IsEmptyBeforeProgressIsSeen)
 {
     TimeLeft estimate;
     EXPECT_FALSE(estimate.left());
@@ -41,7 +41,7 @@ TEST(TimeLeft, IsExactForSteadyProgress)
 }
 
 // Work finished by an earlier attempt appears at once. It must not count toward the speed.
-TEST(TimeLeft, DoesNotTakeWhatWasDoneBeforeForSpeed)
+TEST(TimeLeft, IgnoresWorkFinishedByAnEarlierAttempt)
 {
     TimeLeft estimate;
     run(estimate, 0.0, 20.0, [](double s) { return s < 0.5 ? 0.0 : 0.6 + s / 1000.0; });
@@ -61,7 +61,7 @@ TEST(TimeLeft, FollowsAChangeOfPaceWithinMinutes)
     EXPECT_NEAR(static_cast<double>(estimate.left()->count()), 0.55 * 2000.0, 0.05 * 1100.0);
 }
 
-TEST(TimeLeft, GrowsWhileNothingHappensAndStaysFinite)
+TEST(TimeLeft, GrowsWithoutProgressAndStaysFinite)
 {
     TimeLeft estimate;
     run(estimate, 0.0, 30.0, [](double s) { return s / 100.0; });
