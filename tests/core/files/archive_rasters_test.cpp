@@ -100,7 +100,7 @@ TEST(Archive, OpensTheLargestElevationsAndNamesTheOthers)
     }
 }
 
-TEST(Archive, OfOneRasterNeedsNoChoice)
+TEST(Archive, OpensItsOnlyRasterWithoutListingOthers)
 {
     const TempFolder folder;
     writeInto(folder, "one", "dem.tif", "GTiff", uniform<std::int16_t>(10, 10, 1));

@@ -6,7 +6,7 @@
 
 namespace marsview::test {
 
-TEST(FileAddress, BecomesThePathThatItNames)
+TEST(FileAddress, IsConvertedToAPath)
 {
     for (const auto& [address, path] :
          {std::pair{"file:///a/b.tif", "/a/b.tif"},
@@ -20,7 +20,7 @@ TEST(FileAddress, BecomesThePathThatItNames)
     }
 }
 
-TEST(FileAddress, LeavesEverythingElseAlone)
+TEST(FileAddress, LeavesOtherTextUnchanged)
 {
     for (const char* name : {"a%20b.tif", "/a/b.tif", "https://host/a%20b.tif", "file.tif",
                              "NETCDF:file:variable", "file:b.tif", ""}) {

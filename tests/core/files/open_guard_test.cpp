@@ -41,7 +41,7 @@ protected:
     const test::ScopedVariable drivers_{"GDAL_DRIVER_PATH", MARSVIEW_TEST_GDAL_DRIVERS};
 };
 
-TEST_F(OpenGuardTest, PlainFilesNeedNoChild)
+TEST_F(OpenGuardTest, PlainFilesAreOpenedWithoutAChild)
 {
     for (const auto& [file, format] :
          std::vector<std::pair<std::string, std::string>>{{"map.tif", "GTiff"},
@@ -57,7 +57,7 @@ TEST_F(OpenGuardTest, PlainFilesNeedNoChild)
     }
 }
 
-TEST_F(OpenGuardTest, OthersAreOpenedByAChildFirstAndRemembered)
+TEST_F(OpenGuardTest, OtherFilesAreProbedInAChildOnce)
 {
     const std::string path = write("map.img", "HFA");
     for (int i = 0; i < 2; ++i) {
@@ -69,7 +69,7 @@ TEST_F(OpenGuardTest, OthersAreOpenedByAChildFirstAndRemembered)
     }
 }
 
-TEST_F(OpenGuardTest, ARasterThatNamesOthersIsLookedAtAgainWhenTheyChange)
+TEST_F(OpenGuardTest, ARasterIsProbedAgainWhenFilesThatItNamesChange)
 {
     const std::string source = write("map.img", "HFA");
     const std::string path =
@@ -85,7 +85,7 @@ TEST_F(OpenGuardTest, ARasterThatNamesOthersIsLookedAtAgainWhenTheyChange)
     EXPECT_THAT(opened.error().message, HasSubstr("crashed on this file"));
 }
 
-TEST_F(OpenGuardTest, ACancelEndsTheChild)
+TEST_F(OpenGuardTest, CancelingEndsTheChild)
 {
     const std::string path = folder_.write("map.faulty", "FAULTY hang\n");
     JobMonitor monitor;
@@ -101,7 +101,7 @@ TEST_F(OpenGuardTest, ACancelEndsTheChild)
 }
 
 // Settings are read once per process, so each case has its own process.
-TEST(BlockCacheTest, TheUsersSettingsAreKept)
+TEST(BlockCacheTest, KeepsTheUsersSettings)
 {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const test::TempFolder folder;

@@ -37,7 +37,7 @@ TEST(RasterPath, CompanionsAreFoundInAnyCase)
     EXPECT_EQ(namesFor(header), (std::vector<std::string>{header, dem}));
 }
 
-TEST(RasterPath, AProjectionsTextStandsForTheDataBesideIt)
+TEST(RasterPath, AProjectionFileIsReplacedByItsData)
 {
     const test::TempFolder folder;
     const std::string text = folder.write("map.prj", "x");
@@ -66,7 +66,7 @@ TEST(RasterPath, ConnectionStringsPassUnchecked)
     }
 }
 
-TEST(RasterPath, WhatIsNotThereOrEmptyIsRefused)
+TEST(RasterPath, RefusesMissingAndEmptyFiles)
 {
     const test::TempFolder folder;
     const struct {

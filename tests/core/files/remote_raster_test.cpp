@@ -125,7 +125,7 @@ private:
 
 test::TempFolder* RemoteRasterTest::originals_ = nullptr;
 
-TEST(RemoteName, EveryAddressHasOneAndBack)
+TEST(RemoteName, ConvertsEveryAddressAndBack)
 {
     const std::vector<std::pair<std::string, std::string>> table{
         {"https://example.org/a/map.tif", "/vsicurl/https://example.org/a/map.tif"},
@@ -142,7 +142,7 @@ TEST(RemoteName, EveryAddressHasOneAndBack)
     EXPECT_EQ(remoteNameFor("HTTPS://example.org/x.tif"), "/vsicurl/HTTPS://example.org/x.tif");
 }
 
-TEST(RemoteName, FilesAndOtherNamesHaveNone)
+TEST(RemoteName, IsEmptyForFilesAndOtherNames)
 {
     for (const char* path : {"map.tif", "/data/http/map.tif", "NETCDF:map.nc:z", "/vsizip/a.zip",
                              "https:/one/slash", ""}) {
@@ -150,7 +150,7 @@ TEST(RemoteName, FilesAndOtherNamesHaveNone)
     }
 }
 
-TEST_F(RemoteRasterTest, OpeningAndOneTileReadAShareOfTheFile)
+TEST_F(RemoteRasterTest, OpeningAndReadingATileTransferAFractionOfTheFile)
 {
     RasterFile file = opened(server_.url("map.tif"));
     const HttpCounts at_open = server_.counts();
@@ -168,7 +168,7 @@ TEST_F(RemoteRasterTest, OpeningAndOneTileReadAShareOfTheFile)
     EXPECT_LE(counts.body_bytes, bytes * 3 / 100);
 }
 
-TEST_F(RemoteRasterTest, TheDescriptionIsThatOfTheFile)
+TEST_F(RemoteRasterTest, DescriptionMatchesTheLocalFile)
 {
     const RasterFile remote = opened(server_.url("map.tif"));
     const RasterFile local = opened(original("map.tif"));
@@ -181,7 +181,7 @@ TEST_F(RemoteRasterTest, TheDescriptionIsThatOfTheFile)
     EXPECT_EQ(local.info().remote_version, "");
 }
 
-TEST_F(RemoteRasterTest, OnlyLabelsAreLookedForNextToTheFile)
+TEST_F(RemoteRasterTest, RequestsNoCompanionFilesExceptLabels)
 {
     for (int i = 0; i < 3; ++i) {
         opened(server_.url("map.tif"));
@@ -232,7 +232,7 @@ TEST_F(RemoteRasterTest, TheLabelNextToTheFileIsApplied)
     }
 }
 
-TEST_F(RemoteRasterTest, AFarServerIsOnlySlow)
+TEST_F(RemoteRasterTest, HighLatencyOnlySlowsReading)
 {
     server_.setLatency(std::chrono::milliseconds(50));
     server_.setBandwidth(std::size_t{2} << 20);
@@ -242,7 +242,7 @@ TEST_F(RemoteRasterTest, AFarServerIsOnlySlow)
     EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(1, 6))));
 }
 
-TEST_F(RemoteRasterTest, AServerInTroubleIsAskedAgain)
+TEST_F(RemoteRasterTest, RetriesAfterServerErrors)
 {
     RasterFile file = opened(server_.url("map.tif"));
     for (const int status : {503, 500, 429}) {
@@ -256,7 +256,7 @@ TEST_F(RemoteRasterTest, AServerInTroubleIsAskedAgain)
     }
 }
 
-TEST_F(RemoteRasterTest, AConnectionThatIsCutWhileOpeningIsTriedAgain)
+TEST_F(RemoteRasterTest, RetriesWhenAConnectionIsLostDuringOpening)
 {
     // GDAL caches its knowledge of a file, so every attempt uses a different file.
     for (const std::size_t body_bytes : {0U, 100U, 5000U}) {
@@ -271,7 +271,7 @@ TEST_F(RemoteRasterTest, AConnectionThatIsCutWhileOpeningIsTriedAgain)
     }
 }
 
-TEST_F(RemoteRasterTest, CutConnectionsNeverTearATile)
+TEST_F(RemoteRasterTest, LostConnectionsNeverYieldAPartialTile)
 {
     RasterFile file = opened(server_.url("map.tif"));
     test::Random random;
@@ -296,7 +296,7 @@ TEST_F(RemoteRasterTest, CutConnectionsNeverTearATile)
     EXPECT_GT(failed, 10U);
 }
 
-TEST_F(RemoteRasterTest, ATileWhoseAnswerIsCutIsAskedForTwiceMore)
+TEST_F(RemoteRasterTest, RequestsATileTwiceMoreAfterTruncatedResponses)
 {
     const RasterFile file = opened(server_.url("map.tif"));
     const auto source = GeotiffTileSource::of(file, {});
@@ -331,7 +331,7 @@ TEST_F(RemoteRasterTest, ATileWhoseAnswerIsCutIsAskedForTwiceMore)
     EXPECT_TRUE(isSame(tile->samples, truth(original("map.tif"), tileAt(5, 6))));
 }
 
-TEST_F(RemoteRasterTest, AFileThatChangesIsNoticedAndNeverMixed)
+TEST_F(RemoteRasterTest, DetectsAChangedFileAndNeverMixesVersions)
 {
     for (const auto validators :
          {test::HttpValidators::EtagAndTime, test::HttpValidators::TimeOnly}) {
@@ -362,7 +362,7 @@ TEST_F(RemoteRasterTest, AFileThatChangesIsNoticedAndNeverMixed)
     }
 }
 
-TEST_F(RemoteRasterTest, WhatIsWrongIsSaid)
+TEST_F(RemoteRasterTest, ErrorsNameTheCause)
 {
     const auto message = [&](const std::string& address) {
         const auto file = RasterFile::open(address);
@@ -394,7 +394,7 @@ TEST_F(RemoteRasterTest, WhatIsWrongIsSaid)
     EXPECT_EQ(message(server_.url("map.tif")), "");
 }
 
-TEST_F(RemoteRasterTest, BucketsAreReadByTheirNames)
+TEST_F(RemoteRasterTest, ReadsBucketsByTheirAddress)
 {
     fs::create_directory(folder_.path() / "bucket");
     fs::rename(folder_.file("map.tif"), folder_.file("bucket/map.tif"));
@@ -416,7 +416,7 @@ TEST_F(RemoteRasterTest, BucketsAreReadByTheirNames)
     EXPECT_THAT(absent.error().message, StartsWith("s3://bucket/absent.tif: nothing was found at"));
 }
 
-TEST_F(RemoteRasterTest, AServerThatGoesAwayAndComesBackIsReadOn)
+TEST_F(RemoteRasterTest, ContinuesReadingAfterAServerOutage)
 {
     RasterFile file = opened(server_.url("map.tif"));
     server_.refuse();
@@ -429,7 +429,7 @@ TEST_F(RemoteRasterTest, AServerThatGoesAwayAndComesBackIsReadOn)
     EXPECT_TRUE(isSame(tile->grid, truth(original("map.tif"), tileAt(6, 6))));
 }
 
-TEST_F(RemoteRasterTest, AServerWithoutRangesIsNotDownloadedFrom)
+TEST_F(RemoteRasterTest, RefusesServersWithoutRangeRequests)
 {
     RasterFile file = opened(server_.url("map.tif"));
     server_.setRanges(test::HttpRanges::Ignored);
@@ -449,7 +449,7 @@ TEST_F(RemoteRasterTest, AServerWithoutRangesIsNotDownloadedFrom)
     EXPECT_LT(server_.counts().body_bytes, fs::file_size(original("other.tif")));
 }
 
-TEST_F(RemoteRasterTest, WhatCannotBeReadInPiecesIsRefused)
+TEST_F(RemoteRasterTest, RefusesLargeFilesThatCannotBeReadInPieces)
 {
     for (const auto& [name, why] :
          {std::pair<std::string, std::string>{"strips.tif", "it is stored in blocks of 2048 × "},
@@ -464,7 +464,7 @@ TEST_F(RemoteRasterTest, WhatCannotBeReadInPiecesIsRefused)
     }
 }
 
-TEST_F(RemoteRasterTest, TilesAreThoseOfTheFileOnDisk)
+TEST_F(RemoteRasterTest, TilesMatchThoseOfTheLocalFile)
 {
     const RasterFile remote_file = opened(server_.url("map.tif"));
     const RasterFile local_file = opened(original("map.tif"));

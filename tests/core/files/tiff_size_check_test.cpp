@@ -36,7 +36,7 @@ protected:
     test::TempFolder folder_;
 };
 
-TEST_F(TiffPromiseTest, WhatGdalWritesFits)
+TEST_F(TiffPromiseTest, AcceptsFilesWrittenByGdal)
 {
     const std::vector<std::vector<std::string>> layouts{
         {},
@@ -64,7 +64,7 @@ TEST_F(TiffPromiseTest, WhatGdalWritesFits)
 }
 
 // The smallest deflate and LZW files possible for many samples.
-TEST_F(TiffPromiseTest, FlatMapsFitHoweverSmallTheyBecome)
+TEST_F(TiffPromiseTest, AcceptsHighlyCompressedFlatMaps)
 {
     for (const char* compression : {"DEFLATE", "LZW", "PACKBITS", "ZSTD"}) {
         const std::string path = test::writeRaster(
@@ -77,7 +77,7 @@ TEST_F(TiffPromiseTest, FlatMapsFitHoweverSmallTheyBecome)
     }
 }
 
-TEST_F(TiffPromiseTest, WhatIsCutShortDoesNot)
+TEST_F(TiffPromiseTest, RefusesTruncatedFiles)
 {
     for (const auto& options : std::vector<std::vector<std::string>>{
              {}, {"BIGTIFF=YES"}, {"TILED=YES", "COMPRESS=DEFLATE"}, {"ENDIANNESS=BIG"}}) {
@@ -101,7 +101,7 @@ TEST_F(TiffPromiseTest, OtherFilesAreNotTiffs)
     EXPECT_FALSE(tiffSizesOf(folder_.file("missing.tif")));
 }
 
-TEST_F(TiffPromiseTest, RealFilesFit)
+TEST_F(TiffPromiseTest, AcceptsRealFiles)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(test::sharedData())) {
