@@ -78,7 +78,7 @@ TEST(Ellipsoid, ThePolesAndTheEquatorAreFixedPoints)
     }
 }
 
-TEST(Ellipsoid, PlanetographicLatitudeIsNeverNearerToTheEquator)
+TEST(Ellipsoid, PlanetographicLatitudeIsNeverCloserToTheEquator)
 {
     test::Random random;
     for (const Body& body : knownBodies()) {
@@ -92,7 +92,7 @@ TEST(Ellipsoid, PlanetographicLatitudeIsNeverNearerToTheEquator)
 
 // Two short geodesics from the same point, along the meridian and along the parallel: the distances
 // from an independent program.
-TEST(Ellipsoid, MetresPerRadianAgreeWithTheLengthsOfShortGeodesics)
+TEST(Ellipsoid, MetersPerRadianMatchLengthsOfShortGeodesics)
 {
     if (test::runProgram({"GeodSolve", "--version"}).exit_status == 127) {
         GTEST_SKIP() << "GeodSolve (geographiclib-tools) is not installed";
@@ -148,7 +148,7 @@ TEST(Ellipsoid, MetresPerRadianAgreeWithTheLengthsOfShortGeodesics)
     }
 }
 
-TEST(Ellipsoid, MetresPerRadianAgreeWithTheClosedFormula)
+TEST(Ellipsoid, MetersPerRadianMatchTheClosedFormula)
 {
     test::Random random;
     for (const Body& body : knownBodies()) {
@@ -193,7 +193,7 @@ TEST(WrapLongitude, LandsInTheRangeAndMovesByWholeTurnsOnly)
     }
 }
 
-TEST(WrapLongitude, KeepsWhatIsInRangeBitForBit)
+TEST(WrapLongitude, KeepsLongitudesInRangeBitForBit)
 {
     test::Random random;
     for (int i = 0; i < 1000; ++i) {
@@ -220,7 +220,7 @@ TEST(Body, EveryNameFindsItsOwnBodyInAnyCase)
     EXPECT_EQ(bodyNamed("Mars "), nullptr);
 }
 
-TEST(Body, RadiiAreThoseOfThePublishedTables)
+TEST(Body, RadiiMatchThePublishedTables)
 {
     const auto radii = [](std::string_view name) {
         const Ellipsoid& e = bodyNamed(name)->ellipsoid;
@@ -238,14 +238,14 @@ TEST(Body, RadiiAreThoseOfThePublishedTables)
     }
 }
 
-TEST(Body, OnlyEarthCountsPlanetographicLatitude)
+TEST(Body, OnlyEarthUsesPlanetographicLatitude)
 {
     for (const Body& body : knownBodies()) {
         EXPECT_EQ(body.latitude == LatitudeKind::Planetographic, body.name == "Earth") << body.name;
     }
 }
 
-TEST(BodyMentioned, KnowsTheSpellingsOfDatumAndCrsNames)
+TEST(BodyMentioned, UnderstandsDatumAndCrsNames)
 {
     const std::pair<const char*, const char*> table[] = {
         {"D_MARS_2000", "Mars"},

@@ -22,7 +22,7 @@ struct Case {
     double longitude_deg;
 };
 
-TEST(PlaceFrom, UnderstandsTheWaysPeopleWrite)
+TEST(PlaceFrom, UnderstandsCommonNotations)
 {
     for (const Case& c : std::vector<Case>{
              {"18.65 N 226.2 E", 18.65, 226.2},
@@ -78,7 +78,7 @@ TEST(PlaceFrom, ReadsBareLongitudesInTheDirectionOfTheFormat)
     EXPECT_NEAR(longitude("18.65 N 133.8 W"), -133.8, 1e-12);
 }
 
-TEST(PlaceFrom, SaysWhatIsWrong)
+TEST(PlaceFrom, ErrorsNameTheProblem)
 {
     const auto message = [](const char* text) {
         const auto place = placeFrom(text);
@@ -102,7 +102,7 @@ TEST(PlaceFrom, SaysWhatIsWrong)
     EXPECT_THAT(message("1e4, 2"), HasSubstr("are needed"));
 }
 
-TEST(PlaceFrom, ReadsWhatItWroteInDegreesMinutesAndSeconds)
+TEST(PlaceFrom, ReadsBackDegreesMinutesAndSeconds)
 {
     test::Random random;
     for (int i = 0; i < 2000; ++i) {
@@ -145,7 +145,7 @@ TEST(PlaceFrom, SurvivesAnyText)
     }
 }
 
-TEST(MapPointFrom, TakesTwoPlainNumbers)
+TEST(MapPointFrom, ReadsTwoPlainNumbers)
 {
     for (const char* text :
          {"562345.5 -5117890", "562345.5, -5117890", "562345.5; -5117890",

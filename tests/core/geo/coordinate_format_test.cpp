@@ -60,7 +60,7 @@ TEST(AngleText, CarriesIntoTheNextMinuteAndDegree)
     EXPECT_EQ(latitude(89.9999999, kDms, 2), "90° 00′ 00.00″ N");
 }
 
-TEST(AngleText, HasNoNegativeZeroAndNoLatitudeBeyondAPole)
+TEST(AngleText, WritesNoNegativeZeroAndNoLatitudeBeyondAPole)
 {
     EXPECT_EQ(latitude(-0.0001, kDecimal, 2), "0.00° N");
     EXPECT_EQ(latitude(-0.00001, kDms, 0), "0° 00′ 00″ N");
@@ -97,7 +97,7 @@ TEST(AngleText, WritesLongitudesInEachRange)
     }
 }
 
-TEST(LongitudeSpan, RunsToTheEndOfTheNotation)
+TEST(LongitudeSpan, EndsAtTheEndOfTheRange)
 {
     using L = LongitudeNotation;
     EXPECT_EQ(span(-180.0, 180.0, L::EastWest180), "180° W – 180° E");
@@ -114,7 +114,7 @@ TEST(LongitudeSpan, RunsToTheEndOfTheNotation)
     EXPECT_EQ(span(350.0, 370.0, L::East360), "350° E – 10° E");
 }
 
-TEST(AngleText, IsReadBackWithinHalfItsLastDigit)
+TEST(AngleText, ReadsBackWithinHalfItsLastDigit)
 {
     test::Random random;
     for (int i = 0; i < 10000; ++i) {
@@ -166,7 +166,7 @@ TEST(AngleText, IsReadBackWithinHalfItsLastDigit)
     }
 }
 
-TEST(DigitsFor, AreAsFewAsResolveTheStep)
+TEST(DigitsFor, ReturnsTheFewestThatResolveTheStep)
 {
     const auto decimal = [](double step) { return digitsFor(kDecimal, Angle::degrees(step)); };
     EXPECT_EQ(decimal(1.0), 0);

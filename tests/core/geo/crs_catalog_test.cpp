@@ -32,7 +32,7 @@ const CrsCatalog& database()
 }
 
 // The codes are those of the EPSG registry and of the IAU 2015 list.
-TEST(CrsCatalog, FindsSystemsByWhatPeopleType)
+TEST(CrsCatalog, FindsSystemsByCommonQueries)
 {
     ASSERT_GT(database().size(), 5000U);
     EXPECT_EQ(codesFor(database(), "WGS 84").at(0), "EPSG:4326");
@@ -62,7 +62,7 @@ TEST(CrsCatalog, StatesTheBodyOfEverySystem)
     EXPECT_EQ(body_of("EPSG:7299"), "Earth"); // "… Fulton-Marshall-St. Joseph"
 }
 
-TEST(CrsCatalog, PutsSystemsOfTheBodyInQuestionFirst)
+TEST(CrsCatalog, RanksSystemsOfTheGivenBodyFirst)
 {
     const auto hits = database().search("equirectangular", 2, bodyNamed("Moon"));
     ASSERT_EQ(hits.size(), 2U); // differ only in the near and the far side
@@ -71,7 +71,7 @@ TEST(CrsCatalog, PutsSystemsOfTheBodyInQuestionFirst)
     }
 }
 
-TEST(CrsCatalog, ListsOnlyWhatCanBeUsed)
+TEST(CrsCatalog, ListsOnlyUsableSystems)
 {
     for (const char* query : {"mars", "moon polar", "utm 10", "lambert france", "ceres", "earth"}) {
         for (const CrsEntry* entry : database().search(query, 8)) {

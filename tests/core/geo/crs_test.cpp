@@ -174,7 +174,7 @@ std::string caseName(const testing::TestParamInfo<OracleCase>& info)
     return name;
 }
 
-TEST_P(CrsOracle, LongitudeAndLatitudeAreThoseOfGdaltransform)
+TEST_P(CrsOracle, LongitudeAndLatitudeMatchGdaltransform)
 {
     const OracleCase& c = GetParam();
     test::Random random;
@@ -348,7 +348,7 @@ void PrintTo(const FormulaCase& c, std::ostream* stream)
 
 class CrsFormula : public testing::TestWithParam<FormulaCase> {};
 
-TEST_P(CrsFormula, MapCoordinatesAreThoseOfTheProjectionsFormula)
+TEST_P(CrsFormula, MapCoordinatesMatchTheProjectionsFormula)
 {
     const FormulaCase& c = GetParam();
     const auto crs = Crs::fromText(c.crs);
@@ -395,7 +395,7 @@ INSTANTIATE_TEST_SUITE_P(Planets,
 
 // ---- Geographic systems ---------------------------------------------------------------------
 
-TEST(Crs, GeographicSystemsAreUnitsSignsAndMeridiansOnly)
+TEST(Crs, GeographicSystemsDifferInUnitSignAndMeridianOnly)
 {
     const struct {
         const char* crs;
@@ -460,7 +460,7 @@ TEST(Crs, GeographicSystemsAreUnitsSignsAndMeridiansOnly)
 
 // OGR cannot convert from the system underlying a rotated pole. To use the rotated angles as
 // longitude and latitude would be worse than an error.
-TEST(Crs, ARotatedPoleIsRefused)
+TEST(Crs, RefusesARotatedPole)
 {
     const auto crs = Crs::fromText(
         "+proj=ob_tran +o_proj=longlat +o_lon_p=40 +o_lat_p=50 "
@@ -470,7 +470,7 @@ TEST(Crs, ARotatedPoleIsRefused)
     EXPECT_EQ(crs.error().message.find('\n'), std::string::npos);
 }
 
-TEST(Crs, BeyondThePolesThereIsNothing)
+TEST(Crs, IsEmptyBeyondThePoles)
 {
     for (const char* text : {"EPSG:4326", "IAU_2015:49900", "IAU_2015:49901", "IAU_2015:49902"}) {
         const auto crs = Crs::fromText(text);
@@ -491,7 +491,7 @@ TEST(Crs, BeyondThePolesThereIsNothing)
 
 // ---- What a CRS reports about itself ---------------------------------------------------------
 
-TEST(Crs, TheBodyIsTheOneNamedOrElseTheOneOfThoseRadii)
+TEST(Crs, FindsTheBodyByNameOrElseByRadius)
 {
     const std::pair<const char*, const char*> table[] = {
         {"EPSG:4326", "Earth"},
@@ -522,7 +522,7 @@ TEST(Crs, TheBodyIsTheOneNamedOrElseTheOneOfThoseRadii)
     EXPECT_EQ(nowhere->body(), nullptr);
 }
 
-TEST(Crs, LinearUnitsAreThoseOfTheProjection)
+TEST(Crs, LinearUnitsMatchTheProjection)
 {
     EXPECT_EQ(Crs::fromText("EPSG:32610")->unit(), 1.0);
     EXPECT_NEAR(Crs::fromText("EPSG:2225")->unit(), 1200.0 / 3937.0,
@@ -589,7 +589,7 @@ TEST(Crs, PointsOutsideTheProjectionHaveNoCoordinates)
     }
 }
 
-TEST(Crs, TextThatIsNoCrsIsRefusedInOneSentence)
+TEST(Crs, RefusesInvalidTextInOneSentence)
 {
     for (const char* text : {"", "garbage", "EPSG:", "EPSG:0", "EPSG:99999999", "+proj=nonsense",
                              "IAU_2015:1", "GEOGCS[\"broken\"", "/etc/passwd", "http://", "\n"}) {
@@ -604,7 +604,7 @@ TEST(Crs, TextThatIsNoCrsIsRefusedInOneSentence)
     }
 }
 
-TEST(Crs, AGeocentricSystemIsRefused)
+TEST(Crs, RefusesAGeocentricSystem)
 {
     const auto crs = Crs::fromText("EPSG:4978");
     ASSERT_FALSE(crs);
@@ -612,7 +612,7 @@ TEST(Crs, AGeocentricSystemIsRefused)
     EXPECT_NE(crs.error().message.find("geocentric"), std::string::npos);
 }
 
-TEST(Crs, AVerticalSystemAloneIsNoMap)
+TEST(Crs, RefusesAVerticalSystemAlone)
 {
     const auto crs = Crs::fromText("EPSG:5773");
     if (crs) {
@@ -687,7 +687,7 @@ TEST(Crs, AnotherEllipsoidKeepsUnitAndMeridianOfAGeographicSystem)
     EXPECT_NEAR(after->latitude.degrees(), before->latitude.degrees(), 0.01);
 }
 
-TEST(Crs, RadiiThatAreNoEllipsoidAreRefused)
+TEST(Crs, RefusesRadiiThatDoNotFormAnEllipsoid)
 {
     const auto crs = Crs::fromText("IAU_2015:49910");
     ASSERT_TRUE(crs);
@@ -701,7 +701,7 @@ TEST(Crs, RadiiThatAreNoEllipsoidAreRefused)
     EXPECT_FALSE(local->onEllipsoid({1000.0, 900.0}, "Mars"));
 }
 
-TEST(Crs, TheSystemOfABodyCountsLatitudeAsTheBodyDoes)
+TEST(Crs, ABodysSystemUsesItsKindOfLatitude)
 {
     for (const Body& body : knownBodies()) {
         const Crs crs = Crs::geographic(body, body.ellipsoid);

@@ -30,7 +30,7 @@ TEST(MapExtent, ReachesToTheOuterEdgesOfARotatedRaster)
     EXPECT_NEAR(extent.high.y, 2000.0 + 100 * s, 1e-9);
 }
 
-TEST(GeographicExtent, IsTheTurnThatAGlobalMapTells)
+TEST(GeographicExtent, UsesTheTurnOfAGlobalMap)
 {
     for (const double west : {-180.0, 0.0}) {
         const auto extent =
@@ -43,7 +43,7 @@ TEST(GeographicExtent, IsTheTurnThatAGlobalMapTells)
     }
 }
 
-TEST(GeographicExtent, CountsAPoleInside)
+TEST(GeographicExtent, IncludesAPoleInsideTheRaster)
 {
     const auto extent =
         geographicExtent(placed(500, 500, {-2e6, 8000, 0, 2e6, 0, -8000}, "EPSG:3031"));
@@ -65,7 +65,7 @@ TEST(GeographicExtent, EndsAtThePolesWhereSamplesLieOnThem)
     EXPECT_NEAR(extent->east.degrees(), 360.0, 1e-9);
 }
 
-TEST(GeographicExtent, RunsOnAcrossTheDateLine)
+TEST(GeographicExtent, ContinuesAcrossTheDateLine)
 {
     // UTM zone 1 from 200 to 600 km: both sides of 180°.
     const auto extent =
@@ -74,7 +74,7 @@ TEST(GeographicExtent, RunsOnAcrossTheDateLine)
     EXPECT_LT(extent->east.degrees() - extent->west.degrees(), 20.0);
 }
 
-TEST(GeographicExtent, HoldsEveryPlaceOfTheRaster)
+TEST(GeographicExtent, ContainsEveryPositionOfTheRaster)
 {
     test::Random random;
     for (const Georeference& map :

@@ -161,7 +161,7 @@ TEST_P(Placement, PixelToLongitudeAndLatitudeAndBackIsTheSamePixel)
     std::printf("%s: worst round trip %.3g pixel\n", GetParam().name, worst);
 }
 
-TEST_P(Placement, ALongitudeInAnotherTurnIsTheSamePixel)
+TEST_P(Placement, LongitudesInOtherTurnsAreTheSamePixel)
 {
     for (int i = 4; i < 500; ++i) {
         const GridPoint grid = position(i);
@@ -180,12 +180,12 @@ TEST_P(Placement, ALongitudeInAnotherTurnIsTheSamePixel)
     }
 }
 
-TEST_P(Placement, TellsWhetherItGoesOnceAround)
+TEST_P(Placement, DetectsMapsThatWrapAroundTheBody)
 {
     EXPECT_EQ(reference_.wrapsAround(), GetParam().wraps_around);
 }
 
-TEST_P(Placement, TheMetricPixelIsTheOneOnTheBody)
+TEST_P(Placement, MetricPixelSizeMatchesTheBody)
 {
     // Near the center, scene meters equal meters on the body within the projection's scale there. A
     // factor of 2 is enough to detect wrong units, radii and signs.
@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(Rasters,
                          testing::ValuesIn(placementCases()),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
-TEST(Georeference, EarlierAndLaterNamesOfALongitudeLandOnTheSamePixel)
+TEST(Georeference, LongitudesAFullTurnApartAreTheSamePixel)
 {
     const Georeference mars = placed(1440, 720, {0, 0.25, 0, 90, 0, -0.25}, "IAU_2015:49900");
     const auto east = mars.toGrid({Angle::degrees(226.2), Angle::degrees(18.65)});
@@ -232,7 +232,7 @@ TEST(Georeference, WestPositiveColumnsCountAgainstEastPositiveLongitudes)
     EXPECT_NEAR(grid->column, (360.0 - 226.2) / 0.25 - 0.5, 1e-9);
 }
 
-TEST(Georeference, WithoutACrsThereIsNoLongitude)
+TEST(Georeference, HasNoLongitudeWithoutACrs)
 {
     const Georeference reference(10, 20, GeoTransform{}, {});
     EXPECT_FALSE(reference.toGeographic(GridPoint{1.0, 2.0}));
@@ -242,7 +242,7 @@ TEST(Georeference, WithoutACrsThereIsNoLongitude)
     EXPECT_EQ(reference.toMap({0.0, 0.0}), (MapPoint{0.5, -0.5}));
 }
 
-TEST(Georeference, APlaceOfAnotherGridIsFoundInTheRightTurnOfLongitude)
+TEST(Georeference, ConvertsPositionsOfAnotherGridInTheRightTurn)
 {
     const Georeference west = placed(200, 100, {-185, 0.05, 0, 10, 0, -0.05}, "EPSG:4326");
     const Georeference east = placed(400, 200, {175, 0.025, 0, 10, 0, -0.025}, "EPSG:4326");
@@ -253,7 +253,7 @@ TEST(Georeference, APlaceOfAnotherGridIsFoundInTheRightTurnOfLongitude)
     EXPECT_EQ(east.toGrid(GridPoint{-3.0, 7.25}, east), (GridPoint{-3.0, 7.25}));
 }
 
-TEST(Georeference, APlaceOfAnotherGridWithoutACrsIsFoundByItsCoordinates)
+TEST(Georeference, ConvertsPositionsOfAnotherGridWithoutACrs)
 {
     const Georeference coarse(10, 10, *GeoTransform::fromTerms({100, 2, 0, 50, 0, -2}),
                               std::nullopt);

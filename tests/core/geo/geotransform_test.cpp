@@ -13,7 +13,7 @@ namespace {
 
 using Terms = GeoTransform::Terms;
 
-TEST(GeoTransform, PlacesPixelCentresHalfAPixelInsideTheCorner)
+TEST(GeoTransform, PlacesPixelCentersHalfAPixelInsideTheCorner)
 {
     const auto transform = GeoTransform::fromTerms({100.0, 2.0, 0.0, 50.0, 0.0, -4.0});
     ASSERT_TRUE(transform);
@@ -22,7 +22,7 @@ TEST(GeoTransform, PlacesPixelCentresHalfAPixelInsideTheCorner)
     EXPECT_EQ(transform->toGrid({101.0, 48.0}), (GridPoint{0.0, 0.0}));
 }
 
-TEST(GeoTransform, HonoursAllSixTerms)
+TEST(GeoTransform, UsesAllSixTerms)
 {
     test::Random random;
     for (int i = 0; i < 2000; ++i) {
@@ -73,7 +73,7 @@ TEST(GeoTransform, RoundTripsWithinABillionthOfASample)
     EXPECT_LT(worst, 1e-9);
 }
 
-TEST(GeoTransform, PixelSizesAreLengthsOfTheSteps)
+TEST(GeoTransform, PixelSizesAreLengthsOfSteps)
 {
     const auto transform = GeoTransform::fromTerms({0.0, 3.0, -5.0, 0.0, 4.0, 12.0});
     ASSERT_TRUE(transform);
@@ -81,7 +81,7 @@ TEST(GeoTransform, PixelSizesAreLengthsOfTheSteps)
     EXPECT_EQ(transform->pixelHeight(), 13.0);
 }
 
-TEST(GeoTransform, WhatCannotBeInvertedIsRefused)
+TEST(GeoTransform, RefusesTermsThatCannotBeInverted)
 {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     const Terms bad[] = {

@@ -37,7 +37,7 @@ void expectRoundTrips(const Georeference& reference)
     }
 }
 
-TEST(SceneFrame, TheCentreOfTheRasterIsTheOrigin)
+TEST(SceneFrame, TheOriginIsTheCenterOfTheRaster)
 {
     const Georeference reference =
         placed(11, 7, {500000.0, 30.0, 0.0, 4e6, 0.0, -30.0}, "EPSG:32610");
@@ -54,7 +54,7 @@ TEST(SceneFrame, TheMeanCellSideIsThatOfColumnsAndRows)
     EXPECT_EQ(frame.meanCellSideM(), 6.0); // of 5 and 7
 }
 
-TEST(SceneFrame, AProjectedRasterCountsItsLinearUnit)
+TEST(SceneFrame, AProjectedRasterUsesItsLinearUnit)
 {
     // EPSG:2853 is in meters; EPSG:2924 is the same zone in US survey feet.
     const Georeference metres = placed(11, 7, {0.0, 30.0, 0.0, 0.0, 0.0, -20.0}, "EPSG:2853");
@@ -67,7 +67,7 @@ TEST(SceneFrame, AProjectedRasterCountsItsLinearUnit)
     EXPECT_DOUBLE_EQ(feet.sceneFrame().north_per_row, -20.0 * unit);
 }
 
-TEST(SceneFrame, ARasterWithoutACrsCountsMetres)
+TEST(SceneFrame, MapUnitsAreMetersWithoutACrs)
 {
     const Georeference reference(11, 7, *GeoTransform::fromTerms({0, 3, 0, 0, 0, -2}), {});
     EXPECT_EQ(reference.sceneFrame().toScene({6.0, 2.0}, 0.0), (ScenePoint{3.0, 2.0, 0.0}));
@@ -76,7 +76,7 @@ TEST(SceneFrame, ARasterWithoutACrsCountsMetres)
 
 // The rule in CLI.md: over the whole raster, a degree has its length on the body's ellipsoid at the
 // latitude of the raster's center.
-TEST(SceneFrame, ADegreeIsWorthWhatItIsWorthAtTheCentreOfTheRaster)
+TEST(SceneFrame, DegreesAreScaledAtTheCenterOfTheRaster)
 {
     const struct {
         const char* crs;
@@ -122,7 +122,7 @@ TEST(SceneFrame, ADegreeIsWorthWhatItIsWorthAtTheCentreOfTheRaster)
     }
 }
 
-TEST(SceneFrame, MapAxesThatRunWestOrSouthAreTurned)
+TEST(SceneFrame, ReversesMapAxesThatRunWestOrSouth)
 {
     // IAU Ographic equirectangular: x grows westward.
     const Georeference mars = placed(9, 5, {0.0, 100.0, 0.0, 0.0, 0.0, -100.0}, "IAU_2015:49911");
@@ -187,7 +187,7 @@ TEST(SceneFrame, ARotatedRasterRoundTrips)
 }
 
 // At a pole a degree of longitude has zero length; the frame must still be invertible.
-TEST(SceneFrame, ARasterCentredOnAPoleIsStillInvertible)
+TEST(SceneFrame, ARasterCenteredOnAPoleIsInvertible)
 {
     const Georeference reference =
         placed(9, 5, {10.0, 0.125, 0.0, 90.0 + 2.5 * 0.125, 0.0, -0.125}, "EPSG:4326");

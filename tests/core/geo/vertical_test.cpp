@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-TEST(VerticalUnit, SpellingsOfRasterFilesAreUnderstood)
+TEST(VerticalUnit, UnderstandsSpellingsOfRasterFiles)
 {
     const struct {
         const char* text;
@@ -47,7 +47,7 @@ TEST(VerticalUnit, SpellingsOfRasterFilesAreUnderstood)
     }
 }
 
-TEST(VerticalUnit, NamesAreUnderstoodAgain)
+TEST(VerticalUnit, ReadsBackItsOwnNames)
 {
     for (const char* text : {"m", "ft", "ftUS", "km", "cm", "dm", "yd", "fathom", "0.5*m"}) {
         const auto unit = verticalUnitFrom(text);
@@ -56,7 +56,7 @@ TEST(VerticalUnit, NamesAreUnderstoodAgain)
     }
 }
 
-TEST(VerticalUnit, WhatIsNoLengthIsNotGuessedAt)
+TEST(VerticalUnit, IsEmptyForTextThatIsNotALength)
 {
     for (const char* text :
          {"", " ", "degree", "K", "dBZ", "unknown", "m/s", "mm", "mile", "1", "0*METER", "-1*METER",
