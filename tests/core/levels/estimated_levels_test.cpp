@@ -81,14 +81,14 @@ protected:
 EstimatedLevelsTest::Map* EstimatedLevelsTest::whole_ = nullptr;
 EstimatedLevelsTest::Map* EstimatedLevelsTest::holed_ = nullptr;
 
-TEST_F(EstimatedLevelsTest, OneLevelOfMeansAndFiveTilesAreRead)
+TEST_F(EstimatedLevelsTest, ReadsOneLevelOfMeansAndFiveTiles)
 {
     const TileLayout& layout = whole_->source.layout();
     EXPECT_EQ(whole_->read_count,
               layout.tileColumns(TileKind::Means, 4) * layout.tileRows(TileKind::Means, 4) + 5);
 }
 
-TEST_F(EstimatedLevelsTest, MeansAreThoseOfTheMap)
+TEST_F(EstimatedLevelsTest, MeansMatchTheMap)
 {
     for (const Map* map : {whole_, holed_}) {
         const BlockMeans& means = map->estimate.analysis->means;
@@ -112,7 +112,7 @@ TEST_F(EstimatedLevelsTest, MeansAreThoseOfTheMap)
     }
 }
 
-TEST_F(EstimatedLevelsTest, HardlyASampleLiesOutsideItsBounds)
+TEST_F(EstimatedLevelsTest, HardlyAnySampleLiesOutsideItsBounds)
 {
     for (const Map* map : {whole_, holed_}) {
         const MinMaxPyramid& bounds = map->estimate.analysis->bounds;
@@ -148,7 +148,7 @@ TEST_F(EstimatedLevelsTest, HardlyASampleLiesOutsideItsBounds)
     }
 }
 
-TEST_F(EstimatedLevelsTest, BoundsOfCoarserNodesHoldThoseOfFinerOnes)
+TEST_F(EstimatedLevelsTest, BoundsOfCoarserNodesEncloseThoseOfFinerOnes)
 {
     const MinMaxPyramid& bounds = whole_->estimate.analysis->bounds;
     for (std::size_t level = 1; level < bounds.levelCount(); ++level) {
@@ -163,7 +163,7 @@ TEST_F(EstimatedLevelsTest, BoundsOfCoarserNodesHoldThoseOfFinerOnes)
     }
 }
 
-TEST_F(EstimatedLevelsTest, ErrorsAreAboutRight)
+TEST_F(EstimatedLevelsTest, ErrorsAreApproximatelyRight)
 {
     const DetailErrors& errors = whole_->estimate.analysis->errors;
     const DetailErrors& truth = whole_->truth->errors;
@@ -194,7 +194,7 @@ TEST_F(EstimatedLevelsTest, ErrorsAreAboutRight)
     }
 }
 
-TEST_F(EstimatedLevelsTest, ErrorsGrowAsDrawingWants)
+TEST_F(EstimatedLevelsTest, ErrorsGrowAsDrawingRequires)
 {
     const DetailErrors& errors = holed_->estimate.analysis->errors;
     for (std::size_t level = 1; level < errors.levelCount(); ++level) {
@@ -215,7 +215,7 @@ TEST_F(EstimatedLevelsTest, ErrorsGrowAsDrawingWants)
     }
 }
 
-TEST_F(EstimatedLevelsTest, StatisticsHoldTheRangeAndTheVoids)
+TEST_F(EstimatedLevelsTest, StatisticsIncludeRangeAndVoids)
 {
     const SampleStatistics& whole = whole_->estimate.statistics;
     const HeightRange range = *whole_->heightfield.range();
@@ -230,7 +230,7 @@ TEST_F(EstimatedLevelsTest, StatisticsHoldTheRangeAndTheVoids)
 }
 
 // Some samples exceed the estimated bounds. The proxy must not fall through them.
-TEST_F(EstimatedLevelsTest, NoSampleIsHigherThanWhatIsTouchedMayBe)
+TEST_F(EstimatedLevelsTest, NoSampleExceedsTheBoundsUsedForTouching)
 {
     const std::vector<std::vector<float>>& maxima = whole_->estimate.filled_maxima_m;
     const MinMaxPyramid& truth = whole_->truth->bounds;
@@ -245,7 +245,7 @@ TEST_F(EstimatedLevelsTest, NoSampleIsHigherThanWhatIsTouchedMayBe)
     }
 }
 
-TEST_F(EstimatedLevelsTest, NoFillIsHigherThanTheMaximumOfItsNodes)
+TEST_F(EstimatedLevelsTest, NoFillExceedsTheMaximumOfItsNodes)
 {
     const MapLevels& levels = holed_->estimate;
     const MinMaxPyramid& bounds = levels.analysis->bounds;
@@ -263,7 +263,7 @@ TEST_F(EstimatedLevelsTest, NoFillIsHigherThanTheMaximumOfItsNodes)
     }
 }
 
-TEST_F(EstimatedLevelsTest, ASmallMapIsMeasured)
+TEST_F(EstimatedLevelsTest, ASmallMapIsMeasuredExactly)
 {
     test::Random random;
     const Heightfield heightfield = test::int16Terrain(
@@ -280,7 +280,7 @@ TEST_F(EstimatedLevelsTest, ASmallMapIsMeasured)
               truth->bounds.bounds(0, 3, 3).minimum_m);
 }
 
-TEST_F(EstimatedLevelsTest, WithoutASmallOverviewThereIsNoEstimate)
+TEST_F(EstimatedLevelsTest, RefusesMapsWithoutASmallOverview)
 {
     JobMonitor monitor;
     const auto levels = estimateLevels(whole_->source, kScale, monitor, 1000);
@@ -289,7 +289,7 @@ TEST_F(EstimatedLevelsTest, WithoutASmallOverviewThereIsNoEstimate)
     EXPECT_EQ(levels.error().message, "map in memory: has no overviews that are small enough");
 }
 
-TEST_F(EstimatedLevelsTest, FailuresAndCancellingEndIt)
+TEST_F(EstimatedLevelsTest, ReadErrorsAndCancelingEndIt)
 {
     JobMonitor monitor;
     const GridTileSource broken(
@@ -309,7 +309,7 @@ TEST_F(EstimatedLevelsTest, FailuresAndCancellingEndIt)
     EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
 }
 
-TEST_F(EstimatedLevelsTest, AMapOfNothingButVoidsHasNoHeights)
+TEST_F(EstimatedLevelsTest, AMapOfVoidsHasNoHeights)
 {
     const Heightfield nothing =
         test::int16Terrain(600, 400, kScale, [](std::size_t, std::size_t) { return kNan; });

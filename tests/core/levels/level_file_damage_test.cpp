@@ -170,7 +170,7 @@ protected:
     std::optional<Content> whole_;
 };
 
-TEST_F(LevelFileDamage, IsNoticedInEveryByte)
+TEST_F(LevelFileDamage, IsDetectedInEveryByte)
 {
     ASSERT_LT(bytes_.size(), 20'000U) << "too large to try every byte";
     for (std::size_t i = 0; i < bytes_.size(); ++i) {
@@ -180,7 +180,7 @@ TEST_F(LevelFileDamage, IsNoticedInEveryByte)
     }
 }
 
-TEST_F(LevelFileDamage, IsNoticedWhereverTheFileIsCut)
+TEST_F(LevelFileDamage, IsDetectedAtEveryTruncation)
 {
     for (std::size_t size = 0; size < bytes_.size(); ++size) {
         ASSERT_FALSE(LevelFile::open(written(bytes_.substr(0, size)), someKey())) << size;
@@ -190,7 +190,7 @@ TEST_F(LevelFileDamage, IsNoticedWhereverTheFileIsCut)
     EXPECT_TRUE(LevelFile::open(written(bytes_), someKey()));
 }
 
-TEST_F(LevelFileDamage, IsNoticedWhereBlocksAreSwappedOrZeroed)
+TEST_F(LevelFileDamage, IsDetectedInSwappedAndZeroedBlocks)
 {
     test::Random random;
     for (int i = 0; i < 300; ++i) {
@@ -209,7 +209,7 @@ TEST_F(LevelFileDamage, IsNoticedWhereBlocksAreSwappedOrZeroed)
     }
 }
 
-TEST_F(LevelFileDamage, NeverHeedsAHeaderThatPromisesMoreThanThereIs)
+TEST_F(LevelFileDamage, HeadersThatDeclareMoreThanTheFileHoldsAreRefused)
 {
     EXPECT_EQ(contentOf(forged(header().dump())), whole_) << "forging works";
     const std::vector<std::pair<std::string, nlohmann::json>> changes{
@@ -258,7 +258,7 @@ TEST_F(LevelFileDamage, NeverHeedsAHeaderThatPromisesMoreThanThereIs)
 }
 
 // Whatever the header contains: a result or an error, and no crash.
-TEST_F(LevelFileDamage, SurvivesRandomHeaders)
+TEST_F(LevelFileDamage, RandomHeadersDoNoHarm)
 {
     test::Random random;
     const nlohmann::json flat = header().flatten();
@@ -281,7 +281,7 @@ TEST_F(LevelFileDamage, SurvivesRandomHeaders)
     }
 }
 
-TEST_F(LevelFileDamage, IsToldFromOtherVersionsAndOtherFiles)
+TEST_F(LevelFileDamage, IsDistinguishedFromOtherVersionsAndOtherFiles)
 {
     std::string other = bytes_;
     other[8] = 3;
@@ -298,7 +298,7 @@ TEST_F(LevelFileDamage, IsToldFromOtherVersionsAndOtherFiles)
     EXPECT_FALSE(LevelFile::open(folder_.path().string(), someKey())) << "a folder";
 }
 
-TEST_F(LevelFileDamage, OfAnotherRasterIsNotUsed)
+TEST_F(LevelFileDamage, FilesOfAnotherRasterAreNotUsed)
 {
     const auto expect_refused = [&](const LevelFileKey& key, ErrorCode code = ErrorCode::Invalid) {
         const auto file = LevelFile::open(folder_.file("whole"), key);

@@ -295,7 +295,7 @@ constexpr std::array<std::array<std::size_t, 2>, 10> kSizes{{{2, 2},
                                                              {1000, 777},
                                                              {1030, 1300}}};
 
-TEST(LevelFile, SaysWhatTheAnalysisOfTheWholeMapSays)
+TEST(LevelFile, MatchesTheAnalysisOfTheWholeMap)
 {
     test::Random random;
     for (const auto& [columns, rows] : kSizes) {
@@ -317,7 +317,7 @@ std::vector<std::function<bool(std::size_t column, std::size_t row)>> holes(test
             [](std::size_t, std::size_t) { return true; }};
 }
 
-TEST(LevelFile, SaysTheSameOfMapsWithVoids)
+TEST(LevelFile, MatchesTheAnalysisOfMapsWithVoids)
 {
     test::Random random;
     for (const auto& [columns, rows] : kSizes) {
@@ -334,7 +334,7 @@ TEST(LevelFile, SaysTheSameOfMapsWithVoids)
     }
 }
 
-TEST(LevelFile, SaysTheSameWhereFewMeansAreKept)
+TEST(LevelFile, MatchesTheAnalysisWithFewStoredMeans)
 {
     test::Random random;
     for (const auto& [columns, rows] :
@@ -355,7 +355,7 @@ TEST(LevelFile, SaysTheSameWhereFewMeansAreKept)
     }
 }
 
-TEST(LevelFile, SaysTheSameWithLittleMemory)
+TEST(LevelFile, MatchesTheAnalysisWithLittleMemory)
 {
     test::Random random;
     const auto heights = test::fractalHeights(random, 2500, 1300, 900.0, 0.6);
@@ -367,7 +367,7 @@ TEST(LevelFile, SaysTheSameWithLittleMemory)
                          {.memory_bytes = 1, .mean_blocks = 100});
 }
 
-TEST(LevelFile, SaysTheSameWhereItsBuildWasStoppedAndWentOn)
+TEST(LevelFile, MatchesTheAnalysisAfterAResumedBuild)
 {
     test::Random random;
     const auto heights = test::fractalHeights(random, 1030, 2600, 900.0, 0.6);
@@ -388,7 +388,7 @@ TEST(LevelFile, SaysTheSameWhereItsBuildWasStoppedAndWentOn)
     }
 }
 
-TEST(LevelFile, IsNotReadAgainWhereItsBuildWentOn)
+TEST(LevelFile, AResumedBuildDoesNotRereadFinishedRows)
 {
     test::Random random;
     const auto heights =
@@ -426,7 +426,7 @@ wildTerrain(test::Random& random, SampleType type, std::size_t columns, std::siz
             ElevationScale{.gain = 0.5, .offset_m = -3.0}};
 }
 
-TEST(LevelFile, KeepsSamplesOfAllTypes)
+TEST(LevelFile, StoresSamplesOfAllTypes)
 {
     test::Random random;
     for (const SampleType type :
@@ -511,7 +511,7 @@ TEST(LevelFile, ConvertsToOtherScales)
     }
 }
 
-TEST(LevelFile, SaysWhatTheAnalysisOfRealMapsSays)
+TEST(LevelFile, MatchesTheAnalysisOfRealMaps)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     for (const char* name :
