@@ -32,7 +32,7 @@ private:
 
 } // namespace
 
-TEST(KeptSource, SaysThatAnotherProgramHasMadeTheMapAnew)
+TEST(KeptSource, ReportsThatAnotherProgramHasRebuiltTheMap)
 {
     const test::TempFolder folder;
     const std::string path = folder.file("x.map.tif");

@@ -75,7 +75,7 @@ TEST_F(LevelBuilder, ReadsEveryTileTwice)
     EXPECT_EQ(fileCount(), 1U);
 }
 
-TEST_F(LevelBuilder, StopsSoonWhenCancelledAndLeavesNothing)
+TEST_F(LevelBuilder, StopsSoonWhenCanceledAndLeavesNoFiles)
 {
     for (const std::uint64_t after : {0U, 1U, 30U, 52U, 99U}) {
         JobMonitor monitor;
@@ -96,7 +96,7 @@ TEST_F(LevelBuilder, StopsSoonWhenCancelledAndLeavesNothing)
     }
 }
 
-TEST_F(LevelBuilder, PassesOnWhatATileFailsWithAndKeepsWhatWasThere)
+TEST_F(LevelBuilder, ReportsATilesErrorAndKeepsTheExistingFile)
 {
     folder_.write("map.marsview", "of yesterday");
     for (const int which : {1, 2}) { // the first readings succeed
@@ -119,7 +119,7 @@ TEST_F(LevelBuilder, PassesOnWhatATileFailsWithAndKeepsWhatWasThere)
     }
 }
 
-TEST_F(LevelBuilder, PassesOnWhatOpeningFailsWith)
+TEST_F(LevelBuilder, ReportsTheErrorOfOpening)
 {
     test::GridTileSource source(someTerrain(), {.before_open = []() -> std::optional<Error> {
                                     return Error{ErrorCode::NotFound, "/maps/m.tif: is gone"};
@@ -178,7 +178,7 @@ TEST_F(LevelBuilder, RefusesASourceThatChanges)
     EXPECT_EQ(fileCount(), 0U);
 }
 
-TEST_F(LevelBuilder, OverwritesWhatAKilledProgramLeft)
+TEST_F(LevelBuilder, OverwritesFilesLeftByAKilledProgram)
 {
     folder_.write("map.marsview.part", std::string(10'000'000, 'x'));
     test::GridTileSource source(someTerrain());
@@ -188,7 +188,7 @@ TEST_F(LevelBuilder, OverwritesWhatAKilledProgramLeft)
     EXPECT_TRUE(LevelFile::open(path(), {}));
 }
 
-TEST_F(LevelBuilder, LeavesAFileThatAnotherProgramIsWritingAlone)
+TEST_F(LevelBuilder, DoesNotTouchAFileThatAnotherProgramIsWriting)
 {
     std::atomic<bool> has_tried{false};
     test::GridTileSource other(someTerrain());
@@ -205,7 +205,7 @@ TEST_F(LevelBuilder, LeavesAFileThatAnotherProgramIsWritingAlone)
     EXPECT_TRUE(LevelFile::open(path(), {}));
 }
 
-TEST_F(LevelBuilder, PublishesNothingThatIsNotConfirmed)
+TEST_F(LevelBuilder, PublishesNothingWithoutConfirmation)
 {
     folder_.write("map.marsview", "of yesterday");
     test::GridTileSource source(someTerrain());
@@ -223,7 +223,7 @@ TEST_F(LevelBuilder, PublishesNothingThatIsNotConfirmed)
 }
 
 // As after a power failure: the checkpoint exists, but the data it depends on does not.
-TEST_F(LevelBuilder, BeginsAgainWhereWhatACheckpointStandsOnIsDamaged)
+TEST_F(LevelBuilder, RestartsIfTheDataOfACheckpointIsDamaged)
 {
     const auto job = [this](const TileSource& source) {
         return LevelBuild{.source = &source,
@@ -294,7 +294,7 @@ TEST_F(LevelBuilder, BeginsAgainWhereWhatACheckpointStandsOnIsDamaged)
     }
 }
 
-TEST_F(LevelBuilder, SaysWhereItCannotWrite)
+TEST_F(LevelBuilder, NamesTheFolderThatItCannotWriteTo)
 {
     test::GridTileSource source(someTerrain());
     const LevelBuild build{
@@ -308,7 +308,7 @@ TEST_F(LevelBuilder, SaysWhereItCannotWrite)
 }
 
 #ifdef __unix__
-TEST_F(LevelBuilder, LeavesNothingWhereTheDiskIsFull)
+TEST_F(LevelBuilder, LeavesNoFilesOnAFullDisk)
 {
     test::GridTileSource source(someTerrain());
     ASSERT_TRUE(build(source));

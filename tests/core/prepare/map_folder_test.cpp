@@ -53,7 +53,7 @@ std::vector<std::string> namesIn(const MapFolder& folder)
 
 } // namespace
 
-TEST(MapFolder, LiesWhereTheUserOrTheSystemSays)
+TEST(MapFolder, FollowsTheEnvironment)
 {
     const test::ScopedVariable home("HOME", "/home/someone");
     const test::ScopedVariable cache("XDG_CACHE_HOME", nullptr);
@@ -74,7 +74,7 @@ TEST(MapFolder, IsATemporaryOneForTests)
         << folder;
 }
 
-TEST(MapFolder, IsMadeWhereItIsMissing)
+TEST(MapFolder, IsCreatedIfMissing)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path() / "a" / "b");
@@ -84,7 +84,7 @@ TEST(MapFolder, IsMadeWhereItIsMissing)
     EXPECT_LE(folder.defaultBytesMax(), 100'000'000'000U);
 }
 
-TEST(MapFolder, SaysWhatIsWrongWithAFolderItCannotUse)
+TEST(MapFolder, NamesTheProblemOfAnUnusableFolder)
 {
     const test::TempFolder temp;
     const std::string file = temp.write("file", "x");
@@ -97,7 +97,7 @@ TEST(MapFolder, SaysWhatIsWrongWithAFolderItCannotUse)
     }
 }
 
-TEST(MapFolder, NamesEveryContentAndBandApart)
+TEST(MapFolder, GivesEveryContentAndBandItsOwnName)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path());
@@ -119,7 +119,7 @@ TEST(MapFolder, NamesEveryContentAndBandApart)
     EXPECT_EQ(paths.size(), 6U);
 }
 
-TEST(MapFolder, ListsWhatItHoldsWithTheSource)
+TEST(MapFolder, ListsMapsWithTheirSources)
 {
     const test::TempFolder temp;
     const test::TempFolder maps;
@@ -144,7 +144,7 @@ TEST(MapFolder, ListsWhatItHoldsWithTheSource)
     EXPECT_FALSE(list->front().is_in_use);
 }
 
-TEST(MapFolder, RemembersWhatWasUsedLast)
+TEST(MapFolder, OrdersMapsByLastUse)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path());
@@ -161,7 +161,7 @@ TEST(MapFolder, RemembersWhatWasUsedLast)
     EXPECT_EQ(fs::last_write_time(temp.file("old.map.tif")), written); // part of its identity
 }
 
-TEST(MapFolder, RemovesTheLeastRecentlyUsedThatNobodyHasOpen)
+TEST(MapFolder, RemovesTheLeastRecentlyUsedMapsThatAreNotOpen)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path());
@@ -184,7 +184,7 @@ TEST(MapFolder, RemovesTheLeastRecentlyUsedThatNobodyHasOpen)
     EXPECT_TRUE(folder.trim(2500)->empty());
 }
 
-TEST(MapFolder, KeepsWhatIsInUseOrBeingPrepared)
+TEST(MapFolder, KeepsMapsThatAreInUseOrBeingPrepared)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path());
@@ -225,7 +225,7 @@ TEST(MapFolder, KeepsTheLevelsOfARasterThatIsUsedInPlace)
     EXPECT_TRUE(fs::is_empty(temp.path()));
 }
 
-TEST(MapFolder, RemembersWhatWasFoundDamagedUntilItIsMadeAnew)
+TEST(MapFolder, RemembersDamageUntilTheMapIsRebuilt)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path());
@@ -243,7 +243,7 @@ TEST(MapFolder, RemembersWhatWasFoundDamagedUntilItIsMadeAnew)
     EXPECT_FALSE(MapFolder::at(temp.path() / "none").noteDamage("/no/such/folder/a.map.tif", ""));
 }
 
-TEST(MapFolder, MakesNoRoomWhereThatWouldNotBeEnough)
+TEST(MapFolder, RemovesNothingIfThatWouldNotFreeEnoughSpace)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path());
@@ -253,7 +253,7 @@ TEST(MapFolder, MakesNoRoomWhereThatWouldNotBeEnough)
     EXPECT_EQ(namesIn(folder).size(), 1U);
 }
 
-TEST(MapFolder, RemovesOneWithAllThatBelongsToIt)
+TEST(MapFolder, RemovesAMapWithAllItsFiles)
 {
     const test::TempFolder temp;
     const MapFolder folder = folderAt(temp.path());

@@ -91,7 +91,7 @@ TEST_F(PrepareMap, UsesTiledRastersWithOverviewsInPlace)
     EXPECT_FALSE(is_used_in_place(sparse)); // the levels between are missing
 }
 
-TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
+TEST_F(PrepareMap, RebuildsACopyThatIsDamagedAnywhere)
 {
     source("map");
     ASSERT_TRUE(run(job(WhenThere::Check)));
@@ -117,7 +117,7 @@ TEST_F(PrepareMap, MakesACopyAnewThatIsDamagedAnywhere)
     EXPECT_GT(noticed_late, 0U);
 }
 
-TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
+TEST_F(PrepareMap, RebuildsADamagedCopyWithoutALevelFile)
 {
     source("map");
     const std::string out = folder_.file("out.tif");
@@ -138,7 +138,7 @@ TEST_F(PrepareMap, MakesACopyAnewThatNobodyMeasuredAndThatIsDamaged)
     }
 }
 
-TEST_F(PrepareMap, LeavesADamagedRasterOfTheUsersWhereItIs)
+TEST_F(PrepareMap, NeverTouchesADamagedRasterOfTheUser)
 {
     source("map");
     const std::string own = folder_.file("own.tif");
@@ -156,7 +156,7 @@ TEST_F(PrepareMap, LeavesADamagedRasterOfTheUsersWhereItIs)
     }
 }
 
-TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
+TEST_F(PrepareMap, RebuildsALevelFileThatIsDamagedAnywhere)
 {
     source("map");
     ASSERT_TRUE(run(job(WhenThere::Check)));
@@ -177,7 +177,7 @@ TEST_F(PrepareMap, MakesLevelsAnewThatAreDamagedAnywhere)
     }
 }
 
-TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
+TEST_F(PrepareMap, NamesTheRemedyForADamagedRasterUsedInPlace)
 {
     source("map");
     ASSERT_TRUE(run(job(WhenThere::Check)));
@@ -198,7 +198,7 @@ TEST_F(PrepareMap, SaysWhatToDoWhereARasterThatIsUsedInPlaceIsDamaged)
     }
 }
 
-TEST_F(PrepareMap, LeavesNoMoreInTheFolderThanItMayHold)
+TEST_F(PrepareMap, KeepsTheFolderWithinItsLimit)
 {
     const test::TempFolder maps;
     const MapFolder folder = MapFolder::at(maps.path());
@@ -213,7 +213,7 @@ TEST_F(PrepareMap, LeavesNoMoreInTheFolderThanItMayHold)
     }
 }
 
-TEST_F(PrepareMap, RefusesToWriteBesideWhatLiesAtAServer)
+TEST_F(PrepareMap, RefusesToWriteNextToARemoteRaster)
 {
     const test::TempFolder maps;
     MapResources resources;

@@ -198,7 +198,7 @@ std::vector<std::string> readableFiles()
 
 class TiledCopyOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(TiledCopyOf, IsTheSameMapToTheBit)
+TEST_P(TiledCopyOf, IsIdenticalToItsSource)
 {
     if (GetParam() == kAbsent) {
         GTEST_SKIP() << "the real elevation data is not at " << test::sharedData();
@@ -354,7 +354,7 @@ TYPED_TEST(TiledGeoTiffType, KeepsSamplesAndAveragesThoseThatAreNotVoid)
     expectOverviewsAreMeans(path, truth, 7);
 }
 
-TEST(TiledGeoTiff, TakesNanAndInfinityForVoid)
+TEST(TiledGeoTiff, TreatsNanAndInfinityAsVoid)
 {
     const test::TempFolder folder;
     Truth<float> truth = randomMap<float>(900, 600, -5000.0, 5000.0);
@@ -368,7 +368,7 @@ TEST(TiledGeoTiff, TakesNanAndInfinityForVoid)
     expectOverviewsAreMeans(path, truth, 7);
 }
 
-TEST(TiledGeoTiff, CarriesAMaskAndItsOverviews)
+TEST(TiledGeoTiff, CopiesAMaskAndItsOverviews)
 {
     const test::TempFolder folder;
     Truth<std::int16_t> truth = randomMap<std::int16_t>(1030, 780, -5000.0, 5000.0);
@@ -402,7 +402,7 @@ TEST(TiledGeoTiff, CarriesAMaskAndItsOverviews)
     }
 }
 
-TEST(TiledGeoTiff, AveragesAcrossTilesWhereTheMapIsVeryLarge)
+TEST(TiledGeoTiff, AveragesAcrossTilesOfAVeryLargeMap)
 {
     const test::TempFolder folder;
     Truth<std::int16_t> truth = randomMap<std::int16_t>(30, 140'003, -5000.0, 5000.0);
@@ -433,7 +433,7 @@ TEST(TiledGeoTiff, ReadsEveryLayout)
     }
 }
 
-TEST(TiledGeoTiff, ReadsTheBandThatIsAskedFor)
+TEST(TiledGeoTiff, ReadsTheRequestedBand)
 {
     const test::TempFolder folder;
     const Truth<std::int16_t> truth = randomMap<std::int16_t>(300, 300, -5000.0, 5000.0);
@@ -452,7 +452,7 @@ TEST(TiledGeoTiff, ReadsTheBandThatIsAskedFor)
     EXPECT_NE(second, recipe.bytes);
 }
 
-TEST(TiledGeoTiff, WritesWhatTheUserKnowsBetter)
+TEST(TiledGeoTiff, WritesTheUsersOverrides)
 {
     const test::TempFolder folder;
     const std::string source =
@@ -468,7 +468,7 @@ TEST(TiledGeoTiff, WritesWhatTheUserKnowsBetter)
     EXPECT_THAT(info["coordinateSystem"]["wkt"].get<std::string>(), HasSubstr("UTM zone 11N"));
 }
 
-TEST(TiledGeoTiff, KeepsWhatGeoTiffCannotSayOfACrs)
+TEST(TiledGeoTiff, KeepsCrsPropertiesThatGeoTiffCannotExpress)
 {
     const test::TempFolder folder;
     test::RasterRecipe recipe = test::recipeFor<std::int16_t>(2, {1, 2, 3, 4});
@@ -522,7 +522,7 @@ Result<TiledGeoTiffReport> prepareUntil(const TiledGeoTiffJob& job, double fract
     return writeTiledGeoTiff(job, monitor);
 }
 
-TEST(TiledGeoTiff, GoesOnWhereItWasCancelled)
+TEST(TiledGeoTiff, ResumesAfterACancel)
 {
     const test::TempFolder folder;
     const std::string source = tallMap(folder, "source");
@@ -547,7 +547,7 @@ TEST(TiledGeoTiff, GoesOnWhereItWasCancelled)
     expectNothingLeftBeside(job.path);
 }
 
-TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
+TEST(TiledGeoTiff, RestartsIfTheUnfinishedFileIsDamagedOrOfAnotherSource)
 {
     const test::TempFolder folder;
     const std::string source = tallMap(folder, "source");
@@ -602,7 +602,7 @@ TEST(TiledGeoTiff, BeginsAgainWhereWhatIsLeftIsDamagedOrOfSomethingElse)
     }
 }
 
-TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
+TEST(TiledGeoTiff, NeverResumesFromTilesWithAFlippedBit)
 {
     const test::TempFolder folder;
     const std::string source = tallMap(folder, "source");
@@ -641,7 +641,7 @@ TEST(TiledGeoTiff, NeverGoesOnFromTilesInWhichABitHasFlipped)
     EXPECT_LE(unused, 2U);
 }
 
-TEST(TiledGeoTiff, PublishesNothingWhereTheSourceChangesMeanwhile)
+TEST(TiledGeoTiff, PublishesNothingIfTheSourceChanges)
 {
     const test::TempFolder folder;
     const std::string source = tallMap(folder, "source");
@@ -675,7 +675,7 @@ void overwriteWithinTheSecond(const std::string& vrt, const std::string& raw)
     ASSERT_TRUE(before && after && isSameContent(*before, *after)) << "the identity differs";
 }
 
-TEST(TiledGeoTiff, PublishesNothingWhereTheSourceIsOverwrittenWithinItsSecond)
+TEST(TiledGeoTiff, PublishesNothingIfTheSourceIsOverwrittenWithinASecond)
 {
     const test::TempFolder folder;
     const std::string source = tallMap(folder, "source");
@@ -699,7 +699,7 @@ TEST(TiledGeoTiff, PublishesNothingWhereTheSourceIsOverwrittenWithinItsSecond)
     EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
 }
 
-TEST(TiledGeoTiff, BeginsAgainWhereTheSourceWasOverwrittenWithinItsSecondMeanwhile)
+TEST(TiledGeoTiff, RestartsIfTheSourceWasOverwrittenWithinASecond)
 {
     const test::TempFolder folder;
     const std::string source = tallMap(folder, "source");
@@ -716,7 +716,7 @@ TEST(TiledGeoTiff, BeginsAgainWhereTheSourceWasOverwrittenWithinItsSecondMeanwhi
     EXPECT_TRUE(samplesOf(job.path) == samplesOf(source));
 }
 
-TEST(TiledGeoTiff, NamesASourceThatIsCutShort)
+TEST(TiledGeoTiff, NamesATruncatedSource)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const test::TempFolder folder;
@@ -730,7 +730,7 @@ TEST(TiledGeoTiff, NamesASourceThatIsCutShort)
     expectNothingLeftBeside(job.path);
 }
 
-TEST(TiledGeoTiff, RefusesToWriteOntoItsSource)
+TEST(TiledGeoTiff, RefusesToOverwriteItsSource)
 {
     const test::TempFolder folder;
     const std::string source = test::writeRaster(folder, "map.tif", "GTiff",
@@ -752,7 +752,7 @@ TEST(TiledGeoTiff, RefusesToWriteOntoItsSource)
     EXPECT_EQ(test::readFile(source), before);
 }
 
-TEST(TiledGeoTiff, SaysWhyAFolderCannotBeWrittenTo)
+TEST(TiledGeoTiff, ExplainsWhyAFolderIsNotWritable)
 {
     const test::TempFolder folder;
     const std::string source =
@@ -766,7 +766,7 @@ TEST(TiledGeoTiff, SaysWhyAFolderCannotBeWrittenTo)
     }
 }
 
-TEST(TiledGeoTiff, LeavesAFileToTheProgramThatIsAtIt)
+TEST(TiledGeoTiff, DoesNotTouchAFileThatAnotherProgramIsWriting)
 {
     const test::TempFolder folder;
     const std::string source =
@@ -795,7 +795,7 @@ TEST(TiledGeoTiff, LeavesAFileToTheProgramThatIsAtIt)
     expectNothingLeftBeside(job.path);
 }
 
-TEST(TiledGeoTiff, DoesNothingTwice)
+TEST(TiledGeoTiff, DoesNothingIfTheFileIsUpToDate)
 {
     const test::TempFolder folder;
     const std::string source =
@@ -815,7 +815,7 @@ TEST(TiledGeoTiff, DoesNothingTwice)
     EXPECT_EQ(prepare(job).samples_read, 4U);
 }
 
-TEST(TiledGeoTiff, TakesNoticeOfTheFileThatItReplaces)
+TEST(TiledGeoTiff, RemovesMetadataOfTheFileThatItReplaces)
 {
     const test::TempFolder folder;
     const std::string source =
