@@ -21,7 +21,7 @@ RasterInfo gridAt(double west, double north, double pixel, std::size_t columns, 
     return info;
 }
 
-TEST(CrsSuggestion, IsMadeForGridsThatLookLikeDegrees)
+TEST(CrsSuggestion, IsOfferedForGridsThatLookLikeDegrees)
 {
     const std::vector<RasterInfo> grids{
         gridAt(0, 90, 1.0, 360, 180),                                     // the whole body, from 0
@@ -44,7 +44,7 @@ TEST(CrsSuggestion, IsMadeForGridsThatLookLikeDegrees)
     }
 }
 
-TEST(CrsSuggestion, IsNotMadeForGridsInMetres)
+TEST(CrsSuggestion, IsNotOfferedForGridsInMeters)
 {
     const std::vector<RasterInfo> grids{
         gridAt(500000, 4100000, 30, 100, 100), // UTM
@@ -66,7 +66,7 @@ TEST(CrsSuggestion, IsNotMadeForGridsInMetres)
     EXPECT_FALSE(suggestCrs(nowhere));
 }
 
-TEST(CrsSuggestion, DeclaredAxesAndTheBodyOfTheFileDecide)
+TEST(CrsSuggestion, FollowsDeclaredAxesAndTheBodyOfTheFile)
 {
     RasterInfo tile = gridAt(0, 10, 2, 5, 5); // could be meters as well
     EXPECT_FALSE(suggestCrs(tile));
@@ -79,7 +79,7 @@ TEST(CrsSuggestion, DeclaredAxesAndTheBodyOfTheFileDecide)
     EXPECT_EQ(suggestion->choices, (std::vector<CrsChoice>{{"Moon", "IAU_2015:30100"}}));
 }
 
-TEST(CrsSuggestion, EveryChoiceMakesTheCrsThatItsBodyMakes)
+TEST(CrsSuggestion, EveryChoiceGivesTheCrsOfItsBody)
 {
     for (const Body& body : knownBodies()) {
         RasterInfo grid = gridAt(0, 90, 1, 360, 180);
@@ -126,7 +126,7 @@ TEST(CrsSuggestion, IsANoticeUntilTheCrsIsSet)
     EXPECT_FALSE(withOverrides(grid, metres)->crs_suggestion);
 }
 
-TEST(CrsSuggestion, SaysOnWhichSideOfTheMeridianTheExtentLies)
+TEST(CrsSuggestion, NoticeNamesTheSideOfTheMeridian)
 {
     EXPECT_EQ(suggestCrs(gridAt(-105.5, 40.25, 1.0 / 1200, 240, 144))->reason,
               "its extent is 105.5° W – 105.3° W, 40.13° N – 40.25° N");
@@ -144,7 +144,7 @@ struct Placed {
     bool is_accepted;
 };
 
-TEST(CrsOverride, IsRefusedWhereItsUnitCannotBeTheGrids)
+TEST(CrsOverride, IsRefusedIfItsUnitDoesNotFitTheGrid)
 {
     RasterInfo in_degrees = gridAt(0, 90, 0.25, 1440, 720);
     in_degrees.crs = *Crs::fromText("IAU_2015:49900");

@@ -91,7 +91,7 @@ void expectPicked(const DecimatedSamples& picked, const Source& source)
     EXPECT_EQ(picked.loaded.statistics.raw_minimum, minimum);
 }
 
-TEST(DecimatedRead, PicksTheSamplesOfTheSourceWhateverItsBlocks)
+TEST(DecimatedRead, PicksSamplesOfTheSourceForAnyBlockSize)
 {
     const TempFolder folder;
     const Source source = noise(1003, 517);
@@ -115,7 +115,7 @@ TEST(DecimatedRead, PicksTheSamplesOfTheSourceWhateverItsBlocks)
     }
 }
 
-TEST(DecimatedRead, UsesAllThatItMayAndKeepsTheShape)
+TEST(DecimatedRead, UsesItsSampleLimitAndKeepsTheAspect)
 {
     const TempFolder folder;
     const Source source = noise(900, 300);
@@ -126,7 +126,7 @@ TEST(DecimatedRead, UsesAllThatItMayAndKeepsTheShape)
     EXPECT_EQ(picked->loaded.grid.rows(), 100U);
 }
 
-TEST(DecimatedRead, IsTheWholeRasterWhereThatIsSmallEnough)
+TEST(DecimatedRead, ReadsASmallRasterWhole)
 {
     const TempFolder folder;
     const Source source = noise(40, 30);
@@ -146,7 +146,7 @@ std::function<std::chrono::nanoseconds()> steps(std::chrono::nanoseconds step)
     };
 }
 
-TEST(DecimatedRead, StopsAtWhatCanBeHadInTimeButNeverWithNothing)
+TEST(DecimatedRead, StopsAtTheTimeLimitWithAtLeastOneResult)
 {
     const TempFolder folder;
     const Source source = noise(2048, 1024);
@@ -180,7 +180,7 @@ TEST(DecimatedRead, StopsAtWhatCanBeHadInTimeButNeverWithNothing)
     expectPicked(*middling, source);
 }
 
-TEST(DecimatedRead, LooksCloserWhereAllThatItSawIsVoid)
+TEST(DecimatedRead, RefinesWhileAllSamplesAreVoid)
 {
     const TempFolder folder;
     Source source{2048, 1024, std::vector<std::int16_t>(2048 * 1024, -9999)};
@@ -198,7 +198,7 @@ TEST(DecimatedRead, LooksCloserWhereAllThatItSawIsVoid)
     expectPicked(*picked, source);
 }
 
-TEST(DecimatedRead, TakesTheLargestOverviewThatMayBeHad)
+TEST(DecimatedRead, UsesTheLargestAffordableOverview)
 {
     const TempFolder folder;
     const Source source = noise(2000, 1500);
@@ -216,7 +216,7 @@ TEST(DecimatedRead, TakesTheLargestOverviewThatMayBeHad)
     expectPicked(*few, source);
 }
 
-TEST(DecimatedRead, HonoursMasksAndTheUsersNodata)
+TEST(DecimatedRead, HonorsMasksAndTheUsersNodata)
 {
     const TempFolder folder;
     const Source source = noise(300, 200);
@@ -241,7 +241,7 @@ TEST(DecimatedRead, HonoursMasksAndTheUsersNodata)
     EXPECT_GT(overridden->loaded.statistics.void_count, masked->loaded.statistics.void_count);
 }
 
-TEST(DecimatedRead, StopsWhenCancelledAndTellsWhyReadingFailed)
+TEST(DecimatedRead, StopsWhenCanceledAndReportsReadErrors)
 {
     const TempFolder folder;
     const Source source = noise(1000, 800);

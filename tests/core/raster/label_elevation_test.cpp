@@ -168,7 +168,7 @@ void expectElevations(RasterFile& file,
     }
 }
 
-TEST(Pds3InJpeg2000, HasTheElevationsAndThePlaceOfItsRawTwin)
+TEST(Pds3InJpeg2000, MatchesTheSameProductAsRawSamples)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -200,7 +200,7 @@ TEST(Pds3InJpeg2000, HasTheElevationsAndThePlaceOfItsRawTwin)
     }
 }
 
-TEST(Pds3InJpeg2000, TakesTheLabelOfTheSameNameInAnyCase)
+TEST(Pds3InJpeg2000, FindsTheLabelOfTheSameNameInAnyCase)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -238,7 +238,7 @@ TEST(Pds3InJpeg2000, MissingConstantsAreVoid)
     }
 }
 
-TEST(Pds3InJpeg2000, SaysWhereSignsDisagree)
+TEST(Pds3InJpeg2000, ReportsADisagreementAboutSigns)
 {
     const TempFolder folder;
     folder.write("u.lbl", pds3Label({.pointer = "u.img", .compressed = "u.jp2", .image = kRadii}));
@@ -248,7 +248,7 @@ TEST(Pds3InJpeg2000, SaysWhereSignsDisagree)
     EXPECT_THAT(file.info().notices, Contains(HasSubstr("declares signed samples")));
 }
 
-TEST(Pds3InJpeg2000, SaysThatADamagedLabelIsNotApplied)
+TEST(Pds3InJpeg2000, ReportsThatADamagedLabelIsNotApplied)
 {
     const TempFolder folder;
     std::string label = pds3Label({.pointer = "d.img", .compressed = "d.jp2", .image = kRadii});
@@ -260,7 +260,7 @@ TEST(Pds3InJpeg2000, SaysThatADamagedLabelIsNotApplied)
 }
 
 // GDAL would read the bytes of the compressed file as samples.
-TEST(Pds3Label, OfAnEncodedImageOpensThatImage)
+TEST(Pds3Label, OpensTheEncodedImageThatItDescribes)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -307,7 +307,7 @@ TEST(Pds3Label, IsNotAppliedToATiffThatItDoesNotName)
     expectElevations(made, samples, 1.0, 0.0);
 }
 
-TEST(Pds3Label, CountsWhereGdalReadsItsNumbersWrong)
+TEST(Pds3Label, OverridesNumbersThatGdalMisreads)
 {
     struct Case {
         const char* image;
@@ -335,7 +335,7 @@ TEST(Pds3Label, CountsWhereGdalReadsItsNumbersWrong)
 }
 
 // GDAL 3.6 assumes nodata 0 for every product with unsigned samples.
-TEST(Pds3Label, MakesZeroAnElevationUnlessItDeclaresItMissing)
+TEST(Pds3Label, ZeroIsAnElevationUnlessDeclaredMissing)
 {
     const TempFolder folder;
     std::vector<std::uint16_t> samples(kLabelColumns * kLabelRows, std::uint16_t{300});
@@ -354,7 +354,7 @@ TEST(Pds3Label, MakesZeroAnElevationUnlessItDeclaresItMissing)
     EXPECT_TRUE(std::isnan(elevationsOf(declared)[7]));
 }
 
-TEST(Pds3Label, FloatsHaveTheirMissingConstantInBits)
+TEST(Pds3Label, ReadsTheBitsOfAFloatMissingConstant)
 {
     const TempFolder folder;
     std::vector<float> samples(kLabelColumns * kLabelRows, 1.5F);
@@ -370,7 +370,7 @@ TEST(Pds3Label, FloatsHaveTheirMissingConstantInBits)
     EXPECT_EQ(elevationsOf(file)[4], 1500.0);
 }
 
-TEST(Isis2Label, HasBaseAndMultiplier)
+TEST(Isis2Label, AppliesBaseAndMultiplier)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -395,7 +395,7 @@ TEST(Isis2Label, HasBaseAndMultiplier)
 }
 
 // GDAL reads these correctly: the values of the label must not be applied twice.
-TEST(ScaleAndOffset, OfEveryOtherFormatAreAppliedOnce)
+TEST(ScaleAndOffset, AreAppliedOnceForEveryOtherFormat)
 {
     struct Format {
         const char* driver;
@@ -426,7 +426,7 @@ TEST(ScaleAndOffset, OfEveryOtherFormatAreAppliedOnce)
     }
 }
 
-TEST(VicarLabel, HasTheScaleAndOffsetOfItsTerrainModel)
+TEST(VicarLabel, AppliesScaleAndOffsetOfItsTerrainModel)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -451,7 +451,7 @@ TEST(VicarLabel, HasTheScaleAndOffsetOfItsTerrainModel)
     }
 }
 
-TEST(Pds4Label, CountsWhenItsTiffIsOpened)
+TEST(Pds4Label, IsAppliedWhenItsTiffIsOpened)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -475,7 +475,7 @@ TEST(Pds4Label, CountsWhenItsTiffIsOpened)
 }
 
 // GDAL 3.6 takes them for kilometres.
-TEST(Pds3Label, GivesItsRadiiInItsOwnUnit)
+TEST(Pds3Label, ReadsRadiiInTheUnitOfTheLabel)
 {
     const TempFolder folder;
     folder.write("r.img", bytesOf(someSamples()));
@@ -508,7 +508,7 @@ TEST(Pds3Label, GivesItsRadiiInItsOwnUnit)
 }
 
 // As samples × 0 would be.
-TEST(Pds3Label, DoesNotMakeAllElevationsEqual)
+TEST(Pds3Label, IgnoresAScaleOfZero)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -529,7 +529,7 @@ TEST(Pds3Label, DoesNotMakeAllElevationsEqual)
     }
 }
 
-TEST(Pds4Label, DoesNotMakeAllElevationsEqual)
+TEST(Pds4Label, IgnoresAScaleOfZero)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -544,7 +544,7 @@ TEST(Pds4Label, DoesNotMakeAllElevationsEqual)
     EXPECT_THAT(file.info().notices, Contains(HasSubstr("z.xml gives the scale 0")));
 }
 
-TEST(Pds3Label, AllItsSpecialConstantsAreVoid)
+TEST(Pds3Label, TreatsAllSpecialConstantsAsVoid)
 {
     const TempFolder folder;
     std::vector<std::int16_t> samples = someSamples();
@@ -584,7 +584,7 @@ TEST(Pds3Label, AllItsSpecialConstantsAreVoid)
 }
 
 // A sequence has an item for each band.
-TEST(Pds3Label, HasTheConstantsOfEachBand)
+TEST(Pds3Label, ReadsTheConstantsOfEachBand)
 {
     const std::string label =
         "PDS_VERSION_ID = PDS3\nOBJECT = IMAGE\n BANDS = 2\n"
@@ -593,7 +593,7 @@ TEST(Pds3Label, HasTheConstantsOfEachBand)
     EXPECT_EQ(labelElevationIn(label, 2, SampleType::Int16)->nodata, std::vector{-2.0});
 }
 
-TEST(Pds4Label, AllSpecialConstantsOfItsTiffAreVoid)
+TEST(Pds4Label, TreatsAllSpecialConstantsOfItsTiffAsVoid)
 {
     const TempFolder folder;
     std::vector<std::int16_t> samples = someSamples();
@@ -618,7 +618,7 @@ TEST(Pds4Label, AllSpecialConstantsOfItsTiffAreVoid)
 }
 
 // The scale of the TIFF with its samples is not applied on top of the label's, or in its place.
-TEST(Isis3Label, OfATiffIsAppliedOnce)
+TEST(Isis3Label, IsAppliedOnceToATiff)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -650,7 +650,7 @@ TEST(Isis3Label, OfATiffIsAppliedOnce)
 }
 
 // Its size and elevations are the label's, and where it lies only the raster says.
-TEST(Pds3Label, WithoutPlacementKeepsThatOfTheRaster)
+TEST(Pds3Label, KeepsTheRastersPlacementIfItHasNone)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -681,7 +681,7 @@ TEST(Pds3Label, WithoutPlacementKeepsThatOfTheRaster)
 }
 
 // A label whose samples are elsewhere is refused as before.
-TEST(Pds3Label, OfACompressedFileThatIsNotThereIsRefused)
+TEST(Pds3Label, IsRefusedIfItsCompressedFileIsMissing)
 {
     const TempFolder folder;
     const std::string label = folder.write(
@@ -690,7 +690,7 @@ TEST(Pds3Label, OfACompressedFileThatIsNotThereIsRefused)
 }
 
 // For the real products.
-TEST(RealLabels, AgreeWithTheirTextAndGdalsSamples)
+TEST(RealLabels, MatchTheirTextAndGdalsSamples)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const std::string label = (test::sharedData() / "moon_lola/LDEM_4.LBL").string();

@@ -93,7 +93,7 @@ void expectAllReads(const std::string& path, const std::vector<T>& truth)
     EXPECT_TRUE(isEqual(*all, truth, {0, 0, kColumns, kRows}));
 }
 
-TEST_F(LargeBlocksTest, CompressedStripsHaveTheSamplesThatWereWritten)
+TEST_F(LargeBlocksTest, CompressedStripsReadBackTheWrittenSamples)
 {
     const auto integers = noise<std::int16_t>();
     for (const char* compression : {"DEFLATE", "LZW", "ZSTD", "PACKBITS"}) {
@@ -112,7 +112,7 @@ TEST_F(LargeBlocksTest, CompressedStripsHaveTheSamplesThatWereWritten)
     expectAllReads(write(floats, {"COMPRESS=DEFLATE", "BLOCKYSIZE=3001", "PREDICTOR=3"}), floats);
 }
 
-TEST_F(LargeBlocksTest, StripsThatAreLeftOutHaveTheirZeros)
+TEST_F(LargeBlocksTest, OmittedStripsReadAsZeros)
 {
     auto samples = noise<std::int16_t>();
     std::fill(samples.begin() + static_cast<std::ptrdiff_t>(kColumns * 2900), samples.end(), 0);
@@ -120,7 +120,7 @@ TEST_F(LargeBlocksTest, StripsThatAreLeftOutHaveTheirZeros)
                    samples);
 }
 
-TEST_F(LargeBlocksTest, PlainStripsHaveTheSamplesThatWereWritten)
+TEST_F(LargeBlocksTest, UncompressedStripsReadBackTheWrittenSamples)
 {
     const auto samples = noise<std::int16_t>();
     for (const char* rows : {"3001", "2900"}) {
@@ -133,7 +133,7 @@ TEST_F(LargeBlocksTest, PlainStripsHaveTheSamplesThatWereWritten)
     }
 }
 
-TEST_F(LargeBlocksTest, RowsAreCheapWhereNoBlockIsHeld)
+TEST_F(LargeBlocksTest, ReadsRowsWithoutKeepingBlocks)
 {
     const auto samples = noise<std::int16_t>();
     const auto has_cheap_rows = [&](const std::vector<std::string>& options) {
@@ -148,7 +148,7 @@ TEST_F(LargeBlocksTest, RowsAreCheapWhereNoBlockIsHeld)
         has_cheap_rows({"COMPRESS=DEFLATE", "TILED=YES", "BLOCKXSIZE=3008", "BLOCKYSIZE=3008"}));
 }
 
-TEST_F(LargeBlocksTest, AnyBandIsRead)
+TEST_F(LargeBlocksTest, ReadsAnyBand)
 {
     const auto samples = noise<std::int16_t>();
     test::RasterRecipe recipe = test::recipeFor(kColumns, samples);
@@ -175,7 +175,7 @@ TEST_F(LargeBlocksTest, AnyBandIsRead)
     }
 }
 
-TEST_F(LargeBlocksTest, AStripThatIsCutShortIsAnErrorAndNoHeight)
+TEST_F(LargeBlocksTest, ATruncatedStripIsAnErrorNotAHeight)
 {
     const auto samples = noise<std::int16_t>();
     const std::string path = write(samples, {"COMPRESS=DEFLATE", "BLOCKYSIZE=3001"});
@@ -206,7 +206,7 @@ TEST_F(LargeBlocksTest, AStripThatIsCutShortIsAnErrorAndNoHeight)
     EXPECT_THAT(all.error().message, HasSubstr(path + ": "));
 }
 
-TEST_F(LargeBlocksTest, PeopleAreToldOfBlocksThatTakeMuchMemoryAlone)
+TEST_F(LargeBlocksTest, OnlyVeryLargeBlocksCauseANotice)
 {
     const auto samples = noise<std::int16_t>();
     const auto notices_of = [](const std::string& path) {

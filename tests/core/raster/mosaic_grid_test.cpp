@@ -26,7 +26,7 @@ MosaicPart partAt(double x, double y, double pixel, std::size_t columns, std::si
             {columns, rows}};
 }
 
-TEST(MosaicGrid, PutsEverySampleWhereItLies)
+TEST(MosaicGrid, PlacesEverySample)
 {
     test::Random random;
     for (int round = 0; round < 300; ++round) {
@@ -79,7 +79,7 @@ TEST(MosaicGrid, PutsEverySampleWhereItLies)
     }
 }
 
-TEST(MosaicGrid, CountsWhatIsCovered)
+TEST(MosaicGrid, ComputesTheCoveredFraction)
 {
     test::Random random;
     for (int round = 0; round < 200; ++round) {
@@ -128,7 +128,7 @@ std::size_t narrowest(const std::vector<MosaicPart>& parts, double turn)
     return static_cast<std::size_t>(std::min(narrowest, as_given_east - as_given_west));
 }
 
-TEST(MosaicGrid, PutsBothSidesOfTheAntimeridianTogether)
+TEST(MosaicGrid, JoinsBothSidesOfTheAntimeridian)
 {
     test::Random random;
     for (int round = 0; round < 500; ++round) {
@@ -149,7 +149,7 @@ TEST(MosaicGrid, PutsBothSidesOfTheAntimeridianTogether)
     }
 }
 
-TEST(MosaicGrid, LeavesAWholePlanetAsItIs)
+TEST(MosaicGrid, DoesNotShiftAWholePlanet)
 {
     std::vector<MosaicPart> parts;
     for (int i = 0; i < 8; ++i) {
@@ -162,7 +162,7 @@ TEST(MosaicGrid, LeavesAWholePlanetAsItIs)
     EXPECT_EQ(grid->covered, 1.0);
 }
 
-TEST(MosaicGrid, DoesNotTurnWhatHasNoWholeTurn)
+TEST(MosaicGrid, DoesNotShiftGridsWithoutAWholeTurn)
 {
     // 360 degrees are not a multiple of this pixel size: a full turn away, samples lie between
     // these.
@@ -173,7 +173,7 @@ TEST(MosaicGrid, DoesNotTurnWhatHasNoWholeTurn)
     EXPECT_EQ(grid->size.columns, 510U);
 }
 
-TEST(MosaicGrid, NamesWhatDoesNotFit)
+TEST(MosaicGrid, NamesTheRasterThatDoesNotFit)
 {
     const MosaicPart first = partAt(0.0, 0.0, 1.0, 100, 100);
     const auto why = [&first](const MosaicPart& part) {

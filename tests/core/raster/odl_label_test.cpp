@@ -35,7 +35,7 @@ TEST(OdlLabel, ReadsNestedObjectsAndEveryKindOfValue)
     EXPECT_EQ(statementIn(*root, "HIDDEN"), nullptr);
 }
 
-TEST(OdlLabel, EndsWithEveryDamagedText)
+TEST(OdlLabel, ParsingEndsForEveryDamagedText)
 {
     const std::string whole = "A = (1, 2\nOBJECT = X\n B = \"text\nEND_OBJECT\nC = 1 <m\nEND";
     for (std::size_t length = 0; length <= whole.size(); ++length) {

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-TEST(OutputCheck, RefusesWhatIsReadByWhateverName)
+TEST(OutputCheck, RefusesInputFilesUnderAnyName)
 {
     const TempFolder folder;
     const std::string map = folder.file("map.tif");
@@ -41,7 +41,7 @@ TEST(OutputCheck, RefusesWhatIsReadByWhateverName)
                 HasSubstr("is given for two outputs; choose two files"));
 }
 
-TEST(OutputCheck, KnowsThePartsOfAMap)
+TEST(OutputCheck, RefusesThePartsOfAMap)
 {
     const TempFolder folder;
     const std::string part = folder.file("part.tif");

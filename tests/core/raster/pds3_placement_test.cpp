@@ -32,13 +32,13 @@ GeoTransform offBy(double columns, double rows)
         {(columns - 720.0) * kPixel_m, kPixel_m, 0.0, (360.0 - rows) * kPixel_m, 0.0, -kPixel_m});
 }
 
-TEST(Pds3Placement, AGridWhereItsLabelSaysIsLeftAlone)
+TEST(Pds3Placement, KeepsAGridThatMatchesItsLabel)
 {
     EXPECT_TRUE(pds3PlacementShift(label(90.0, 0.0), offBy(0, 0), simpleCylindrical()).isNone());
     EXPECT_TRUE(pds3PlacementShift(label(90.0, 360.0), offBy(0, 0), simpleCylindrical()).isNone());
 }
 
-TEST(Pds3Placement, AGridOnePixelOffIsMovedByOnePixel)
+TEST(Pds3Placement, ShiftsAGridThatIsOffByOnePixel)
 {
     for (const int columns : {-1, 0, 1}) {
         for (const int rows : {-1, 0, 1}) {
@@ -52,7 +52,7 @@ TEST(Pds3Placement, AGridOnePixelOffIsMovedByOnePixel)
     }
 }
 
-TEST(Pds3Placement, AnyOtherDisagreementIsLeftAlone)
+TEST(Pds3Placement, IgnoresAnyOtherDisagreement)
 {
     for (const double off : {0.3, 0.5, 0.7, 1.5, 2.0, 3.0, 100.0}) {
         EXPECT_TRUE(
@@ -61,7 +61,7 @@ TEST(Pds3Placement, AnyOtherDisagreementIsLeftAlone)
     }
 }
 
-TEST(Pds3Placement, WestPositiveLabelsAndOtherProjectionsAreLeftAlone)
+TEST(Pds3Placement, IgnoresWestPositiveLabelsAndOtherProjections)
 {
     json west = label(90.0, 0.0);
     west["IMAGE_MAP_PROJECTION"]["POSITIVE_LONGITUDE_DIRECTION"] = "WEST";
@@ -70,7 +70,7 @@ TEST(Pds3Placement, WestPositiveLabelsAndOtherProjectionsAreLeftAlone)
     EXPECT_TRUE(pds3PlacementShift(label(90.0, 0.0), offBy(1, 1), polar).isNone());
 }
 
-TEST(Pds3Placement, LabelsThatSayNothingUsefulAreNoReasonToMove)
+TEST(Pds3Placement, IgnoresLabelsWithoutUsableLimits)
 {
     const json labels[] = {
         json(),

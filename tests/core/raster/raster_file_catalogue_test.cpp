@@ -165,7 +165,7 @@ TEST_P(CatalogueFile, IsDescribedAsGdalinfoDescribesIt)
     }
 }
 
-TEST_P(CatalogueFile, LiesWhereGdalinfoPutsIt)
+TEST_P(CatalogueFile, HasTheCornersOfGdalinfo)
 {
     const auto file = RasterFile::open(path_);
     ASSERT_TRUE(file) << file.error().message;
@@ -197,7 +197,7 @@ TEST_P(CatalogueFile, LiesWhereGdalinfoPutsIt)
     }
 }
 
-TEST_P(CatalogueFile, HasGdallocationinfosHeightsAtItsSamples)
+TEST_P(CatalogueFile, HasTheSamplesOfGdallocationinfo)
 {
     if (!isSurface()) {
         GTEST_SKIP() << "1 × 1 samples do not form a surface";
@@ -232,7 +232,7 @@ TEST_P(CatalogueFile, HasGdallocationinfosHeightsAtItsSamples)
     std::printf("%s: %zu samples, %zu of them void\n", GetParam().c_str(), pixels.size(), voids);
 }
 
-TEST_P(CatalogueFile, IsTheTriangulationOfThoseSamplesBetweenThem)
+TEST_P(CatalogueFile, IsTriangulatedBetweenSamples)
 {
     if (!isSurface()) {
         GTEST_SKIP() << "1 × 1 samples do not form a surface";

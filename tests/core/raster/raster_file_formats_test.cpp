@@ -76,7 +76,7 @@ void PrintTo(const Format& format, std::ostream* stream)
     *stream << format.driver;
 }
 
-TEST_P(RasterFormat, KeepsSamplesPlaceAndNegativeHeights)
+TEST_P(RasterFormat, KeepsSamplesPlacementAndNegativeHeights)
 {
     const TempFolder folder;
     const Format& format = GetParam();
@@ -170,7 +170,7 @@ TEST(RasterFile, AnArchiveWithoutRastersIsRefused)
 }
 
 // GTOPO30's headers do not state whether samples are signed. They are: the Dead Sea is below zero.
-TEST(RasterFile, Gtopo30WithoutPixelTypeHasNegativeHeights)
+TEST(RasterFile, ReadsNegativeHeightsOfGtopo30WithoutPixelType)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples{-9999, -407, 12, 5000, -1, 0};
@@ -203,7 +203,7 @@ TEST(RasterFile, Gtopo30WithoutPixelTypeHasNegativeHeights)
     }
 }
 
-TEST(RasterFile, Pds4KeepsItsPlaceAndItsBody)
+TEST(RasterFile, Pds4KeepsItsPlacementAndBody)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor(kColumns, hills());
@@ -291,7 +291,7 @@ TEST(RasterFile, NodataOf64BitIntegersIsKept)
 }
 
 // Read block by block, its 10 billion samples would take minutes.
-TEST(RasterFile, BlocksThatAreNotStoredAreCountedWithoutBeingRead)
+TEST(RasterFile, CountsOmittedBlocksWithoutReadingThem)
 {
     const TempFolder folder;
     for (const bool has_nodata : {false, true}) {
@@ -323,7 +323,7 @@ TEST(RasterFile, BlocksThatAreNotStoredAreCountedWithoutBeingRead)
 }
 
 // Without bytes for its strips it is shorter than its samples, and whole.
-TEST(RasterFile, ASparseTiffOfStripsIsNotCutShort)
+TEST(RasterFile, ASparseTiffIsNotTakenForTruncated)
 {
     const TempFolder folder;
     const std::string path = folder.file("sparse.tif");
@@ -336,7 +336,7 @@ TEST(RasterFile, ASparseTiffOfStripsIsNotCutShort)
     EXPECT_EQ(window->statistics.raw_maximum, 0.0);
 }
 
-TEST(RasterFile, NaNAndInfinityAreVoidWhateverTheFileSays)
+TEST(RasterFile, NanAndInfinityAreAlwaysVoid)
 {
     const TempFolder folder;
     constexpr float kInf = std::numeric_limits<float>::infinity();
@@ -347,7 +347,7 @@ TEST(RasterFile, NaNAndInfinityAreVoidWhateverTheFileSays)
     EXPECT_EQ(loaded.statistics.raw_maximum, 3.0);
 }
 
-TEST(RasterFile, MasksBesideTheSamplesAreHonoured)
+TEST(RasterFile, HonorsMasksInsideAndNextToTheRaster)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<std::int16_t>(3, {1, 2, 3, 4, 5, 6});
@@ -378,7 +378,7 @@ TEST(RasterFile, MasksBesideTheSamplesAreHonoured)
     }
 }
 
-TEST(RasterFile, AnAlphaBandIsAMask)
+TEST(RasterFile, TreatsAnAlphaBandAsAMask)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<std::int16_t>(3, {1, 2, 3, 4, 5, 6});
@@ -394,7 +394,7 @@ TEST(RasterFile, AnAlphaBandIsAMask)
     EXPECT_TRUE(loaded.grid.isVoid(2, 1));
 }
 
-TEST(RasterFile, NodataAndMaskAddUp)
+TEST(RasterFile, NodataAndMaskBothMarkVoids)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<std::int16_t>(3, {-9999, 2, 3, 4, 5, 6});
@@ -410,7 +410,7 @@ TEST(RasterFile, NodataAndMaskAddUp)
     EXPECT_EQ(loaded.statistics.void_count, 2U);
 }
 
-TEST(RasterFile, ScaleOffsetAndUnitMakeTheHeight)
+TEST(RasterFile, AppliesScaleOffsetAndUnit)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<std::int16_t>(2, {100, 200, 300, 400});
@@ -424,7 +424,7 @@ TEST(RasterFile, ScaleOffsetAndUnitMakeTheHeight)
     EXPECT_NEAR(file->info().elevationScale().height(100.0), (25.0 - 50.0) * 0.3048, 1e-12);
 }
 
-TEST(RasterFile, AnUnknownUnitIsSaidAndTakenForMetres)
+TEST(RasterFile, AssumesMetersForAnUnknownUnitWithANotice)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<std::int16_t>(2, {100, 200, 300, 400});
@@ -438,7 +438,7 @@ TEST(RasterFile, AnUnknownUnitIsSaidAndTakenForMetres)
                     [](const std::string& n) { return n.find("furlong") != std::string::npos; }));
 }
 
-TEST(RasterFile, RadiiWithoutAnOffsetAreRecognisedAndHeightsAreNot)
+TEST(RasterFile, DistinguishesRadiiWithoutAnOffsetFromHeights)
 {
     const TempFolder folder;
     test::Random random;
@@ -486,7 +486,7 @@ TEST(RasterFile, BandsAreCountedFromOne)
     }
 }
 
-TEST(RasterFile, WindowsAreTheirPartOfTheWhole)
+TEST(RasterFile, WindowsMatchTheirPartOfTheWhole)
 {
     const TempFolder folder;
     const std::vector<std::int16_t> samples = hills();
@@ -512,7 +512,7 @@ TEST(RasterFile, WindowsAreTheirPartOfTheWhole)
     }
 }
 
-TEST(RasterFile, TheUsersFolderIsLeftAsItWas)
+TEST(RasterFile, LeavesTheUsersFolderUnchanged)
 {
     const TempFolder folder;
     const std::string path = writeRaster(folder, "map.tif", "GTiff", recipeFor(kColumns, hills()));

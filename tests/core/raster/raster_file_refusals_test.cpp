@@ -83,7 +83,7 @@ TEST(Refusal, AMissingFile)
     expectRefused(folder.file("no/such/folder.tif"), ErrorCode::NotFound);
 }
 
-TEST(Refusal, AFileThatMayNotBeRead)
+TEST(Refusal, AnUnreadableFile)
 {
     if (geteuid() == 0) {
         GTEST_SKIP() << "root can read every file";
@@ -137,7 +137,7 @@ TEST(Refusal, AnAbsurdSize)
 }
 
 // Far more bytes per row than a whole map may have: the size must be checked before any read.
-TEST(Refusal, AWideRowOfRadiiIsNotReadBeforeTheLimitIsChecked)
+TEST(Refusal, TheLimitIsCheckedBeforeAWideRowOfRadiiIsRead)
 {
     const TempFolder folder;
     expectRefused(folder.write("map.vrt",
@@ -178,7 +178,7 @@ TEST(Refusal, PicturesAndComplexNumbers)
 }
 
 // Vertical Mapper's grids have a picture of the elevations before them.
-TEST(Refusal, APictureNamesTheBandThatIsNone)
+TEST(Refusal, APictureNamesTheElevationBand)
 {
     const TempFolder folder;
     const std::string path = writeRaster(folder, "grid.grd", "NWT_GRD",
@@ -253,7 +253,7 @@ TEST(Refusal, AFileWithoutBands)
     expectOneSentence(dataset.error(), path);
 }
 
-TEST(Refusal, FilesCutShort)
+TEST(Refusal, TruncatedFiles)
 {
     const TempFolder folder;
     const std::string whole = test::readFile(writeRaster(
@@ -270,7 +270,7 @@ TEST(Refusal, FilesCutShort)
 }
 
 // For raw data, GDAL itself replaces a missing end of the file by zeros.
-TEST(Refusal, RawDataCutShortAnywhere)
+TEST(Refusal, RawDataTruncatedAnywhere)
 {
     const TempFolder folder;
     for (const char* driver : {"ENVI", "EHdr"}) {
@@ -288,7 +288,7 @@ TEST(Refusal, RawDataCutShortAnywhere)
 
 // Known gap, 2026-11: GDAL 3.6 does not report the location of the raw bands of a virtual raster,
 // and reads their missing part as zeros.
-TEST(Refusal, RawBandsOfAVirtualRasterCutShort)
+TEST(Refusal, TruncatedRawBandsOfAVirtualRaster)
 {
     const TempFolder folder;
     const std::string path = writeVrt(folder, "raw", smallMap());
@@ -300,7 +300,7 @@ TEST(Refusal, RawBandsOfAVirtualRasterCutShort)
     expectRefused(path, ErrorCode::Unreadable);
 }
 
-TEST(Refusal, RealFilesThatAreBroken)
+TEST(Refusal, DamagedRealFiles)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     for (const char* file :
@@ -317,7 +317,7 @@ TEST(Refusal, RealFilesThatAreBroken)
     }
 }
 
-TEST(Refusal, AFileCutShortAfterItWasOpened)
+TEST(Refusal, AFileTruncatedAfterOpening)
 {
     const TempFolder folder;
     const std::string path = writeRaster(
@@ -337,7 +337,7 @@ TEST(Refusal, AFileCutShortAfterItWasOpened)
     ASSERT_FALSE(file->scan(monitor, {}));
 }
 
-TEST(Refusal, AFileRemovedAfterItWasOpened)
+TEST(Refusal, AFileRemovedAfterOpening)
 {
     const TempFolder folder;
     const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
@@ -358,7 +358,7 @@ TEST(Refusal, AFileRemovedAfterItWasOpened)
     EXPECT_EQ(again.error().code, ErrorCode::NotFound);
 }
 
-TEST(Refusal, ReadingThatNobodyWantsAnyMore)
+TEST(Refusal, CanceledReading)
 {
     const TempFolder folder;
     const std::string path = writeRaster(folder, "map.tif", "GTiff", smallMap());
@@ -376,7 +376,7 @@ TEST(Refusal, ReadingThatNobodyWantsAnyMore)
 }
 
 // A raster without a geotransform is still a map: the user can enter its position.
-TEST(Tolerance, MapsWithoutAUsablePlaceOpenWithANotice)
+TEST(Tolerance, MapsWithoutUsablePlacementOpenWithANotice)
 {
     const TempFolder folder;
     const auto noticed = [&](const RasterRecipe& recipe, const std::string& word) {
@@ -409,7 +409,7 @@ TEST(Tolerance, MapsWithoutAUsablePlaceOpenWithANotice)
     noticed(geocentric, "geocentric");
 }
 
-TEST(Tolerance, AGarbageCrsIsNoCrash)
+TEST(Tolerance, ADamagedCrsDoesNotCrash)
 {
     const TempFolder folder;
     const std::string nonsense =
@@ -431,7 +431,7 @@ TEST(Tolerance, AGarbageCrsIsNoCrash)
     }
 }
 
-TEST(Tolerance, HugeNodataIsNoEndlessLoop)
+TEST(Tolerance, HugeNodataDoesNotLoopForever)
 {
     const TempFolder folder;
     for (const char* nodata :

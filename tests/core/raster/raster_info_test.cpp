@@ -22,7 +22,7 @@ RasterInfo mars()
     return info;
 }
 
-TEST(RasterInfo, HeightIsScaleOffsetUnitAndReferenceInThatOrder)
+TEST(RasterInfo, AppliesScaleOffsetUnitAndReferenceInThatOrder)
 {
     RasterInfo info;
     info.scale = 0.5;
@@ -32,7 +32,7 @@ TEST(RasterInfo, HeightIsScaleOffsetUnitAndReferenceInThatOrder)
     EXPECT_DOUBLE_EQ(info.elevationScale().height(100.0), (100.0 * 0.5 + 10.0) * 0.3048 - 3.0);
 }
 
-TEST(RasterInfo, TwoTrianglesACell)
+TEST(RasterInfo, CountsTwoTrianglesPerCell)
 {
     RasterInfo info;
     info.columns = std::size_t{1} << 24;
@@ -62,7 +62,7 @@ TEST(HeightReference, ATypicalSampleNearTheRadiusMeansRadii)
     EXPECT_EQ(*info.reference_radius_m, 3396190.0);
 }
 
-TEST(HeightReference, KilometresOfRadiusAreRadiiToo)
+TEST(HeightReference, RadiiInKilometersAreRecognized)
 {
     RasterInfo info = mars();
     info.unit = {"km", 1000.0};
@@ -85,7 +85,7 @@ TEST(HeightReference, HeightsAreNotRadii)
     EXPECT_FALSE(nowhere.reference_radius_m);
 }
 
-TEST(HeightReference, IsForgottenWhenTheReasonIsGone)
+TEST(HeightReference, IsDroppedWhenTheUnitNoLongerMakesRadii)
 {
     RasterInfo info = mars();
     info.typical_raw = 3389.5;
@@ -98,7 +98,7 @@ TEST(HeightReference, IsForgottenWhenTheReasonIsGone)
     EXPECT_EQ(info.vertical_datum, "");
 }
 
-TEST(Overrides, NoneLeaveWhatTheFileSays)
+TEST(Overrides, WithoutOverridesTheFileIsUnchanged)
 {
     const auto info = withOverrides(mars(), {});
     ASSERT_TRUE(info);
@@ -107,7 +107,7 @@ TEST(Overrides, NoneLeaveWhatTheFileSays)
     EXPECT_TRUE(RasterOverrides{}.isEmpty());
 }
 
-TEST(Overrides, EachReplacesItsOwnThing)
+TEST(Overrides, EachReplacesOnlyItsOwnField)
 {
     RasterOverrides overrides;
     overrides.crs = "EPSG:32610";
@@ -146,7 +146,7 @@ TEST(Overrides, ABodyGivesItsEllipsoid)
     EXPECT_EQ(info->crs->body()->name, "Moon");
 }
 
-TEST(Overrides, RadiiOfNoKnownBodyMakeDegreesOfABareGlobalGrid)
+TEST(Overrides, RadiiOfAnUnknownBodyTurnABareGlobalGridIntoDegrees)
 {
     RasterInfo bare;
     bare.columns = 360;
@@ -164,7 +164,7 @@ TEST(Overrides, RadiiOfNoKnownBodyMakeDegreesOfABareGlobalGrid)
 }
 
 // Without a CRS, radii would change nothing.
-TEST(Overrides, RadiiAreRefusedWhereTheGridIsNotInDegrees)
+TEST(Overrides, RadiiAreRefusedForAGridThatIsNotInDegrees)
 {
     RasterInfo bare;
     bare.columns = 360;
@@ -178,7 +178,7 @@ TEST(Overrides, RadiiAreRefusedWhereTheGridIsNotInDegrees)
     EXPECT_EQ(refusedField(info.error()), OverrideField::Radii);
 }
 
-TEST(Overrides, ABodyMakesDegreesOfABareGlobalGrid)
+TEST(Overrides, ABodyTurnsABareGlobalGridIntoDegrees)
 {
     RasterInfo bare;
     bare.columns = 360;
@@ -199,7 +199,7 @@ TEST(Overrides, ABodyMakesDegreesOfABareGlobalGrid)
     EXPECT_EQ(metres->body->name, "Vesta");
 }
 
-TEST(Overrides, ScaleAndOffsetCountInTheVerticalUnit)
+TEST(Overrides, ScaleAndOffsetAreInTheVerticalUnit)
 {
     RasterInfo file = mars();
     file.scale = 2.0;
@@ -221,7 +221,7 @@ TEST(Overrides, ScaleAndOffsetCountInTheVerticalUnit)
                      (100.0 * -1.0 + 7.0) * 0.3048);
 }
 
-TEST(Overrides, ScaleAndOffsetDecideAnewBetweenHeightsAndRadii)
+TEST(Overrides, ScaleAndOffsetRedetermineHeightsOrRadii)
 {
     RasterInfo file = mars();
     RasterOverrides overrides;
@@ -245,7 +245,7 @@ TEST(Overrides, ScaleAndOffsetDecideAnewBetweenHeightsAndRadii)
     EXPECT_EQ(withOverrides(file, overrides)->reference_radius_m, 3396190.0);
 }
 
-TEST(Overrides, TheNameOfTheVerticalDatumIsTheUsers)
+TEST(Overrides, TheUserNamesTheVerticalDatum)
 {
     RasterInfo file = mars();
     file.vertical_datum = "mean sea level";
@@ -284,7 +284,7 @@ TEST(Overrides, ErrorsNameTheField)
     EXPECT_FALSE(refusedField({ErrorCode::NotFound, "a.tif: does not exist"}));
 }
 
-TEST(Overrides, WhatCannotBeUsedIsRefusedInOneSentence)
+TEST(Overrides, UnusableValuesAreRefusedInOneSentence)
 {
     std::vector<RasterOverrides> bad(8);
     bad[0].crs = "EPSG:99999999";
@@ -306,7 +306,7 @@ TEST(Overrides, WhatCannotBeUsedIsRefusedInOneSentence)
 }
 
 // Radii must always be checked: here no CRS would check them.
-TEST(Overrides, BadRadiiAreRefusedWithoutACrsToo)
+TEST(Overrides, BadRadiiAreRefusedEvenWithoutACrs)
 {
     RasterInfo bare;
     bare.columns = 360;

@@ -260,7 +260,7 @@ TYPED_TEST(SampleGridOf, SamplesKeepTheirOwnTypeAndSize)
 }
 
 // Nodata is written as a double; the file stores the nearest float.
-TEST(SampleGrid, FloatNodataComparesAsTheFloatThatTheFileHolds)
+TEST(SampleGrid, FloatNodataComparesInFloat)
 {
     const struct {
         double declared;
@@ -283,7 +283,7 @@ TEST(SampleGrid, FloatNodataComparesAsTheFloatThatTheFileHolds)
     }
 }
 
-TEST(SampleGrid, FloatNodataOutsideTheFloatsRangeMarksNothingFinite)
+TEST(SampleGrid, FloatNodataOutOfRangeMarksNoFiniteSample)
 {
     for (const double declared : {1e300, -1e300, 1.7976931348623157e308, -1.7976931348623157e308}) {
         SampleGrid grid = gridOf<float>(
@@ -297,7 +297,7 @@ TEST(SampleGrid, FloatNodataOutsideTheFloatsRangeMarksNothingFinite)
     }
 }
 
-TEST(SampleGrid, NodataAtTheEdgeOf64BitsIsTheTypesLimit)
+TEST(SampleGrid, NodataAtTheLimitOf64BitsIsTheTypesLimit)
 {
     SampleGrid grid = gridOf<std::int64_t>(4, {std::numeric_limits<std::int64_t>::min(),
                                                std::numeric_limits<std::int64_t>::max(), 0, -1});
@@ -308,7 +308,7 @@ TEST(SampleGrid, NodataAtTheEdgeOf64BitsIsTheTypesLimit)
     EXPECT_EQ(wide.applyRule({36893488147419103232.0}, 0, 1).void_count, 0U);
 }
 
-TEST(SampleGrid, AGridTooLargeForAnyMemoryIsRefused)
+TEST(SampleGrid, RefusesAGridTooLargeForAnyMemory)
 {
     const auto grid =
         SampleGrid::create(SampleType::Float64, std::size_t{1} << 24, std::size_t{1} << 24);

@@ -49,7 +49,7 @@ std::string bigFile(const test::TempFolder& folder)
 
 } // namespace
 
-TEST(SourceIdentity, StaysTheSameAsLongAsNothingChanges)
+TEST(SourceIdentity, DoesNotChangeWithoutAWrite)
 {
     const test::TempFolder folder;
     const std::string path = bigFile(folder);
@@ -71,7 +71,7 @@ TEST(SourceIdentity, FollowsAFileThatMoves)
     EXPECT_NE(before.path, after.path);
 }
 
-TEST(SourceIdentity, SeesChangesAtTheHeadTheTailAndSpreadOverTheFile)
+TEST(SourceIdentity, DetectsChangesAtHeadAndTailAndThroughoutTheFile)
 {
     const test::TempFolder folder;
     const std::string path = bigFile(folder);
@@ -88,7 +88,7 @@ TEST(SourceIdentity, SeesChangesAtTheHeadTheTailAndSpreadOverTheFile)
     }
 }
 
-TEST(SourceIdentity, SeesATouchedAndAGrownFile)
+TEST(SourceIdentity, DetectsATouchedAndAGrownFile)
 {
     const test::TempFolder folder;
     const std::string path = bigFile(folder);
@@ -101,7 +101,7 @@ TEST(SourceIdentity, SeesATouchedAndAGrownFile)
     EXPECT_FALSE(isSameContent(before, identityOf(path)));
 }
 
-TEST(SourceIdentity, SeesWhenTheDataBehindAHeaderChanges)
+TEST(SourceIdentity, DetectsAChangeOfAHeadersData)
 {
     const test::TempFolder folder;
     std::vector<std::int16_t> samples(200 * 300);
@@ -115,7 +115,7 @@ TEST(SourceIdentity, SeesWhenTheDataBehindAHeaderChanges)
     EXPECT_FALSE(isSameContent(before, identityOf(vrt)));
 }
 
-TEST(SourceIdentity, SeesWhenTheImageOfALabelChanges)
+TEST(SourceIdentity, DetectsAChangeOfALabelsImage)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const test::TempFolder folder;
@@ -132,7 +132,7 @@ TEST(SourceIdentity, SeesWhenTheImageOfALabelChanges)
     EXPECT_FALSE(isSameContent(before, identityOf(label)));
 }
 
-TEST(SourceIdentity, SeesWhenAHeaderInCapitalsChanges)
+TEST(SourceIdentity, DetectsAChangeOfAHeaderInCapitals)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const test::TempFolder folder;
@@ -145,7 +145,7 @@ TEST(SourceIdentity, SeesWhenAHeaderInCapitalsChanges)
     EXPECT_FALSE(isSameContent(before, identityOf(path)));
 }
 
-TEST(SourceIdentity, IsNotDisturbedByStatisticsBesideTheRaster)
+TEST(SourceIdentity, IgnoresStatisticsNextToTheRaster)
 {
     const test::TempFolder folder;
     const std::string path = test::writeRaster(folder, "map.tif", "GTiff",
@@ -157,7 +157,7 @@ TEST(SourceIdentity, IsNotDisturbedByStatisticsBesideTheRaster)
     EXPECT_TRUE(isSameContent(before, identityOf(path)));
 }
 
-TEST(SourceIdentity, CountsOverviewsBesideTheRasterWhereTheyAreRead)
+TEST(SourceIdentity, IncludesOverviewsNextToTheRasterIfTheyAreRead)
 {
     const test::TempFolder folder;
     std::vector<std::int16_t> samples(64 * 64);
@@ -192,7 +192,7 @@ TEST(SourceIdentity, ReadsGdalsFileSystems)
     EXPECT_EQ(part.path, "/vsisubfile/1000_100000," + path);
 }
 
-TEST(SourceIdentity, SaysWhatIsNotThere)
+TEST(SourceIdentity, NamesAMissingFile)
 {
     const test::TempFolder folder;
     const std::string path = folder.file("nothing.tif");

@@ -55,7 +55,7 @@ std::string mapOf(const test::TempFolder& folder)
 
 } // namespace
 
-TEST(SourceStamp, StaysTheSameWhileTheRasterIsRead)
+TEST(SourceStamp, DoesNotChangeWhileTheRasterIsRead)
 {
     const test::TempFolder folder;
     const std::string path = mapOf(folder);
@@ -67,7 +67,7 @@ TEST(SourceStamp, StaysTheSameWhileTheRasterIsRead)
     EXPECT_EQ(stampOf(path).text, stamp.text);
 }
 
-TEST(SourceStamp, SeesWhatWasWrittenWithinTheSecond)
+TEST(SourceStamp, DetectsAWriteWithinTheSameSecond)
 {
     const test::TempFolder folder;
     const std::string path = mapOf(folder);
@@ -81,7 +81,7 @@ TEST(SourceStamp, SeesWhatWasWrittenWithinTheSecond)
     EXPECT_FALSE(isUntouched(stamp));
 }
 
-TEST(SourceStamp, SeesAWriterThatPutsTheTimeBack)
+TEST(SourceStamp, DetectsAWriteWithARestoredTime)
 {
     const test::TempFolder folder;
     const std::string path = mapOf(folder);
@@ -96,7 +96,7 @@ TEST(SourceStamp, SeesAWriterThatPutsTheTimeBack)
     EXPECT_FALSE(isUntouched(stamp));
 }
 
-TEST(SourceStamp, SeesAFileThatIsPutInThePlace)
+TEST(SourceStamp, DetectsAReplacedFile)
 {
     const test::TempFolder folder;
     const std::string path = mapOf(folder);
@@ -110,7 +110,7 @@ TEST(SourceStamp, SeesAFileThatIsPutInThePlace)
     EXPECT_FALSE(isUntouched(stamp));
 }
 
-TEST(SourceStamp, IsTheArchivesForARasterWithinIt)
+TEST(SourceStamp, IsThatOfTheArchiveForAMember)
 {
     const test::TempFolder folder;
     const std::string tif = test::writeRaster(folder, "map.tif", "GTiff",
@@ -132,7 +132,7 @@ TEST(SourceStamp, IsTheArchivesForARasterWithinIt)
     EXPECT_FALSE(isUntouched(part));
 }
 
-TEST(SourceStamp, IsEmptyForWhatLiesOnNoDisk)
+TEST(SourceStamp, IsEmptyForFilesThatAreNotOnADisk)
 {
     const SourceStamp stamp = stampOf("http://localhost:1/mars.tif");
     EXPECT_TRUE(stamp.files.empty());
