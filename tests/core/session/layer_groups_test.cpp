@@ -77,7 +77,7 @@ TEST_F(LayerGroupsTest, AreInTheOrderOfTheirTopmostLayers)
 
 // Whatever the order of bodies, every position in the group can be reached, and other groups keep
 // their order.
-TEST_F(LayerGroupsTest, ALayerReachesEveryPlaceOfItsGroup)
+TEST_F(LayerGroupsTest, MovesALayerToEveryPlaceOfItsGroup)
 {
     for (const char* bodies : {"mmm", "memem", "emmem", "eemmm", "mmeem"}) {
         const Session session = sessionOf(bodies);
@@ -107,7 +107,7 @@ TEST_F(LayerGroupsTest, ALayerReachesEveryPlaceOfItsGroup)
     }
 }
 
-TEST_F(LayerGroupsTest, NeighborsChangePlacesWithinAGroup)
+TEST_F(LayerGroupsTest, SwapsNeighborsWithinAGroup)
 {
     const Session session = sessionOf("memem"); // a b c d e
     const auto step = [&session](const std::string& name, GroupStep to) {

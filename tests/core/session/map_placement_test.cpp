@@ -118,7 +118,7 @@ TEST(MolaPlacement, TheSummitIsOlympusMonsAndTheDeepestPointIsInHellas)
 
 // One pixel is 0.25 degrees, 14.8 km: a grid that is one pixel off would still pass at the summits,
 // so the outlines of the volcanoes are centered as well.
-TEST(MolaPlacement, TheGreatVolcanoesAreHighestNearTheirNamedCentres)
+TEST(MolaPlacement, TheGreatVolcanoesPeakNearTheirNamedCenters)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const auto mars = load(test::sharedData() / "mars_mola/megt90n000cb.lbl");
@@ -136,7 +136,7 @@ TEST(MolaPlacement, TheGreatVolcanoesAreHighestNearTheirNamedCentres)
     }
 }
 
-TEST(MolaPlacement, TheCornersAreTheLabels)
+TEST(MolaPlacement, TheCornersMatchTheLabel)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const auto mars = load(test::sharedData() / "mars_mola/megt90n000cb.lbl");
@@ -163,7 +163,7 @@ TEST(MolaPlacement, TheCornersAreTheLabels)
     }
 }
 
-TEST(LolaPlacement, CornersSummitAndDeepestPoint)
+TEST(LolaPlacement, CornersSummitAndDeepestPointMatchPublishedValues)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     for (const char* file : {"moon_lola/LDEM_4.LBL", "moon_lola/ldem_4.cub"}) {
@@ -199,7 +199,7 @@ TEST(LolaPlacement, CornersSummitAndDeepestPoint)
     }
 }
 
-TEST(EarthPlacement, PeaksAndLakesAreWhereTheyAre)
+TEST(EarthPlacement, PeaksAndLakesAreAtTheirKnownPositions)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const auto near = [](const Map& d, double lat, double lon, double degrees, double sign) {
@@ -225,7 +225,7 @@ TEST(EarthPlacement, PeaksAndLakesAreWhereTheyAre)
     EXPECT_NEAR(mount.longitude_deg, -71.3033, 0.003);
 }
 
-TEST(EarthPlacement, GridsRegisteredOnTheirEdgesDoNotWrap)
+TEST(EarthPlacement, GridLineRegisteredGridsDoNotWrap)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const auto etopo = load(test::sharedData() / "etopo/ETOPO1_Ice_1deg.tif");
@@ -239,7 +239,7 @@ TEST(EarthPlacement, GridsRegisteredOnTheirEdgesDoNotWrap)
     }
 }
 
-TEST(BundledMars, HoldsTheWholePlanetInItsPlace)
+TEST(BundledMars, CoversTheWholePlanetAtTheRightPosition)
 {
     const auto path = test::bundledSamples() / "mars_mola_4ppd.tif";
     if (!std::filesystem::exists(test::bundledSamples())) {
@@ -269,7 +269,7 @@ TEST(BundledMars, HoldsTheWholePlanetInItsPlace)
     expectOlympusAndHellas(*mars);
 }
 
-TEST(BundledMars, HasTheSamplesOfTheProductItWasMadeFrom)
+TEST(BundledMars, HasTheSamplesOfItsSourceProduct)
 {
     if (!std::filesystem::exists(test::bundledSamples())) {
         GTEST_SKIP() << "this tree has no resources/samples";
@@ -287,7 +287,7 @@ TEST(BundledMars, HasTheSamplesOfTheProductItWasMadeFrom)
     }
 }
 
-TEST(BundledMountStHelens, IsTheMountainInItsPlace)
+TEST(BundledMountStHelens, ShowsTheMountainAtItsKnownPosition)
 {
     if (!std::filesystem::exists(test::bundledSamples())) {
         GTEST_SKIP() << "this tree has no resources/samples";

@@ -60,7 +60,7 @@ double heightAt(const Map& dataset, double longitude_deg, double latitude_deg)
     return dataset.height({Angle::degrees(longitude_deg), Angle::degrees(latitude_deg)});
 }
 
-TEST(Map, TheSeamOfAGlobalMapIsAnyOtherCell)
+TEST(Map, InterpolatesAcrossTheSeamOfAGlobalMap)
 {
     for (const double west_deg : {0.0, -180.0, 20.0}) {
         const GlobalMap map(west_deg);
@@ -90,7 +90,7 @@ TEST(Map, TheSeamOfAGlobalMapIsAnyOtherCell)
     }
 }
 
-TEST(Map, EverySampleOfAGlobalMapIsFoundByItsLongitudeAndLatitude)
+TEST(Map, FindsEverySampleOfAGlobalMapByLongitudeAndLatitude)
 {
     const GlobalMap map;
     const auto dataset = load(map.path);
@@ -107,7 +107,7 @@ TEST(Map, EverySampleOfAGlobalMapIsFoundByItsLongitudeAndLatitude)
 }
 
 // Rounding of the conversions must not put a sample of the map's edge outside the map.
-TEST(Map, TheOutermostSamplesAreFoundByTheirLongitudeAndLatitude)
+TEST(Map, FindsTheOutermostSamplesByLongitudeAndLatitude)
 {
     const struct {
         const char* srs;
@@ -139,7 +139,7 @@ TEST(Map, TheOutermostSamplesAreFoundByTheirLongitudeAndLatitude)
     }
 }
 
-TEST(Map, OutsideAndNotANumberGiveNaN)
+TEST(Map, IsNanOutsideAndForNan)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor(kColumns, std::vector<float>(kColumns * kRows, 7.0F));
@@ -176,7 +176,7 @@ TEST(DatasetOverrides, AreAppliedWithoutReadingTheFileAgain)
     EXPECT_TRUE((*again)->spec().overrides.isEmpty());
 }
 
-TEST(DatasetOverrides, ThatCannotBeUsedLeaveTheMapAsItWas)
+TEST(DatasetOverrides, LeaveTheMapUnchangedIfTheyAreRefused)
 {
     const GlobalMap map;
     const auto dataset = load(map.path);
@@ -209,7 +209,7 @@ TEST(DatasetOverrides, ThatCannotBeUsedLeaveTheMapAsItWas)
     }
 }
 
-TEST(DatasetOverrides, AnotherNodataIsAppliedOnLoading)
+TEST(DatasetOverrides, ApplyNodataWhenTheFileIsRead)
 {
     const GlobalMap map;
     RasterOverrides overrides;
@@ -220,7 +220,7 @@ TEST(DatasetOverrides, AnotherNodataIsAppliedOnLoading)
     EXPECT_FALSE(std::isnan(dataset->heightfield().sample(0, 0)));
 }
 
-TEST(Map, WithoutAPlaceEachPixelIsAUnitSquare)
+TEST(Map, WithoutPlacementEachPixelIsAUnitSquare)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<float>(3, {1, 2, 3, 4, 5, 6});

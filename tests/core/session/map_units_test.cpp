@@ -39,7 +39,7 @@ std::string inFeet(std::string dem)
     return dem;
 }
 
-TEST(Units, AUsgsDemInFeetHasTheHeightsOfTheOneInMetres)
+TEST(Units, AUsgsDemInFeetMatchesTheOneInMeters)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const test::TempFolder folder;
@@ -70,7 +70,7 @@ TEST(Units, AUsgsDemInFeetHasTheHeightsOfTheOneInMetres)
     EXPECT_NEAR(feet->heightfield().range()->maximum_m, 2543.0, tolerance_m);
 }
 
-TEST(Units, FeetThatTheFileDoesNotDeclareAreToldByTheUser)
+TEST(Units, TheUserSetsFeetThatTheFileDoesNotDeclare)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const std::string path = (test::sharedData() / "derived/trinidad_co_3as.tif").string();
@@ -105,7 +105,7 @@ TEST(Units, FeetThatTheFileDoesNotDeclareAreToldByTheUser)
     EXPECT_EQ((*told)->heightfield().sample(1000, 500), feet->heightfield().sample(1000, 500));
 }
 
-TEST(Units, ScaleAndOffsetOfTheUserChangeAMapWithoutReadingItAgain)
+TEST(Units, TheUsersScaleAndOffsetApplyWithoutRereading)
 {
     const std::string path = (test::bundledSamples() / "mars_mola_4ppd.tif").string();
     const auto mars = load(path);

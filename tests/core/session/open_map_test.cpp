@@ -132,7 +132,7 @@ protected:
 
 } // namespace
 
-TEST_F(OpenMap, MakesACopyAnewOfWhichATileWasFoundDamaged)
+TEST_F(OpenMap, RebuildsACopyInWhichATileWasFoundDamaged)
 {
     const std::string kept = keptPath(source_);
     std::size_t noticed_late = 0;
@@ -161,7 +161,7 @@ TEST_F(OpenMap, MakesACopyAnewOfWhichATileWasFoundDamaged)
     EXPECT_GT(noticed_late, 0U);
 }
 
-TEST_F(OpenMap, MakesADamagedCopyAnewThatIsStillOpen)
+TEST_F(OpenMap, RebuildsADamagedCopyThatIsStillOpen)
 {
     Result<std::shared_ptr<const Map>> first = open(source_);
     ASSERT_TRUE(first);
@@ -172,7 +172,7 @@ TEST_F(OpenMap, MakesADamagedCopyAnewThatIsStillOpen)
     EXPECT_FALSE(MapFolder::at(maps_.path()).damage(keptPath(source_)));
 }
 
-TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
+TEST_F(OpenMap, NeverReadsAWrongHeightWhileAnotherProgramRebuildsTheCopy)
 {
     const std::string kept = keptPath(source_);
     Result<std::shared_ptr<const Map>> first = open(source_);
@@ -209,7 +209,7 @@ TEST_F(OpenMap, NeverReadsAWrongHeightOfACopyThatAnotherProgramMakesAnew)
     EXPECT_EQ(unreadable(*again), 0U);
 }
 
-TEST_F(OpenMap, TellsOnceOfNumbersInTheEnvironmentThatAreNone)
+TEST_F(OpenMap, ReportsInvalidNumbersInTheEnvironmentOnce)
 {
     const std::string tiff =
         test::writeRaster(folder_, "small.tif", "GTiff",
@@ -232,7 +232,7 @@ TEST_F(OpenMap, TellsOnceOfNumbersInTheEnvironmentThatAreNone)
     EXPECT_TRUE(defaultMapResources().notices->take().empty());
 }
 
-TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
+TEST_F(OpenMap, NeverRebuildsTheLevelsOfADamagedRaster)
 {
     const std::string path = tiled();
     {
@@ -255,7 +255,7 @@ TEST_F(OpenMap, NeverMakesLevelsAnewOfARasterThatIsDamaged)
     }
 }
 
-TEST_F(OpenMap, MakesLevelsAnewWhereOverviewsBesideTheRasterAreOthers)
+TEST_F(OpenMap, RebuildsLevelsIfTheOverviewsNextToTheRasterChanged)
 {
     const std::string path = tiled();
     prepare(path);
@@ -281,7 +281,7 @@ TEST_F(OpenMap, MakesLevelsAnewWhereOverviewsBesideTheRasterAreOthers)
 }
 
 // The opener would take it for another raster, and would show the damage as terrain.
-TEST_F(OpenMap, RefusesARasterThatIsNotWhatItWasThoughItsTimeIs)
+TEST_F(OpenMap, RefusesAChangedRasterWithAnUnchangedTime)
 {
     const std::string path = tiled();
     const auto time = fs::last_write_time(path) - std::chrono::hours(1);
@@ -305,7 +305,7 @@ TEST_F(OpenMap, RefusesARasterThatIsNotWhatItWasThoughItsTimeIs)
     EXPECT_TRUE(begin(path));
 }
 
-TEST_F(OpenMap, SaysWhyALevelFileBesideTheRasterIsNotUsed)
+TEST_F(OpenMap, ExplainsWhyALevelFileNextToTheRasterIsNotUsed)
 {
     const std::string path = tiled();
     prepare(path);
@@ -331,7 +331,7 @@ TEST_F(OpenMap, SaysWhyALevelFileBesideTheRasterIsNotUsed)
     }
 }
 
-TEST_F(OpenMap, KeepsLevelsOfAMapInPlaceAsLongAsItIsOpen)
+TEST_F(OpenMap, KeepsTheLevelsOfAMapUsedInPlaceWhileItIsOpen)
 {
     const std::string path = tiled();
     const MapFolder folder = MapFolder::at(maps_.path());
@@ -346,7 +346,7 @@ TEST_F(OpenMap, KeepsLevelsOfAMapInPlaceAsLongAsItIsOpen)
     EXPECT_EQ(folder.trim(0)->size(), 1U);
 }
 
-TEST_F(OpenMap, HoldsAMapWhereThereIsNoFolderForPreparedOnes)
+TEST_F(OpenMap, ReadsAMapIntoMemoryWithoutAFolderOfPreparedMaps)
 {
     MapResources resources;
     const Result<MapOpening> opening =
@@ -356,7 +356,7 @@ TEST_F(OpenMap, HoldsAMapWhereThereIsNoFolderForPreparedOnes)
 }
 
 // A small archive may unpack to more than memory.
-TEST_F(OpenMap, HoldsNoLargeMapOfAnArchive)
+TEST_F(OpenMap, ReadsNoLargeMapOfAnArchiveIntoMemory)
 {
     const std::string path = folder_.file("large.tif");
     test::runTool({"gdal_create", "-q", "-of", "GTiff", "-outsize", "30000", "20000", "-ot",
@@ -378,7 +378,7 @@ TEST_F(OpenMap, HoldsNoLargeMapOfAnArchive)
     EXPECT_EQ(packed->storage(), MapStorage::NeedsOverviews);
 }
 
-TEST_F(OpenMap, RefusesWhatIsNoSurfaceBeforePreparingIt)
+TEST_F(OpenMap, RefusesARasterThatIsNotASurfaceBeforePreparingIt)
 {
     for (const std::size_t columns : {1U, 600U}) {
         const std::string path = test::writeVrt(

@@ -39,7 +39,7 @@ MapPoint outerCorner(const Georeference& georeference, bool is_right, bool is_lo
                                is_lower ? static_cast<double>(georeference.rows()) - 0.5 : -0.5});
 }
 
-TEST(PreviewMap, CoversTheSameGroundAsItsMap)
+TEST(PreviewMap, CoversTheSameAreaAsItsMap)
 {
     for (const std::string& path : {marsPath(), helensPath()}) {
         const std::shared_ptr<const Map> whole = test::loadedMap(path);
@@ -68,7 +68,7 @@ TEST(PreviewMap, CoversTheSameGroundAsItsMap)
     }
 }
 
-TEST(PreviewMap, HasTheHeightsOfItsMapAtItsSamples)
+TEST(PreviewMap, HasTheHeightsOfTheMapAtItsSamples)
 {
     for (const std::string& path : {marsPath(), helensPath()}) {
         const std::shared_ptr<const Map> whole = test::loadedMap(path);
@@ -94,7 +94,7 @@ TEST(PreviewMap, HasTheHeightsOfItsMapAtItsSamples)
     }
 }
 
-TEST(PreviewMap, TellsOfTheWholeFileAndThatItIsAPreview)
+TEST(PreviewMap, DescribesTheWholeFileAndIsMarkedAsAPreview)
 {
     const std::shared_ptr<const Map> whole = test::loadedMap(marsPath());
     const std::shared_ptr<const Map> small = preview({.path = marsPath()}, 5000);
@@ -114,7 +114,7 @@ TEST(PreviewMap, TellsOfTheWholeFileAndThatItIsAPreview)
     EXPECT_FALSE(isOfSameMap(*small, *test::loadedMap(helensPath())));
 }
 
-TEST(PreviewMap, TakesOverrides)
+TEST(PreviewMap, AppliesOverrides)
 {
     RasterSpec spec{.path = helensPath()};
     spec.overrides.vertical_unit = "ft";
@@ -137,7 +137,7 @@ TEST(PreviewMap, TakesOverrides)
     EXPECT_EQ((*later)->info().notices, plain->info().notices);
 }
 
-TEST(PreviewMap, PlacesFilesWithoutAnyPlaceInPixels)
+TEST(PreviewMap, PlacesFilesWithoutPlacementInPixels)
 {
     const test::TempFolder folder;
     test::RasterRecipe recipe = test::recipeFor(200, std::vector<float>(200 * 100, 7.0F));
@@ -151,7 +151,7 @@ TEST(PreviewMap, PlacesFilesWithoutAnyPlaceInPixels)
     EXPECT_NEAR(corner.y, -100.0, 1e-9);
 }
 
-TEST(PreviewMap, IsRefusedWhereNoHeightIsFound)
+TEST(PreviewMap, IsRefusedIfNoHeightIsFound)
 {
     const test::TempFolder folder;
     test::RasterRecipe recipe = test::recipeFor(200, std::vector<float>(200 * 100, -9.0F));

@@ -60,7 +60,7 @@ TEST(RangesInPicture, AreElevationsWithoutExaggeration)
     EXPECT_NEAR(ranges[0]->maximum_m, 149.5, 2.0);
 }
 
-TEST(RangesInPicture, HaveNothingForMapsThatAreNotSeen)
+TEST(RangesInPicture, AreEmptyForMapsOutsideThePicture)
 {
     test::MapMaker maker;
     // A small plateau over the eastern end of the slope.

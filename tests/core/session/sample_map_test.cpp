@@ -18,7 +18,7 @@ std::filesystem::path made(const TempFolder& folder, const char* name)
 
 } // namespace
 
-TEST(SampleMap, IsFoundBesideTheInstalledProgram)
+TEST(SampleMap, IsFoundNextToTheInstalledProgram)
 {
     const TempFolder folder;
     const auto bin = made(folder, "usr/bin");

@@ -293,7 +293,7 @@ protected:
     test::Random random_;
 };
 
-TEST_F(SceneSurfaceTest, HeightIsThatOfTheUppermostMapThere)
+TEST_F(SceneSurfaceTest, HeightIsThatOfTheUppermostMap)
 {
     for (const Scene& scene : scenes()) {
         const SceneSurface surface(scene.maps);
@@ -324,7 +324,7 @@ TEST_F(SceneSurfaceTest, HeightIsThatOfTheUppermostMapThere)
     }
 }
 
-TEST_F(SceneSurfaceTest, OutermostSamplesAreGround)
+TEST_F(SceneSurfaceTest, OutermostSamplesAreTerrain)
 {
     for (const Scene& scene : scenes()) {
         const SceneSurface surface(scene.maps);
@@ -345,7 +345,7 @@ TEST_F(SceneSurfaceTest, OutermostSamplesAreGround)
     }
 }
 
-TEST_F(SceneSurfaceTest, CastFindsTheFirstSurfaceThatNoMapCovers)
+TEST_F(SceneSurfaceTest, CastFindsTheFirstUncoveredSurface)
 {
     int after_covered_in_all = 0;
     for (const Scene& scene : scenes()) {
@@ -428,7 +428,7 @@ TEST_F(SceneSurfaceTest, CastPassesAnyNumberOfCoveredSurfaces)
     EXPECT_NEAR(hit->grid.column, 299.5, 1e-6);
 }
 
-TEST_F(SceneSurfaceTest, CastGoesOnFromCoveredSurfacesRightBeforeTheEye)
+TEST_F(SceneSurfaceTest, CastPassesCoveredSurfacesRightInFrontOfTheEye)
 {
     MapMaker maker;
     const std::shared_ptr<const Map> plate =
@@ -484,7 +484,7 @@ TEST_F(SceneSurfaceTest, BoxIsTightAroundAllSamples)
     }
 }
 
-TEST_F(SceneSurfaceTest, IsNothingWhereThereAreNoMaps)
+TEST_F(SceneSurfaceTest, IsEmptyWithoutMaps)
 {
     const SceneSurface none;
     EXPECT_TRUE(none.isEmpty());
@@ -496,7 +496,7 @@ TEST_F(SceneSurfaceTest, IsNothingWhereThereAreNoMaps)
 }
 
 // Every corner of every map, far from its center, is where the geotransforms place it.
-TEST(FrameWithin, PlacesAllOfAMapToAMillionthOfASample)
+TEST(FrameWithin, PlacesAWholeMapWithinAMillionthOfASample)
 {
     test::Random random;
     for (int i = 0; i < 2000; ++i) {
@@ -527,7 +527,7 @@ TEST(FrameWithin, PlacesAllOfAMapToAMillionthOfASample)
     }
 }
 
-TEST(FrameWithin, OfTheSceneItselfIsItsFrame)
+TEST(FrameWithin, IsTheSceneFrameForTheSceneItself)
 {
     MapMaker maker;
     const std::shared_ptr<const Map> map = maker.make({.srs = "EPSG:32611"}, waves(0.0, 10.0));

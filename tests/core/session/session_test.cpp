@@ -67,7 +67,7 @@ Session with(const std::vector<std::shared_ptr<const Map>>& bottom_first)
     return session;
 }
 
-TEST(Session, PutsWhatIsOpenedOnTopAndMakesItActive)
+TEST(Session, AddsLayersOnTopAndMakesThemActive)
 {
     Maps maps;
     const Session session = with({maps.any(), maps.any(), maps.any()});
@@ -82,7 +82,7 @@ TEST(Session, NamesALayerAfterItsFile)
     EXPECT_EQ(session.layers[0].name, "map0.vrt");
 }
 
-TEST(Session, ReplacesTheSampleByWhatIsOpened)
+TEST(Session, ReplacesTheSampleByAnOpenedMap)
 {
     Maps maps;
     const Session sample = added({}, {.map = maps.any(), .name = "s", .is_sample = true});
@@ -92,7 +92,7 @@ TEST(Session, ReplacesTheSampleByWhatIsOpened)
     EXPECT_THAT(namesOf(sample), ElementsAre("s")); // a value: what it came from is untouched
 }
 
-TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
+TEST(Session, KeepsItsInvariantsThroughAnySequenceOfChanges)
 {
     Maps maps;
     const auto dataset = maps.any();
@@ -172,7 +172,7 @@ TEST(Session, KeepsItsPromisesThroughAnyRowOfChanges)
     }
 }
 
-TEST(SessionExaggeration, IsWhatSuitsTheFirstLayer)
+TEST(SessionExaggeration, SuitsTheFirstLayer)
 {
     Maps maps;
     EXPECT_EQ(exaggerationOf({}), 1.0);
@@ -198,7 +198,7 @@ TEST(SessionExaggeration, StaysWithThePictureWhenLayersComeAndGo)
     EXPECT_EQ(exaggerationOf(session), 6.0);
 }
 
-TEST(SessionExaggeration, IsOfItsOwnOnEachBody)
+TEST(SessionExaggeration, IsSeparateForEachBody)
 {
     Maps maps;
     Session session = withExaggeration(with({maps.at("IAU_2015:49900", kDegrees)}), 3.0);
@@ -212,7 +212,7 @@ TEST(SessionExaggeration, IsOfItsOwnOnEachBody)
     EXPECT_EQ(exaggerationOf(session), 3.0);
 }
 
-TEST(SessionStretch, IsOfEachLayer)
+TEST(SessionStretch, IsSeparateForEachLayer)
 {
     Maps maps;
     const Session before = with({maps.any(), maps.any()});
@@ -227,7 +227,7 @@ TEST(SessionStretch, IsOfEachLayer)
     EXPECT_EQ(session, before);
 }
 
-TEST(Placement, ShowsTheTopmostVisibleLayerAndWhatLiesInItsSystem)
+TEST(Placement, ShowsTheTopmostVisibleLayerAndOthersInItsCrs)
 {
     Maps maps;
     const auto utm = maps.at("EPSG:32611", kUtm);
@@ -256,7 +256,7 @@ TEST(Placement, ShowsTheTopmostVisibleLayerAndWhatLiesInItsSystem)
     EXPECT_TRUE(shownLayers(session).empty());
 }
 
-TEST(Placement, NeverDependsOnWhatIsHidden)
+TEST(Placement, NeverDependsOnHiddenLayers)
 {
     Maps maps;
     const std::vector datasets{maps.at("EPSG:32611", kUtm), maps.at("EPSG:32612", kUtm),
@@ -288,7 +288,7 @@ TEST(Placement, NeverDependsOnWhatIsHidden)
     }
 }
 
-TEST(SameCrs, IsAMatterOfPlacesNotOfNames)
+TEST(SameCrs, ComparesPositionsNotNames)
 {
     Maps maps;
     const auto crs_of = [](const std::string& text) { return *Crs::fromText(text); };
