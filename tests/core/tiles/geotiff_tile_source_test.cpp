@@ -96,7 +96,7 @@ protected:
     std::vector<SampleGrid> truth_; // of allTiles()
 };
 
-TEST_P(CheckedTiles, AreThoseOfTheRasterAtEveryLevel)
+TEST_P(CheckedTiles, MatchTheRasterAtEveryLevel)
 {
     const auto reader = source_->checkedBy(checksums_)->open().value();
     const std::vector<TileId> ids = allTiles(source_->layout());
@@ -107,7 +107,7 @@ TEST_P(CheckedTiles, AreThoseOfTheRasterAtEveryLevel)
     }
 }
 
-TEST_P(CheckedTiles, AreErrorsAndNeverOtherHeightsWhereTheFileIsDamaged)
+TEST_P(CheckedTiles, AreErrorsNotWrongHeightsIfTheFileIsDamaged)
 {
     test::Random random;
     const std::vector<TileId> ids = allTiles(source_->layout());

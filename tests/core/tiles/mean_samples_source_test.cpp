@@ -61,7 +61,7 @@ void forEachSample(const TileSource& source, std::size_t level, const F& functio
     }
 }
 
-TEST(MeanSamplesSource, FullResolutionAndMeansAreThoseOfTheSource)
+TEST(MeanSamplesSource, PassesFullResolutionAndMeansThrough)
 {
     test::Random random;
     const auto source = sourceOf(
@@ -85,7 +85,7 @@ TEST(MeanSamplesSource, FullResolutionAndMeansAreThoseOfTheSource)
 
 // The means of a plane are the plane at the block centers, and so are the values interpolated
 // between them: a shift by half a block, or a wrong tile, is detected.
-TEST(MeanSamplesSource, APlaneComesThroughAtEveryLevel)
+TEST(MeanSamplesSource, ReproducesAPlaneAtEveryLevel)
 {
     const auto plane = [](std::size_t column, std::size_t row) {
         return 3.0 * static_cast<double>(column) - 2.0 * static_cast<double>(row);
@@ -112,7 +112,7 @@ TEST(MeanSamplesSource, APlaneComesThroughAtEveryLevel)
     }
 }
 
-TEST(MeanSamplesSource, SamplesAreNearTheTrueOnes)
+TEST(MeanSamplesSource, SamplesAreCloseToTheTrueOnes)
 {
     test::Random random;
     const std::vector<double> heights = test::fractalHeights(random, kColumns, kRows, 900.0, 0.5);
@@ -137,7 +137,7 @@ TEST(MeanSamplesSource, SamplesAreNearTheTrueOnes)
     }
 }
 
-TEST(MeanSamplesSource, VoidsAreWhereAllAroundIsVoid)
+TEST(MeanSamplesSource, SamplesAreVoidIfAllBlocksAroundThemAre)
 {
     const auto source = sourceOf(
         [](std::size_t column, std::size_t row) {
@@ -166,7 +166,7 @@ TEST(MeanSamplesSource, VoidsAreWhereAllAroundIsVoid)
     }
 }
 
-TEST(MeanSamplesSource, ARowOfTilesReadsEachTileOfMeansOnce)
+TEST(MeanSamplesSource, ReadsEachTileOfMeansOncePerRowOfTiles)
 {
     std::vector<TileId> read;
     const auto source = std::make_shared<GridTileSource>(
@@ -200,7 +200,7 @@ TEST(MeanSamplesSource, FinerLevelsCanBeLeftToTheSource)
     EXPECT_EQ(tile->samples.raw(7, 9), source->tile(id).samples.raw(7, 9));
 }
 
-TEST(MeanSamplesSource, FailuresPassAndAreTriedAgain)
+TEST(MeanSamplesSource, PassesErrorsOnAndRetries)
 {
     bool is_failing = true;
     const auto source = std::make_shared<GridTileSource>(

@@ -92,7 +92,7 @@ private:
     int waiting_ = 0;
 };
 
-TEST(TileCache, LoadsWhatIsWantedWholeAndOnce)
+TEST(TileCache, LoadsRequestedTilesOnce)
 {
     const auto source = std::make_shared<GridTileSource>(terrain());
     TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 3});
@@ -115,7 +115,7 @@ TEST(TileCache, LoadsWhatIsWantedWholeAndOnce)
     EXPECT_LE(source->openCount(), 3U) << "a reader is used again";
 }
 
-TEST(TileCache, ServesTheHandBeforeTheView)
+TEST(TileCache, ServesTouchedTilesBeforeTheView)
 {
     Gate gate;
     std::mutex mutex;
@@ -151,7 +151,7 @@ TEST(TileCache, ServesTheHandBeforeTheView)
     EXPECT_EQ(order, expected);
 }
 
-TEST(TileCache, ServesTheHandWhileTheViewWaitsForASlowSource)
+TEST(TileCache, ServesTouchedTilesWhileTheViewWaitsForASlowSource)
 {
     for (const std::size_t threads : {2U, 4U}) {
         Gate gate; // the view's tiles come after it
@@ -182,7 +182,7 @@ TEST(TileCache, ServesTheHandWhileTheViewWaitsForASlowSource)
     }
 }
 
-TEST(TileCache, LeavesOutWhatIsNoLongerWanted)
+TEST(TileCache, SkipsCanceledRequests)
 {
     Gate gate;
     GridTileSource::Options options;
@@ -204,7 +204,7 @@ TEST(TileCache, LeavesOutWhatIsNoLongerWanted)
     EXPECT_EQ(cache.statistics().cancelled, 18U);
 }
 
-TEST(TileCache, KeepsWithinItsBoundWhatWasUsedLast)
+TEST(TileCache, KeepsTheMostRecentlyUsedTilesWithinItsLimit)
 {
     const auto source = std::make_shared<GridTileSource>(terrain());
     const std::size_t tile_bytes = source->tile(tileId(0, 0)).bytes();
@@ -224,7 +224,7 @@ TEST(TileCache, KeepsWithinItsBoundWhatWasUsedLast)
     EXPECT_LE(cache.statistics().bytes_held, tile_bytes);
 }
 
-TEST(TileCache, NeverTakesATileFromSomebodyWhoHoldsIt)
+TEST(TileCache, NeverEvictsATileInUse)
 {
     const auto source = std::make_shared<GridTileSource>(terrain());
     TileCache cache({.bytes_max = 1, .loader_threads = 1});
@@ -239,7 +239,7 @@ TEST(TileCache, NeverTakesATileFromSomebodyWhoHoldsIt)
     EXPECT_EQ(raster.find(tileId(2, 2)), nullptr);
 }
 
-TEST(TileCache, TellsWhyATileFailedAndTriesAgain)
+TEST(TileCache, ReportsWhyATileFailedAndRetries)
 {
     std::atomic<int> failures_left{3};
     GridTileSource::Options options;
@@ -268,7 +268,7 @@ TEST(TileCache, TellsWhyATileFailedAndTriesAgain)
     EXPECT_EQ(cache.statistics().failed, 3U);
 }
 
-TEST(TileCache, OpensAReaderAnewAfterItFailed)
+TEST(TileCache, ReopensAReaderAfterItFailed)
 {
     std::atomic<bool> is_broken{true};
     GridTileSource::Options options;
@@ -286,7 +286,7 @@ TEST(TileCache, OpensAReaderAnewAfterItFailed)
     EXPECT_FALSE(raster.failure(tileId(0, 0)));
 }
 
-TEST(TileCache, PassesOnThatTheSourceCannotBeOpened)
+TEST(TileCache, ReportsThatTheSourceCannotBeOpened)
 {
     GridTileSource::Options options;
     options.before_open = [] {
@@ -299,7 +299,7 @@ TEST(TileCache, PassesOnThatTheSourceCannotBeOpened)
     EXPECT_EQ(tile.error().message, "map in memory: was moved");
 }
 
-TEST(TileCache, TellsThoseWhoWishedAndNobodyAfterwards)
+TEST(TileCache, NotifiesClientsOnlyWhileTheirRequestsExist)
 {
     const auto source = std::make_shared<GridTileSource>(terrain());
     TileCache cache({.loader_threads = 2});
@@ -318,7 +318,7 @@ TEST(TileCache, TellsThoseWhoWishedAndNobodyAfterwards)
     EXPECT_EQ(told, so_far);
 }
 
-TEST(TileCache, ForgetsARasterWithItsLastUser)
+TEST(TileCache, RemovesARasterWithItsLastUser)
 {
     TileCache cache({.loader_threads = 1});
     const auto source = std::make_shared<GridTileSource>(terrain());
@@ -332,7 +332,7 @@ TEST(TileCache, ForgetsARasterWithItsLastUser)
     EXPECT_EQ(source.use_count(), 1);
 }
 
-TEST(TileCache, LoadsOnWhereOnlyItsRastersAreLeft)
+TEST(TileCache, KeepsLoadingWhileItsRastersExist)
 {
     for (int round = 0; round < 20; ++round) {
         const auto source = std::make_shared<GridTileSource>(terrain());
@@ -348,7 +348,7 @@ TEST(TileCache, LoadsOnWhereOnlyItsRastersAreLeft)
     }
 }
 
-TEST(TileCache, EndsWhileTilesAreWanted)
+TEST(TileCache, IsDestroyedWhileRequestsArePending)
 {
     for (int round = 0; round < 20; ++round) {
         const auto source = std::make_shared<GridTileSource>(terrain());
@@ -359,7 +359,7 @@ TEST(TileCache, EndsWhileTilesAreWanted)
     }
 }
 
-TEST(TileCache, GivesWholeTilesToManyThreadsAtOnce)
+TEST(TileCache, ServesCompleteTilesToManyThreads)
 {
     const std::uint64_t seed = 20251;
     SCOPED_TRACE(fmt::format("seed {}", seed));

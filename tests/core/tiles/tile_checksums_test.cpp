@@ -10,7 +10,7 @@
 namespace marsview {
 namespace {
 
-TEST(TileChecksums, KeepOneForEveryTileThatARasterStores)
+TEST(TileChecksums, ExistForEveryStoredTile)
 {
     const TileLayout layout{.columns = 1100, .rows = 700, .mean_levels = 3};
     TileChecksums checksums(layout);
@@ -35,7 +35,7 @@ TEST(TileChecksums, KeepOneForEveryTileThatARasterStores)
     EXPECT_FALSE(TileChecksums::covers({TileKind::Samples, 1, 0, 0}));
 }
 
-TEST(TileChecksums, AreThoseOfZlibWholeAndInParts)
+TEST(TileChecksums, MatchZlibForWholeTilesAndParts)
 {
     test::Random random;
     for (const SampleType type : {SampleType::UInt8, SampleType::Int16, SampleType::Float64}) {

@@ -183,7 +183,7 @@ TEST_F(TileDiskCacheTest, AnotherKeyIsAnotherSource)
     EXPECT_EQ(plain_->readCount(), 2U);
 }
 
-TEST_F(TileDiskCacheTest, AFileOfAnotherSourceIsNotBelieved)
+TEST_F(TileDiskCacheTest, IgnoresFilesOfAnotherSource)
 {
     // As if two keys had the same hash.
     const TileId id{TileKind::Samples, 0, 1, 1};
@@ -201,7 +201,7 @@ TEST_F(TileDiskCacheTest, AFileOfAnotherSourceIsNotBelieved)
     EXPECT_EQ(holed_->readCount(), 2U);
 }
 
-TEST_F(TileDiskCacheTest, DamagedFilesAreRemovedAndFetchedAgain)
+TEST_F(TileDiskCacheTest, RemovesDamagedFilesAndFetchesThemAgain)
 {
     test::Random random;
     const TileId id{TileKind::Samples, 0, 0, 0};
@@ -228,7 +228,7 @@ TEST_F(TileDiskCacheTest, DamagedFilesAreRemovedAndFetchedAgain)
     }
 }
 
-TEST_F(TileDiskCacheTest, WhatWasUsedLongestAgoGoesFirst)
+TEST_F(TileDiskCacheTest, EvictsTheLeastRecentlyUsedTilesFirst)
 {
     const std::vector<TileId> tiles = allTiles(plain_->layout(), 0);
     const auto all = cache();
@@ -264,7 +264,7 @@ TEST_F(TileDiskCacheTest, WhatWasUsedLongestAgoGoesFirst)
     }
 }
 
-TEST_F(TileDiskCacheTest, TheBoundHoldsWhileTilesCome)
+TEST_F(TileDiskCacheTest, StaysWithinItsLimitWhileTilesArrive)
 {
     const std::uint64_t bytes_max = 400'000;
     const auto kept = cache(bytes_max);
@@ -307,7 +307,7 @@ TEST_F(TileDiskCacheTest, ProgramsShareAFolderWhileOneDeletes)
     EXPECT_EQ(wrong, 0);
 }
 
-TEST_F(TileDiskCacheTest, WhereNothingCanBeWrittenTilesComeAllTheSame)
+TEST_F(TileDiskCacheTest, TilesArriveEvenIfNothingCanBeWritten)
 {
     const std::string file = folder_.write("not a folder", "x");
     const auto kept = std::make_shared<TileDiskCache>(
@@ -324,7 +324,7 @@ TEST_F(TileDiskCacheTest, WhereNothingCanBeWrittenTilesComeAllTheSame)
     EXPECT_THAT(*kept->trouble(), HasSubstr("cannot be cached here (Not a directory)"));
 }
 
-TEST_F(TileDiskCacheTest, AFullDiskLeavesNoHalfFilesAndIsTriedAgainLater)
+TEST_F(TileDiskCacheTest, AFullDiskLeavesNoPartialFilesAndIsRetriedLater)
 {
     const auto kept = cache();
     const auto source = cachedOnDisk(plain_, kept, "key");
@@ -347,7 +347,7 @@ TEST_F(TileDiskCacheTest, AFullDiskLeavesNoHalfFilesAndIsTriedAgainLater)
     EXPECT_EQ(kept->trouble(), std::nullopt);
 }
 
-TEST_F(TileDiskCacheTest, ChangesOfFolderAndBoundHoldFromTheNextTileOn)
+TEST_F(TileDiskCacheTest, ChangesOfFolderAndLimitApplyFromTheNextTileOn)
 {
     const auto kept = std::make_shared<TileDiskCache>(
         TileDiskCacheOptions{.folder = folder_.write("not a folder", "x") + "/tiles"});
@@ -380,7 +380,7 @@ TEST_F(TileDiskCacheTest, ChangesOfFolderAndBoundHoldFromTheNextTileOn)
     EXPECT_GT(bytesIn(folder_.file("tiles")), 0U);
 }
 
-TEST_F(TileDiskCacheTest, AFolderIsCountedAndEmptiedOfTilesAlone)
+TEST_F(TileDiskCacheTest, CountsAndRemovesTilesOnly)
 {
     EXPECT_EQ(keptTilesIn(folder_.file("tiles")).count, 0U);
     EXPECT_TRUE(removeKeptTiles(folder_.file("tiles"))) << "the folder does not exist";
@@ -401,7 +401,7 @@ TEST_F(TileDiskCacheTest, AFolderIsCountedAndEmptiedOfTilesAlone)
     EXPECT_EQ(keptTilesIn(folder_.file("tiles")).count, 1U);
 }
 
-TEST_F(TileDiskCacheTest, LeftOversOfKilledProgramsGo)
+TEST_F(TileDiskCacheTest, RemovesFilesLeftByKilledPrograms)
 {
     const auto kept = cache();
     const auto source = cachedOnDisk(plain_, kept, "key");
@@ -414,7 +414,7 @@ TEST_F(TileDiskCacheTest, LeftOversOfKilledProgramsGo)
     EXPECT_TRUE(fs::exists(young));
 }
 
-TEST_F(TileDiskCacheTest, FailuresOfTheSourcePassAndAreNotKept)
+TEST_F(TileDiskCacheTest, PassesErrorsOfTheSourceOnWithoutCachingThem)
 {
     bool is_failing = true;
     const auto source = std::make_shared<GridTileSource>(
@@ -433,7 +433,7 @@ TEST_F(TileDiskCacheTest, FailuresOfTheSourcePassAndAreNotKept)
     EXPECT_TRUE((*reader)->read({}));
 }
 
-TEST_F(TileDiskCacheTest, ASecondVisitToAServerAsksForAlmostNothing)
+TEST_F(TileDiskCacheTest, ASecondVisitToAServerRequestsAlmostNothing)
 {
     constexpr std::size_t side = 1536;
     const std::vector<float> heights = fractalHeights(side, side, 3);
