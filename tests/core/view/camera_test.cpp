@@ -36,7 +36,7 @@ TEST(OrbitCamera, LooksDownWithNorthUpAtZeroTilt)
     EXPECT_EQ(eyeOf({.distance_m = 10.0}), (ScenePoint{0.0, 0.0, 10.0}));
 }
 
-TEST(OrbitCamera, StandsInTheSouthWhenItHeadsNorth)
+TEST(OrbitCamera, IsSouthOfItsTargetWhenItFacesNorth)
 {
     const OrbitCamera camera{.distance_m = 10.0, .tilt = Angle::degrees(60.0)};
     EXPECT_LT(eyeOf(camera).y, 0.0);
@@ -44,7 +44,7 @@ TEST(OrbitCamera, StandsInTheSouthWhenItHeadsNorth)
     EXPECT_GT(axesOf(camera).forward.y, 0.0);
 }
 
-TEST(PickRay, LeadsBackToThePixelItWentThrough)
+TEST(PickRay, ProjectsBackToItsPixel)
 {
     const OrbitCamera camera = wideCamera();
     std::mt19937_64 random(1);
@@ -59,14 +59,14 @@ TEST(PickRay, LeadsBackToThePixelItWentThrough)
     }
 }
 
-TEST(PickRay, PassesThroughTheTargetInTheMiddle)
+TEST(PickRay, PassesThroughTheTargetAtTheCenter)
 {
     const OrbitCamera camera = wideCamera();
     const Ray ray = pickRay(camera, kViewport, {640.0, 400.0});
     EXPECT_LT(length(ray.at(camera.distance_m) - camera.target), 1e-6);
 }
 
-TEST(Project, AgreesWithTheMatricesThatDraw)
+TEST(Project, MatchesTheMatricesUsedForDrawing)
 {
     const OrbitCamera camera = wideCamera();
     const SceneBox box{{-3e6, -3e6, -8e3}, {3e6, 3e6, 2e4}};
@@ -83,7 +83,7 @@ TEST(Project, AgreesWithTheMatricesThatDraw)
     EXPECT_LT(std::abs(row(2) / row(3)), 1.0);
 }
 
-TEST(Project, HasNothingBehindTheEye)
+TEST(Project, IsEmptyBehindTheEye)
 {
     const OrbitCamera camera = wideCamera();
     EXPECT_FALSE(project(camera, kViewport, eyeOf(camera) - axesOf(camera).forward));

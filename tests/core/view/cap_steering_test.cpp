@@ -24,7 +24,7 @@ OrbitCamera turned(const Vec3& turn, double seconds)
     return steered(someCamera(), {.push = {}, .turn = turn}, seconds, kLimits);
 }
 
-TEST(CapSpeed, IsNothingInTheDeadZoneAndTheCubeBeyondIt)
+TEST(CapSpeed, IsZeroInTheDeadZoneAndCubicBeyond)
 {
     for (const double rate : {0.0, 0.05, kCapDeadZone}) {
         EXPECT_EQ(capSpeed(rate), 0.0);
@@ -39,7 +39,7 @@ TEST(CapSpeed, IsNothingInTheDeadZoneAndTheCubeBeyondIt)
     EXPECT_EQ(capSpeed(std::numeric_limits<double>::quiet_NaN()), 0.0);
 }
 
-TEST(CapSpeed, SetsInWithoutAJerkAndNeverFalls)
+TEST(CapSpeed, StartsSmoothlyAndIsMonotonic)
 {
     constexpr double kStep = 1e-3;
     double last = capSpeed(-1.0);
@@ -53,7 +53,7 @@ TEST(CapSpeed, SetsInWithoutAJerkAndNeverFalls)
     EXPECT_LT(capSpeed(kCapDeadZone + kStep) / kStep, 1e-5) << "its slope starts at zero";
 }
 
-TEST(Steered, GoesLevelToTheSideThatItIsPushedTo)
+TEST(Steered, PansHorizontallyInTheDirectionOfThePush)
 {
     const OrbitCamera before = someCamera();
     const double azimuth = before.azimuth.radians();
@@ -72,7 +72,7 @@ TEST(Steered, GoesLevelToTheSideThatItIsPushedTo)
     }
 }
 
-TEST(Steered, ComesNearerPushedDownAndRisesPulledUp)
+TEST(Steered, ZoomsInWhenPushedDownAndOutWhenPulledUp)
 {
     const OrbitCamera before = someCamera();
     const OrbitCamera down = pushed({0.0, 0.0, -1.0}, 0.5);
@@ -84,7 +84,7 @@ TEST(Steered, ComesNearerPushedDownAndRisesPulledUp)
     EXPECT_LT(length(up.target - before.target), 1e-9);
 }
 
-TEST(Steered, TurnsAsItIsTwistedAndLooksUpAsItIsTippedBack)
+TEST(Steered, TurnsWhenTwistedAndLooksUpWhenTippedBack)
 {
     // A right-handed rotation about the up axis turns to the left: the content then seen lies
     // further west of north.
@@ -97,7 +97,7 @@ TEST(Steered, TurnsAsItIsTwistedAndLooksUpAsItIsTippedBack)
     EXPECT_FALSE(doesSteer({.push = {}, .turn = {0.0, 1.0, 0.0}}));
 }
 
-TEST(Steered, IsTheSameInOneStepAndInMany)
+TEST(Steered, GivesTheSameResultInOneStepAndInMany)
 {
     for (const CapRates& rates : {CapRates{{0.7, -0.4, 0.0}, {}},
                                   {{0.0, 0.0, -0.6}, {}},

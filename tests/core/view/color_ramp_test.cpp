@@ -154,7 +154,7 @@ double unevenness(const std::array<Rgb8, 256>& colors, std::size_t first, std::s
     return worst;
 }
 
-TEST(ColorRamp, GrowsEvenlyInLightnessWhereItSaysSo)
+TEST(ColorRamp, LightnessRisesEvenlyIfDeclaredEven)
 {
     constexpr double kBound = 0.01;
     for (const ColorRamp& ramp : colorRamps()) {
@@ -180,7 +180,7 @@ TEST(ColorRamp, GrowsEvenlyInLightnessWhereItSaysSo)
 }
 
 // Lightness increases steadily, except for rounding to bytes.
-TEST(ColorRamp, NeverFallsInLightnessWhereItIsEven)
+TEST(ColorRamp, LightnessNeverFallsIfEven)
 {
     for (const ColorRamp& ramp : colorRamps()) {
         if (ramp.evenness == RampEvenness::Even) {
@@ -193,7 +193,7 @@ TEST(ColorRamp, NeverFallsInLightnessWhereItIsEven)
 }
 
 // For even ramps, steps of a seventeenth are between 0.8 and 1.25 times their mean in Oklab.
-TEST(ColorRamp, StepsLookEquallyLargeWhereItIsEven)
+TEST(ColorRamp, StepsLookEquallyLargeIfEven)
 {
     for (const ColorRamp& ramp : colorRamps()) {
         if (ramp.evenness != RampEvenness::Even) {
@@ -214,7 +214,7 @@ TEST(ColorRamp, StepsLookEquallyLargeWhereItIsEven)
     }
 }
 
-TEST(ColorRamp, StaysDistinctToColorBlindEyesWhereItSaysSo)
+TEST(ColorRamp, IsDistinctForColorBlindPeopleIfDeclaredSo)
 {
     constexpr double kNeighbours = 0.02;
     constexpr double kOthers = 0.035;
@@ -232,7 +232,7 @@ TEST(ColorRamp, StaysDistinctToColorBlindEyesWhereItSaysSo)
     }
 }
 
-TEST(ColorVision, LeavesGreysAloneAndTakesRedFromGreen)
+TEST(ColorVision, KeepsGraysAndConfusesRedWithGreen)
 {
     for (const auto missing : {ColorVision::Long, ColorVision::Middle, ColorVision::Short}) {
         const ColorVision vision(missing);
@@ -246,7 +246,7 @@ TEST(ColorVision, LeavesGreysAloneAndTakesRedFromGreen)
               0.05);
 }
 
-TEST(ColorRamp, BeginsAndEndsWithItsStops)
+TEST(ColorRamp, StartsAndEndsWithItsStops)
 {
     for (const ColorRamp& ramp : colorRamps()) {
         const auto colors = sampledRamp(ramp);
@@ -281,7 +281,7 @@ TEST(ColorRamp, IsEvenAndSafeByDefault)
     }
 }
 
-TEST(TintedRange, PutsTheDatumInTheMiddleOfACentredRamp)
+TEST(TintedRange, PutsTheDatumInTheMiddleOfACenteredRamp)
 {
     const HeightRange mars{.minimum_m = -8068.0, .maximum_m = 21171.0};
     const HeightRange centred = tintedRange(*colorRampNamed("datum"), mars);

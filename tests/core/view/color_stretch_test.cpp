@@ -26,14 +26,14 @@ Heightfield shuffledNumbers()
     });
 }
 
-TEST(ColorStretch, IsByDefaultWhatSuitsTheMap)
+TEST(ColorStretch, DefaultsToTheAutomaticRange)
 {
     const HeightRange range = stretched(shuffledNumbers(), {});
     EXPECT_EQ(range.minimum_m, kAutomatic.minimum_m);
     EXPECT_EQ(range.maximum_m, kAutomatic.maximum_m);
 }
 
-TEST(ColorStretch, IsTheWholeRangeWhenAskedFor)
+TEST(ColorStretch, IsTheWholeRangeOnRequest)
 {
     const HeightRange range = stretched(shuffledNumbers(), {.kind = StretchKind::Full});
     EXPECT_EQ(range.minimum_m, 0.0);
@@ -51,7 +51,7 @@ TEST(ColorStretch, CutsThePercentageOfSamplesAtEitherEnd)
     }
 }
 
-TEST(ColorStretch, CountsNoNodata)
+TEST(ColorStretch, IgnoresNodata)
 {
     const Heightfield field = test::floatTerrain(100, 100, [](std::size_t c, std::size_t r) {
         return r < 50 ? std::nan("") : static_cast<double>(100 * (r - 50) + c);
@@ -62,7 +62,7 @@ TEST(ColorStretch, CountsNoNodata)
     EXPECT_EQ(range.maximum_m, 4499.0);
 }
 
-TEST(ColorStretch, IsTheWholeRangeWhereAPercentileLeavesOneElevation)
+TEST(ColorStretch, IsTheWholeRangeIfAPercentileLeavesOneElevation)
 {
     const Heightfield field = test::floatTerrain(
         100, 100, [](std::size_t c, std::size_t r) { return c == 3 && r == 4 ? 80.0 : 10.0; });
@@ -82,7 +82,7 @@ TEST(ColorStretch, StaysOneElevationOnAConstantMap)
     }
 }
 
-TEST(ColorStretch, HasTheEndsThatAreFixedAlsoBeyondTheMap)
+TEST(ColorStretch, KeepsFixedEndsBeyondTheMap)
 {
     const HeightRange range = stretched(shuffledNumbers(), fixedStretch(-500.0, 20000.0));
     EXPECT_EQ(range.minimum_m, -500.0);

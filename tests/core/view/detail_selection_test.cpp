@@ -494,7 +494,7 @@ protected:
     std::vector<Map> maps_ = maps(random_);
 };
 
-TEST_F(DetailSelectionTest, CoversWhatIsInThePictureOnceAndGivesWayOnEveryEdge)
+TEST_F(DetailSelectionTest, CoversThePictureOnceAndMatchesOnEveryEdge)
 {
     EdgeCheck edges;
     std::size_t node_count = 0;
@@ -573,7 +573,7 @@ TEST_F(DetailSelectionTest, CoversWhatIsInThePictureOnceAndGivesWayOnEveryEdge)
     EXPECT_LE(edges.levels_max, 2U);
 }
 
-TEST_F(DetailSelectionTest, DrawsEachCellWhereEverySampleIsAskedFor)
+TEST_F(DetailSelectionTest, DrawsEveryCellAtFullResolution)
 {
     for (const Map& map : maps_) {
         SCOPED_TRACE(map.name);
@@ -612,7 +612,7 @@ TEST_F(DetailSelectionTest, DrawsEachCellWhereEverySampleIsAskedFor)
     }
 }
 
-TEST_F(DetailSelectionTest, DrawsLessWhereMoreErrorIsAllowed)
+TEST_F(DetailSelectionTest, DrawsFewerTrianglesForALargerError)
 {
     for (const Map& map : maps_) {
         DetailSelector selector(map.analysis, map.field.columns(), map.field.rows(), map.frame);
@@ -630,7 +630,7 @@ TEST_F(DetailSelectionTest, DrawsLessWhereMoreErrorIsAllowed)
 }
 
 // The selection does not depend on earlier selections.
-TEST_F(DetailSelectionTest, IsAFunctionOfTheViewAlone)
+TEST_F(DetailSelectionTest, DependsOnTheViewOnly)
 {
     const Map& map = maps_.front();
     DetailSelector used(map.analysis, map.field.columns(), map.field.rows(), map.frame);
@@ -648,7 +648,7 @@ TEST_F(DetailSelectionTest, IsAFunctionOfTheViewAlone)
     }
 }
 
-TEST(DetailSelector, SelectsNothingOfAMapThatIsAllVoid)
+TEST(DetailSelector, SelectsNothingOnAMapOfVoids)
 {
     const Map map("void", test::floatTerrain(100, 100, [](auto...) { return kNan; }),
                   test::northUpFrame(100, 100, 10.0));

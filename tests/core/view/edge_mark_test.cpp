@@ -23,7 +23,7 @@ ScenePoint placeAt(const OrbitCamera& camera, const Vec3& right_down_forward)
            axes.forward * right_down_forward.z;
 }
 
-TEST(EdgeMark, IsNotThereForWhatIsInThePicture)
+TEST(EdgeMark, IsEmptyForPointsInThePicture)
 {
     const OrbitCamera camera = someCamera();
     EXPECT_FALSE(edgeMark(camera, camera.target, kLine));
@@ -35,7 +35,7 @@ TEST(EdgeMark, IsNotThereForWhatIsInThePicture)
         << "covered";
 }
 
-TEST(EdgeMark, LiesOnTheSideThatThePlaceIsOn)
+TEST(EdgeMark, LiesOnTheSideOfThePoint)
 {
     const OrbitCamera camera = someCamera();
     const auto right = edgeMark(camera, placeAt(camera, {9e4, 0.0, 1e4}), kLine);
@@ -61,7 +61,7 @@ TEST(EdgeMark, LiesOnTheSideThatThePlaceIsOn)
     EXPECT_NEAR(behind->down, 1.0, 1e-6);
 }
 
-TEST(EdgeMark, LiesOnTheLineFromTheMiddleToWhereThePlaceWouldAppear)
+TEST(EdgeMark, LiesOnTheLineFromTheMiddleToTheProjectedPoint)
 {
     test::Random random;
     const auto any = [&] { return random.uniform(-1.0, 1.0); };
@@ -93,7 +93,7 @@ TEST(EdgeMark, LiesOnTheLineFromTheMiddleToWhereThePlaceWouldAppear)
 }
 
 // Among all small turns of the view, the one toward the mark moves the place closest to the view.
-TEST(EdgeMark, PointsTheShortestWayToTurnAlsoToWhatIsBehind)
+TEST(EdgeMark, PointsTheShortestWayEvenToPointsBehindTheEye)
 {
     test::Random random;
     const auto any = [&] { return random.uniform(-1.0, 1.0); };
@@ -118,7 +118,7 @@ TEST(EdgeMark, PointsTheShortestWayToTurnAlsoToWhatIsBehind)
     }
 }
 
-TEST(EdgeMark, IsInTheMiddleWhereThereIsNoRoom)
+TEST(EdgeMark, IsInTheMiddleWithoutRoom)
 {
     const OrbitCamera camera = someCamera();
     const auto mark = edgeMark(camera, placeAt(camera, {9e4, 1e4, 1e4}),

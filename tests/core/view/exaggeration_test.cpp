@@ -7,21 +7,21 @@
 namespace marsview {
 namespace {
 
-TEST(DefaultExaggeration, LiftsThePlanetsAndLeavesTheMountainsAlone)
+TEST(DefaultExaggeration, RaisesPlanetsAndKeepsMountains)
 {
     EXPECT_EQ(defaultExaggeration(2.13e7, 2.92e4), 10.0) << "all of Mars";
     EXPECT_EQ(defaultExaggeration(1.4e4, 1.86e3), 1.0) << "a volcano";
     EXPECT_EQ(defaultExaggeration(1e7, 1.0), 20.0) << "all but flat";
 }
 
-TEST(DefaultExaggeration, PressesDownMapsWithoutScale)
+TEST(DefaultExaggeration, FlattensMapsWithoutScale)
 {
     const double degrees_over_metres = defaultExaggeration(360.0, 18000.0);
     EXPECT_LT(degrees_over_metres, 0.01);
     EXPECT_GT(degrees_over_metres, 0.001);
 }
 
-TEST(DefaultExaggeration, IsOneWhereNothingIsKnown)
+TEST(DefaultExaggeration, IsOneForUnknownSizes)
 {
     EXPECT_EQ(defaultExaggeration(1e3, 0.0), 1.0);
     EXPECT_EQ(defaultExaggeration(0.0, 0.0), 1.0);
@@ -42,13 +42,13 @@ TEST(SteppedExaggeration, GoesThroughRoundNumbersAndBack)
     }
 }
 
-TEST(SteppedExaggeration, LeavesOddNumbersForTheNextRoundOne)
+TEST(SteppedExaggeration, RoundsOddFactorsToTheNextRoundOne)
 {
     EXPECT_EQ(steppedExaggeration(4.0, 1), 5.0);
     EXPECT_EQ(steppedExaggeration(4.0, -1), 3.0);
 }
 
-TEST(ExaggerationRange, ReachesBeyondWhatSuitsUnusualMaps)
+TEST(ExaggerationRange, ExtendsBeyondUnusualSuitableFactors)
 {
     for (const double suitable : {0.1, 0.5, 1.0, 20.0, 100.0}) {
         EXPECT_EQ(exaggerationRange(suitable).least, 0.1) << suitable;
@@ -59,7 +59,7 @@ TEST(ExaggerationRange, ReachesBeyondWhatSuitsUnusualMaps)
     EXPECT_DOUBLE_EQ(exaggerationRange(300.0).most, 3000.0);
 }
 
-TEST(Reexaggerated, LooksAtTheSamePieceOfGround)
+TEST(Reexaggerated, LooksAtTheSameTerrain)
 {
     const OrbitCamera camera{.target = {10.0, 20.0, 300.0}, .distance_m = 1000.0};
     const OrbitCamera after = reexaggerated(camera, 2.0, 10.0);

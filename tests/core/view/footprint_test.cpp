@@ -96,7 +96,7 @@ double outside(const std::vector<GridPoint>& polygon, GridPoint p)
     return furthest;
 }
 
-TEST(Footprint, HoldsExactlyThePointsThatProjectIntoThePicture)
+TEST(Footprint, ContainsExactlyThePointsThatProjectIntoThePicture)
 {
     test::Random random;
     int inside_count = 0;
@@ -140,7 +140,7 @@ TEST(Footprint, HoldsExactlyThePointsThatProjectIntoThePicture)
     EXPECT_LT(undecided_count, 100);
 }
 
-TEST(Footprint, HasItsCornersOnTheRimOfPictureOrMap)
+TEST(Footprint, HasItsCornersOnTheEdgeOfPictureOrMap)
 {
     test::Random random;
     for (int i = 0; i < 5000; ++i) {
@@ -166,7 +166,7 @@ TEST(Footprint, HasItsCornersOnTheRimOfPictureOrMap)
     }
 }
 
-TEST(Footprint, StraightDownIsTheRectangleOfThePicture)
+TEST(Footprint, IsTheRectangleOfThePictureStraightDown)
 {
     const OrbitCamera camera{.distance_m = 1000.0};
     const std::vector<GridPoint> polygon = footprint(camera, {200, 100}, kNorthUp);
@@ -180,14 +180,14 @@ TEST(Footprint, StraightDownIsTheRectangleOfThePicture)
                 1e-12);
 }
 
-TEST(Footprint, OfAFarCameraIsTheWholeMap)
+TEST(Footprint, IsTheWholeMapForADistantCamera)
 {
     const std::vector<GridPoint> polygon = footprint({.distance_m = 1e6}, {1280, 800}, kNorthUp);
     EXPECT_EQ(polygon.size(), 4U);
     EXPECT_DOUBLE_EQ(shareOfMap(polygon, kNorthUp), 1.0);
 }
 
-TEST(Footprint, LooksPastTheHorizonToTheEdgeOfTheMap)
+TEST(Footprint, ReachesTheEdgeOfTheMapBelowTheHorizon)
 {
     const OrbitCamera camera{
         .target = {0.0, -2000.0, 0.0}, .distance_m = 500.0, .tilt = Angle::degrees(85.0)};

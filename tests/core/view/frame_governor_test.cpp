@@ -84,7 +84,7 @@ int stepOf(const FramePlan& plan)
 
 } // namespace
 
-TEST(FrameGovernor, ComesToTheTargetOnMachinesOtherThanBelieved)
+TEST(FrameGovernor, ReachesTheTargetOnUnexpectedMachines)
 {
     Random random;
     for (int i = 0; i < 500; ++i) {
@@ -104,7 +104,7 @@ TEST(FrameGovernor, ComesToTheTargetOnMachinesOtherThanBelieved)
     }
 }
 
-TEST(FrameGovernor, SettlesWhereTheLoadIsConstant)
+TEST(FrameGovernor, SettlesUnderConstantLoad)
 {
     Random random;
     for (int i = 0; i < 500; ++i) {
@@ -120,7 +120,7 @@ TEST(FrameGovernor, SettlesWhereTheLoadIsConstant)
     }
 }
 
-TEST(FrameGovernor, HardlyStirsWhereFramesVaryByATenth)
+TEST(FrameGovernor, HardlyReactsToVariationsOfATenth)
 {
     Random random;
     int changes = 0;
@@ -138,7 +138,7 @@ TEST(FrameGovernor, HardlyStirsWhereFramesVaryByATenth)
     EXPECT_LE(changes, kLoops * kFrames / 100) << "less than one in a hundred frames";
 }
 
-TEST(FrameGovernor, ForgivesASingleSlowFrame)
+TEST(FrameGovernor, IgnoresASingleSlowFrame)
 {
     Random random;
     for (int i = 0; i < 200; ++i) {
@@ -175,7 +175,7 @@ TEST(FrameGovernor, FollowsAChangeOfLoadWithinAThirdOfASecond)
     EXPECT_LE(loop.timeOf(loop.plan), kTarget * 1.2);
 }
 
-TEST(FrameGovernor, KeepsTheSurfaceSharpUnderTheHandWhilePixelsCanGiveWay)
+TEST(FrameGovernor, ReducesPixelsBeforeTheSurfaceInContact)
 {
     Random random;
     for (int i = 0; i < 500; ++i) {
@@ -193,7 +193,7 @@ TEST(FrameGovernor, KeepsTheSurfaceSharpUnderTheHandWhilePixelsCanGiveWay)
     }
 }
 
-TEST(FrameGovernor, StaysWithinItsBoundsWhateverFramesTake)
+TEST(FrameGovernor, StaysWithinItsBoundsForAnyFrameTime)
 {
     Random random;
     for (int i = 0; i < 200; ++i) {

@@ -89,7 +89,7 @@ double expectedRed(const Grid& grid,
     return std::min(255.0, share * 255.0 * shade); // the ramp is gray and linear
 }
 
-TEST(MapPreview, AgreesWithNormalsFromCrossProducts)
+TEST(MapPreview, MatchesNormalsFromCrossProducts)
 {
     test::Random random;
     for (int i = 0; i < 300; ++i) {
@@ -125,7 +125,7 @@ TEST(MapPreview, AgreesWithNormalsFromCrossProducts)
     }
 }
 
-TEST(MapPreview, OfFlatGroundHasOneColour)
+TEST(MapPreview, FlatTerrainHasOneColor)
 {
     const Grid grid{5, 4, std::vector<float>(20, 50.0F)};
     PreviewStyle style = greys();
@@ -140,7 +140,7 @@ TEST(MapPreview, OfFlatGroundHasOneColour)
         << "equal elevations get the middle of the ramp";
 }
 
-TEST(MapPreview, IsLitFromTheNorthWestOnEveryRaster)
+TEST(MapPreview, IsLitFromTheNorthwestOnEveryRaster)
 {
     constexpr std::array<GridPoint, 9> kNine{
         {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}}};
@@ -163,7 +163,7 @@ TEST(MapPreview, IsLitFromTheNorthWestOnEveryRaster)
     }
 }
 
-TEST(MapPreview, MakesOnlyTheVoidTransparent)
+TEST(MapPreview, MakesOnlyVoidsTransparent)
 {
     const Grid grid{2, 2, {10.0F, kVoid, 20.0F, 30.0F}};
     const MapPreview preview = mapPreview(grid.view(), kNorthUp, greys());
@@ -173,7 +173,7 @@ TEST(MapPreview, MakesOnlyTheVoidTransparent)
     EXPECT_EQ(preview.rgba[15], 255);
 }
 
-TEST(MapPreview, OfNothingIsEmpty)
+TEST(MapPreview, IsEmptyForAnEmptyGrid)
 {
     const MapPreview preview = mapPreview({}, kNorthUp, greys());
     EXPECT_TRUE(preview.rgba.empty());

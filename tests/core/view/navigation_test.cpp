@@ -39,7 +39,7 @@ TEST(HomeCamera, ShowsTheWholeBoxFromTheSouth)
     }
 }
 
-TEST(Zoomed, KeepsTheAnchorInItsPlace)
+TEST(Zoomed, KeepsTheAnchorFixed)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
     const ScenePoint anchor{5e4, 3e4, 1200.0};
@@ -61,7 +61,7 @@ TEST(Zoomed, StopsAtTheLimits)
     EXPECT_EQ(zoomed(camera, 1e12, camera.target, limits).distance_m, limits.distance_max_m);
 }
 
-TEST(Zoomed, OutOverTheSkyMultipliesTheDistance)
+TEST(Zoomed, ZoomingOutOverTheSkyMultipliesTheDistance)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
     OrbitCamera camera =
@@ -94,7 +94,7 @@ TEST(AnchorBesideMap, IsLevelWithTheTarget)
     EXPECT_NEAR(seen->y, pixel.y, 1e-6);
 }
 
-TEST(Interpolated, KeepsTheAnchorOfAZoomAllTheWay)
+TEST(Interpolated, KeepsTheAnchorOfAZoomFixedThroughout)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
     const ScenePoint anchor{5e4, 3e4, 1200.0};
@@ -110,7 +110,7 @@ TEST(Interpolated, KeepsTheAnchorOfAZoomAllTheWay)
     }
 }
 
-TEST(Interpolated, TurnsTheShorterWay)
+TEST(Interpolated, TurnsInTheShorterDirection)
 {
     OrbitCamera from = someCamera();
     OrbitCamera to = from;
@@ -121,7 +121,7 @@ TEST(Interpolated, TurnsTheShorterWay)
     EXPECT_EQ(interpolated(from, to, 1.0), to);
 }
 
-TEST(Dragged, CarriesWhatWasGrabbed)
+TEST(Dragged, KeepsTheGrabbedPointUnderThePointer)
 {
     const OrbitCamera before = someCamera();
     const PixelPoint from{520.0, 310.0};
@@ -167,7 +167,7 @@ TEST(Orbited, KeepsTheTargetAndDistance)
     EXPECT_LE(orbited(camera, {}, Angle::degrees(500.0)).tilt.degrees(), 85.0 + 1e-9);
 }
 
-TEST(Retargeted, LeavesThePictureAlone)
+TEST(Retargeted, DoesNotChangeThePicture)
 {
     const OrbitCamera camera = someCamera();
     const OrbitCamera after = retargeted(camera, 3.3e4);
@@ -190,7 +190,7 @@ TEST(Constrained, NeverLosesTheMap)
     EXPECT_LE(found.tilt.degrees(), 85.0 + 1e-9);
 }
 
-TEST(Constrained, KeepsTheEyeAboveTheGround)
+TEST(Constrained, KeepsTheEyeAboveTheTerrain)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
     const auto hill = [](double east_m, double north_m) {
@@ -212,7 +212,7 @@ TEST(Constrained, KeepsTheEyeAboveTheGround)
 
 // With a target in the air above the map's edge, seen along the horizon, the view had shown only
 // sky around it.
-TEST(Constrained, KeepsTheGroundUnderTheTargetInThePicture)
+TEST(Constrained, KeepsTheTerrainUnderTheTargetInThePicture)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
     for (int degrees = 0; degrees <= 85; degrees += 5) {
@@ -245,7 +245,7 @@ TEST(Constrained, TiltsLessBehindARidge)
     EXPECT_EQ(constrained(camera, limits, ridge), camera) << "allowed cameras do not change";
 }
 
-TEST(Constrained, AsksNothingOfHolesInTheGround)
+TEST(Constrained, IsNotConstrainedByHolesInTheTerrain)
 {
     const NavigationLimits limits = navigationLimits(kBox, 30.0);
     const auto nothing = [](double /*east_m*/, double /*north_m*/) { return std::nan(""); };

@@ -344,7 +344,7 @@ void walkAround(Walk& walk)
 
 class NavigationWalk : public testing::TestWithParam<Terrain> {};
 
-TEST_P(NavigationWalk, NeverLosesTheMapNorEntersTheGround)
+TEST_P(NavigationWalk, NeverLosesTheMapNorEntersTheTerrain)
 {
     Walk walk(GetParam().height);
     walkAround(walk);
@@ -352,7 +352,7 @@ TEST_P(NavigationWalk, NeverLosesTheMapNorEntersTheGround)
 
 class NavigationWalkOnMaps : public testing::TestWithParam<const char*> {};
 
-TEST_P(NavigationWalkOnMaps, NeverLosesTheMapNorEntersTheGround)
+TEST_P(NavigationWalkOnMaps, NeverLosesTheMapNorEntersTheTerrain)
 {
     JobMonitor monitor;
     const auto dataset = readMap(RasterSpec{(test::bundledSamples() / GetParam()).string(), 1, {}},

@@ -41,7 +41,7 @@ TEST(RoundNumber, EnclosesAnyValueClosely)
     }
 }
 
-TEST(RoundNumber, IsItsOwnNeighbour)
+TEST(RoundNumber, IsItsOwnNeighbor)
 {
     for (const double value : {0.001, 0.02, 0.5, 1.0, 2.0, 5.0, 10.0, 2e3, 5e6, 1e15}) {
         EXPECT_EQ(roundNumberBelow(value), value);
@@ -50,7 +50,7 @@ TEST(RoundNumber, IsItsOwnNeighbour)
     }
 }
 
-TEST(RoundNumber, TellsItsDecimals)
+TEST(RoundNumber, ReportsItsDecimals)
 {
     EXPECT_EQ(decimalsOf(5000.0), 0);
     EXPECT_EQ(decimalsOf(1.0), 0);
@@ -59,7 +59,7 @@ TEST(RoundNumber, TellsItsDecimals)
     EXPECT_EQ(decimalsOf(0.002), 3);
 }
 
-TEST(RoundTicks, AreThoseThatPeopleWouldWrite)
+TEST(RoundTicks, AreRoundNumbers)
 {
     EXPECT_THAT(roundTicks(-8068.0, 21171.0, 7).values,
                 ElementsAre(-5000.0, 0.0, 5000.0, 10000.0, 15000.0, 20000.0));
@@ -107,7 +107,7 @@ TEST(RoundTicks, HaveNoNegativeZero)
     }
 }
 
-TEST(RoundTicks, AreNoneWhereThereIsNoRange)
+TEST(RoundTicks, AreEmptyWithoutARange)
 {
     const double nan = std::nan("");
     const double huge = std::numeric_limits<double>::max();

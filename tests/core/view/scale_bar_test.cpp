@@ -45,7 +45,7 @@ TEST(ScaleBar, IsTheLongestRoundLengthThatFits)
     }
 }
 
-TEST(ScaleBar, KnowsTheLengthsOfMars)
+TEST(ScaleBar, MatchesKnownLengthsOnMars)
 {
     const auto bar = scaleBar(4000.0, 160.0); // 640 km
     ASSERT_TRUE(bar);
@@ -53,7 +53,7 @@ TEST(ScaleBar, KnowsTheLengthsOfMars)
     EXPECT_EQ(bar->width_px, 125.0);
 }
 
-TEST(ScaleBar, IsNotThereWithoutScaleOrRoom)
+TEST(ScaleBar, IsEmptyWithoutScaleOrRoom)
 {
     EXPECT_FALSE(scaleBar(0.0, 100.0));
     EXPECT_FALSE(scaleBar(-1.0, 100.0));

@@ -49,13 +49,13 @@ TEST(SlopeRange, LeavesOutTheSteepestHundredth)
     EXPECT_GT(rangeOf(cliff(8)).maximum.degrees(), 50.0);
 }
 
-TEST(SlopeRange, OfLevelGroundIsNotEmpty)
+TEST(SlopeRange, IsNotEmptyForLevelTerrain)
 {
     const SlopeRange range = rangeOf(roof(0.0, 0.0, 0));
     EXPECT_NEAR(range.maximum.degrees(), 0.1, 1e-9);
 }
 
-TEST(SlopeRange, CountsTheTexelsOfTheMapAlone)
+TEST(SlopeRange, CountsOnlyTexelsOfTheMap)
 {
     // 40 of the tile's 256 rows are on the map; the last row, a tenth of it, is steep.
     const Heightfield field = test::floatTerrain(256, 40, [](std::size_t c, std::size_t r) {
@@ -95,7 +95,7 @@ TEST(SlopeHistogram, CountsTheTexelsOfEachSlope)
     EXPECT_EQ(below.counts[0] + below.counts[1] + below.counts[2] + below.counts[3], 200U * 200U);
 }
 
-TEST(SlopeHistogram, OfLevelGroundAndOfVoidsDoesNoHarm)
+TEST(SlopeHistogram, HandlesLevelTerrainAndVoids)
 {
     const Heightfield level = roof(0.0, 0.0, 0);
     const SceneFrame frame = test::northUpFrame(level.columns(), level.rows(), 1.0);

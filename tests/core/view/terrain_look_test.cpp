@@ -8,7 +8,7 @@
 namespace marsview {
 namespace {
 
-TEST(AutomaticContourInterval, DrawsSomeLinesAndNotTooMany)
+TEST(AutomaticContourInterval, GivesAReasonableNumberOfLines)
 {
     test::Random random;
     for (int i = 0; i < 20000; ++i) {
@@ -35,7 +35,7 @@ TEST(AutomaticContourInterval, IsRound)
     EXPECT_EQ(automaticContourInterval({.minimum_m = 2.0, .maximum_m = 5.0}, 20.0), 0.1);
 }
 
-TEST(AutomaticContourInterval, IsNoneWhereNothingRises)
+TEST(AutomaticContourInterval, IsZeroOnFlatTerrain)
 {
     EXPECT_EQ(automaticContourInterval({.minimum_m = 5.0, .maximum_m = 5.0}, 10.0), 0.0);
     EXPECT_EQ(automaticContourInterval({.minimum_m = 0.0, .maximum_m = 9.0}, 0.0), 0.0);
@@ -43,7 +43,7 @@ TEST(AutomaticContourInterval, IsNoneWhereNothingRises)
     EXPECT_EQ(automaticContourInterval({.minimum_m = 0.0, .maximum_m = HUGE_VAL}, 1.0), 0.0);
 }
 
-TEST(ContourInterval, IsTheOneAskedFor)
+TEST(ContourInterval, IsTheRequestedOne)
 {
     const HeightRange range{.minimum_m = 0.0, .maximum_m = 3000.0};
     EXPECT_EQ(contourInterval({.has_contours = false, .contour_interval_m = 50.0}, range, 10.0), 0);

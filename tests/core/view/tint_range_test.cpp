@@ -54,7 +54,7 @@ TEST(TintRange, IsTheWholeRangeOfSmallMaps)
     EXPECT_EQ(tinted(field).maximum_m, 49.0);
 }
 
-TEST(TintRange, IsTheWholeRangeWhereAllButTheRarestHeightsAreOne)
+TEST(TintRange, IsTheWholeRangeIfASingleElevationWouldRemain)
 {
     const Heightfield field = test::floatTerrain(600, 400, [](std::size_t c, std::size_t r) {
         return c >= 200 && c < 211 && r >= 45 && r < 56 ? 30.0 : 10.0;
@@ -63,7 +63,7 @@ TEST(TintRange, IsTheWholeRangeWhereAllButTheRarestHeightsAreOne)
     EXPECT_EQ(tinted(field).maximum_m, 30.0);
 }
 
-TEST(TintRange, PassesOverVoids)
+TEST(TintRange, IgnoresVoids)
 {
     const Heightfield field = test::floatTerrain(800, 800, [](std::size_t c, std::size_t r) {
         return r < 500 ? std::nan("") : static_cast<double>(c);
