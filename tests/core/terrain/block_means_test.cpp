@@ -119,7 +119,7 @@ void expectSmoothFilling(const Heightfield& field)
     }
 }
 
-TEST(BlockMeans, AreTheMeansOfTheirSamplesAtEveryLevel)
+TEST(BlockMeans, MatchTheirSamplesAtEveryLevel)
 {
     test::Random random;
     for (const Size& size : kSizes) {
@@ -131,7 +131,7 @@ TEST(BlockMeans, AreTheMeansOfTheirSamplesAtEveryLevel)
     }
 }
 
-TEST(BlockMeans, LeaveVoidsOut)
+TEST(BlockMeans, ExcludeVoids)
 {
     test::Random random;
     for (const Size& size : kSizes) {
@@ -171,7 +171,7 @@ TEST(BlockMeans, FillLargeHolesAndEmptyCornersSmoothly)
     expectSmoothFilling(field);
 }
 
-TEST(BlockMeans, FillWithTheOnlySampleThereIs)
+TEST(BlockMeans, FillFromASingleSample)
 {
     constexpr std::size_t kColumns = 100;
     const Heightfield field = test::floatTerrain(kColumns, 70, [](std::size_t c, std::size_t r) {
@@ -207,7 +207,7 @@ TEST(BlockMeans, FillAPlaneExactlyBetweenWholeBlocks)
     }
 }
 
-TEST(BlockMeans, StopWhenCancelled)
+TEST(BlockMeans, StopWhenCanceled)
 {
     const Heightfield field = test::floatTerrain(9, 9, [](auto...) { return 1.0; });
     JobMonitor monitor;

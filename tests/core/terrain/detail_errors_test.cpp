@@ -171,7 +171,7 @@ void expectGrowingCorners(const DetailErrors& errors)
     }
 }
 
-TEST(DetailErrors, AreTheDistancesOfEverySampleFromEveryLevel)
+TEST(DetailErrors, MatchTheDistancesOfAllSamplesFromEveryLevel)
 {
     test::Random random;
     constexpr std::array<std::array<std::size_t, 2>, 9> kSizes{{{2, 2},
@@ -192,7 +192,7 @@ TEST(DetailErrors, AreTheDistancesOfEverySampleFromEveryLevel)
     }
 }
 
-TEST(DetailErrors, LeaveVoidsOutOfTheMeasure)
+TEST(DetailErrors, ExcludeVoids)
 {
     test::Random random;
     constexpr std::size_t kColumns = 200;
@@ -206,7 +206,7 @@ TEST(DetailErrors, LeaveVoidsOutOfTheMeasure)
     }
 }
 
-TEST(DetailErrors, AreNothingWhereTheGroundIsEvenOrAPlane)
+TEST(DetailErrors, AreZeroOnFlatTerrainAndPlanes)
 {
     const Analysis even(test::int16Terrain(130, 97, {}, [](auto...) { return -1234.0; }));
     const Analysis plane(test::floatTerrain(130, 97, [](std::size_t c, std::size_t r) {
@@ -246,7 +246,7 @@ TEST(DetailErrors, GrowAtTheCornersFromLevelToLevel)
     }
 }
 
-TEST(DetailErrors, StopWhenCancelled)
+TEST(DetailErrors, StopWhenCanceled)
 {
     const Heightfield field = test::floatTerrain(9, 9, [](auto...) { return 1.0; });
     JobMonitor monitor;

@@ -47,7 +47,7 @@ std::vector<float> holed(test::Random& random, std::size_t columns, std::size_t 
     return heights;
 }
 
-TEST(FilledHeightfield, KeepsWhatWasMeasuredAndFillsTheRestWithinItsRange)
+TEST(FilledHeightfield, KeepsValidSamplesAndFillsTheRestWithinTheRange)
 {
     test::Random random;
     const std::vector<float> heights = holed(random, 130, 100);
@@ -67,7 +67,7 @@ TEST(FilledHeightfield, KeepsWhatWasMeasuredAndFillsTheRestWithinItsRange)
     }
 }
 
-TEST(FilledHeightfield, IsSmoothWhereItFills)
+TEST(FilledHeightfield, FillsSmoothly)
 {
     test::Random random;
     const FilledHeightfield terrain = filled(130, holed(random, 130, 100));
@@ -109,7 +109,7 @@ TEST(FilledHeightfield, FillsAMapWithOneSample)
     EXPECT_EQ(terrain.sample(49, 39), -7.5);
 }
 
-TEST(FilledHeightfield, StopsWhenCancelled)
+TEST(FilledHeightfield, StopsWhenCanceled)
 {
     test::Random random;
     const FilledHeightfield terrain = filled(130, holed(random, 130, 100));

@@ -32,7 +32,7 @@ std::size_t expectDecimated(const Heightfield& field, const Tile& tile)
     return tile.samples.columns() * tile.samples.rows();
 }
 
-TEST(GridTileSource, GivesEverySampleOfEveryLevelOnce)
+TEST(GridTileSource, ReturnsEverySampleOfEveryLevelOnce)
 {
     const test::GridTileSource source(holedRamp(600, 300));
     const TileLayout& layout = source.layout();
@@ -51,7 +51,7 @@ TEST(GridTileSource, GivesEverySampleOfEveryLevelOnce)
     }
 }
 
-TEST(GridTileSource, AveragesWhatIsNotVoid)
+TEST(GridTileSource, AveragesValidSamples)
 {
     const test::GridTileSource source(holedRamp(14, 4), {.mean_levels = 2});
     const Tile means = source.tile({.kind = TileKind::Means, .level = 1, .column = 0, .row = 0});
@@ -62,7 +62,7 @@ TEST(GridTileSource, AveragesWhatIsNotVoid)
     EXPECT_EQ(coarse.samples.raw(0, 0), 5.0); // the mean of 0, 1, 2 and of 2, 4, 6
 }
 
-TEST(GridTileSource, FailsAndCountsOnDemand)
+TEST(GridTileSource, FailsAndCountsReadsOnDemand)
 {
     const test::GridTileSource source(holedRamp(300, 300),
                                       {.before_read = [](const TileId& id) -> std::optional<Error> {

@@ -29,7 +29,7 @@ std::uint64_t total(const HeightHistogram& histogram)
     return std::accumulate(histogram.counts.begin(), histogram.counts.end(), std::uint64_t{0});
 }
 
-TEST(HeightHistogram, CountsEverySampleOfASmallMapWhereItsHeightLies)
+TEST(HeightHistogram, CountsEverySampleOfASmallMapInItsBin)
 {
     test::Random random;
     std::vector<float> samples(70 * 50);
@@ -62,7 +62,7 @@ TEST(HeightHistogram, CountsEverySampleOfASmallMapWhereItsHeightLies)
     EXPECT_EQ(total(histogram), histogram.sample_count);
 }
 
-TEST(HeightHistogram, LooksAtNoMoreSamplesThanAllowed)
+TEST(HeightHistogram, CountsNoMoreSamplesThanAllowed)
 {
     test::Random random;
     for (int i = 0; i < 200; ++i) {
@@ -83,7 +83,7 @@ TEST(HeightHistogram, LooksAtNoMoreSamplesThanAllowed)
     }
 }
 
-TEST(HeightHistogram, OfADecimatedMapIsCloseToThatOfAllSamples)
+TEST(HeightHistogram, OnALargeMapIsCloseToThatOfAllSamples)
 {
     test::Random random;
     std::vector<float> samples(1000 * 700);
@@ -103,7 +103,7 @@ TEST(HeightHistogram, OfADecimatedMapIsCloseToThatOfAllSamples)
     }
 }
 
-TEST(HeightHistogram, OfAFlatMapAndOfVoidsIsPlain)
+TEST(HeightHistogram, HandlesFlatMapsAndVoids)
 {
     const HeightHistogram flat = heightHistogram(surfaceOf(3, std::vector<float>(9, -7.0F)));
     EXPECT_EQ(flat.counts[0], 9U);

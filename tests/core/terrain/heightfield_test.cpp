@@ -40,7 +40,7 @@ std::vector<float> noise(test::Random& random, std::size_t count)
     return samples;
 }
 
-TEST(Heightfield, IntegerPositionsAreTheSamplesExactly)
+TEST(Heightfield, IsExactAtIntegerPositions)
 {
     test::Random random;
     const std::vector<float> samples = noise(random, 37 * 23);
@@ -55,7 +55,7 @@ TEST(Heightfield, IntegerPositionsAreTheSamplesExactly)
     }
 }
 
-TEST(Heightfield, BetweenSamplesIsTheTriangulation)
+TEST(Heightfield, InterpolatesOnTheTriangulation)
 {
     test::Random random;
     const std::vector<float> samples = noise(random, 37 * 23);
@@ -83,7 +83,7 @@ TEST(Heightfield, TheLastRowAndColumnBelongToTheSurface)
     EXPECT_EQ(surface.height({0.5, 1.0}), 10.5);
 }
 
-TEST(Heightfield, OutsideAndNotANumberGiveNaN)
+TEST(Heightfield, IsNanOutsideAndForNan)
 {
     const Heightfield surface = surfaceOf(3, {0, 1, 2, 10, 11, 12});
     const double past_column = std::nextafter(2.0, 3.0);
@@ -99,7 +99,7 @@ TEST(Heightfield, OutsideAndNotANumberGiveNaN)
     EXPECT_EQ(surface.height({-0.0, -0.0}), 0.0);
 }
 
-TEST(Heightfield, VoidsAreNaNAndLeaveTheirNeighboursAlone)
+TEST(Heightfield, VoidsAreNanWithoutAffectingNeighbors)
 {
     const Heightfield surface =
         surfaceOf(3, {0, 1, 2, 10, -9999, 12, 20, 21, 22}, {}, {.nodata = -9999.0});
@@ -115,7 +115,7 @@ TEST(Heightfield, VoidsAreNaNAndLeaveTheirNeighboursAlone)
     EXPECT_EQ(surface.height({1.5, 0.25}), 0.5 * 1 + 0.25 * 2 + 0.25 * 12);
 }
 
-TEST(Heightfield, TheRangeIsThatOfTheHeights)
+TEST(Heightfield, RangeMatchesTheHeights)
 {
     const std::vector<float> samples{5, 1, -2, 10, -9999, 12};
     const VoidRule voids{-9999.0};
@@ -130,7 +130,7 @@ TEST(Heightfield, TheRangeIsThatOfTheHeights)
     EXPECT_FALSE(surfaceOf(2, {-9999, -9999, -9999, -9999}, {}, voids).range());
 }
 
-TEST(HeightfieldDeathTest, FewerThanTwoByTwoSamplesAreABug)
+TEST(HeightfieldDeathTest, RefusesFewerThanTwoByTwoSamples)
 {
     EXPECT_DEATH(surfaceOf(1, {1, 2, 3}), "check failed");
     EXPECT_DEATH(surfaceOf(3, {1, 2, 3}), "check failed");

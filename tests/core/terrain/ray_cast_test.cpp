@@ -113,7 +113,7 @@ void expectSameAsAll(const Terrain& terrain, const GridRay& ray, const std::stri
     }
 }
 
-TEST(CastRay, FindsWhatATryOfAllTrianglesFinds)
+TEST(CastRay, MatchesATestOfAllTriangles)
 {
     constexpr unsigned kSeed = 20261121;
     std::mt19937_64 random(kSeed);
@@ -155,7 +155,7 @@ TEST(CastRay, FindsGrazingRaysAlongAxesAndDiagonals)
     }
 }
 
-TEST(CastRay, SlipsThroughNeitherVerticesNorEdges)
+TEST(CastRay, PassesThroughNeitherVerticesNorEdges)
 {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -185,7 +185,7 @@ TEST(CastRay, SlipsThroughNeitherVerticesNorEdges)
     }
 }
 
-TEST(CastRay, HitsStraightBelowAndAbove)
+TEST(CastRay, HitsStraightDownAndUp)
 {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -206,7 +206,7 @@ TEST(CastRay, HitsStraightBelowAndAbove)
     }
 }
 
-TEST(CastRay, MissesWhatLiesBehindAndBeside)
+TEST(CastRay, MissesTerrainBehindAndNextToTheRay)
 {
     const std::vector<float> flat(std::size_t{40} * 40, 5.0F);
     const Terrain terrain = terrainOf(flat, 40);
@@ -274,7 +274,7 @@ TEST(MinMaxPyramid, BoundsEverySampleOfEveryNode)
     EXPECT_EQ(pyramid.rows(pyramid.levelCount() - 1), 1U);
 }
 
-TEST(MinMaxPyramid, StopsWhenCancelled)
+TEST(MinMaxPyramid, StopsWhenCanceled)
 {
     const std::vector<float> flat(std::size_t{40} * 40, 5.0F);
     const Terrain terrain = terrainOf(flat, 40);

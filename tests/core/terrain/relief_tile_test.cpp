@@ -194,7 +194,7 @@ void expectTrueSlopes(const Heightfield& field, const SceneFrame& frame, const R
     }
 }
 
-TEST(ReliefTile, HoldsTheMeanSlopesAndElevationsOfItsTexelsUpToTheMapsBorders)
+TEST(ReliefTile, HasMeanSlopesAndElevationsUpToTheMapsBorders)
 {
     test::Random random;
     constexpr std::size_t kColumns = 571;
@@ -215,7 +215,7 @@ TEST(ReliefTile, HoldsTheMeanSlopesAndElevationsOfItsTexelsUpToTheMapsBorders)
     }
 }
 
-TEST(ReliefTile, IsRightOnTheSmallestMapsAndOnStrips)
+TEST(ReliefTile, IsCorrectOnTheSmallestMapsAndOnStrips)
 {
     test::Random random;
     for (const auto& [columns, rows] :
@@ -266,7 +266,7 @@ TEST(ReliefTile, HasAPlanesSlopeUpToTheBordersOfMapsAndHoles)
 
 // As the header describes: the sample across the texel's border replaces a void, half a sample
 // away.
-TEST(ReliefTile, WeighsSlopesAndElevationsByTheShareThatIsNotVoid)
+TEST(ReliefTile, WeighsSlopesAndElevationsByTheValidShare)
 {
     test::Random random;
     constexpr std::size_t kColumns = 300;
@@ -338,7 +338,7 @@ TEST(ReliefTile, WeighsSlopesAndElevationsByTheShareThatIsNotVoid)
 }
 
 // So that shading looks the same at every source level.
-TEST(ReliefTile, SmallerCopiesAreWhatTheCoarserLevelsHold)
+TEST(ReliefTile, SmallerCopiesMatchTheCoarserLevels)
 {
     test::Random random;
     constexpr std::size_t kSide = 1100;
@@ -369,7 +369,7 @@ TEST(ReliefTile, SmallerCopiesAreWhatTheCoarserLevelsHold)
     }
 }
 
-TEST(ReliefTile, CutsSlopesOffAtTheSteepest)
+TEST(ReliefTile, ClampsSlopesToTheSteepest)
 {
     const Heightfield field = test::floatTerrain(
         20, 20, [](std::size_t c, std::size_t) { return 10.0 * static_cast<double>(c); });

@@ -45,7 +45,7 @@ TEST(Seam, TheLastRowBelongsToTheLastCell)
     EXPECT_EQ(cell->v, 1.0);
 }
 
-TEST(Seam, TheGridItselfAndTheOutsideAreNotTheSeam)
+TEST(Seam, ExcludesTheGridAndTheOutside)
 {
     for (const GridPoint p :
          {GridPoint{0.0, 10.0}, GridPoint{359.0, 10.0}, GridPoint{100.0, 10.0},
@@ -56,7 +56,7 @@ TEST(Seam, TheGridItselfAndTheOutsideAreNotTheSeam)
     }
 }
 
-TEST(Seam, ATurnLeftOfTheLastColumnIsTheSeamsNearEnd)
+TEST(Seam, BeginsAtTheLastColumn)
 {
     const auto cell = seamCell({-1.0, 10.0}, kColumns, kRows);
     ASSERT_TRUE(cell);
@@ -64,7 +64,7 @@ TEST(Seam, ATurnLeftOfTheLastColumnIsTheSeamsNearEnd)
 }
 
 // A position a rounding error to the left of the first sample is still on the map.
-TEST(Seam, AHairLeftOfTheFirstColumnIsTheSeamsFarEnd)
+TEST(Seam, EndsAtTheFirstColumn)
 {
     const auto cell = seamCell({-1e-18, 10.0}, kColumns, kRows);
     ASSERT_TRUE(cell);

@@ -56,7 +56,7 @@ TEST(SurfaceSlope, IsThatOfAPlaneOnAMapWithoutCrs)
 
 // The length of a degree decreases with the cosine of the latitude along a parallel, and follows
 // the meridian's radius of curvature along a meridian.
-TEST(SurfaceSlope, CountsMetresOnTheEllipsoidWhereTheMapIsInDegrees)
+TEST(SurfaceSlope, UsesMetersOnTheEllipsoidForMapsInDegrees)
 {
     MapMaker maker;
     constexpr double kEquatorial = 6378137.0; // WGS 84
@@ -120,7 +120,7 @@ TEST(SurfaceSlope, FacesTrueNorthOnAPolarProjection)
     EXPECT_NEAR(std::tan(slope->slope.radians()), 0.1 * scale, 1e-6);
 }
 
-TEST(SurfaceSlope, IsOfTheTriangleThatHoldsThePlace)
+TEST(SurfaceSlope, IsThatOfTheTriangleAroundThePosition)
 {
     MapMaker maker;
     // Only the lower left corner of the cell at (4, 4) is high.
@@ -137,7 +137,7 @@ TEST(SurfaceSlope, IsOfTheTriangleThatHoldsThePlace)
     EXPECT_NEAR(lower->aspect->degrees(), 45.0, 1e-4);
 }
 
-TEST(SurfaceSlope, IsMissingOutsideTheMapAndWhereACornerIsVoid)
+TEST(SurfaceSlope, IsEmptyOutsideTheMapAndNextToVoids)
 {
     MapMaker maker;
     const std::shared_ptr<const Map> map = maker.make(

@@ -121,7 +121,7 @@ protected:
     }
 };
 
-TEST_P(TiledHeightfield, WaitingGivesTheSameHeightsToTheBit)
+TEST_P(TiledHeightfield, WaitingGivesIdenticalHeights)
 {
     for (int i = 0; i < 3000; ++i) {
         const GridPoint at = anywhere();
@@ -129,7 +129,7 @@ TEST_P(TiledHeightfield, WaitingGivesTheSameHeightsToTheBit)
     }
 }
 
-TEST_P(TiledHeightfield, WhatIsThereGivesTheSameHeightsToTheBit)
+TEST_P(TiledHeightfield, ResidentTilesGiveIdenticalHeights)
 {
     maps_.load(random_, 1.0);
     for (int i = 0; i < 3000; ++i) {
@@ -140,7 +140,7 @@ TEST_P(TiledHeightfield, WhatIsThereGivesTheSameHeightsToTheBit)
 }
 
 // By brute force: from the finest level that has all tiles around the position.
-TEST_P(TiledHeightfield, MissingTilesAreStoodInForByTheFinestCoarserSurface)
+TEST_P(TiledHeightfield, TheFinestCoarserSurfaceReplacesMissingTiles)
 {
     maps_.load(random_, 0.4);
     const TileLayout& layout = maps_.layout();
@@ -195,7 +195,7 @@ TEST_P(TiledHeightfield, MissingTilesAreStoodInForByTheFinestCoarserSurface)
     EXPECT_GT(exact, 100U);
 }
 
-TEST_P(TiledHeightfield, WhatIsLookedAtBecomesExact)
+TEST_P(TiledHeightfield, RequestedHeightsBecomeExact)
 {
     for (int i = 0; i < 40; ++i) {
         const GridPoint at = anywhere();
@@ -208,7 +208,7 @@ TEST_P(TiledHeightfield, WhatIsLookedAtBecomesExact)
     }
 }
 
-TEST_P(TiledHeightfield, RaysMeetTheSameSurface)
+TEST_P(TiledHeightfield, RaysHitTheSameSurface)
 {
     maps_.load(random_, 1.0);
     for (int i = 0; i < 500; ++i) {
@@ -259,7 +259,7 @@ TEST_P(TiledHeightfield, NodesAreDrawnFromTheirOwnLevelAlone)
 
 // No cracks, whatever tiles are missing: the height of a sample does not depend on the node that
 // shows it, provided that every resident tile has its coarser tiles resident.
-TEST_P(TiledHeightfield, NodesAgreeOnTheSamplesThatTheyShare)
+TEST_P(TiledHeightfield, NodesAgreeOnSharedSamples)
 {
     const TileLayout& layout = maps_.layout();
     for (int i = 0; i < 12; ++i) { // tiles together with all their coarser tiles
@@ -353,7 +353,7 @@ double reliefError(const Pair& maps, std::size_t level)
     return std::sqrt(differences / squares);
 }
 
-TEST_P(TiledHeightfield, ReliefIsThatOfTheSamplesUpToTheSizeOfATexel)
+TEST_P(TiledHeightfield, ReliefMatchesTheSamplesUpToTheSizeOfATexel)
 {
     for (std::size_t level = 0; level < 5; ++level) {
         const double error = reliefError(maps_, level);
@@ -365,7 +365,7 @@ TEST_P(TiledHeightfield, ReliefIsThatOfTheSamplesUpToTheSizeOfATexel)
 }
 
 // A texture made from some tiles only would omit the rest of the terrain.
-TEST_P(TiledHeightfield, EveryReliefTileOfAMapWithVoidsTellsWhereItHasNone)
+TEST_P(TiledHeightfield, EveryReliefTileOfAMapWithVoidsMatchesTheOneFromMemory)
 {
     const SceneFrame frame = test::northUpFrame(maps_.held.columns(), maps_.held.rows(), 100.0);
     for (std::size_t level = 0; level < 4; ++level) {
@@ -384,7 +384,7 @@ TEST_P(TiledHeightfield, EveryReliefTileOfAMapWithVoidsTellsWhereItHasNone)
     }
 }
 
-TEST_P(TiledHeightfield, ReliefFromAServerIsMadeOfFewerTilesAndSofter)
+TEST_P(TiledHeightfield, ReliefFromAServerUsesFewerTilesAndIsSofter)
 {
     const Pair remote = pairOf(maps_.held, 5, Distance::AtAServer);
     for (std::size_t level = 0; level < 5; ++level) {

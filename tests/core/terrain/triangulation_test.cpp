@@ -34,7 +34,7 @@ long double planeHeight(const CellHeights& z, double u, double v)
     return test::planeHeight({z.upper_left, z.upper_right, z.lower_left, z.lower_right}, u, v);
 }
 
-TEST(HeightInCell, CornersAreTheSamplesThemselves)
+TEST(HeightInCell, IsExactAtTheCorners)
 {
     test::Random random;
     for (int i = 0; i < 10000; ++i) {
@@ -65,7 +65,7 @@ TEST(HeightInCell, IsThePlaneThroughTheTrianglesCornersWithinFourUlp)
     EXPECT_LE(worst_ulp, 4.0);
 }
 
-TEST(HeightInCell, NeighbouringCellsAgreeBitForBitOnTheirEdge)
+TEST(HeightInCell, NeighboringCellsAgreeBitForBitOnTheirEdge)
 {
     test::Random random;
     for (int i = 0; i < 100000; ++i) {
@@ -112,7 +112,7 @@ TEST(HeightInCell, StaysWithinTheTrianglesCorners)
     }
 }
 
-TEST(HeightInCell, APlaneIsReproducedAndConstantsExactly)
+TEST(HeightInCell, ReproducesPlanesAndConstantsExactly)
 {
     const CellHeights flat{7.25, 7.25, 7.25, 7.25};
     test::Random random;
@@ -125,7 +125,7 @@ TEST(HeightInCell, APlaneIsReproducedAndConstantsExactly)
     }
 }
 
-TEST(HeightInCell, AVoidCornerMattersOnlyToItsOwnTriangle)
+TEST(HeightInCell, AVoidCornerAffectsOnlyItsOwnTriangle)
 {
     test::Random random;
     for (int i = 0; i < 2000; ++i) {
@@ -146,7 +146,7 @@ TEST(HeightInCell, AVoidCornerMattersOnlyToItsOwnTriangle)
     }
 }
 
-TEST(HeightInCell, OnAnEdgeOnlyItsTwoEndsMatter)
+TEST(HeightInCell, UsesOnlyTheTwoEndsOnAnEdge)
 {
     const CellHeights top{1.0, 2.0, kNan, kNan};
     EXPECT_EQ(heightInCell(top, 0.5, 0.0), 1.5);
