@@ -54,7 +54,7 @@ std::vector<nlohmann::json> rowsOf(const nlohmann::json& bench, const std::strin
 
 } // namespace
 
-TEST(BenchContactCommand, MeasuresModelsAtSpeedsOverAFractal)
+TEST(BenchContactCommand, MeasuresEveryModelAndSpeedOnAFractal)
 {
     const nlohmann::json bench = onSmallFractal({});
     EXPECT_NE(bench["processor"], "");
@@ -97,7 +97,7 @@ TEST(BenchContactCommand, MeasuresModelsAtSpeedsOverAFractal)
     }
 }
 
-TEST(BenchContactCommand, FindsWhatIsExactAndWhatIsNot)
+TEST(BenchContactCommand, DistinguishesExactFromInexactModels)
 {
     // The ideal shares no code with the models. At a tenth of a cell per update all models follow
     // it; at ten cells only the one that follows the motion does.
@@ -115,7 +115,7 @@ TEST(BenchContactCommand, FindsWhatIsExactAndWhatIsNot)
     }
 }
 
-TEST(BenchContactCommand, FindsTheSameErrorsEveryTime)
+TEST(BenchContactCommand, MeasuresTheSameErrorsEveryTime)
 {
     const auto errors = [] {
         std::vector<nlohmann::json> found;
@@ -129,7 +129,7 @@ TEST(BenchContactCommand, FindsTheSameErrorsEveryTime)
     EXPECT_EQ(errors(), errors());
 }
 
-TEST(BenchContactCommand, MeasuresOverRealMaps)
+TEST(BenchContactCommand, MeasuresOnRealMaps)
 {
     const std::string helens = (bundledSamples() / "mount_st_helens_30m.tif").string();
     const nlohmann::json bench =
@@ -144,7 +144,7 @@ TEST(BenchContactCommand, MeasuresOverRealMaps)
               1U);
 }
 
-TEST(BenchContactCommand, KeepsToTheTimeItIsGiven)
+TEST(BenchContactCommand, KeepsToItsTimeLimit)
 {
     const nlohmann::json bench =
         measured({"--size", "256", "--models", "surface-walk", "--speeds", "50", "--goals", "below",
@@ -186,7 +186,7 @@ TEST(BenchContactCommand, PrintsATableForPeopleAndDrawsAPlot)
     EXPECT_EQ(lines, 6U);
 }
 
-TEST(BenchContactCommand, RefusesWhatItCannotMeasure)
+TEST(BenchContactCommand, RefusesInvalidInput)
 {
     for (const std::vector<std::string>& options : {std::vector<std::string>{"--models", "magic"},
                                                     {"--speeds", "0"},

@@ -41,7 +41,7 @@ measured(const TempFolder& folder, const std::string& map, const std::vector<std
 
 } // namespace
 
-TEST(BenchTerrainCommand, MakesAMapOverTheSameGround)
+TEST(BenchTerrainCommand, MakesAMapOfTheSameExtent)
 {
     const TempFolder folder;
     const std::string map = made(folder, "made.tif", {"--size", "700x300"});
@@ -61,7 +61,7 @@ TEST(BenchTerrainCommand, MakesAMapOverTheSameGround)
     EXPECT_FALSE(std::filesystem::exists(map + ".part"));
 }
 
-TEST(BenchTerrainCommand, MakesTheSameSamplesHoweverTheyAreStored)
+TEST(BenchTerrainCommand, MakesTheSameSamplesInEveryLayout)
 {
     const TempFolder folder;
     const std::vector<std::string> size{"--size", "3000x1700", "--seed", "7"};
@@ -90,7 +90,7 @@ TEST(BenchTerrainCommand, MakesTheSameSamplesHoweverTheyAreStored)
                  expected);
 }
 
-TEST(BenchTerrainCommand, MeasuresEachOnItsOwn)
+TEST(BenchTerrainCommand, RunsEachMeasurementAlone)
 {
     const TempFolder folder;
     const std::string map = made(folder, "map.tif", {"--size", "1500x900"});
@@ -155,7 +155,7 @@ TEST(BenchTerrainCommand, MeasuresEachOnItsOwn)
     EXPECT_FALSE(bench.contains("frames"));
 }
 
-TEST(BenchTerrainCommand, FindsTheSameSwipesEveryTime)
+TEST(BenchTerrainCommand, MeasuresTheSameSwipesEveryTime)
 {
     const TempFolder folder;
     const std::string map = made(folder, "map.tif", {"--size", "600x500"});
@@ -186,7 +186,7 @@ TEST(BenchTerrainCommand, DrawsAPlotOfTheGrowth)
     EXPECT_THAT(plot, testing::Not(testing::HasSubstr("nan")));
 }
 
-TEST(BenchTerrainCommand, RefusesWhatItCannotMakeOrMeasure)
+TEST(BenchTerrainCommand, RefusesInvalidInput)
 {
     const TempFolder folder;
     for (const std::vector<std::string>& options :

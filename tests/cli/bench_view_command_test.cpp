@@ -62,7 +62,7 @@ TEST(BenchViewCommand, MeasuresEveryFlightOverTheBundledMap)
     EXPECT_THAT(names, testing::ElementsAre("orbit", "dive", "sweep"));
 }
 
-TEST(BenchViewCommand, FindsPicturesAtRestWithinTheirPixel)
+TEST(BenchViewCommand, PicturesAtRestAreWithinAPixel)
 {
     for (const nlohmann::json& flight : measured({bundledMars()})["maps"][0]["flights"]) {
         ASSERT_EQ(flight["resting_poses"].size(), 2U);
@@ -79,7 +79,7 @@ TEST(BenchViewCommand, FindsPicturesAtRestWithinTheirPixel)
     }
 }
 
-TEST(BenchViewCommand, FindsTheErrorOfACoarsePicture)
+TEST(BenchViewCommand, MeasuresTheErrorOfACoarsePicture)
 {
     const nlohmann::json fine = measured({bundledMars()});
     const nlohmann::json coarse = measured({bundledMars(), "--error-px", "16"});
@@ -120,7 +120,7 @@ TEST(BenchViewCommand, ComparesSeveralMapsInATableForPeople)
     EXPECT_NE(output.out.find(helens), std::string::npos);
 }
 
-TEST(BenchViewCommand, RefusesWhatItCannotMeasure)
+TEST(BenchViewCommand, RefusesInvalidInput)
 {
     for (const std::vector<std::string>& options : {std::vector<std::string>{"--frames", "0"},
                                                     {"--frames", "many"},

@@ -77,7 +77,7 @@ TEST_F(DevicesCommand, ListsPluginsOfTheUsersFolderAndWhyOneIsRefused)
     EXPECT_THAT(table.out, HasSubstr("is built for version 2"));
 }
 
-TEST_F(DevicesCommand, SaysWhichSchemesThereAre)
+TEST_F(DevicesCommand, ListsTheSchemes)
 {
     const ProgramOutput output = devices({"--json"});
     ASSERT_EQ(output.exit_status, 0) << output.err;
@@ -86,7 +86,7 @@ TEST_F(DevicesCommand, SaysWhichSchemesThereAre)
     EXPECT_NE(std::find(schemes.begin(), schemes.end(), "plugin"), schemes.end());
 }
 
-TEST_F(DevicesCommand, LeavesOutAPluginThatBroughtItDownUntilToldToTryAgain)
+TEST_F(DevicesCommand, SkipsACrashedPluginUntilRetried)
 {
     add("crashes_loading");
     EXPECT_NE(devices().exit_status, 0);
@@ -96,7 +96,7 @@ TEST_F(DevicesCommand, LeavesOutAPluginThatBroughtItDownUntilToldToTryAgain)
     EXPECT_NE(devices({"--retry"}).exit_status, 0);
 }
 
-TEST_F(DevicesCommand, SaysWhatWentWrongTheLastTimeADeviceWasUsed)
+TEST_F(DevicesCommand, ReportsTheLastProblemOfADevice)
 {
     add("fails_opening");
     const std::string uri = "plugin:" + (plugins() / "fails_opening.so").string();
@@ -109,7 +109,7 @@ TEST_F(DevicesCommand, SaysWhatWentWrongTheLastTimeADeviceWasUsed)
     EXPECT_THAT(devices().out, HasSubstr("ready; last time it was used: could not be opened"));
 }
 
-TEST(DevicesTable, AlignsItsColumnsAndKeepsEveryDeviceOnOneLine)
+TEST(DevicesTable, AlignsColumnsWithOneDevicePerLine)
 {
     EXPECT_EQ(devicesAsTable({{"null:", "Nothing", ""}, {"x:1\n2", "A hand", "no\npower"}}),
               "URI    name     state\n"
@@ -124,7 +124,7 @@ TEST(DevicesTable, AlignsItsColumnsAndKeepsEveryDeviceOnOneLine)
 }
 
 // As a plugin author would build it: against an installed program, with CMake and with pkg-config.
-TEST_F(DevicesCommand, ListsTheExamplePluginOnceItsMakersHaveBuiltIt)
+TEST_F(DevicesCommand, ListsTheExamplePluginBuiltAsDocumented)
 {
     const std::string prefix = folder_.file("prefix");
     const std::string example = (sourceRoot() / "tests/plugin_example").string();

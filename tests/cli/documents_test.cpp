@@ -139,7 +139,7 @@ TEST_F(Documents, EveryCommandHasAPageWithEveryOption)
     }
 }
 
-TEST_F(Documents, NoPageIsLeftOver)
+TEST_F(Documents, EveryPageBelongsToACommand)
 {
     const fs::directory_iterator pages(folder_->path() / "man1");
     EXPECT_EQ(static_cast<std::size_t>(std::distance(begin(pages), end(pages))), help_->size());

@@ -41,7 +41,7 @@ double sampleWith(const std::string& path,
 
 } // namespace
 
-TEST(ElevationOptions, ScaleOffsetAndUnitMakeElevationsOfSamples)
+TEST(ElevationOptions, ScaleOffsetAndUnitConvertSamplesToElevations)
 {
     const TempFolder folder;
     const std::string path =
@@ -59,7 +59,7 @@ TEST(ElevationOptions, ScaleOffsetAndUnitMakeElevationsOfSamples)
     EXPECT_EQ(info["minimum"], 1000.0 - 2.0 * (599 + 2 * 499));
 }
 
-TEST(ElevationOptions, ApplyToAPreparedMapWhateverItWasPreparedWith)
+TEST(ElevationOptions, ApplyToAMapPreparedWithOtherOptions)
 {
     const TempFolder folder;
     const std::string source =
@@ -98,7 +98,7 @@ TEST(ElevationOptions, ApplyToAPreparedMapWhateverItWasPreparedWith)
     }
 }
 
-TEST(ElevationOptions, OfARecordingAreNeededToRepeatIt)
+TEST(ElevationOptions, AreRequiredToRepeatARecording)
 {
     const TempFolder folder;
     const std::string recorded = folder.file("touch.csv");
@@ -121,7 +121,7 @@ TEST(ElevationOptions, OfARecordingAreNeededToRepeatIt)
     EXPECT_GT(differing({"--scale", "0.5"}), 100);
 }
 
-TEST(ElevationOptions, OfTheWrongFormAreUsageErrors)
+TEST(ElevationOptions, MalformedValuesAreUsageErrors)
 {
     const std::string mars = bundledMars();
     for (const char* option : {"--scale", "--offset"}) {
@@ -136,7 +136,7 @@ TEST(ElevationOptions, OfTheWrongFormAreUsageErrors)
     EXPECT_THAT(zero.err, HasSubstr("--scale: 0 is not a finite number other than 0"));
 }
 
-TEST(ElevationOptions, AreTakenByEveryCommandThatOpensAMap)
+TEST(ElevationOptions, AreAcceptedByEveryCommandThatOpensAMap)
 {
     for (const char* command : {"info", "sample", "trace", "loop", "prepare", "render"}) {
         const std::string help = runCli({command, "--help"}).out;

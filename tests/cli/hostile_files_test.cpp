@@ -103,7 +103,7 @@ protected:
     std::vector<std::string> environment_;
 };
 
-TEST_F(HostileFiles, ACrashIsOneLineThatNamesTheDriverAndTheFile)
+TEST_F(HostileFiles, ReportsACrashInOneLineWithDriverAndFile)
 {
     for (const char* fault : {"crash", "overflow", "crash while reading",
                               "crash while reading slowly", "crash while closing"}) {
@@ -115,7 +115,7 @@ TEST_F(HostileFiles, ACrashIsOneLineThatNamesTheDriverAndTheFile)
     }
 }
 
-TEST_F(HostileFiles, ADriverThatNeverEndsIsStopped)
+TEST_F(HostileFiles, StopsADriverThatNeverEnds)
 {
     environment_ = {"MARSVIEW_OPEN_SECONDS=1"};
     const std::string path = faulty("hang");
@@ -125,7 +125,7 @@ TEST_F(HostileFiles, ADriverThatNeverEndsIsStopped)
                 HasSubstr("the FAULTY driver of GDAL did not open this file within 1 s"));
 }
 
-TEST_F(HostileFiles, ADriverThatTakesAllMemoryIsStopped)
+TEST_F(HostileFiles, StopsADriverThatTakesAllMemory)
 {
     environment_ = {"MARSVIEW_OPEN_MB=300"};
     const std::string path = faulty("memory");
@@ -134,7 +134,7 @@ TEST_F(HostileFiles, ADriverThatTakesAllMemoryIsStopped)
     EXPECT_THAT(output.err, HasSubstr("the FAULTY driver of GDAL needs more than 0.3 GB"));
 }
 
-TEST_F(HostileFiles, WhatLibrariesPrintIsNotShown)
+TEST_F(HostileFiles, DiscardsOutputOfLibraries)
 {
     const ProgramOutput opened = info(faulty("print"), {"--json"});
     EXPECT_EQ(opened.exit_status, 0) << opened.err;
@@ -147,7 +147,7 @@ TEST_F(HostileFiles, WhatLibrariesPrintIsNotShown)
 }
 
 // 2026-11: HDF5 crashed at exit after opening a file successfully.
-TEST_F(HostileFiles, ALibraryThatCrashesAtTheEndOfTheProgramDoesNotCount)
+TEST_F(HostileFiles, IgnoresALibraryThatCrashesOnExit)
 {
     const ProgramOutput output = info(faulty("crash at exit"), {"--json"});
     EXPECT_EQ(output.exit_status, 0);
@@ -155,7 +155,7 @@ TEST_F(HostileFiles, ALibraryThatCrashesAtTheEndOfTheProgramDoesNotCount)
 }
 
 // 2026-11: HDF5 created 20 000 files next to a damaged one.
-TEST_F(HostileFiles, LibrariesMakeNoFiles)
+TEST_F(HostileFiles, LibrariesCannotCreateFiles)
 {
     constexpr unsigned kVersion = 1; // LANDLOCK_CREATE_RULESET_VERSION
     if (syscall(SYS_landlock_create_ruleset, nullptr, 0, kVersion) < 1) {
@@ -166,7 +166,7 @@ TEST_F(HostileFiles, LibrariesMakeNoFiles)
     EXPECT_FALSE(fs::exists(path + ".made"));
 }
 
-TEST_F(HostileFiles, AnAnswerIsRememberedUntilTheFileChanges)
+TEST_F(HostileFiles, CachesTheResultUntilTheFileChanges)
 {
     const std::string path = faulty("crash");
     expectOneLine(info(path), path);
@@ -176,7 +176,7 @@ TEST_F(HostileFiles, AnAnswerIsRememberedUntilTheFileChanges)
     EXPECT_THAT(info(path).err, HasSubstr("is not a raster that GDAL can read"));
 }
 
-TEST_F(HostileFiles, ATiffThatPromisesMoreBlocksThanItHoldsIsRefused)
+TEST_F(HostileFiles, RefusesATiffThatDeclaresMoreBlocksThanItHolds)
 {
     for (const auto& [listed, place] :
          std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1U << 24U, 200}, {1, 0}}) {
@@ -188,7 +188,7 @@ TEST_F(HostileFiles, ATiffThatPromisesMoreBlocksThanItHoldsIsRefused)
 }
 
 // 2026-11: GDAL 3.6 searches endlessly for a row beyond the last one.
-TEST_F(HostileFiles, ATextGridThatIsCutShortIsRefused)
+TEST_F(HostileFiles, RefusesATruncatedTextGrid)
 {
     const std::string whole = test::readFile(test::writeRaster(
         folder_, "whole.asc", "AAIGrid",
@@ -205,7 +205,7 @@ TEST_F(HostileFiles, ATextGridThatIsCutShortIsRefused)
     }
 }
 
-TEST_F(HostileFiles, BombsAreRefused)
+TEST_F(HostileFiles, RefusesDecompressionBombs)
 {
     std::vector<std::string> paths{
         folder_.write("loop.tif", tiffOf({{256, kLong, 1, 4},
@@ -275,7 +275,7 @@ std::string damaged(std::string bytes, int how, test::Random& random)
     return bytes;
 }
 
-TEST_F(HostileFiles, DamagedFilesOpenOrEndInOneLine)
+TEST_F(HostileFiles, DamagedFilesOpenOrFailInOneLine)
 {
     const std::vector<std::pair<std::string, std::string>> formats{
         {"GTiff", "tif"},   {"netCDF", "nc"}, {"JP2OpenJPEG", "jp2"}, {"HFA", "img"},
@@ -320,7 +320,7 @@ TEST_F(HostileFiles, StatisticsCanBeSkipped)
 }
 
 // 100 million samples in one tile: GDAL would read it into memory as a whole.
-TEST_F(HostileFiles, StatisticsOfHugeBlocksAreLeftOut)
+TEST_F(HostileFiles, SkipsStatisticsOfHugeBlocks)
 {
     const std::string path = test::writeRaster(
         folder_, "map.tif", "GTiff", test::recipeFor(2, std::vector<std::int16_t>{1, 2, 3, 4}),

@@ -86,7 +86,7 @@ TEST(InfoCommand, PlacesTheCornersOfPds3MapsWhereTheLabelsDo)
     }
 }
 
-TEST(InfoCommand, RefusesNetcdfThatIsCutShort)
+TEST(InfoCommand, RefusesTruncatedNetcdf)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const TempFolder folder;
@@ -98,7 +98,7 @@ TEST(InfoCommand, RefusesNetcdfThatIsCutShort)
     EXPECT_EQ(runCli({"info", folder.write("whole.nc", whole)}).exit_status, 0);
 }
 
-TEST(InfoCommand, DescribesWhatIsNoSurfaceAndSaysSo)
+TEST(InfoCommand, DescribesRastersThatAreNotASurface)
 {
     const TempFolder folder;
     const std::string row = writeRaster(folder, "row.tif", "GTiff",
@@ -115,7 +115,7 @@ TEST(InfoCommand, DescribesWhatIsNoSurfaceAndSaysSo)
     EXPECT_THAT(refused.err, testing::HasSubstr("5 × 1 samples are not a surface"));
 }
 
-TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
+TEST(InfoCommand, ReportsAServersErrorResponse)
 {
     const TempFolder folder;
     HttpServer server(folder.path());
@@ -136,7 +136,7 @@ TEST(InfoCommand, SaysWhatAServerAnswersInPlaceOfTheFile)
                              ": the server reports an error (500); try again later\n");
 }
 
-TEST(InfoCommand, TellsOfNumbersInTheEnvironmentThatAreNone)
+TEST(InfoCommand, ReportsInvalidNumbersInTheEnvironment)
 {
     const ProgramOutput output = runCliWith({"MARSVIEW_HELD_MB=abc"}, {"info", bundledMars()});
     EXPECT_EQ(output.exit_status, 0);
@@ -144,7 +144,7 @@ TEST(InfoCommand, TellsOfNumbersInTheEnvironmentThatAreNone)
                 testing::HasSubstr("MARSVIEW_HELD_MB is \"abc\", not a number of megabytes"));
 }
 
-TEST(InfoCommand, TellsFeetFromMetres)
+TEST(InfoCommand, DistinguishesFeetFromMeters)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<float>(2, {100.0F, 200.0F, 300.0F, 400.0F});
@@ -160,7 +160,7 @@ TEST(InfoCommand, TellsFeetFromMetres)
                      400.0 * 0.3048);
 }
 
-TEST(InfoCommand, TakesBodyAndPlacementFromTheUserWithoutTouchingTheFile)
+TEST(InfoCommand, AppliesOverridesWithoutChangingTheFile)
 {
     const TempFolder folder;
     RasterRecipe recipe = recipeFor<std::int16_t>(2, {1, 2, 3, 4});

@@ -7,7 +7,7 @@
 
 namespace marsview::test {
 
-TEST(LongJob, TurnsCtrlCIntoACancelOfTheRunningJob)
+TEST(LongJob, CtrlCCancelsTheRunningJob)
 {
     LongJob job("testing");
     EXPECT_FALSE(job.monitor().isCancelled());
@@ -15,7 +15,7 @@ TEST(LongJob, TurnsCtrlCIntoACancelOfTheRunningJob)
     EXPECT_TRUE(job.monitor().isCancelled());
 }
 
-TEST(LongJob, GivesCtrlCBackWhenItEnds)
+TEST(LongJob, RestoresCtrlCWhenItEnds)
 {
     {
         const LongJob job("testing");
@@ -23,7 +23,7 @@ TEST(LongJob, GivesCtrlCBackWhenItEnds)
     EXPECT_EXIT(std::raise(SIGINT), testing::KilledBySignal(SIGINT), "");
 }
 
-TEST(LongJob, TellsTheTimeLeftFromThePaceOfThisRun)
+TEST(LongJob, EstimatesTheTimeLeftFromThisRunOnly)
 {
     using Seconds = std::chrono::duration<double>;
     EXPECT_EQ(LongJob::timeLeft(0.0, 0.5, Seconds(60.0)), "about 60 s left");

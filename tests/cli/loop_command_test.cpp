@@ -104,7 +104,7 @@ private:
     RunningProgram program_;
 };
 
-TEST(LoopCommand, RunsASimulatedHandAndTellsHowPunctualItWas)
+TEST(LoopCommand, RunsASimulatedHandAndReportsItsTiming)
 {
     const nlohmann::json loop = looped({"--device", "sim:swipe=3,lift_s=0.2", "--seconds", "0.5"});
     ASSERT_FALSE(loop.is_null());
@@ -127,7 +127,7 @@ TEST(LoopCommand, RunsASimulatedHandAndTellsHowPunctualItWas)
     }
 }
 
-TEST(LoopCommand, WhatItRecordsIsTheSameAgainInTraceAndInReplay)
+TEST(LoopCommand, TraceAndReplayReproduceItsRecordings)
 {
     const TempFolder folder;
     const std::string first = folder.file("first.csv");
@@ -146,7 +146,7 @@ TEST(LoopCommand, WhatItRecordsIsTheSameAgainInTraceAndInReplay)
     EXPECT_EQ(a, columnsOf(readFile(traced), {3, 0, 1, 2}));
 }
 
-TEST(LoopCommand, WhatItRecordsOverTilesIsTheSameAgainInTrace)
+TEST(LoopCommand, TraceReproducesItsRecordingsOfTiledMaps)
 {
     // From the first tick on, when only the coarsest tile is resident.
     const TempFolder folder;
@@ -173,7 +173,7 @@ TEST(LoopCommand, WhatItRecordsOverTilesIsTheSameAgainInTrace)
     EXPECT_THAT(other.err, HasSubstr(" samples of Mars"));
 }
 
-TEST(LoopCommand, ARecordingThatWasCutShortIsReadUpToThere)
+TEST(LoopCommand, ReadsATruncatedRecordingUpToItsEnd)
 {
     const TempFolder folder;
     const std::string whole = folder.file("whole.csv");
@@ -193,7 +193,7 @@ TEST(LoopCommand, ARecordingThatWasCutShortIsReadUpToThere)
     EXPECT_THAT(replayed.err, HasSubstr("has an incomplete last line"));
 }
 
-TEST(LoopCommand, WhatComesOutOtherwiseThanItWasRecordedIsToldOf)
+TEST(LoopCommand, ReportsUpdatesThatDifferFromTheRecording)
 {
     const TempFolder folder;
     const std::string file = folder.file("touch.csv");
@@ -218,7 +218,7 @@ TEST(LoopCommand, WhatComesOutOtherwiseThanItWasRecordedIsToldOf)
     EXPECT_EQ(differing(), -1);
 }
 
-TEST(LoopCommand, RecordsADeviceAsItMeasures)
+TEST(LoopCommand, RecordsADevicesReadings)
 {
     const TempFolder folder;
     const std::string path = folder.file("device.csv");
@@ -239,7 +239,7 @@ TEST(LoopCommand, PrintsAHistogramForPeople)
     }
 }
 
-TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
+TEST(LoopCommand, FailsInOneLineIfTheDeviceFails)
 {
     const TempFolder folder;
     const auto run = [&](const std::string& behaviour) {
@@ -268,7 +268,7 @@ TEST(LoopCommand, FailsWithOneLineWhereTheDeviceDoes)
     EXPECT_THAT(stopped.err, HasSubstr("the loop did not start: "));
 }
 
-TEST(LoopCommand, CountsTheEndOfItsTimeForNoTrouble)
+TEST(LoopCommand, TheEndOfItsTimeIsNotAFailure)
 {
     const nlohmann::json loop = looped({"--device", "sim:swipe=3", "--seconds", "0.5"});
     ASSERT_FALSE(loop.is_null());
@@ -277,7 +277,7 @@ TEST(LoopCommand, CountsTheEndOfItsTimeForNoTrouble)
     EXPECT_NE(loop["last_reason"], "device unready");
 }
 
-TEST(LoopCommand, EndsInTimeWhereADeviceIsTooSlowForItsRate)
+TEST(LoopCommand, EndsInTimeOnADeviceTooSlowForItsRate)
 {
     const TempFolder folder;
     const ProgramOutput output =
@@ -289,7 +289,7 @@ TEST(LoopCommand, EndsInTimeWhereADeviceIsTooSlowForItsRate)
     EXPECT_LT(nlohmann::json::parse(output.out)["ticks"], 400);
 }
 
-TEST(LoopCommand, EndsInOrderHoweverItIsToldTo)
+TEST(LoopCommand, EndsCleanlyOnTerminationSignals)
 {
     for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
         SCOPED_TRACE(signal);
@@ -307,7 +307,7 @@ TEST(LoopCommand, EndsInOrderHoweverItIsToldTo)
     }
 }
 
-TEST(LoopCommand, BlamesNoPluginWhereItIsEndedWhileItOpensADevice)
+TEST(LoopCommand, BlamesNoPluginIfItIsTerminatedWhileOpeningADevice)
 {
     const TempFolder folder;
     RunningLoop loop(folder, "hangs_opening");
@@ -317,7 +317,7 @@ TEST(LoopCommand, BlamesNoPluginWhereItIsEndedWhileItOpensADevice)
     EXPECT_EQ(loop.markers(), 0U);
 }
 
-TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
+TEST(LoopCommand, ReportsARecordingOfAnotherMap)
 {
     const TempFolder folder;
     const auto run = [&](const std::string& goals) {
@@ -334,7 +334,7 @@ TEST(LoopCommand, SaysThatARecordingIsOfAnotherMap)
     EXPECT_EQ(run("0,0,0\n").err, "");
 }
 
-TEST(LoopCommand, DoesNotRecordOverWhatItReplays)
+TEST(LoopCommand, DoesNotOverwriteTheReplayedFile)
 {
     const TempFolder folder;
     const std::string goals = folder.write("goals.csv", "x,y,z\n0,0,0\n");
@@ -361,7 +361,7 @@ TEST(LoopCommand, DoesNotRecordOverWhatItReplays)
     }
 }
 
-TEST(LoopCommand, SaysThatARecordingWasTouchedInAnotherWay)
+TEST(LoopCommand, ReportsARecordingWithOtherContactSettings)
 {
     const TempFolder folder;
     const std::string goals = folder.write(
@@ -377,7 +377,7 @@ TEST(LoopCommand, SaysThatARecordingWasTouchedInAnotherWay)
                                      "contact model is now god-object at exaggeration 3"));
 }
 
-TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)
+TEST(LoopCommand, FailsIfTheRecordingFails)
 {
     const ProgramOutput full =
         runCli({"loop", bundledMars(), "--device", "record:/dev/full,sim:", "--seconds", "0.2"});
@@ -393,7 +393,7 @@ TEST(LoopCommand, FailsWhereTheRecordingOfADeviceDoes)
     }
 }
 
-TEST(LoopCommand, RunsToTheEndOfTheDeviceHoweverManySecondsItMay)
+TEST(LoopCommand, AcceptsAnyNumberOfSecondsForAReplay)
 {
     const TempFolder folder;
     std::string goals = "x,y,z\n";
@@ -408,7 +408,7 @@ TEST(LoopCommand, RunsToTheEndOfTheDeviceHoweverManySecondsItMay)
     }
 }
 
-TEST(LoopCommand, SaysWhichDeviceItCannotOpenAndWhy)
+TEST(LoopCommand, NamesADeviceThatItCannotOpenAndTheReason)
 {
     const auto refusal = [](const std::string& uri) {
         const ProgramOutput output =

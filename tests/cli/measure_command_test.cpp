@@ -63,7 +63,7 @@ CsvTable tableIn(const std::string& text)
 
 } // namespace
 
-TEST(MeasureDistance, IsThatOfGeodSolveOnTheBodyOfTheMap)
+TEST(MeasureDistance, MatchesGeodSolveOnTheBodyOfTheMap)
 {
     // The map is planetocentric on a sphere of 3396 km; on an ellipsoid, latitudes are converted.
     const auto geodesic_m = [](double polar_m, bool is_centric) {

@@ -58,7 +58,7 @@ private:
 };
 
 // The header is checked before GDAL opens the file: two opens are one way through.
-TEST(OpenedOnce, HoldsForEveryCommandThatReadsAMap)
+TEST(OpenedOnce, EveryCommandOpensItsMapOnce)
 {
     const TempFolder folder;
     const std::string map = folder.file("map.tif");

@@ -47,7 +47,7 @@ nlohmann::json checksumsOf(const std::string& path)
 
 } // namespace
 
-TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
+TEST(PrepareCommand, ReportsItsResultsAndSpeed)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -83,7 +83,7 @@ TEST(PrepareCommand, TellsWhatItMadeAndHowFast)
     EXPECT_THAT(words.out, HasSubstr("throughput"));
 }
 
-TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
+TEST(PrepareCommand, ProducesTheSameFileHoweverOftenItIsKilled)
 {
     // Not after every row of tiles: on a disk that takes 20 ms to sync a file, that would take
     // minutes.
@@ -150,7 +150,7 @@ TEST(PrepareCommand, EndsWithTheSameFileHoweverOftenItIsKilled)
     std::printf("%d kills, %d finished before theirs\n", kills, finished);
 }
 
-TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
+TEST(PrepareCommand, StopsOnCtrlCAndResumesLater)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -173,7 +173,7 @@ TEST(PrepareCommand, StopsOnCtrlCAndGoesOnLater)
     EXPECT_EQ(firstBand(checksumsOf(path))["checksum"], firstBand(checksumsOf(source))["checksum"]);
 }
 
-TEST(PrepareCommand, SaysThatThereIsNoRoomAndGoesOnWhenThereIs)
+TEST(PrepareCommand, ReportsAFullDiskAndResumesWhenThereIsSpace)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -201,7 +201,7 @@ TEST(PrepareCommand, SaysThatThereIsNoRoomAndGoesOnWhenThereIs)
     }
 }
 
-TEST(PrepareCommand, LooksForRoomBeforehand)
+TEST(PrepareCommand, ChecksForDiskSpaceInAdvance)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder); // 42 MB raw
@@ -220,7 +220,7 @@ TEST(PrepareCommand, LooksForRoomBeforehand)
     EXPECT_THAT(output.err, HasSubstr(" MB free"));
 }
 
-TEST(PrepareCommand, UsesAMapInPlaceThatIsTiledAndHasOverviews)
+TEST(PrepareCommand, UsesATiledMapWithOverviewsInPlace)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder);
@@ -261,7 +261,7 @@ TEST(PrepareCommand, OverwritesNothingButPreparedMaps)
     }
 }
 
-TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
+TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedMaps)
 {
     const TempFolder folder;
     const TempFolder maps;
@@ -275,7 +275,7 @@ TEST(PrepareCommand, KeepsMapsInTheFolderOfPreparedOnes)
     EXPECT_EQ(firstBand(checksumsOf(file))["checksum"], firstBand(checksumsOf(source))["checksum"]);
 }
 
-TEST(PrepareCommand, MakesRoomOnAFullDiskByTheMapThatWasNotUsedForLongest)
+TEST(PrepareCommand, RemovesTheLeastRecentlyUsedMapFromAFullDisk)
 {
     const TempFolder folder;
     const std::string source = tallMap(folder); // 42 MB raw
@@ -293,7 +293,7 @@ TEST(PrepareCommand, MakesRoomOnAFullDiskByTheMapThatWasNotUsedForLongest)
     EXPECT_EQ(output.exit_status, 0) << output.err;
 }
 
-TEST(PrepareCommand, WhatItMadeOpensWhereNothingMayBeWritten)
+TEST(PrepareCommand, PreparedMapsOpenFromAReadOnlyFolder)
 {
     const TempFolder folder;
     const TempFolder maps;

@@ -53,7 +53,7 @@ TEST(Program, AnswersHelpAndVersionEverywhere)
     }
 }
 
-TEST(Program, FailsWithStatusOneAndOneLineThatNamesTheFile)
+TEST(Program, FailsWithStatusOneAndNamesTheFileInOneLine)
 {
     const TempFolder folder;
     const std::string missing = folder.file("nowhere.tif");
@@ -71,7 +71,7 @@ TEST(Program, FailsWithStatusOneAndOneLineThatNamesTheFile)
     }
 }
 
-TEST(Program, NamesTheOverrideThatItCannotUse)
+TEST(Program, NamesAnUnusableOverride)
 {
     for (const auto& [option, value] :
          {std::pair{"--crs", "EPSG:999999"}, std::pair{"--body", "Arrakis"},

@@ -73,7 +73,7 @@ protected:
     HttpServer server_{served_.path()};
 };
 
-TEST_F(RemoteMap, PeaksThatNoOverviewShowsAreFelt)
+TEST_F(RemoteMap, PeaksMissingFromOverviewsAreFelt)
 {
     Random random;
     std::vector<std::size_t> peaks;
@@ -88,7 +88,7 @@ TEST_F(RemoteMap, PeaksThatNoOverviewShowsAreFelt)
     EXPECT_EQ(proxies(server_.url("peaks.tif"), goals), truth);
 }
 
-TEST_F(RemoteMap, IsFetchedAnewFromAServerThatNamesNoVersions)
+TEST_F(RemoteMap, IsFetchedAgainFromAServerThatReportsNoVersions)
 {
     server_.setValidators(HttpValidators::None);
     const std::string file = writeMap("map.tif", {}, 100);

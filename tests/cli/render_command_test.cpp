@@ -99,7 +99,7 @@ Difference difference(const std::string& a, const std::string& b)
 
 } // namespace
 
-TEST_F(RenderCommand, WritesAPngOfTheSizeAskedFor)
+TEST_F(RenderCommand, WritesAPngOfTheRequestedSize)
 {
     for (const auto& [width, height] : {std::pair{640, 400}, {1, 1}, {33, 500}}) {
         const std::string png = folder_.file(fmt::format("{}.png", width));
@@ -115,7 +115,7 @@ TEST_F(RenderCommand, WritesAPngOfTheSizeAskedFor)
     }
 }
 
-TEST_F(RenderCommand, ShowsTheWholeMapUnlessToldWhereToLook)
+TEST_F(RenderCommand, ShowsTheWholeMapByDefault)
 {
     const std::string whole = folder_.file("whole.png");
     ASSERT_EQ(render({bundledMountain(), "-o", whole, "--size", "400x300"}).exit_status, 0);
@@ -147,7 +147,7 @@ TEST_F(RenderCommand, ShowsTheWholeMapUnlessToldWhereToLook)
 }
 
 // A mesa of 11 x 11 samples in a plain appears in the middle of the picture, and nowhere else.
-TEST_F(RenderCommand, LooksAtThePlaceOnTheMap)
+TEST_F(RenderCommand, LooksAtTheGivenPosition)
 {
     constexpr std::size_t kColumns = 300;
     constexpr std::size_t kRows = 200;
@@ -188,7 +188,7 @@ TEST_F(RenderCommand, LooksAtThePlaceOnTheMap)
     EXPECT_EQ(middleOf(place(214, 54)), mountain);
 }
 
-TEST_F(RenderCommand, RefusesPlacesBesideTheMap)
+TEST_F(RenderCommand, RefusesPositionsOutsideTheMap)
 {
     const std::string png = folder_.file("no.png");
     expectRefusal({bundledMars(), "-o", png, "--look-at", "1e9,0"}, "--look-at");
@@ -198,7 +198,7 @@ TEST_F(RenderCommand, RefusesPlacesBesideTheMap)
     expectRefusal({bundledMars(), "-o", png, "--look-at", "here,there"}, "--look-at");
 }
 
-TEST_F(RenderCommand, RefusesWhatIsNoSize)
+TEST_F(RenderCommand, RefusesInvalidSizes)
 {
     const std::string png = folder_.file("no.png");
     for (const char* size : {"",
@@ -251,7 +251,7 @@ TEST_F(RenderCommand, RefusesNumbersOutOfRange)
     expectRefusal({bundledMars()}, "--output");
 }
 
-TEST_F(RenderCommand, TakesTheSmallestAndTheLargestNumbersThatItAllows)
+TEST_F(RenderCommand, AcceptsTheLimitsOfItsNumbers)
 {
     for (const std::vector<std::string>& options :
          std::vector<std::vector<std::string>>{{"--error-px", "1e-300"},
@@ -287,7 +287,7 @@ TEST_F(RenderCommand, NamesTheFileThatCannotBeWritten)
     EXPECT_FALSE(std::filesystem::exists(taken + ".part"));
 }
 
-TEST_F(RenderCommand, LeavesThePictureThatWasThereWhereItFails)
+TEST_F(RenderCommand, KeepsTheExistingPictureIfItFails)
 {
     const std::string png = folder_.write("no-map.png", "not a picture");
     const ProgramOutput output = render({folder_.file("missing.tif"), "-o", png});
@@ -336,7 +336,7 @@ TEST_F(RenderCommand, DrawsWithEveryShadingAndRamp)
     }
 }
 
-TEST_F(RenderCommand, DrawsNoPictureOfAPreparedMapThatIsDamaged)
+TEST_F(RenderCommand, RefusesToDrawADamagedPreparedMap)
 {
     namespace fs = std::filesystem;
     const std::string whole = folder_.file("whole.tif");
@@ -368,7 +368,7 @@ TEST_F(RenderCommand, DrawsNoPictureOfAPreparedMapThatIsDamaged)
 }
 
 // Tiles are drawn separately; most of them have no voids.
-TEST_F(RenderCommand, DrawsAllOfAPreparedMapWithAHole)
+TEST_F(RenderCommand, DrawsAPreparedMapWithAHoleCompletely)
 {
     constexpr std::size_t kColumns = 1500;
     constexpr std::size_t kRows = 1200;

@@ -56,7 +56,7 @@ TEST(SampleCommand, FindsOlympusMonsByLongitudeAndLatitudeInAnyTurn)
     EXPECT_NEAR(sampleAt(bundledMars(), "--lonlat", 586.2, 18.65), height, kToleranceM);
 }
 
-TEST(SampleCommand, TakesLatitudesOnTheEarthAsMapsPrintThem)
+TEST(SampleCommand, ReadsLatitudesOnTheEarthAsPlanetographic)
 {
     // The highest point of the crater rim, as the Geographic Names Information System lists it, is
     // on the map only if 46.19° is a planetographic latitude: the map ends at 46.06° planetocentric
@@ -68,7 +68,7 @@ TEST(SampleCommand, TakesLatitudesOnTheEarthAsMapsPrintThem)
     EXPECT_EQ(centric.out, "nan\n");
 }
 
-TEST(SampleCommand, AgreesBetweenItsThreeFrames)
+TEST(SampleCommand, GivesTheSameElevationInAllThreeFrames)
 {
     const ProgramOutput output =
         runCli({"sample", bundledMountain(), "--pixel", "100.25", "200.5", "--json"});
@@ -88,7 +88,7 @@ TEST(SampleCommand, AgreesBetweenItsThreeFrames)
     EXPECT_NEAR(by("--lonlat", lonlat), height, kToleranceM);
 }
 
-TEST(SampleCommand, PrintsNanOutsideAndNowhereElse)
+TEST(SampleCommand, PrintsNanOnlyOutside)
 {
     EXPECT_TRUE(std::isnan(sampleAt(bundledMars(), "--pixel", -1.0, 0.0)));
     EXPECT_TRUE(std::isnan(sampleAt(bundledMars(), "--pixel", 0.0, 719.001)));
@@ -97,7 +97,7 @@ TEST(SampleCommand, PrintsNanOutsideAndNowhereElse)
     EXPECT_FALSE(std::isnan(sampleAt(bundledMars(), "--pixel", 1439.0, 719.0)));
 }
 
-TEST(SampleCommand, ClosesTheSeamOfAGlobalMap)
+TEST(SampleCommand, InterpolatesAcrossTheSeamOfAGlobalMap)
 {
     const double west = sampleAt(bundledMars(), "--pixel", 1439.0, 359.0);
     const double east = sampleAt(bundledMars(), "--pixel", 0.0, 359.0);
@@ -122,7 +122,7 @@ TEST(SampleCommand, NamesTheLineOfStandardInputThatItCannotRead)
     EXPECT_NE(output.err.find("line 2"), std::string::npos) << output.err;
 }
 
-TEST(SampleCommand, FindsEverySampleAtItsPlaceOnTheMapAlsoBesideVoids)
+TEST(SampleCommand, FindsEverySampleAtItsPositionEvenNextToVoids)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const std::string path = (sharedData() / "derived/W100N40_etopo5.DEM").string();
@@ -139,7 +139,7 @@ TEST(SampleCommand, FindsEverySampleAtItsPlaceOnTheMapAlsoBesideVoids)
               runCli({"sample", path, "--pixel", "--stdin"}, pixels).out);
 }
 
-TEST(SampleCommand, TakesThePositionBeforeTheMapToo)
+TEST(SampleCommand, AcceptsThePositionBeforeTheMap)
 {
     EXPECT_EQ(runCli({"sample", "--pixel", "3", "4", bundledMars()}).out,
               runCli({"sample", bundledMars(), "--pixel", "3", "4"}).out);
@@ -147,7 +147,7 @@ TEST(SampleCommand, TakesThePositionBeforeTheMapToo)
               0);
 }
 
-TEST(SampleCommand, ReadsTheColoradoMapInFeetWhenTold)
+TEST(SampleCommand, ReadsTheColoradoMapInFeetOnRequest)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const std::string path = (sharedData() / "derived/trinidad_co_3as.tif").string();
@@ -157,7 +157,7 @@ TEST(SampleCommand, ReadsTheColoradoMapInFeetWhenTold)
 }
 
 // GDAL decodes some damaged tiles to wrong samples without an error.
-TEST(SampleCommand, TellsNoHeightOfAPreparedMapThatIsDamaged)
+TEST(SampleCommand, ReportsDamagedTilesAsErrorsInsteadOfElevations)
 {
     namespace fs = std::filesystem;
     const TempFolder folder;

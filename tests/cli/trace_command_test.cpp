@@ -157,7 +157,7 @@ Goals goalsOver(const Hills& hills, int count)
 
 } // namespace
 
-TEST(TraceCommand, KeepsProxiesOnTheSurfaceThatSampleTells)
+TEST(TraceCommand, KeepsProxiesOnTheSurfaceThatSamplePrints)
 {
     for (const Hills& hill : hillsEverywhere()) {
         for (const bool has_void : {false, true}) {
@@ -197,7 +197,7 @@ TEST(TraceCommand, KeepsProxiesOnTheSurfaceThatSampleTells)
     }
 }
 
-TEST(TraceCommand, RestsAtTheClosestPointOfAPlaneInSceneMetres)
+TEST(TraceCommand, RestsAtTheClosestPointOfAPlaneInSceneMeters)
 {
     // 30 m cells; z rises 0.4 m per meter eastwards, 0.8 with the exaggeration.
     std::vector<float> samples;
@@ -225,7 +225,7 @@ TEST(TraceCommand, RestsAtTheClosestPointOfAPlaneInSceneMetres)
     EXPECT_NEAR(rows[0].z, 0.4 * (x - x0), 1e-6);
 }
 
-TEST(TraceCommand, MeasuresDegreesAtTheLatitudeOfTheCentre)
+TEST(TraceCommand, ScalesDegreesAtTheLatitudeOfTheCenter)
 {
     // A plane on a sphere that rises eastwards, around 60° north: a degree of longitude is half as
     // long as a degree of latitude.
@@ -259,7 +259,7 @@ TEST(TraceCommand, PlacesTheProxyWithTheFirstLine)
     EXPECT_EQ(rows[0].z, 4000.0);
 }
 
-TEST(TraceCommand, ClampsGoalsBesideTheMapAndRefusesThoseThatAreNone)
+TEST(TraceCommand, ClampsGoalsOutsideTheMapAndRefusesInvalidOnes)
 {
     const Hills& hill = hillsEverywhere()[1];
     const TempFolder folder;
@@ -295,7 +295,7 @@ TEST(TraceCommand, ClampsGoalsBesideTheMapAndRefusesThoseThatAreNone)
     EXPECT_EQ(json["contact_updates"], 7);
 }
 
-TEST(TraceCommand, ReadsGoalsAsEditorsAndSpreadsheetsWriteThem)
+TEST(TraceCommand, ReadsGoalsWrittenByEditorsAndSpreadsheets)
 {
     const std::vector<Row> plain =
         traced(bundledMountain(), "x,y,z\n560000,5116000,1000\n560100,5116050,900\n");
@@ -423,7 +423,7 @@ TEST(TraceCommand, HoldsASphereItsRadiusAboveTheSurface)
     EXPECT_NEAR(height({"--radius", "2", "--exaggeration", "4"}), 100.5, 1e-6);
 }
 
-TEST(TraceCommand, LeavesASphereThatRestsOnSamplesWhereItIs)
+TEST(TraceCommand, KeepsASphereAtRestOnSamples)
 {
     // On three spikes; their centroid is not a sample position.
     const TempFolder folder;
@@ -449,7 +449,7 @@ TEST(TraceCommand, LeavesASphereThatRestsOnSamplesWhereItIs)
     EXPECT_NEAR(distance(21, 23), 2.2, 1e-6);
 }
 
-TEST(TraceCommand, RefusesWhatItCannotRun)
+TEST(TraceCommand, RefusesInvalidInput)
 {
     const TempFolder folder;
     const std::string goals = folder.write("goals.csv", "x,y,z\n1,2,3\n");
@@ -525,7 +525,7 @@ TEST(TraceCommand, TouchesTriangleMeshes)
     EXPECT_THAT(told.err, testing::HasSubstr("a mesh has no CRS"));
 }
 
-TEST(TraceCommand, PrintsNothingForNoGoals)
+TEST(TraceCommand, PrintsNoUpdatesWithoutGoals)
 {
     const TempFolder folder;
     const std::string summary = folder.file("summary.json");
@@ -536,7 +536,7 @@ TEST(TraceCommand, PrintsNothingForNoGoals)
 }
 
 // As `loop --record` writes them, without the columns that trace ignores.
-TEST(TraceCommand, FollowsWhatARecordingWasTouchedWith)
+TEST(TraceCommand, UsesTheContactSettingsOfARecording)
 {
     // Goals that sink into the mountain and slide along inside it.
     const auto goal = [](int i) {

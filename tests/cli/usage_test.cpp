@@ -163,7 +163,7 @@ TEST(Usage, SuggestsTheNearestOfAListOfValues)
                 HasSubstr("Did you mean \"Mars\"?"));
 }
 
-TEST(Usage, TakesCommasOrBlanksBetweenNumbersThatBelongTogether)
+TEST(Usage, AcceptsCommasOrBlanksBetweenNumbers)
 {
     const auto out = [](const Words& arguments) {
         const ProgramOutput output = runCli(arguments);
@@ -192,7 +192,7 @@ TEST(Usage, TakesCommasOrBlanksBetweenNumbersThatBelongTogether)
     EXPECT_EQ(out({"info", "--radii", "3396190", mars}), out({"info", mars, "--radii=3396190"}));
 }
 
-TEST(Usage, TakesSizesWithACrossACommaOrABlank)
+TEST(Usage, AcceptsSizesWithACrossACommaOrABlank)
 {
     const TempFolder folder;
     std::vector<std::string> pictures;
@@ -207,7 +207,7 @@ TEST(Usage, TakesSizesWithACrossACommaOrABlank)
     }
 }
 
-TEST(Usage, AnswersHelpAndVersionWhereverTheyStand)
+TEST(Usage, AnswersHelpAndVersionAtAnyPosition)
 {
     const std::string mars = bundledMars();
     const std::string version = runCli({"--version"}).out;
@@ -247,7 +247,7 @@ TEST(Usage, OpensFileAddresses)
               traced(folder.file("goals a.csv")));
 }
 
-TEST(Usage, EndsWithOneLineOnInputsThatNeverEnd)
+TEST(Usage, FailsInOneLineOnEndlessInput)
 {
     const TempFolder folder;
     const std::string cli = MARSVIEW_CLI;
@@ -276,7 +276,7 @@ TEST(Usage, EndsWithOneLineOnInputsThatNeverEnd)
     EXPECT_THAT(output.err, HasSubstr("is not a regular file"));
 }
 
-TEST(Usage, SaysThatMemoryIsShortInOneLine)
+TEST(Usage, ReportsALackOfMemoryInOneLine)
 {
     const ProgramOutput output =
         runProgram({"bash", "-c",
@@ -306,7 +306,7 @@ TEST(Usage, ReportsErrorsAsJsonWithJson)
     EXPECT_THAT(wrong["message"].get<std::string>(), HasSubstr("Did you mean \"--json\"?"));
 }
 
-TEST(Usage, DescribesSeveralFilesAndReportsTheOneThatFails)
+TEST(Usage, DescribesSeveralFilesAndReportsFailures)
 {
     const ProgramOutput text =
         runCli({"info", bundledMars(), "/no/such/map.tif", bundledMountain()});
