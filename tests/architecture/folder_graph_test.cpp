@@ -7,14 +7,14 @@ namespace {
 
 using Folders = std::vector<std::string>;
 
-TEST(FolderGraph, FoldersThatCanBeOrderedHaveNoCycle)
+TEST(FolderGraph, OrderedFoldersHaveNoCycle)
 {
     const std::vector<Include> includes{
         {"a/x.cpp", "a/x.h"}, {"a/x.cpp", "b/y.h"}, {"a/x.cpp", "c/z.h"}, {"b/y.cpp", "c/z.h"}};
     EXPECT_TRUE(folderCycles(includes).empty());
 }
 
-TEST(FolderGraph, ACycleIsReportedWithTheIncludesThatMakeIt)
+TEST(FolderGraph, ReportsACycleWithItsIncludes)
 {
     // No file includes another in a circle; the folders do.
     const std::vector<Include> includes{
@@ -25,7 +25,7 @@ TEST(FolderGraph, ACycleIsReportedWithTheIncludesThatMakeIt)
     EXPECT_EQ(cycles[0].includes, (std::vector<Include>{includes[0], includes[1], includes[2]}));
 }
 
-TEST(FolderGraph, ALongCycleIsFoundAndAFolderThatOnlyLeadsThereIsNotPartOfIt)
+TEST(FolderGraph, FindsALongCycleWithoutFoldersThatOnlyLeadToIt)
 {
     const std::vector<Include> includes{
         {"a/x.h", "b/x.h"}, {"b/x.h", "c/x.h"}, {"c/y.h", "d/x.h"}, {"d/x.h", "b/y.h"}};
@@ -34,7 +34,7 @@ TEST(FolderGraph, ALongCycleIsFoundAndAFolderThatOnlyLeadsThereIsNotPartOfIt)
     EXPECT_EQ(cycles[0].folders, (Folders{"b", "c", "d"}));
 }
 
-TEST(FolderGraph, AFolderAndAFolderWithinItCanMakeACycle)
+TEST(FolderGraph, FindsACycleBetweenAFolderAndItsSubfolder)
 {
     const std::vector<Include> includes{{"a/x.h", "a/b/x.h"}, {"a/b/y.h", "a/y.h"}};
     const std::vector<FolderCycle> cycles = folderCycles(includes);
@@ -42,7 +42,7 @@ TEST(FolderGraph, AFolderAndAFolderWithinItCanMakeACycle)
     EXPECT_EQ(cycles[0].folders, (Folders{"a", "a/b"}));
 }
 
-TEST(FolderGraph, SeparateCyclesAreReportedOnceEach)
+TEST(FolderGraph, ReportsSeparateCyclesOnceEach)
 {
     const std::vector<Include> includes{{"a/x.h", "b/x.h"}, {"b/y.h", "a/y.h"}, {"b/y.h", "c/x.h"},
                                         {"c/x.h", "d/x.h"}, {"d/y.h", "c/y.h"}, {"c/z.h", "e/x.h"},
@@ -53,7 +53,7 @@ TEST(FolderGraph, SeparateCyclesAreReportedOnceEach)
     EXPECT_EQ(cycles[1].folders, (Folders{"c", "d"}));
 }
 
-TEST(FolderGraph, FilesCountInTheirOwnFolderAlone)
+TEST(FolderGraph, FilesBelongToTheirOwnFolderOnly)
 {
     const Folders paths{"a/1.h", "a/2.h", "a/3.h", "a/b/1.h", "a/b/2.h"};
     using Counts = std::map<std::string, std::size_t>;

@@ -66,7 +66,7 @@ std::vector<Include> ownIncludesOfTheProject()
     return includes;
 }
 
-TEST(Layering, EveryIncludeFollowsTheArrows)
+TEST(Layering, EveryIncludeFollowsTheLayers)
 {
     const std::vector<Include> includes = includesOfTheProject();
     for (const Include& include : includes) {
@@ -78,7 +78,7 @@ TEST(Layering, EveryIncludeFollowsTheArrows)
     EXPECT_GT(includes.size(), 200U); // or the test looks in the wrong place
 }
 
-TEST(Layering, NoFoldersIncludeEachOtherInACircle)
+TEST(Layering, FoldersHaveNoCycles)
 {
     for (const FolderCycle& cycle : folderCycles(ownIncludesOfTheProject())) {
         std::string lines;
@@ -103,7 +103,7 @@ TEST(Layering, NoFolderIsCrowded)
     EXPECT_GT(paths.size(), 100U); // or the test looks in the wrong place
 }
 
-TEST(IncludeRules, ReadDirectivesAndNothingElse)
+TEST(IncludeRules, ReadOnlyIncludeDirectives)
 {
     const char* source =
         "// #include \"core/a.h\"\n"
@@ -121,7 +121,7 @@ TEST(IncludeRules, ReadDirectivesAndNothingElse)
     EXPECT_EQ(includesOf(source), expected);
 }
 
-TEST(IncludeRules, PlantedViolationsAreFound)
+TEST(IncludeRules, FindPlantedViolations)
 {
     const std::pair<const char*, const char*> table[] = {
         {"core/geo/crs.cpp", "core/raster/raster_file.h"},
@@ -184,7 +184,7 @@ TEST(IncludeRules, PlantedViolationsAreFound)
     }
 }
 
-TEST(IncludeRules, WhatTheArchitectureAllowsIsAllowed)
+TEST(IncludeRules, AllowWhatTheArchitectureAllows)
 {
     const std::pair<const char*, const char*> table[] = {
         {"core/geo/crs.cpp", "core/base/angle.h"},
