@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder with more files than this is two rooms.
+// A folder with more files than this should be split.
 constexpr std::size_t kFilesMax = 45;
 
 bool isSource(const std::string& path)
@@ -45,7 +45,7 @@ std::vector<std::string> filesOfTheProject()
     return paths;
 }
 
-// With what is in quotes and in brackets.
+// The names of all #include directives, in quotes and in brackets.
 std::vector<Include> includesOfTheProject()
 {
     std::vector<Include> includes;

@@ -1,4 +1,4 @@
-// Every command opens its raster in one way, and passes on what it opened.
+// Every command opens its raster once, and passes the open file on.
 #include "tests/cli/run_cli.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
@@ -57,7 +57,7 @@ private:
     int queue_;
 };
 
-// The header is checked before GDAL opens the file: two opens are one way through.
+// Two opens are expected: our own check of the header, and GDAL's.
 TEST(OpenedOnce, EveryCommandOpensItsMapOnce)
 {
     const TempFolder folder;

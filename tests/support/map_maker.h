@@ -11,7 +11,7 @@
 
 namespace marsview::test {
 
-/// Loads and prepares a file; fails the test, and throws, where that cannot be.
+/// Loads and prepares a file; on failure, fails the test and throws.
 std::shared_ptr<const Map> loadedMap(const std::string& path);
 
 /// withOverrides() without a monitor.

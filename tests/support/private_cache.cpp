@@ -1,5 +1,5 @@
-// Part of every test program: what it and the programs that it runs prepare goes to a folder that
-// is removed at the end, and never to the user's ~/.cache.
+// Part of every test program: prepared files, also those of programs that a test runs, go to a
+// folder that is removed at the end, never to the user's ~/.cache.
 
 #include "tests/support/temp_folder.h"
 

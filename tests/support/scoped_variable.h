@@ -7,7 +7,7 @@
 
 namespace marsview::test {
 
-/// Sets a variable, or removes it where `value` is null; its end brings the value of before back.
+/// Sets a variable, or removes it if `value` is null. The destructor restores the previous value.
 /// `name` must outlive it.
 class ScopedVariable {
 public:

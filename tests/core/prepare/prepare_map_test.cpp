@@ -219,7 +219,7 @@ TEST_F(PrepareMap, RefusesToWriteNextToARemoteRaster)
     MapResources resources;
     resources.folder = maps.path();
     JobMonitor monitor;
-    const std::string address = "http://localhost:1/mars.tif"; // nothing is asked of it
+    const std::string address = "http://localhost:1/mars.tif"; // it gets no request
     const Status built = buildOverviews({.path = address}, resources, monitor);
     ASSERT_FALSE(built);
     EXPECT_THAT(built.error().message, testing::StartsWith(address + ": is on a server"));

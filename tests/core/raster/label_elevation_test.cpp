@@ -474,7 +474,7 @@ TEST(Pds4Label, IsAppliedWhenItsTiffIsOpened)
     }
 }
 
-// GDAL 3.6 takes them for kilometres.
+// GDAL 3.6 takes them for kilometers.
 TEST(Pds3Label, ReadsRadiiInTheUnitOfTheLabel)
 {
     const TempFolder folder;
@@ -636,7 +636,7 @@ TEST(Isis3Label, IsAppliedOnceToATiff)
         expectElevations(file, samples, 0.25, -40.0);
         EXPECT_THAT(file.info().notices, testing::Not(Contains(HasSubstr("of its own"))));
     }
-    // With a scale of its own in the TIFF.
+    // The TIFF has its own scale.
     std::filesystem::rename(data, folder.file("plain.tif"));
     test::runTool({"gdal_translate", "-q", "-co", "COMPRESS=DEFLATE", "-a_scale", "0.5",
                    "-a_offset", "7", folder.file("plain.tif"), data});
@@ -649,7 +649,7 @@ TEST(Isis3Label, IsAppliedOnceToATiff)
     }
 }
 
-// Its size and elevations are the label's, and where it lies only the raster says.
+// Size and elevations are those of the label; only the raster has a placement.
 TEST(Pds3Label, KeepsTheRastersPlacementIfItHasNone)
 {
     const TempFolder folder;

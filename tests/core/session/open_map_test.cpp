@@ -84,7 +84,7 @@ protected:
         ASSERT_TRUE(prepared) << prepared.error().message;
     }
 
-    // Tiles of the finest level that cannot be read; the others are what they should be.
+    // The number of unreadable tiles of the finest level; checks that all others are correct.
     static std::size_t unreadable(const std::shared_ptr<const Map>& map)
     {
         std::size_t count = 0;

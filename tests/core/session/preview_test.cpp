@@ -78,7 +78,7 @@ TEST(PreviewMap, HasTheHeightsOfTheMapAtItsSamples)
         const Heightfield& heights = small->heightfield();
         for (std::size_t j = 0; j < heights.rows(); ++j) {
             for (std::size_t i = 0; i < heights.columns(); ++i) {
-                // By way of the ground: where the sample says that it lies.
+                // Through the position that the preview gives for the sample.
                 const MapPoint at =
                     small->georeference().toMap({static_cast<double>(i), static_cast<double>(j)});
                 const GridPoint place = whole->georeference().toGrid(at);

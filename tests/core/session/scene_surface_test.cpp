@@ -64,7 +64,7 @@ public:
         Affine to_scene_grid;
     };
 
-    // `x_shifts` brings each map's coordinates onto the turn of the first.
+    // `x_shifts` moves each map's coordinates to the turn of the first.
     BruteScene(const std::vector<std::shared_ptr<const Map>>& maps,
                const std::vector<double>& x_shifts)
         : frame_(maps.front()->georeference().sceneFrame())

@@ -89,7 +89,7 @@ TEST(Session, ReplacesTheSampleByAnOpenedMap)
     const Session session = added(sample, {.map = maps.any(), .name = "a"});
     EXPECT_THAT(namesOf(session), ElementsAre("a"));
     EXPECT_THAT(namesOf(added(session, {.map = maps.any(), .name = "b"})), ElementsAre("b", "a"));
-    EXPECT_THAT(namesOf(sample), ElementsAre("s")); // a value: what it came from is untouched
+    EXPECT_THAT(namesOf(sample), ElementsAre("s")); // a value: the previous session is unchanged
 }
 
 TEST(Session, KeepsItsInvariantsThroughAnySequenceOfChanges)
