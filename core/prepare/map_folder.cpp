@@ -221,7 +221,7 @@ Result<std::vector<PreparedMap>> MapFolder::list() const
         map.path = (folder_ / name).string();
         map.last_used = fs::file_time_type::min();
         for (const fs::path& file : files) {
-            std::error_code ignored; // it may disappear meanwhile
+            std::error_code ignored; // another program may remove it
             const std::uintmax_t bytes = fs::file_size(file, ignored);
             map.bytes += ignored ? 0 : bytes;
             const fs::file_time_type time = fs::last_write_time(file, ignored);

@@ -48,7 +48,7 @@ enum class TileAccess : std::uint8_t {
 };
 
 /// Reads heights of a tiled map and caches the last tiles. For one thread and a short time, such as
-/// a ray or a node: cached tiles stay in memory, and tiles that arrive meanwhile may be missed.
+/// a ray or a node: cached tiles stay in memory, and tiles that arrive later may be missed.
 class TileCursor {
 public:
     TileCursor(const TiledSamples& samples, const ElevationScale& scale, TileAccess access);

@@ -195,7 +195,7 @@ struct TileCache::Impl {
         Result<std::shared_ptr<const Tile>> outcome = readTile(*opened, reader, key.id);
         lock.lock();
         in_work.erase(key);
-        // The raster may have been removed meanwhile.
+        // The raster may have been removed during the read.
         const auto known = sources.find(key.raster);
         if (outcome) {
             ++statistics.loaded;

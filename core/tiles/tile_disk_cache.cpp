@@ -100,7 +100,7 @@ struct KeptFile {
     std::uint64_t bytes = 0;
 };
 
-// Tiles of all programs, finished or not. Files that disappear meanwhile are skipped.
+// Tiles of all programs, finished or not. Files that disappear during the scan are skipped.
 std::vector<KeptFile> filesIn(const std::string& folder)
 {
     std::vector<KeptFile> files;
