@@ -118,7 +118,7 @@ Result<Ground> fractalGround(const BenchContactOptions& options, JobMonitor& mon
                                   statistics, {.gain = is_int16 ? kFractalStep : 1.0});
     auto analysis = analyze(heightfield, monitor);
     if (!analysis) {
-        return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+        return Error{ErrorCode::Cancelled, "measuring was canceled"};
     }
     Ground ground;
     ground.name = fmt::format("fractal of {0} × {0} {1} samples, seed {2}", options.size,
@@ -126,7 +126,7 @@ Result<Ground> fractalGround(const BenchContactOptions& options, JobMonitor& mon
     ground.hierarchy_bytes = hierarchyBytes((*analysis)->bounds, false);
     auto filled = FilledHeightfield::build(heightfield, std::move(analysis).value(), monitor);
     if (!filled) {
-        return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+        return Error{ErrorCode::Cancelled, "measuring was canceled"};
     }
     ground.filled = std::make_shared<const FilledHeightfield>(std::move(filled).value());
     const double centre = static_cast<double>(options.size - 1) / 2.0;

@@ -132,7 +132,7 @@ Status runBench(const BenchStabilityOptions& options)
     for (std::size_t i = 0; i < rows.size(); ++i) {
         job.monitor().report(static_cast<double>(i) / static_cast<double>(rows.size()));
         if (job.monitor().isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            return Error{ErrorCode::Cancelled, "measuring was canceled"};
         }
         Row& row = rows[i];
         for (std::size_t d = 0; d < kDelaysS.size(); ++d) {

@@ -90,7 +90,7 @@ public:
             monitor_.report(static_cast<double>(i + 1) / static_cast<double>(ways.size()));
         }
         if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            return Error{ErrorCode::Cancelled, "measuring was canceled"};
         }
         return result;
     }

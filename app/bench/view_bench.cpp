@@ -323,7 +323,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
         return !job.monitor().isCancelled();
     };
     const Error cancelled{ErrorCode::Cancelled,
-                          fmt::format("{}: measuring was cancelled", map.path)};
+                          fmt::format("{}: measuring was canceled", map.path)};
     for (const Flight flight : kFlights) {
         result.flights.push_back(bench.fly(flight));
         if (!go_on()) {

@@ -111,7 +111,7 @@ private:
             monitor.report(static_cast<double>(goal) /
                            static_cast<double>(recording_.goals.size()));
             if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "tracing was cancelled"};
+                return Error{ErrorCode::Cancelled, "tracing was canceled"};
             }
         }
         return followGround(goal);

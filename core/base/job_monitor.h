@@ -26,14 +26,14 @@ public:
     double fraction() const noexcept { return fraction_.load(std::memory_order_relaxed); }
 
     /// Asks the worker to stop soon. Cannot be undone.
-    void cancel() noexcept { is_cancelled_.store(true, std::memory_order_relaxed); }
-    bool isCancelled() const noexcept { return is_cancelled_.load(std::memory_order_relaxed); }
+    void cancel() noexcept { is_canceled_.store(true, std::memory_order_relaxed); }
+    bool isCancelled() const noexcept { return is_canceled_.load(std::memory_order_relaxed); }
 
 private:
     friend class JobPart;
 
     std::atomic<double> fraction_{0.0};
-    std::atomic<bool> is_cancelled_{false};
+    std::atomic<bool> is_canceled_{false};
     double part_begin_ = 0.0; // the worker's and its helpers', as are the following
     double part_end_ = 1.0;
     double stage_begin_ = 0.0;

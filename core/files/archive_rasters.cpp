@@ -209,7 +209,7 @@ std::vector<ArchiveRaster> rastersInArchive(const std::string& archive)
         known.clear();
     }
     std::vector<ArchiveRaster> rasters = findRasters(archive);
-    if (!rasters.empty()) { // the search may have been cancelled
+    if (!rasters.empty()) { // the search may have been canceled
         known[key] = rasters;
     }
     return rasters;

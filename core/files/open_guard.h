@@ -26,7 +26,7 @@ struct GuardedDataset {
 /// Opens the first of the names, at least one, that GDAL opens. The error is a sentence without the
 /// path, empty if no driver recognizes any name. Unreadable if the file is shorter than its header
 /// requires or a driver crashes on it, TooLarge if opening takes too much memory, Cancelled if the
-/// thread's OpeningJob is cancelled. Any thread.
+/// thread's OpeningJob is canceled. Any thread.
 Result<GuardedDataset> openFirst(const std::vector<std::string>& names);
 
 /// Opens the same raster again, with the driver that opened it.

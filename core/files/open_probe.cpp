@@ -118,7 +118,7 @@ probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMo
         return outcome.error();
     }
     if (outcome->end == ChildEnd::Cancelled) {
-        return Error{ErrorCode::Cancelled, "opening was cancelled"};
+        return Error{ErrorCode::Cancelled, "opening was canceled"};
     }
     Report report = reportIn(outcome->out);
     ProbeAnswer answer;

@@ -5,7 +5,7 @@
 
 namespace marsview {
 
-/// During its lifetime, cancelling the job aborts the opening of a raster on this thread with the
+/// During its lifetime, canceling the job aborts the opening of a raster on this thread with the
 /// error Cancelled. The innermost object counts.
 class OpeningJob {
 public:

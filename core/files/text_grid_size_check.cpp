@@ -61,7 +61,7 @@ std::streamoff endOfHeader(std::ifstream& stream)
     }
 }
 
-// Up to `count`; empty if the job was cancelled.
+// Up to `count`; empty if the job was canceled.
 std::optional<std::uint64_t> wordsIn(const std::string& path, std::uint64_t count)
 {
     std::ifstream stream(path, std::ios::binary);
@@ -115,7 +115,7 @@ Status checkTextGrid(const std::string& path, std::uint64_t count)
     const std::optional<std::uint64_t> words =
         bytes / 2 + 1 < count ? bytes / 2 + 1 : wordsIn(path, count);
     if (!words) {
-        return Error{ErrorCode::Cancelled, "opening was cancelled"};
+        return Error{ErrorCode::Cancelled, "opening was canceled"};
     }
     if (*words < count) {
         return Error{ErrorCode::Unreadable,

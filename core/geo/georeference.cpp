@@ -8,14 +8,14 @@ namespace marsview {
 namespace {
 
 // Meters in one unit of map x and map y, signed so that positive is east and north.
-struct MetresPerUnit {
+struct MetersPerUnit {
     double x = 1.0;
     double y = 1.0;
 };
 
 // A geographic raster is flattened with the scale at its center: there, one degree has the same
 // length in both directions as on the ellipsoid at that latitude.
-MetresPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
+MetersPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
 {
     if (!crs) {
         return {};
@@ -59,7 +59,7 @@ Georeference::Georeference(std::size_t columns,
 {
     const GridPoint centre{(static_cast<double>(columns_) - 1.0) / 2.0,
                            (static_cast<double>(rows_) - 1.0) / 2.0};
-    const MetresPerUnit scale = metresPerUnit(crs_, toMap(centre));
+    const MetersPerUnit scale = metresPerUnit(crs_, toMap(centre));
     const GeoTransform::Terms& t = transform_.terms();
     scene_frame_ = {.origin = centre,
                     .east_per_column = t[1] * scale.x,
@@ -71,7 +71,7 @@ Georeference::Georeference(std::size_t columns,
     }
     if (const auto origin = crs_->toGeographic(toMap(centre))) {
         constexpr double kHalfTurn = std::numbers::pi;
-        centre_longitude_ = origin->longitude.radians() <= -kHalfTurn
+        center_longitude_ = origin->longitude.radians() <= -kHalfTurn
                                 ? Angle::radians(origin->longitude.radians() + 2.0 * kHalfTurn)
                                 : origin->longitude;
     }
@@ -95,9 +95,9 @@ std::optional<GeographicPoint> Georeference::toGeographic(GridPoint grid) const
     const MapPoint map = toMap(grid);
     std::optional<GeographicPoint> point = crs_->toGeographic(map);
     if (point && crs_->turn()) {
-        const double turns_from_centre =
+        const double turns_from_center =
             crs_->eastSign() * (map.x - toMap(scene_frame_.origin).x) / *crs_->turn();
-        const double expected_deg = centre_longitude_.degrees() + 360.0 * turns_from_centre;
+        const double expected_deg = center_longitude_.degrees() + 360.0 * turns_from_center;
         const double whole_turns = std::round((expected_deg - point->longitude.degrees()) / 360.0);
         if (whole_turns != 0.0) {
             point->longitude = Angle::degrees(point->longitude.degrees() + 360.0 * whole_turns);
@@ -119,8 +119,8 @@ std::optional<GridPoint> Georeference::toGrid(GeographicPoint geographic) const
         // Among the positions that differ by whole turns, the one nearest to the center is on the
         // raster if any is, because no raster extends more than half a turn from its center; a
         // global raster is cut there, at its seam.
-        const double centre_x = toMap(scene_frame_.origin).x;
-        map->x += *turn * std::round((centre_x - map->x) / *turn);
+        const double center_x = toMap(scene_frame_.origin).x;
+        map->x += *turn * std::round((center_x - map->x) / *turn);
     }
     return toGrid(*map);
 }

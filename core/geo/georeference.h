@@ -59,7 +59,7 @@ private:
     GeoTransform transform_;
     std::optional<Crs> crs_;
     bool wraps_around_ = false;
-    Angle centre_longitude_; // of the origin of scene_frame_, if the CRS has a turn
+    Angle center_longitude_; // of the origin of scene_frame_, if the CRS has a turn
     SceneFrame scene_frame_;
 };
 

@@ -8,7 +8,7 @@ namespace marsview {
 namespace {
 
 // The grid counts from pixel centers, the terms from pixel corners.
-constexpr double kCentreOfPixel = 0.5;
+constexpr double kCenterOfPixel = 0.5;
 
 // The smallest sine of the angle between the two pixel axes that counts as independent axes.
 constexpr double kSineOfAxesMin = 1e-9;
@@ -33,8 +33,8 @@ Result<GeoTransform> GeoTransform::fromTerms(const Terms& t)
 
 MapPoint GeoTransform::toMap(GridPoint grid) const noexcept
 {
-    const double pixel = grid.column + kCentreOfPixel;
-    const double line = grid.row + kCentreOfPixel;
+    const double pixel = grid.column + kCenterOfPixel;
+    const double line = grid.row + kCenterOfPixel;
     const Terms& t = terms_;
     return {t[0] + (pixel * t[1] + line * t[2]), t[3] + (pixel * t[4] + line * t[5])};
 }
@@ -45,11 +45,11 @@ GridPoint GeoTransform::toGrid(MapPoint map) const noexcept
     const double dx = map.x - t[0];
     const double dy = map.y - t[3];
     if (t[2] == 0.0 && t[4] == 0.0) {
-        return {dx / t[1] - kCentreOfPixel, dy / t[5] - kCentreOfPixel};
+        return {dx / t[1] - kCenterOfPixel, dy / t[5] - kCenterOfPixel};
     }
     const double determinant = t[1] * t[5] - t[2] * t[4];
-    return {(dx * t[5] - dy * t[2]) / determinant - kCentreOfPixel,
-            (dy * t[1] - dx * t[4]) / determinant - kCentreOfPixel};
+    return {(dx * t[5] - dy * t[2]) / determinant - kCenterOfPixel,
+            (dy * t[1] - dx * t[4]) / determinant - kCenterOfPixel};
 }
 
 double GeoTransform::pixelWidth() const noexcept

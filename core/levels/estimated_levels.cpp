@@ -98,7 +98,7 @@ readAll(const TileSource& source, TileKind kind, std::size_t level, JobMonitor& 
     for (std::size_t i = 0; i < columns * rows; ++i) {
         if (monitor.isCancelled()) {
             return Error{ErrorCode::Cancelled,
-                         fmt::format("{}: reading was cancelled", source.name())};
+                         fmt::format("{}: reading was canceled", source.name())};
         }
         const TileId id{kind, static_cast<std::uint8_t>(level),
                         static_cast<std::uint32_t>(i % columns),

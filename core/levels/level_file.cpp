@@ -470,7 +470,7 @@ Status LevelFile::check(const JobMonitor& monitor) const
          {&impl_->samples, &impl_->fills.parts, &impl_->coarse_fills.parts}) {
         for (const FilePart& part : *parts) {
             if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "cancelled"};
+                return Error{ErrorCode::Cancelled, "canceled"};
             }
             const auto bytes = impl_->file.read(part.offset, part.bytes);
             if (!bytes) {

@@ -219,7 +219,7 @@ private:
                 }
                 if (!filled || filled_tile_row != tile_row) {
                     if (monitor_.isCancelled()) {
-                        return Error{ErrorCode::Cancelled, "cancelled"};
+                        return Error{ErrorCode::Cancelled, "canceled"};
                     }
                     auto rows = filledRows(survey_.fine_means, means_, tile_row);
                     if (!rows) {
@@ -419,7 +419,7 @@ private:
     {
         for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
             if (monitor_.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "cancelled"};
+                return Error{ErrorCode::Cancelled, "canceled"};
             }
             const TileId id{.kind = TileKind::Samples,
                             .level = static_cast<std::uint8_t>(band.level),

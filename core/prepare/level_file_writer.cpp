@@ -186,7 +186,7 @@ LevelFileWriter::finish(LevelFileHeader header, std::span<const Array> arrays, c
             }
         });
         if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "cancelled"};
+            return Error{ErrorCode::Cancelled, "canceled"};
         }
         for (const std::vector<std::byte>& chunk : chunks) {
             auto appended = append(chunk);
@@ -208,7 +208,7 @@ LevelFileWriter::finish(LevelFileHeader header, std::span<const Array> arrays, c
         return written;
     }
     if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
+        return Error{ErrorCode::Cancelled, "canceled"};
     }
     if (Status confirmed = how.confirm ? how.confirm() : Status(Done{}); !confirmed) {
         return confirmed;

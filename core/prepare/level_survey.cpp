@@ -293,7 +293,7 @@ private:
         }
         for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
             if (monitor_.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "cancelled"};
+                return Error{ErrorCode::Cancelled, "canceled"};
             }
             const TileId id{.kind = TileKind::Samples,
                             .level = static_cast<std::uint8_t>(band.level),

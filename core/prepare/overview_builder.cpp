@@ -31,7 +31,7 @@ T voidSample(const Nodata<T>& nodata)
 }
 
 template <typename T>
-T neighbourOf(T value)
+T neighborOf(T value)
 {
     if constexpr (std::is_floating_point_v<T>) {
         return std::nextafter(value, value != T{} ? T{} : std::numeric_limits<T>::max());
@@ -151,7 +151,7 @@ void OverviewBuilder::putPixels(Level& level,
             if (count > 0) {
                 value = meanOf<T>(sums[y * width + x], count);
                 if (nodata.exists && value == nodata.value) {
-                    value = neighbourOf(value);
+                    value = neighborOf(value);
                 }
             }
             samples[x] = value;

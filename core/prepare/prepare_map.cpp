@@ -86,7 +86,7 @@ lockFor(const std::string& level_path, TiledGeoTiffJob::WhenBusy when_busy, JobM
                                      level_path, FileLock::holder(path))};
         }
         if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "cancelled"};
+            return Error{ErrorCode::Cancelled, "canceled"};
         }
         std::this_thread::sleep_for(kLockPoll);
     }

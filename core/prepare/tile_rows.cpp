@@ -40,7 +40,7 @@ public:
     Result<std::size_t> outcome() &&
     {
         if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "cancelled"};
+            return Error{ErrorCode::Cancelled, "canceled"};
         }
         if (failure_) {
             return std::move(*failure_);
@@ -102,7 +102,7 @@ Result<Tile>
 readTile(TileReader& reader, const TileSource& source, const TileId& id, const JobMonitor& monitor)
 {
     if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
+        return Error{ErrorCode::Cancelled, "canceled"};
     }
     auto tile = reader.read(id);
     MARSVIEW_CHECK(!tile || (tile->samples.type() == source.layout().type &&

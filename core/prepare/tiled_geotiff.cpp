@@ -569,7 +569,7 @@ Result<FileLock> lockFor(const TiledGeoTiffJob& job, JobMonitor& monitor, bool& 
         if (monitor.isCancelled()) {
             return Error{
                 ErrorCode::Cancelled,
-                fmt::format("{}: waiting for another program that prepares it was cancelled",
+                fmt::format("{}: waiting for another program that prepares it was canceled",
                             job.path)};
         }
         has_waited = true;
@@ -663,7 +663,7 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
         }
         if (copied.error().code == ErrorCode::Cancelled) {
             return Error{ErrorCode::Cancelled,
-                         fmt::format("{}: preparing was cancelled{}", job.path,
+                         fmt::format("{}: preparing was canceled{}", job.path,
                                      is_kept ? "; prepare it again to resume" : "")};
         }
         return std::move(copied).error();

@@ -160,7 +160,7 @@ public:
         }
         if (monitor_.isCancelled()) {
             return Error{ErrorCode::Cancelled,
-                         fmt::format("{}: reading was cancelled", file_.info().path)};
+                         fmt::format("{}: reading was canceled", file_.info().path)};
         }
         if (is_stopped) {
             return std::optional<LoadedSamples>();

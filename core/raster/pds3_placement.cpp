@@ -140,15 +140,15 @@ std::optional<RadiusText> radiusAt(const std::string& label, std::size_t at)
     return value ? std::optional(radius) : std::nullopt;
 }
 
-double metresOf(const RadiusText& radius)
+double metersOf(const RadiusText& radius)
 {
-    constexpr double kKilometre = 1e3;
+    constexpr double kKilometer = 1e3;
     constexpr double kLargestKm = 1e5; // Jupiter has 71 492
     if (const auto unit = verticalUnitFrom(radius.unit)) {
         return radius.value * unit->metres;
     }
     return radius.unit.empty() && radius.value > kLargestKm ? radius.value
-                                                            : radius.value * kKilometre;
+                                                            : radius.value * kKilometer;
 }
 
 } // namespace
@@ -161,10 +161,10 @@ std::string withRadiiInKilometers(const std::string& label)
         for (std::size_t at = text.find(name); at != std::string::npos;
              at = text.find(name, at + length)) {
             const std::optional<RadiusText> radius = radiusAt(text, at + length);
-            const double kilometres = radius ? metresOf(*radius) / 1e3 : 0.0;
-            if (radius && kilometres != radius->value) {
+            const double kilometers = radius ? metersOf(*radius) / 1e3 : 0.0;
+            if (radius && kilometers != radius->value) {
                 text.replace(radius->begin, radius->end - radius->begin,
-                             fmt::format("{} <KM>", kilometres));
+                             fmt::format("{} <KM>", kilometers));
             }
         }
     }

@@ -988,7 +988,7 @@ RasterFile::readAll(JobMonitor& monitor, const VoidRule& voids, std::size_t memo
     for (std::size_t row = 0; row < info.rows; row += step) {
         if (monitor.isCancelled()) {
             return Error{ErrorCode::Cancelled,
-                         fmt::format("{}: reading was cancelled", addressOf(info.path))};
+                         fmt::format("{}: reading was canceled", addressOf(info.path))};
         }
         const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
         if (Status read = impl_->readRows(*impl_->band, *grid, window, row); !read) {
@@ -1075,7 +1075,7 @@ Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& v
         for (std::size_t column = 0; column < info.columns; column += step->columns) {
             if (monitor.isCancelled()) {
                 return Error{ErrorCode::Cancelled,
-                             fmt::format("{}: reading was cancelled", addressOf(info.path))};
+                             fmt::format("{}: reading was canceled", addressOf(info.path))};
             }
             const GridWindow window{column, row, std::min(step->columns, info.columns - column),
                                     rows};

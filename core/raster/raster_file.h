@@ -49,7 +49,7 @@ public:
     Status checkComplete() const;
 
     /// All samples. Reports progress after every few megabytes and stops within one such step when
-    /// cancelled. TooLarge if they need more than `memory_bytes_max`.
+    /// canceled. TooLarge if they need more than `memory_bytes_max`.
     ///
     /// `voids` replaces the file's nodata value; masks always apply.
     Result<LoadedSamples>

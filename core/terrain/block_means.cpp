@@ -18,7 +18,7 @@ Result<BlockMeans> BlockMeans::build(const Heightfield& heightfield, JobMonitor&
         }
     });
     if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
+        return Error{ErrorCode::Cancelled, "canceled"};
     }
     BlockMeans means = from(std::move(blocks), extent);
     monitor.report(1.0);

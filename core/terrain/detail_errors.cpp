@@ -72,7 +72,7 @@ Result<DetailErrors> DetailErrors::build(const DrawnSurface& surface, JobMonitor
         }
     });
     if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
+        return Error{ErrorCode::Cancelled, "canceled"};
     }
     return std::move(measure).finish();
 }

@@ -12,7 +12,7 @@ Result<FilledHeightfield> FilledHeightfield::build(const Heightfield& heightfiel
     MARSVIEW_CHECK(analysis != nullptr);
     FilledHeightfield filled(heightfield, std::move(analysis));
     if (heightfield.samples().hasVoids() && !filled.buildMaxima(monitor)) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
+        return Error{ErrorCode::Cancelled, "canceled"};
     }
     monitor.report(1.0);
     return filled;

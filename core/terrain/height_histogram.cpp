@@ -30,7 +30,7 @@ public:
     explicit Counter(HeightHistogram& histogram)
         : histogram_(histogram)
         , low_(histogram.range.minimum_m)
-        , bins_per_metre_(perMetre(histogram))
+        , bins_per_meter_(perMeter(histogram))
     {}
 
     // NaN is ignored.
@@ -40,13 +40,13 @@ public:
             return;
         }
         const auto bin =
-            static_cast<std::size_t>(std::max(0.0, (height_m - low_) * bins_per_metre_));
+            static_cast<std::size_t>(std::max(0.0, (height_m - low_) * bins_per_meter_));
         ++histogram_.counts[std::min(bin, histogram_.counts.size() - 1)];
         ++histogram_.sample_count;
     }
 
 private:
-    static double perMetre(const HeightHistogram& histogram)
+    static double perMeter(const HeightHistogram& histogram)
     {
         const double extent = histogram.range.maximum_m - histogram.range.minimum_m;
         return extent > 0.0 ? static_cast<double>(histogram.counts.size()) / extent : 0.0;
@@ -54,7 +54,7 @@ private:
 
     HeightHistogram& histogram_;
     double low_;
-    double bins_per_metre_;
+    double bins_per_meter_;
 };
 
 // One level of the samples, the finest with few enough. Tiles that cannot be read are ignored.

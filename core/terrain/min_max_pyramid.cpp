@@ -21,12 +21,12 @@ void include(MinMaxPyramid::Bounds& bounds, const MinMaxPyramid::Bounds& other)
 Result<MinMaxPyramid> MinMaxPyramid::build(const Heightfield& heightfield, JobMonitor& monitor)
 {
     if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
+        return Error{ErrorCode::Cancelled, "canceled"};
     }
     MinMaxPyramid pyramid =
         from(RawRanges::of(heightfield.samples(), monitor), heightfield.scale());
     if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "cancelled"};
+        return Error{ErrorCode::Cancelled, "canceled"};
     }
     monitor.report(1.0);
     return pyramid;

@@ -44,7 +44,7 @@ constexpr std::array kRust{
     ColorStop{0.4, {175, 93, 57}},   ColorStop{0.6, {209, 126, 74}},
     ColorStop{0.8, {234, 165, 110}}, ColorStop{1.0, {251, 206, 162}},
 };
-constexpr std::array kGrey{
+constexpr std::array kGray{
     ColorStop{0.0, {77, 77, 79}},
     ColorStop{1.0, {234, 232, 228}},
 };
@@ -77,7 +77,7 @@ constexpr std::array kHypsometric{
 constexpr std::array kRamps{
     ColorRamp{.name = "dawn", .stops = kDawn},
     ColorRamp{.name = "rust", .stops = kRust},
-    ColorRamp{.name = "grey", .stops = kGrey},
+    ColorRamp{.name = "grey", .stops = kGray},
     ColorRamp{.name = "ember", .stops = kEmber},
     ColorRamp{.name = "lagoon", .stops = kLagoon},
     ColorRamp{.name = "datum",
@@ -91,7 +91,7 @@ constexpr std::array kRamps{
 };
 
 // Airless bodies whose surface looks gray.
-constexpr std::array<std::string_view, 6> kGreyBodies{"Moon",  "Mercury", "Ceres",
+constexpr std::array<std::string_view, 6> kGrayBodies{"Moon",  "Mercury", "Ceres",
                                                       "Vesta", "Phobos",  "Deimos"};
 
 } // namespace
@@ -113,9 +113,9 @@ const ColorRamp& defaultColorRamp(std::string_view body_name)
     if (body_name == "Mars") {
         return kRamps[1];
     }
-    const bool is_grey =
-        std::find(kGreyBodies.begin(), kGreyBodies.end(), body_name) != kGreyBodies.end();
-    return is_grey ? kRamps[2] : kRamps[0];
+    const bool is_gray =
+        std::find(kGrayBodies.begin(), kGrayBodies.end(), body_name) != kGrayBodies.end();
+    return is_gray ? kRamps[2] : kRamps[0];
 }
 
 Oklab oklabFrom(Rgb8 color)

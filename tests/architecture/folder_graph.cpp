@@ -34,8 +34,8 @@ std::vector<std::string> shortestCycle(const Graph& graph, const std::string& st
         if (found == graph.end()) {
             continue;
         }
-        for (const std::string& neighbour : found->second) {
-            if (neighbour == start) {
+        for (const std::string& neighbor : found->second) {
+            if (neighbor == start) {
                 std::vector<std::string> cycle{folder};
                 while (cycle.back() != start) {
                     cycle.push_back(reached_from.at(cycle.back()));
@@ -43,8 +43,8 @@ std::vector<std::string> shortestCycle(const Graph& graph, const std::string& st
                 std::reverse(cycle.begin(), cycle.end());
                 return cycle;
             }
-            if (reached_from.emplace(neighbour, folder).second) {
-                next.push_back(neighbour);
+            if (reached_from.emplace(neighbor, folder).second) {
+                next.push_back(neighbor);
             }
         }
     }
@@ -59,9 +59,9 @@ std::set<std::string> reachableFrom(const Graph& graph, const std::string& start
         const std::string folder = next.back();
         next.pop_back();
         if (const auto found = graph.find(folder); found != graph.end()) {
-            for (const std::string& neighbour : found->second) {
-                if (reached.insert(neighbour).second) {
-                    next.push_back(neighbour);
+            for (const std::string& neighbor : found->second) {
+                if (reached.insert(neighbor).second) {
+                    next.push_back(neighbor);
                 }
             }
         }

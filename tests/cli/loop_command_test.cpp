@@ -255,8 +255,8 @@ TEST(LoopCommand, FailsInOneLineIfTheDeviceFails)
     const ProgramOutput nan = run("says_nan");
     EXPECT_THAT(nan.err, AllOf(HasSubstr("was lost after 0.0 s: "), HasSubstr("not finite; ")));
     EXPECT_THAT(nan.out, HasSubstr("; last reason: device lost\n")) << "with a report";
-    const ProgramOutput millimetres = run("says_millimetres");
-    EXPECT_THAT(millimetres.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
+    const ProgramOutput millimeters = run("says_millimetres");
+    EXPECT_THAT(millimeters.err, HasSubstr("was lost after 0.0 s: its samples lie far outside"));
     const ProgramOutput lost = run("answers_nonsense");
     EXPECT_THAT(lost.err, HasSubstr("its plugin returned 4711, an unknown status; "));
     const ProgramOutput unready = run("says_unready");

@@ -164,7 +164,7 @@ TEST(PrepareCommand, StopsOnCtrlCAndResumesLater)
     program.signal(SIGINT);
     EXPECT_EQ(program.wait(), 1) << readFile(messages);
     EXPECT_EQ(readFile(messages),
-              fmt::format("marsview-cli: {}: preparing was cancelled; prepare it "
+              fmt::format("marsview-cli: {}: preparing was canceled; prepare it "
                           "again to resume\n",
                           path));
     const ProgramOutput second = runCli({"prepare", source, "-o", path});

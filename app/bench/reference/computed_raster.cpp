@@ -214,7 +214,7 @@ private:
             }
             if (monitor_.isCancelled()) {
                 return Error{ErrorCode::Cancelled,
-                             fmt::format("{}: writing was cancelled", raster_.path)};
+                             fmt::format("{}: writing was canceled", raster_.path)};
             }
             if (status) {
                 std::swap(computed, written);

@@ -298,7 +298,7 @@ Status runMeasurements(const BenchTerrainOptions& options, const std::filesystem
                                             : measureOpen(options, empty);
         if (!found && found.error().code == ErrorCode::Cancelled) {
             return Error{ErrorCode::Cancelled,
-                         fmt::format("{}: measuring was cancelled", options.bench.map.path)};
+                         fmt::format("{}: measuring was canceled", options.bench.map.path)};
         }
         json[measurement.name] = found ? *found : BenchJson{{"left_out", found.error().message}};
         if (!options.is_json) {

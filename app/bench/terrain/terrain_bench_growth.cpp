@@ -62,7 +62,7 @@ public:
         }
         measure();
         if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            return Error{ErrorCode::Cancelled, "measuring was canceled"};
         }
         for (const auto& [tiles, path] : tiles_) {
             if (tiles->error()) {

@@ -82,7 +82,7 @@ Result<BenchJson> measureIdentity(const TerrainBenchOptions& options)
             different += isSame(truth, in_tiles->update(goal)) ? 0U : 1U;
             in_contact += truth.is_in_contact ? 1U : 0U;
             if (job.monitor().isCancelled()) {
-                return Error{ErrorCode::Cancelled, "comparing was cancelled"};
+                return Error{ErrorCode::Cancelled, "comparing was canceled"};
             }
         }
         if (tiles->error()) {

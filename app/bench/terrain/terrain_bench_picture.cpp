@@ -45,7 +45,7 @@ Result<BenchJson> measureFirstPicture(const TerrainBenchOptions& options)
     const double first_ms = since();
     (*stage)->paintWhole(camera, job.monitor());
     if (job.monitor().isCancelled()) {
-        return Error{ErrorCode::Cancelled, "opening was cancelled"};
+        return Error{ErrorCode::Cancelled, "opening was canceled"};
     }
     return BenchJson{{"is_prepared", is_prepared},
                      {"is_warm", options.is_warm},

@@ -70,7 +70,7 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options)
     }
     const double height_m = shown.heightfield().heightWaiting(place);
     if (job.monitor().isCancelled()) {
-        return Error{ErrorCode::Cancelled, "fetching was cancelled"};
+        return Error{ErrorCode::Cancelled, "fetching was canceled"};
     }
     const NetworkStatistics all = networkStatistics();
     const Result<SourceIdentity> identity = identify(options.map.path);

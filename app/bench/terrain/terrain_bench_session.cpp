@@ -51,7 +51,7 @@ Result<BenchJson> measureSession(const TerrainBenchOptions& options)
         job.monitor().report((static_cast<double>(i) + 1.0) / kFlights.size());
     }
     if (job.monitor().isCancelled()) {
-        return Error{ErrorCode::Cancelled, "the session was cancelled"};
+        return Error{ErrorCode::Cancelled, "the session was canceled"};
     }
     return BenchJson{{"peak_memory_mb", static_cast<double>(peakMemoryBytes()) / 1e6},
                      {"opened_peak_memory_mb", opened_mb},

@@ -258,7 +258,7 @@ TEST(Georeference, ConvertsPositionsOfAnotherGridWithoutACrs)
     const Georeference coarse(10, 10, *GeoTransform::fromTerms({100, 2, 0, 50, 0, -2}),
                               std::nullopt);
     const Georeference fine(40, 40, *GeoTransform::fromTerms({90, 1, 0, 60, 0, -1}), std::nullopt);
-    // The centre of sample (3, 4) is at x = 107, y = 41.
+    // The center of sample (3, 4) is at x = 107, y = 41.
     EXPECT_EQ(fine.toGrid(GridPoint{3.0, 4.0}, coarse), (GridPoint{16.5, 18.5}));
 }
 

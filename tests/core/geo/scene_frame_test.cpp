@@ -83,7 +83,7 @@ TEST(SceneFrame, DegreesAreScaledAtTheCenterOfTheRaster)
         double a;
         double b;
         bool is_centric;
-        double centre_deg;
+        double center_deg;
     } cases[] = {
         {"EPSG:4326", 6378137.0, 6356752.314245179, false, 45.0},
         {"EPSG:4326", 6378137.0, 6356752.314245179, false, 0.0},
@@ -96,19 +96,19 @@ TEST(SceneFrame, DegreesAreScaledAtTheCenterOfTheRaster)
         {"IAU_2015:30100", 1737400.0, 1737400.0, false, 20.0},
     };
     for (const auto& c : cases) {
-        SCOPED_TRACE(std::string(c.crs) + " at " + std::to_string(c.centre_deg));
+        SCOPED_TRACE(std::string(c.crs) + " at " + std::to_string(c.center_deg));
         const double step = 0.125;
         const Georeference reference =
-            placed(9, 5, {10.0, step, 0.0, c.centre_deg + 2.5 * step, 0.0, -step}, c.crs);
-        const long double graphic = c.is_centric ? test::graphicLatitude_deg(c.a, c.b, c.centre_deg)
-                                                 : static_cast<long double>(c.centre_deg);
+            placed(9, 5, {10.0, step, 0.0, c.center_deg + 2.5 * step, 0.0, -step}, c.crs);
+        const long double graphic = c.is_centric ? test::graphicLatitude_deg(c.a, c.b, c.center_deg)
+                                                 : static_cast<long double>(c.center_deg);
         const double east = static_cast<double>(test::parallelRadius(c.a, c.b, graphic));
         double north = static_cast<double>(test::meridianRadius(c.a, c.b, graphic));
         if (c.is_centric) {
             // Checked with a difference quotient of the closed formula.
             const long double h = 1e-5L;
-            const long double slope = (test::graphicLatitude_deg(c.a, c.b, c.centre_deg + h) -
-                                       test::graphicLatitude_deg(c.a, c.b, c.centre_deg - h)) /
+            const long double slope = (test::graphicLatitude_deg(c.a, c.b, c.center_deg + h) -
+                                       test::graphicLatitude_deg(c.a, c.b, c.center_deg - h)) /
                                       (2.0L * h);
             north *= static_cast<double>(slope);
         }

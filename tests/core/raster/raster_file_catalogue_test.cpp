@@ -41,7 +41,7 @@ std::vector<std::string> readableFiles()
 }
 
 // Meters in a unit that gdalinfo prints.
-double unitMetres(std::string unit)
+double unitMeters(std::string unit)
 {
     std::transform(unit.begin(), unit.end(), unit.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -55,7 +55,7 @@ double unitMetres(std::string unit)
     return 1.0;
 }
 
-class CatalogueFile : public testing::TestWithParam<std::string> {
+class CatalogFile : public testing::TestWithParam<std::string> {
 protected:
     void SetUp() override
     {
@@ -72,7 +72,7 @@ protected:
         const nlohmann::json& band = test::firstBand(gdal_);
         scale_ = band.value("scale", 1.0);
         offset_ = band.value("offset", 0.0);
-        metres_ = unitMetres(band.value("unit", std::string()));
+        meters_ = unitMeters(band.value("unit", std::string()));
         // The lunar products here give radii: the offset is the reference radius.
         reference_m_ = offset_ == 1737400.0 ? 1737400.0 : 0.0;
         type_ = band.at("type").get<std::string>();
@@ -97,7 +97,7 @@ protected:
         if (is_nodata || is_masked || !std::isfinite(raw)) {
             return std::numeric_limits<double>::quiet_NaN();
         }
-        return (raw * scale_ + offset_) * metres_ - reference_m_;
+        return (raw * scale_ + offset_) * meters_ - reference_m_;
     }
 
     // The digits that gdallocationinfo prints, plus the rounding of the conversion.
@@ -134,13 +134,13 @@ protected:
     std::vector<unsigned char> mask_;
     double scale_ = 1.0;
     double offset_ = 0.0;
-    double metres_ = 1.0;
+    double meters_ = 1.0;
     double reference_m_ = 0.0;
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
 };
 
-TEST_P(CatalogueFile, IsDescribedAsGdalinfoDescribesIt)
+TEST_P(CatalogFile, IsDescribedAsGdalinfoDescribesIt)
 {
     const auto file = RasterFile::open(path_);
     ASSERT_TRUE(file) << file.error().message;
@@ -165,7 +165,7 @@ TEST_P(CatalogueFile, IsDescribedAsGdalinfoDescribesIt)
     }
 }
 
-TEST_P(CatalogueFile, HasTheCornersOfGdalinfo)
+TEST_P(CatalogFile, HasTheCornersOfGdalinfo)
 {
     const auto file = RasterFile::open(path_);
     ASSERT_TRUE(file) << file.error().message;
@@ -197,7 +197,7 @@ TEST_P(CatalogueFile, HasTheCornersOfGdalinfo)
     }
 }
 
-TEST_P(CatalogueFile, HasTheSamplesOfGdallocationinfo)
+TEST_P(CatalogFile, HasTheSamplesOfGdallocationinfo)
 {
     if (!isSurface()) {
         GTEST_SKIP() << "1 × 1 samples do not form a surface";
@@ -232,7 +232,7 @@ TEST_P(CatalogueFile, HasTheSamplesOfGdallocationinfo)
     std::printf("%s: %zu samples, %zu of them void\n", GetParam().c_str(), pixels.size(), voids);
 }
 
-TEST_P(CatalogueFile, IsTriangulatedBetweenSamples)
+TEST_P(CatalogFile, IsTriangulatedBetweenSamples)
 {
     if (!isSurface()) {
         GTEST_SKIP() << "1 × 1 samples do not form a surface";
@@ -295,7 +295,7 @@ TEST_P(CatalogueFile, IsTriangulatedBetweenSamples)
                 positions.size(), voids, worst_m);
 }
 
-TEST_P(CatalogueFile, ScanAndWholeReadFindTheSameRange)
+TEST_P(CatalogFile, ScanAndWholeReadFindTheSameRange)
 {
     auto file = RasterFile::open(path_);
     ASSERT_TRUE(file);
@@ -336,7 +336,7 @@ std::string fileName(const testing::TestParamInfo<std::string>& info)
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(SharedData, CatalogueFile, testing::ValuesIn(readableFiles()), fileName);
+INSTANTIATE_TEST_SUITE_P(SharedData, CatalogFile, testing::ValuesIn(readableFiles()), fileName);
 
 // Headers and data files of labels open through their companion file; all others are rejected.
 TEST(Catalogue, DataAndHeadersOpenThroughTheirCompanions)

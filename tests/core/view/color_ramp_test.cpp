@@ -117,7 +117,7 @@ double difference(Rgb8 a, Rgb8 b)
 
 // The smallest color differences on a ramp, for one type of color vision.
 struct Distinctness {
-    double neighbours = 1e9; // a twelfth of the ramp apart
+    double neighbors = 1e9; // a twelfth of the ramp apart
     double others = 1e9;     // an eighth or more apart
 };
 
@@ -129,7 +129,7 @@ Distinctness distinctness(const ColorRamp& ramp, const See& see)
     Distinctness least;
     for (std::size_t i = 0; i < 256; ++i) {
         if (i + 21 < 256) {
-            least.neighbours = std::min(least.neighbours, difference(colors[i], colors[i + 21]));
+            least.neighbors = std::min(least.neighbors, difference(colors[i], colors[i + 21]));
         }
         for (std::size_t k = i + 32; k < 256; ++k) {
             least.others = std::min(least.others, difference(colors[i], colors[k]));
@@ -216,7 +216,7 @@ TEST(ColorRamp, StepsLookEquallyLargeIfEven)
 
 TEST(ColorRamp, IsDistinctForColorBlindPeopleIfDeclaredSo)
 {
-    constexpr double kNeighbours = 0.02;
+    constexpr double kNeighbors = 0.02;
     constexpr double kOthers = 0.035;
     for (const ColorRamp& ramp : colorRamps()) {
         bool is_distinct = true;
@@ -225,8 +225,8 @@ TEST(ColorRamp, IsDistinctForColorBlindPeopleIfDeclaredSo)
             const Distinctness least =
                 distinctness(ramp, [&](Rgb8 color) { return vision.seen(color); });
             std::cout << ramp.name << ", " << kMissing[missing] << ": neighbours "
-                      << least.neighbours << ", others " << least.others << '\n';
-            is_distinct = is_distinct && least.neighbours > kNeighbours && least.others > kOthers;
+                      << least.neighbors << ", others " << least.others << '\n';
+            is_distinct = is_distinct && least.neighbors > kNeighbors && least.others > kOthers;
         }
         EXPECT_EQ(is_distinct, ramp.is_color_blind_safe) << ramp.name;
     }

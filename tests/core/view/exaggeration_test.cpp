@@ -16,9 +16,9 @@ TEST(DefaultExaggeration, RaisesPlanetsAndKeepsMountains)
 
 TEST(DefaultExaggeration, FlattensMapsWithoutScale)
 {
-    const double degrees_over_metres = defaultExaggeration(360.0, 18000.0);
-    EXPECT_LT(degrees_over_metres, 0.01);
-    EXPECT_GT(degrees_over_metres, 0.001);
+    const double degrees_over_meters = defaultExaggeration(360.0, 18000.0);
+    EXPECT_LT(degrees_over_meters, 0.01);
+    EXPECT_GT(degrees_over_meters, 0.001);
 }
 
 TEST(DefaultExaggeration, IsOneForUnknownSizes)

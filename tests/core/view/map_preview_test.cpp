@@ -33,7 +33,7 @@ struct Grid {
     }
 };
 
-PreviewStyle greys()
+PreviewStyle grays()
 {
     PreviewStyle style;
     for (std::size_t i = 0; i < 256; ++i) {
@@ -104,7 +104,7 @@ TEST(MapPreview, MatchesNormalsFromCrossProducts)
                                .north_per_column = random.uniform(-4.0, 4.0),
                                .north_per_row =
                                    random.uniform(5.0, 40.0) * (random.chance(0.5) ? 1.0 : -1.0)};
-        PreviewStyle style = greys();
+        PreviewStyle style = grays();
         style.exaggeration = random.uniform(0.1, 5.0);
         style.light_azimuth = Angle::degrees(random.uniform(0.0, 360.0));
         style.light_altitude = Angle::degrees(random.uniform(5.0, 90.0));
@@ -128,7 +128,7 @@ TEST(MapPreview, MatchesNormalsFromCrossProducts)
 TEST(MapPreview, FlatTerrainHasOneColor)
 {
     const Grid grid{5, 4, std::vector<float>(20, 50.0F)};
-    PreviewStyle style = greys();
+    PreviewStyle style = grays();
     const int expected = static_cast<int>(
         std::lround(127.5 * (0.28 + 0.84 * std::sin(Angle::degrees(45.0).radians()))));
     const MapPreview preview = mapPreview(grid.view(), kNorthUp, style);
@@ -155,7 +155,7 @@ TEST(MapPreview, IsLitFromTheNorthwestOnEveryRaster)
                 to_light.heights_m.push_back(static_cast<float>(50.0 + (p.x - p.y) * 0.5));
                 from_light.heights_m.push_back(static_cast<float>(50.0 - (p.x - p.y) * 0.5));
             }
-            PreviewStyle style = greys();
+            PreviewStyle style = grays();
             style.tint_range = {.minimum_m = 0.0, .maximum_m = 0.0};
             EXPECT_GT(red(mapPreview(to_light.view(), frame, style), 1, 1),
                       red(mapPreview(from_light.view(), frame, style), 1, 1) + 50);
@@ -166,7 +166,7 @@ TEST(MapPreview, IsLitFromTheNorthwestOnEveryRaster)
 TEST(MapPreview, MakesOnlyVoidsTransparent)
 {
     const Grid grid{2, 2, {10.0F, kVoid, 20.0F, 30.0F}};
-    const MapPreview preview = mapPreview(grid.view(), kNorthUp, greys());
+    const MapPreview preview = mapPreview(grid.view(), kNorthUp, grays());
     EXPECT_EQ(preview.rgba[3], 255);
     EXPECT_EQ(preview.rgba[7], 0);
     EXPECT_EQ(preview.rgba[11], 255);
@@ -175,7 +175,7 @@ TEST(MapPreview, MakesOnlyVoidsTransparent)
 
 TEST(MapPreview, IsEmptyForAnEmptyGrid)
 {
-    const MapPreview preview = mapPreview({}, kNorthUp, greys());
+    const MapPreview preview = mapPreview({}, kNorthUp, grays());
     EXPECT_TRUE(preview.rgba.empty());
 }
 

@@ -8,7 +8,7 @@
 namespace marsview {
 namespace {
 
-TEST(MetresPerPixel, IsTheWidthOfAPixelAtTheTarget)
+TEST(MetersPerPixel, IsTheWidthOfAPixelAtTheTarget)
 {
     const Viewport viewport{1280, 800};
     for (const double tilt : {0.0, 50.0, 85.0}) {
