@@ -226,8 +226,8 @@ bool TiffTiles::areWhole(std::size_t page, std::size_t tiles) const
 
 Status TiffTiles::trim(std::uint64_t file_bytes)
 {
-    // A kill between flush and checkpoint leaves unrecorded tiles in the file; they will be rewritten
-    // in their locations if they fit. So these locations stay reserved.
+    // A kill between flush and checkpoint leaves unrecorded tiles in the file; they will be
+    // rewritten in their locations if they fit. So these locations stay reserved.
     for (std::size_t page = 0; page < impl_->pages.size(); ++page) {
         TIFF* file = impl_->handles[page].get();
         const std::size_t tiles = impl_->pages[page].tile_columns * impl_->pages[page].tile_rows;

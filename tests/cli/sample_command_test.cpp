@@ -188,8 +188,7 @@ TEST(SampleCommand, ReportsDamagedTilesAsErrorsInsteadOfElevations)
         if (output.exit_status == 0) {
             // Correct, or the level file was rejected, so that the damage could not be detected.
             EXPECT_TRUE(output.out == truth.out ||
-                        output.err.find("its level file is not used") !=
-                            std::string::npos);
+                        output.err.find("its level file is not used") != std::string::npos);
         } else {
             ++refusals;
             EXPECT_THAT(output.err, HasSubstr(path));

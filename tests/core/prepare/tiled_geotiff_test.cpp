@@ -1,8 +1,8 @@
 // The tiled copy against its source, by GDAL's tools and by brute force.
 #include "core/base/file_lock.h"
+#include "core/prepare/copy_checkpoint.h"
 #include "core/prepare/geotiff_skeleton.h"
 #include "core/prepare/overview_builder.h"
-#include "core/prepare/copy_checkpoint.h"
 #include "core/prepare/tiled_geotiff.h"
 #include "core/raster/raster_file.h"
 #include "core/raster/source_identity.h"
@@ -564,7 +564,8 @@ TEST(TiledGeoTiff, RestartsIfTheUnfinishedFileIsDamagedOrOfAnotherSource)
         {"zeroed tiles",
          [&] {
              std::string bytes = test::readFile(part);
-             const auto noted = static_cast<std::ptrdiff_t>(readCopyCheckpoint(checkpoint)->file_bytes);
+             const auto noted =
+                 static_cast<std::ptrdiff_t>(readCopyCheckpoint(checkpoint)->file_bytes);
              std::fill(bytes.begin() + noted / 2, bytes.end(), '\0');
              folder.write("copy.tif.part", bytes);
          }},

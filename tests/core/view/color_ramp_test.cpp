@@ -118,7 +118,7 @@ double difference(Rgb8 a, Rgb8 b)
 // The smallest color differences on a ramp, for one type of color vision.
 struct Distinctness {
     double neighbors = 1e9; // a twelfth of the ramp apart
-    double others = 1e9;     // an eighth or more apart
+    double others = 1e9;    // an eighth or more apart
 };
 
 template <typename See>
