@@ -432,15 +432,15 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         "1/128 cell, found by a slow method that shares no code with the models.\n"
         "The hand is put down on the surface in many places, and presses 2 to 5 cells into it.\n"
         "A cell is the mean of its two sides. The mean is of a whole run without reading a clock;\n"
-        "p50 to max are of single updates, each of which counts with the least time of all "
+        "p50 to max are of single updates, each with its shortest time over all "
         "repeats.\n"
         "far edge: share of updates with a far-edge crossing; loops: how many of the crossings "
         "the\n"
         "list ended. Errors: share of proxies within 0.5 and 1e-5 cell of the ideal, distance "
         "from\n"
         "it, angle between the forces, difference of the distances to the goal. lag: how far the\n"
-        "proxy still goes if the goal stands still, tried every 32nd update. minimum: share of\n"
-        "updates after which no way over or off the surface leads closer to the goal.");
+        "proxy still moves if the goal stops, tested at every 32nd update. minimum: share of\n"
+        "updates after which no path over or off the surface leads closer to the goal.");
     command->add_option("DEM", options->map.path, "elevation map; without one, a fractal")
         ->type_name("FILE")
         ->transform(mapName());
@@ -477,12 +477,12 @@ void addBenchContactCommand(CLI::App& bench, CommandAction& run)
         ->check(wholeNumberFrom(2, 10'000'000));
     command
         ->add_option("--stroke", options->bench.stroke_count,
-                     "updates after which the hand is put down elsewhere")
+                     "updates after which the hand is lifted and put down elsewhere")
         ->capture_default_str()
         ->check(wholeNumberFrom(1, 10'000'000));
     command
         ->add_option("--seconds", options->bench.seconds_max,
-                     "for all, about; rows get fewer updates then")
+                     "approximate time for all rows; shortens rows if necessary")
         ->check(positiveNumber());
     command
         ->add_option("--repeat", options->bench.repeat_count,

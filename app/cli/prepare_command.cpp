@@ -189,7 +189,8 @@ void addPrepareCommand(CLI::App& app, CommandAction& run)
     command->add_flag("--wait", options->is_waiting,
                       "if another program prepares the same file, wait for it");
     command
-        ->add_option("--checkpoint", options->checkpoint_s, "seconds of work that a stop may lose")
+        ->add_option("--checkpoint", options->checkpoint_s,
+                     "seconds of work that an interruption may lose")
         ->capture_default_str()
         ->check(numberFrom(0.0, 3600.0));
     command->add_flag("--json", options->is_json, "print JSON");

@@ -73,7 +73,8 @@ CLI::Validator mapName()
 void MapOptions::addTo(CLI::App& command)
 {
     command
-        .add_option("DEM", path, "elevation map: a file, a label, an address, or a GDAL map name")
+        .add_option("DEM", path,
+                    "elevation map: a file, a label, an address, or a GDAL dataset name")
         ->type_name("FILE")
         ->required()
         ->transform(mapName());

@@ -43,7 +43,7 @@ constexpr std::string_view kHelp = R"(Explore topographic maps of planets and mo
 Usage: marsview [OPTIONS] [DEM...]
 
 DEM                    maps to open: files, folders of adjoining rasters, addresses (https://,
-                       s3://, gs://, file://) or GDAL map names. Each becomes a layer; the
+                       s3://, gs://, file://) or GDAL dataset names. Each becomes a layer; the
                        last one lies on top. Without any, the bundled map of Mars
 
 Options:

@@ -87,8 +87,9 @@ Error statusFailure(const std::string& remote_name, int status)
             ErrorCode::Unreadable,
             fmt::format("{}: the server reports an error ({}); try again later", address, status)};
     default:
-        return {ErrorCode::Unreadable,
-                fmt::format("{}: the server answers {} instead of the file", address, status)};
+        return {
+            ErrorCode::Unreadable,
+            fmt::format("{}: the server responds with {} instead of the file", address, status)};
     }
 }
 
@@ -101,7 +102,7 @@ Error reasonOfSilence(const std::string& remote_name)
     if (VSILFILE* file = VSIFOpenExL(remote_name.c_str(), "rb", 1)) {
         VSIFCloseL(file); // it has recovered just now
         return {ErrorCode::Unreadable,
-                fmt::format("{}: the server did not answer in time; try again",
+                fmt::format("{}: the server did not respond in time; try again",
                             addressOf(remote_name))};
     }
     std::string text = VSIGetLastErrorMsg();
@@ -125,7 +126,7 @@ Error reasonOfSilence(const std::string& remote_name)
         text = messages.firstFailure("no reason was given");
     }
     return {ErrorCode::Unreadable,
-            fmt::format("{}: the server does not answer; check the address and the network ({})",
+            fmt::format("{}: the server does not respond; check the address and the network ({})",
                         addressOf(remote_name), text)};
 }
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace marsview {
 
@@ -37,7 +38,7 @@ struct RemoteVersion {
 };
 
 /// Asks the server, with one request. NotFound if the file does not exist; Unreadable if the server
-/// does not answer or refuses. Drops GDAL's cached data of an earlier version. Any thread.
+/// does not respond or refuses. Drops GDAL's cached data of an earlier version. Any thread.
 Result<RemoteVersion> askRemote(const std::string& remote_name);
 
 /// During its lifetime, datasets opened on this thread are read on the condition that their version
@@ -69,8 +70,11 @@ private:
     std::unique_ptr<Settings> settings_;
 };
 
+/// A part of the message about a truncated response.
+inline constexpr std::string_view kConnectionLost = "the connection was lost";
+
 /// Why opening or reading failed, after asking the server once more: the file is gone or has
-/// changed, or the server does not support ranges or does not answer; `otherwise` if none of these
+/// changed, or the server does not support ranges or does not respond; `otherwise` if none of these
 /// is found. Drops GDAL's cached data of the file, which may be truncated. The dataset must be
 /// closed and reopened: after a failed read GDAL 3.6 returns wrong samples from it.
 Error remoteFailure(const std::string& remote_name,

@@ -86,9 +86,7 @@ std::string refusalOfPicture(GDALDataset& dataset, int band)
         GDALRasterBand& other = *dataset.GetRasterBand(i);
         if (!isPicture(dataset, other) && other.GetColorInterpretation() != GCI_AlphaBand) {
             return fmt::format(
-                "band {} is a part of a color picture; open band {} (--band {}), "
-                "which is not",
-                band, i, i);
+                "band {} is part of a color picture; open band {} (--band {}) instead", band, i, i);
         }
     }
     return "is a color picture, not an elevation map";
@@ -181,9 +179,9 @@ Result<Dataset> openRemote(const std::string& name, const RemoteVersion& version
         }
     }
     if (!dataset) {
-        return remoteFailure(name, version, messages,
-                             "is not a raster that GDAL can read, or the connection "
-                             "broke off");
+        return remoteFailure(
+            name, version, messages,
+            fmt::format("is not a raster that GDAL can read, or {}", kConnectionLost));
     }
     return dataset;
 }
@@ -725,9 +723,8 @@ Error RasterFile::Impl::readFailure(const GdalMessages& messages, const GridWind
     is_spoilt = true;
     if (remote) {
         return remoteFailure(info.path, *remote, messages,
-                             fmt::format("reading rows {} to {} failed, the connection broke off; "
-                                         "try again",
-                                         window.row, window.row + window.rows - 1));
+                             fmt::format("reading rows {} to {} failed, {}; try again", window.row,
+                                         window.row + window.rows - 1, kConnectionLost));
     }
     const std::string of_part = mosaic ? withoutRows(mosaic->failureIn(window)) : std::string();
     return readFailure(
@@ -783,7 +780,8 @@ Status RasterFile::Impl::renew()
         if (remote && remote->isNamed()) { // and the version is unchanged: the response was
                                            // truncated
             const GdalMessages none;
-            return remoteFailure(info.path, *remote, none, "the connection broke off; try again");
+            return remoteFailure(info.path, *remote, none,
+                                 fmt::format("{}; try again", kConnectionLost));
         }
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: has changed since it was opened; open it again",

@@ -258,8 +258,8 @@ void deduceHeightReference(RasterInfo& info)
 void noteSuspiciousSamples(RasterInfo& info, const SampleStatistics& statistics)
 {
     if (!statistics.hasSamples()) {
-        info.notices.push_back(fmt::format("holds no elevations: all of its {} samples are nodata",
-                                           statistics.sample_count));
+        info.notices.push_back(fmt::format(
+            "contains no elevations: all of its {} samples are nodata", statistics.sample_count));
         return;
     }
     constexpr std::array kUsualVoidMarks{-32768.0, -32767.0, -9999.0, -99999.0,

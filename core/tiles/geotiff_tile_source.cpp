@@ -63,7 +63,7 @@ private:
     bool isCutShort(const Error& error) const
     {
         return !raster_.remote_version.empty() && error.code == ErrorCode::Unreadable &&
-               error.message.find("the connection broke off") != std::string::npos;
+               error.message.find(kConnectionLost) != std::string::npos;
     }
 
     Error damaged(const TileId& id,

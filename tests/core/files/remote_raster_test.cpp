@@ -325,7 +325,7 @@ TEST_F(RemoteRasterTest, RequestsATileTwiceMoreAfterTruncatedResponses)
     server_.cutNext(0, 0);
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().code, ErrorCode::Unreadable);
-    EXPECT_THAT(failed.error().message, HasSubstr("broke off"));
+    EXPECT_THAT(failed.error().message, HasSubstr("the connection was lost"));
     const Result<Tile> tile = (*reader)->read(id);
     ASSERT_TRUE(tile) << tile.error().message;
     EXPECT_TRUE(isSame(tile->samples, truth(original("map.tif"), tileAt(5, 6))));
@@ -374,7 +374,7 @@ TEST_F(RemoteRasterTest, ErrorsNameTheCause)
     folder_.write("text.tif", std::string(5000, 'x'));
     EXPECT_EQ(message(server_.url("text.tif")),
               server_.url("text.tif") +
-                  ": is not a raster that GDAL can read, or the connection broke off");
+                  ": is not a raster that GDAL can read, or the connection was lost");
     for (const auto& [status, says] : {std::pair{404, "nothing was found at this address (404)"},
                                        std::pair{410, "nothing was found at this address (410)"},
                                        std::pair{401, "the server denies access (401)"},
@@ -388,7 +388,7 @@ TEST_F(RemoteRasterTest, ErrorsNameTheCause)
     }
     server_.refuse();
     EXPECT_THAT(message(server_.url("map.tif")),
-                StartsWith(server_.url("map.tif") + ": the server does not answer; check the "
+                StartsWith(server_.url("map.tif") + ": the server does not respond; check the "
                                                     "address and the network (Failed to connect"));
     server_.accept();
     EXPECT_EQ(message(server_.url("map.tif")), "");
@@ -422,7 +422,7 @@ TEST_F(RemoteRasterTest, ContinuesReadingAfterAServerOutage)
     server_.refuse();
     const auto failed = file.readWindow(tileAt(6, 6), {});
     ASSERT_FALSE(failed);
-    EXPECT_THAT(failed.error().message, HasSubstr("the server does not answer"));
+    EXPECT_THAT(failed.error().message, HasSubstr("the server does not respond"));
     server_.accept();
     const auto tile = file.readWindow(tileAt(6, 6), {});
     ASSERT_TRUE(tile) << tile.error().message;

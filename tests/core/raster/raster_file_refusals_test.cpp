@@ -186,7 +186,7 @@ TEST(Refusal, APictureNamesTheElevationBand)
     const auto refused = RasterFile::open(path);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message,
-                testing::HasSubstr("band 1 is a part of a color picture; open band 4 (--band 4)"));
+                testing::HasSubstr("band 1 is part of a color picture; open band 4 (--band 4)"));
     const auto opened = RasterFile::open(path, 4);
     ASSERT_TRUE(opened) << opened.error().message;
     EXPECT_EQ(opened->info().type, SampleType::Float32);

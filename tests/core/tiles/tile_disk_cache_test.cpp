@@ -421,14 +421,14 @@ TEST_F(TileDiskCacheTest, PassesErrorsOfTheSourceOnWithoutCachingThem)
         plain_->heightfield(),
         GridTileSource::Options{.before_read = [&](const TileId&) -> std::optional<Error> {
             return is_failing ? std::optional<Error>(
-                                    Error{ErrorCode::Unreadable, "x: the connection broke off"})
+                                    Error{ErrorCode::Unreadable, "x: the connection was lost"})
                               : std::nullopt;
         }});
     const auto kept = cachedOnDisk(source, cache(), "key");
     const auto reader = kept->open();
     const auto failed = (*reader)->read({});
     ASSERT_FALSE(failed);
-    EXPECT_EQ(failed.error().message, "x: the connection broke off");
+    EXPECT_EQ(failed.error().message, "x: the connection was lost");
     is_failing = false;
     EXPECT_TRUE((*reader)->read({}));
 }
