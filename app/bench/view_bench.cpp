@@ -36,25 +36,25 @@ constexpr int kSmoothSamples = 4;
 // Notified on the renderer's threads when shading is ready. It may outlive the bench.
 class News {
 public:
-    void tell()
+    void post()
     {
         {
             const std::lock_guard lock(mutex_);
             has_news_ = true;
         }
-        has_come_.notify_all();
+        arrived_.notify_all();
     }
     // Waits for a notification since the last call, or until `end`.
     void waitUntil(Clock::time_point end)
     {
         std::unique_lock lock(mutex_);
-        has_come_.wait_until(lock, end, [this] { return has_news_; });
+        arrived_.wait_until(lock, end, [this] { return has_news_; });
         has_news_ = false;
     }
 
 private:
     std::mutex mutex_;
-    std::condition_variable has_come_;
+    std::condition_variable arrived_;
     bool has_news_ = false;
 };
 
@@ -288,7 +288,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     forgetPeakMemory();
     const Clock::time_point begin = Clock::now();
     const auto news = std::make_shared<News>();
-    Result<Scene> scene = openScene(map, nullptr, [news] { news->tell(); });
+    Result<Scene> scene = openScene(map, nullptr, [news] { news->post(); });
     if (!scene) {
         return std::move(scene).error();
     }

@@ -129,10 +129,10 @@ private:
                     return followed;
                 }
                 const auto* felt = std::get_if<GroundFelt>(&record);
-                const auto told =
+                const auto toucher =
                     felt != nullptr ? touchers_.find(felt->told_part) : touchers_.end();
-                if (told != touchers_.end()) {
-                    told->second.map_model->terrainChanged();
+                if (toucher != touchers_.end()) {
+                    toucher->second.map_model->terrainChanged();
                 }
             }
         }

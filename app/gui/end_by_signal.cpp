@@ -13,14 +13,14 @@ constexpr std::array kSignals{SIGTERM, SIGINT, SIGHUP};
 
 } // namespace
 
-volatile std::sig_atomic_t EndBySignal::told_ = -1;
+volatile std::sig_atomic_t EndBySignal::pipe_end_ = -1;
 
 EndBySignal::EndBySignal()
 {
     if (pipe2(pipe_.data(), O_CLOEXEC | O_NONBLOCK) != 0) {
         return; // then the signals have their default effect
     }
-    told_ = pipe_[1];
+    pipe_end_ = pipe_[1];
     std::signal(SIGPIPE, SIG_IGN); // a recording to a closed pipe fails as on a full disk
     notifier_ = std::make_unique<QSocketNotifier>(pipe_[0], QSocketNotifier::Read);
     QObject::connect(notifier_.get(), &QSocketNotifier::activated, [this] {
@@ -28,7 +28,7 @@ EndBySignal::EndBySignal()
         QCoreApplication::quit();
     });
     for (const int number : kSignals) {
-        if (std::signal(number, &EndBySignal::tell) == SIG_IGN) {
+        if (std::signal(number, &EndBySignal::onSignal) == SIG_IGN) {
             std::signal(number, SIG_IGN); // as under nohup
         }
     }
@@ -36,23 +36,23 @@ EndBySignal::EndBySignal()
 
 EndBySignal::~EndBySignal()
 {
-    if (told_ < 0) {
+    if (pipe_end_ < 0) {
         return;
     }
     for (const int number : kSignals) {
         std::signal(number, SIG_DFL);
     }
-    told_ = -1;
+    pipe_end_ = -1;
     notifier_.reset();
     close(pipe_[0]);
     close(pipe_[1]);
 }
 
-void EndBySignal::tell(int /*number*/)
+void EndBySignal::onSignal(int /*number*/)
 {
     const int before = errno;
     const char any = 0;
-    [[maybe_unused]] const auto written = write(told_, &any, 1);
+    [[maybe_unused]] const auto written = write(pipe_end_, &any, 1);
     errno = before;
 }
 

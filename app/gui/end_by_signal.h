@@ -20,11 +20,11 @@ public:
     EndBySignal& operator=(const EndBySignal&) = delete;
 
 private:
-    static void tell(int number);
+    static void onSignal(int number);
 
     std::array<int, 2> pipe_{-1, -1}; // a signal handler may only write to it
     std::unique_ptr<QSocketNotifier> notifier_;
-    static volatile std::sig_atomic_t told_;
+    static volatile std::sig_atomic_t pipe_end_;
 };
 
 } // namespace marsview

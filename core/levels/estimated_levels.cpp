@@ -395,18 +395,18 @@ DetailErrors estimatedErrors(const TileLayout& layout,
         return rougher / std::sqrt(1.0 - std::exp2(-2.0 * hurst * static_cast<double>(j)));
     };
     // e(level) in units of E(1), below the first level that the overview determines.
-    const std::size_t first_told = overview_level + 1;
+    const std::size_t first_measured = overview_level + 1;
     const auto below = [&](std::size_t level) {
         const double last = seen_from_samples(1);
         const std::size_t known = std::min(fine.size(), overview_level);
         if (known == 0 || !(fine[known - 1] > 0.0)) {
-            return last * std::exp2(-hurst * static_cast<double>(first_told - level));
+            return last * std::exp2(-hurst * static_cast<double>(first_measured - level));
         }
         if (level <= known) {
             return std::min(fine[level - 1], last);
         }
         const double share =
-            static_cast<double>(level - known) / static_cast<double>(first_told - known);
+            static_cast<double>(level - known) / static_cast<double>(first_measured - known);
         return std::pow(std::min(fine[known - 1], last), 1.0 - share) * std::pow(last, share);
     };
     const auto least = static_cast<float>(kErrorShareMin * meanError(measured, 1));
@@ -415,16 +415,18 @@ DetailErrors estimatedErrors(const TileLayout& layout,
         // The measured level to use: this one or the nearest.
         const std::size_t j = std::clamp<std::size_t>(
             level > overview_level ? level - overview_level : 1, 1, measured.levelCount() - 1);
-        const std::size_t told = overview_level + j;
+        const std::size_t measured_level = overview_level + j;
         const double factor =
-            level < first_told
+            level < first_measured
                 ? below(level)
-                : seen_from_samples(j) * std::exp2(hurst * static_cast<double>(level - told));
+                : seen_from_samples(j) *
+                      std::exp2(hurst * static_cast<double>(level - measured_level));
         for (std::size_t row = 0; row < nodes.rows; ++row) {
             for (std::size_t column = 0; column < nodes.columns; ++column) {
                 // The overview's last node may end shortly after the map's last node begins.
                 const auto place = [&](std::size_t node, std::size_t count) {
-                    return std::min(told >= level ? node >> (told - level) : node << (level - told),
+                    return std::min(measured_level >= level ? node >> (measured_level - level)
+                                                            : node << (level - measured_level),
                                     count - 1);
                 };
                 const float error = measured.nodeError(

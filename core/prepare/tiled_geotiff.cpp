@@ -33,10 +33,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is being read while the rows before are written takes at most this, together.
+// The total size of the rows that are being read while earlier ones are written.
 constexpr std::size_t kWindowBytes = std::size_t{230} << 20;
 // A row of blocks taller than a tile is read at once up to this size.
-constexpr std::size_t kWindowBytesWanted = std::size_t{16} << 20;
+constexpr std::size_t kTallBlockBytesMax = std::size_t{16} << 20;
 
 // At these rows of tiles, finer levels are in the file and coarser ones in the checkpoint: 3 % of
 // a row of tiles in total.
@@ -84,7 +84,7 @@ Windows windowsFor(const RasterFile& source, const RasterInfo& info)
             : (std::max<std::size_t>(source.blockSize().rows, 1) + kTileSide - 1) / kTileSide *
                   kTileSide;
     Windows windows;
-    windows.rows = std::max(kTileSide, kWindowBytesWanted / row_bytes / kTileSide * kTileSide);
+    windows.rows = std::max(kTileSide, kTallBlockBytesMax / row_bytes / kTileSide * kTileSide);
     if (block_rows > windows.rows) {
         windows.rows = std::min(
             block_rows, std::max(kTileSide, kWindowBytes / row_bytes / kTileSide * kTileSide));

@@ -68,7 +68,7 @@ TEST(PrepareCommand, ReportsItsResultsAndSpeed)
     EXPECT_EQ(firstBand(info)["overviews"].size(), 7U);
     // `info` reads these values from the level file; they must equal the ones computed from the
     // source.
-    const auto told = [](const std::string& path) {
+    const auto described = [](const std::string& path) {
         const ProgramOutput output_of_info = runCli({"info", path, "--json"});
         EXPECT_EQ(output_of_info.exit_status, 0) << output_of_info.err;
         nlohmann::json fields = nlohmann::json::parse(output_of_info.out);
@@ -77,7 +77,7 @@ TEST(PrepareCommand, ReportsItsResultsAndSpeed)
         }
         return fields;
     };
-    EXPECT_EQ(told(folder.file("map.tif")), told(source));
+    EXPECT_EQ(described(folder.file("map.tif")), described(source));
     const ProgramOutput words = runCli({"prepare", source, "-o", folder.file("other.tif")});
     EXPECT_EQ(words.exit_status, 0);
     EXPECT_THAT(words.out, HasSubstr("throughput"));

@@ -151,9 +151,9 @@ TEST(SampleCommand, ReadsTheColoradoMapInFeetOnRequest)
 {
     MARSVIEW_NEEDS_SHARED_DATA();
     const std::string path = (sharedData() / "derived/trinidad_co_3as.tif").string();
-    const double told =
+    const double elevation_m =
         std::stod(runCli({"sample", path, "--pixel", "1000", "500", "--unit", "ft"}).out);
-    EXPECT_DOUBLE_EQ(told, rawSamples(path, {{1000, 500}}).front() * 0.3048);
+    EXPECT_DOUBLE_EQ(elevation_m, rawSamples(path, {{1000, 500}}).front() * 0.3048);
 }
 
 // GDAL decodes some damaged tiles to wrong samples without an error.

@@ -520,9 +520,9 @@ TEST(TraceCommand, TouchesTriangleMeshes)
         runCli({"trace", folder.write("torn.obj", cube + "f 1 2 4\n"), "--goals", goals});
     EXPECT_EQ(torn.exit_status, 1);
     EXPECT_THAT(torn.err, testing::HasSubstr("duplicated triangle"));
-    const ProgramOutput told = runCli({"trace", mesh, "--goals", goals, "--crs", "EPSG:4326"});
-    EXPECT_EQ(told.exit_status, 1);
-    EXPECT_THAT(told.err, testing::HasSubstr("a mesh has no CRS"));
+    const ProgramOutput refused = runCli({"trace", mesh, "--goals", goals, "--crs", "EPSG:4326"});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_THAT(refused.err, testing::HasSubstr("a mesh has no CRS"));
 }
 
 TEST(TraceCommand, PrintsNoUpdatesWithoutGoals)

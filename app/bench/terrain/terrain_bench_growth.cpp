@@ -69,7 +69,7 @@ public:
                 return *tiles->error();
             }
         }
-        tell(json);
+        addResultsTo(json);
         return json;
     }
 
@@ -186,7 +186,7 @@ private:
         return clock_.nanoseconds(end - begin) / static_cast<double>(options_.update_count);
     }
 
-    void tell(BenchJson& json) const
+    void addResultsTo(BenchJson& json) const
     {
         json["updates"] = options_.update_count;
         json["cells_per_update"] = options_.speeds_cells;

@@ -233,9 +233,9 @@ TEST(DecimatedRead, HonorsMasksAndTheUsersNodata)
     ASSERT_TRUE(masked);
     EXPECT_GT(masked->loaded.statistics.void_count, 0U);
     expectPicked(*masked, source);
-    const double told = masked->loaded.grid.raw(7, 7);
+    const double nodata = masked->loaded.grid.raw(7, 7);
     const auto overridden =
-        readDecimated(*file, {told}, {.samples_max = 5000, .time_max = kForever}, monitor);
+        readDecimated(*file, {nodata}, {.samples_max = 5000, .time_max = kForever}, monitor);
     ASSERT_TRUE(overridden);
     EXPECT_TRUE(overridden->loaded.grid.isVoid(7, 7));
     EXPECT_GT(overridden->loaded.statistics.void_count, masked->loaded.statistics.void_count);

@@ -359,11 +359,11 @@ TEST(RasterFile, HonorsMasksInsideAndNextToTheRaster)
     const std::string paths[] = {
         writeVrt(folder, "virtual", recipe),
         // A mask in a separate file, and one inside the file.
-        writeRaster(folder, "beside.tif", "GTiff", recipe),
+        writeRaster(folder, "separate.tif", "GTiff", recipe),
         writeRaster(folder, "within.tif", "GTiff", recipe,
                     {"--config", "GDAL_TIFF_INTERNAL_MASK", "YES"}),
     };
-    EXPECT_TRUE(std::filesystem::exists(folder.file("beside.tif.msk")));
+    EXPECT_TRUE(std::filesystem::exists(folder.file("separate.tif.msk")));
     EXPECT_FALSE(std::filesystem::exists(folder.file("within.tif.msk")));
     for (const std::string& path : paths) {
         const auto file = RasterFile::open(path);

@@ -100,9 +100,9 @@ TEST(Units, TheUserSetsFeetThatTheFileDoesNotDeclare)
     }
     EXPECT_NEAR(feet->heightfield().range()->maximum_m, 14176.16 * 0.3048, 0.01);
     // The same without reading the file again.
-    const auto told = test::overridden(*assumed, overrides);
-    ASSERT_TRUE(told) << told.error().message;
-    EXPECT_EQ((*told)->heightfield().sample(1000, 500), feet->heightfield().sample(1000, 500));
+    const auto in_feet = test::overridden(*assumed, overrides);
+    ASSERT_TRUE(in_feet) << in_feet.error().message;
+    EXPECT_EQ((*in_feet)->heightfield().sample(1000, 500), feet->heightfield().sample(1000, 500));
 }
 
 TEST(Units, TheUsersScaleAndOffsetApplyWithoutRereading)

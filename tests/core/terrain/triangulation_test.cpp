@@ -89,11 +89,11 @@ TEST(HeightInCell, TheTwoTrianglesMeetOnTheDiagonal)
     for (int i = 0; i < 100000; ++i) {
         const CellHeights z = randomCell(random);
         const double t = random.uniform(1e-9, 1.0);
-        const double beside = std::nextafter(t, 0.0);
+        const double nearby = std::nextafter(t, 0.0);
         // A step of one ulp across the diagonal changes the height by no more than that.
         const double tolerance = 8.0 * ulp(largest(z));
-        ASSERT_NEAR(heightInCell(z, t, beside), heightInCell(z, t, t), tolerance);
-        ASSERT_NEAR(heightInCell(z, beside, t), heightInCell(z, t, t), tolerance);
+        ASSERT_NEAR(heightInCell(z, t, nearby), heightInCell(z, t, t), tolerance);
+        ASSERT_NEAR(heightInCell(z, nearby, t), heightInCell(z, t, t), tolerance);
     }
 }
 

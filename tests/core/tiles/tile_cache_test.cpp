@@ -304,18 +304,18 @@ TEST(TileCache, NotifiesClientsOnlyWhileTheirRequestsExist)
     const auto source = std::make_shared<GridTileSource>(terrain());
     TileCache cache({.loader_threads = 2});
     const TiledRaster raster(cache, source);
-    std::atomic<int> told{0};
+    std::atomic<int> notified{0};
     {
-        TileRequests requests(raster, TileUrgency::View, [&told] { ++told; });
+        TileRequests requests(raster, TileUrgency::View, [&notified] { ++notified; });
         requests.request(allOfLevel0());
         requests.waitForPending();
     }
-    const int so_far = told;
+    const int so_far = notified;
     EXPECT_LE(so_far, 20);
     EXPECT_GE(so_far, 17) << "the last ones may be reported while the requests end";
     cache.clear();
     EXPECT_TRUE(raster.get(tileId(0, 0)));
-    EXPECT_EQ(told, so_far);
+    EXPECT_EQ(notified, so_far);
 }
 
 TEST(TileCache, RemovesARasterWithItsLastUser)
