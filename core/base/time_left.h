@@ -14,7 +14,7 @@ public:
     /// go back.
     void report(double fraction, std::chrono::nanoseconds now);
 
-    /// Empty until a few seconds of progress have been seen, and while there is no progress.
+    /// Empty until a few seconds of progress have been reported, and without any progress.
     std::optional<std::chrono::seconds> left() const;
 
 private:

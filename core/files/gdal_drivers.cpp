@@ -80,7 +80,7 @@ constexpr std::array kLeftOut{
     "IRIS",
 };
 
-// README.md, "What it reads". OpenGuard checks the ways in which their files refer to other files.
+// OpenGuard checks the ways in which files of these formats refer to other files.
 constexpr std::array<const char*, 15> kPlain{
     "GTiff", "SRTMHGT", "DTED", "USGSDEM", "AAIGrid", "GRASSASCIIGrid", "EHdr", "ENVI",
     "ISIS3", "ISIS2",   "PDS",  "PDS4",    "VICAR",   "GSBG",           nullptr};

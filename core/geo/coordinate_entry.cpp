@@ -88,7 +88,7 @@ std::optional<TokenKind> markOf(char c)
 }
 
 // The number that begins at `text`, and how long it is. With `has_decimal_comma`, a comma between
-// digits counts as a decimal point. A length of 0 means that there is no number.
+// digits counts as a decimal point. A length of 0 means that no number was found.
 std::pair<Token, std::size_t> numberAt(std::string_view text, bool has_decimal_commas)
 {
     std::string plain;

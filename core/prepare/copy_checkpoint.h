@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-/// What is guaranteed to be in the unfinished file.
+/// The guaranteed content of the unfinished file.
 struct CopyCheckpoint {
     std::string key;             // source, settings and format: identifies the job
     std::string source_stamp;    // SourceStamp::text of the source

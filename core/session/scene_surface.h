@@ -44,7 +44,7 @@ public:
     /// Height of the terrain in meters, for a tiled map from the resident tiles; NaN outside the
     /// maps and in voids. The outermost samples belong to the terrain regardless of rounding.
     double height(double east_m, double north_m) const;
-    /// The map with that surface; empty where there is no terrain.
+    /// The map with that surface; empty without terrain there.
     std::optional<std::size_t> mapAt(double east_m, double north_m) const;
     /// Around all maps.
     SceneBox box(double exaggeration) const;

@@ -187,7 +187,7 @@ TEST(SessionExaggeration, StaysWithThePictureWhenLayersComeAndGo)
     EXPECT_EQ(exaggerationOf(session), 4.0);
     const LayerId lower = session.active;
     session = added(session, {.map = maps.any(), .exaggeration = 9.0});
-    EXPECT_EQ(exaggerationOf(session), 4.0) << "a layer on top of what was there";
+    EXPECT_EQ(exaggerationOf(session), 4.0) << "a layer on top of the existing ones";
     const LayerId upper = session.active;
     session = withVisibility(session, lower, false);
     session = withExaggeration(session, 6.0);
