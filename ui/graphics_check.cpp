@@ -63,8 +63,8 @@ GraphicsCheck checkGraphics()
     const bool is_software = isSoftware(context);
     context.doneCurrent();
     if (version < qMakePair(3, 3)) {
-        return failed(tr("OpenGL 3.3 is needed, the graphics driver offers %1.%2; install a newer "
-                         "driver or Mesa's software one")
+        return failed(tr("OpenGL 3.3 is required, but the graphics driver offers %1.%2; install a "
+                         "newer driver or Mesa's software one")
                           .arg(version.first)
                           .arg(version.second));
     }

@@ -643,7 +643,7 @@ Result<std::unique_ptr<TerrainRenderer>> TerrainRenderer::create(std::function<v
     if (!epoxy_is_desktop_gl() || version < 33) {
         return Error{
             ErrorCode::Unsupported,
-            fmt::format("OpenGL 3.3 is needed, the graphics driver offers {}{}.{}; install "
+            fmt::format("OpenGL 3.3 is required, but the graphics driver offers {}{}.{}; install "
                         "a newer driver or Mesa's software one",
                         epoxy_is_desktop_gl() ? "" : "OpenGL ES ", version / 10, version % 10)};
     }
