@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Models,
                          });
 
 // Why the terrain force fades near a workspace wall: together the two are stiffer than either one.
-TEST(StabilityCase, TheNaiveSumOfWallAndGroundIsNotStableWhereTheFadeIs)
+TEST(StabilityCase, TheNaiveSumOfWallAndTerrainIsUnstableWhereTheFadeIsStable)
 {
     StabilityOptions options{.stiffness_n_per_m = kStatedStiffnessNPerM, .delay_s = 3e-3};
     EXPECT_TRUE(runStability(StabilityScene::WallCorner, options).isStable());
@@ -52,7 +52,7 @@ TEST(StabilityCase, TheNaiveSumOfWallAndGroundIsNotStableWhereTheFadeIs)
 }
 
 // A criterion that every run meets would prove nothing.
-TEST(StabilityCase, IsLostWhereASpringIsTooStiffForItsDelay)
+TEST(StabilityCase, ASpringTooStiffForItsDelayIsUnstable)
 {
     const StabilityOptions options{.stiffness_n_per_m = 4000.0, .delay_s = 3e-3};
     for (const StabilityScene scene : kStabilityScenes) {
@@ -60,7 +60,7 @@ TEST(StabilityCase, IsLostWhereASpringIsTooStiffForItsDelay)
     }
 }
 
-TEST(StabilityCase, IsTheSameEveryTime)
+TEST(StabilityCase, IsDeterministic)
 {
     const StabilityOptions options{.delay_s = 1e-3, .seed = 5};
     const StabilityResult a = runStability(StabilityScene::ModeSwitches, options);

@@ -83,7 +83,7 @@ TEST_F(LightTest, SlopesThatFaceAwayFromTheLightShowTheirRelief)
     EXPECT_GT(mean(lit), 2.0 * mean(dark));
 }
 
-TEST_F(LightTest, FacingTheLightItAloneCounts)
+TEST_F(LightTest, SlopesThatFaceTheLightAreLitByItAlone)
 {
     // A plane that rises toward the light by 20 degrees: light at 45 degrees meets it at 25 from
     // its normal.
@@ -100,7 +100,7 @@ TEST_F(LightTest, FacingTheLightItAloneCounts)
 }
 
 // Both sides of a roof are equally steep, so only the light makes their slope colors differ.
-TEST_F(LightTest, SlopeColorsAreInTheSameLightAsTheHillshade)
+TEST_F(LightTest, SlopeColorsAreLitLikeTheHillshade)
 {
     const DrawnMap map(floatTerrain(kTerrainSide, kTerrainSide,
                                     [](std::size_t c, std::size_t) {

@@ -369,7 +369,7 @@ TEST_F(NodeEdges, HaveTheSameBitsOnBothSides)
                 tally_.edges_by_difference[2], tally_.morphing);
 }
 
-TEST_F(NodeEdges, HaveTheSameBitsAlsoAtVoids)
+TEST_F(NodeEdges, HaveTheSameBitsAtVoids)
 {
     const auto fractal = heightsFrom(fractalHeights(random_, 1200, 1200, 3000.0, 0.5), 1200);
     compare({floatTerrain(1200, 1200,

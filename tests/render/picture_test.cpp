@@ -328,7 +328,7 @@ TEST_F(PictureTest, OfTheMoonAndTheEarthHasTheColorsOfTheSurfaceAtEveryExaggerat
         {.of_centers = {.view = 10.0, .average = 5.0}, .of_means = {.view = 10.5, .average = 4.5}});
 }
 
-TEST_F(PictureTest, HasContoursWhereTheSurfaceHasThem)
+TEST_F(PictureTest, HasContoursWhereTheSurfaceCrossesTheirElevation)
 {
     const LoadedTestMap mars(bundledSamples() / "mars_mola_4ppd.tif");
     expectContoursOfTheSurface(mars, 1.0);

@@ -158,7 +158,7 @@ TEST_F(SpecialMaps, TheSmallestAndTheLongestMapAreDrawn)
     }
 }
 
-TEST_F(SpecialMaps, EvenGroundIsDrawnInOneColorWithFewTriangles)
+TEST_F(SpecialMaps, FlatTerrainIsDrawnInOneColorWithFewTriangles)
 {
     const DrawnMap map(int16Terrain(2000, 2000, {}, [](auto...) { return -37.0; }),
                        northUpFrame(2000, 2000, 10.0));
@@ -178,7 +178,7 @@ TEST_F(SpecialMaps, EvenGroundIsDrawnInOneColorWithFewTriangles)
     }
 }
 
-TEST_F(SpecialMaps, PicturesMayBeOnePixelOrTwelveMillion)
+TEST_F(SpecialMaps, PicturesMayHaveOneToTwelveMillionPixels)
 {
     Random random;
     const DrawnMap map(
@@ -202,7 +202,7 @@ TEST_F(SpecialMaps, PicturesMayBeOnePixelOrTwelveMillion)
     }
 }
 
-TEST_F(SpecialMaps, APictureLargerThanTheDriverAllowsIsRefused)
+TEST_F(SpecialMaps, RefusesAPictureLargerThanTheDriverAllows)
 {
     const DrawnMap map(floatTerrain(4, 4, [](auto...) { return 0.0; }), northUpFrame(4, 4, 30.0));
     renderer_->setLayers({map.layer()});
@@ -215,7 +215,7 @@ TEST_F(SpecialMaps, APictureLargerThanTheDriverAllowsIsRefused)
 }
 
 // The upper map lies below the lower one, so it is visible only where the lower one is cut away.
-TEST_F(SpecialMaps, TheUpperMapCutsAwayTheLowerOneSaveAtItsVoids)
+TEST_F(SpecialMaps, TheUpperMapHidesTheLowerOneExceptAtItsVoids)
 {
     constexpr double kUpper = 0.0;
     constexpr double kLower = 50.0;

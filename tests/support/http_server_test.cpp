@@ -54,7 +54,7 @@ protected:
     HttpServer server_{folder_.path()};
 };
 
-TEST_F(HttpServerTest, GdalReadsThroughItWhatLiesOnDisk)
+TEST_F(HttpServerTest, GdalReadsTheSameSamplesAsFromDisk)
 {
     const std::string copy = folder_.file("copy.tif");
     const ProgramOutput output = copied(server_.url("map.tif"), copy);
@@ -64,7 +64,7 @@ TEST_F(HttpServerTest, GdalReadsThroughItWhatLiesOnDisk)
     EXPECT_GE(server_.counts().body_bytes, kColumns * kRows * 2);
 }
 
-TEST_F(HttpServerTest, GdalinfoReadsAShareOfTheFile)
+TEST_F(HttpServerTest, GdalinfoReadsAFractionOfTheFile)
 {
     const nlohmann::json info = gdalInfo("/vsicurl/" + server_.url("map.tif"));
     EXPECT_EQ(info["size"][0], kColumns);
@@ -83,7 +83,7 @@ TEST_F(HttpServerTest, ManyRequestsShareAConnection)
     EXPECT_GT(server_.counts().requests, 2 * server_.counts().connections);
 }
 
-TEST_F(HttpServerTest, SeveralRangesComeInOneAnswer)
+TEST_F(HttpServerTest, SendsSeveralRangesInOneResponse)
 {
     const ProgramOutput output =
         runProgram({"curl", "-s", "-r", "0-3,10-19,-5", server_.url("map.tif")});
@@ -99,7 +99,7 @@ TEST_F(HttpServerTest, SeveralRangesComeInOneAnswer)
     EXPECT_EQ(server_.counts().requests, 1U);
 }
 
-TEST_F(HttpServerTest, FailuresAreAsManyAsOrdered)
+TEST_F(HttpServerTest, FailsAsOftenAsRequested)
 {
     server_.failNext(2, 503);
     EXPECT_NE(copied(server_.url("map.tif"), folder_.file("a.tif")).exit_status, 0);
@@ -111,7 +111,7 @@ TEST_F(HttpServerTest, FailuresAreAsManyAsOrdered)
     EXPECT_EQ(pixelsOf(folder_.file("b.tif")), pixelsOf(path_));
 }
 
-TEST_F(HttpServerTest, WhatIsNotThereIsNotFound)
+TEST_F(HttpServerTest, MissingFilesAreNotFound)
 {
     EXPECT_NE(copied(server_.url("absent.tif"), folder_.file("a.tif")).exit_status, 0);
     ASSERT_FALSE(server_.requests().empty());
@@ -129,7 +129,7 @@ TEST_F(HttpServerTest, RefusesAndAcceptsAgainAtTheSamePort)
     EXPECT_EQ(copied(url, folder_.file("b.tif")).exit_status, 0);
 }
 
-TEST_F(HttpServerTest, ACutBodyIsShorterThanPromised)
+TEST_F(HttpServerTest, ATruncatedBodyIsShorterThanDeclared)
 {
     server_.cutNext(1, 1000);
     const ProgramOutput output = runProgram({"curl", "-s", server_.url("map.tif")});
@@ -140,7 +140,7 @@ TEST_F(HttpServerTest, ACutBodyIsShorterThanPromised)
     EXPECT_EQ(output.out.size(), 1000U);
 }
 
-TEST_F(HttpServerTest, AReplacedFileFailsTheOldOnesCondition)
+TEST_F(HttpServerTest, AReplacedFileFailsTheConditionOfTheOldOne)
 {
     const auto status_if = [&](const std::string& condition) {
         return runProgram({"curl", "-s", "-o", "/dev/null", "-w", "%{http_code}", "-H", condition,
@@ -159,7 +159,7 @@ TEST_F(HttpServerTest, AReplacedFileFailsTheOldOnesCondition)
     EXPECT_EQ(status_if("If-Match: " + etag), "412");
 }
 
-TEST_F(HttpServerTest, WithoutRangesTheWholeFileIsTheAnswer)
+TEST_F(HttpServerTest, WithoutRangesRespondsWithTheWholeFile)
 {
     server_.setRanges(HttpRanges::Ignored);
     const ProgramOutput output = runProgram({"curl", "-s", "-r", "0-3", server_.url("map.tif")});

@@ -72,7 +72,7 @@ TEST(Flight, DivesFromTheWholeMapToSingleSamplesAndPartlyBack)
     EXPECT_GT(last_px, 2.0 * samplePixels(home));
 }
 
-TEST(Flight, SweepsOverTheGroundWithSamplesOfAFewPixels)
+TEST(Flight, SweepsOverTheTerrainWithSamplesOfAFewPixels)
 {
     for (int i = 0; i <= kSteps; ++i) {
         const OrbitCamera camera = step(Flight::Sweep, i);

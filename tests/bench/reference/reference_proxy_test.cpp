@@ -99,7 +99,7 @@ TEST(ReferenceProxy, EndsInALocalMinimumOnOrAboveTheSurface)
                 -worst_below, contacts);
 }
 
-TEST(ReferenceProxy, StandsOnAPlaneAtTheFootOfTheGoal)
+TEST(ReferenceProxy, RestsOnAPlaneAtTheFootOfTheGoal)
 {
     const HeightfieldSurface surface =
         sampledSurface(65, [](int c, int r) { return 0.5 * c - 0.25 * r; });
@@ -120,7 +120,7 @@ TEST(ReferenceProxy, StandsOnAPlaneAtTheFootOfTheGoal)
     }
 }
 
-TEST(ReferenceProxy, StandsInAValleyAtTheClosestPointOfTheSpaceAboveIt)
+TEST(ReferenceProxy, RestsInAValleyAtTheClosestPointOfTheFreeSpace)
 {
     const HeightfieldSurface surface =
         sampledSurface(65, [](int c, int) { return std::abs(c - 32.0); });
@@ -146,7 +146,7 @@ TEST(ReferenceProxy, StandsInAValleyAtTheClosestPointOfTheSpaceAboveIt)
     EXPECT_LT(in_the_valley, 350);
 }
 
-TEST(ReferenceProxy, KeepsToItsSideOfARidgeUntilTheFootOfTheGoalPassesIt)
+TEST(ReferenceProxy, StaysOnItsSideOfARidgeUntilTheFootOfTheGoalPassesIt)
 {
     constexpr double kSlope = 0.5;
     const HeightfieldSurface surface =
@@ -205,7 +205,7 @@ TEST(ReferenceProxy, FollowsTheMeridiansOfAConeAsFinelyAsItIsSampled)
     }
 }
 
-TEST(ReferenceProxy, ConvergesAsTheCutBecomesFiner)
+TEST(ReferenceProxy, ConvergesAsThePiecesBecomeShorter)
 {
     const auto terrain = test::filledTerrain(512, test::fractalHeights(512, 512, 77));
     test::Random random;
@@ -243,7 +243,7 @@ TEST(ReferenceProxy, ConvergesAsTheCutBecomesFiner)
     EXPECT_LE(differing_before, 4);
 }
 
-TEST(ReferenceProxy, StaysWhereTheGoalIsRefused)
+TEST(ReferenceProxy, DoesNotMoveForARefusedGoal)
 {
     const HeightfieldSurface surface = sampledSurface(33, [](int c, int) { return 0.1 * c; });
     ReferenceProxy reference(surface);
@@ -255,7 +255,7 @@ TEST(ReferenceProxy, StaysWhereTheGoalIsRefused)
     EXPECT_FALSE(reference.update({0.0, 0.0, 50.0}).is_in_contact);
 }
 
-TEST(ReferenceProxy, FollowsAGoalBeyondTheBorderAlongTheBorder)
+TEST(ReferenceProxy, FollowsAGoalOutsideTheMapAlongTheBorder)
 {
     const HeightfieldSurface surface =
         sampledSurface(33, [](int c, int r) { return 0.1 * c + std::sin(r * 0.7); });
