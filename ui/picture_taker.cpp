@@ -27,7 +27,7 @@ void PictureTaker::take()
     }
     QImageWriter writer(file_);
     if (!writer.write(window_.grab().toImage())) {
-        report(tr("%1: the picture cannot be written (%2); choose a folder that may be written to "
+        report(tr("%1: the picture cannot be written (%2); choose a writable folder "
                   "and a name that ends in .png or .jpg")
                    .arg(file_, writer.errorString()));
         return;

@@ -333,7 +333,7 @@ void LargeMapsPage::showFetched(const QString& folder, KeptTiles kept, const QSt
     }
     const auto count = static_cast<int>(std::min<std::uint64_t>(kept.count, 1'000'000'000));
     fetched_total_->setText(!problem.isEmpty() ? problem
-                            : kept.bytes == 0  ? tr("Nothing is kept here.")
+                            : kept.bytes == 0  ? tr("No tiles are stored here.")
                             //: %1 is a size
                             : count == 1
                                 ? tr("One tile, %1").arg(bytesText(kept.bytes))
@@ -347,8 +347,8 @@ void LargeMapsPage::emptyFetched()
 {
     auto* box = new QMessageBox(
         QMessageBox::Question, tr("Remove Tiles from Servers"),
-        tr("Remove all tiles that came from servers? They are fetched again when they are looked "
-           "at or touched."),
+        tr("Remove all downloaded tiles? They are downloaded again when they are viewed or "
+           "touched."),
         QMessageBox::Cancel, this);
     QPushButton* remove = box->addButton(tr("&Remove"), QMessageBox::DestructiveRole);
     box->setDefaultButton(QMessageBox::Cancel);

@@ -118,7 +118,7 @@ QString SavePictureDialog::problem() const
     const int factor = sizes_->currentData().toInt();
     const QSize size = factor != kCustom ? view_size_ * factor : choice().size;
     if (std::max(size.width(), size.height()) > limits_.side_max) {
-        return tr("The graphics driver draws at most %1 pixels a side.")
+        return tr("The graphics driver draws at most %1 pixels per side.")
             .arg(countText(static_cast<std::size_t>(limits_.side_max)));
     }
     if (static_cast<qint64>(size.width()) * size.height() > limits_.pixel_count_max) {

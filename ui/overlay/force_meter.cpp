@@ -42,7 +42,7 @@ ForceMeter::ForceMeter(QWidget* parent)
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setFocusPolicy(Qt::NoFocus);
     setAccessibleName(tr("Force"));
-    setAccessibleDescription(tr("The force with which the ground pushes back"));
+    setAccessibleDescription(tr("Force of the terrain on the stylus"));
 }
 
 void ForceMeter::setForce(const Vec3& force_n, double force_n_max)

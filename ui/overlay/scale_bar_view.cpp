@@ -24,7 +24,7 @@ ScaleBarView::ScaleBarView(QWidget* parent)
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setFocusPolicy(Qt::NoFocus);
     setAccessibleName(tr("Scale"));
-    setAccessibleDescription(tr("How long the bar is on the ground in the middle of the picture"));
+    setAccessibleDescription(tr("Length of the bar on the ground, in the middle of the picture"));
 }
 
 void ScaleBarView::setCamera(const OrbitCamera& camera, const Viewport& viewport)

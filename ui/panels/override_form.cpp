@@ -290,7 +290,7 @@ void OverrideForm::fill()
     clearProblems();
     fieldOf(crs_)->setHint(
         tr("Type a name or a code to search, such as UTM 10N, Mars "
-           "equirectangular or EPSG:32610. A PROJ string or WKT will do too."));
+           "equirectangular or EPSG:32610. A PROJ string or WKT also works."));
     const RasterOverrides overrides = map_ ? map_->spec().overrides : RasterOverrides{};
     const auto fill_number = [](QLineEdit* field, const std::optional<double>& value,
                                 const std::optional<double>& in_file) {

@@ -24,7 +24,7 @@ constexpr std::array kWords{
         //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
                           "Slides downhill across faces, edges and corners of the ground; quick, "
-                          "but a fast stroke may end in a neighbouring dip")},
+                          "but a fast stroke may end in a neighboring dip")},
     ContactModelWords{
         ContactModelKind::ProxyGraph,
         //: A contact model, with the year of its paper
@@ -32,7 +32,7 @@ constexpr std::array kWords{
         //: Status tip of a contact model: its behavior and its cost
         QT_TRANSLATE_NOOP("WindowActions",
                           "Goes along edges from corner to corner, as the paper does; quick, but "
-                          "a fast stroke ends in a neighbouring dip more often")},
+                          "a fast stroke ends in a neighboring dip more often")},
     ContactModelWords{
         ContactModelKind::GodObject,
         //: A contact model, by the name that the literature gave it

@@ -130,7 +130,7 @@ QString replayText(const QString& file, const ReplayFit& fit, const TouchedGroun
     }
     if (fit.is_cut_short) {
         //: %1 is a file
-        sentences.append(tr("The last line of %1 is incomplete and is left out.").arg(name));
+        sentences.append(tr("The last line of %1 is incomplete and is skipped.").arg(name));
     }
     if (fit.other_map) {
         //: %1 is a file, %2 and %3 are numbers of samples, %4 is a planet or a moon

@@ -140,8 +140,8 @@ TEST_F(LargeMapsPageTest, TellsWhatCameFromServersAndEmptiesIt)
             button->click();
         }
     }
-    ASSERT_TRUE(
-        QTest::qWaitFor([&] { return total->text() == QStringLiteral("Nothing is kept here."); }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return total->text() == QStringLiteral("No tiles are stored here."); }));
     EXPECT_EQ(keptTilesIn(fetched()).count, 0U);
     EXPECT_FALSE(empty->isEnabled());
 }
@@ -155,8 +155,8 @@ TEST_F(LargeMapsPageTest, TilesFromServersLieWithPreparedMaps)
     ASSERT_TRUE(
         QTest::qWaitFor([&] { return total->text() == QStringLiteral("One tile, 1.5 MB"); }));
     page.fill({.map_folder = QString::fromStdString(root_.file("elsewhere"))});
-    ASSERT_TRUE(
-        QTest::qWaitFor([&] { return total->text() == QStringLiteral("Nothing is kept here."); }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return total->text() == QStringLiteral("No tiles are stored here."); }));
     EXPECT_FALSE(std::filesystem::exists(root_.file("elsewhere")));
 }
 
