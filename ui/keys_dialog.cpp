@@ -135,7 +135,7 @@ KeysDialog::Group KeysDialog::mouseGroup()
     return group;
 }
 
-// A menu within a menu is a group of its own.
+// A submenu is a separate group.
 void KeysDialog::addMenu(QList<Group>& groups, const QMenu& menu)
 {
     Group group{.title = plainTitle(menu.title()), .lines = {}};

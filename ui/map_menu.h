@@ -16,7 +16,8 @@ namespace marsview {
 class PlaceDialog;
 class TerrainView;
 
-/// Opens where the view asks for it, and acts on the place that was clicked. A child of the view.
+/// Opens at the position that the view requests, and acts on the place that was clicked. A child of
+/// the view.
 class MapMenu final : public QObject {
     Q_OBJECT
 

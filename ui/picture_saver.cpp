@@ -101,7 +101,7 @@ void PictureSaver::save(const QString& file, const OrbitCamera& camera, const Pi
     drawing_ = std::make_unique<PictureDrawing>(view_, camera, choice.size);
     connect(drawing_.get(), &PictureDrawing::progressed, this,
             [this](double share) { Q_EMIT progressed(file_, share); });
-    // Queued: the drawing goes with its end.
+    // Queued: the drawing is deleted when it ends.
     connect(drawing_.get(), &PictureDrawing::finished, this, &PictureSaver::write,
             Qt::QueuedConnection);
     connect(

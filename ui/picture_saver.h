@@ -19,8 +19,8 @@ namespace marsview {
 class PictureDrawing;
 class TerrainView;
 
-/// Asks for size and contents, then for a file, and writes the picture of what was seen when it was
-/// asked for: drawn between the events of the GUI thread, written on another one. One picture at a
+/// Asks for size and contents, then for a file, and writes the picture of the view at that
+/// time: drawn between the events of the GUI thread, written on another one. One picture at a
 /// time. Lives in the GUI thread; view, overlays and the parent outlive it.
 class PictureSaver final : public QObject {
     Q_OBJECT

@@ -14,7 +14,7 @@ PictureTaker::PictureTaker(MainWindow& window, const QString& file, QObject* par
     , file_(file)
 {
     window.view()->setCrosshairAllowed(false);
-    // Queued: the window takes in what the event brought before its picture is taken.
+    // Queued: the window handles the results of the event before its picture is taken.
     connect(&window, &MainWindow::settled, this, &PictureTaker::take, Qt::QueuedConnection);
     connect(&window, &MainWindow::openFailed, this, &PictureTaker::report);
     connect(window.view(), &TerrainView::unavailable, this, &PictureTaker::report);

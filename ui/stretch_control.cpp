@@ -61,7 +61,8 @@ void StretchControl::open()
 {
     if (!is_placed_) {
         is_placed_ = true;
-        dialog_->move(map_.mapToGlobal(kDialogCorner)); // later it opens where it was left
+        dialog_->move(
+            map_.mapToGlobal(kDialogCorner)); // afterwards it reopens at its last position
     }
     dialog_->show();
     dialog_->raise();

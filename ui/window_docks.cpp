@@ -143,7 +143,7 @@ void WindowDocks::save(QSettings& settings)
 void WindowDocks::restore(const QSettings& settings)
 {
     {
-        const QScopedValueRollback fitting(is_fitting_, true); // panels come one by one
+        const QScopedValueRollback fitting(is_fitting_, true); // panels are restored one by one
         window_.restoreState(settings.value(QStringLiteral("window/state")).toByteArray(),
                              kStateVersion);
     }

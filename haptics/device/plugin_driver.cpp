@@ -330,8 +330,8 @@ Result<std::unique_ptr<HapticDevice>> PluginDriver::open(std::string_view addres
                      held = std::optional(std::move(*marker))]() mutable -> Opened {
                         Opened opened = library->open(id, uri, homing);
                         if (opened) {
-                            // The new marker is made before the old one is removed, so that there
-                            // is no unmarked interval.
+                            // The new marker is made before the old one is removed: no interval is
+                            // left unmarked.
                             Result<CrashMarker> running =
                                 markPluginCall(guard.marker_folder, guard.plugin, PluginCall::Run);
                             if (running) {

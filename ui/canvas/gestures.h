@@ -20,7 +20,7 @@ enum class Gesture {
     WheelWhilePressing, ///< while the stylus presses into the terrain
 };
 
-/// What a gesture asks for.
+/// The action that a gesture requests.
 enum class MapAction {
     None,
     Pan,
@@ -44,7 +44,7 @@ struct GestureBinding {
 /// The first that fits counts.
 std::span<const GestureBinding> gestureBindings();
 
-/// What a gesture does with that tool; None where nothing is bound to it.
+/// The action of a gesture with that tool; None if nothing is bound to it.
 MapAction
 actionOf(Gesture gesture, Qt::MouseButton button, Qt::KeyboardModifiers modifiers, Tool tool);
 

@@ -18,7 +18,7 @@ struct PointerState {
     bool is_over_terrain = false;
 };
 
-/// During a drag what that does; otherwise what the tool would do; an arrow where there is nothing.
+/// Shows the action of the current drag, otherwise that of the tool; an arrow without a map.
 MapCursor mapCursor(const PointerState& state);
 
 QCursor cursorOf(MapCursor cursor);

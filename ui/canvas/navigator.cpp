@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kFrame{16};
 
-// Starts at full speed, so that an input is answered at once, and comes to rest gently.
+// Starts at full speed, so that an input has an effect at once, and comes to rest gently.
 double eased(double t)
 {
     const double rest = 1.0 - t;

@@ -30,7 +30,7 @@ public:
 
     void jumpTo(const OrbitCamera& camera);
     void moveTo(const OrbitCamera& goal, std::chrono::milliseconds duration);
-    /// Stays where it is now.
+    /// Stops the camera at its present position.
     void stop();
 
 Q_SIGNALS:

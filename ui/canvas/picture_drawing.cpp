@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-// Pixels a side. In software a block takes some 50 ms, and so long does input wait.
+// Pixels per side. In software a block takes some 50 ms, during which input has to wait.
 constexpr int kBlockSide = 512;
 
 // The interval at which pieces of a block that were missing are looked for.

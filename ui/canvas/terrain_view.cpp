@@ -287,7 +287,7 @@ void TerrainView::setExaggeration(double exaggeration)
         return;
     }
     const double before = style_.exaggeration;
-    // A motion that is under way ends where it would have ended.
+    // A motion in progress keeps its end.
     const OrbitCamera goal = ground_.isEmpty() ? navigator_.goal() : onGround(navigator_.goal());
     style_.exaggeration = exaggeration;
     stylus_.setGround(ground_, exaggeration);

@@ -176,7 +176,7 @@ void TerrainView::paintTerrain()
             still_timer_.start(kStillAfter);
         }
     } else if (report.is_complete) {
-        // Input that came meanwhile goes first.
+        // Input that arrived in the meantime is handled first.
         QMetaObject::invokeMethod(this, &TerrainView::finishStage, Qt::QueuedConnection);
     }
 }
@@ -287,7 +287,7 @@ void TerrainView::redrawTerrain()
     update();
 }
 
-// Shading that was missing has come.
+// Missing shading has arrived.
 void TerrainView::redrawWithNews()
 {
     if (!renderer_) {

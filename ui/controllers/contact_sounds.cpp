@@ -96,7 +96,7 @@ void ContactSounds::take(Result<SoundPlayer> player)
 {
     opening_.reset();
     if (!is_on_) {
-        return; // switched off meanwhile
+        return; // switched off in the meantime
     }
     if (!player) {
         setOn(false);

@@ -17,7 +17,7 @@ namespace marsview {
 class TerrainView;
 
 /// Off until it is switched on. Plays from the GUI thread's timer, which runs only while something
-/// is touched or fades out; the output is opened on a thread of its own. Must not outlive the view.
+/// is touched or fades out; the output is opened on a separate thread. Must not outlive the view.
 class ContactSounds final : public QObject {
     Q_OBJECT
 

@@ -19,7 +19,7 @@ public:
     /// The way back to the owner; copies of the pointer live as long as they like.
     class Outlet {
     public:
-        /// Calls a function in the owner's thread, where there still is an owner. Any thread.
+        /// Calls a function in the owner's thread, if the owner still exists. Any thread.
         template <typename F>
         void post(F function)
         {

@@ -26,10 +26,10 @@ public:
     explicit DeviceFinder(DriverMaker make_drivers, QObject* parent = nullptr);
     ~DeviceFinder() override;
 
-    /// found() follows. Nothing where that is under way.
+    /// found() follows. Does nothing if a search is in progress.
     void find();
     bool isFinding() const noexcept { return is_finding_; }
-    /// opened() or refused() follows, unless cancelled or another one is opened meanwhile.
+    /// opened() or refused() follows, unless canceled, or another one is opened first.
     void open(const QString& uri);
     /// A device that is being opened is closed as soon as it is open.
     void cancelOpening() { ++opening_; }

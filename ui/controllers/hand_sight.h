@@ -19,7 +19,7 @@ WorkspaceFrame frameForSight(const OrbitCamera& sight,
 
 /// The rectangle of the workspace, level and within `reach`, above which all of the terrain lies
 /// well inside the picture and takes up most of it: a simulated hand that strokes there stays in
-/// sight. Nothing where the camera sees hardly any terrain. Terrain that hides other terrain is not
+/// sight. Empty if the camera sees hardly any terrain. Terrain that hides other terrain is not
 /// considered.
 std::optional<WorkspaceBox> strokesInSight(const OrbitCamera& camera,
                                            const Viewport& viewport,

@@ -88,7 +88,7 @@ public:
     QString replayedToItsEnd() const;
     /// Starts that replay again.
     void replayAgain();
-    /// Of what is connected or being opened.
+    /// Of the device that is connected or being opened.
     const QString& uri() const noexcept { return uri_; }
     /// Null unless connected.
     const ServoLoop* loop() const noexcept { return loop_.get(); }
@@ -216,7 +216,7 @@ private:
     bool is_grabbing_ = false; // by a key
 
     double exaggeration_ = 1.0;
-    std::unique_ptr<HandMap> hand_map_; // null where nothing is shown
+    std::unique_ptr<HandMap> hand_map_; // null without a map in the picture
     LoopSettings loop_settings_;
     // Of a replay that has moved the camera: where the camera was, and where the replay sent it.
     struct Excursion {

@@ -41,7 +41,7 @@ public:
     void setOpener(const MapOpener& opener) { opener_ = opener; }
 
     void start(const LoadRequest& request);
-    /// Nothing where nothing is loading.
+    /// Empty if nothing is being loaded.
     void cancel();
     bool isLoading() const noexcept { return job_ != nullptr; }
 

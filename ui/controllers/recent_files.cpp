@@ -23,7 +23,7 @@ QString settingsKey()
     return QStringLiteral("files/recent");
 }
 
-// What a menu takes for the mark of a key is a letter in a file's name.
+// An ampersand marks a key in a menu, but is an ordinary character in a file name.
 QString withoutMnemonics(QString text)
 {
     return text.replace(QLatin1Char('&'), QStringLiteral("&&"));

@@ -28,7 +28,7 @@ public:
     void undo() override { apply_(before_); }
     void redo() override { apply_(after_); }
     int id() const override;
-    /// The text is that of the last change. Becomes obsolete where the changes cancel out.
+    /// The text is that of the last change. Becomes obsolete if the changes cancel out.
     bool mergeWith(const QUndoCommand* other) override;
 
 private:

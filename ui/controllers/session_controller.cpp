@@ -383,7 +383,7 @@ void SessionController::setStretch(LayerId id, const ColorStretch& stretch, Chan
     }
 }
 
-// Steps of one drag become one step of undo.
+// The steps of one drag are merged into one undo step.
 SessionRun SessionController::runOf(ChangeKind kind, SessionRun::Kind what) const
 {
     return kind == ChangeKind::OfDrag ? SessionRun{.kind = what, .serial = drag_serial_}

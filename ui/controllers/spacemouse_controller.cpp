@@ -124,7 +124,7 @@ void SpaceMouseController::advance()
         view_.goHome();
         is_flying_home_ = true;
     }
-    // Who presses the button may hold the cap: it has to come to rest before it takes over.
+    // Pressing the button may move the cap: it must come to rest before it moves the camera again.
     is_flying_home_ = is_flying_home_ && view_.isMoving() && doesSteer(cap);
     view_.steer(is_flying_home_ ? CapRates{} : cap, seconds);
     if (rates.isAtRest()) {

@@ -210,7 +210,7 @@ void GuideWindow::findNext()
         const int row = static_cast<int>((list_->currentRow() + step) % pages_.size());
         if (list_->item(row)->flags() != Qt::NoItemFlags) {
             list_->setCurrentRow(row);
-            showPage(row); // again from its beginning, also where it is the only one
+            showPage(row); // from its beginning, even if it is the only page
             return;
         }
     }

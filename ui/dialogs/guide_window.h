@@ -23,7 +23,7 @@ struct GuidePage {
 /// are left out; empty if README.md is missing.
 QVector<GuidePage> guidePagesIn(const QString& folder);
 
-/// The folder of the guide that comes with this program; empty if it is missing.
+/// The folder of the guide that is installed with this program; empty if it is missing.
 QString guideFolder();
 
 class GuideWindow final : public QDialog {

@@ -120,7 +120,7 @@ LargeMapsPage::LargeMapsPage(const LargeMapDefaults& standard, QWidget* parent)
     auto* foot = new QHBoxLayout;
     foot->addWidget(total_, 1);
     foot->addWidget(remove_button_);
-    foot->addSpacing(12); // what takes everything stands apart
+    foot->addSpacing(12); // the button that removes everything is set apart
     foot->addWidget(remove_all_button_);
     auto* layout = new QVBoxLayout(this);
     layout->addLayout(form);
@@ -329,7 +329,7 @@ void LargeMapsPage::countFetched()
 void LargeMapsPage::showFetched(const QString& folder, KeptTiles kept, const QString& problem)
 {
     if (folder != fetched_folder_->text()) {
-        return; // another was chosen meanwhile
+        return; // another folder was chosen in the meantime
     }
     const auto count = static_cast<int>(std::min<std::uint64_t>(kept.count, 1'000'000'000));
     fetched_total_->setText(!problem.isEmpty() ? problem

@@ -18,7 +18,7 @@ class QTreeWidget;
 
 namespace marsview {
 
-/// What the program does where nothing is preferred.
+/// The defaults of the program.
 struct LargeMapDefaults {
     std::filesystem::path folder; // of prepared maps
     std::size_t tile_bytes = 0;   // of memory for tiles
@@ -70,7 +70,7 @@ private:
     QSpinBox* fetched_bound_ = nullptr;
     QLabel* fetched_total_ = nullptr;
     QPushButton* empty_button_ = nullptr;
-    DetachedJobs jobs_{*this}; // a disk may take its time
+    DetachedJobs jobs_{*this}; // a disk may be slow
 };
 
 } // namespace marsview

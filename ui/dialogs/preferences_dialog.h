@@ -24,7 +24,7 @@ public:
                       QWidget* parent = nullptr);
 
     QTabWidget* pages() const noexcept { return pages_; }
-    /// Of the map that is looked at; null for none. What is chosen for a body is for it at first.
+    /// The body of the current map; null if unknown. Choices for a body apply to it first.
     void setBody(const Body* body) { coordinates_->setBody(body); }
 
     Preferences preferences() const;

@@ -27,7 +27,7 @@ class StretchPlot;
 struct StretchContent {
     QString layer; // its name; empty: there is none, and nothing can be chosen
     ColorStretch stretch{};
-    HeightRange stretched{}; // that the stretch comes to, in metres
+    HeightRange stretched{}; // the resulting range, in meters
     HeightRange all{};       // of the layer
     const ColorRamp* ramp = nullptr;
     std::shared_ptr<const HeightHistogram> histogram{}; // null while it is being counted

@@ -7,7 +7,7 @@
 
 namespace marsview {
 
-/// A needle that turns with the view and lies down with it. Pressing it asks for north up.
+/// A needle that turns with the view and lies down with it. Pressing it turns north up.
 class Compass final : public QAbstractButton {
     Q_OBJECT
 

@@ -8,7 +8,7 @@
 namespace marsview {
 
 /// Shows the force of a touch as a bar, a number and an arrow. There only while something is
-/// touched: setForce() brings it, release() takes it away. Lets the mouse through.
+/// touched: setForce() shows it, release() hides it. Transparent to the mouse.
 class ForceMeter final : public QWidget {
     Q_OBJECT
 

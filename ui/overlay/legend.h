@@ -15,7 +15,7 @@ namespace marsview {
 /// What a legend explains. The ramp outlives it.
 struct LegendContent {
     ShadingMode mode = ShadingMode::Tint;
-    const ColorRamp* ramp = nullptr; // of the colors in use; null where there are none
+    const ColorRamp* ramp = nullptr; // of the colors in use; null without colors
     HeightRange range{};             // elevations at the ends of the ramp, for Tint
     SlopeRange slopes{};             // slopes there, for Slope
     double contour_interval_m = 0.0; // of the lines drawn; 0 without
@@ -29,7 +29,7 @@ struct LegendContent {
 };
 
 /// The ramp with round elevations or slopes next to it, and the interval of the contour lines.
-/// Nothing where colors mean nothing. Transparent to the mouse.
+/// Empty if the colors have no meaning. Transparent to the mouse.
 class Legend final : public QWidget {
     Q_OBJECT
 

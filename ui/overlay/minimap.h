@@ -47,7 +47,7 @@ public:
 Q_SIGNALS:
     /// The camera should look at this place; its height is that of the camera's target.
     void placeRequested(const ScenePoint& place);
-    /// The widget wants another size.
+    /// The preferred size has changed.
     void roomChanged();
 
 protected:

@@ -149,7 +149,7 @@ OverrideForm::OverrideForm(QWidget* parent)
     fill();
 }
 
-// The dock is narrow: names stand over their fields, and no field asks for width.
+// The dock is narrow: labels are above their fields, and no field requires a minimum width.
 QLineEdit* OverrideForm::addEdit(QVBoxLayout& layout,
                                  const QString& name,
                                  const char* object_name,

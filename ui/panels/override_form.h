@@ -22,9 +22,9 @@ class CrsField;
 class Map;
 class FormField;
 
-/// Fields that are empty keep the file's value. Asks for changes, makes none. What cannot be used
-/// is said below its field, which gets the focus; what was entered stays. The fields scroll; the
-/// buttons below them do not.
+/// Empty fields keep the file's value. Requests changes, makes none. The reason why a value cannot
+/// be used is shown below its field, which gets the focus; entered values stay. The fields scroll;
+/// the buttons below them do not.
 class OverrideForm final : public QWidget {
     Q_OBJECT
 

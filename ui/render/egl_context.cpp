@@ -15,7 +15,7 @@ Error refusal(const char* step)
                         step, eglGetError())};
 }
 
-// Mesa's surfaceless platform where there is one: it needs neither a display server nor a graphics
+// Mesa's surfaceless platform if available: it needs neither a display server nor a graphics
 // card. Otherwise the driver's default.
 EGLDisplay openDisplay()
 {

@@ -8,7 +8,7 @@
 namespace marsview {
 
 /// A context that is current on the thread that made it, for as long as it lives. Draw into frame
-/// buffer objects: it has no surface of its own.
+/// buffer objects: it has no surface.
 class EglContext {
 public:
     /// Unsupported where the machine has no driver for it.

@@ -45,8 +45,8 @@ public:
 
     /// Places handed out from now on are kept until the next call.
     void beginRound() { slots_.beginRound(); }
-    /// Where the node's heights are. Nothing where the atlas is full of this round's. Tiles that
-    /// its heights lack are added to `missing`; `generation` changes when some have come.
+    /// The position of the node's heights. Empty if this round fills the atlas. Tiles that
+    /// its heights lack are added to `missing`; `generation` changes when some have arrived.
     std::optional<Place> place(const LayerNode& node,
                                const DrawnSurface& surface,
                                std::uint64_t generation,

@@ -29,7 +29,7 @@ public:
     /// Slots used since then.
     std::size_t usedCount() const noexcept { return used_count_; }
 
-    /// The key's slot, which counts as used in this round. Nothing where it has none.
+    /// The key's slot, which counts as used in this round. Empty if it has none.
     std::optional<std::size_t> find(const Key& key)
     {
         const auto known = places_.find(key);
@@ -42,7 +42,7 @@ public:
         return known->second;
     }
 
-    /// A slot for a key that has none. Nothing where all are in use in this round.
+    /// A slot for a key that has none. Empty if all are in use in this round.
     std::optional<std::size_t> assign(const Key& key)
     {
         std::size_t oldest = 0;

@@ -53,7 +53,7 @@ NodeInstance nodeInstance(const SelectedNode& selected,
     instance.relief = {static_cast<float>(1.0 / (texel * side)),
                        coordinate(first_column, tile.column), coordinate(first_row, tile.row),
                        static_cast<float>(relief.layer) + (tile.level == 0 ? 0.25F : 0.0F)};
-    // While a larger relief stands in, the mesh has more detail wherever its cells are smaller.
+    // While a larger relief replaces it, the mesh has more detail wherever its cells are smaller.
     const bool is_mesh_finer = relief.node.level != selected.relief.level && step < texel;
     instance.color_heights = {static_cast<float>(relief.height_reach_m),
                               static_cast<float>(relief.height_middle_m - base_m),

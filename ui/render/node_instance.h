@@ -1,4 +1,4 @@
-// A node as the vertex shader takes it.
+// The attributes of a node for the vertex shader.
 #pragma once
 
 #include "core/geo/frames.h"
@@ -31,7 +31,7 @@ NodeInstance nodeInstance(const SelectedNode& selected,
 /// The sample nearest to the eye.
 GridPoint nodeAnchor(const GridPoint& eye, std::size_t columns, std::size_t rows);
 
-/// Makes the bound vertex array take instances from the bound array buffer.
+/// Makes the bound vertex array read instances from the bound array buffer.
 void describeNodeInstances();
 
 } // namespace marsview

@@ -12,7 +12,7 @@
 namespace marsview {
 
 /// Texture arrays with a layer a tile, made as they are needed. Tiles that are missing are made in
-/// the background; the relief of a larger node around stands in for them.
+/// the background; the relief of a larger node around replaces them.
 class ReliefCache {
 public:
     struct Found {
@@ -64,7 +64,7 @@ private:
     void upload(const LayerNode& key, const ReliefTile& tile);
 
     LruSlots<LayerNode, LayerNodeHash> slots_;
-    std::vector<std::optional<GlTexture>> pages_; // made when their first tile comes
+    std::vector<std::optional<GlTexture>> pages_; // created when their first tile arrives
     std::vector<Heights> heights_;                // by slot
     std::vector<ReliefRequest> missing_;
     ReliefLoader loader_;

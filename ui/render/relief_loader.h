@@ -1,4 +1,4 @@
-// Making relief tiles on threads of its own.
+// Makes relief tiles on its own threads.
 #pragma once
 
 #include "core/base/result.h"
@@ -54,7 +54,7 @@ public:
     std::vector<ReliefResult> take(std::size_t count_max);
     /// True while something is wanted or being made.
     bool isLoading() const;
-    /// Waits until nothing is wanted or being made.
+    /// Waits until no tile is requested or being made.
     void waitForPending();
 
 private:

@@ -1,4 +1,4 @@
-// A map as the renderer takes it.
+// A map as input of the renderer.
 #pragma once
 
 #include "core/geo/scene_frame.h"

@@ -146,7 +146,7 @@ struct Layer {
         }
     }
 
-    // Changes when tiles have come.
+    // Changes when tiles have arrived.
     std::uint64_t generation() const
     {
         return requests ? source.heightfield->tiles()->raster().generation() : 0;
@@ -296,7 +296,7 @@ struct TerrainRenderer::Impl {
                      const DrawStyle& style,
                      GridPoint anchor) const;
     void drawBatches(const DrawRequest& request);
-    // Pictures in motion leave out what takes a software driver long.
+    // Pictures in motion omit effects that are slow in software.
     bool isCheap(const DrawRequest& request) const { return request.is_hasty && is_software; }
     void setRays(const GlProgram& program,
                  const DrawRequest& request,
@@ -686,7 +686,7 @@ void TerrainRenderer::setLayers(const std::vector<TerrainLayer>& layers)
         });
         if (known == before.end()) {
             auto added = std::make_unique<Layer>(layer, impl_->next_layer_number++, impl_->notify);
-            // Nothing is ever without relief: this one stands in for all others.
+            // There is always a relief: this one replaces any that is missing.
             impl_->reliefs.keep({.layer = added->number, .node = added->wholeNode()},
                                 *layer.relief);
             impl_->layers.push_back(std::move(added));

@@ -83,7 +83,7 @@ public:
     /// Shading is being made that draw() asked for.
     bool isLoading() const;
 
-    /// What draw() would take. Cheap: nothing is drawn.
+    /// The load of draw(). Cheap: nothing is drawn.
     std::size_t countTriangles(const DrawRequest& request, double exaggeration);
 
     /// Draws into the frame buffer object `target` with what there is. Its depth buffer has 24 bits

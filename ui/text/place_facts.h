@@ -11,7 +11,7 @@
 
 namespace marsview {
 
-/// Texts of one place; empty where there is none.
+/// Texts about one place; empty without one.
 struct PlaceFacts {
     struct Fact {
         QString name;  // "Elevation"

@@ -8,7 +8,7 @@
 namespace marsview {
 
 /// A label whose text is copied by a click, or by Ctrl+C, Space or Enter while it has the focus. It
-/// takes the focus by the Tab key only: a click leaves it where it is.
+/// takes the focus by the Tab key only: a click does not change it.
 class CoordinateField final : public ReservedLabel {
     Q_OBJECT
 

@@ -9,7 +9,7 @@ namespace marsview {
 
 /// An icon of resources/icons/line, in the color that text on buttons has in the application's
 /// palette when it is painted, enabled or disabled: it follows a change of theme. `name` has no
-/// ending; a name without a file is a mistake of the program.
+/// ending; a name without a file is a programming error.
 QIcon lineIcon(const QString& name);
 /// The same in one color, for what lies over the map.
 QIcon lineIcon(const QString& name, const QColor& color);

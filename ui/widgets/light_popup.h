@@ -1,4 +1,4 @@
-// Choosing where the light comes from.
+// Chooses the direction of the light.
 #pragma once
 
 #include "core/base/angle.h"

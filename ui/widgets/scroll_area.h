@@ -1,4 +1,4 @@
-// Scrolling for panels that may be lower than what is in them.
+// Scrolling for panels that may be lower than their content.
 #pragma once
 
 class QScrollArea;
@@ -6,7 +6,7 @@ class QWidget;
 
 namespace marsview {
 
-/// Without a frame; scrolls up and down only: what is too wide wraps.
+/// Without a frame; scrolls up and down only: wide content wraps.
 QScrollArea* makeScrollArea(QWidget* parent);
 
 } // namespace marsview
