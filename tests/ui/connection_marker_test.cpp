@@ -59,7 +59,7 @@ protected:
     test::TempFolder state_;
 };
 
-TEST_F(ConnectionMarker, KeepsADeviceUnconnectedAfterTheProgramEndedWithIt)
+TEST_F(ConnectionMarker, PreventsReconnectionAfterACrashWithTheDevice)
 {
     std::filesystem::create_directories(CrashMarker::defaultFolder());
     const pid_t ended = endedProcess();
@@ -102,7 +102,7 @@ TEST_F(ConnectionMarker, IsNotSetForARecordingThatIsReplayed)
     EXPECT_EQ(markers(), 0U);
 }
 
-TEST_F(ConnectionMarker, OfAProgramThatRunsIsNotTakenForACrash)
+TEST_F(ConnectionMarker, OfARunningProgramIsNotTakenForACrash)
 {
     const CrashMarker running = CrashMarker::set(CrashMarker::defaultFolder(), "window.connected");
     makeWindow();

@@ -73,7 +73,7 @@ TEST_F(LayersTest, AreAddedOnTopAndShown)
     EXPECT_TRUE(window_->windowTitle().contains(QStringLiteral("ring.asc")));
 }
 
-TEST_F(LayersTest, DroppedTogetherAreLoadedInOrderAndOneFailureStopsNoOther)
+TEST_F(LayersTest, DroppedFilesAreLoadedInOrderDespiteAFailure)
 {
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(maps_.hill(QStringLiteral("one.asc"))),
@@ -90,7 +90,7 @@ TEST_F(LayersTest, DroppedTogetherAreLoadedInOrderAndOneFailureStopsNoOther)
     EXPECT_EQ(window_->undoStack().count(), 2);
 }
 
-TEST_F(LayersTest, CancelForgetsWhatWaitsToo)
+TEST_F(LayersTest, CancelAlsoDropsWaitingFiles)
 {
     controller().open({maps_.hill(QStringLiteral("one.asc")), maps_.hill(QStringLiteral("two.asc")),
                        maps_.hill(QStringLiteral("three.asc"))});
@@ -106,7 +106,7 @@ TEST_F(LayersTest, CancelForgetsWhatWaitsToo)
     EXPECT_EQ(layers().size(), 1U);
 }
 
-TEST_F(LayersTest, TheSampleGivesWayToTheFirstMapOpened)
+TEST_F(LayersTest, TheSampleIsReplacedByTheFirstOpenedMap)
 {
     window_->openSample(maps_.hill(QStringLiteral("sample.asc")));
     ASSERT_TRUE(settle());
@@ -123,7 +123,7 @@ TEST_F(LayersTest, TheSampleGivesWayToTheFirstMapOpened)
     EXPECT_THAT(names(), ElementsAre("more.asc", "mine.asc"));
 }
 
-TEST_F(LayersTest, TheSampleIsForgottenWhereTheUserIsFaster)
+TEST_F(LayersTest, TheSampleIsSkippedIfTheUserOpensAMapFirst)
 {
     window_->openSample(maps_.hill(QStringLiteral("sample.asc")));
     window_->open(maps_.hill(QStringLiteral("mine.asc")));
@@ -205,7 +205,7 @@ TEST_F(LayersTest, EveryChangeIsUndoneAndRedoneImmediately)
     EXPECT_EQ(shown(), shownLayers(window_->session()).front()->map->spec().path);
 }
 
-TEST_F(LayersTest, ManyStepsOfTheLightAreOneStepBack)
+TEST_F(LayersTest, ManyStepsOfTheLightAreOneUndoStep)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     const int count = window_->undoStack().count();
@@ -242,7 +242,7 @@ TEST_F(LayersTest, AMapOfAnotherBodyIsHiddenWithTheReasonInItsRow)
     EXPECT_EQ(shown(), layers()[0].map->spec().path);
 }
 
-TEST_F(LayersTest, PanelsAndStatusBarSpeakOfTheActiveLayer)
+TEST_F(LayersTest, PanelsAndStatusBarDescribeTheActiveLayer)
 {
     controller().open({maps_.mars(), maps_.hill()});
     ASSERT_TRUE(settle());
@@ -263,7 +263,7 @@ TEST_F(LayersTest, PanelsAndStatusBarSpeakOfTheActiveLayer)
     EXPECT_EQ(window_->undoStack().count(), 2); // activating another layer is not an undo step
 }
 
-TEST_F(LayersTest, HeightsAreThoseOfTheActiveLayerWhereBothAreShown)
+TEST_F(LayersTest, ElevationsAreThoseOfTheActiveLayerWhereBothAreShown)
 {
     // Two slopes in one CRS, the upper shifted by ten pixels east: a difference of 200 m
     // everywhere.
@@ -321,7 +321,7 @@ TEST_F(LayersTest, ALayerMayBeRemovedWhileItsOwnOverrideIsLoading)
     EXPECT_EQ(window_->undoStack().count(), 2); // opened, removed
 }
 
-TEST_F(LayersTest, UndoWhileLoadingLeavesTheLoadItsPlace)
+TEST_F(LayersTest, UndoWhileLoadingKeepsThePositionOfTheLoadingLayer)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     window_->open(maps_.ring());
@@ -344,7 +344,7 @@ TEST_F(LayersTest, AllHiddenIsAnEmptyView)
     EXPECT_TRUE(window_->actionSet().home->isEnabled());
 }
 
-TEST_F(LayersTest, AMapOnTopKeepsWhatIsInSight)
+TEST_F(LayersTest, AddingAMapOnTopKeepsTheView)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     TerrainView& view = *window_->view();
@@ -363,7 +363,7 @@ TEST_F(LayersTest, AMapOnTopKeepsWhatIsInSight)
     EXPECT_NEAR(after.x(), before.x(), 2.0);
 }
 
-TEST_F(LayersTest, AMapShownBeforeIsSeenAsItWasLeft)
+TEST_F(LayersTest, AMapShownBeforeKeepsItsView)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     TerrainView& view = *window_->view();
@@ -380,7 +380,7 @@ TEST_F(LayersTest, AMapShownBeforeIsSeenAsItWasLeft)
     EXPECT_NEAR(view.camera().distance_m, left.distance_m, 1.0);
 }
 
-TEST_F(LayersTest, GoingToALayerThatWaitsShowsIt)
+TEST_F(LayersTest, GoingToAHiddenLayerShowsIt)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
     ASSERT_TRUE(openAndWait(*window_, maps_.moon()));
@@ -394,7 +394,7 @@ TEST_F(LayersTest, GoingToALayerThatWaitsShowsIt)
     EXPECT_EQ(shown(), maps_.moon().toStdString());
 }
 
-TEST_F(LayersTest, ToldOfItsVoidsAMapIsExaggeratedForWhatIsLeft)
+TEST_F(LayersTest, SettingNodataAdaptsTheExaggerationToTheRest)
 {
     const QString file = maps_.write(QStringLiteral("pit.asc"), {}, [](int column, int row) {
         return column < 5 ? -32767.0 : 100.0 + column + row;

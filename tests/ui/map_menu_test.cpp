@@ -73,7 +73,7 @@ protected:
     }
 };
 
-TEST_F(MapMenuTest, CopiesTheElevationOfThePlaceThatIsClicked)
+TEST_F(MapMenuTest, CopiesTheElevationOfTheClickedPlace)
 {
     rightClick(placeOf({20.0, 12.0}));
     ASSERT_NE(menu(), nullptr);
@@ -107,7 +107,7 @@ TEST_F(MapMenuTest, FliesAndCenters)
     EXPECT_LT(view().camera().distance_m, 0.6 * before);
 }
 
-TEST_F(MapMenuTest, SaysWhatIsHereWhateverTheExaggeration)
+TEST_F(MapMenuTest, WhatIsHereDoesNotDependOnTheExaggeration)
 {
     for (const double exaggeration : {1.0, 7.0}) {
         view().setExaggeration(exaggeration);
@@ -148,7 +148,7 @@ TEST_F(MapMenuTest, OpensInTheMiddleByKeyboard)
     EXPECT_NE(menu(), nullptr);
 }
 
-TEST_F(MapMenuTest, OffersNothingWhereThereIsNoTerrain)
+TEST_F(MapMenuTest, OffersNothingOutsideTheTerrain)
 {
     OrbitCamera low = view().camera();
     low.tilt = Angle::degrees(85.0);

@@ -119,7 +119,7 @@ protected:
     }
 };
 
-TEST_F(MinimapDetailTest, IsNotMoreThanTheViewsAtAnyExaggeration)
+TEST_F(MinimapDetailTest, IsNoFinerThanTheViewAtAnyExaggeration)
 {
     for (const double exaggeration : {1.0, 10.0}) {
         SCOPED_TRACE(exaggeration);
@@ -133,7 +133,7 @@ TEST_F(MinimapDetailTest, IsNotMoreThanTheViewsAtAnyExaggeration)
 }
 
 // Colors that are interpolated over triangles of 18 pixels would be noticed.
-TEST_F(MinimapDetailTest, WouldShowAViewThatIsCoarse)
+TEST_F(MinimapDetailTest, DetectsACoarseView)
 {
     ASSERT_TRUE(lookDown(1.0));
     const QImage sharp = view().terrainPicture();

@@ -88,7 +88,7 @@ TEST_F(PictureSaverTest, WritesEachFormatByItsEnding)
     }
 }
 
-TEST_F(PictureSaverTest, DrawsTheSizesThatAreOffered)
+TEST_F(PictureSaverTest, DrawsTheOfferedSizes)
 {
     SavePictureDialog* dialog = ask();
     ASSERT_NE(dialog, nullptr);
@@ -127,7 +127,7 @@ TEST_F(PictureSaverTest, DrawsATypedSizeWithAnotherAspect)
     EXPECT_EQ(QImage(file).size(), QSize(1234, 321));
 }
 
-TEST_F(PictureSaverTest, LeavesOutOverlaysThatAreNotWanted)
+TEST_F(PictureSaverTest, OmitsDisabledOverlays)
 {
     PictureSaver saver(*window_->view(), *window_->overlays(), PictureSaver::Memory::WindowOnly,
                        window_.get());
@@ -241,7 +241,7 @@ TEST_F(PictureSaverTest, WritesNothingOnceItIsCanceled)
     }
 }
 
-TEST_F(PictureSaverTest, RefusesMoreThanTheDriverDraws)
+TEST_F(PictureSaverTest, RefusesSizesBeyondTheDriversLimit)
 {
     SavePictureDialog dialog({3000, 2000}, {.side_max = 8192, .pixel_count_max = 20'000'000},
                              nullptr);
@@ -276,7 +276,7 @@ TEST_F(PictureSaverTest, RemembersAFolderOfItsOwn)
     EXPECT_EQ(QFileInfo(saver.folder()), QFileInfo(maps_.path(QStringLiteral("out"))));
 }
 
-TEST_F(PictureSaverTest, SaysWhyAFileCannotBeWritten)
+TEST_F(PictureSaverTest, ReportsWhyAFileCannotBeWritten)
 {
     const QImage picture(4, 4, QImage::Format_RGB888);
     const Status unknown = writePictureFile(picture, maps_.path(QStringLiteral("x.bmp")));

@@ -62,7 +62,7 @@ TEST(Program, WritesAPictureOfTheWholeMapAndExits)
     EXPECT_GT(middle.lightness(), corner.lightness() + 20);
 }
 
-TEST(Program, TellsInOneLineWhyAFileCannotBeOpened)
+TEST(Program, ReportsInOneLineWhyAFileCannotBeOpened)
 {
     const TestMaps maps;
     const Outcome outcome = run({QStringLiteral("/no/such/map.tif"), QStringLiteral("--screenshot"),
@@ -73,7 +73,7 @@ TEST(Program, TellsInOneLineWhyAFileCannotBeOpened)
     EXPECT_EQ(outcome.errors.count(u'\n'), 0);
 }
 
-TEST(Program, TellsInOneLineThatAPictureCannotBeWritten)
+TEST(Program, ReportsInOneLineThatAPictureCannotBeWritten)
 {
     const TestMaps maps;
     const Outcome outcome = run({maps.hill(), QStringLiteral("--screenshot"),
@@ -111,7 +111,7 @@ bool handlesTerm(qint64 process)
     });
 }
 
-TEST(Program, EndsInOrderWhereItIsToldToBySignal)
+TEST(Program, EndsCleanlyOnASignal)
 {
     const TestMaps maps;
     QProcess process;

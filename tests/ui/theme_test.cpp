@@ -47,7 +47,7 @@ TEST(Theme, KeepsEveryTextReadable)
     }
 }
 
-TEST(Theme, IsDarkWhereItIsCalledSo)
+TEST(Theme, IsDarkIfNamedSo)
 {
     applyTheme(Theme::Dark);
     EXPECT_LT(luminance(QApplication::palette().color(QPalette::Window)), 0.1);
@@ -76,7 +76,7 @@ TEST(Preferences, ComeBackAsTheyWereSaved)
     }
 }
 
-TEST(Preferences, AreTheUsualOnesWhereTheFileMakesNoSense)
+TEST(Preferences, AreTheDefaultsIfTheFileIsInvalid)
 {
     const QTemporaryDir folder;
     QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);

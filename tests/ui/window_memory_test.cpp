@@ -54,7 +54,7 @@ protected:
     TestMaps maps_;
 };
 
-TEST_F(WindowMemoryTest, BringsBackSizePanelsCoordinatesAndPreferences)
+TEST_F(WindowMemoryTest, RestoresSizePanelsCoordinatesAndPreferences)
 {
     CoordinateFormat coordinates{.system = PositionSystem::Map,
                                  .angles = AngleNotation::DegreesMinutesSeconds,
@@ -86,7 +86,7 @@ TEST_F(WindowMemoryTest, BringsBackSizePanelsCoordinatesAndPreferences)
     window->setPreferences({});
 }
 
-TEST_F(WindowMemoryTest, BringsBackAPanelThatOnlyLackedRoom)
+TEST_F(WindowMemoryTest, RestoresAPanelThatOnlyLackedRoom)
 {
     {
         const auto window = makeWindow({1280, 800});
@@ -122,7 +122,7 @@ TEST_F(WindowMemoryTest, OpensARecentFile)
     EXPECT_EQ(recentEntries(*window)[0]->text(), QStringLiteral("hill.asc"));
 }
 
-TEST_F(WindowMemoryTest, RemembersTenFilesAndSaysWhichAreGone)
+TEST_F(WindowMemoryTest, RemembersTenFilesAndMarksMissingOnes)
 {
     const auto window = makeWindow();
     QStringList files;
@@ -142,7 +142,7 @@ TEST_F(WindowMemoryTest, RemembersTenFilesAndSaysWhichAreGone)
     EXPECT_TRUE(QSettings().value(QStringLiteral("files/recent")).toStringList().isEmpty());
 }
 
-TEST_F(WindowMemoryTest, CoordinatePreferencesAreOfTheBodyThatIsLookedAt)
+TEST_F(WindowMemoryTest, CoordinatePreferencesApplyToTheBodyInTheView)
 {
     MainWindow window(testWindowOptions());
     window.show();
@@ -191,7 +191,7 @@ TEST_F(WindowMemoryTest, AppliesPreferencesWhileTheDialogIsOpen)
     window.setPreferences({});
 }
 
-TEST_F(WindowMemoryTest, LeavesNoTraceWhereItIsToldSo)
+TEST_F(WindowMemoryTest, StoresNothingIfSettingsAreDisabled)
 {
     {
         MainWindow window(testWindowOptions());

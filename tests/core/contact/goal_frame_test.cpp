@@ -16,7 +16,7 @@ std::shared_ptr<const Georeference> georeference()
         std::nullopt);
 }
 
-TEST(GoalFrame, PutsAGoalWhereItsSampleIsWithItsHeightExaggerated)
+TEST(GoalFrame, PlacesAGoalAtItsSampleWithExaggeratedHeight)
 {
     const GoalFrame frame(georeference(), 3.0);
     // The center of sample (10, 20) is 489.5 columns west and 379.5 rows north of the middle.
@@ -31,7 +31,7 @@ TEST(GoalFrame, PutsAGoalWhereItsSampleIsWithItsHeightExaggerated)
     EXPECT_EQ(back.z, 100.0);
 }
 
-TEST(GoalFrame, ThereAndBackIsTheSamePlace)
+TEST(GoalFrame, RoundTripsToTheSamePosition)
 {
     Random random;
     const GoalFrame frame(georeference(), 1.7);
@@ -45,7 +45,7 @@ TEST(GoalFrame, ThereAndBackIsTheSamePlace)
     }
 }
 
-TEST(GoalFrame, TellsWhatIsBesideTheOutermostSamples)
+TEST(GoalFrame, DetectsGoalsOutsideTheOutermostSamples)
 {
     const GoalFrame frame(georeference(), 1.0);
     EXPECT_FALSE(frame.isClamped({600045.0, 5199955.0, 0.0})); // exactly the first sample

@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Constraints,
                          testing::Values(kKept, kReleased),
                          [](const auto& test) { return nameOf(test.param); });
 
-TEST_P(GodObjectTest, HoldsItsPromisesOnEverySyntheticTerrain)
+TEST_P(GodObjectTest, MeetsItsGuaranteesOnEverySyntheticTerrain)
 {
     test::Random random;
     Tally sum;
@@ -210,7 +210,7 @@ TEST_P(GodObjectTest, HoldsItsPromisesOnEverySyntheticTerrain)
     EXPECT_EQ(sum.cut_short, 0);
 }
 
-TEST_P(GodObjectTest, HoldsItsPromisesInShearedFramesAndAtAnyExaggeration)
+TEST_P(GodObjectTest, MeetsItsGuaranteesInShearedFramesAndAtAnyExaggeration)
 {
     test::Random random;
     const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 110, 8));
@@ -234,7 +234,7 @@ TEST_P(GodObjectTest, HoldsItsPromisesInShearedFramesAndAtAnyExaggeration)
     EXPECT_EQ(sum.cut_short, 0);
 }
 
-TEST_P(GodObjectTest, HoldsItsPromisesOnTheBundledMaps)
+TEST_P(GodObjectTest, MeetsItsGuaranteesOnTheBundledMaps)
 {
     test::Random random;
     Tally sum;
@@ -323,7 +323,7 @@ TEST(GodObject, SticksInAValleyWhileConstraintsAreKept)
     EXPECT_NEAR(distance(model.update(goal).proxy, foot), 0.0, 1e-12);
 }
 
-TEST(GodObject, GoesOnUpAValleyOnceConstraintsAreReleased)
+TEST(GodObject, ContinuesUpAValleyOnceConstraintsAreReleased)
 {
     const auto terrain = test::filledTerrain(41, heightsOver(41, upFromTheValley));
     Model model(surfaceOver(terrain), kReleased);
@@ -371,7 +371,7 @@ TEST_P(GodObjectTest, StaysWithinTheBorderOfTheMap)
     EXPECT_FALSE(above.is_in_contact);
 }
 
-TEST_P(GodObjectTest, KeepsTheProxyWhereTheGoalIsNoPlace)
+TEST_P(GodObjectTest, KeepsTheProxyForAnInvalidGoal)
 {
     const auto terrain = test::filledTerrain(41, test::fractalHeights(41, 41, 3));
     const HeightfieldSurface surface = surfaceOver(terrain);

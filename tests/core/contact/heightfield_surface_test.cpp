@@ -11,7 +11,7 @@
 namespace marsview {
 namespace {
 
-TEST(HeightfieldSurface, CastsFindWhatRaysFind)
+TEST(HeightfieldSurface, CastsMatchRays)
 {
     test::Random random;
     for (const double scale : {0.1, 1.0, 20.0}) {
@@ -59,7 +59,7 @@ TEST(HeightfieldSurface, CastsFindWhatRaysFind)
     }
 }
 
-TEST(HeightfieldSurface, CastsPassNoEdgeAndNoVertex)
+TEST(HeightfieldSurface, CastsPassThroughNoEdgeAndNoVertex)
 {
     test::Random random;
     const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 70, 2));
@@ -86,7 +86,7 @@ TEST(HeightfieldSurface, CastsPassNoEdgeAndNoVertex)
     }
 }
 
-TEST(HeightfieldSurface, FreeSpaceNeedsNoLookAtCells)
+TEST(HeightfieldSurface, CastsThroughFreeSpaceVisitNoCells)
 {
     const auto terrain = test::filledTerrain(1500, test::fractalHeights(1500, 1100, 2));
     const HeightfieldSurface surface(terrain, test::unitFrame(*terrain), 1.0);
@@ -109,7 +109,7 @@ TEST(HeightfieldSurface, HeightIsThatOfTheTriangles)
     EXPECT_EQ(surface.height({-3.0, 90.0}), 2.5 * terrain->sample(0, 29));
 }
 
-TEST(HeightfieldSurface, TellsWhereVoidsWereFilled)
+TEST(HeightfieldSurface, ReportsFilledVoids)
 {
     std::vector<float> heights(std::size_t{20} * 20, 1.0F);
     heights[5 * 20 + 5] = kNanFloat;

@@ -38,7 +38,7 @@ wander(const HeightfieldSurface& surface, test::Random& random, int updates, dou
     return judge.findings();
 }
 
-TEST(ProxyGraph, HoldsItsPromisesOnEverySyntheticTerrain)
+TEST(ProxyGraph, MeetsItsGuaranteesOnEverySyntheticTerrain)
 {
     test::Random random;
     test::Findings sum;
@@ -53,7 +53,7 @@ TEST(ProxyGraph, HoldsItsPromisesOnEverySyntheticTerrain)
     EXPECT_GT(sum.contacts, 0);
 }
 
-TEST(ProxyGraph, HoldsItsPromisesInShearedFramesAndAtAnyExaggeration)
+TEST(ProxyGraph, MeetsItsGuaranteesInShearedFramesAndAtAnyExaggeration)
 {
     test::Random random;
     const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 110, 8));
@@ -79,7 +79,7 @@ TEST(ProxyGraph, HoldsItsPromisesInShearedFramesAndAtAnyExaggeration)
     EXPECT_GT(sum.contacts, 0);
 }
 
-TEST(ProxyGraph, HoldsItsPromisesOnTheBundledMaps)
+TEST(ProxyGraph, MeetsItsGuaranteesOnTheBundledMaps)
 {
     test::Random random;
     test::Findings sum;
@@ -271,7 +271,7 @@ TEST(ProxyGraph, IsPlacedStraightAboveTheFirstGoal)
     EXPECT_FALSE(model.place({0.25, 2.5, 40.0}).is_in_contact);
 }
 
-TEST(ProxyGraph, StaysOnTheMapUnderGoalsBeyondIt)
+TEST(ProxyGraph, StaysOnTheMapForGoalsOutsideIt)
 {
     const auto terrain =
         test::filledTerrain(41, heightsOver(41, [](double x, double) { return -x; }));
@@ -286,7 +286,7 @@ TEST(ProxyGraph, StaysOnTheMapUnderGoalsBeyondIt)
     EXPECT_FALSE(above.is_in_contact);
 }
 
-TEST(ProxyGraph, KeepsTheProxyWhereTheGoalIsNoPlace)
+TEST(ProxyGraph, KeepsTheProxyForAnInvalidGoal)
 {
     const auto terrain = test::filledTerrain(41, test::fractalHeights(41, 41, 3));
     const HeightfieldSurface surface = surfaceOver(terrain);

@@ -515,13 +515,13 @@ INSTANTIATE_TEST_SUITE_P(Of,
 
 class StabilityOfModels : public testing::TestWithParam<Subject> {};
 
-TEST_P(StabilityOfModels, RefusesGoalsThatAreNoPlace)
+TEST_P(StabilityOfModels, RefusesInvalidGoals)
 {
     GetParam().refuse(fractal(40, 40, 3.0));
     GetParam().refuse(shaped(2, 2, [](double c, double) { return c; }));
 }
 
-TEST_P(StabilityOfModels, IsPlacedAnywhere)
+TEST_P(StabilityOfModels, CanBePlacedAnywhere)
 {
     Random random;
     Findings sum;

@@ -346,7 +346,7 @@ void expectPromisesKept(const Tally& tally, const std::string& name)
     EXPECT_EQ(tally.cut_short, 0);
 }
 
-TEST(VirtualProxy, HoldsItsPromisesOnEverySyntheticTerrain)
+TEST(VirtualProxy, MeetsItsGuaranteesOnEverySyntheticTerrain)
 {
     test::Random random;
     for (const double radius_m : {0.05, 0.7, 3.0}) {
@@ -362,7 +362,7 @@ TEST(VirtualProxy, HoldsItsPromisesOnEverySyntheticTerrain)
     }
 }
 
-TEST(VirtualProxy, HoldsItsPromisesInShearedFramesAndAtAnyExaggeration)
+TEST(VirtualProxy, MeetsItsGuaranteesInShearedFramesAndAtAnyExaggeration)
 {
     test::Random random;
     const auto terrain = test::filledTerrain(90, test::fractalHeights(90, 110, 8));
@@ -384,7 +384,7 @@ TEST(VirtualProxy, HoldsItsPromisesInShearedFramesAndAtAnyExaggeration)
     expectPromisesKept(sum, "sheared frames");
 }
 
-TEST(VirtualProxy, HoldsItsPromisesOnTheBundledMaps)
+TEST(VirtualProxy, MeetsItsGuaranteesOnTheBundledMaps)
 {
     test::Random random;
     Tally sum;
@@ -406,7 +406,7 @@ TEST(VirtualProxy, HoldsItsPromisesOnTheBundledMaps)
     expectPromisesKept(sum, "bundled maps");
 }
 
-TEST(VirtualProxy, HoldsItsPromisesAsWideAsManyCells)
+TEST(VirtualProxy, MeetsItsGuaranteesWithARadiusOfManyCells)
 {
     test::Random random;
     const auto terrain = test::filledTerrain(130, test::fractalHeights(130, 97, 4));
@@ -490,7 +490,7 @@ TEST(VirtualProxy, IsPlacedWhereASphereComesDownOntoTheTerrain)
     EXPECT_FALSE(free.is_in_contact);
 }
 
-TEST(VirtualProxy, LooksAtNoCellsFarAboveTheTerrain)
+TEST(VirtualProxy, VisitsNoCellsFarAboveTheTerrain)
 {
     const auto terrain = test::filledTerrain(513, test::fractalHeights(513, 513, 1));
     Model model(surfaceOver(terrain), 0.5);
@@ -505,7 +505,7 @@ TEST(VirtualProxy, LooksAtNoCellsFarAboveTheTerrain)
     }
 }
 
-TEST(VirtualProxy, LooksOnlyAtWhatIsNearALongWay)
+TEST(VirtualProxy, VisitsOnlyCellsNearALongPath)
 {
     const auto terrain = test::filledTerrain(1025, test::fractalHeights(1025, 1025, 1));
     Model model(surfaceOver(terrain), 0.5);
@@ -518,7 +518,7 @@ TEST(VirtualProxy, LooksOnlyAtWhatIsNearALongWay)
     EXPECT_LT(state.counters.cells, 1025U * 1025U / 4U);
 }
 
-TEST(VirtualProxy, KeepsItsCentreWithinTheBorderOfTheMap)
+TEST(VirtualProxy, KeepsItsCenterWithinTheBorderOfTheMap)
 {
     Model model(ruled([](double x) { return -x; }), 0.5);
     const ContactState below = model.update({500.0, 300.0, -200.0});
@@ -529,7 +529,7 @@ TEST(VirtualProxy, KeepsItsCentreWithinTheBorderOfTheMap)
     EXPECT_EQ(above.proxy, (ScenePoint{20.0, 3.0, 10.0}));
 }
 
-TEST(VirtualProxy, KeepsItsPlaceWhereTheGoalIsNoPlace)
+TEST(VirtualProxy, KeepsItsPositionForAnInvalidGoal)
 {
     const auto terrain = test::filledTerrain(41, test::fractalHeights(41, 41, 3));
     const HeightfieldSurface surface = surfaceOver(terrain);

@@ -93,7 +93,7 @@ std::vector<test::NamedMesh> meshes()
     return all;
 }
 
-TEST(MeshCast, MeetsWhatTheSumOverAllTrianglesMeets)
+TEST(MeshCast, MatchesATestOfAllTriangles)
 {
     test::Random random;
     int compared = 0;
@@ -179,7 +179,7 @@ TEST(MeshCast, NothingSlipsIntoAClosedMesh)
     EXPECT_GT(casts, 20000);
 }
 
-TEST(MeshCast, EdgesAndVerticesOfAGridAreMetExactly)
+TEST(MeshCast, HitsEdgesAndVerticesOfAGridExactly)
 {
     // Straight down onto whole and half coordinates: no rounding.
     const auto mesh = test::meshOf(
@@ -209,7 +209,7 @@ TEST(MeshCast, EdgesAndVerticesOfAGridAreMetExactly)
     }
 }
 
-TEST(MeshCast, FacesAreMetFromTheFrontOnly)
+TEST(MeshCast, HitsFacesFromTheFrontOnly)
 {
     const auto mesh = test::meshOf(test::sheet(3, 3, [](int, int) { return 0.0; }));
     EXPECT_TRUE(castSegment(*mesh, {.base = {0.7, -0.4, 1}}, {{0.7, -0.4, -1}}).hit);
@@ -250,7 +250,7 @@ TEST(MeshCast, AStartThatRoundingPutBehindAFaceIsStoppedByIt)
     }
 }
 
-TEST(NearestPlace, IsAsNearAsTheNearestOfAllTriangles)
+TEST(NearestPlace, MatchesTheNearestOfAllTriangles)
 {
     test::Random random;
     for (const auto& [name, mesh, size, middle] : meshes()) {

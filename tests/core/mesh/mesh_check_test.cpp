@@ -53,7 +53,7 @@ TEST(MeshCheck, SoundMeshesHaveNoFaults)
     }
 }
 
-TEST(MeshCheck, FindsCoordinatesThatAreNone)
+TEST(MeshCheck, FindsInvalidCoordinates)
 {
     TriangleSoup soup = flatSheet(4, 4);
     soup.vertices[2].y = std::numeric_limits<double>::quiet_NaN();
@@ -63,7 +63,7 @@ TEST(MeshCheck, FindsCoordinatesThatAreNone)
                 ElementsAre(Numbers{2, 2}, Numbers{7, 7}, Numbers{8, 8}));
 }
 
-TEST(MeshCheck, FindsVerticesThatAreMissing)
+TEST(MeshCheck, FindsMissingVertices)
 {
     TriangleSoup soup = flatSheet(3, 3);
     soup.faces[5][1] = 9;
@@ -86,7 +86,7 @@ TEST(MeshCheck, FindsTrianglesWithoutArea)
                 ElementsAre(Numbers{12, 12}, Numbers{13, 13}, Numbers{14, 14}));
 }
 
-TEST(MeshCheck, FindsCopies)
+TEST(MeshCheck, FindsDuplicateTriangles)
 {
     TriangleSoup soup = test::icosphere(1);
     const auto [a, b, c] = soup.faces[7];
@@ -170,7 +170,7 @@ TEST(MeshCheck, FindsIntersections)
     EXPECT_THAT(onlyFault(soup, Kind::Intersection, 1), ElementsAre(Numbers{0, 2}));
 }
 
-TEST(MeshCheck, FindsWhatOnlyTouches)
+TEST(MeshCheck, FindsFacesThatOnlyTouch)
 {
     TriangleSoup soup = flatSheet(2, 2);
     // A corner within a face, from above.
@@ -186,7 +186,7 @@ TEST(MeshCheck, FindsWhatOnlyTouches)
     EXPECT_EQ(faultsOf(soup).size(), 1U);
 }
 
-TEST(MeshCheck, FindsNeighboursThatFoldOntoEachOther)
+TEST(MeshCheck, FindsNeighborsThatFoldOntoEachOther)
 {
     // Sharing an edge, folded back in the plane.
     TriangleSoup soup{{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1.2, 0.5, 0}}, {{0, 1, 2}, {1, 0, 3}}};
@@ -204,7 +204,7 @@ TEST(MeshCheck, FindsNeighboursThatFoldOntoEachOther)
     EXPECT_EQ(faults[1].first[0].numbers, (Numbers{0, 2}));
 }
 
-TEST(MeshCheck, TellsEachKindWithCountAndPlaces)
+TEST(MeshCheck, ReportsEachKindWithCountAndPositions)
 {
     TriangleSoup soup = test::cube();
     soup.vertices[0].x = std::numeric_limits<double>::quiet_NaN();
@@ -217,7 +217,7 @@ TEST(MeshCheck, TellsEachKindWithCountAndPlaces)
               "1, -1; …)");
 }
 
-TEST(MeshCheck, CountsIntersectionsAsTheSumOverAllPairsDoes)
+TEST(MeshCheck, CountsIntersectionsLikeATestOfAllPairs)
 {
     // Random triangles at integer coordinates, where contact is common. The truth comes from exact
     // integer segment-triangle tests.

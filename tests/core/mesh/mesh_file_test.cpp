@@ -172,7 +172,7 @@ TEST_F(MeshFile, EveryFormatGivesTheTriangles)
     }
 }
 
-TEST_F(MeshFile, ObjMayCountBackwardsAndCarryMore)
+TEST_F(MeshFile, ObjMayHaveNegativeIndicesAndOtherStatements)
 {
     const auto soup = read("a.obj",
                            "# a comment\r\nmtllib some.mtl\r\no thing\r\n"
@@ -214,7 +214,7 @@ TEST_F(MeshFile, StlIsWeldedWhereCoordinatesAreEqual)
     EXPECT_EQ(zeros->vertices.size(), 4U);
 }
 
-TEST_F(MeshFile, SaysInOneSentenceWhatIsWrongWhere)
+TEST_F(MeshFile, ReportsErrorsWithTheirPositionInOneSentence)
 {
     EXPECT_EQ(refusal("a.xyz", "1 2 3"),
               "a.xyz: is not a mesh by its name; .obj, .ply and .stl are read");
@@ -274,7 +274,7 @@ TEST_F(MeshFile, SaysInOneSentenceWhatIsWrongWhere)
     EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
 }
 
-TEST_F(MeshFile, AnnouncedSizesAreNotBelieved)
+TEST_F(MeshFile, DoesNotTrustDeclaredSizes)
 {
     // Memory for the announced counts would not be available.
     for (const std::string format : {"ascii", "binary_little_endian"}) {
@@ -302,7 +302,7 @@ TEST_F(MeshFile, FaultsOfTheMeshNameTheFile)
                                         "a number within 1e12 m (vertex 1, 0, 0, nan)");
 }
 
-TEST_F(MeshFile, IsExaggeratedInZAlone)
+TEST_F(MeshFile, IsExaggeratedInZOnly)
 {
     JobMonitor monitor;
     const std::string path = write("a.obj", "v 0 0 1\nv 1 0 -2\nv 0 1 0\nf 1 2 3\n");
@@ -313,7 +313,7 @@ TEST_F(MeshFile, IsExaggeratedInZAlone)
     EXPECT_EQ((*mesh)->vertex(1).z, -5.0);
 }
 
-TEST_F(MeshFile, CanBeCancelled)
+TEST_F(MeshFile, CanBeCanceled)
 {
     JobMonitor monitor;
     monitor.cancel();
@@ -321,7 +321,7 @@ TEST_F(MeshFile, CanBeCancelled)
     EXPECT_EQ(readTriangles(path, monitor).error().code, ErrorCode::Cancelled);
 }
 
-TEST_F(MeshFile, DamageIsToldOrReadButNeverCrashes)
+TEST_F(MeshFile, DamageIsReportedOrReadButNeverCrashes)
 {
     test::Random random;
     const TriangleSoup truth = test::icosphere(1);

@@ -90,13 +90,13 @@ TEST(TriangleMesh, FansAreAllFacesOfAVertexInTurn)
     }
 }
 
-TEST(TriangleMesh, RefusesWhatHasNoTriangles)
+TEST(TriangleMesh, RefusesAMeshWithoutTriangles)
 {
     JobMonitor monitor;
     EXPECT_EQ(TriangleMesh::build({}, monitor).error().message, "the mesh has no triangles");
 }
 
-TEST(TriangleMesh, RefusesFaultsAndSaysWhere)
+TEST(TriangleMesh, RefusesFaultsWithTheirPositions)
 {
     JobMonitor monitor;
     TriangleSoup soup = test::cube();
@@ -108,14 +108,14 @@ TEST(TriangleMesh, RefusesFaultsAndSaysWhere)
               "at -1, -1, -1)");
 }
 
-TEST(TriangleMesh, CanBeCancelled)
+TEST(TriangleMesh, CanBeCanceled)
 {
     JobMonitor monitor;
     monitor.cancel();
     EXPECT_EQ(TriangleMesh::build(test::cube(), monitor).error().code, ErrorCode::Cancelled);
 }
 
-TEST(TriangleTree, BoxesFindAllFacesThatMeetThem)
+TEST(TriangleTree, BoxQueriesFindAllFacesThatIntersectThem)
 {
     test::Random random;
     for (const auto& [name, mesh, size, middle] : meshes()) {
@@ -152,7 +152,7 @@ TEST(TriangleTree, EveryFaceIsInTheTreeOnce)
     }
 }
 
-TEST(TriangleTree, ManyFacesInOnePlaceDoNotMakeItDeep)
+TEST(TriangleTree, ManyCoincidentFacesDoNotMakeItDeep)
 {
     // Centers at equal positions, and at distances that double: cases that mislead spatial
     // splitting.

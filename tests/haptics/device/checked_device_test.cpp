@@ -80,7 +80,7 @@ constexpr std::chrono::microseconds kPeriod{1000};
 
 } // namespace
 
-TEST_F(CheckedDeviceTest, LetsAFastHandPass)
+TEST_F(CheckedDeviceTest, AcceptsAFastHand)
 {
     // 8 m/s back and forth is faster than anyone moves a stylus.
     for (int i = 0; i < 1000; ++i) {
@@ -91,7 +91,7 @@ TEST_F(CheckedDeviceTest, LetsAFastHandPass)
     EXPECT_EQ(device_.trouble(), "");
 }
 
-TEST_F(CheckedDeviceTest, WithholdsOneBadSampleAndGoesOn)
+TEST_F(CheckedDeviceTest, WithholdsOneBadSampleAndContinues)
 {
     ASSERT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
     EXPECT_EQ(readAt({0.0, kInfinity, 0.1}, kPeriod), DeviceStatus::Unready);
@@ -103,7 +103,7 @@ TEST_F(CheckedDeviceTest, WithholdsOneBadSampleAndGoesOn)
     EXPECT_EQ(device_.trouble(), "");
 }
 
-TEST_F(CheckedDeviceTest, TheForceStaysZeroUntilASampleIsAsItShouldBe)
+TEST_F(CheckedDeviceTest, TheForceStaysZeroUntilASampleIsPlausible)
 {
     ASSERT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
     EXPECT_EQ(device_.write({0.0, 0.0, 2.0}), DeviceStatus::Fine);
@@ -116,7 +116,7 @@ TEST_F(CheckedDeviceTest, TheForceStaysZeroUntilASampleIsAsItShouldBe)
     EXPECT_EQ(script_.forces.back().z, 1.0);
 }
 
-TEST_F(CheckedDeviceTest, TimesMayBeAnything)
+TEST_F(CheckedDeviceTest, AcceptsAnyTimes)
 {
     for (const auto time : {Clock::time_point::min(), Clock::time_point::max(), now_,
                             Clock::time_point::min(), now_}) {
@@ -152,7 +152,7 @@ TEST_F(CheckedDeviceTest, AcceptsAnotherPlaceAfterAPause)
     EXPECT_EQ(readAt({0.1, 0.0, 0.2}, std::chrono::milliseconds(150)), DeviceStatus::Fine);
 }
 
-TEST_F(CheckedDeviceTest, DropsADeviceOfWhichEveryThirdSampleIsBad)
+TEST_F(CheckedDeviceTest, DropsADeviceIfEveryThirdSampleIsBad)
 {
     DeviceStatus status = DeviceStatus::Fine;
     int reads = 0;
@@ -163,7 +163,7 @@ TEST_F(CheckedDeviceTest, DropsADeviceOfWhichEveryThirdSampleIsBad)
     EXPECT_LT(reads, 30);
 }
 
-TEST_F(CheckedDeviceTest, KeepsADeviceOfWhichOneSampleInTenIsBad)
+TEST_F(CheckedDeviceTest, KeepsADeviceIfOneSampleInTenIsBad)
 {
     for (int i = 0; i < 10'000; ++i) {
         const DeviceStatus expected = i % 10 == 9 ? DeviceStatus::Unready : DeviceStatus::Fine;
@@ -178,7 +178,7 @@ TEST_F(CheckedDeviceTest, RefusesPositionsFarOutsideButNotJustOutside)
     EXPECT_THAT(device_.trouble(), HasSubstr("outside"));
 }
 
-TEST_F(CheckedDeviceTest, ClampsForcesAndWritesZeroForThoseThatAreNone)
+TEST_F(CheckedDeviceTest, ClampsForcesAndWritesZeroForInvalidOnes)
 {
     EXPECT_EQ(device_.write({3.0, 0.0, -4.0}), DeviceStatus::Fine);
     EXPECT_EQ(script_.forces.back(), (Vec3{3.0, 0.0, -4.0}));
@@ -191,7 +191,7 @@ TEST_F(CheckedDeviceTest, ClampsForcesAndWritesZeroForThoseThatAreNone)
     }
 }
 
-TEST_F(CheckedDeviceTest, PassesOnWhatTheDeviceSaysOfItself)
+TEST_F(CheckedDeviceTest, PassesTheDevicesMessagesOn)
 {
     script_.status = DeviceStatus::Unready;
     EXPECT_EQ(readAt({}, kPeriod), DeviceStatus::Unready);
@@ -203,7 +203,7 @@ TEST_F(CheckedDeviceTest, PassesOnWhatTheDeviceSaysOfItself)
     EXPECT_EQ(readAt({}, kPeriod), DeviceStatus::Lost) << "it never recovers";
 }
 
-TEST(CapabilityCheck, TellsThePossibleFromTheImpossible)
+TEST(CapabilityCheck, DistinguishesPlausibleFromImplausibleValues)
 {
     EXPECT_EQ(impossibilityOf(possible()), std::nullopt);
     DeviceCapabilities feels_only = possible();

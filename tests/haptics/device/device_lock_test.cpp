@@ -54,7 +54,7 @@ TEST(DeviceLock, NamesTheProgramThatHasTheDeviceUntilItEnds)
     }
 }
 
-TEST(DeviceLock, DoesWithoutWhereNoFileCanBeMade)
+TEST(DeviceLock, IsSkippedIfNoFileCanBeCreated)
 {
     const auto lock = lockDevice("x:1", "/proc/nothing/here");
     ASSERT_TRUE(lock);

@@ -38,7 +38,7 @@ DeviceRegistry twoDrivers()
     return DeviceRegistry(std::move(drivers));
 }
 
-TEST(FoundDevice, IsMeantByItsUriByOneWithOptionsAndByItsScheme)
+TEST(FoundDevice, MatchesItsUriWithOptionsAndItsScheme)
 {
     const FoundDevice arm{.uri = "polhem:serial=4711", .name = "", .reason = ""};
     for (const char* wanted : {"polhem:serial=4711", "polhem:serial=4711,parameters=/a.json",
@@ -56,7 +56,7 @@ TEST(FoundDevice, IsMeantByItsUriByOneWithOptionsAndByItsScheme)
     EXPECT_FALSE(hand.isMeantBy("simulated:"));
 }
 
-TEST(DeviceRegistry, FindsWhatAllDriversFindWithTheirReasons)
+TEST(DeviceRegistry, ListsTheDevicesOfAllDriversWithTheirReasons)
 {
     DeviceRegistry registry = twoDrivers();
     const std::vector<FoundDevice> found = registry.find();

@@ -21,7 +21,7 @@ std::size_t filesIn(const fs::path& folder)
 
 } // namespace
 
-TEST(LastTrouble, IsThatOfItsDeviceUntilItIsTakenBack)
+TEST(LastTrouble, IsKeptForItsDeviceUntilCleared)
 {
     const TempFolder folder;
     const fs::path below = folder.path() / "is" / "made";
@@ -61,7 +61,7 @@ TEST(LastTrouble, KeepsFewAndSmallFiles)
     EXPECT_EQ(of(3 * LastTrouble::kFilesMax - 1), std::string(LastTrouble::kBytesMax, 'x'));
 }
 
-TEST(LastTrouble, IsForgottenWhereNothingCanBeWritten)
+TEST(LastTrouble, IsDroppedIfNothingCanBeWritten)
 {
     const TempFolder folder;
     const std::string file = folder.write("file", "");

@@ -5,7 +5,7 @@
 namespace marsview::test {
 
 // Messages as glibc 2.36 prints them.
-TEST(LoaderMessage, SaysWhatIsMissingAndWhatToDo)
+TEST(LoaderMessage, NamesTheMissingPartAndTheRemedy)
 {
     EXPECT_EQ(loaderSentence("/p/hand.so",
                              "libusb-9.so.0: cannot open shared object file: No such "

@@ -31,7 +31,7 @@ std::unique_ptr<HapticDevice> opened(const std::string& uri)
     return device ? std::move(device).value() : nullptr;
 }
 
-TEST(NullDevice, RestsAndPushesNobody)
+TEST(NullDevice, RestsAndRendersNoForce)
 {
     const auto device = opened("null:");
     DeviceSample sample;
@@ -65,7 +65,7 @@ TEST(SimDevice, DoesTheSameEveryTimeHoweverFastItIsRead)
     EXPECT_TRUE(has_differed);
 }
 
-TEST(SimDevice, LeansOnWhatIsBelowAndStaysWithinItsWorkspace)
+TEST(SimDevice, PressesDownAndStaysWithinItsWorkspace)
 {
     const auto device = opened("sim:press=0.7,lift_s=0,speed=0.1");
     const WorkspaceBox box = device->capabilities().workspace;
@@ -101,7 +101,7 @@ TEST(SimDevice, LiftsOnlyALittle)
     EXPECT_LT(highest_m, 0.01);
 }
 
-TEST(SimDevice, SwipesAsManyCellsAnUpdateAsItIsTold)
+TEST(SimDevice, SwipesTheRequestedCellsPerUpdate)
 {
     const auto device = opened("sim:swipe=10,cell_m=1e-5,encoder_mm=0,lift_s=0");
     double way_m = 0.0;
@@ -116,7 +116,7 @@ TEST(SimDevice, SwipesAsManyCellsAnUpdateAsItIsTold)
     EXPECT_NEAR(way_m / 10'000 / 1e-5, 10.0, 1.0); // less while it turns back
 }
 
-TEST(SimDevice, StrokesWithinTheRectangleThatItIsGiven)
+TEST(SimDevice, StrokesWithinItsRectangle)
 {
     const auto device = opened("sim:encoder_mm=0");
     const WorkspaceBox box{{0.02, -0.03, -0.06}, {0.05, -0.01, 0.06}};
@@ -146,7 +146,7 @@ TEST(SimDevice, StrokesWithinTheRectangleThatItIsGiven)
     EXPECT_GT(high.y, box.high.y - kTrailM);
 }
 
-TEST(SimDevice, RefusesWhatItDoesNotUnderstand)
+TEST(SimDevice, RefusesUnknownOptions)
 {
     EXPECT_EQ(refusalOf("sim:mass=fast"), "sim:mass=fast: mass must be a number from 0.001 to 10");
     EXPECT_EQ(refusalOf("sim:delay_ms=51"),
@@ -159,7 +159,7 @@ TEST(SimDevice, RefusesWhatItDoesNotUnderstand)
     EXPECT_NE(unknown.find("mass"), std::string::npos) << unknown;
 }
 
-TEST(ReplayDevice, TellsItsGoalsOnceAndFinishes)
+TEST(ReplayDevice, ReplaysItsGoalsOnceAndEnds)
 {
     const TempFolder folder;
     const std::string path = folder.write("goals.csv", "x,y,z,time_s\n1,2,3,0\n4,5,6.5,0.001\n");
@@ -177,7 +177,7 @@ TEST(ReplayDevice, TellsItsGoalsOnceAndFinishes)
     EXPECT_EQ(device->read(sample), DeviceStatus::Finished);
 }
 
-TEST(ReplayDevice, BeginsAnewWhereAskedTo)
+TEST(ReplayDevice, RestartsOnRequest)
 {
     const TempFolder folder;
     const std::string path = folder.write("goals.csv", "x,y,z\n1,2,3\n4,5,6\n");
@@ -191,7 +191,7 @@ TEST(ReplayDevice, BeginsAnewWhereAskedTo)
     }
 }
 
-TEST(ReplayDevice, SaysWhatIsWrongWithItsFile)
+TEST(ReplayDevice, ReportsAnInvalidFile)
 {
     const TempFolder folder;
     EXPECT_EQ(
@@ -211,7 +211,7 @@ TEST(ReplayDevice, SaysWhatIsWrongWithItsFile)
     EXPECT_NE(bad.find("line 2"), std::string::npos) << bad;
 }
 
-TEST(RecordDevice, SaysWhereItCannotWrite)
+TEST(RecordDevice, NamesTheFileThatItCannotWrite)
 {
     const TempFolder folder;
     EXPECT_EQ(refusalOf("record:/dev/full,sim:"),
@@ -229,7 +229,7 @@ TEST(RecordDevice, SaysWhereItCannotWrite)
     EXPECT_TRUE(opened("record:" + path + ",sim:"));
 }
 
-TEST(RecordDevice, TellsThatItsRecordingHasEndedAndFeelsOn)
+TEST(RecordDevice, ReportsThatItsRecordingHasEndedAndContinues)
 {
     // Space for the header and little more.
     struct rlimit before {};
@@ -257,7 +257,7 @@ TEST(RecordDevice, TellsThatItsRecordingHasEndedAndFeelsOn)
     EXPECT_EQ(device->read(sample), DeviceStatus::Fine);
 }
 
-TEST(RecordDevice, PassesOnWhatTroublesTheDevice)
+TEST(RecordDevice, PassesTheDevicesProblemsOn)
 {
     const TempFolder folder;
     setenv("XDG_STATE_HOME", folder.path().c_str(), 1); // where plugins leave their marker files

@@ -57,7 +57,7 @@ TEST(HandModes, HoveringAndPressingFeelTheSameAndMoveNothing)
     EXPECT_FALSE(step.has_moved_map);
 }
 
-TEST(HandModes, PanningHoldsTheHeightAndTakesTheMapAlong)
+TEST(HandModes, PanningHoldsTheHeightAndMovesTheMap)
 {
     Hand hand;
     hand.input.is_in_contact = true;
@@ -77,7 +77,7 @@ TEST(HandModes, PanningHoldsTheHeightAndTakesTheMapAlong)
     EXPECT_NEAR(step.force_n.x, 0.0, 1e-3);
 }
 
-TEST(HandModes, TheMapGoesOnWhenItIsLetGoInMotion)
+TEST(HandModes, TheMapKeepsMovingWhenReleasedInMotion)
 {
     Hand hand;
     hand.options.pan.drag_per_s = 0.0;
@@ -133,7 +133,7 @@ TEST(HandModes, TwistingTurnsTheMapAboutTheHand)
     EXPECT_NEAR(now.y, 0.01, 1e-9);
 }
 
-TEST(HandModes, ZoomsEndWhereTheyAreToldTo)
+TEST(HandModes, ZoomsStayWithinTheirLimits)
 {
     Hand hand;
     hand.options.scene_per_metre_min = 2000.0;
@@ -145,7 +145,7 @@ TEST(HandModes, ZoomsEndWhereTheyAreToldTo)
     EXPECT_NEAR(hand.input.frame.scene_per_metre, 2000.0, 1e-6);
 }
 
-TEST(HandModes, StayFiniteWhateverTheHandDoes)
+TEST(HandModes, StayFiniteForAnyMotion)
 {
     Random random;
     Hand hand;

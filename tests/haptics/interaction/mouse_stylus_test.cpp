@@ -164,7 +164,7 @@ TEST_F(StylusForceTest, FeelsTheSameAtEveryZoom)
     }
 }
 
-TEST_F(StylusForceTest, IsNothingWhereThereIsNoPenetration)
+TEST_F(StylusForceTest, IsZeroWithoutPenetration)
 {
     EXPECT_EQ(length(stylusForce({1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}, 0.5)), 0.0);
 }

@@ -17,7 +17,7 @@ PanOptions withoutDrag()
     return options;
 }
 
-TEST(PanMotion, WhatIsLetGoGoesOnForEverWithoutDrag)
+TEST(PanMotion, WithoutDragAReleasedMapMovesForever)
 {
     PanState state{.velocity_m_per_s = {0.12, -0.05, 0.0}};
     Vec3 way{};
@@ -46,7 +46,7 @@ TEST(PanMotion, DragSlowsItDownToRest)
     EXPECT_EQ(state.velocity_m_per_s, Vec3{});
 }
 
-TEST(PanMotion, MomentumIsWhatTheHandHasGiven)
+TEST(PanMotion, MomentumComesFromTheHand)
 {
     Random random;
     const PanOptions options = withoutDrag();

@@ -539,7 +539,7 @@ TEST(Stylus, MeetsTheGroundRightBelowWhereItIsPressedFirst)
     EXPECT_NEAR(stylus.pose()->force_n.z, 30.0 * 2e-4 * 300.0, 1e-9);
 }
 
-TEST(Stylus, PressesAsDeepAsTheWheelWants)
+TEST(Stylus, PressesAsDeepAsTheWheelSets)
 {
     const SceneSurface ground = scene("Flat");
     Stylus stylus;

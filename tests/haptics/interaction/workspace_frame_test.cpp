@@ -46,7 +46,7 @@ TEST(WorkspaceFrame, QuarterTurnByHand)
     EXPECT_NEAR(right.z, 350.0, 1e-9);
 }
 
-TEST(WorkspaceFrame, ThereAndBackIsTheSamePlace)
+TEST(WorkspaceFrame, RoundTripsToTheSamePosition)
 {
     Random random;
     for (int i = 0; i < 1000; ++i) {
@@ -70,7 +70,7 @@ TEST(WorkspaceFrame, IsASimilarity)
     }
 }
 
-TEST(WorkspaceFrame, PanningTakesTheMapAlong)
+TEST(WorkspaceFrame, PanningMovesTheMap)
 {
     Random random;
     for (int i = 0; i < 100; ++i) {

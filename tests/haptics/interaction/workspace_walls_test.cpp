@@ -27,7 +27,7 @@ TEST(WorkspaceWalls, PushBackStraightAndLevel)
     EXPECT_NEAR(walls.penetration_m, 0.005, 1e-12);
 }
 
-TEST(WorkspaceWalls, TheGroundIsGoneBeforeAWallPushes)
+TEST(WorkspaceWalls, TheTerrainForceFadesOutBeforeAWallPushes)
 {
     Random random;
     for (int i = 0; i < 100'000; ++i) {
@@ -52,7 +52,7 @@ TEST(WorkspaceWalls, BothAreContinuousAndTheFadeIsLinear)
     EXPECT_NEAR(half, 0.5, 1e-9);
 }
 
-TEST(WorkspaceWalls, WhatIsReachedHasTheWholeGround)
+TEST(WorkspaceWalls, TheReachableAreaHasTheFullTerrainForce)
 {
     const WorkspaceBox reach = reachWithin(kBox);
     for (const WorkspacePoint& corner :

@@ -28,7 +28,7 @@ TEST(FlightRecorder, KeepsTheLastOfThemInOrder)
 }
 
 // 2026-11-22: after another map was opened, the file still ended with the previous one.
-TEST(FlightRecorder, GoesOnWhereTicksAreNumberedAnew)
+TEST(FlightRecorder, ContinuesWhenTickNumbersRestart)
 {
     FlightRecorder flight(100);
     std::int64_t time_ns = 0;

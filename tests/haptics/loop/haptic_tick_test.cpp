@@ -98,7 +98,7 @@ TEST(HapticTick, FeelsASlopeAtARightAngleHoweverTheMapIsTurned)
     }
 }
 
-TEST(HapticTick, AtAWallTheGroundIsGone)
+TEST(HapticTick, AtAWallTheTerrainForceIsZero)
 {
     Rig rig;
     rig.at({});
@@ -113,7 +113,7 @@ TEST(HapticTick, AtAWallTheGroundIsGone)
     EXPECT_NEAR(rig.at({0.082, 0.0, -0.025}).force_n.x, 0.0, 1e-9);
 }
 
-TEST(HapticTick, BeyondTheMapTheGroundGoesOnLevel)
+TEST(HapticTick, OutsideTheMapTheTerrainContinuesLevel)
 {
     Rig rig;
     rig.settings.frame.scene_per_metre = 4000.0; // the map is 50 mm wide
@@ -124,7 +124,7 @@ TEST(HapticTick, BeyondTheMapTheGroundGoesOnLevel)
     EXPECT_NEAR(result.force_n.z, 400.0 * 0.005, 1e-9);
 }
 
-TEST(HapticTick, LetsGoForEveryReason)
+TEST(HapticTick, SwitchesTheForceOffForEveryReason)
 {
     const auto reasonAfter = [](auto&& spoil) {
         Rig rig;
@@ -197,7 +197,7 @@ int ticksWithForce(const F& is_late)
     return held;
 }
 
-TEST(HapticTick, LetsGoWhereTooLargeAShareOfDeadlinesIsMissed)
+TEST(HapticTick, SwitchesTheForceOffIfTooManyDeadlinesAreMissed)
 {
     EXPECT_EQ(ticksWithForce([](int) { return false; }), 2000);
     EXPECT_EQ(ticksWithForce([](int i) { return i == 700; }), 2000) << "a single one";
@@ -214,7 +214,7 @@ TEST(HapticTick, LetsGoWhereTooLargeAShareOfDeadlinesIsMissed)
     EXPECT_EQ(ticksWithForce([](int i) { return i < 6; }), 2000 - 24);
 }
 
-TEST(HapticTick, APauseBetweenWritesLetsGoAndRampsInAnew)
+TEST(HapticTick, APauseBetweenWritesSwitchesTheForceOffAndRampsInAgain)
 {
     Rig rig;
     rig.options.limits.ramp_s = 0.1;
@@ -305,7 +305,7 @@ TEST(HapticTick, StretchedGroundRampsIn)
     EXPECT_NEAR(same[0].force_n.z, 0.4, 0.01);
 }
 
-TEST(HapticTick, TimesOfSamplesMayBeAnything)
+TEST(HapticTick, AcceptsAnySampleTimes)
 {
     using Time = std::chrono::steady_clock::time_point;
     for (const Time time : {Time::min(), Time::max(), Time(-1ns)}) {
@@ -317,7 +317,7 @@ TEST(HapticTick, TimesOfSamplesMayBeAnything)
     }
 }
 
-TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
+TEST(HapticTick, SwitchesTheForceOffIfTheTerrainStopsArriving)
 {
     const TiledMap tiles =
         tiledMap(floatTerrain(201, 201, [](std::size_t, std::size_t) { return 10.0; }));
@@ -344,7 +344,7 @@ TEST(HapticTick, LetsGoWhereWhoeverBringsTheTerrainGoesSilent)
     EXPECT_NEAR(rig.at(pressed).force_n.z, 2.0, 1e-9);
 }
 
-TEST(HapticTick, KeepsWhatADeviceStandsForLong)
+TEST(HapticTick, KeepsToTheContinuousForceOfTheDevice)
 {
     DeviceCapabilities device = desktopDevice();
     EXPECT_EQ(tickOptionsFor(device).limits.force_n_continuous, 3.3) << "not stated";
@@ -361,7 +361,7 @@ TEST(HapticTick, KeepsWhatADeviceStandsForLong)
     EXPECT_EQ(result.reason, ForceOffReason::None);
 }
 
-TEST(HapticTick, AJumpOfTheDeviceLetsGoAndGoesOnFromThere)
+TEST(HapticTick, AJumpOfTheDeviceSwitchesTheForceOffAndContinuesFromThere)
 {
     Rig rig;
     rig.at({});
@@ -436,7 +436,7 @@ TEST(HapticTick, PansAndZoomsByTheButton)
     EXPECT_NEAR(rig.state.frame.scene_per_metre, 500.0, 1e-6);
 }
 
-TEST(HapticTick, StiffnessIsNoMoreThanTheDeviceAndTheLoopStand)
+TEST(HapticTick, StiffnessIsLimitedByTheDeviceAndTheLoop)
 {
     const DeviceCapabilities device = desktopDevice(); // 600 N/m
     EXPECT_EQ(usedStiffness(400.0, device, 1e-3, 1e-3), 400.0);
@@ -513,7 +513,7 @@ TEST(HapticTick, WhatARecordingAimsAtDoesNotDependOnWhatIsSeen)
     }
 }
 
-TEST(HapticTick, KeepsItsBoundsForAMillionTicksOfAnything)
+TEST(HapticTick, KeepsItsBoundsForAMillionRandomTicks)
 {
     Random random;
     const auto heights = heightsFrom(fractalHeights(random, 101, 101, 20.0, 0.7), 101);

@@ -32,7 +32,7 @@ TEST(PassivityObserver, CountsTheWorkOfTheHand)
     EXPECT_NEAR(state.energy_j, 0.006 - 0.001, 1e-12);
 }
 
-TEST(PassivityObserver, DampsWhatGivesMoreThanItGot)
+TEST(PassivityObserver, DampsAnActivePort)
 {
     PassivityState state;
     noteWritten(state, {1.0, 0.0, 0.0});
@@ -73,14 +73,14 @@ TEST(PassivityObserver, KeepsADelayedSpringFromGrowing)
     EXPECT_LT(lastSwing(true), 1.2e-3);
 }
 
-TEST(PassivityObserver, ForgetsWhatWasGatheredInFreeSpace)
+TEST(PassivityObserver, DropsEnergyGatheredInFreeSpace)
 {
     PassivityState state{.energy_j = 1.0};
     keepPassive({}, {}, {1e-4, 0.0, 0.0}, state, kDt);
     EXPECT_EQ(state.energy_j, 0.0);
 }
 
-TEST(PassivityObserver, PassesForcesOnWhereThereIsNoTime)
+TEST(PassivityObserver, PassesForcesOnForATimeStepOfZero)
 {
     for (const double dt_s : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                               std::numeric_limits<double>::infinity()}) {

@@ -16,7 +16,7 @@ RealTimeOptions quick()
     return {.period = 100us, .uncounted_turns = 0, .locks_memory = false};
 }
 
-TEST(RealTimeThread, CallsAtWholePeriodsUntilItIsToldToStop)
+TEST(RealTimeThread, CallsAtWholePeriodsUntilStopped)
 {
     std::vector<LoopTick> turns;
     turns.reserve(200);
@@ -63,7 +63,7 @@ TEST(RealTimeThread, CountsATickThatTakesTooLong)
     EXPECT_GE(thread.statistics().skipped, 48U);
 }
 
-TEST(RealTimeThread, StopsWhenItIsAskedTo)
+TEST(RealTimeThread, StopsOnRequest)
 {
     std::atomic<int> turns{0};
     RealTimeThread thread(quick(), [&turns](const LoopTick&) noexcept {

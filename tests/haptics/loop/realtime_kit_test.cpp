@@ -8,7 +8,7 @@
 namespace marsview::test {
 namespace {
 
-TEST(RealtimeKit, SaysWhyItCannotBeAsked)
+TEST(RealtimeKit, ReportsWhyItIsUnavailable)
 {
     const char* before = std::getenv("DBUS_SYSTEM_BUS_ADDRESS"); // NOLINT(concurrency-mt-unsafe)
     const std::string address = before != nullptr ? before : "";

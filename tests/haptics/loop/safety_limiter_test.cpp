@@ -32,7 +32,7 @@ SafetyOutput steps(SafetyState& state, const Vec3& force_n, int count)
     return last;
 }
 
-TEST(SafetyLimiter, BeginsWithNothingAndEndsWithAllOfIt)
+TEST(SafetyLimiter, RampsInFromZeroToTheFullForce)
 {
     SafetyState state;
     double before = 0.0;
@@ -45,7 +45,7 @@ TEST(SafetyLimiter, BeginsWithNothingAndEndsWithAllOfIt)
     EXPECT_EQ(steps(state, {0.0, 0.0, 1.0}, 2).force_n, (Vec3{0.0, 0.0, 1.0}));
 }
 
-TEST(SafetyLimiter, KeepsTheDirectionOfWhatIsTooStrong)
+TEST(SafetyLimiter, KeepsTheDirectionOfForcesThatAreTooStrong)
 {
     SafetyState state;
     const Vec3 force_n = steps(state, {30.0, 40.0, 0.0}, 500).force_n;
@@ -63,7 +63,7 @@ TEST(SafetyLimiter, ChangesNoFasterThanItsRate)
     EXPECT_TRUE(output.is_bounded);
 }
 
-TEST(SafetyLimiter, LetsGoFasterThanItPushesAndRampsInAnew)
+TEST(SafetyLimiter, RampsDownFasterThanUpAndRampsInAgain)
 {
     SafetyState state;
     steps(state, {3.0, 0.0, 0.0}, 500);
@@ -75,7 +75,7 @@ TEST(SafetyLimiter, LetsGoFasterThanItPushesAndRampsInAnew)
     EXPECT_NEAR(steps(state, {1.0, 0.0, 0.0}, 1).force_n.x, 0.01, 1e-12);
 }
 
-TEST(SafetyLimiter, RampsInAnewAfterAChange)
+TEST(SafetyLimiter, RampsInAgainAfterAChange)
 {
     SafetyState state;
     steps(state, {0.4, 0.0, 0.0}, 500);
@@ -93,7 +93,7 @@ TEST(SafetyLimiter, RampsInAnewAfterAChange)
     }
 }
 
-TEST(SafetyLimiter, WhatIsNoForceOrNoTimeIsAFault)
+TEST(SafetyLimiter, InvalidForcesAndTimesAreFaults)
 {
     for (const double bad : {kNan, kInfinity, -kInfinity}) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -144,7 +144,7 @@ TEST(SafetyLimiter, NothingJumpsAfterAPause)
     EXPECT_NEAR(output.force_n.x, -2.0, 1e-12); // 500 N/s for 10 ms
 }
 
-TEST(SafetyLimiter, AStateThatIsNoNumberLetsGo)
+TEST(SafetyLimiter, AnInvalidStateSwitchesTheForceOff)
 {
     for (const double bad : {kNan, kInfinity, -kInfinity}) {
         for (int field = 0; field < 3; ++field) {
@@ -160,14 +160,14 @@ TEST(SafetyLimiter, AStateThatIsNoNumberLetsGo)
     }
 }
 
-TEST(SafetyLimiter, NoTimeNoChange)
+TEST(SafetyLimiter, ATimeStepOfZeroChangesNothing)
 {
     SafetyState state;
     const Vec3 before = steps(state, {1.0, 2.0, 0.5}, 500).force_n;
     EXPECT_EQ(limitForce(kLimits, {.force_n = {-3.0, 0.0, 0.0}}, state, 0.0).force_n, before);
 }
 
-TEST(SafetyLimiter, LimitsThatAreNoLimitsLetNothingThrough)
+TEST(SafetyLimiter, InvalidLimitsAllowNoForce)
 {
     for (const double bad : {kNan, -kInfinity, -1.0, 0.0}) {
         SafetyState state;
@@ -277,7 +277,7 @@ TEST(SafetyLimiter, CoolsDownWhileNothingPushes)
     EXPECT_EQ(cooledHeat(kWarmLimits, 4.0, -5.0), 4.0);
 }
 
-TEST(SafetyLimiter, AHeatThatIsNoNumberIsHot)
+TEST(SafetyLimiter, AnInvalidHeatCountsAsHot)
 {
     for (const double bad : {kNan, kInfinity, -1.0}) {
         SafetyState state{.heat_n2 = bad};
@@ -323,7 +323,7 @@ double anyNumber(Random& random)
     }
 }
 
-TEST(SafetyLimiter, HoldsItsBoundsForAMillionTicksOfAnything)
+TEST(SafetyLimiter, HoldsItsBoundsForAMillionRandomTicks)
 {
     Random random;
     SafetyState state;

@@ -232,7 +232,7 @@ TEST(ServoLoopFaults, TheForceChangesNoFasterThanItsRateInRealTime)
     EXPECT_GT(fastest, 0.5);
 }
 
-TEST(ServoLoopFaults, OneLongStallLetsGoAndRampsInAnew)
+TEST(ServoLoopFaults, OneLongStallSwitchesTheForceOffAndRampsInAgain)
 {
     Case c;
     std::atomic<int> stalled_at{1 << 30};
@@ -267,7 +267,7 @@ TEST(ServoLoopFaults, OneLongStallLetsGoAndRampsInAnew)
     EXPECT_TRUE(was_at_rest);
 }
 
-TEST(ServoLoopFaults, TicksThatAllTakeTooLongLetGo)
+TEST(ServoLoopFaults, SlowTicksSwitchTheForceOff)
 {
     Case c;
     std::atomic<bool> is_slow{false};

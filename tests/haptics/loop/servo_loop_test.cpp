@@ -51,7 +51,7 @@ private:
     DeviceCapabilities capabilities_;
 };
 
-TEST(ServoLoop, RunsOnlyWhileThereIsSomethingToFeel)
+TEST(ServoLoop, RunsOnlyWhileThereIsAMapToTouch)
 {
     Writes writes;
     ServoLoop loop(std::make_unique<WatchedDevice>(writes), quick(0));
@@ -93,7 +93,7 @@ TEST(ServoLoop, FadesOutInsteadOfDroppingTheForce)
     }
 }
 
-TEST(ServoLoop, TellsItsStateEventsAndStatistics)
+TEST(ServoLoop, PublishesStateEventsAndStatistics)
 {
     ServoLoop loop(simulated(), quick(5000));
     loop.set(settingsFor(servoMap(201, 201, bumps)));

@@ -55,7 +55,7 @@ TEST(TimeHistogram, MergesAsIfRecordedInOne)
     }
 }
 
-TEST(TimeHistogram, TellsWhatWasRecordedSince)
+TEST(TimeHistogram, ReportsTheRecordsSinceACopy)
 {
     test::Random random;
     TimeHistogram all;

@@ -99,7 +99,7 @@ TEST(ContactListener, AMapThatMovesUnderTheHandOrJumpsIsNoSliding)
     EXPECT_EQ(ears.hear(pressed(90, {0.11, 0.0, 0.0})).speed_m_per_s, 0.0);
 }
 
-TEST(ContactListener, WhatIsNotFeltIsNotHeard)
+TEST(ContactListener, IsSilentWithoutForce)
 {
     ContactListener ears = listener();
     ContactMoment free = pressed(0, {0.0, 0.0, 0.0});

@@ -56,7 +56,7 @@ TEST(ContactSound, AtRestThereIsAToneAndNoHiss)
     EXPECT_NEAR(contactSound(rest).tone_hz, 373.665, 1e-3);
 }
 
-TEST(ContactSound, GrowsWithWhatItStandsFor)
+TEST(ContactSound, GrowsWithTheQuantityItRepresents)
 {
     Random random;
     for (int i = 0; i < 2000; ++i) {
@@ -173,7 +173,7 @@ TEST(ContactSound, StaysWithinItsBoundsForAnyInput)
     }
 }
 
-TEST(ContactSound, WhatIsNoNumberIsSilent)
+TEST(ContactSound, InvalidNumbersAreSilent)
 {
     for (double ContactFeel::*field :
          {&ContactFeel::force_n, &ContactFeel::speed_m_per_s, &ContactFeel::roughness_rad,

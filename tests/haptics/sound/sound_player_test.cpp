@@ -93,7 +93,7 @@ double pitchHz(const std::vector<double>& samples)
     return last > first ? crossings * double{kRateHz} / static_cast<double>(last - first) : 0.0;
 }
 
-TEST(SoundPlayer, IsSilentUntilItIsTold)
+TEST(SoundPlayer, IsSilentUntilItIsStarted)
 {
     SoundPlayer playing = player();
     const Heard heard = hear(playing, 30);
@@ -200,7 +200,7 @@ TEST(SoundPlayer, TheLoudestIsNotClipped)
     EXPECT_LT(loudest(heard.left), 1.0);
 }
 
-TEST(SoundPlayer, WhatIsOutOfBoundsIsClampedAndWhatIsNoNumberIsSilent)
+TEST(SoundPlayer, ClampsValuesOutOfRangeAndIsSilentForInvalidOnes)
 {
     constexpr double kHuge = std::numeric_limits<double>::max();
     const Heard loud = heardOf({.noise_gain = kHuge,
@@ -232,7 +232,7 @@ TEST(SoundPlayer, PlayersDoNotGetInEachOthersWay)
     EXPECT_TRUE(silent.isConnected());
 }
 
-TEST(SoundPlayer, WithoutAnOutputThereIsOneSentenceAndLifeGoesOn)
+TEST(SoundPlayer, WithoutAnOutputReportsOneSentenceAndContinues)
 {
     // If the machine has an output, it is opened and closed silently.
     const auto opened = SoundPlayer::open();

@@ -108,7 +108,7 @@ int wholeLocking()
     return statusOf("VmLck") == 0 ? 0 : 3;
 }
 
-TEST(ProcessLock, EndsWithTheLastThatWantsIt)
+TEST(ProcessLock, EndsWithItsLastUser)
 {
     if (kLocksNothing) {
         GTEST_SKIP() << "with sanitizers, mlock does nothing";

@@ -8,7 +8,7 @@
 namespace marsview::test {
 namespace {
 
-TEST(SpscQueue, GivesWhatWasPutInOrderAndRefusesWhatDoesNotFit)
+TEST(SpscQueue, KeepsTheOrderAndRefusesValuesThatDoNotFit)
 {
     SpscQueue<int, 4> queue;
     int value = 0;

@@ -37,7 +37,7 @@ TEST(TripleBuffer, ReaderTakesTheLatestAndSkipsTheRest)
     EXPECT_EQ(buffer.front(), 5);
 }
 
-TEST(TripleBuffer, ReaderHoldsWhatItHasHoweverMuchIsPublished)
+TEST(TripleBuffer, ReaderKeepsItsValueHoweverMuchIsPublished)
 {
     TripleBuffer<std::shared_ptr<int>> buffer;
     buffer.back() = std::make_shared<int>(1);

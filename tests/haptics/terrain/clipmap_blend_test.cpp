@@ -14,7 +14,7 @@ using test::samplesTile;
 
 constexpr TileLayout kLayout{.columns = 3000, .rows = 2000};
 
-TEST(ClipmapBlend, WeighsFromNothingToAllAtTheRate)
+TEST(ClipmapBlend, WeightGrowsFromZeroToOneAtTheRate)
 {
     ClipmapBlend blend;
     const TileId tile = samplesTile(0, 2, 3);
@@ -45,7 +45,7 @@ TEST(ClipmapBlend, KeepsAWeightThatItIsGiven)
     EXPECT_EQ(blend.count(), 1U);
 }
 
-TEST(ClipmapBlend, WhatMakesNoDifferenceIsFeltAtOnce)
+TEST(ClipmapBlend, TilesThatChangeNothingAreUsedAtOnce)
 {
     ClipmapBlend blend;
     blend.add(kLayout, samplesTile(0, 0, 0), 0.0);
@@ -73,7 +73,7 @@ TEST(ClipmapBlend, ACoarserTileWaitsForTheFinerOnesUponIt)
     EXPECT_EQ(blend.weight(coarse), 0.75);
 }
 
-TEST(ClipmapBlend, FeelsAtOnceWhatDoesNotFit)
+TEST(ClipmapBlend, UsesAtOnceTilesThatDoNotFit)
 {
     ClipmapBlend blend;
     for (std::size_t i = 0; i < ClipmapBlend::kTilesMax + 5; ++i) {
@@ -87,7 +87,7 @@ TEST(ClipmapBlend, FeelsAtOnceWhatDoesNotFit)
     EXPECT_EQ(blend.weight(samplesTile(0, 1, 0)), 0.0);
 }
 
-TEST(ClipmapBlend, ReachIsWhatATileHasASayIn)
+TEST(ClipmapBlend, ReachCoversTheSamplesThatATileInfluences)
 {
     for (const TileLayout layout : {TileLayout{.columns = 1025, .rows = 700}, kLayout}) {
         for (std::size_t level = 0; level <= layout.topLevel(); ++level) {

@@ -29,7 +29,7 @@ TileId tileUnder(std::size_t level, GridPoint at)
                        static_cast<std::size_t>(at.row) >> (8 + level));
 }
 
-TEST(ClipmapPlan, WantsNothingTwiceAndNothingThatTheWindowDoesNotCover)
+TEST(ClipmapPlan, RequestsEachTileOnceAndOnlyWithinTheWindow)
 {
     Random random;
     for (int i = 0; i < 200; ++i) {
@@ -95,7 +95,7 @@ TEST(ClipmapPlan, FollowsTheHandsWayInTheOrderOfItsTime)
               rankOf(plan, tileUnder(0, {at.column + 256.0, at.row})));
 }
 
-TEST(ClipmapPlan, WantsOnlyWhatComesInTime)
+TEST(ClipmapPlan, RequestsOnlyTilesThatArriveInTime)
 {
     std::size_t last = 0;
     for (const double speed : {0.0, 1e3, 1e4, 5e4, 2e5, 1e6}) {

@@ -127,7 +127,7 @@ TEST(ClipmapStreamer, HasTheTilesAheadOfAHandThatMovesOn)
     EXPECT_EQ(missed, 0U);
 }
 
-TEST(ClipmapStreamer, WantsNothingWithoutAHand)
+TEST(ClipmapStreamer, RequestsNothingWithoutAHand)
 {
     const TiledMap map = roughMap();
     const TileCache cache({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
@@ -176,7 +176,7 @@ TEST(ClipmapStreamer, StopsAtOnceWhileTilesAreOnTheirWay)
     }
 }
 
-TEST(ClipmapStreamer, GoesOnWhereTilesFailAndHasThemWhenTheyCanBeRead)
+TEST(ClipmapStreamer, ContinuesWhenTilesFailAndLoadsThemOnceReadable)
 {
     std::atomic<bool> is_broken{true};
     std::atomic<int> failures{0};

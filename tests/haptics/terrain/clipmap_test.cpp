@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(Types,
                                     (std::get<1>(p.param) ? "Voids" : "");
                          });
 
-TEST(Clipmap, StandsInWithTheFinestLevelThatIsThere)
+TEST(Clipmap, ReplacesMissingTilesByTheFinestResidentLevel)
 {
     Random random;
     // A multiple of a power of two plus or minus one, and sizes that are not.
@@ -293,7 +293,7 @@ TEST(Clipmap, IsNeverHigherThanWhatCastsSkipBy)
     }
 }
 
-TEST(Clipmap, CoversThreeTilesASideAroundItsCentreAtEveryLevel)
+TEST(Clipmap, CoversThreeTilesPerSideAroundItsCenterAtEveryLevel)
 {
     Random random;
     const TiledMap map =

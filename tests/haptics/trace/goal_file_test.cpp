@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-TEST(GoalFile, SaysWhichLineOfARecordingItCannotRead)
+TEST(GoalFile, NamesTheLineOfARecordingThatItCannotRead)
 {
     const std::string header = "x,y,z,map,part,model,radius_m,exaggeration\n";
     const auto goals = readGoalRecording(header + "1,2,3,1,7,god-object,0.5,2\n", "a.csv");

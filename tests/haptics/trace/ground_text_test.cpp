@@ -38,7 +38,7 @@ TEST(GroundText, ReadsBackWhatItWritesToTheBit)
     EXPECT_EQ(parseGround(""), std::vector<GroundRecord>{});
 }
 
-TEST(GroundText, RefusesWhatIsNoGround)
+TEST(GroundText, RefusesInvalidText)
 {
     for (const char* cell : {"felt",
                              "felt/",

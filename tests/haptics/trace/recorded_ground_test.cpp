@@ -109,7 +109,7 @@ TEST(RecordedGround, RefusesTilesThatTheMapDoesNotHave)
     EXPECT_EQ(ground->terrain()->sample(0, 0), map.window({}).height(0, 0));
 }
 
-TEST(RecordedGround, SaysWhichTileCannotBeRead)
+TEST(RecordedGround, NamesTheTileThatCannotBeRead)
 {
     const auto fails = [](const TileId& id) {
         return id.level == 0 ? std::optional(Error{ErrorCode::Unreadable, "broken"}) : std::nullopt;

@@ -21,7 +21,7 @@ map(std::size_t columns, std::size_t rows, const std::string& crs)
         crs.empty() ? std::nullopt : std::optional(Crs::fromText(crs).value()));
 }
 
-TEST(ReplayFit, TellsTheMapsOfARecordingBySizeAndBody)
+TEST(ReplayFit, DistinguishesTheMapsOfARecordingBySizeAndBody)
 {
     const TempFolder folder;
     const auto recorded = [&](const std::string& part) {

@@ -145,7 +145,7 @@ TEST(SessionRecorder, ARecordingTellsWhatItWasTouchedWithWhereThatChanges)
     EXPECT_GT(in_contact, 500U);
 }
 
-TEST(SessionRecorder, SaysThatUpdatesAreMissing)
+TEST(SessionRecorder, ReportsMissingUpdates)
 {
     const TempFolder folder;
     const std::string path = folder.file("session.csv");
@@ -335,7 +335,7 @@ TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
     }
 }
 
-TEST(SessionRecorder, SaysWhereItCannotWrite)
+TEST(SessionRecorder, NamesTheFileThatItCannotWrite)
 {
     ServoLoop loop(simulated(), quick(10));
     const auto recorder = SessionRecorder::begin(loop, "/nowhere/session.csv");

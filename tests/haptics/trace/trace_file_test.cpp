@@ -28,7 +28,7 @@ std::string refusalOf(const std::string& path)
 
 } // namespace
 
-TEST(TraceFile, DoesNotWaitForAPipeThatNobodyReads)
+TEST(TraceFile, DoesNotWaitForAPipeWithoutAReader)
 {
     const TempFolder folder;
     const std::string path = folder.file("pipe");
@@ -38,7 +38,7 @@ TEST(TraceFile, DoesNotWaitForAPipeThatNobodyReads)
                                    "choose another file");
 }
 
-TEST(TraceFile, HoldsWhatWasWritten)
+TEST(TraceFile, ContainsTheWrittenText)
 {
     const TempFolder folder;
     const std::string path = folder.write("a.csv", "something long that was there before");

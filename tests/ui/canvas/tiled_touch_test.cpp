@@ -107,7 +107,7 @@ protected:
 };
 
 // From a cold start: the first contact is with coarser terrain.
-TEST_F(TiledTouchTest, PressesAsIntoTheMapInMemoryOnceItHasCome)
+TEST_F(TiledTouchTest, PressesAsOnTheMapInMemoryOnceTilesAreLoaded)
 {
     for (const QPointF at : {QPointF{150, 120}, QPointF{260, 210}, QPointF{380, 300}}) {
         large_.forgetTiles();
@@ -118,7 +118,7 @@ TEST_F(TiledTouchTest, PressesAsIntoTheMapInMemoryOnceItHasCome)
     }
 }
 
-TEST_F(TiledTouchTest, IsDraggedAsAcrossTheMapInMemory)
+TEST_F(TiledTouchTest, DragsAsOnTheMapInMemory)
 {
     const QPointF from{150.0, 120.0};
     press(from);
@@ -187,7 +187,7 @@ TEST_F(TiledTouchTest, NeverWaitsForTiles)
 }
 
 // While the stylus rests on fully resident terrain, nothing is drawn.
-TEST_F(TiledTouchTest, RestsWhereAllHasCome)
+TEST_F(TiledTouchTest, IdlesOnceAllTilesAreLoaded)
 {
     press({250.0, 200.0});
     ASSERT_TRUE(comeTogether()) << apartM();

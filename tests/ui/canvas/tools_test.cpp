@@ -84,7 +84,7 @@ protected:
     }
 };
 
-TEST_F(ToolsTest, ALeftDragPansToBeginWith)
+TEST_F(ToolsTest, ALeftDragPansByDefault)
 {
     EXPECT_EQ(view().tool(), Tool::Pan);
     const auto grabbed = view().surfaceAt(middle());
@@ -164,7 +164,7 @@ TEST_F(ToolsTest, LettersBelongToAnOpenMenu)
     EXPECT_EQ(view().tool(), Tool::Touch);
 }
 
-TEST_F(ToolsTest, TouchPressesAndTheWheelGoesDeeper)
+TEST_F(ToolsTest, TouchPressesAndTheWheelPressesDeeper)
 {
     view().setTool(Tool::Touch);
     const OrbitCamera before = view().camera();
@@ -279,7 +279,7 @@ TEST_F(ToolsTest, TheReadoutFollowsThePointerWithEveryTool)
     }
 }
 
-TEST_F(ToolsTest, AnotherToolEndsTheDrag)
+TEST_F(ToolsTest, ChangingTheToolEndsTheDrag)
 {
     view().setTool(Tool::Touch);
     press(middle());
@@ -292,7 +292,7 @@ TEST_F(ToolsTest, AnotherToolEndsTheDrag)
     release(middle() + QPointF(50.0, 0.0));
 }
 
-TEST_F(ToolsTest, ARightClickAsksForTheMenuAndARightDragDoesNot)
+TEST_F(ToolsTest, ARightClickOpensTheMenuAndARightDragDoesNot)
 {
     QSignalSpy asked(&view(), &TerrainView::menuRequested);
     const OrbitCamera before = view().camera();

@@ -257,7 +257,7 @@ TEST_F(TouchTest, PressesWhileTheLeftButtonIsDown)
     EXPECT_EQ(moved.count(), 5);
 }
 
-TEST_F(TouchTest, EndsTheTouchWithTheLeftButtonThoughAnotherIsDown)
+TEST_F(TouchTest, ReleasingTheLeftButtonEndsTheTouchEvenIfAnotherIsDown)
 {
     press({400.0, 300.0});
     send(QEvent::MouseButtonPress, {400.0, 300.0}, Qt::RightButton,
@@ -364,7 +364,7 @@ TEST_F(TouchTest, SpaceWithTheButtonDownMovesTheMapWithTheHand)
     release(grabbed_at);
 }
 
-TEST_F(TouchTest, SpaceAloneZoomsAboutThePlaceItHolds)
+TEST_F(TouchTest, SpaceAloneZoomsAboutTheGrabbedPlace)
 {
     const QPointF at{420.0, 280.0};
     hover(at);
@@ -404,7 +404,7 @@ TEST_F(TouchTest, LosingTheFocusEndsAGrab)
     EXPECT_EQ(view_->camera(), before);
 }
 
-TEST_F(TouchTest, TheWheelPressesDeeperAndLeavesTheCamera)
+TEST_F(TouchTest, TheWheelPressesDeeperWithoutMovingTheCamera)
 {
     press({400.0, 300.0});
     const OrbitCamera before = view_->camera();
@@ -429,7 +429,7 @@ TEST_F(TouchTest, TheWheelPressesDeeperAndLeavesTheCamera)
     EXPECT_TRUE(view_->isMoving()) << "without the button it zooms";
 }
 
-TEST_F(TouchTest, ExaggerationWhilePressedKeepsTheStylusOnTheGround)
+TEST_F(TouchTest, ExaggerationWhilePressedKeepsTheStylusOnTheTerrain)
 {
     press({400.0, 300.0});
     for (const double exaggeration : {2.0, 10.0, 0.5, 5.0}) {
@@ -501,7 +501,7 @@ TEST_F(TouchTest, AnIdleWindowPaintsNothing)
     EXPECT_GT(paints.count(), 0) << "the counters work";
 }
 
-TEST_F(TouchTest, APictureOfTheTerrainLeavesTheHandAlone)
+TEST_F(TouchTest, SavingAPictureDoesNotAffectTheStylus)
 {
     press({400.0, 300.0});
     drag({420.0, 310.0});

@@ -90,7 +90,7 @@ TEST_F(ContactModelTest, HasItsMenuBetweenMapAndHelp)
     EXPECT_TRUE(menu->actions().contains(window.actionSet().contact_models->menuAction()));
 }
 
-TEST_F(ContactModelTest, OffersEveryModelOnceAndTellsItsTrade)
+TEST_F(ContactModelTest, OffersEveryModelOnceWithADescription)
 {
     const MainWindow window(testWindowOptions());
     const QList<QAction*> entries = window.actionSet().contact_models->actions();
@@ -187,7 +187,7 @@ TEST_F(ContactModelTest, IsRememberedForTheNextWindow)
     }
 }
 
-TEST_F(ContactModelTest, IsTheUsualOneWhereTheRememberedOneIsUnknown)
+TEST_F(ContactModelTest, IsTheDefaultIfTheRememberedOneIsUnknown)
 {
     for (const char* name : {"quantum-foam", "", "Surface-Walk", "2"}) {
         QSettings().setValue(settingsKey(), QString::fromLatin1(name));
@@ -197,7 +197,7 @@ TEST_F(ContactModelTest, IsTheUsualOneWhereTheRememberedOneIsUnknown)
     }
 }
 
-TEST_F(ContactModelTest, OutlivesChoicesInThePreferencesDialog)
+TEST_F(ContactModelTest, IsKeptWhenPreferencesChange)
 {
     MainWindow window(testWindowOptions());
     window.show();

@@ -86,7 +86,7 @@ TEST_F(ContactSoundsTest, AreSilentUntilSwitchedOnAndHeardWhileTheMouseTouches)
         kTimeout));
 }
 
-TEST_F(ContactSoundsTest, SayWhyThereIsNoOutputAndGoOff)
+TEST_F(ContactSoundsTest, ReportAMissingOutputAndSwitchOff)
 {
     ContactSounds sounds(*view_, []() -> Result<SoundPlayer> {
         return Error{ErrorCode::NotFound, "sound: no output device"};

@@ -87,7 +87,7 @@ protected:
     }
 };
 
-TEST_F(FlightRecordTest, IsOfWhatHappenedBeforeItWasAskedFor)
+TEST_F(FlightRecordTest, CoversTheTimeBeforeItIsSaved)
 {
     EXPECT_FALSE(action().isEnabled());
     EXPECT_FALSE(button().isEnabled());
@@ -118,7 +118,7 @@ TEST_F(FlightRecordTest, IsOfWhatHappenedBeforeItWasAskedFor)
     EXPECT_TRUE(haptics().loop()->isRunning());
 }
 
-TEST_F(FlightRecordTest, IsThereWhenTheDeviceIsGone)
+TEST_F(FlightRecordTest, IsAvailableAfterTheDeviceIsLost)
 {
     ASSERT_TRUE(touch());
     ASSERT_TRUE(lose());
@@ -141,7 +141,7 @@ TEST_F(FlightRecordTest, IsThereWhenTheDeviceIsGone)
     EXPECT_NE(haptics().notice(), QString()) << "the notice stays";
 }
 
-TEST_F(FlightRecordTest, HasTheLossAlsoWhenTheDeviceIsBack)
+TEST_F(FlightRecordTest, ContainsTheLossAfterTheDeviceIsBack)
 {
     ASSERT_TRUE(touch());
     ASSERT_TRUE(lose());
@@ -168,7 +168,7 @@ TEST_F(FlightRecordTest, HasTheLossAlsoWhenTheDeviceIsBack)
     }
 }
 
-TEST_F(FlightRecordTest, GoesOnWithAnotherMap)
+TEST_F(FlightRecordTest, ContinuesWithAnotherMap)
 {
     ASSERT_TRUE(touch());
     window_->controller().remove(window_->session().active);
@@ -183,7 +183,7 @@ TEST_F(FlightRecordTest, GoesOnWithAnotherMap)
     EXPECT_GT(rows.back()[kTick].toULongLong(), 200U);
 }
 
-TEST_F(FlightRecordTest, SaysWhyItCannotBeWritten)
+TEST_F(FlightRecordTest, ReportsWhyItCannotBeWritten)
 {
     ASSERT_TRUE(touch());
     action().trigger();

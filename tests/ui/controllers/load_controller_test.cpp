@@ -55,7 +55,7 @@ TEST(LoadController, DeliversAMapWithAllItsParts)
     EXPECT_TRUE(loaded->relief());
 }
 
-TEST(LoadController, TellsWhyAFileCannotBeOpened)
+TEST(LoadController, ReportsWhyAFileCannotBeOpened)
 {
     LoadController controller;
     Outcomes outcomes(controller);

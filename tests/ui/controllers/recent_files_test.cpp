@@ -5,7 +5,7 @@
 namespace marsview {
 namespace {
 
-TEST(RecentFileNames, ShowFoldersWhereNamesAreEqual)
+TEST(RecentFileNames, ShowFoldersIfNamesAreEqual)
 {
     EXPECT_EQ(namesFor({QStringLiteral("/data/mars/dem.tif"), QStringLiteral("/data/moon/dem.tif"),
                         QStringLiteral("/data/earth.tif")}),
@@ -13,7 +13,7 @@ TEST(RecentFileNames, ShowFoldersWhereNamesAreEqual)
                            QStringLiteral("earth.tif")}));
 }
 
-TEST(RecentFileNames, ShowAsManyFoldersAsTellThemApart)
+TEST(RecentFileNames, ShowAsManyFoldersAsDistinguishThem)
 {
     EXPECT_EQ(
         namesFor({QStringLiteral("/a/one/tiles/x.hgt"), QStringLiteral("/a/two/tiles/x.hgt")}),

@@ -85,7 +85,7 @@ protected:
     }
 };
 
-TEST_F(RecordingTest, BegunWhileTouchingIsTheSameAgainWithEveryModel)
+TEST_F(RecordingTest, StartedWhileTouchingReplaysIdenticallyWithEveryModel)
 {
     const QString map = maps_.hill();
     ASSERT_TRUE(openAndWait(*window_, map));
@@ -108,7 +108,7 @@ TEST_F(RecordingTest, BegunWhileTouchingIsTheSameAgainWithEveryModel)
     }
 }
 
-TEST_F(RecordingTest, OfAMapBelowAnotherIsTheSameAgain)
+TEST_F(RecordingTest, OfACoveredMapReplaysIdentically)
 {
     const QString lower = maps_.placed("lower", "IAU_2015:49900", {10, 0.25, 0, 40, 0, -0.25});
     ASSERT_TRUE(openAndWait(*window_, lower));
@@ -136,7 +136,7 @@ TEST_F(RecordingTest, OfAMapBelowAnotherIsTheSameAgain)
     expectSameAgain(lower, file);
 }
 
-TEST_F(RecordingTest, IsBegunWithoutTheHandFeelingIt)
+TEST_F(RecordingTest, StartsWithoutAnEffectOnTheForce)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill()));
     ASSERT_TRUE(beginTouching());

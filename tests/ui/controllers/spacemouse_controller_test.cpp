@@ -129,7 +129,7 @@ protected:
 constexpr int kHalf = 189;
 constexpr double kHalfSpeed = 0.125;
 
-TEST_F(SpaceMouseControllerTest, APushGoesThatWayByTheTimeThatHasPassed)
+TEST_F(SpaceMouseControllerTest, APushPansInItsDirectionByTheElapsedTime)
 {
     ASSERT_TRUE(plugIn());
     const OrbitCamera begin = view().camera();
@@ -152,7 +152,7 @@ TEST_F(SpaceMouseControllerTest, APushGoesThatWayByTheTimeThatHasPassed)
     }
 }
 
-TEST_F(SpaceMouseControllerTest, APushDownComesNearerAndAPullUpRises)
+TEST_F(SpaceMouseControllerTest, APushDownZoomsInAndAPullUpZoomsOut)
 {
     ASSERT_TRUE(plugIn());
     const double before_m = distanceToGroundM();
@@ -165,7 +165,7 @@ TEST_F(SpaceMouseControllerTest, APushDownComesNearerAndAPullUpRises)
     EXPECT_NEAR(distanceToGroundM() / near_m, std::pow(4.0, moves * kStepS * kHalfSpeed), 1e-6);
 }
 
-TEST_F(SpaceMouseControllerTest, ATwistTurnsAndATipTiltsAboutTheGroundInTheMiddle)
+TEST_F(SpaceMouseControllerTest, ATwistTurnsAndATipTiltsAboutTheTerrainInTheMiddle)
 {
     ASSERT_TRUE(plugIn());
     const QPointF middle(view().width() / 2.0, view().height() / 2.0);
@@ -189,7 +189,7 @@ TEST_F(SpaceMouseControllerTest, ATwistTurnsAndATipTiltsAboutTheGroundInTheMiddl
     EXPECT_NEAR(now->grid.row, ground->grid.row, 1e-6);
 }
 
-TEST_F(SpaceMouseControllerTest, AFrameThatTookLongIsNoLeap)
+TEST_F(SpaceMouseControllerTest, ALongFrameDoesNotCauseAJump)
 {
     ASSERT_TRUE(plugIn());
     const Angle before = view().camera().azimuth;
@@ -238,7 +238,7 @@ TEST_F(SpaceMouseControllerTest, NothingIsDrawnInTheDeadZoneNorAtALimit)
     EXPECT_EQ(takeMoves(), 0);
 }
 
-TEST_F(SpaceMouseControllerTest, UnpluggedWhilePushedItStopsAtOnceAndComesBackByItself)
+TEST_F(SpaceMouseControllerTest, UnpluggedWhilePushedItStopsAtOnceAndReconnects)
 {
     ASSERT_TRUE(plugIn());
     EXPECT_TRUE(
@@ -260,7 +260,7 @@ TEST_F(SpaceMouseControllerTest, UnpluggedWhilePushedItStopsAtOnceAndComesBackBy
     }
 }
 
-TEST_F(SpaceMouseControllerTest, ItIsNotHeardWhileADialogIsOpenOrAnotherWindowIsInFront)
+TEST_F(SpaceMouseControllerTest, IsIgnoredWhileADialogIsOpenOrAnotherWindowIsActive)
 {
     ASSERT_TRUE(plugIn());
     const OrbitCamera before = view().camera();
@@ -309,7 +309,7 @@ TEST_F(SpaceMouseControllerTest, TheFirstButtonShowsTheWholeMap)
     EXPECT_NEAR(view().camera().distance_m, home_distance_m_, 0.05 * home_distance_m_);
 }
 
-TEST_F(SpaceMouseControllerTest, LookingForItHoldsNothingUp)
+TEST_F(SpaceMouseControllerTest, SearchingForItBlocksNothing)
 {
     hid_.stallEnumerating();
     const auto until = hid_.enumerations() + 1;

@@ -28,7 +28,7 @@ QPushButton* openButton(AddressDialog& dialog)
     return nullptr;
 }
 
-TEST(AddressDialog, TakesAddressesOfFilesOnly)
+TEST(AddressDialog, AcceptsAddressesOfFilesOnly)
 {
     for (const char* good :
          {"https://example.org/mars.tif", "http://127.0.0.1:8080/a/b.tif", "s3://bucket/key.tif",
@@ -45,7 +45,7 @@ TEST(AddressDialog, TakesAddressesOfFilesOnly)
     }
 }
 
-TEST(AddressDialog, OpensWhatIsTypedAndOffersWhatWasOpened)
+TEST(AddressDialog, OpensTypedAddressesAndOffersRecentOnes)
 {
     AddressDialog dialog({QStringLiteral("https://example.org/old.tif")});
     dialog.show();
@@ -78,7 +78,7 @@ TEST(AddressDialog, OpensFileAddressesAsPaths)
     EXPECT_EQ(chosen[0][0].toString(), QStringLiteral("/data/a b.tif"));
 }
 
-TEST(AddressDialog, IsReachedFromTheMenuAndTellsWhyOpeningFailed)
+TEST(AddressDialog, IsOpenedFromTheMenuAndReportsWhyOpeningFailed)
 {
     MainWindow window(testWindowOptions());
     window.show();

@@ -57,7 +57,7 @@ TEST_F(GoToDialogTest, FindsThePlaceInEveryKindOfCoordinate)
     EXPECT_EQ(at(D::Map, "10.0, 20.0"), (GridPoint{0.0, 0.0}));
 }
 
-TEST_F(GoToDialogTest, TellsTheKindsOfLatitudeApart)
+TEST_F(GoToDialogTest, DistinguishesTheKindsOfLatitude)
 {
     // On the flattened Mars they differ by 0.17° at 15°: two thirds of a pixel.
     const auto mars =
@@ -71,7 +71,7 @@ TEST_F(GoToDialogTest, TellsTheKindsOfLatitudeApart)
                 -(Angle::radians(graphic).degrees() - 15.0) / 0.25, 0.02);
 }
 
-TEST_F(GoToDialogTest, UnderstandsEveryFormatWhateverIsChosen)
+TEST_F(GoToDialogTest, UnderstandsEveryFormatForAnyChoice)
 {
     const auto mars = load(maps_.mars());
     CoordinateFormat west;
@@ -89,7 +89,7 @@ TEST_F(GoToDialogTest, UnderstandsEveryFormatWhateverIsChosen)
     EXPECT_NEAR(column({}, D::Map, "15 N 12.5 E"), 9.5, 1e-6);
 }
 
-TEST_F(GoToDialogTest, TakesMapCoordinatesThatCannotBeDegrees)
+TEST_F(GoToDialogTest, AcceptsMapCoordinatesThatCannotBeDegrees)
 {
     // UTM, 30 m, from 500 000 m east and 4 000 000 m north.
     const auto utm = load(maps_.placed("utm", "EPSG:32611", {5e5, 30, 0, 4e6, 0, -30}));
@@ -132,7 +132,7 @@ TEST_F(GoToDialogTest, ReadsBackWhatTheStatusBarShowsInEveryFormat)
     QLocale::setDefault(QLocale::c());
 }
 
-TEST_F(GoToDialogTest, SaysWhereTheMapIsWhenThePlaceIsElsewhere)
+TEST_F(GoToDialogTest, NamesTheExtentOfTheMapForPlacesOutside)
 {
     const auto mars = load(maps_.mars());
     const auto place = placeOnMap(*mars, {}, D::Planetocentric, QStringLiteral("-50, 12"));
@@ -142,7 +142,7 @@ TEST_F(GoToDialogTest, SaysWhereTheMapIsWhenThePlaceIsElsewhere)
         << place.error().message;
 }
 
-TEST_F(GoToDialogTest, AllowsToGoOnlyWhereItUnderstands)
+TEST_F(GoToDialogTest, EnablesGoOnlyForValidText)
 {
     GoToDialog dialog(load(maps_.mars()), {}, {});
     auto* field = dialog.findChild<QLineEdit*>(QStringLiteral("coordinate"));
@@ -164,7 +164,7 @@ TEST_F(GoToDialogTest, AllowsToGoOnlyWhereItUnderstands)
     EXPECT_TRUE(answer->text().contains(QStringLiteral(" m")));
 }
 
-TEST_F(GoToDialogTest, FliesThereAndRemembersWhatWasAsked)
+TEST_F(GoToDialogTest, FliesThereAndRemembersTheText)
 {
     MainWindow window(testWindowOptions());
     window.resize(1280, 800);
@@ -193,7 +193,7 @@ TEST_F(GoToDialogTest, FliesThereAndRemembersWhatWasAsked)
 }
 
 // By mouse and by keyboard: the map has the focus, the place a pin, and the status bar reads it.
-TEST_F(GoToDialogTest, MarksThePlaceUntilItIsDoneWith)
+TEST_F(GoToDialogTest, MarksThePlaceUntilDismissed)
 {
     MainWindow window(testWindowOptions());
     window.resize(1280, 800);
@@ -251,7 +251,7 @@ TEST_F(GoToDialogTest, MarksThePlaceUntilItIsDoneWith)
     }
 }
 
-TEST_F(GoToDialogTest, ReadsAsIsUsualOnTheBodyUnlessToldOtherwise)
+TEST_F(GoToDialogTest, ReadsInTheConventionOfTheBodyUnlessChosenOtherwise)
 {
     const auto mars =
         load(maps_.placed("flat", "IAU_2015:49902", {10.0, 0.25, 0.0, 20.0, 0.0, -0.25}));
@@ -267,7 +267,7 @@ TEST_F(GoToDialogTest, ReadsAsIsUsualOnTheBodyUnlessToldOtherwise)
     EXPECT_EQ(kind(GoToDialog(earth, {}, {.read_as = D::Map, .text = {}})), D::Map);
 }
 
-TEST_F(GoToDialogTest, OffersMapCoordinatesOnlyWhereThereAreNoOthers)
+TEST_F(GoToDialogTest, OffersOnlyMapCoordinatesWithoutGeographicOnes)
 {
     GoToDialog dialog(load(maps_.hill()), {}, {});
     auto* kinds = dialog.findChild<QComboBox*>();

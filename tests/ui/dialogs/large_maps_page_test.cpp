@@ -64,7 +64,7 @@ protected:
     const test::ScopedVariable no_cache_folder_{"MARSVIEW_CACHE_DIR", nullptr};
 };
 
-TEST_F(LargeMapsPageTest, ListsWhatWasPreparedAndRemovesIt)
+TEST_F(LargeMapsPageTest, ListsAndRemovesPreparedMaps)
 {
     const std::string first = addMap("aaaa", 3'000'000);
     const std::string second = addMap("bbbb", 1'000'000);
@@ -85,7 +85,7 @@ TEST_F(LargeMapsPageTest, ListsWhatWasPreparedAndRemovesIt)
     EXPECT_EQ(list(page).topLevelItemCount(), 1);
 }
 
-TEST_F(LargeMapsPageTest, DoesNotMakeTheFolderJustToShowIt)
+TEST_F(LargeMapsPageTest, DoesNotCreateTheFolderJustToShowIt)
 {
     LargeMapsPage page(standard());
     page.fill({});
@@ -93,7 +93,7 @@ TEST_F(LargeMapsPageTest, DoesNotMakeTheFolderJustToShowIt)
     EXPECT_FALSE(std::filesystem::exists(folder_));
 }
 
-TEST_F(LargeMapsPageTest, TellsWhatIsChosen)
+TEST_F(LargeMapsPageTest, ReportsTheChosenSettings)
 {
     LargeMapsPage page(standard());
     page.fill({.tile_memory_mb = 700,
@@ -121,7 +121,7 @@ TEST_F(LargeMapsPageTest, TellsWhatIsChosen)
     EXPECT_EQ(changes.count(), 4);
 }
 
-TEST_F(LargeMapsPageTest, TellsWhatCameFromServersAndEmptiesIt)
+TEST_F(LargeMapsPageTest, ListsAndRemovesDownloadedTiles)
 {
     addTile("0123/s0-0-0.tile", 1'500'000);
     addTile("0123/s0-0-1.tile", 500'000);
@@ -146,7 +146,7 @@ TEST_F(LargeMapsPageTest, TellsWhatCameFromServersAndEmptiesIt)
     EXPECT_FALSE(empty->isEnabled());
 }
 
-TEST_F(LargeMapsPageTest, TilesFromServersLieWithPreparedMaps)
+TEST_F(LargeMapsPageTest, DownloadedTilesAreKeptNextToPreparedMaps)
 {
     addTile("0123/s0-0-0.tile", 1'500'000);
     LargeMapsPage page(standard());
@@ -180,7 +180,7 @@ TEST_F(LargeMapsPageTest, PreferencesComeBackFromSettings)
     EXPECT_EQ(fetchedBytesMax(chosen), 7'000'000'000U);
 }
 
-TEST_F(LargeMapsPageTest, PreferencesReplaceWhatIsStandardAndNoMore)
+TEST_F(LargeMapsPageTest, PreferencesReplaceOnlyDefaults)
 {
     MapResources standard;
     standard.folder = "/standard";
@@ -214,7 +214,7 @@ TEST_F(LargeMapsPageTest, MemoryTakesEffectAtOnce)
     EXPECT_EQ(tiles->bytesMax(), std::size_t{300} << 20);
 }
 
-TEST_F(LargeMapsPageTest, TilesFromServersFollowWhatIsChosen)
+TEST_F(LargeMapsPageTest, DownloadedTilesFollowTheChosenFolder)
 {
     WindowOptions options = testWindowOptions();
     options.opener.resources.folder = folder_;
@@ -233,7 +233,7 @@ TEST_F(LargeMapsPageTest, TilesFromServersFollowWhatIsChosen)
     EXPECT_EQ(kept.bytesMax(), kFetchedBytesMax);
 }
 
-TEST_F(LargeMapsPageTest, TilesThatCannotBeKeptAreToldOnceAndTheMapGoesOn)
+TEST_F(LargeMapsPageTest, ReportsOnceThatTilesCannotBeCachedAndContinues)
 {
     const TestMaps maps;
     WindowOptions options = testWindowOptions();

@@ -66,7 +66,7 @@ protected:
     QPointF middleOfPointer() { return QRectF(pointer().geometry()).center(); }
 };
 
-TEST_F(HandPointerTest, IsThereOnlyWhileTheHandIsOutsideThePicture)
+TEST_F(HandPointerTest, IsVisibleOnlyWhileTheStylusIsOutsideThePicture)
 {
     EXPECT_FALSE(pointer().isVisible());
     showHandAt(0.95, -0.95);
@@ -84,7 +84,7 @@ TEST_F(HandPointerTest, IsThereOnlyWhileTheHandIsOutsideThePicture)
     EXPECT_FALSE(pointer().isVisible());
 }
 
-TEST_F(HandPointerTest, StandsAtTheEdgeThatTheHandIsBeyondAndPointsThere)
+TEST_F(HandPointerTest, IsAtTheEdgeNearestToTheStylusAndPointsToIt)
 {
     const QSizeF size = view().size();
     const double in = HandPointer::kInset;
@@ -129,7 +129,7 @@ TEST_F(HandPointerTest, StandsAtTheEdgeThatTheHandIsBeyondAndPointsThere)
     }
 }
 
-TEST_F(HandPointerTest, CanBeReadOnLightAndDarkGround)
+TEST_F(HandPointerTest, IsLegibleOnLightAndDarkTerrain)
 {
     showHandAt(1.5, 0.4);
     for (const QColor ground : {QColor(Qt::white), QColor(Qt::black), QColor(128, 128, 128),
@@ -155,14 +155,14 @@ TEST_F(HandPointerTest, CanBeReadOnLightAndDarkGround)
     EXPECT_GT(contrast(QColor(219, 26, 20), Qt::white), 3.0);
 }
 
-TEST_F(HandPointerTest, LetsTheMouseThrough)
+TEST_F(HandPointerTest, IsTransparentToTheMouse)
 {
     showHandAt(1.5, 0.0);
     ASSERT_TRUE(pointer().isVisible());
     EXPECT_EQ(view().childAt(pointer().geometry().center()), nullptr);
 }
 
-TEST_F(HandPointerTest, StaysBelowWhatCoversThePicture)
+TEST_F(HandPointerTest, StaysBelowOtherOverlays)
 {
     showHandAt(0.0, 3.0);
     const double before = middleOfPointer().y();

@@ -108,7 +108,7 @@ protected:
     int asked_count_ = 0;
 };
 
-TEST_F(MinimapTest, AClickOnAPlaceInThePictureAsksForThatPlace)
+TEST_F(MinimapTest, AClickRequestsTheClickedPlace)
 {
     for (const Raster& raster : kRasters) {
         const SceneFrame frame = frameOf(raster);
@@ -175,7 +175,7 @@ TEST_F(MinimapTest, ShowsTheWholeMapWithinItsLargestSize)
     }
 }
 
-TEST_F(MinimapTest, AsksAllAlongADragAndOnlyThen)
+TEST_F(MinimapTest, RequestsPlacesOnlyDuringADrag)
 {
     const SceneFrame frame = frameOf(kRasters[4]);
     show(frame);
@@ -198,7 +198,7 @@ TEST_F(MinimapTest, AsksAllAlongADragAndOnlyThen)
     EXPECT_EQ(asked_count_, 6);
 }
 
-TEST_F(MinimapTest, KeepsADragBesideTheMapOnItsEdge)
+TEST_F(MinimapTest, ClampsADragOutsideTheMapToItsEdge)
 {
     for (const Raster& raster : kRasters) {
         const SceneFrame frame = frameOf(raster);
@@ -216,7 +216,7 @@ TEST_F(MinimapTest, KeepsADragBesideTheMapOnItsEdge)
     }
 }
 
-TEST_F(MinimapTest, LeavesOtherButtonsAlone)
+TEST_F(MinimapTest, IgnoresOtherButtons)
 {
     show(frameOf(kRasters[0]));
     QMouseEvent event(QEvent::MouseButtonPress, QPointF(60, 40),
@@ -260,7 +260,7 @@ TEST_F(MinimapTest, TakesArrowKeysBeforeTheWindowsShortcuts)
     EXPECT_FALSE(letter.isAccepted());
 }
 
-TEST_F(MinimapTest, TellsWhereTheViewIs)
+TEST_F(MinimapTest, DescribesThePositionOfTheView)
 {
     show(frameOf(kRasters[0]));
     OrbitCamera camera{.target = {50000.0, -30000.0, 0.0}, .distance_m = 1e6};
@@ -311,7 +311,7 @@ TEST_F(MinimapTest, RepaintsOnlyForAnotherView)
     minimap_.removeEventFilter(&counter);
 }
 
-TEST_F(MinimapTest, BearsTheSmallestMapAndNone)
+TEST_F(MinimapTest, HandlesTheSmallestMapAndNone)
 {
     minimap_.setMap(QImage(), {.origin = {0.5, 0.5}}, 2, 2);
     minimap_.resize(minimap_.sizeHint());
@@ -328,7 +328,7 @@ TEST_F(MinimapTest, BearsTheSmallestMapAndNone)
     QTest::mouseClick(&minimap_, Qt::LeftButton);
 }
 
-TEST(Compass, SaysWhereTheViewLooks)
+TEST(Compass, NamesTheDirectionOfTheView)
 {
     Compass compass;
     OrbitCamera camera;
@@ -365,7 +365,7 @@ TEST(Compass, PointsNorthWhereNorthIsInThePicture)
     }
 }
 
-TEST(Compass, AsksForNorthByMouseKeyAndScreenReader)
+TEST(Compass, TurnsNorthUpByMouseKeyAndScreenReader)
 {
     Compass compass;
     compass.resize(compass.sizeHint());
@@ -383,7 +383,7 @@ TEST(Compass, AsksForNorthByMouseKeyAndScreenReader)
     EXPECT_TRUE(QTest::qWaitFor([&] { return asked.size() == 3; }, 5000)) << "shown as a press";
 }
 
-TEST(ScaleBarView, TellsItsLengthToScreenReaders)
+TEST(ScaleBarView, ReportsItsLengthToScreenReaders)
 {
     ScaleBarView view;
     EXPECT_TRUE(view.sizeHint().isEmpty()) << "before the first camera";
@@ -443,7 +443,7 @@ TEST(OverlayText, WritesLengthsWithTheDigitsTheyHave)
     EXPECT_EQ(numberText(-0.004, 0.1), QStringLiteral("0.0"));
 }
 
-TEST(Legend, SaysWhatColorsAndLinesMean)
+TEST(Legend, ExplainsColorsAndLines)
 {
     Legend legend;
     EXPECT_TRUE(legend.sizeHint().isEmpty());
@@ -471,7 +471,7 @@ TEST(Legend, SaysWhatColorsAndLinesMean)
     EXPECT_TRUE(legend.testAttribute(Qt::WA_TransparentForMouseEvents));
 }
 
-TEST(Legend, CountsInTheUnitOfThePreferences)
+TEST(Legend, UsesTheUnitOfThePreferences)
 {
     Legend legend;
     const LegendContent content{.ramp = colorRampNamed("rust"),
@@ -510,7 +510,7 @@ TEST(Legend, MarksElevationsBeyondTheEndsOfTheRamp)
     EXPECT_NE(legend.grab().toImage(), marked);
 }
 
-TEST(Legend, HasTheHighestColourOnTop)
+TEST(Legend, HasTheHighestColorOnTop)
 {
     Legend legend;
     const ColorRamp* ramp = colorRampNamed("grey");
@@ -528,7 +528,7 @@ TEST(Legend, HasTheHighestColourOnTop)
     }
 }
 
-TEST(ForceMeter, IsThereOnlyWhileTouching)
+TEST(ForceMeter, IsVisibleOnlyWhileTouching)
 {
     ForceMeter meter;
     QSignalSpy changes(&meter, &ForceMeter::roomChanged);
@@ -549,7 +549,7 @@ TEST(ForceMeter, IsThereOnlyWhileTouching)
     EXPECT_TRUE(meter.testAttribute(Qt::WA_TransparentForMouseEvents));
 }
 
-TEST(ForceMeter, FillsItsBarWithTheShareOfTheLargest)
+TEST(ForceMeter, FillsItsBarInProportionToTheMaximum)
 {
     ForceMeter meter;
     const auto filled = [&](double newtons) {
@@ -651,7 +651,7 @@ TEST_F(OverlayLayoutTest, NeverOverlapsInWindowsOfAnySize)
     EXPECT_EQ(checkedCount(), 0);
 }
 
-TEST_F(OverlayLayoutTest, PutsThePartsIntoTheirCorners)
+TEST_F(OverlayLayoutTest, PlacesThePartsInTheirCorners)
 {
     host_.show();
     resize(1000, 700);
@@ -702,7 +702,7 @@ TEST_F(OverlayLayoutTest, KeepsTheScaleLongestInASmallWindow)
     EXPECT_EQ(checkedCount(), 6) << "all come back";
 }
 
-TEST_F(OverlayLayoutTest, MovesNothingForATouch)
+TEST_F(OverlayLayoutTest, TouchingMovesNothing)
 {
     host_.show();
     for (const QSize size : {QSize(1000, 700), QSize(420, 300), QSize(300, 200)}) {
@@ -726,7 +726,7 @@ TEST_F(OverlayLayoutTest, MovesNothingForATouch)
     EXPECT_GT(force_meter_->geometry().left(), legend_->geometry().right());
 }
 
-TEST_F(OverlayLayoutTest, HidesWhatIsNotWanted)
+TEST_F(OverlayLayoutTest, HidesDisabledParts)
 {
     host_.show();
     resize(1000, 700);

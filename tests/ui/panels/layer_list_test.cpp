@@ -92,7 +92,7 @@ TEST_F(LayerListTest, IsGroupedByBody)
     EXPECT_THAT(rows(), ElementsAre("m2.vrt", "m1.vrt"));
 }
 
-TEST_F(LayerListTest, SaysWhyALayerIsHiddenAndDoesNotTickIt)
+TEST_F(LayerListTest, ExplainsWhyALayerIsHiddenAndUnchecksIt)
 {
     EXPECT_EQ(check("moon.vrt"), Qt::Checked);
     EXPECT_EQ(check("m2.vrt"), Qt::PartiallyChecked);

@@ -53,7 +53,7 @@ protected:
     std::unique_ptr<MainWindow> window_;
 };
 
-TEST_F(LayersPanelTest, TellsSizeRangeAndHistogram)
+TEST_F(LayersPanelTest, ShowsSizeRangeAndHistogram)
 {
     const QModelIndex top = model().index(0);
     EXPECT_EQ(top.data().toString(), QStringLiteral("c.asc"));
@@ -66,7 +66,7 @@ TEST_F(LayersPanelTest, TellsSizeRangeAndHistogram)
     EXPECT_EQ(top.data(LayerModel::RangeRole).toString(), QStringLiteral("328 … 984 ft"));
 }
 
-TEST_F(LayersPanelTest, IsWorkedByKeysAlone)
+TEST_F(LayersPanelTest, CanBeUsedWithTheKeyboardAlone)
 {
     EXPECT_EQ(names(), "cba");
     QTest::keyClick(&list(), Qt::Key_Down);
@@ -168,7 +168,7 @@ TEST_F(LayersPanelTest, HasRoomForTwenty)
     }
 }
 
-TEST_F(LayersPanelTest, SaysWhatToDoWhileThereIsNone)
+TEST_F(LayersPanelTest, ExplainsWhatToDoWithoutLayers)
 {
     while (!window_->session().layers.empty()) {
         QTest::keyClick(&list(), Qt::Key_Delete);

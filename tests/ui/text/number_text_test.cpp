@@ -47,7 +47,7 @@ TEST(NumberText, StaysInItsOrderInLayoutsFromRightToLeft)
               QStringLiteral("\u2068\u0645\u0631.tif\u2069"));
 }
 
-TEST(NumberText, TellsHeightsInFeet)
+TEST(NumberText, WritesHeightsInFeet)
 {
     EXPECT_EQ(heightRangeText({.minimum_m = 0.0, .maximum_m = 304.8}, HeightUnit::Feet),
               QStringLiteral("0 … 1000 ft"));
