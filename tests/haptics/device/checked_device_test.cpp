@@ -103,6 +103,18 @@ TEST_F(CheckedDeviceTest, WithholdsOneBadSampleAndGoesOn)
     EXPECT_EQ(device_.trouble(), "");
 }
 
+TEST_F(CheckedDeviceTest, WithholdsOrientationsThatAreNotRotations)
+{
+    ASSERT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
+    script_.next.orientation = {1.0, 1.0, 0.0, 0.0};
+    EXPECT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Unready);
+    EXPECT_EQ(device_.trouble(), "its orientations are not unit quaternions");
+    script_.next.orientation = {0.0, kNan, 0.0, 0.0};
+    EXPECT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Unready);
+    EXPECT_EQ(device_.trouble(), "its samples contain numbers that are not finite");
+    EXPECT_EQ(sample_.orientation, Orientation{});
+}
+
 TEST_F(CheckedDeviceTest, TheForceStaysZeroUntilASampleIsAsItShouldBe)
 {
     ASSERT_EQ(readAt({0.0, 0.0, 0.1}, kPeriod), DeviceStatus::Fine);
@@ -228,6 +240,7 @@ TEST(CapabilityCheck, TellsThePossibleFromTheImpossible)
              Case{"peak force", [](DeviceCapabilities& d) { d.force_n_peak = kInfinity; }},
              Case{"-1 N", [](DeviceCapabilities& d) { d.force_n_continuous = -1.0; }},
              Case{"above its peak", [](DeviceCapabilities& d) { d.force_n_continuous = 6.0; }},
+             Case{"peak torque of -1 N·m", [](DeviceCapabilities& d) { d.torque_nm_peak = -1.0; }},
              Case{"stiffness", [](DeviceCapabilities& d) { d.stiffness_n_per_m_max = 1e9; }},
              Case{"rate of 0 Hz", [](DeviceCapabilities& d) { d.rate_hz = 0.0; }},
              Case{"rate of 1 Hz", [](DeviceCapabilities& d) { d.rate_hz = 1.0; }},
