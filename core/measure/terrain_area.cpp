@@ -195,7 +195,7 @@ struct Metric {
 // Lengths of the grid on the ground.
 class MetricField {
 public:
-    // `low` and `high` are the corners of what is measured.
+    // `low` and `high` are the corners of the measured part.
     static std::unique_ptr<MetricField>
     of(const MeasuredTerrain& terrain, GridPoint low, GridPoint high)
     {
@@ -691,7 +691,7 @@ private:
         below_m3 += weight * sumOver(clipped(part, minus_g), t.cell_m2, minus_g).first;
     }
 
-    static constexpr double kNextTo = 1e-9; // beside a line of the grid
+    static constexpr double kNextTo = 1e-9; // from a line of the grid
     static constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 
     MeasuredTerrain& terrain_;
