@@ -436,6 +436,22 @@ TEST(HapticTick, PansAndZoomsByTheButton)
     EXPECT_NEAR(rig.state.frame.scene_per_metre, 500.0, 1e-6);
 }
 
+TEST(HapticTick, EitherButtonOfTheStylusGrabs)
+{
+    for (const std::uint32_t buttons : {1U, 2U, 3U}) {
+        Rig rig;
+        rig.at({});
+        rig.to({0.0, 0.0, -0.022});
+        rig.input.sample.buttons = buttons;
+        EXPECT_EQ(rig.at({0.0, 0.0, -0.022}).mode, StylusMode::Pan) << buttons;
+    }
+    Rig rig;
+    rig.at({});
+    rig.to({0.0, 0.0, -0.022});
+    rig.input.sample.buttons = 4; // another button of a grip
+    EXPECT_EQ(rig.at({0.0, 0.0, -0.022}).mode, StylusMode::Press);
+}
+
 TEST(HapticTick, StiffnessIsNoMoreThanTheDeviceAndTheLoopStand)
 {
     const DeviceCapabilities device = desktopDevice(); // 600 N/m
