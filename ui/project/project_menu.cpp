@@ -50,7 +50,7 @@ ProjectMenu::ProjectMenu(const Parts& parts, QObject* parent)
     menu.insertMenu(first, recent_menu_);
     save_ = add(tr("&Save Project"), QKeySequence::Save, QStringLiteral("saveProject"));
     save_->setToolTip(tr("Save the layers, colors and view"));
-    save_as_ = add(tr("Save Project &As…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S),
+    save_as_ = add(tr("Sa&ve Project As…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S),
                    QStringLiteral("saveProjectAs"));
     menu.insertSeparator(first);
     recent_ =
