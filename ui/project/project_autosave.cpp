@@ -62,12 +62,11 @@ void ProjectAutosave::write(const Project& project, const fs::path& file)
     }
     // Paths of a copy are absolute: nothing lies below or beside this folder.
     pool_.start([named = project, file, copy = copy_]() mutable {
-        named.others[kFileMember] =
-            QStringLiteral("\"%1\"")
-                .arg(QString::fromStdString(file.string())
-                         .replace(QLatin1Char('\\'), QStringLiteral("\\\\"))
-                         .replace(QLatin1Char('"'), QStringLiteral("\\\"")))
-                .toStdString();
+        named.others[kFileMember] = QStringLiteral("\"%1\"")
+                                        .arg(QString::fromStdString(file.string())
+                                                 .replace(QLatin1Char('\\'), QStringLiteral("\\\\"))
+                                                 .replace(QLatin1Char('"'), QStringLiteral("\\\"")))
+                                        .toStdString();
         const auto text = projectText(named, {.project = copy.parent_path(), .bundled = {}});
         if (text) {
             // If it cannot be written, the project itself is still there.

@@ -186,10 +186,10 @@ void ProjectMenu::offerRecovery()
     box->setText(file.isEmpty()
                      //: %1 is date and time
                      ? tr("MarsView ended unexpectedly. Restore the unsaved layers and settings "
-                          "of %1?")
+                          "(%1)?")
                            .arg(time)
                      //: %1 is a project, %2 is date and time
-                     : tr("MarsView ended unexpectedly. Restore the unsaved changes to %1 of %2?")
+                     : tr("MarsView ended unexpectedly. Restore the unsaved changes to %1 (%2)?")
                            .arg(nameOf(file), time));
     QPushButton* restore = box->addButton(tr("&Restore"), QMessageBox::AcceptRole);
     QPushButton* drop = box->addButton(tr("&Delete"), QMessageBox::DestructiveRole);
