@@ -25,6 +25,8 @@
 #include "ui/panels/layers_panel.h"
 #include "ui/panels/measure_panel.h"
 #include "ui/picture_saver.h"
+#include "ui/project/project_controller.h"
+#include "ui/project/project_menu.h"
 #include "ui/status_readout.h"
 #include "ui/stretch_control.h"
 #include "ui/text/haptics_text.h"
@@ -106,6 +108,9 @@ DriverMaker driversOf(const WindowOptions& options)
 {
     return options.make_drivers ? options.make_drivers : [] { return builtInDrivers(); };
 }
+
+// A property of the application; set where a signal ends the program.
+constexpr const char* kEndsBySignal = "endsBySignal";
 
 QString folderKey()
 {
@@ -190,6 +195,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     connectActions();
     connectPanels();
     connectController();
+    connectProject();
     connectView();
     connectMeasuring();
     connectHint();
@@ -418,6 +424,30 @@ void MainWindow::connectController()
                 docks_->reveal(*docks_->georeferencing());
                 georeferencing_->showFailure(problem);
             });
+}
+
+void MainWindow::connectProject()
+{
+    project_ = new ProjectController(
+        *controller_, *view_,
+        {.bundled = options_.bundled_maps, .autosave_folder = options_.autosave_folder}, this);
+    project_menu_ = new ProjectMenu(
+        {.window = *this,
+         .file_menu = *actions_->file,
+         .session = *controller_,
+         .project = *project_,
+         .notices = *notice_center_,
+         .memory = isRemembered() ? RecentFiles::Memory::Settings : RecentFiles::Memory::WindowOnly,
+         .has_questions = options_.questions == WindowOptions::Questions::Ask},
+        this);
+    connect(project_, &ProjectController::changed, this, &MainWindow::showTitle);
+    connect(project_, &ProjectController::failed, this,
+            [this](const QString& problem) { reportFailure(tr("Project"), problem); });
+    connect(project_, &ProjectController::saved, this, [this](const QString& file) {
+        //: In the status bar, for a few seconds; %1 is a file
+        statusBar()->showMessage(tr("Saved %1").arg(isolated(QDir::toNativeSeparators(file))),
+                                 kMessageDuration);
+    });
 }
 
 void MainWindow::connectView()
@@ -661,7 +691,22 @@ void MainWindow::restoreWindow()
 
 void MainWindow::open(const QString& file)
 {
-    controller_->open({file});
+    openAll({file});
+}
+
+void MainWindow::openAll(const QStringList& files)
+{
+    QStringList maps = files;
+    const auto project = std::find_if(maps.begin(), maps.end(), [](const QString& file) {
+        return isProjectPath(file.toStdString()) && !isAddress(file);
+    });
+    if (project == maps.end()) {
+        controller_->open(maps);
+        return;
+    }
+    const QString file = *project;
+    maps.erase(project);
+    project_menu_->open(file, maps);
 }
 
 void MainWindow::openSample(const QString& file)
@@ -676,7 +721,8 @@ void MainWindow::cancelLoading()
 
 QStringList MainWindow::rasterFilters()
 {
-    return {tr("Elevation maps (*.tif *.tiff *.lbl *.img *.cub *.hgt *.dem *.asc *.flt *.hdr *.bil "
+    return {tr("Elevation maps and projects (*.mvproj *.tif *.tiff *.lbl *.img *.cub *.hgt *.dem "
+               "*.asc *.flt *.hdr *.bil "
                "*.nc *.cdf *.dt0 *.dt1 *.dt2 *.vrt *.xml *.zip)"),
             tr("All files (*)")};
 }
@@ -687,7 +733,7 @@ void MainWindow::chooseFile()
     dialog->setFileMode(QFileDialog::ExistingFiles);
     dialog->setNameFilters(rasterFilters());
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QFileDialog::filesSelected, controller_, &SessionController::open);
+    connect(dialog, &QFileDialog::filesSelected, this, &MainWindow::openAll);
     dialog->open();
 }
 
@@ -744,11 +790,8 @@ void MainWindow::showActive()
     const Layer* active = activeLayer(session());
     const auto map = active != nullptr ? active->map : nullptr;
     const QString file = map ? QString::fromStdString(map->spec().path) : QString();
-    setWindowFilePath(file);
-    //: Window title: %1 is a layer
-    setWindowTitle(active != nullptr
-                       ? tr("%1 — MarsView").arg(isolated(QString::fromStdString(active->name)))
-                       : tr("MarsView"));
+    setWindowFilePath(project_->file().isEmpty() ? file : project_->file());
+    showTitle();
     georeferencing_->setMap(map);
     showPreparation();
     // Positions are on what the view shows, heights are those of the active layer if it is there.
@@ -759,6 +802,18 @@ void MainWindow::showActive()
         shown.begin(), shown.end(), [&](const Layer* layer) { return layer->map == scene; });
     readout_->setMaps(shown.empty() ? nullptr : scene,
                       is_shown && is_scene_current ? map : nullptr);
+}
+
+// The project, or the active layer of a session that was never saved.
+void MainWindow::showTitle()
+{
+    QString title = project_menu_->title();
+    if (const Layer* active = activeLayer(session()); title.isEmpty() && active != nullptr) {
+        title = isolated(QString::fromStdString(active->name)) + QStringLiteral("[*]");
+    }
+    //: Window title: %1 is a project or a layer
+    setWindowTitle(title.isEmpty() ? tr("MarsView") : tr("%1 — MarsView").arg(title));
+    setWindowModified(!title.isEmpty() && project_->isModified());
 }
 
 void MainWindow::showPreparation()
@@ -932,6 +987,19 @@ void MainWindow::settleIfIdle()
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
+    const bool is_ended_by_signal = QCoreApplication::instance()->property(kEndsBySignal).toBool();
+    if (is_ended_by_signal) {
+        project_->autosaveNow();
+    } else if (!is_closing_ && project_menu_->hasQuestion()) {
+        event->ignore();
+        project_menu_->saveThen([this] {
+            is_closing_ = true;
+            close();
+        });
+        return;
+    } else {
+        project_->discardAutosave();
+    }
     haptics_->close();
     connection_marker_.reset();
     controller_->stopAll();
@@ -1001,7 +1069,7 @@ void MainWindow::dropEvent(QDropEvent* event)
     const QStringList files = mapsIn(*event->mimeData());
     if (!files.isEmpty()) {
         event->acceptProposedAction();
-        controller_->open(files);
+        openAll(files);
     }
 }
 

@@ -12,6 +12,7 @@
 
 #include <QMainWindow>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -35,6 +36,8 @@ class MapMenu;
 class NoticeBar;
 class NoticeCenter;
 class PictureSaver;
+class ProjectController;
+class ProjectMenu;
 class RecentFiles;
 class StatusReadout;
 class StretchControl;
@@ -52,6 +55,13 @@ struct WindowOptions {
     enum class Geometry { Remembered, Fixed } geometry = Geometry::Remembered;
     /// Where failures are reported besides the signal.
     enum class Failures { InDialogs, BySignalOnly } failures = Failures::InDialogs;
+    /// Whether the user is asked before unsaved changes are lost, and about what a crash left
+    /// behind.
+    enum class Questions { None, Ask } questions = Questions::None;
+    /// Where copies of unsaved projects go; empty for none.
+    std::filesystem::path autosave_folder{};
+    /// The folder of the maps that come with the program.
+    std::filesystem::path bundled_maps{};
     /// How maps are read, and the resources they share unless preferences override them.
     MapOpener opener{};
     /// Of haptic devices; empty for those that come with the program.
@@ -68,9 +78,11 @@ public:
     explicit MainWindow(const WindowOptions& options = {}, QWidget* parent = nullptr);
     ~MainWindow() override;
 
-    /// Loads the map of that file as a layer on top. A file that cannot be opened changes nothing.
-    /// May be called before the window is shown.
+    /// Loads the map of that file as a layer on top, or replaces the session by that project. A
+    /// file that cannot be opened changes nothing. May be called before the window is shown.
     void open(const QString& file);
+    /// The same for several: maps lie on top of each other and of the first project.
+    void openAll(const QStringList& files);
     /// As a map to look at until the user opens one.
     void openSample(const QString& file);
     /// Cancels the load in progress.
@@ -96,6 +108,8 @@ public:
     RecentFiles* recentFiles() const noexcept { return recent_; }
     const WindowActions& actionSet() const noexcept { return *actions_; }
     SessionController& controller() noexcept { return *controller_; }
+    ProjectController& project() noexcept { return *project_; }
+    ProjectMenu& projectMenu() noexcept { return *project_menu_; }
     StretchControl& stretch() noexcept { return *stretch_; }
     const Session& session() const noexcept { return controller_->session(); }
     QUndoStack& undoStack() noexcept { return controller_->undoStack(); }
@@ -140,6 +154,8 @@ private:
     void connectActions();
     void connectPanels();
     void connectController();
+    void connectProject();
+    void showTitle();
     void connectView();
     void connectHint();
     PlaceFacts factsAt(const GroundPoint& ground) const;
@@ -172,6 +188,9 @@ private:
     std::unique_ptr<WindowActions> actions_;
     NoticeBar* notice_bar_ = nullptr;
     NoticeCenter* notice_center_ = nullptr;
+    ProjectController* project_ = nullptr;
+    ProjectMenu* project_menu_ = nullptr;
+    bool is_closing_ = false; // the user has answered
     WindowNotices* notices_ = nullptr;
     LayersPanel* datasets_ = nullptr;
     GeoreferencingPanel* georeferencing_ = nullptr;

@@ -150,6 +150,7 @@ WindowActions::WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo
 void WindowActions::makeFileMenu(QMainWindow& window)
 {
     QMenu* menu = window.menuBar()->addMenu(tr("&File"));
+    file = menu;
     open = menu->addAction(tr("&Open…"));
     open->setShortcut(QKeySequence::Open);
     open->setToolTip(tr("Open a map as a new layer (%1)")

@@ -26,6 +26,7 @@ struct WindowActions {
     /// while their list has it, so that fields keep their arrows and letters.
     WindowActions(QMainWindow& window, QWidget& map, QUndoStack& undo_stack);
 
+    QMenu* file = nullptr;
     QAction* open = nullptr;
     QAction* open_folder = nullptr;
     QAction* open_address = nullptr;

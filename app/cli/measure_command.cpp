@@ -39,8 +39,8 @@ void printVoidNotice(const MeasureOptions& options, double void_m)
 {
     if (void_m > 0.0) {
         std::fprintf(stderr,
-                     "marsview-cli: %s: %s m of the line are outside the map or on nodata, so "
-                     "there is no length along the terrain\n",
+                     "marsview-cli: %s: %s m of the line are outside the map or on nodata; "
+                     "the length along the terrain is unknown\n",
                      asOneLine(options.map.path).c_str(), asText(void_m).c_str());
     }
 }

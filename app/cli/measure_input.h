@@ -50,7 +50,7 @@ struct MeasureInput {
 /// Opens the map and reads the positions. Errors begin with the file or the option.
 Result<MeasureInput> openMeasureInput(const MeasureOptions& options);
 
-/// An error of measuring, beginning with what it is about: an error about the positions with their
+/// An error of measuring with its subject in front: errors about the positions name their
 /// source.
 Error measureError(const MeasureOptions& options, Error error);
 

@@ -1,6 +1,7 @@
 #include "app/gui/end_by_signal.h"
 
 #include <QCoreApplication>
+#include <QVariant>
 
 #include <cerrno>
 #include <fcntl.h>
@@ -25,6 +26,8 @@ EndBySignal::EndBySignal()
     notifier_ = std::make_unique<QSocketNotifier>(pipe_[0], QSocketNotifier::Read);
     QObject::connect(notifier_.get(), &QSocketNotifier::activated, [this] {
         notifier_->setEnabled(false); // react only once
+        // Windows then close without asking; unsaved changes are offered at the next start.
+        QCoreApplication::instance()->setProperty("endsBySignal", true);
         QCoreApplication::quit();
     });
     for (const int number : kSignals) {

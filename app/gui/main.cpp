@@ -7,10 +7,13 @@
 #include "ui/graphics_check.h"
 #include "ui/main_window.h"
 #include "ui/picture_taker.h"
+#include "ui/project/project_menu.h"
 
 #include <QApplication>
+#include <QFileInfo>
 #include <QLocale>
 #include <QMessageBox>
+#include <QStandardPaths>
 #include <QStringList>
 #include <QSurfaceFormat>
 #include <QTimer>
@@ -72,6 +75,18 @@ int runWindow(QApplication& application, const marsview::WindowArguments& option
     QSurfaceFormat::setDefaultFormat(format);
     WindowOptions window_options;
     window_options.opener.resources = marsview::defaultMapResources();
+    const QString sample = QString::fromStdString(
+        marsview::sampleMapFor(QCoreApplication::applicationDirPath().toStdString()).string());
+    if (!sample.isEmpty()) {
+        window_options.bundled_maps = QFileInfo(sample).absolutePath().toStdString();
+    }
+    if (!is_screenshot) {
+        window_options.questions = WindowOptions::Questions::Ask;
+        window_options.autosave_folder =
+            (QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
+             QStringLiteral("/autosave"))
+                .toStdString();
+    }
     if (is_screenshot) {
         window_options.geometry = WindowOptions::Geometry::Fixed;
         window_options.failures = WindowOptions::Failures::BySignalOnly;
@@ -84,14 +99,12 @@ int runWindow(QApplication& application, const marsview::WindowArguments& option
     if (const auto& place = options.geometry.place) {
         window.move(place->x, place->y);
     }
-    const QString sample = QString::fromStdString(
-        marsview::sampleMapFor(QCoreApplication::applicationDirPath().toStdString()).string());
     if (!options.maps.empty()) {
         QStringList maps;
         for (const std::string& map : options.maps) {
             maps.append(QString::fromStdString(map));
         }
-        window.controller().open(maps);
+        window.openAll(maps);
     } else if (!sample.isEmpty()) {
         window.openSample(sample);
     }
@@ -109,6 +122,9 @@ int runWindow(QApplication& application, const marsview::WindowArguments& option
             Qt::QueuedConnection);
     }
     window.show();
+    if (!is_screenshot) {
+        window.projectMenu().offerRecovery();
+    }
     return QApplication::exec();
 }
 

@@ -41,10 +41,12 @@ constexpr std::array kQtOptions{
 
 constexpr std::string_view kHelp = R"(Explore topographic maps of planets and moons in a window.
 Usage: marsview [OPTIONS] [DEM...]
+       marsview [OPTIONS] PROJECT.mvproj [DEM...]
 
 DEM                    maps to open: files, folders of adjoining rasters, addresses (https://,
                        s3://, gs://, file://) or GDAL dataset names. Each becomes a layer; the
                        last one lies on top. Without any, the bundled map of Mars
+PROJECT.mvproj         a project saved by MarsView; maps are opened on top of its layers
 
 Options:
   -h, --help           print this help and exit

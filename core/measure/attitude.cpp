@@ -203,7 +203,7 @@ Result<Attitude> fitAttitude(const Ground& ground,
     if (!(axes.variance[1] / axes.variance[0] >= kCollinear)) {
         return Error{ErrorCode::Invalid,
                      fmt::format("the points are nearly on a line ({:.3g} m long, {:.3g} m wide), "
-                                 "so their plane is not determined; add points beside that line",
+                                 "so their plane is not determined; add points away from that line",
                                  std::sqrt(axes.variance[0]), std::sqrt(axes.variance[1]))};
     }
     const Vec3 normal = axes.direction[2].z < 0.0 ? -axes.direction[2] : axes.direction[2];

@@ -76,7 +76,7 @@ Result<Attitude> fitAttitude(const Ground& ground,
                              std::span<const TerrainPoint> points,
                              const AttitudeOptions& options);
 
-/// The same for positions on the terrain. OutOfRange where there is no terrain.
+/// The same for positions on the terrain. OutOfRange for a position without terrain.
 Result<Attitude> measureAttitude(MeasuredTerrain& terrain,
                                  std::span<const GroundPosition> positions,
                                  const AttitudeOptions& options);

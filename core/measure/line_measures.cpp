@@ -84,7 +84,7 @@ public:
         if (!piece.has_terrain && std::isfinite(points_.back().elevation_m)) {
             add(0.5 * (piece.begin_m + piece.end_m), kNan);
         }
-        // Where there is no map, one point at the end of a gap is enough.
+        // Outside the map, one point at the end of a gap is enough.
         const bool is_outside = !piece.is_on_map && points_.size() > offset_index_ + 1 &&
                                 std::isnan(points_.back().elevation_m) && was_outside_;
         if (is_outside) {

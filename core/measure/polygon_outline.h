@@ -23,7 +23,7 @@ struct EdgePart {
     double v1 = 0.0;
 };
 
-/// The edges on the grid. Parts below the last row or beside the grid are omitted.
+/// The edges on the grid. Parts below the last row or outside the columns of the grid are omitted.
 struct PolygonOutline {
     std::vector<EdgePart> parts;
     double turn_columns = 0.0; // how far the edges advance: 0, or a turn around a pole

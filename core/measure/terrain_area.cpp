@@ -195,7 +195,7 @@ struct Metric {
 // Lengths of the grid on the ground.
 class MetricField {
 public:
-    // `low` and `high` are the corners of what is measured.
+    // `low` and `high` are the corners of the measured part.
     static std::unique_ptr<MetricField>
     of(const MeasuredTerrain& terrain, GridPoint low, GridPoint high)
     {
@@ -508,14 +508,18 @@ private:
         }
         const CellHeights z{upper_[i], upper_[i + 1], lower_[i], lower_[i + 1]};
         // A sample belongs to the polygon if the terrain right below it does, or left of it.
-        constexpr double kNextTo = 1e-9;
         if (inside(coverage.at(kNextTo))) {
             addHeight(z.upper_left);
         }
         if (column + 1 == terrain_.cellColumns() && inside(coverage.at(1.0 - kNextTo))) {
             addHeight(z.upper_right);
         }
-        beginCell(column, row, z, !parts.empty() || !coverage.whole());
+        const std::optional<double> whole = parts.empty() ? coverage.whole() : std::nullopt;
+        beginCell(column, row, z, !whole);
+        if (whole && addWhole(*whole)) {
+            addLastRow(column, row, coverage, z);
+            return;
+        }
         coverage.forEach([&](double from, double to, double weight) {
             constexpr double kRounding = 1e-6;
             crosses_itself = crosses_itself || weight > 1.0 + kRounding || weight < -kRounding;
@@ -533,14 +537,62 @@ private:
         if (!parts.empty()) {
             coverage.normalize();
         }
-        if (row + 1 == terrain_.cellRows()) {
-            if (inside(coverage.at(kNextTo))) {
-                addHeight(z.lower_left);
-            }
-            if (column + 1 == terrain_.cellColumns() && inside(coverage.at(1.0 - kNextTo))) {
-                addHeight(z.lower_right);
+        addLastRow(column, row, coverage, z);
+    }
+
+    // Of the samples below the last row of cells.
+    void
+    addLastRow(std::size_t column, std::size_t row, const Coverage& coverage, const CellHeights& z)
+    {
+        if (row + 1 != terrain_.cellRows()) {
+            return;
+        }
+        if (inside(coverage.at(kNextTo))) {
+            addHeight(z.lower_left);
+        }
+        if (column + 1 == terrain_.cellColumns() && inside(coverage.at(1.0 - kNextTo))) {
+            addHeight(z.lower_right);
+        }
+    }
+
+    // Both triangles whole, in closed form; false if the base cuts one of them.
+    bool addWhole(double weight)
+    {
+        constexpr double kRounding = 1e-6;
+        crosses_itself = crosses_itself || weight > 1.0 + kRounding || weight < -kRounding;
+        const auto corners = [](const Linear& f, std::size_t triangle) {
+            return std::array{f.at_corner, f.at_corner + (triangle == 0 ? f.per_u : f.per_v),
+                              f.at_corner + f.per_u + f.per_v};
+        };
+        std::array<double, 2> above{};
+        if (base_.kind != VolumeBase::None) {
+            for (std::size_t i = 0; i < 2; ++i) {
+                const auto z = corners(triangles_[i].elevation_m, i);
+                const auto base = corners(triangles_[i].base_m, i);
+                const std::array g{z[0] - base[0], z[1] - base[1], z[2] - base[2]};
+                const bool is_above = g[0] >= 0.0 && g[1] >= 0.0 && g[2] >= 0.0;
+                const bool is_below = g[0] <= 0.0 && g[1] <= 0.0 && g[2] <= 0.0;
+                if (triangles_[i].has_terrain && !is_above && !is_below) {
+                    return false;
+                }
+                above[i] = (g[0] + g[1] + g[2]) / 3.0;
             }
         }
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Triangle& t = triangles_[i];
+            if (!t.has_terrain) {
+                continue;
+            }
+            const auto z = corners(t.elevation_m, i);
+            const UvPoint center =
+                i == 0 ? UvPoint{2.0 / 3.0, 1.0 / 3.0} : UvPoint{1.0 / 3.0, 2.0 / 3.0};
+            const double area_m2 = 0.5 * weight * t.cell_m2(center);
+            covered_m2 += area_m2;
+            surface_m2 += area_m2 * t.stretch;
+            height_m3 += area_m2 * (z[0] + z[1] + z[2]) / 3.0;
+            (above[i] >= 0.0 ? above_m3 : below_m3) += area_m2 * std::abs(above[i]);
+        }
+        return true;
     }
 
     static bool inside(double weight) { return weight > 0.5; }
@@ -639,6 +691,7 @@ private:
         below_m3 += weight * sumOver(clipped(part, minus_g), t.cell_m2, minus_g).first;
     }
 
+    static constexpr double kNextTo = 1e-9; // from a line of the grid
     static constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 
     MeasuredTerrain& terrain_;

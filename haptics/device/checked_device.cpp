@@ -46,8 +46,11 @@ CheckedDevice::Fault CheckedDevice::faultOf(const DeviceSample& sample) const no
 {
     const WorkspacePoint& p = sample.position;
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) ||
-        !std::isfinite(sample.twist_rad) || !isUnit(sample.orientation)) {
+        !std::isfinite(sample.twist_rad) || !isFinite(sample.orientation)) {
         return Fault::NotFinite;
+    }
+    if (!isUnit(sample.orientation)) {
+        return Fault::NotARotation;
     }
     if (!isInside(reach_, p)) {
         return Fault::OutOfReach;
@@ -126,7 +129,9 @@ std::string CheckedDevice::trouble() const
     case Fault::None:
         return device_->trouble();
     case Fault::NotFinite:
-        return "its samples contain invalid numbers";
+        return "its samples contain numbers that are not finite";
+    case Fault::NotARotation:
+        return "its orientations are not unit quaternions";
     case Fault::OutOfReach:
         return "its samples lie far outside the workspace that it states; its units may be wrong";
     case Fault::Jump:

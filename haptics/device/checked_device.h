@@ -18,7 +18,7 @@ namespace marsview {
 /// are clamped to the peak force; a force that is not finite becomes zero.
 class CheckedDevice final : public HapticDevice {
 public:
-    enum class Fault : std::uint8_t { None, NotFinite, OutOfReach, Jump };
+    enum class Fault : std::uint8_t { None, NotFinite, NotARotation, OutOfReach, Jump };
 
     /// `device` is not null, and its capabilities have passed the check (capability_check.h).
     explicit CheckedDevice(std::unique_ptr<HapticDevice> device);

@@ -33,6 +33,9 @@ struct DeviceCapabilities {
     bool can_set_home = false;
 };
 
+/// Either button of a stylus grabs: which one is under the finger depends on the hand.
+constexpr std::uint32_t kGrabbingButtons = 0b11;
+
 /// One reading of a device.
 struct DeviceSample {
     WorkspacePoint position{};
@@ -40,7 +43,7 @@ struct DeviceSample {
     /// counter-clockwise seen from the stylus's back end, which is from above with the tip down.
     double twist_rad = 0.0;
     Orientation orientation{};
-    std::uint32_t buttons = 0; // bit 0: the stylus button, bit 1: its second button
+    std::uint32_t buttons = 0; // bits 0 and 1: the buttons of the stylus (kGrabbingButtons)
     /// False in the inkwell or with the dead-man switch released: the device must not push.
     bool is_held = true;
     /// When the device measured this; steady clock. The loop turns the force off if samples are

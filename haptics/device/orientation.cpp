@@ -53,6 +53,11 @@ Orientation orientationOf(const std::array<std::array<double, 3>, 3>& m) noexcep
     return {q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale};
 }
 
+bool isFinite(const Orientation& o) noexcept
+{
+    return std::isfinite(o.w) && std::isfinite(o.x) && std::isfinite(o.y) && std::isfinite(o.z);
+}
+
 bool isUnit(const Orientation& o) noexcept
 {
     const double square = o.w * o.w + o.x * o.x + o.y * o.y + o.z * o.z;

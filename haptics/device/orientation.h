@@ -21,7 +21,9 @@ struct Orientation {
 /// result has unit length. The identity if the matrix is not a rotation. Real-time safe.
 Orientation orientationOf(const std::array<std::array<double, 3>, 3>& rotation) noexcept;
 
-/// Whether all numbers are finite and the length differs from 1 by at most a percent.
+bool isFinite(const Orientation& orientation) noexcept;
+
+/// Whether the length differs from 1 by at most a percent.
 bool isUnit(const Orientation& orientation) noexcept;
 
 /// The angle of the part of the rotation that turns about the stylus's own axis, -pi to pi:

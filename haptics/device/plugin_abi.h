@@ -92,7 +92,7 @@ typedef struct MarsviewSample {
     /* CLOCK_MONOTONIC time of the measurement; 0 means now. The force goes to zero if the time is
      * more than 15 ms in the past or in the future, as happens with another clock. */
     int64_t time_ns;
-    /* Bit 0: the stylus button, which grabs. Bit 1: the second button of the stylus. */
+    /* Bits 0 and 1: the first and the second button of the stylus; either grabs. */
     uint32_t buttons;
     uint32_t is_held; /* 0 in the inkwell; used only with MARSVIEW_HAS_PRESENCE */
     /* Unit quaternion w, x, y, z; see Orientation above. All zero: not measured. */

@@ -15,7 +15,8 @@ namespace marsview {
 namespace {
 
 constexpr std::string_view kColumns =
-    "time_s,status,x,y,z,twist_rad,buttons,is_held,force_x_n,force_y_n,force_z_n";
+    "time_s,status,x,y,z,twist_rad,buttons,is_held,force_x_n,force_y_n,force_z_n,"
+    "orientation_w,orientation_x,orientation_y,orientation_z";
 
 struct Reading {
     DeviceSample sample;
@@ -118,12 +119,13 @@ private:
                 begin_ = r.sample.time;
             }
             const double time_s = std::chrono::duration<double>(r.sample.time - begin_).count();
-            const std::string line =
-                fmt::format("{:.6f},{},{},{},{},{},{},{},{},{},{}\n", time_s, nameOf(r.status),
-                            asText(r.sample.position.x), asText(r.sample.position.y),
-                            asText(r.sample.position.z), asText(r.sample.twist_rad),
-                            r.sample.buttons, r.sample.is_held ? 1 : 0, asText(r.force_n.x),
-                            asText(r.force_n.y), asText(r.force_n.z));
+            const std::string line = fmt::format(
+                "{:.6f},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", time_s, nameOf(r.status),
+                asText(r.sample.position.x), asText(r.sample.position.y),
+                asText(r.sample.position.z), asText(r.sample.twist_rad), r.sample.buttons,
+                r.sample.is_held ? 1 : 0, asText(r.force_n.x), asText(r.force_n.y),
+                asText(r.force_n.z), asText(r.sample.orientation.w), asText(r.sample.orientation.x),
+                asText(r.sample.orientation.y), asText(r.sample.orientation.z));
             file_.write(line);
         }
         file_.flush();

@@ -209,7 +209,8 @@ private:
         const double share = options_.mixing == ForceMixing::Fade ? walls.ground_share : 1.0;
         result_.ground_share = share;
 
-        const bool is_grabbing = (input_.sample.buttons & 1U) != 0 || settings_.is_grabbing;
+        const bool is_grabbing =
+            (input_.sample.buttons & kGrabbingButtons) != 0 || settings_.is_grabbing;
         const ModeStep mode = stepModes(settings_.modes,
                                         {.hand = state_.hand,
                                          .hand_shift = shift_m_,

@@ -78,14 +78,15 @@ QStringList namesFor(const QStringList& files)
     return names;
 }
 
-RecentFiles::RecentFiles(QMenu& menu, Memory memory, QObject* parent)
+RecentFiles::RecentFiles(QMenu& menu, Memory memory, QObject* parent, const QString& settings_key)
     : QObject(parent)
     , menu_(menu)
     , memory_(memory)
+    , settings_key_(settings_key)
 {
     menu_.setToolTipsVisible(true);
     if (memory_ == Memory::Settings) {
-        files_ = QSettings().value(settingsKey()).toStringList().mid(0, kCountMax);
+        files_ = QSettings().value(settings_key_).toStringList().mid(0, kCountMax);
     }
     connect(&menu_, &QMenu::aboutToShow, this, &RecentFiles::fillMenu);
     menu_.setEnabled(!files_.isEmpty());
@@ -110,7 +111,7 @@ void RecentFiles::changed()
 {
     menu_.setEnabled(!files_.isEmpty());
     if (memory_ == Memory::Settings) {
-        QSettings().setValue(settingsKey(), files_);
+        QSettings().setValue(settings_key_, files_);
     }
 }
 

@@ -23,8 +23,12 @@ class RecentFiles final : public QObject {
 public:
     enum class Memory { Settings, WindowOnly };
 
-    /// Keeps `menu` filled whenever it opens.
-    RecentFiles(QMenu& menu, Memory memory, QObject* parent = nullptr);
+    /// Keeps `menu` filled whenever it opens. Lists of different kinds have different keys in the
+    /// settings.
+    RecentFiles(QMenu& menu,
+                Memory memory,
+                QObject* parent = nullptr,
+                const QString& settings_key = QStringLiteral("files/recent"));
 
     void add(const QString& file);
     void clear();
@@ -39,6 +43,7 @@ private:
 
     QMenu& menu_;
     Memory memory_;
+    QString settings_key_;
     QStringList files_; // the last opened first
 };
 

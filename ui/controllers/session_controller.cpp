@@ -95,6 +95,8 @@ SessionController::SessionController(TerrainView& view, QObject* parent)
             endPreparing({.how = Ending::How::Failed, .spec = load.spec, .problem = problem});
         } else if (load.purpose == Load::Purpose::Override) {
             Q_EMIT overrideFailed(load.layer, problem);
+        } else if (load.purpose == Load::Purpose::Project) {
+            keepMissing(load.layer, problem);
         } else {
             Q_EMIT failed(problem);
         }
@@ -173,6 +175,105 @@ void SessionController::overrideGeoreferencing(LayerId id, const RasterOverrides
     startNext();
 }
 
+void SessionController::openProject(const Project& project)
+{
+    waiting_.clear();
+    current_.reset();
+    loader_->cancel();
+    are_previews_left_alone_ = false;
+    replaced_sample_.reset();
+    to_reveal_ = LayerId::None;
+    project_active_ = LayerId::None;
+    undo_stack_.clear();
+    Session session;
+    session.look = project.look;
+    session.next_id = session_.next_id;
+    for (std::size_t i = 0; i < project.layers.size(); ++i) {
+        const LayerId id{session.next_id};
+        session =
+            withMissing(std::move(session), {.id = id, .record = project.layers[i], .index = i});
+        if (project.active == i) {
+            project_active_ = id;
+        }
+    }
+    apply(session);
+    for (const MissingLayer& missing : session.missing) {
+        enqueue(
+            {.purpose = Load::Purpose::Project, .spec = missing.record.spec, .layer = missing.id});
+    }
+    endLoad();
+}
+
+void SessionController::locate(LayerId id, const QString& file)
+{
+    if (const MissingLayer* missing = missingLayer(id)) {
+        Load load{.purpose = Load::Purpose::Locate, .spec = missing->record.spec, .layer = id};
+        load.spec.path = file.toStdString();
+        enqueue(std::move(load));
+        startNext();
+    }
+}
+
+void SessionController::removeMissing(LayerId id)
+{
+    if (const MissingLayer* missing = missingLayer(id)) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Remove %1").arg(QString::fromStdString(missing->record.name)),
+               withoutMissing(session_, id));
+        dropLoadsOf(id);
+    }
+}
+
+const MissingLayer* SessionController::missingLayer(LayerId id) const
+{
+    const auto missing = std::find_if(session_.missing.begin(), session_.missing.end(),
+                                      [id](const MissingLayer& one) { return one.id == id; });
+    return missing != session_.missing.end() ? &*missing : nullptr;
+}
+
+// A layer of a project that is loaded, or a missing one that was located.
+void SessionController::acceptMissing(const Load& load, const std::shared_ptr<const Map>& map)
+{
+    const MissingLayer* missing = missingLayer(load.layer);
+    if (missing == nullptr || layerOf(session_, load.layer) != nullptr) {
+        return;
+    }
+    Session after = withProjectLayer(session_, layerFrom(missing->record, map), load.layer);
+    if (load.layer == project_active_) {
+        after = activated(std::move(after), load.layer);
+    }
+    const QString name = QString::fromStdString(layerOf(after, load.layer)->name);
+    if (load.purpose == Load::Purpose::Locate) {
+        //: Continues "Undo …"; %1 is a layer
+        change(tr("Locate %1").arg(name), after);
+    } else {
+        //: Continues "Undo …"; %1 is a layer
+        changeWhileOpening(tr("Open %1").arg(name), after);
+    }
+}
+
+void SessionController::keepMissing(LayerId id, const QString& problem)
+{
+    if (const MissingLayer* missing = missingLayer(id)) {
+        MissingLayer with_problem = *missing;
+        with_problem.problem = problem.toStdString();
+        //: Continues "Undo …"; %1 is a layer
+        changeWhileOpening(tr("Keep %1").arg(QString::fromStdString(missing->record.name)),
+                           withMissing(session_, std::move(with_problem)));
+    }
+}
+
+// Not a step of undo, unless the user has changed something since the project was opened: undoing
+// that would otherwise lose layers that were loaded later.
+void SessionController::changeWhileOpening(const QString& text, const Session& after)
+{
+    if (undo_stack_.count() == 0) {
+        apply(after);
+    } else {
+        change(text, after);
+    }
+}
+
 void SessionController::enqueue(Load load)
 {
     if (!isBusy()) {
@@ -219,6 +320,10 @@ void SessionController::cancel()
     for (const Load& load : dropped) {
         if (load.purpose == Load::Purpose::Complete) {
             endPreparing({.how = Ending::How::Stopped, .spec = load.spec});
+        } else if (load.purpose == Load::Purpose::Project) {
+            //: %1 is a file
+            keepMissing(load.layer,
+                        tr("%1: loading was canceled").arg(QString::fromStdString(load.spec.path)));
         }
     }
     Q_EMIT loadingCancelled();
@@ -249,6 +354,11 @@ void SessionController::accept(const std::shared_ptr<const Map>& map)
     }
     if (map->isPreview()) {
         forgetEnding(load.spec); // whatever became of it before, it is wanted now
+    }
+    if (load.purpose == Load::Purpose::Project || load.purpose == Load::Purpose::Locate) {
+        acceptMissing(load, map);
+        endLoad();
+        return;
     }
     if (load.purpose == Load::Purpose::Override) {
         if (const Layer* layer = layerOf(session_, load.layer)) {

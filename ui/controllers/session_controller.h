@@ -1,6 +1,7 @@
 // The session of the window: the only bridge between layers, loading, undo and the view.
 #pragma once
 
+#include "core/session/project.h"
 #include "core/session/session.h"
 #include "ui/canvas/shown_layer.h"
 #include "ui/controllers/load_controller.h"
@@ -76,6 +77,15 @@ public:
     /// As a sample: not a step of undo, and replaced by the first map that the user opens. Does
     /// nothing if a layer is open or being opened.
     void openSample(const QString& file);
+    /// Replaces the session by that of a project. Its layers are loaded one after the other; until
+    /// then, and if they cannot be loaded, they are missing layers of the session. Clears the steps
+    /// of undo.
+    void openProject(const Project& project);
+    /// Opens a missing layer with all its settings from another file. failed() follows if that is
+    /// not possible. Without effect if the layer is not missing.
+    void locate(LayerId id, const QString& file);
+    /// Removes a missing layer from the session.
+    void removeMissing(LayerId id);
     /// The sample that the first opened map replaced, as long as it is not back in the session;
     /// null otherwise.
     const Layer* replacedSample() const;
@@ -152,9 +162,17 @@ Q_SIGNALS:
 private:
     struct Load {
         /// Complete: a preview whose map has been prepared.
-        enum class Purpose { Open, Sample, Override, Complete } purpose = Purpose::Open;
+        /// Project, Locate: a missing layer of the session.
+        enum class Purpose {
+            Open,
+            Sample,
+            Override,
+            Complete,
+            Project,
+            Locate
+        } purpose = Purpose::Open;
         RasterSpec spec;
-        LayerId layer = LayerId::None; // that is overridden, or whose preview it is
+        LayerId layer = LayerId::None; // that is overridden or missing, or whose preview it is
     };
     /// What became of a preview. It lives as long as some step of undo holds the preview.
     struct Successor {
@@ -174,6 +192,10 @@ private:
     void dropLoadsOf(LayerId id);
     void accept(const std::shared_ptr<const Map>& map);
     void endLoad();
+    const MissingLayer* missingLayer(LayerId id) const;
+    void acceptMissing(const Load& load, const std::shared_ptr<const Map>& map);
+    void keepMissing(LayerId id, const QString& problem);
+    void changeWhileOpening(const QString& text, const Session& after);
     void acceptComplete(const Load& load, const std::shared_ptr<const Map>& map);
     void replacePreview(const std::shared_ptr<const Map>& preview,
                         const std::shared_ptr<const Map>& map);
@@ -204,6 +226,7 @@ private:
     int ending_count_ = 0;
     LayerId to_reveal_ = LayerId::None;
     std::optional<Layer> replaced_sample_;
+    LayerId project_active_ = LayerId::None; // becomes active when it is loaded
     std::vector<ShownLayer> shown_;
     int drag_serial_ = 0;
     /// A percentile takes a while to find.

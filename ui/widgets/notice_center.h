@@ -17,6 +17,7 @@ class NoticeBar;
 enum class NoticeSource {
     Device,
     Picture,
+    Project,
     Sample,
     Layer,
     Storage,
@@ -38,7 +39,7 @@ public:
     QList<Notice> open() const;
 
 private:
-    static constexpr std::size_t kSourceCount = 5;
+    static constexpr std::size_t kSourceCount = 6;
 
     void dismissAll();
     void runAction(const QString& id, int action);

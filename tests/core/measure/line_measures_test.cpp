@@ -229,6 +229,47 @@ TEST(Profile, CrossesTheSeamOfAMapAroundTheBody)
     }
 }
 
+TEST(Profile, CountsLongitudesInTheTurnOfTheMap)
+{
+    const auto mars = loadedMap(bundledMars()); // 0° to 360°
+    MeasuredTerrain terrain = terrainOf(*mars);
+    for (const double turn : {-720.0, 0.0, 360.0}) {
+        const Profile profile = profileOf(terrain, {{350.0 + turn, 5.0}, {370.0 + turn, -7.0}});
+        EXPECT_EQ(profile.points.front().position.x, 350.0);
+        EXPECT_NEAR(profile.points.back().position.x, 10.0, 1e-9);
+        for (const ProfilePoint& point : profile.points) {
+            EXPECT_GE(point.position.x, 0.0);
+            EXPECT_LE(point.position.x, 360.0);
+        }
+    }
+}
+
+TEST(Profile, CrossesASeamThatIsNotExactlyOneColumnWide)
+{
+    MapMaker maker;
+    // 360 columns of 1.0004° are 0.144° more than a turn.
+    for (const double step : {1.0004, 0.9998, 1.000000001}) {
+        const auto map =
+            maker.make({.columns = 360,
+                        .rows = 40,
+                        .transform = {0.0, step, 0.0, 20.0, 0.0, -1.0},
+                        .srs = "IAU_2015:30100"},
+                       [](std::size_t, std::size_t r) { return static_cast<double>(r); });
+        MeasuredTerrain terrain = terrainOf(*map);
+        const Profile profile = profileOf(terrain, {{350.0, 5.0}, {10.0, -7.0}});
+        double low_m = 1e9;
+        double high_m = -1e9;
+        for (const ProfilePoint& point : profile.points) {
+            // The terrain is its row, so it is the same all around.
+            EXPECT_NEAR(point.elevation_m, 19.5 - point.position.y, 1e-3) << step;
+            low_m = std::min(low_m, point.elevation_m);
+            high_m = std::max(high_m, point.elevation_m);
+        }
+        EXPECT_NEAR(low_m, 14.5, 1e-3);
+        EXPECT_NEAR(high_m, 26.5, 1e-3);
+    }
+}
+
 TEST(Profile, TakesStepsOfTheLengthThatIsStated)
 {
     const auto mars = loadedMap(bundledMars());

@@ -356,6 +356,24 @@ TEST(TerrainArea, FindsTheHighestAndTheLowestPlaceInside)
     EXPECT_EQ(area.min_m, -50.0);
 }
 
+TEST(TerrainArea, FindsTheHighestPlaceAtEveryCornerOfTheMap)
+{
+    MapMaker maker;
+    for (const std::size_t corner : {0U, 1U, 2U, 3U}) {
+        const std::size_t column = corner % 2 == 0 ? 0 : 29;
+        const std::size_t row = corner < 2 ? 0 : 29;
+        const auto map = maker.make(
+            {.columns = 30, .rows = 30, .transform = {0.0, 1.0, 0.0, 30.0, 0.0, -1.0}, .srs = ""},
+            [&](std::size_t c, std::size_t r) { return c == column && r == row ? 99.0 : 0.0; });
+        MeasuredTerrain terrain = terrainOf(*map);
+        // The polygon's edges are outside the map.
+        const TerrainArea area =
+            areaOf(terrain, {{-5.0, -5.0}, {35.0, -5.0}, {35.0, 35.0}, {-5.0, 35.0}});
+        EXPECT_EQ(area.max_m, 99.0) << corner;
+        EXPECT_NEAR(area.covered_m2, 29.0 * 29.0, 1e-9);
+    }
+}
+
 TEST(TerrainArea, ReportsEdgesThatCross)
 {
     MapMaker maker;

@@ -228,6 +228,7 @@ TEST(CapabilityCheck, DistinguishesPlausibleFromImplausibleValues)
              Case{"peak force", [](DeviceCapabilities& d) { d.force_n_peak = kInfinity; }},
              Case{"-1 N", [](DeviceCapabilities& d) { d.force_n_continuous = -1.0; }},
              Case{"above its peak", [](DeviceCapabilities& d) { d.force_n_continuous = 6.0; }},
+             Case{"peak torque of -1 N·m", [](DeviceCapabilities& d) { d.torque_nm_peak = -1.0; }},
              Case{"stiffness", [](DeviceCapabilities& d) { d.stiffness_n_per_m_max = 1e9; }},
              Case{"rate of 0 Hz", [](DeviceCapabilities& d) { d.rate_hz = 0.0; }},
              Case{"rate of 1 Hz", [](DeviceCapabilities& d) { d.rate_hz = 1.0; }},

@@ -378,7 +378,7 @@ TEST(PluginDriver, DropsADeviceWhoseSamplesAreNotFinite)
     EXPECT_EQ((*device)->read(sample), DeviceStatus::Lost);
     EXPECT_EQ((*device)->write({1.0, 0.0, 0.0}), DeviceStatus::Lost);
     EXPECT_EQ(sample.position, last.position) << "withheld";
-    EXPECT_EQ((*device)->trouble(), "its samples contain invalid numbers");
+    EXPECT_EQ((*device)->trouble(), "its samples contain numbers that are not finite");
 }
 
 TEST(PluginDriver, DropsADeviceThatSpeaksInMillimetres)
@@ -645,7 +645,7 @@ TEST(PluginDriver, SaysWhatWentWrongTheLastTimeOfADeviceThatCanBeUsed)
           Trouble{"is_empty",
                   "states a workspace from -0.06 to -0.06 m along y; report it "
                   "to the plugin's makers"},
-          Trouble{"says_nan", "its samples contain invalid numbers"},
+          Trouble{"says_nan", "its samples contain numbers that are not finite"},
           Trouble{"says_unready",
                   "its plugin reports that it is not ready, without a reason; check whether it "
                   "needs calibration and whether its emergency stop is pressed"}}) {

@@ -1,0 +1,353 @@
+// Projects in the window: saving, opening, questions, recovery.
+
+#include "core/session/project.h"
+#include "tests/support/temp_folder.h"
+#include "tests/ui/map_window.h"
+#include "ui/controllers/recent_files.h"
+#include "ui/project/project_controller.h"
+#include "ui/project/project_menu.h"
+#include "ui/widgets/notice_bar.h"
+#include "ui/widgets/notice_center.h"
+#include "ui/window_actions.h"
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QDir>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMenu>
+#include <QMessageBox>
+#include <QSignalSpy>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace marsview {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ProjectWindowTest : public MapWindowTest {
+protected:
+    WindowOptions asking() const
+    {
+        WindowOptions options = testWindowOptions();
+        options.questions = WindowOptions::Questions::Ask;
+        options.autosave_folder = folder_.path() / "autosave";
+        return options;
+    }
+    QString path(const char* name) const { return QString::fromStdString(folder_.file(name)); }
+    QMessageBox* box(const char* name)
+    {
+        QMessageBox* found = nullptr;
+        EXPECT_TRUE(waitFor([&] {
+            found = window_->findChild<QMessageBox*>(QString::fromLatin1(name));
+            return found != nullptr && found->isVisible();
+        })) << name;
+        return found;
+    }
+    // Waits until the box is gone.
+    void answer(const char* name, QMessageBox::StandardButton button)
+    {
+        QMessageBox* asked = box(name);
+        ASSERT_NE(asked, nullptr);
+        asked->button(button)->click();
+        ASSERT_TRUE(waitFor([&] {
+            return window_->findChild<QMessageBox*>(QString::fromLatin1(name)) == nullptr;
+        }));
+    }
+    bool openProject(const QString& file)
+    {
+        window_->open(file);
+        return waitFor([this] {
+            return !window_->controller().isBusy() &&
+                   (shownLayers(window_->session()).empty() || view().isPictureComplete());
+        });
+    }
+    // A window with two layers and many settings other than the standard ones.
+    void makeChangedWindow()
+    {
+        makeWindow(kSmall, asking());
+        ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+        ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+        SessionController& controller = window_->controller();
+        const LayerId top = window_->session().layers[0].id;
+        const LayerId below = window_->session().layers[1].id;
+        controller.rename(top, QStringLiteral("Upper “layer”"));
+        controller.setRamp(below, QStringLiteral("gray"));
+        controller.setStretch(top, fixedStretch(-1234.5, 4321.25));
+        controller.setSlopeRange(
+            below, SlopeRange{.minimum = Angle::degrees(1.5), .maximum = Angle::degrees(33.0)});
+        controller.setExaggeration(3.5);
+        controller.setContours(true);
+        controller.setLight(Angle::degrees(123.4), Angle::degrees(56.7));
+        controller.activate(below);
+    }
+    Project saved() const { return window_->project().project(); }
+
+    test::TempFolder folder_;
+};
+
+} // namespace
+
+TEST_F(ProjectWindowTest, OpensWhatWasSavedWithCameraAndLooks)
+{
+    makeChangedWindow();
+    OrbitCamera camera = view().camera();
+    camera.azimuth = Angle::degrees(40.0);
+    camera.tilt = Angle::degrees(50.0);
+    camera.distance_m *= 0.5;
+    view().setCamera(camera);
+    EXPECT_TRUE(window_->isWindowModified());
+    ASSERT_TRUE(window_->project().saveAs(path("a"))); // the extension is added
+    EXPECT_FALSE(window_->isWindowModified());
+    EXPECT_TRUE(window_->windowTitle().startsWith(QStringLiteral("\u2068a\u2069[*]")) ||
+                window_->windowTitle().startsWith(QStringLiteral("a[*]")))
+        << window_->windowTitle().toStdString();
+    const Project before = saved();
+    const OrbitCamera camera_before = view().camera();
+    window_.reset();
+
+    makeWindow(kSmall, asking());
+    ASSERT_TRUE(openProject(path("a.mvproj")));
+    ASSERT_TRUE(window_->session().missing.empty());
+    const Project after = saved();
+    EXPECT_EQ(after.layers, before.layers);
+    EXPECT_EQ(after.active, before.active);
+    EXPECT_EQ(after.look, before.look);
+    const OrbitCamera camera_after = view().camera();
+    EXPECT_NEAR(camera_after.target.x, camera_before.target.x, 1e-3);
+    EXPECT_NEAR(camera_after.target.y, camera_before.target.y, 1e-3);
+    EXPECT_NEAR(camera_after.distance_m, camera_before.distance_m, 1e-3);
+    EXPECT_NEAR(camera_after.azimuth.degrees(), 40.0, 1e-9);
+    EXPECT_NEAR(camera_after.tilt.degrees(), 50.0, 1e-9);
+    EXPECT_FALSE(window_->isWindowModified());
+    EXPECT_EQ(window_->undoStack().count(), 0);
+    EXPECT_EQ(window_->projectMenu().recentProjects()->isEnabled(), true);
+}
+
+TEST_F(ProjectWindowTest, UndoingToTheSavedStateIsNoChange)
+{
+    makeChangedWindow();
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    window_->controller().setExaggeration(7.0);
+    EXPECT_TRUE(window_->isWindowModified());
+    window_->undoStack().undo();
+    EXPECT_FALSE(window_->isWindowModified());
+}
+
+TEST_F(ProjectWindowTest, EveryChangeOfTheDocumentIsANamedStepOfUndo)
+{
+    makeChangedWindow();
+    QUndoStack& stack = window_->undoStack();
+    const Session changed = window_->session();
+    for (int i = 0; i < stack.count(); ++i) {
+        EXPECT_FALSE(stack.text(i).isEmpty()) << i;
+    }
+    while (stack.count() > 0 && stack.canUndo()) {
+        stack.undo();
+    }
+    EXPECT_TRUE(window_->session().layers.empty());
+    while (stack.canRedo()) {
+        stack.redo();
+    }
+    EXPECT_EQ(window_->session().layers, changed.layers);
+    EXPECT_EQ(window_->session().look, changed.look);
+}
+
+TEST_F(ProjectWindowTest, ClosingWithChangesAsks)
+{
+    makeChangedWindow();
+    window_->close();
+    EXPECT_TRUE(window_->isVisible());
+    answer("unsavedChanges", QMessageBox::Cancel);
+    EXPECT_TRUE(window_->isVisible());
+    window_->close();
+    answer("unsavedChanges", QMessageBox::Discard);
+    EXPECT_FALSE(window_->isVisible());
+}
+
+TEST_F(ProjectWindowTest, ClosingSavesOnRequest)
+{
+    makeChangedWindow();
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    window_->controller().setExaggeration(9.0);
+    window_->close();
+    answer("unsavedChanges", QMessageBox::Save);
+    EXPECT_FALSE(window_->isVisible());
+    const auto project = readProject(folder_.file("a.mvproj"), {});
+    ASSERT_TRUE(project) << project.error().message;
+    EXPECT_EQ(project->layers.front().exaggeration, 9.0);
+}
+
+TEST_F(ProjectWindowTest, ClosingAnUnsavedSessionAsksForAFile)
+{
+    makeChangedWindow();
+    window_->close();
+    answer("unsavedChanges", QMessageBox::Save);
+    auto* dialog = window_->findChild<QFileDialog*>(QStringLiteral("saveProjectDialog"));
+    ASSERT_NE(dialog, nullptr);
+    dialog->selectFile(path("b.mvproj"));
+    Q_EMIT dialog->fileSelected(path("b.mvproj"));
+    EXPECT_TRUE(QFile::exists(path("b.mvproj")));
+    EXPECT_FALSE(window_->isVisible());
+}
+
+TEST_F(ProjectWindowTest, ClosingWithoutChangesDoesNotAsk)
+{
+    makeChangedWindow();
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    window_->close();
+    EXPECT_FALSE(window_->isVisible());
+}
+
+TEST_F(ProjectWindowTest, NewProjectIsEmpty)
+{
+    makeChangedWindow();
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    window_->projectMenu().newProject()->trigger();
+    EXPECT_TRUE(window_->session().layers.empty());
+    EXPECT_TRUE(window_->project().file().isEmpty());
+    EXPECT_FALSE(window_->isWindowModified());
+    EXPECT_EQ(window_->undoStack().count(), 0);
+}
+
+TEST_F(ProjectWindowTest, MissingLayersKeepTheirSettingsAndCanBeLocated)
+{
+    makeWindow(kSmall, asking());
+    fs::create_directory(folder_.path() / "data");
+    ASSERT_TRUE(QFile::copy(maps_.hill(), path("data/one.asc")));
+    ASSERT_TRUE(QFile::copy(maps_.hill(), path("data/two.asc")));
+    ASSERT_TRUE(openAndWait(*window_, path("data/one.asc")));
+    ASSERT_TRUE(openAndWait(*window_, path("data/two.asc")));
+    window_->controller().setStretch(window_->session().layers[0].id, fixedStretch(1.0, 2.0));
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    const Project before = saved();
+    window_.reset();
+    ASSERT_TRUE(QFile::rename(path("data/two.asc"), path("elsewhere.asc")));
+
+    makeWindow(kSmall, asking());
+    ASSERT_TRUE(openProject(path("a.mvproj")));
+    ASSERT_EQ(window_->session().missing.size(), 1U);
+    EXPECT_EQ(window_->session().layers.size(), 1U);
+    EXPECT_FALSE(window_->isWindowModified());
+    EXPECT_EQ(saved().layers, before.layers);
+    ASSERT_TRUE(window_->project().save());
+    const auto again = readProject(folder_.file("a.mvproj"), {});
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->layers, before.layers);
+
+    const LayerId id = window_->session().missing.front().id;
+    window_->controller().locate(id, path("elsewhere.asc"));
+    ASSERT_TRUE(waitFor([this] { return window_->session().missing.empty(); }));
+    EXPECT_TRUE(window_->isWindowModified());
+    const Layer& located = window_->session().layers.front();
+    EXPECT_EQ(located.id, id);
+    EXPECT_EQ(located.name, "two.asc");
+    EXPECT_EQ(located.stretch, fixedStretch(1.0, 2.0));
+    EXPECT_EQ(located.map->spec().path, folder_.file("elsewhere.asc"));
+    window_->undoStack().undo();
+    EXPECT_EQ(window_->session().missing.size(), 1U);
+
+    window_->controller().removeMissing(id);
+    EXPECT_TRUE(window_->session().missing.empty());
+    EXPECT_EQ(saved().layers.size(), 1U);
+}
+
+TEST_F(ProjectWindowTest, DamagedProjectChangesNothing)
+{
+    makeWindow(kSmall, testWindowOptions());
+    ASSERT_TRUE(openAndWait(*window_, maps_.mars()));
+    const Session before = window_->session();
+    QSignalSpy failures(window_.get(), &MainWindow::openFailed);
+    folder_.write("bad.mvproj", R"({"format": "MarsView project", "version": 1, "layers": [)");
+    window_->open(path("bad.mvproj"));
+    ASSERT_EQ(failures.count(), 1);
+    EXPECT_TRUE(failures[0][0].toString().contains(QStringLiteral("damaged project")));
+    EXPECT_EQ(window_->session(), before);
+    folder_.write("new.mvproj", R"({"format": "MarsView project", "version": 99})");
+    window_->open(path("new.mvproj"));
+    ASSERT_EQ(failures.count(), 2);
+    EXPECT_TRUE(failures[1][0].toString().contains(QStringLiteral("newer version of MarsView")));
+}
+
+TEST_F(ProjectWindowTest, SavingWhileLayersLoadLosesNone)
+{
+    makeChangedWindow();
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    const Project before = saved();
+    window_->open(path("a.mvproj"));
+    EXPECT_TRUE(window_->controller().isBusy());
+    EXPECT_EQ(saved().layers, before.layers);
+    EXPECT_EQ(saved().camera, before.camera);
+    window_->cancelLoading();
+    EXPECT_EQ(saved().layers, before.layers);
+    EXPECT_EQ(window_->session().missing.size(), 2U);
+}
+
+TEST_F(ProjectWindowTest, CrashIsFollowedByTheOfferToRestore)
+{
+    makeChangedWindow();
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    window_->controller().setExaggeration(8.0);
+    window_->project().autosaveNow();
+    const Project before = saved();
+    // A crash leaves the copy and releases the lock; here the copy is moved aside instead.
+    fs::path copy;
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "autosave")) {
+        if (isProjectPath(entry.path().string())) {
+            copy = entry.path();
+        }
+    }
+    ASSERT_FALSE(copy.empty());
+    EXPECT_FALSE(window_->project().leftover()) << "this program still runs";
+    const fs::path kept = folder_.path() / "autosave/crashed.mvproj";
+    fs::copy(copy, kept);
+    window_.reset();
+
+    makeWindow(kSmall, asking());
+    window_->projectMenu().offerRecovery();
+    QMessageBox* asked = box("recovery");
+    ASSERT_NE(asked, nullptr);
+    EXPECT_TRUE(asked->text().contains(QStringLiteral("changes to")));
+    for (QAbstractButton* button : asked->buttons()) {
+        if (button->objectName() == QStringLiteral("restore")) {
+            button->click();
+            break;
+        }
+    }
+    ASSERT_TRUE(waitFor([this] { return window_->session().layers.size() == 2; }));
+    EXPECT_EQ(saved().layers, before.layers);
+    EXPECT_EQ(window_->project().file(), path("a.mvproj"));
+    EXPECT_TRUE(window_->isWindowModified());
+    EXPECT_FALSE(fs::exists(kept));
+    ASSERT_TRUE(window_->project().save());
+    EXPECT_FALSE(window_->isWindowModified());
+    EXPECT_FALSE(window_->project().leftover());
+}
+
+TEST_F(ProjectWindowTest, AutosaveFollowsAChangeAndGoesWithItsUndo)
+{
+    makeChangedWindow();
+    const auto copy_count = [this] {
+        int count = 0;
+        std::error_code none;
+        for (const auto& entry : fs::directory_iterator(folder_.path() / "autosave", none)) {
+            count += isProjectPath(entry.path().string()) ? 1 : 0;
+        }
+        return count;
+    };
+    ASSERT_TRUE(waitFor([&] { return copy_count() == 1; }));
+    ASSERT_TRUE(window_->project().saveAs(path("a.mvproj")));
+    EXPECT_EQ(copy_count(), 0);
+    window_->controller().setExaggeration(5.0);
+    window_->project().autosaveNow();
+    EXPECT_EQ(copy_count(), 1);
+    window_->undoStack().undo();
+    EXPECT_EQ(copy_count(), 0);
+}
+
+} // namespace marsview

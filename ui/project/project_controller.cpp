@@ -1,0 +1,193 @@
+#include "ui/project/project_controller.h"
+
+#include "ui/canvas/terrain_view.h"
+#include "ui/controllers/session_controller.h"
+
+#include <QDir>
+#include <QFileInfo>
+
+#include <algorithm>
+#include <utility>
+
+namespace marsview {
+
+std::optional<ProjectCamera> projectCamera(const TerrainView& view)
+{
+    if (!view.map()) {
+        return std::nullopt;
+    }
+    const OrbitCamera& camera = view.cameraGoal();
+    const Georeference& georeference = view.map()->georeference();
+    const MapPoint target = georeference.toMap(georeference.sceneFrame().toGrid(camera.target));
+    return ProjectCamera{.x = target.x,
+                         .y = target.y,
+                         .elevation_m = camera.target.z / view.exaggeration(),
+                         .distance_m = camera.distance_m,
+                         .azimuth = camera.azimuth,
+                         .tilt = camera.tilt,
+                         .field_of_view = camera.field_of_view};
+}
+
+ProjectController::ProjectController(SessionController& session,
+                                     TerrainView& view,
+                                     const ProjectOptions& options,
+                                     QObject* parent)
+    : QObject(parent)
+    , session_(session)
+    , view_(view)
+    , options_(options)
+    , autosave_(options.autosave_folder)
+{
+    autosave_timer_.setSingleShot(true);
+    autosave_timer_.setInterval(options.autosave_delay_ms);
+    connect(&autosave_timer_, &QTimer::timeout, this, [this] {
+        if (isModified()) {
+            autosave_.write(project(), file_.toStdString());
+        }
+    });
+    connect(&session_.undoStack(), &QUndoStack::indexChanged, this, &ProjectController::noteChange);
+    connect(&session_.undoStack(), &QUndoStack::cleanChanged, this, &ProjectController::noteChange);
+    // Changes of one drag are one step.
+    connect(&session_, &SessionController::sessionChanged, this, &ProjectController::noteChange);
+    connect(&session_, &SessionController::loadingEnded, this, &ProjectController::showCamera);
+    connect(&view_, &TerrainView::mapShown, this, &ProjectController::showCamera);
+}
+
+bool ProjectController::isModified() const
+{
+    return is_recovered_ || !session_.undoStack().isClean();
+}
+
+Project ProjectController::project() const
+{
+    Project project = projectOf(session_.session());
+    project.camera = camera_ ? camera_ : projectCamera(view_);
+    project.others = others_;
+    return project;
+}
+
+void ProjectController::noteChange()
+{
+    if (is_replacing_) {
+        return;
+    }
+    if (isModified()) {
+        if (!autosave_timer_.isActive()) {
+            autosave_timer_.start();
+        }
+    } else {
+        autosave_timer_.stop();
+        autosave_.discard();
+    }
+    Q_EMIT changed();
+}
+
+void ProjectController::replace(const Project& project, const QString& file)
+{
+    is_replacing_ = true;
+    autosave_timer_.stop();
+    autosave_.discard();
+    file_ = file;
+    is_recovered_ = false;
+    others_ = project.others;
+    camera_ = project.camera;
+    session_.openProject(project);
+    is_replacing_ = false;
+    Q_EMIT changed();
+}
+
+void ProjectController::startNew()
+{
+    replace({}, {});
+}
+
+bool ProjectController::open(const QString& file)
+{
+    const QString path = QFileInfo(file).absoluteFilePath();
+    const auto project = readProject(path.toStdString(), options_.bundled);
+    if (!project) {
+        Q_EMIT failed(QString::fromStdString(project.error().message));
+        return false;
+    }
+    replace(*project, path);
+    Q_EMIT opened(path);
+    return true;
+}
+
+bool ProjectController::save()
+{
+    return saveAs(file_);
+}
+
+bool ProjectController::saveAs(const QString& file)
+{
+    QString path = QFileInfo(file).absoluteFilePath();
+    if (QFileInfo(path).suffix().isEmpty()) {
+        path += QStringLiteral(".mvproj");
+    }
+    const Status status = writeProject(project(), path.toStdString(), options_.bundled);
+    if (!status) {
+        Q_EMIT failed(QString::fromStdString(status.error().message));
+        return false;
+    }
+    file_ = path;
+    is_recovered_ = false;
+    session_.undoStack().setClean();
+    noteChange();
+    Q_EMIT saved(path);
+    return true;
+}
+
+std::optional<LeftoverProject> ProjectController::leftover() const
+{
+    auto leftovers = autosave_.leftovers();
+    return leftovers.empty() ? std::nullopt : std::optional(std::move(leftovers.front()));
+}
+
+void ProjectController::recover(const LeftoverProject& leftover)
+{
+    replace(leftover.project, QString::fromStdString(leftover.file.string()));
+    is_recovered_ = true;
+    // The copy is removed only when another one has been written.
+    autosaveNow();
+    ProjectAutosave::remove(leftover);
+    Q_EMIT changed();
+}
+
+void ProjectController::autosaveNow()
+{
+    autosave_timer_.stop();
+    if (isModified()) {
+        autosave_.write(project(), file_.toStdString());
+        autosave_.wait();
+    }
+}
+
+// Once the maps are loaded: which of them is on top decides what the camera's coordinates mean.
+void ProjectController::showCamera()
+{
+    if (!camera_ || session_.isBusy() || !view_.map()) {
+        return;
+    }
+    const auto shown = shownLayers(session_.session());
+    if (shown.empty() || shown.front()->map != view_.map()) {
+        return;
+    }
+    const auto& missing = session_.session().missing;
+    if (std::any_of(missing.begin(), missing.end(), [&](const MissingLayer& layer) {
+            return layer.record.is_visible && layer.id < shown.front()->id;
+        })) {
+        return; // the coordinates may be those of a layer that is yet to be located
+    }
+    const ProjectCamera camera = *std::exchange(camera_, std::nullopt);
+    const Georeference& georeference = view_.map()->georeference();
+    const GridPoint grid = georeference.toGrid(MapPoint{camera.x, camera.y});
+    view_.setCamera({.target = georeference.sceneFrame().toScene(grid, camera.elevation_m *
+                                                                           view_.exaggeration()),
+                     .distance_m = camera.distance_m,
+                     .azimuth = camera.azimuth,
+                     .tilt = camera.tilt,
+                     .field_of_view = camera.field_of_view});
+}
+
+} // namespace marsview

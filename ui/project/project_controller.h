@@ -1,0 +1,92 @@
+// The project of a window: its file, whether it has unsaved changes, autosave.
+#pragma once
+
+#include "core/session/project.h"
+#include "ui/project/project_autosave.h"
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace marsview {
+
+class SessionController;
+class TerrainView;
+
+struct ProjectOptions {
+    std::filesystem::path bundled{};         // the maps that come with the program
+    std::filesystem::path autosave_folder{}; // empty: no autosave
+    int autosave_delay_ms = 5000;            // after a change
+};
+
+/// Reads and writes the project of the session. Every change of the session that can be undone is a
+/// change of the project; the camera is saved too, but is not a change. Lives in the GUI thread;
+/// must not outlive the session controller and the view.
+class ProjectController final : public QObject {
+    Q_OBJECT
+
+public:
+    ProjectController(SessionController& session,
+                      TerrainView& view,
+                      const ProjectOptions& options,
+                      QObject* parent = nullptr);
+
+    /// The path of the project file; empty if it was never saved.
+    const QString& file() const noexcept { return file_; }
+    bool isModified() const;
+    /// The session and the camera as they would be saved.
+    Project project() const;
+
+    /// Replaces the session by an empty one.
+    void startNew();
+    /// Replaces the session by that of the file. Emits failed() and changes nothing if the file
+    /// cannot be read.
+    bool open(const QString& file);
+    /// To file(), which is not empty. Emits failed() if it cannot be written.
+    bool save();
+    /// To another file, which becomes file(). Adds the extension if there is none.
+    bool saveAs(const QString& file);
+
+    /// The latest copy that a crash left behind; empty if there is none.
+    std::optional<LeftoverProject> leftover() const;
+    /// Replaces the session by such a copy, with unsaved changes.
+    void recover(const LeftoverProject& leftover);
+    /// Removes the copy: the project was saved, or its changes are not to be kept.
+    void discardAutosave() { autosave_.discard(); }
+    /// Writes the copy now and waits for it.
+    void autosaveNow();
+
+Q_SIGNALS:
+    /// file() or isModified().
+    void changed();
+    void opened(const QString& file);
+    void saved(const QString& file);
+    /// "FILE: WHY"
+    void failed(const QString& problem);
+
+private:
+    void replace(const Project& project, const QString& file);
+    void noteChange();
+    void showCamera();
+
+    SessionController& session_;
+    TerrainView& view_;
+    ProjectOptions options_;
+    QString file_;
+    bool is_recovered_ = false; // unsaved, although there is no step of undo
+    bool is_replacing_ = false;
+    std::map<std::string, std::string> others_; // members for other versions
+    std::optional<ProjectCamera> camera_;       // to be set when the maps are there
+    ProjectAutosave autosave_;
+    QTimer autosave_timer_;
+};
+
+/// The camera of the view in map coordinates of the topmost map. Empty without a map.
+std::optional<ProjectCamera> projectCamera(const TerrainView& view);
+
+} // namespace marsview

@@ -1,0 +1,74 @@
+// The project in the window: menu entries, questions, title, notices of missing layers.
+#pragma once
+
+#include "ui/controllers/recent_files.h"
+#include "ui/project/project_controller.h"
+#include "ui/widgets/notice_center.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <functional>
+
+class QAction;
+class QMainWindow;
+class QMenu;
+class QMessageBox;
+
+namespace marsview {
+
+/// Adds New, Open, Save, Save As and Recent Projects to the top of the File menu, and asks before
+/// unsaved changes are lost. GUI thread; must not outlive what it is made of.
+class ProjectMenu final : public QObject {
+    Q_OBJECT
+
+public:
+    struct Parts {
+        QMainWindow& window;
+        QMenu& file_menu;
+        SessionController& session;
+        ProjectController& project;
+        NoticeCenter& notices;
+        RecentFiles::Memory memory = RecentFiles::Memory::WindowOnly;
+        /// Whether questions are asked; otherwise unsaved changes are dropped.
+        bool has_questions = false;
+    };
+
+    explicit ProjectMenu(const Parts& parts, QObject* parent = nullptr);
+
+    /// Runs `next` once nothing would be lost: at once if there are no changes, or after the user
+    /// has saved or dropped them. Never if the user cancels.
+    void saveThen(const std::function<void()>& next);
+    /// Whether saveThen() would ask.
+    bool hasQuestion() const;
+    /// Opens a project, and then maps on top of it.
+    void open(const QString& project, const QStringList& maps = {});
+    /// Asks whether to restore what a crash left behind, if anything.
+    void offerRecovery();
+    /// "PROJECT[*]"; empty if the project was never saved.
+    QString title() const;
+
+    QAction* newProject() const noexcept { return new_; }
+    QAction* openProject() const noexcept { return open_; }
+    QAction* saveProject() const noexcept { return save_; }
+    QAction* saveProjectAs() const noexcept { return save_as_; }
+    QMenu* recentProjects() const noexcept { return recent_menu_; }
+
+private:
+    void chooseProject();
+    void saveAs(const std::function<void()>& next);
+    void locate(LayerId id);
+    void showMissing();
+    QString folder() const;
+
+    Parts parts_;
+    QAction* new_ = nullptr;
+    QAction* open_ = nullptr;
+    QAction* save_ = nullptr;
+    QAction* save_as_ = nullptr;
+    QMenu* recent_menu_ = nullptr;
+    RecentFiles* recent_ = nullptr;
+    QStringList maps_; // to be opened on top of the project
+};
+
+} // namespace marsview
