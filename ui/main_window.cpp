@@ -174,7 +174,7 @@ MainWindow::MainWindow(const WindowOptions& options, QWidget* parent)
     map_menu_ = new MapMenu(*view_, [this](const GroundPoint& ground) { return factsAt(ground); });
     resize(kDefaultSize);
     addToolBar(tool_bar_);
-    makeCentre();
+    makeCenter();
     makeStatusBar();
     actions_->panels->addAction(docks_->datasets()->toggleViewAction());
     actions_->panels->addAction(docks_->georeferencing()->toggleViewAction());
@@ -230,18 +230,18 @@ MainWindow::~MainWindow()
     connection_marker_.reset();
 }
 
-void MainWindow::makeCentre()
+void MainWindow::makeCenter()
 {
-    auto* centre = new QWidget(this);
+    auto* center = new QWidget(this);
     // Notices lie over the map: the picture does not move when they appear and disappear.
-    auto* layout = new QGridLayout(centre);
+    auto* layout = new QGridLayout(center);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(view_, 0, 0);
     layout->addWidget(notice_bar_, 0, 0, Qt::AlignTop);
     notice_bar_->raise();
     connect(notice_bar_, &NoticeBar::coverChanged, this,
             [this] { overlays_->setCovered(notice_bar_->coveredHeight()); });
-    setCentralWidget(centre);
+    setCentralWidget(center);
 }
 
 void MainWindow::makeStatusBar()
@@ -390,7 +390,7 @@ void MainWindow::connectController()
         showCancel();
         settleIfIdle();
     });
-    connect(controller_, &SessionController::loadingCancelled, this, [this] {
+    connect(controller_, &SessionController::loadingCanceled, this, [this] {
         //: In the status bar, for a few seconds
         statusBar()->showMessage(tr("Loading canceled"), kMessageDuration);
     });
@@ -501,7 +501,7 @@ void MainWindow::connectReadout()
                 readout->setSource(view->readingSource());
                 readout->setPlace(
                     hit ? std::optional(
-                              ReadPlace{.hit = *hit, .screen_pixel_m = view->metresPerPoint(*hit)})
+                              ReadPlace{.hit = *hit, .screen_pixel_m = view->metersPerPoint(*hit)})
                         : std::nullopt);
             });
     connect(readout_, &StatusReadout::focusChanged, view_, &TerrainView::setReadElsewhere);
@@ -887,7 +887,7 @@ void MainWindow::copyCoordinates(GridPoint grid)
     const double height_m = map.heightfield().heightNow(grid);
     QGuiApplication::clipboard()->setText(plainPositionText(
         preferences_.coordinates, map, grid,
-        view_->metresPerPoint(
+        view_->metersPerPoint(
             {.grid = grid, .height_m = std::isfinite(height_m) ? height_m : 0.0})));
     readout_->coordinateField()->showCopied();
 }

@@ -149,7 +149,7 @@ private:
     {
         return options_.geometry == WindowOptions::Geometry::Remembered;
     }
-    void makeCentre();
+    void makeCenter();
     void makeStatusBar();
     void connectActions();
     void connectPanels();

@@ -22,7 +22,7 @@ class ReservedLabel;
 /// A position that is read, and how exactly it can be pointed at.
 struct ReadPlace {
     RayHit hit;                  // on the scene's grid
-    double screen_pixel_m = 0.0; // metres on the terrain in one point of the screen; 0: unknown
+    double screen_pixel_m = 0.0; // meters on the terrain in one point of the screen; 0: unknown
 };
 
 /// Shows a position in the chosen format, the elevation there, and how sharp the picture is. Its
@@ -84,7 +84,7 @@ private:
     std::shared_ptr<const Map> active_;
     std::optional<ReadPlace> place_;
     CoordinateFormat format_;
-    HeightUnit unit_ = HeightUnit::Metres;
+    HeightUnit unit_ = HeightUnit::Meters;
     double detail_px_ = 0.0;
     bool is_loading_ = false;
     bool has_problem_ = false;

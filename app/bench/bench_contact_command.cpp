@@ -88,7 +88,7 @@ void fillRows(SampleGrid& grid, const FractalHeights& fractal, double gain, JobM
     parallelRanges(grid.rows(), kGrain, [&](std::size_t begin, std::size_t end) {
         std::vector<double> heights(grid.columns());
         std::vector<T> samples(grid.columns());
-        for (std::size_t row = begin; row < end && !monitor.isCancelled(); ++row) {
+        for (std::size_t row = begin; row < end && !monitor.isCanceled(); ++row) {
             fractal.row(row, heights);
             std::transform(heights.begin(), heights.end(), samples.begin(), [gain](double z) {
                 return static_cast<T>(std::is_integral_v<T> ? std::round(z / gain) : z / gain);
@@ -118,7 +118,7 @@ Result<Ground> fractalGround(const BenchContactOptions& options, JobMonitor& mon
                                   statistics, {.gain = is_int16 ? kFractalStep : 1.0});
     auto analysis = analyze(heightfield, monitor);
     if (!analysis) {
-        return Error{ErrorCode::Cancelled, "measuring was canceled"};
+        return Error{ErrorCode::Canceled, "measuring was canceled"};
     }
     Ground ground;
     ground.name = fmt::format("fractal of {0} × {0} {1} samples, seed {2}", options.size,
@@ -126,11 +126,11 @@ Result<Ground> fractalGround(const BenchContactOptions& options, JobMonitor& mon
     ground.hierarchy_bytes = hierarchyBytes((*analysis)->bounds, false);
     auto filled = FilledHeightfield::build(heightfield, std::move(analysis).value(), monitor);
     if (!filled) {
-        return Error{ErrorCode::Cancelled, "measuring was canceled"};
+        return Error{ErrorCode::Canceled, "measuring was canceled"};
     }
     ground.filled = std::make_shared<const FilledHeightfield>(std::move(filled).value());
-    const double centre = static_cast<double>(options.size - 1) / 2.0;
-    ground.frame = {.origin = {centre, centre}};
+    const double center = static_cast<double>(options.size - 1) / 2.0;
+    ground.frame = {.origin = {center, center}};
     return ground;
 }
 

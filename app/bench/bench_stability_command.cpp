@@ -131,8 +131,8 @@ Status runBench(const BenchStabilityOptions& options)
     LongJob job("measuring");
     for (std::size_t i = 0; i < rows.size(); ++i) {
         job.monitor().report(static_cast<double>(i) / static_cast<double>(rows.size()));
-        if (job.monitor().isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was canceled"};
+        if (job.monitor().isCanceled()) {
+            return Error{ErrorCode::Canceled, "measuring was canceled"};
         }
         Row& row = rows[i];
         for (std::size_t d = 0; d < kDelaysS.size(); ++d) {

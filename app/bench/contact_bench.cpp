@@ -66,7 +66,7 @@ public:
         , frame_(frame)
         , options_(options)
         , monitor_(monitor)
-        , cell_m_(ReferenceProxy::cellMetres(frame))
+        , cell_m_(ReferenceProxy::cellMeters(frame))
     {}
 
     Result<ContactBenchResult> run()
@@ -83,14 +83,14 @@ public:
         result.cell_m = cell_m_;
         result.clock_ns = clock_.readingNanoseconds();
         result.unfinished_count = unfinished_count_;
-        for (std::size_t i = 0; i < ways.size() && !monitor_.isCancelled(); ++i) {
+        for (std::size_t i = 0; i < ways.size() && !monitor_.isCanceled(); ++i) {
             for (ContactBenchRow& row : measure(ways[i])) {
                 result.rows.push_back(std::move(row));
             }
             monitor_.report(static_cast<double>(i + 1) / static_cast<double>(ways.size()));
         }
-        if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was canceled"};
+        if (monitor_.isCanceled()) {
+            return Error{ErrorCode::Canceled, "measuring was canceled"};
         }
         return result;
     }
@@ -170,7 +170,7 @@ private:
             way.ideal.push_back(isPlaced(i) ? reference.place(way.goals[i]).proxy
                                             : reference.update(way.goals[i]).proxy);
             const bool is_late = options_.seconds_max > 0.0 && Clock::now() - begin > time;
-            if (monitor_.isCancelled() || (is_late && way.ideal.size() >= kUpdatesMin)) {
+            if (monitor_.isCanceled() || (is_late && way.ideal.size() >= kUpdatesMin)) {
                 break;
             }
         }
@@ -205,7 +205,7 @@ private:
             runners.push_back(std::move(runner));
         }
         // In turn, so that disturbances on the machine affect all models alike.
-        for (int repeat = 0; repeat < options_.repeat_count && !monitor_.isCancelled(); ++repeat) {
+        for (int repeat = 0; repeat < options_.repeat_count && !monitor_.isCanceled(); ++repeat) {
             for (Runner& runner : runners) {
                 runner.row.ns_mean = std::min(runner.row.ns_mean, batchMean(*runner.model, way));
             }
@@ -375,7 +375,7 @@ std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
         return from + (to - from) * static_cast<double>(random() >> 11U) * 0x1p-53;
     };
     const SceneFrame& frame = surface.frame();
-    const double cell_m = ReferenceProxy::cellMetres(frame);
+    const double cell_m = ReferenceProxy::cellMeters(frame);
     const double last_column = static_cast<double>(surface.terrain()->columns() - 1);
     const double last_row = static_cast<double>(surface.terrain()->rows() - 1);
     constexpr double kMargin = 1.0 / 32.0; // fraction of the map in which the hand turns back
@@ -384,7 +384,7 @@ std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
         return grid.column > kMargin * last_column && grid.row > kMargin * last_row &&
                grid.column < (1.0 - kMargin) * last_column && grid.row < (1.0 - kMargin) * last_row;
     };
-    const ScenePoint centre = frame.toScene({last_column / 2.0, last_row / 2.0}, 0.0);
+    const ScenePoint center = frame.toScene({last_column / 2.0, last_row / 2.0}, 0.0);
     std::vector<ScenePoint> goals;
     for (std::size_t update = 0; update < options.update_count;) {
         ScenePoint p = frame.toScene({uniform(2.0 * kMargin, 1.0 - 2.0 * kMargin) * last_column,
@@ -405,7 +405,7 @@ std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
                             options.speed * cell_m * std::sin(heading), 0.0};
             };
             if (!is_inside(p + step())) {
-                heading = std::atan2(centre.y - p.y, centre.x - p.x) + uniform(-0.6, 0.6);
+                heading = std::atan2(center.y - p.y, center.x - p.x) + uniform(-0.6, 0.6);
             }
             p = p + step();
             const double share =

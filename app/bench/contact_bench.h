@@ -98,7 +98,7 @@ std::vector<ScenePoint> strokesOfAHand(const HeightfieldSurface& surface,
                                        const StrokeOptions& options);
 
 /// First computes the ideal of every path, on all cores; then runs all models in turn, on this
-/// thread. The only possible error is Cancelled.
+/// thread. The only possible error is Canceled.
 Result<ContactBenchResult> benchContact(const std::shared_ptr<const FilledHeightfield>& terrain,
                                         const SceneFrame& frame,
                                         const ContactBenchOptions& options,

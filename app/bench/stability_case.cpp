@@ -195,11 +195,11 @@ StabilityResult runStability(StabilityScene scene, const StabilityOptions& optio
     LoopSettings settings;
     const std::array maps{mapFor(scene, options, 1), mapFor(scene, options, 2)};
     settings.map = maps[0];
-    settings.frame = {.place = {}, .scene_per_metre = kScale};
+    settings.frame = {.place = {}, .scene_per_meter = kScale};
     settings.frame_number = 1;
     settings.stiffness_n_per_m = options.stiffness_n_per_m;
-    settings.modes.scene_per_metre_min = 0.1 * kScale;
-    settings.modes.scene_per_metre_max = 10.0 * kScale;
+    settings.modes.scene_per_meter_min = 0.1 * kScale;
+    settings.modes.scene_per_meter_max = 10.0 * kScale;
 
     TickState state;
     TickInput input;

@@ -104,8 +104,8 @@ public:
         , buffer_(options.viewport)
         , picture_(*scene.renderer)
         , ground_{.box = scene.box(exaggeration),
-                  .pixel_m = std::min(scene.map->georeference().pixelWidthMetres(),
-                                      scene.map->georeference().pixelHeightMetres()),
+                  .pixel_m = std::min(scene.map->georeference().pixelWidthMeters(),
+                                      scene.map->georeference().pixelHeightMeters()),
                   .height = [this](double east_m, double north_m) {
                       return scene_.ground(east_m, north_m, exaggeration_);
                   }}
@@ -141,7 +141,7 @@ public:
     {
         DrawReport report = paint(camera, stage);
         Clock::time_point last = Clock::now();
-        while (!report.is_complete && !monitor_.isCancelled()) {
+        while (!report.is_complete && !monitor_.isCanceled()) {
             while (scene_.renderer->isLoading() && Clock::now() < last + kNewsInterval) {
                 news_.waitUntil(last + kNewsInterval);
             }
@@ -156,7 +156,7 @@ public:
         FlightResult result;
         result.flight = flight;
         OrbitCamera last;
-        for (int i = 0; i < options_.frame_count && !monitor_.isCancelled(); ++i) {
+        for (int i = 0; i < options_.frame_count && !monitor_.isCanceled(); ++i) {
             const Clock::time_point begin = Clock::now();
             const Milliseconds processor_begin = processorTime();
             last = camera(flight, momentOf(i));
@@ -320,14 +320,13 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
     std::size_t step = 0;
     const auto go_on = [&] {
         job.monitor().report(static_cast<double>(++step) / static_cast<double>(step_count));
-        return !job.monitor().isCancelled();
+        return !job.monitor().isCanceled();
     };
-    const Error cancelled{ErrorCode::Cancelled,
-                          fmt::format("{}: measuring was canceled", map.path)};
+    const Error canceled{ErrorCode::Canceled, fmt::format("{}: measuring was canceled", map.path)};
     for (const Flight flight : kFlights) {
         result.flights.push_back(bench.fly(flight));
         if (!go_on()) {
-            return cancelled;
+            return canceled;
         }
     }
     result.peak_memory_flown_bytes = peakMemoryBytes();
@@ -341,7 +340,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
             }
             flight.poses.push_back(*pose);
             if (!go_on()) {
-                return cancelled;
+                return canceled;
             }
         }
     }
@@ -357,7 +356,7 @@ Result<ViewBenchResult> benchView(const MapOptions& map, const ViewBenchOptions&
                 }
                 colors.poses.push_back(*pose);
                 if (!go_on()) {
-                    return cancelled;
+                    return canceled;
                 }
             }
         }

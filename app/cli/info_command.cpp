@@ -124,7 +124,7 @@ Json jsonOf(const RasterInfo& info,
     json["radii_m"] = ellipsoid ? Json{ellipsoid->equatorial_m, ellipsoid->polar_m} : Json(nullptr);
     const GeoTransform& transform = georeference.transform();
     json["pixel_size"] = {transform.pixelWidth(), transform.pixelHeight()};
-    json["pixel_size_m"] = {georeference.pixelWidthMetres(), georeference.pixelHeightMetres()};
+    json["pixel_size_m"] = {georeference.pixelWidthMeters(), georeference.pixelHeightMeters()};
     json["geotransform"] = info.transform ? Json(info.transform->terms()) : Json(nullptr);
     const LatitudeKind latitude_kind = options.latitudeKind(info.body);
     json["latitude_kind"] =
@@ -274,7 +274,7 @@ Status runInfo(const InfoOptions& options)
                 printError(outcome.error().message, 1, form);
             }
             outcome = std::move(described).error();
-            if (outcome.error().code == ErrorCode::Cancelled) {
+            if (outcome.error().code == ErrorCode::Canceled) {
                 break;
             }
             continue;

@@ -95,7 +95,7 @@ frameFor(const LoopOptions& options, const LoopMap& map, const DeviceCapabilitie
     const WorkspaceBox reach = reachWithin(device.workspace);
     WorkspaceFrame frame = frameForMap(map.box, reach);
     if (options.across_cells) {
-        frame.scene_per_metre = *options.across_cells * map.cell_m / (reach.high.x - reach.low.x);
+        frame.scene_per_meter = *options.across_cells * map.cell_m / (reach.high.x - reach.low.x);
     }
     return frame;
 }
@@ -137,7 +137,7 @@ openDevice(DeviceRegistry& registry, const LoopOptions& options, const LoopMap& 
         return plain.error();
     }
     const WorkspaceFrame frame = frameFor(options, map, (*plain)->capabilities());
-    return registry.open(fmt::format("{},cell_m={}", uri, map.cell_m / frame.scene_per_metre));
+    return registry.open(fmt::format("{},cell_m={}", uri, map.cell_m / frame.scene_per_meter));
 }
 
 // Saturates: a very long time gives the largest number of ticks that can be counted.
@@ -225,7 +225,7 @@ Status runLoop(const LoopOptions& options)
     }
     end.takeSignals();
     if (end.isAskedFor() && loop.state().tick == 0) {
-        return Error{ErrorCode::Cancelled, options.device + ": interrupted before the loop began"};
+        return Error{ErrorCode::Canceled, options.device + ": interrupted before the loop began"};
     }
     const Status verdict = watch.verdict(options.device);
     LoopReport report{.file = options.map.path,

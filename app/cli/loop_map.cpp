@@ -17,7 +17,7 @@ openLoopMap(const MapOptions& map, const LoopMapOptions& options, JobMonitor& mo
     result.opened = std::move(opened).value();
     const Georeference& georeference = result.opened->georeference();
     const Heightfield& heightfield = result.opened->heightfield();
-    result.cell_m = 0.5 * (georeference.pixelWidthMetres() + georeference.pixelHeightMetres());
+    result.cell_m = 0.5 * (georeference.pixelWidthMeters() + georeference.pixelHeightMeters());
     result.radius_m = options.radius_m.value_or(0.5 * result.cell_m);
     result.box = sceneBox(georeference.sceneFrame(), georeference.columns(), georeference.rows(),
                           heightfield.range().value_or(HeightRange{}), options.exaggeration);

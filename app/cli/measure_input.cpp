@@ -336,7 +336,7 @@ Error measureError(const MeasureOptions& options, Error error)
 {
     if (error.code == ErrorCode::Invalid || error.code == ErrorCode::OutOfRange) {
         error.message = options.positionsName() + ": " + error.message;
-    } else if (error.code == ErrorCode::Cancelled) {
+    } else if (error.code == ErrorCode::Canceled) {
         error.message = options.map.path + ": " + error.message;
     }
     return error;

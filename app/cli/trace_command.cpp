@@ -110,8 +110,8 @@ private:
         if (goal % kReportEvery == 0) {
             monitor.report(static_cast<double>(goal) /
                            static_cast<double>(recording_.goals.size()));
-            if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "tracing was canceled"};
+            if (monitor.isCanceled()) {
+                return Error{ErrorCode::Canceled, "tracing was canceled"};
             }
         }
         return followGround(goal);

@@ -19,7 +19,7 @@ static_assert(std::atomic<JobMonitor*>::is_always_lock_free);
 void cancelRunningJob(int)
 {
     JobMonitor* const job = running_job.load();
-    if (job != nullptr && !job->isCancelled()) {
+    if (job != nullptr && !job->isCanceled()) {
         job->cancel();
         return;
     }

@@ -46,8 +46,8 @@ OrbitCamera Scene::bounded(const OrbitCamera& camera, double with_exaggeration, 
     const Georeference& georeference = map->georeference();
     return constrained(
         camera,
-        navigationLimits(box(with_exaggeration), std::min(georeference.pixelWidthMetres(),
-                                                          georeference.pixelHeightMetres())),
+        navigationLimits(box(with_exaggeration), std::min(georeference.pixelWidthMeters(),
+                                                          georeference.pixelHeightMeters())),
         [&](double east_m, double north_m) {
             return ground(east_m, north_m, with_exaggeration, which);
         });

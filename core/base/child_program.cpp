@@ -166,8 +166,8 @@ Result<ChildOutcome> runChild(const ChildProgram& program)
         if (ready[1].revents != 0) {
             drain(err.read, outcome.err, program.output_bytes_max);
         }
-        if (program.job != nullptr && program.job->isCancelled()) {
-            outcome.end = ChildEnd::Cancelled;
+        if (program.job != nullptr && program.job->isCanceled()) {
+            outcome.end = ChildEnd::Canceled;
         } else if (Clock::now() > end) {
             outcome.end = ChildEnd::TimedOut;
         }

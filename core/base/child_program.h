@@ -24,9 +24,9 @@ struct ChildProgram {
 
 enum class ChildEnd {
     Exited,
-    Killed,    // by a signal we did not send
-    TimedOut,  // and was killed
-    Cancelled, // and was killed
+    Killed,   // by a signal we did not send
+    TimedOut, // and was killed
+    Canceled, // and was killed
 };
 
 struct ChildOutcome {

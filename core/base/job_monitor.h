@@ -27,7 +27,7 @@ public:
 
     /// Asks the worker to stop soon. Cannot be undone.
     void cancel() noexcept { is_canceled_.store(true, std::memory_order_relaxed); }
-    bool isCancelled() const noexcept { return is_canceled_.load(std::memory_order_relaxed); }
+    bool isCanceled() const noexcept { return is_canceled_.load(std::memory_order_relaxed); }
 
 private:
     friend class JobPart;

@@ -20,7 +20,7 @@ enum class ErrorCode {
     Invalid,     // its content or an argument is inconsistent
     OutOfRange,  // a number lies outside the stated range
     TooLarge,    // it does not fit in the memory limit
-    Cancelled,   // the user stopped it
+    Canceled,    // the user stopped it
     Damaged,     // its content has changed, although no program is known to have written to it
 };
 

@@ -75,11 +75,11 @@ public:
         if (!Base::isPlaced()) {
             return;
         }
-        const ScenePoint before = centre_;
+        const ScenePoint before = center_;
         const auto under = surface_.goal(before);
         const bool is_in_contact = feature_ != ContactFeature::Free && under;
-        centre_ = lifted(is_in_contact ? surface_.point(surface_.contactAt(*under)) : before);
-        if (!(centre_ == before)) {
+        center_ = lifted(is_in_contact ? surface_.point(surface_.contactAt(*under)) : before);
+        if (!(center_ == before)) {
             rest();
         }
     }
@@ -162,10 +162,10 @@ private:
         Vec3 normal; // as long as twice the area
         double normal_squared;
 
-        Triangle(const std::array<ScenePoint, 3>& corners, const ScenePoint& centre) noexcept
-            : a(corners[0] - centre)
-            , b(corners[1] - centre)
-            , c(corners[2] - centre)
+        Triangle(const std::array<ScenePoint, 3>& corners, const ScenePoint& center) noexcept
+            : a(corners[0] - center)
+            , b(corners[1] - center)
+            , c(corners[2] - center)
             , normal(cross(b - a, c - a))
             , normal_squared(dot(normal, normal))
         {}
@@ -187,7 +187,7 @@ private:
 
     void placeAt(const Goal& goal, const ScenePoint& /*aimed*/) noexcept
     {
-        centre_ = lifted(surface_.goalPoint(goal));
+        center_ = lifted(surface_.goalPoint(goal));
         minimise(surface_.goalPoint(goal));
     }
     void moveTo(const Goal& goal, const ScenePoint& /*aimed*/) noexcept
@@ -201,7 +201,7 @@ private:
     }
     ScenePoint position() const noexcept
     {
-        return Base::isPlaced() ? centre_ : surface_.point(surface_.initialContact());
+        return Base::isPlaced() ? center_ : surface_.point(surface_.initialContact());
     }
 
     // The resolution of double coordinates, times a small factor.
@@ -219,7 +219,7 @@ private:
 
     // How far a tangent plane may lean the wrong way: next to an edge, by the square root of the
     // rounding error of the distance.
-    double lean() const noexcept { return 1e-7 + std::sqrt(ulps(centre_) / radius_m_); }
+    double lean() const noexcept { return 1e-7 + std::sqrt(ulps(center_) / radius_m_); }
 
     SceneBounds around(const ScenePoint& p, const ScenePoint& q) const noexcept
     {
@@ -232,7 +232,7 @@ private:
 
     template <typename F>
     bool eachTriangle(const SceneBounds& box,
-                      const ScenePoint& centre,
+                      const ScenePoint& center,
                       std::uint32_t looks,
                       const F& function) noexcept
     {
@@ -241,7 +241,7 @@ private:
             eachFaceNear(surface_, box, looks,
                          [&](const typename S::Face&, const std::array<ScenePoint, 3>& corners) {
                              ++counters_.faces;
-                             return function(Triangle(corners, centre));
+                             return function(Triangle(corners, center));
                          });
         counters_.cells += before - looks;
         return is_done;
@@ -271,11 +271,11 @@ private:
     }
 
     // The nearest feature to the center, if it is within reach.
-    Touch touchAt(const ScenePoint& centre) noexcept
+    Touch touchAt(const ScenePoint& center) noexcept
     {
         Touch touch;
-        const double reach = radius_m_ + tolerance(centre);
-        eachTriangle(around(centre, centre), centre, kLooksAll, [&](const Triangle& triangle) {
+        const double reach = radius_m_ + tolerance(center);
+        eachTriangle(around(center, center), center, kLooksAll, [&](const Triangle& triangle) {
             const double above = triangle.above();
             if (above * above <= reach * reach * triangle.normal_squared) {
                 const Nearest at = nearest(triangle);
@@ -522,7 +522,7 @@ private:
             }
         }
         if (descent.trial) {
-            centre_ = descent.trial->from;
+            center_ = descent.trial->from;
         }
         counters_.cut_short = 1;
         rest();
@@ -532,7 +532,7 @@ private:
     bool advance(const ScenePoint& goal, Descent& descent) noexcept
     {
         Planes& planes = descent.planes;
-        const Vec3 whole = goal - centre_;
+        const Vec3 whole = goal - center_;
         const double distance = length(whole);
         const bool is_cut = planes.count > 0 && distance > kStepRadii * radius_m_;
         const Vec3 to_goal = is_cut ? whole * (kStepRadii * radius_m_ / distance) : whole;
@@ -555,7 +555,7 @@ private:
         if (!is_free) {
             // Planes not met yet shorten the step further.
             const double size = length(step);
-            if (size <= kStill * length(to_goal) + ulps(centre_) ||
+            if (size <= kStill * length(to_goal) + ulps(center_) ||
                 (size <= lean() * length(to_goal) && ++descent.leans > kLeansMax)) {
                 if (descent.trial) {
                     endTrial(descent, false);
@@ -577,26 +577,26 @@ private:
             }
         }
         const Vec3 way = step * within;
-        const Swept swept = sweep(centre_, way, slack);
+        const Swept swept = sweep(center_, way, slack);
         const bool is_stopped = swept.stopped_by.feature != ContactFeature::Free;
         if (is_free && !is_stopped && swept.share >= 1.0) {
-            centre_ = goal;
+            center_ = goal;
             feature_ = ContactFeature::Free;
             return true;
         }
         if (swept.is_at_once) {
             ++descent.stalls;
         } else {
-            centre_ = withinWalls(centre_ + way * swept.share);
+            center_ = withinWalls(center_ + way * swept.share);
             planes.count = 0;
             descent.stalls = 0;
         }
         // After a long sweep rounding may leave a gap for the next sweep to close.
-        if (is_stopped && (swept.is_at_once || swept.stopped_by.distance <= touching(centre_))) {
+        if (is_stopped && (swept.is_at_once || swept.stopped_by.distance <= touching(center_))) {
             planes.add(swept.stopped_by.normal);
             const double depth = radius_m_ - swept.stopped_by.distance;
-            if (depth > 0.25 * tolerance(centre_)) {
-                centre_ = centre_ + swept.stopped_by.normal * depth;
+            if (depth > 0.25 * tolerance(center_)) {
+                center_ = center_ + swept.stopped_by.normal * depth;
             }
         }
         return false;
@@ -616,17 +616,17 @@ private:
         pace.step_m = size;
         const double far = ratio < 1.0 ? 1.0 / (1.0 - ratio) : kFar;
         // Otherwise it would enter a touched face by more than a fraction of the tolerance.
-        const double most = 0.01 * tolerance(centre_) / slack;
+        const double most = 0.01 * tolerance(center_) / slack;
         const double longer = std::min({far, pace.leap_m / size, most});
         if (!(ratio > kSlowRatio && ratio < 1.0 / kSlowRatio && longer > 1.0 / kSlowRatio)) {
             pace.leap_m = std::min(1.5 * pace.leap_m, kLeapRadii * radius_m_);
             return false;
         }
-        const Vec3 to_goal = goal - centre_;
-        descent.trial = Trial{centre_, dot(to_goal, to_goal) - size * size, index, kTrialSweepsMax};
+        const Vec3 to_goal = goal - center_;
+        descent.trial = Trial{center_, dot(to_goal, to_goal) - size * size, index, kTrialSweepsMax};
         const Vec3 leap = step * longer;
         const Vec3 way = leap * wallStop(leap, slack * longer).share;
-        centre_ = withinWalls(centre_ + way * sweep(centre_, way, slack * longer).share);
+        center_ = withinWalls(center_ + way * sweep(center_, way, slack * longer).share);
         descent.planes.count = 0;
         descent.stalls = 0;
         return true;
@@ -639,7 +639,7 @@ private:
             pace.leap_m = std::min(2.0 * pace.leap_m, kLeapRadii * radius_m_);
         } else {
             pace.leap_m *= 0.25;
-            centre_ = descent.trial->from;
+            center_ = descent.trial->from;
             descent.planes.count = 0;
             descent.stalls = 0;
         }
@@ -656,8 +656,8 @@ private:
         WallStop stop{1.0, nullptr};
         for (const BorderWall& wall : walls_) {
             const double into = -dot(wall.normal, way);
-            if (into > slack && into * stop.share > wall.distance(centre_)) {
-                stop = {std::max(wall.distance(centre_), 0.0) / into, &wall};
+            if (into > slack && into * stop.share > wall.distance(center_)) {
+                stop = {std::max(wall.distance(center_), 0.0) / into, &wall};
             }
         }
         return stop;
@@ -666,12 +666,12 @@ private:
     // The sphere has come to rest. Corrects a distance that rounding has made too small.
     void rest() noexcept
     {
-        Touch touch = touchAt(centre_);
+        Touch touch = touchAt(center_);
         for (int pushes = 0;
-             pushes < kPushesMax && touch.distance < radius_m_ - 0.5 * tolerance(centre_);
+             pushes < kPushesMax && touch.distance < radius_m_ - 0.5 * tolerance(center_);
              ++pushes) {
-            centre_ = centre_ + touch.normal * (radius_m_ - touch.distance);
-            touch = touchAt(centre_);
+            center_ = center_ + touch.normal * (radius_m_ - touch.distance);
+            touch = touchAt(center_);
         }
         feature_ = touch.feature;
     }
@@ -724,7 +724,7 @@ private:
     BorderWalls walls_;
     double radius_m_;
     double reach_m_; // the initial length of a sweep's piece
-    ScenePoint centre_;
+    ScenePoint center_;
     ContactFeature feature_ = ContactFeature::Free;
 };
 

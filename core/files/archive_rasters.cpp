@@ -47,7 +47,7 @@ bool mayBeRaster(const std::string& name)
     const std::string lower = lowerCase(name);
     return std::any_of(kRaw.begin(), kRaw.end(),
                        [&lower](std::string_view ending) { return lower.ends_with(ending); }) ||
-           recognisingDriverFor(name).has_value();
+           recognizingDriverFor(name).has_value();
 }
 
 struct Candidate {
@@ -97,7 +97,7 @@ std::vector<Candidate> candidatesIn(const std::string& archive)
             continue;
         }
         const Result<GuardedDataset> guarded = openFirst({name});
-        if (!guarded && guarded.error().code == ErrorCode::Cancelled) {
+        if (!guarded && guarded.error().code == ErrorCode::Canceled) {
             return {};
         }
         if (!guarded || guarded->dataset->GetRasterCount() == 0) {

@@ -120,7 +120,7 @@ bool isWellTested(const std::string& driver)
            std::any_of(kWellTested.begin(), kWellTested.end(), is_it);
 }
 
-std::optional<std::string> recognisingDriverFor(const std::string& name)
+std::optional<std::string> recognizingDriverFor(const std::string& name)
 {
     GDALDriverManager& manager = *GetGDALDriverManager();
     GDALOpenInfo header(name.c_str(), GA_ReadOnly | GDAL_OF_RASTER);

@@ -20,7 +20,7 @@ const char* const* plainDrivers();
 bool isWellTested(const std::string& driver);
 
 /// The name of a driver that recognizes the file by its beginning, without opening it.
-std::optional<std::string> recognisingDriverFor(const std::string& name);
+std::optional<std::string> recognizingDriverFor(const std::string& name);
 
 /// The deregistered driver that recognizes the file, if any; for messages.
 std::optional<std::string> leftOutDriverFor(const std::string& name);

@@ -120,7 +120,7 @@ Status checkTextHolds(GDALDataset& dataset, const std::string& path)
 // has its own driver in GDAL.
 bool isOfAnotherDriver(const std::string& name)
 {
-    const std::optional<std::string> driver = recognisingDriverFor(name);
+    const std::optional<std::string> driver = recognizingDriverFor(name);
     if (!driver) {
         return false;
     }

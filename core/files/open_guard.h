@@ -25,7 +25,7 @@ struct GuardedDataset {
 
 /// Opens the first of the names, at least one, that GDAL opens. The error is a sentence without the
 /// path, empty if no driver recognizes any name. Unreadable if the file is shorter than its header
-/// requires or a driver crashes on it, TooLarge if opening takes too much memory, Cancelled if the
+/// requires or a driver crashes on it, TooLarge if opening takes too much memory, Canceled if the
 /// thread's OpeningJob is canceled. Any thread.
 Result<GuardedDataset> openFirst(const std::vector<std::string>& names);
 

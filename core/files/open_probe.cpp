@@ -117,8 +117,8 @@ probeNames(const std::vector<std::string>& names, std::size_t bytes, const JobMo
     if (!outcome) {
         return outcome.error();
     }
-    if (outcome->end == ChildEnd::Cancelled) {
-        return Error{ErrorCode::Cancelled, "opening was canceled"};
+    if (outcome->end == ChildEnd::Canceled) {
+        return Error{ErrorCode::Canceled, "opening was canceled"};
     }
     Report report = reportIn(outcome->out);
     ProbeAnswer answer;

@@ -6,7 +6,7 @@
 namespace marsview {
 
 /// During its lifetime, canceling the job aborts the opening of a raster on this thread with the
-/// error Cancelled. The innermost object counts.
+/// error Canceled. The innermost object counts.
 class OpeningJob {
 public:
     /// `job`, which may be null, outlives this object.

@@ -72,7 +72,7 @@ std::optional<std::uint64_t> wordsIn(const std::string& path, std::uint64_t coun
     std::uint64_t words = 0;
     bool is_in_word = false;
     while (stream && words < count) {
-        if (OpeningJob::current() != nullptr && OpeningJob::current()->isCancelled()) {
+        if (OpeningJob::current() != nullptr && OpeningJob::current()->isCanceled()) {
             return std::nullopt;
         }
         stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
@@ -115,7 +115,7 @@ Status checkTextGrid(const std::string& path, std::uint64_t count)
     const std::optional<std::uint64_t> words =
         bytes / 2 + 1 < count ? bytes / 2 + 1 : wordsIn(path, count);
     if (!words) {
-        return Error{ErrorCode::Cancelled, "opening was canceled"};
+        return Error{ErrorCode::Canceled, "opening was canceled"};
     }
     if (*words < count) {
         return Error{ErrorCode::Unreadable,

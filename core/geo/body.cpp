@@ -128,24 +128,24 @@ Angle Ellipsoid::planetographic(Angle planetocentric_latitude) const
         geodesyOf(*this).InverseGeocentricLatitude(planetocentric_latitude.degrees()));
 }
 
-double Ellipsoid::metresPerRadianOfLongitude(Angle planetographic_latitude) const
+double Ellipsoid::metersPerRadianOfLongitude(Angle planetographic_latitude) const
 {
     return geodesyOf(*this).CircleRadius(planetographic_latitude.degrees());
 }
 
-double Ellipsoid::metresPerRadianOfPlanetographicLatitude(Angle planetographic_latitude) const
+double Ellipsoid::metersPerRadianOfPlanetographicLatitude(Angle planetographic_latitude) const
 {
     return geodesyOf(*this).MeridionalCurvatureRadius(planetographic_latitude.degrees());
 }
 
-double Ellipsoid::metresPerRadianOfPlanetocentricLatitude(Angle planetographic_latitude) const
+double Ellipsoid::metersPerRadianOfPlanetocentricLatitude(Angle planetographic_latitude) const
 {
     // tan(centric) = (b/a)² tan(graphic), hence d(graphic)/d(centric) =
     // (cos²(graphic) + q² sin²(graphic)) / q with q = (b/a)².
     const double q = (polar_m / equatorial_m) * (polar_m / equatorial_m);
     const double c = std::cos(planetographic_latitude.radians());
     const double s = std::sin(planetographic_latitude.radians());
-    return metresPerRadianOfPlanetographicLatitude(planetographic_latitude) *
+    return metersPerRadianOfPlanetographicLatitude(planetographic_latitude) *
            (c * c + q * q * s * s) / q;
 }
 

@@ -26,9 +26,9 @@ struct Ellipsoid {
 
     /// Meters on the surface for one radian of longitude, and for one radian of planetocentric or
     /// planetographic latitude, at a planetographic latitude.
-    double metresPerRadianOfLongitude(Angle planetographic_latitude) const;
-    double metresPerRadianOfPlanetographicLatitude(Angle planetographic_latitude) const;
-    double metresPerRadianOfPlanetocentricLatitude(Angle planetographic_latitude) const;
+    double metersPerRadianOfLongitude(Angle planetographic_latitude) const;
+    double metersPerRadianOfPlanetographicLatitude(Angle planetographic_latitude) const;
+    double metersPerRadianOfPlanetocentricLatitude(Angle planetographic_latitude) const;
 };
 
 /// The kind of latitude that people read and write. In the program, a GeographicPoint is always

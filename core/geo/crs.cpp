@@ -332,10 +332,10 @@ void Crs::Impl::readVertical()
     const char* datum = srs.GetAttrValue("VERT_CS");
     vertical_datum_name = datum != nullptr ? datum : "";
     const char* vertical_name = nullptr;
-    const double metres = srs.GetTargetLinearUnits("VERT_CS", &vertical_name);
+    const double meters = srs.GetTargetLinearUnits("VERT_CS", &vertical_name);
     vertical_unit = verticalUnitFrom(vertical_name != nullptr ? vertical_name : "");
-    if (!vertical_unit && metres > 0.0 && vertical_name != nullptr) {
-        vertical_unit = VerticalUnit{vertical_name, metres};
+    if (!vertical_unit && meters > 0.0 && vertical_name != nullptr) {
+        vertical_unit = VerticalUnit{vertical_name, meters};
     }
 }
 

@@ -15,7 +15,7 @@ struct MetersPerUnit {
 
 // A geographic raster is flattened with the scale at its center: there, one degree has the same
 // length in both directions as on the ellipsoid at that latitude.
-MetersPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
+MetersPerUnit metersPerUnit(const std::optional<Crs>& crs, MapPoint center)
 {
     if (!crs) {
         return {};
@@ -27,12 +27,12 @@ MetersPerUnit metresPerUnit(const std::optional<Crs>& crs, MapPoint centre)
     constexpr double kLatitudeMaxRad =
         89.9 * std::numbers::pi / 180.0; // keeps the scale invertible
     const Angle latitude =
-        Angle::radians(std::clamp(centre.y * crs->unit(), -kLatitudeMaxRad, kLatitudeMaxRad));
+        Angle::radians(std::clamp(center.y * crs->unit(), -kLatitudeMaxRad, kLatitudeMaxRad));
     const bool is_centric = crs->latitudeKind() == LatitudeKind::Planetocentric;
     const Angle graphic = is_centric ? ellipsoid.planetographic(latitude) : latitude;
-    const double north = is_centric ? ellipsoid.metresPerRadianOfPlanetocentricLatitude(graphic)
-                                    : ellipsoid.metresPerRadianOfPlanetographicLatitude(graphic);
-    return {ellipsoid.metresPerRadianOfLongitude(graphic) * crs->unit() * crs->eastSign(),
+    const double north = is_centric ? ellipsoid.metersPerRadianOfPlanetocentricLatitude(graphic)
+                                    : ellipsoid.metersPerRadianOfPlanetographicLatitude(graphic);
+    return {ellipsoid.metersPerRadianOfLongitude(graphic) * crs->unit() * crs->eastSign(),
             north * crs->unit() * crs->northSign()};
 }
 
@@ -57,11 +57,11 @@ Georeference::Georeference(std::size_t columns,
     , transform_(transform)
     , crs_(std::move(crs))
 {
-    const GridPoint centre{(static_cast<double>(columns_) - 1.0) / 2.0,
+    const GridPoint center{(static_cast<double>(columns_) - 1.0) / 2.0,
                            (static_cast<double>(rows_) - 1.0) / 2.0};
-    const MetersPerUnit scale = metresPerUnit(crs_, toMap(centre));
+    const MetersPerUnit scale = metersPerUnit(crs_, toMap(center));
     const GeoTransform::Terms& t = transform_.terms();
-    scene_frame_ = {.origin = centre,
+    scene_frame_ = {.origin = center,
                     .east_per_column = t[1] * scale.x,
                     .east_per_row = t[2] * scale.x,
                     .north_per_column = t[4] * scale.y,
@@ -69,7 +69,7 @@ Georeference::Georeference(std::size_t columns,
     if (!crs_ || !crs_->turn()) {
         return;
     }
-    if (const auto origin = crs_->toGeographic(toMap(centre))) {
+    if (const auto origin = crs_->toGeographic(toMap(center))) {
         constexpr double kHalfTurn = std::numbers::pi;
         center_longitude_ = origin->longitude.radians() <= -kHalfTurn
                                 ? Angle::radians(origin->longitude.radians() + 2.0 * kHalfTurn)
@@ -138,12 +138,12 @@ GridPoint Georeference::toGrid(GridPoint grid, const Georeference& other) const
     return toGrid(other.toMap(grid));
 }
 
-double Georeference::pixelWidthMetres() const noexcept
+double Georeference::pixelWidthMeters() const noexcept
 {
     return std::hypot(scene_frame_.east_per_column, scene_frame_.north_per_column);
 }
 
-double Georeference::pixelHeightMetres() const noexcept
+double Georeference::pixelHeightMeters() const noexcept
 {
     return std::hypot(scene_frame_.east_per_row, scene_frame_.north_per_row);
 }

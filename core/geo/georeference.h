@@ -50,8 +50,8 @@ public:
 
     const SceneFrame& sceneFrame() const noexcept { return scene_frame_; }
     /// Length in meters of one step along a row and along a column at the raster's center.
-    double pixelWidthMetres() const noexcept;
-    double pixelHeightMetres() const noexcept;
+    double pixelWidthMeters() const noexcept;
+    double pixelHeightMeters() const noexcept;
 
 private:
     std::size_t columns_;

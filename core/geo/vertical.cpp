@@ -17,7 +17,7 @@ constexpr double kUsSurveyFootM = 1200.0 / 3937.0;
 struct Spelling {
     std::string_view text; // lower case, letters only
     std::string_view name;
-    double metres;
+    double meters;
 };
 
 constexpr std::array kSpellings{
@@ -79,18 +79,18 @@ std::optional<VerticalUnit> plainUnitFrom(std::string_view text)
     if (hit == kSpellings.end()) {
         return std::nullopt;
     }
-    return VerticalUnit{std::string(hit->name), hit->metres};
+    return VerticalUnit{std::string(hit->name), hit->meters};
 }
 
 // 1000 m is 1 km; other multiples keep their factor as a name.
 VerticalUnit multipleOf(const VerticalUnit& unit, double factor)
 {
-    const double metres = factor * unit.metres;
+    const double meters = factor * unit.meters;
     const auto* const known = std::find_if(kSpellings.begin(), kSpellings.end(),
-                                           [&](const Spelling& s) { return s.metres == metres; });
+                                           [&](const Spelling& s) { return s.meters == meters; });
     return known != kSpellings.end()
-               ? VerticalUnit{std::string(known->name), metres}
-               : VerticalUnit{fmt::format("{} {}", factor, unit.name), metres};
+               ? VerticalUnit{std::string(known->name), meters}
+               : VerticalUnit{fmt::format("{} {}", factor, unit.name), meters};
 }
 
 } // namespace

@@ -10,7 +10,7 @@ namespace marsview {
 /// A unit of height. `name` is for display ("m", "ft", "US survey ft", "km").
 struct VerticalUnit {
     std::string name = "m";
-    double metres = 1.0;
+    double meters = 1.0;
     bool operator==(const VerticalUnit&) const = default;
 };
 

@@ -96,8 +96,8 @@ readAll(const TileSource& source, TileKind kind, std::size_t level, JobMonitor& 
     const std::size_t columns = layout.tileColumns(kind, level);
     const std::size_t rows = layout.tileRows(kind, level);
     for (std::size_t i = 0; i < columns * rows; ++i) {
-        if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled,
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled,
                          fmt::format("{}: reading was canceled", source.name())};
         }
         const TileId id{kind, static_cast<std::uint8_t>(level),

@@ -29,7 +29,7 @@ inline constexpr std::size_t kEstimateMeansMax = std::size_t{1} << 20;
 ///    ten between 0.25 and 2 times (except for the ocean floor);
 ///  - statistics: from all of these.
 ///
-/// Waits for the source: not for the GUI thread. Errors: those of the source, Cancelled.
+/// Waits for the source: not for the GUI thread. Errors: those of the source, Canceled.
 Result<MapLevels> estimateLevels(const TileSource& source,
                                  const ElevationScale& scale,
                                  JobMonitor& monitor,

@@ -469,8 +469,8 @@ Status LevelFile::check(const JobMonitor& monitor) const
     for (const std::vector<FilePart>* parts :
          {&impl_->samples, &impl_->fills.parts, &impl_->coarse_fills.parts}) {
         for (const FilePart& part : *parts) {
-            if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "canceled"};
+            if (monitor.isCanceled()) {
+                return Error{ErrorCode::Canceled, "canceled"};
             }
             const auto bytes = impl_->file.read(part.offset, part.bytes);
             if (!bytes) {

@@ -78,7 +78,7 @@ public:
     Result<std::vector<float>> readFilled(const TileId& id, const ElevationScale& scale) const;
 
     /// Reads the whole file and verifies its checksums. Errors: Invalid or Unreadable if it is
-    /// damaged, Cancelled. The levels of samples are a fiftieth of the raster.
+    /// damaged, Canceled. The levels of samples are a fiftieth of the raster.
     Status check(const JobMonitor& monitor) const;
 
 private:

@@ -25,7 +25,7 @@ struct Crater {
 /// The circle of all positions at one geodesic distance from its center that fits best through
 /// three or more rim points (least squares of distances). Invalid for fewer points, points nearly
 /// on a line, and circles larger than a quarter of the body; OutOfRange for points without terrain;
-/// Cancelled; errors of reading.
+/// Canceled; errors of reading.
 Result<Crater>
 measureCrater(MeasuredTerrain& terrain, std::span<const GroundPosition> rim, JobMonitor& monitor);
 

@@ -25,10 +25,10 @@ std::optional<GridSteps> onDegrees(const Georeference& georeference, GridPoint g
     }
     const Angle graphic = ellipsoid.planetographic(here->latitude);
     const double north_m = crs.latitudeKind() == LatitudeKind::Planetocentric
-                               ? ellipsoid.metresPerRadianOfPlanetocentricLatitude(graphic)
-                               : ellipsoid.metresPerRadianOfPlanetographicLatitude(graphic);
+                               ? ellipsoid.metersPerRadianOfPlanetocentricLatitude(graphic)
+                               : ellipsoid.metersPerRadianOfPlanetographicLatitude(graphic);
     return scaled(georeference.transform().terms(),
-                  ellipsoid.metresPerRadianOfLongitude(graphic) * crs.unit() * crs.eastSign(),
+                  ellipsoid.metersPerRadianOfLongitude(graphic) * crs.unit() * crs.eastSign(),
                   north_m * crs.unit() * crs.northSign());
 }
 
@@ -63,8 +63,8 @@ std::optional<GridSteps> gridSteps(const MeasuredTerrain& terrain, GridPoint gri
         const double samples = 2.0 * (columns + rows);
         return Vec3{dot(way, frame.east) / samples, dot(way, frame.north) / samples, 0.0};
     };
-    const auto column = step(reach_m / georeference.pixelWidthMetres(), 0.0);
-    const auto row = step(0.0, reach_m / georeference.pixelHeightMetres());
+    const auto column = step(reach_m / georeference.pixelWidthMeters(), 0.0);
+    const auto row = step(0.0, reach_m / georeference.pixelHeightMeters());
     if (!column || !row) {
         return std::nullopt;
     }

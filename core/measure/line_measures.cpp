@@ -141,8 +141,8 @@ Status sampleByStep(MeasuredTerrain& terrain,
         }
         constexpr std::size_t kPointsBetweenLooks = 256;
         if (i % kPointsBetweenLooks == 0) {
-            if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            if (monitor.isCanceled()) {
+                return Error{ErrorCode::Canceled, "measuring was canceled"};
             }
             monitor.report(distance_m / total_m);
         }

@@ -34,7 +34,7 @@ struct Distance {
 
 /// Along the shortest lines between consecutive positions, at least two. Exact: the surface is
 /// followed from triangle to triangle. Invalid for fewer positions and coordinates that are not
-/// finite or beyond a pole; Cancelled; errors of reading.
+/// finite or beyond a pole; Canceled; errors of reading.
 Result<Distance> measureDistance(MeasuredTerrain& terrain,
                                  std::span<const GroundPosition> positions,
                                  JobMonitor& monitor);

@@ -15,7 +15,7 @@ bool isOnBody(const Georeference& georeference)
            georeference.crs()->ellipsoid();
 }
 
-double metresPerUnit(const Georeference& georeference)
+double metersPerUnit(const Georeference& georeference)
 {
     return georeference.crs() ? georeference.crs()->unit() : 1.0;
 }
@@ -39,8 +39,8 @@ MeasuredTerrain::MeasuredTerrain(const Georeference& georeference,
     rows_ = axis(georeference_.rows());
     const GeoTransform::Terms& terms = georeference_.transform().terms();
     if (isOnBody(georeference) && georeference_.crs()->turn()) {
-        const auto centre = georeference_.toGeographic(georeference_.sceneFrame().origin);
-        centre_longitude_deg_ = centre ? centre->longitude.degrees() : 0.0;
+        const auto center = georeference_.toGeographic(georeference_.sceneFrame().origin);
+        center_longitude_deg_ = center ? center->longitude.degrees() : 0.0;
     }
     if (isOnBody(georeference) && georeference_.crs()->turn() && terms[2] == 0.0 &&
         terms[4] == 0.0) {
@@ -61,7 +61,7 @@ MeasuredTerrain::MeasuredTerrain(const Georeference& georeference,
 std::optional<GroundPosition> MeasuredTerrain::fromMap(MapPoint map) const
 {
     if (!ground_.ellipsoid()) {
-        const double unit_m = metresPerUnit(georeference_);
+        const double unit_m = metersPerUnit(georeference_);
         return GroundPosition{map.x * unit_m, map.y * unit_m};
     }
     const auto geographic = georeference_.crs()->toGeographic(map);
@@ -80,7 +80,7 @@ std::optional<GroundPosition> MeasuredTerrain::fromGrid(GridPoint grid) const
 std::optional<GridPoint> MeasuredTerrain::toGrid(GroundPosition position) const
 {
     if (!ground_.ellipsoid()) {
-        const double unit_m = metresPerUnit(georeference_);
+        const double unit_m = metersPerUnit(georeference_);
         return georeference_.toGrid(MapPoint{position.x / unit_m, position.y / unit_m});
     }
     return georeference_.toGrid(ground_.geographic(position));
@@ -95,7 +95,7 @@ std::optional<MapPoint> MeasuredTerrain::toMap(GroundPosition position) const
 GroundPosition MeasuredTerrain::inTurn(GroundPosition position) const
 {
     if (ground_.ellipsoid()) {
-        const double turns = std::round((centre_longitude_deg_ - position.x) / 360.0);
+        const double turns = std::round((center_longitude_deg_ - position.x) / 360.0);
         if (turns != 0.0) {
             position.x += 360.0 * turns;
         }

@@ -128,7 +128,7 @@ private:
     Axis rows_;
     double period_ = 0.0;
     double turn_begin_ = 0.0;
-    double centre_longitude_deg_ = 0.0;
+    double center_longitude_deg_ = 0.0;
 };
 
 } // namespace marsview

@@ -232,8 +232,8 @@ public:
         }
         Row& known = rows_[static_cast<std::size_t>(std::llround(grid.row * 3.0)) % kRows];
         if (known.row != grid.row) {
-            const double centre = 0.5 * static_cast<double>(terrain_.georeference().columns());
-            known = {grid.row, metricAt(terrain_, {centre, grid.row}).value_or(Metric{})};
+            const double center = 0.5 * static_cast<double>(terrain_.georeference().columns());
+            known = {grid.row, metricAt(terrain_, {center, grid.row}).value_or(Metric{})};
         }
         return known.metric;
     }
@@ -461,8 +461,8 @@ private:
             if (terrain_.failure()) {
                 return *terrain_.failure();
             }
-            if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            if (monitor.isCanceled()) {
+                return Error{ErrorCode::Canceled, "measuring was canceled"};
             }
             ++row;
             monitor.report(static_cast<double>(row) / static_cast<double>(rows));

@@ -46,7 +46,7 @@ struct TerrainArea {
 ///
 /// Invalid for fewer than three vertices and coordinates that are none; OutOfRange if the edges
 /// leave the map's projection, or a plane is asked for across more than a sixth of the body's
-/// circumference; Cancelled; errors of reading.
+/// circumference; Canceled; errors of reading.
 Result<TerrainArea> measureArea(MeasuredTerrain& terrain,
                                 std::span<const GroundPosition> vertices,
                                 const AreaOptions& options,

@@ -44,8 +44,8 @@ public:
         , line_(line)
         , tolerance_(
               std::max(kFitTolerance,
-                       kProjectionNoiseM / std::min(terrain.georeference().pixelWidthMetres(),
-                                                    terrain.georeference().pixelHeightMetres())))
+                       kProjectionNoiseM / std::min(terrain.georeference().pixelWidthMeters(),
+                                                    terrain.georeference().pixelHeightMeters())))
     {}
 
     std::vector<GridCurve> run()
@@ -356,8 +356,8 @@ public:
         findCellCuts(terrain_, curve, cuts_);
         for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
             constexpr std::size_t kCutsBetweenLooks = 256;
-            if (i % kCutsBetweenLooks == 0 && monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+            if (i % kCutsBetweenLooks == 0 && monitor.isCanceled()) {
+                return Error{ErrorCode::Canceled, "measuring was canceled"};
             }
             traceCell(curve, cuts_[i], cuts_[i + 1]);
             if (terrain_.failure()) {

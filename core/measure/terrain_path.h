@@ -57,7 +57,7 @@ public:
 };
 
 /// Cuts `line` at every edge of the terrain's triangles that it crosses. Along an edge, the
-/// elevation is that of its two ends. Reads only cells on the line. Cancelled when `monitor` is,
+/// elevation is that of its two ends. Reads only cells on the line. Canceled when `monitor` is,
 /// and the first error of reading.
 Status tracePath(MeasuredTerrain& terrain,
                  const GroundLine& line,

@@ -61,8 +61,8 @@ Result<std::vector<TerrainSlope>> measureSlopes(MeasuredTerrain& terrain,
     }
     std::vector<TerrainSlope> slopes;
     for (const GroundPosition& position : positions) {
-        if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was cancelled"};
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, "measuring was canceled"};
         }
         TerrainSlope slope{
             .elevation_m = terrain.elevation(position), .slope_deg = kNan, .aspect_deg = kNan};

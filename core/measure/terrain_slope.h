@@ -19,7 +19,7 @@ struct TerrainSlope {
 
 /// Of the triangle at each position; with `baseline_m`, of the elevations half a baseline away in
 /// the four cardinal directions. Lengths and north are those of the ellipsoid. Invalid and
-/// OutOfRange for positions that are none; Cancelled; errors of reading.
+/// OutOfRange for positions that are none; Canceled; errors of reading.
 Result<std::vector<TerrainSlope>> measureSlopes(MeasuredTerrain& terrain,
                                                 std::span<const GroundPosition> positions,
                                                 std::optional<double> baseline_m,

@@ -147,17 +147,17 @@ public:
         checkFaces();
         TriangleTree tree(vertices_, faces_, sound_);
         monitor_.report(0.2);
-        if (!monitor_.isCancelled()) {
+        if (!monitor_.isCanceled()) {
             checkDuplicates();
             checkEdges();
             checkFans();
             monitor_.report(0.4);
         }
-        if (!monitor_.isCancelled()) {
+        if (!monitor_.isCanceled()) {
             checkGaps(tree);
             monitor_.report(0.5);
         }
-        if (!monitor_.isCancelled()) {
+        if (!monitor_.isCanceled()) {
             checkIntersections(tree);
         }
         if (tree_out != nullptr) {
@@ -517,7 +517,7 @@ private:
         std::mutex mutex;
         std::size_t done = 0;
         parallelRanges(sound_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-            if (monitor_.isCancelled()) {
+            if (monitor_.isCanceled()) {
                 return;
             }
             std::vector<std::array<std::uint32_t, 2>> mine;

@@ -160,15 +160,15 @@ protected:
         return Error{ErrorCode::Invalid, fmt::format("{}: {}", path_, what)};
     }
     // Call once for each line or element.
-    Problem cancelled(std::size_t position)
+    Problem canceled(std::size_t position)
     {
         if (++asked_ % kReportEvery != 0) {
             return std::nullopt;
         }
         monitor_.report(static_cast<double>(position) / static_cast<double>(text_.size() + 1));
-        return monitor_.isCancelled()
-                   ? Problem(Error{ErrorCode::Cancelled,
-                                   fmt::format("{}: reading was cancelled", path_)})
+        return monitor_.isCanceled()
+                   ? Problem(
+                         Error{ErrorCode::Canceled, fmt::format("{}: reading was canceled", path_)})
                    : std::nullopt;
     }
 
@@ -221,7 +221,7 @@ private:
         std::uint64_t highest = 0;
         std::size_t highest_line = 0;
         while (lines.next('#')) {
-            if (auto stop = cancelled(lines.position())) {
+            if (auto stop = canceled(lines.position())) {
                 return stop;
             }
             const std::string_view keyword = lines.word();
@@ -510,7 +510,7 @@ private:
                               fmt::format("the file ends after {} of {} elements \"{}\"", i,
                                           element.count, element.name));
             }
-            if (auto stop = cancelled(encoding_ == Encoding::Ascii ? lines_.position() : at_)) {
+            if (auto stop = canceled(encoding_ == Encoding::Ascii ? lines_.position() : at_)) {
                 return stop;
             }
             std::array<double, 3> point{};
@@ -635,7 +635,7 @@ private:
     {
         for (std::uint64_t i = 0; i < count; ++i) {
             const std::size_t begin = kHeader + kTriangle * static_cast<std::size_t>(i);
-            if (auto stop = cancelled(begin)) {
+            if (auto stop = canceled(begin)) {
                 return stop;
             }
             MeshFace face{};
@@ -658,7 +658,7 @@ private:
         bool is_closed = true;
         bool is_in_facet = false;
         while (lines.next('\0')) {
-            if (auto stop = cancelled(lines.position())) {
+            if (auto stop = canceled(lines.position())) {
                 return stop;
             }
             const std::string_view keyword = lines.word();

@@ -23,8 +23,8 @@ Result<std::shared_ptr<const TriangleMesh>> TriangleMesh::build(TriangleSoup sou
     }
     std::shared_ptr<TriangleMesh> mesh(new TriangleMesh);
     const auto faults = findMeshFaults(soup.vertices, soup.faces, monitor, &mesh->tree_);
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "checking the mesh was cancelled"};
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, "checking the mesh was canceled"};
     }
     if (!faults.empty()) {
         return Error{ErrorCode::Invalid,

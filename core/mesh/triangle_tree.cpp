@@ -41,7 +41,7 @@ struct Item {
     Box box;
     std::uint32_t face;
 
-    double centre(std::size_t axis) const noexcept
+    double center(std::size_t axis) const noexcept
     {
         return 0.5 * box.low[axis] + 0.5 * box.high[axis];
     }
@@ -79,13 +79,13 @@ public:
             }
             MARSVIEW_CHECK(range.depth < kLevelsMax);
             Box box;
-            Box centres;
+            Box centers;
             for (std::size_t i = range.begin; i < range.end; ++i) {
                 box.merge(items_[i].box);
-                centres.add({items_[i].centre(0), items_[i].centre(1), items_[i].centre(2)});
+                centers.add({items_[i].center(0), items_[i].center(1), items_[i].center(2)});
             }
             Node node = nodeOf(box);
-            const std::size_t middle = split(range.begin, range.end, range.depth, box, centres);
+            const std::size_t middle = split(range.begin, range.end, range.depth, box, centers);
             if (middle == range.begin) {
                 node.first = static_cast<std::uint32_t>(tree_.order_.size());
                 node.count = static_cast<std::uint32_t>(range.end - range.begin);
@@ -116,7 +116,7 @@ private:
     // Puts the items of the first child before those of the second. Returns `begin` if a leaf is
     // better.
     std::size_t
-    split(std::size_t begin, std::size_t end, std::size_t depth, const Box& box, const Box& centres)
+    split(std::size_t begin, std::size_t end, std::size_t depth, const Box& box, const Box& centers)
     {
         const std::size_t count = end - begin;
         if (count <= 2) {
@@ -126,15 +126,15 @@ private:
         const auto last = items_.begin() + static_cast<std::ptrdiff_t>(end);
         std::size_t widest = 0;
         for (std::size_t axis = 1; axis < 3; ++axis) {
-            if (centres.high[axis] - centres.low[axis] >
-                centres.high[widest] - centres.low[widest]) {
+            if (centers.high[axis] - centers.low[axis] >
+                centers.high[widest] - centers.low[widest]) {
                 widest = axis;
             }
         }
         const auto halves = [&] {
             const auto middle = first + static_cast<std::ptrdiff_t>(count / 2);
             std::nth_element(first, middle, last, [widest](const Item& a, const Item& b) {
-                return a.centre(widest) < b.centre(widest);
+                return a.center(widest) < b.center(widest);
             });
             return begin + count / 2;
         };
@@ -149,13 +149,13 @@ private:
         std::size_t best_axis = 3;
         std::size_t best_bin = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(centres.high[axis] > centres.low[axis])) {
+            if (!(centers.high[axis] > centers.low[axis])) {
                 continue;
             }
             std::array<Box, kBins> boxes{};
             std::array<std::size_t, kBins> counts{};
             for (auto item = first; item != last; ++item) {
-                const std::size_t bin = binOf(*item, axis, centres);
+                const std::size_t bin = binOf(*item, axis, centers);
                 boxes[bin].merge(item->box);
                 ++counts[bin];
             }
@@ -186,15 +186,15 @@ private:
             return may_be_leaf ? begin : halves();
         }
         const auto middle = std::partition(first, last, [&](const Item& item) {
-            return binOf(item, best_axis, centres) < best_bin;
+            return binOf(item, best_axis, centers) < best_bin;
         });
         return begin + static_cast<std::size_t>(middle - first);
     }
 
-    static std::size_t binOf(const Item& item, std::size_t axis, const Box& centres) noexcept
+    static std::size_t binOf(const Item& item, std::size_t axis, const Box& centers) noexcept
     {
         const double share =
-            (item.centre(axis) - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
+            (item.center(axis) - centers.low[axis]) / (centers.high[axis] - centers.low[axis]);
         return std::min(static_cast<std::size_t>(share * static_cast<double>(kBins)), kBins - 1);
     }
 

@@ -218,8 +218,8 @@ private:
                     continue;
                 }
                 if (!filled || filled_tile_row != tile_row) {
-                    if (monitor_.isCancelled()) {
-                        return Error{ErrorCode::Cancelled, "canceled"};
+                    if (monitor_.isCanceled()) {
+                        return Error{ErrorCode::Canceled, "canceled"};
                     }
                     auto rows = filledRows(survey_.fine_means, means_, tile_row);
                     if (!rows) {
@@ -418,8 +418,8 @@ private:
     Status keepCoarseFills(const LevelBand& band)
     {
         for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
-            if (monitor_.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "canceled"};
+            if (monitor_.isCanceled()) {
+                return Error{ErrorCode::Canceled, "canceled"};
             }
             const TileId id{.kind = TileKind::Samples,
                             .level = static_cast<std::uint8_t>(band.level),

@@ -179,14 +179,14 @@ LevelFileWriter::finish(LevelFileHeader header, std::span<const Array> arrays, c
         // Packed on all cores, written in order.
         std::vector<std::vector<std::byte>> chunks(plane.chunkCount());
         parallelRanges(chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t chunk = begin; chunk < end && !monitor.isCancelled(); ++chunk) {
+            for (std::size_t chunk = begin; chunk < end && !monitor.isCanceled(); ++chunk) {
                 const std::size_t offset = plane.chunkShape(0).bytes() * chunk;
                 const PackShape shape = plane.chunkShape(chunk);
                 chunks[chunk] = packed(shape, arrays[i].values.subspan(offset, shape.bytes()));
             }
         });
-        if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "canceled"};
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, "canceled"};
         }
         for (const std::vector<std::byte>& chunk : chunks) {
             auto appended = append(chunk);
@@ -207,8 +207,8 @@ LevelFileWriter::finish(LevelFileHeader header, std::span<const Array> arrays, c
     if (auto written = writeFront(writtenPreamble(preamble)); !written) {
         return written;
     }
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "canceled"};
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, "canceled"};
     }
     if (Status confirmed = how.confirm ? how.confirm() : Status(Done{}); !confirmed) {
         return confirmed;

@@ -292,8 +292,8 @@ private:
             return Done{};
         }
         for (std::size_t first = 0; first < band.samples.columns(); first += kTileSide) {
-            if (monitor_.isCancelled()) {
-                return Error{ErrorCode::Cancelled, "canceled"};
+            if (monitor_.isCanceled()) {
+                return Error{ErrorCode::Canceled, "canceled"};
             }
             const TileId id{.kind = TileKind::Samples,
                             .level = static_cast<std::uint8_t>(band.level),

@@ -26,7 +26,7 @@ struct MapDamage {
 };
 
 /// The first damage found, or empty. Decodes every tile once, on all cores, in a fifth of the time
-/// of preparing. Errors mean that the check is inconclusive: Cancelled, out of memory, a level file
+/// of preparing. Errors mean that the check is inconclusive: Canceled, out of memory, a level file
 /// of another raster.
 Result<std::optional<MapDamage>> findDamage(const PreparedFiles& files, JobMonitor& monitor);
 

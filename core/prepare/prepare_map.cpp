@@ -85,8 +85,8 @@ lockFor(const std::string& level_path, TiledGeoTiffJob::WhenBusy when_busy, JobM
                                      "it or cancel it there",
                                      level_path, FileLock::holder(path))};
         }
-        if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "canceled"};
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, "canceled"};
         }
         std::this_thread::sleep_for(kLockPoll);
     }
@@ -263,7 +263,7 @@ Status makeFiles(const OpenRaster& raster,
         return copied;
     }
     Status made = measure(raster, job, report, monitor);
-    if (made || made.error().code == ErrorCode::Cancelled ||
+    if (made || made.error().code == ErrorCode::Canceled ||
         made.error().code == ErrorCode::TooLarge || isWholeTiledGeoTiff(report.raster_path)) {
         return made;
     }
@@ -403,7 +403,7 @@ prepareInFolder(const OpenRaster& raster, const FolderJob& job, JobMonitor& moni
     makeRoomFor(raster.info, prepare, *folder, *kept);
     Result<PrepareReport> prepared = prepareMapFiles(raster, prepare, monitor);
     // An existing copy is not rebuilt, so the error is in that copy.
-    if (!prepared && is_copy_there && prepared.error().code != ErrorCode::Cancelled &&
+    if (!prepared && is_copy_there && prepared.error().code != ErrorCode::Canceled &&
         prepared.error().code != ErrorCode::TooLarge && folder->remove(name)) {
         prepared = prepareMapFiles(raster, prepare, monitor);
     }

@@ -24,7 +24,7 @@ public:
     {
         const std::lock_guard lock(mutex_);
         const bool is_late = next_ > rows_.first && std::chrono::steady_clock::now() >= rows_.until;
-        if (failure_ || is_late || next_ == rows_.end || monitor_.isCancelled()) {
+        if (failure_ || is_late || next_ == rows_.end || monitor_.isCanceled()) {
             return std::nullopt;
         }
         return next_++;
@@ -39,8 +39,8 @@ public:
     // Call when no thread takes rows any more.
     Result<std::size_t> outcome() &&
     {
-        if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "canceled"};
+        if (monitor_.isCanceled()) {
+            return Error{ErrorCode::Canceled, "canceled"};
         }
         if (failure_) {
             return std::move(*failure_);
@@ -101,8 +101,8 @@ TileReaders::eachRow(const RowSpan& rows, const Work& work, const JobMonitor& mo
 Result<Tile>
 readTile(TileReader& reader, const TileSource& source, const TileId& id, const JobMonitor& monitor)
 {
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "canceled"};
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, "canceled"};
     }
     auto tile = reader.read(id);
     MARSVIEW_CHECK(!tile || (tile->samples.type() == source.layout().type &&

@@ -32,7 +32,7 @@ public:
     using Work = std::function<Status(TileReader& reader, std::size_t row)>;
     /// Calls `work` for rows in ascending order as threads become free, for at least one row, until
     /// one fails. Returns the first row that was not started; all rows before it are done. Errors:
-    /// that of `work`, or Cancelled.
+    /// that of `work`, or Canceled.
     Result<std::size_t> eachRow(const RowSpan& rows, const Work& work, const JobMonitor& monitor);
 
 private:
@@ -44,7 +44,7 @@ private:
     std::vector<std::unique_ptr<TileReader>> idle_;
 };
 
-/// The tile. Errors: those of the reader, Cancelled, or a tile of an unexpected kind or size.
+/// The tile. Errors: those of the reader, Canceled, or a tile of an unexpected kind or size.
 Result<Tile>
 readTile(TileReader& reader, const TileSource& source, const TileId& id, const JobMonitor& monitor);
 

@@ -451,8 +451,8 @@ Status Preparation::copy(JobMonitor& monitor)
         }
         for (std::size_t grid_row = 0; row < end;
              grid_row += kTileSide, row = std::min(row + kTileSide, end)) {
-            if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled, ""};
+            if (monitor.isCanceled()) {
+                return Error{ErrorCode::Canceled, ""};
             }
             if (Status written = copyTileRow(samples->grid, grid_row, tile_rows_done_); !written) {
                 return written;
@@ -566,9 +566,9 @@ Result<FileLock> lockFor(const TiledGeoTiffJob& job, JobMonitor& monitor, bool& 
                                      "for it or cancel it there",
                                      job.path, FileLock::holder(path))};
         }
-        if (monitor.isCancelled()) {
+        if (monitor.isCanceled()) {
             return Error{
-                ErrorCode::Cancelled,
+                ErrorCode::Canceled,
                 fmt::format("{}: waiting for another program that prepares it was canceled",
                             job.path)};
         }
@@ -656,13 +656,13 @@ Result<TiledGeoTiffReport> writeTiledGeoTiff(const TiledGeoTiffJob& job, JobMoni
     }
     if (!copied) {
         const bool is_kept =
-            preparation.hasCheckpoint() && (copied.error().code == ErrorCode::Cancelled ||
+            preparation.hasCheckpoint() && (copied.error().code == ErrorCode::Canceled ||
                                             copied.error().code == ErrorCode::TooLarge);
         if (!is_kept) {
             preparation.discard();
         }
-        if (copied.error().code == ErrorCode::Cancelled) {
-            return Error{ErrorCode::Cancelled,
+        if (copied.error().code == ErrorCode::Canceled) {
+            return Error{ErrorCode::Canceled,
                          fmt::format("{}: preparing was canceled{}", job.path,
                                      is_kept ? "; prepare it again to resume" : "")};
         }

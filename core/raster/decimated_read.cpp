@@ -139,7 +139,7 @@ public:
             return &opened.emplace_back(std::move(file).value());
         };
         parallelRanges(rows.size(), 1, [&](std::size_t begin, std::size_t) {
-            if (is_stopped || monitor_.isCancelled() || is_late()) {
+            if (is_stopped || monitor_.isCanceled() || is_late()) {
                 is_stopped = true;
                 return;
             }
@@ -158,8 +158,8 @@ public:
         if (failure) {
             return *std::move(failure);
         }
-        if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled,
+        if (monitor_.isCanceled()) {
+            return Error{ErrorCode::Canceled,
                          fmt::format("{}: reading was canceled", file_.info().path)};
         }
         if (is_stopped) {
@@ -183,7 +183,7 @@ private:
                    const std::vector<BlockRun>& columns) const
     {
         for (const BlockRun& run : columns) {
-            if (monitor_.isCancelled()) {
+            if (monitor_.isCanceled()) {
                 break;
             }
             const std::size_t width =

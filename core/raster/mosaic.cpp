@@ -115,7 +115,7 @@ std::string nameOf(const Part& part)
 // Other files next to maps are ignored silently.
 bool isRaster(const std::string& path)
 {
-    return recognisingDriverFor(path).has_value();
+    return recognizingDriverFor(path).has_value();
 }
 
 // The rasters among the files, each once: a label and its data count as one.

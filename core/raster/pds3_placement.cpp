@@ -145,7 +145,7 @@ double metersOf(const RadiusText& radius)
     constexpr double kKilometer = 1e3;
     constexpr double kLargestKm = 1e5; // Jupiter has 71 492
     if (const auto unit = verticalUnitFrom(radius.unit)) {
-        return radius.value * unit->metres;
+        return radius.value * unit->meters;
     }
     return radius.unit.empty() && radius.value > kLargestKm ? radius.value
                                                             : radius.value * kKilometer;

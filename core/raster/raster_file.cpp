@@ -655,7 +655,7 @@ Status RasterFile::checkComplete() const
 std::optional<double> RasterFile::Impl::findTypicalSample()
 {
     const bool can_hold_radius = sampleBytes(info.type) >= 4 || info.scale != 1.0 ||
-                                 info.offset != 0.0 || info.unit.metres != 1.0;
+                                 info.offset != 0.0 || info.unit.meters != 1.0;
     if (!can_hold_radius || (!info.crs && remote)) {
         return std::nullopt;
     }
@@ -984,8 +984,8 @@ RasterFile::readAll(JobMonitor& monitor, const VoidRule& voids, std::size_t memo
     SampleStatistics statistics;
     const std::size_t step = impl_->rowsPerBand();
     for (std::size_t row = 0; row < info.rows; row += step) {
-        if (monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled,
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled,
                          fmt::format("{}: reading was canceled", addressOf(info.path))};
         }
         const GridWindow window{0, row, info.columns, std::min(step, info.rows - row)};
@@ -1071,8 +1071,8 @@ Result<SampleStatistics> RasterFile::scan(JobMonitor& monitor, const VoidRule& v
     for (std::size_t row = 0; row < info.rows; row += step->rows) {
         const std::size_t rows = std::min(step->rows, info.rows - row);
         for (std::size_t column = 0; column < info.columns; column += step->columns) {
-            if (monitor.isCancelled()) {
-                return Error{ErrorCode::Cancelled,
+            if (monitor.isCanceled()) {
+                return Error{ErrorCode::Canceled,
                              fmt::format("{}: reading was canceled", addressOf(info.path))};
             }
             const GridWindow window{column, row, std::min(step->columns, info.columns - column),

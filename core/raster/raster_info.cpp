@@ -214,7 +214,7 @@ Status applyBody(RasterInfo& info, const RasterOverrides& overrides)
 
 ElevationScale RasterInfo::elevationScale() const noexcept
 {
-    return {scale * unit.metres, offset * unit.metres - reference_radius_m.value_or(0.0)};
+    return {scale * unit.meters, offset * unit.meters - reference_radius_m.value_or(0.0)};
 }
 
 std::string RasterInfo::voidSettings() const
@@ -242,11 +242,11 @@ void deduceHeightReference(RasterInfo& info)
     if (!radius) {
         return;
     }
-    const double offset_m = info.offset * info.unit.metres;
+    const double offset_m = info.offset * info.unit.meters;
     if (isNearRadius(offset_m, *radius)) {
         info.reference_radius_m = offset_m;
     } else if (info.typical_raw && *radius > kBodyRadiusMinM &&
-               isNearRadius((*info.typical_raw * info.scale + info.offset) * info.unit.metres,
+               isNearRadius((*info.typical_raw * info.scale + info.offset) * info.unit.meters,
                             *radius)) {
         info.reference_radius_m = *radius;
     }

@@ -102,7 +102,7 @@ private:
     std::shared_ptr<const ReliefTile> relief_;
 };
 
-/// Analyzes the surface of samples in memory. Not for the GUI thread. Only Cancelled can occur.
+/// Analyzes the surface of samples in memory. Not for the GUI thread. Only Canceled can occur.
 Result<std::shared_ptr<const Map>> analyzeMap(MapSource source, JobMonitor& monitor);
 
 /// A map in tiles, which was analyzed when its levels were built. Waits for a few tiles, and

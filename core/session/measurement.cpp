@@ -139,7 +139,7 @@ measured(const Measurement& measurement, const Map& map, MeasureDetail detail, J
         }
     }
     Result<MeasuredValues> values = valuesOf(measurement, map, terrain, *positions, monitor);
-    if (!values && values.error().code == ErrorCode::Cancelled) {
+    if (!values && values.error().code == ErrorCode::Canceled) {
         return nullptr;
     }
     return std::make_shared<const MeasurementResult>(MeasurementResult{

@@ -65,7 +65,7 @@ MeasuredTerrain measuredTerrain(const Map& map, std::size_t level = 0);
 std::optional<MeasuredVertex> vertexAt(const Georeference& georeference, GridPoint grid);
 
 /// Computes the results of `measurement` on `map`, which is the map of its layer. A failure is part
-/// of the result, except Cancelled, which returns null. Reads samples: not for the GUI thread.
+/// of the result, except Canceled, which returns null. Reads samples: not for the GUI thread.
 std::shared_ptr<const MeasurementResult>
 measured(const Measurement& measurement, const Map& map, MeasureDetail detail, JobMonitor& monitor);
 

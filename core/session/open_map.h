@@ -27,7 +27,7 @@ struct OpenMapOptions {
 
 /// Opens a map, ready to be shown and touched. Prepared files that turn out to be damaged are
 /// removed, and the map is opened without them. Errors begin with the path and say what to do;
-/// Cancelled when `monitor` is. Blocks on the disk: not for the GUI thread.
+/// Canceled when `monitor` is. Blocks on the disk: not for the GUI thread.
 Result<std::shared_ptr<const Map>> openMap(const RasterSpec& spec,
                                            const MapResources& resources,
                                            JobMonitor& monitor,

@@ -15,21 +15,21 @@ constexpr double kStep = 1e-9;
 
 // The offset to add to the map coordinate x of `map` to reach the turn of longitude on which
 // `scene` has the same position.
-double turnsBetween(const Georeference& scene, const Georeference& map, GridPoint centre)
+double turnsBetween(const Georeference& scene, const Georeference& map, GridPoint center)
 {
     const auto turn = scene.crs() ? scene.crs()->turn() : std::nullopt;
-    const auto place = turn ? map.toGeographic(centre) : std::nullopt;
+    const auto place = turn ? map.toGeographic(center) : std::nullopt;
     const auto there = place ? scene.toGrid(*place) : std::nullopt;
-    return there ? *turn * std::round((scene.toMap(*there).x - map.toMap(centre).x) / *turn) : 0.0;
+    return there ? *turn * std::round((scene.toMap(*there).x - map.toMap(center).x) / *turn) : 0.0;
 }
 
 } // namespace
 
 SceneFrame frameWithin(const Georeference& scene, const Georeference& map)
 {
-    const GridPoint centre{static_cast<double>(map.columns() - 1) / 2.0,
+    const GridPoint center{static_cast<double>(map.columns() - 1) / 2.0,
                            static_cast<double>(map.rows() - 1) / 2.0};
-    const double turns_x = turnsBetween(scene, map, centre);
+    const double turns_x = turnsBetween(scene, map, center);
     const auto onto_scene = [&](GridPoint grid) {
         const MapPoint at = map.toMap(grid);
         // Not Georeference::toGrid(), which rounds: samples of the map may be much smaller.
@@ -47,9 +47,9 @@ SceneFrame frameWithin(const Georeference& scene, const Georeference& map)
                       .north_per_column = column.y,
                       .north_per_row = row.y};
     // The center keeps its position in the scene.
-    const ScenePoint at = onto_scene(centre);
+    const ScenePoint at = onto_scene(center);
     const GridPoint back = result.toGrid({-at.x, -at.y, 0.0});
-    result.origin = {centre.column + back.column, centre.row + back.row};
+    result.origin = {center.column + back.column, center.row + back.row};
     return result;
 }
 
@@ -125,13 +125,13 @@ SceneBox SceneSurface::box(double exaggeration) const
     return box;
 }
 
-double SceneSurface::pixelMetres() const
+double SceneSurface::pixelMeters() const
 {
     double pixel_m = std::numeric_limits<double>::infinity();
     for (const SceneMap& part : maps_) {
         const Georeference& georeference = part.map->georeference();
         pixel_m =
-            std::min({pixel_m, georeference.pixelWidthMetres(), georeference.pixelHeightMetres()});
+            std::min({pixel_m, georeference.pixelWidthMeters(), georeference.pixelHeightMeters()});
     }
     return pixel_m;
 }

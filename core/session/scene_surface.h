@@ -49,7 +49,7 @@ public:
     /// Around all maps.
     SceneBox box(double exaggeration) const;
     /// The smallest pixel side in meters.
-    double pixelMetres() const;
+    double pixelMeters() const;
 
 private:
     bool isCovered(const ScenePoint& place, std::size_t index) const;

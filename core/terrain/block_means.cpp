@@ -13,12 +13,12 @@ Result<BlockMeans> BlockMeans::build(const Heightfield& heightfield, JobMonitor&
     BlockGrid blocks =
         emptyBlocks(extent, samples.hasVoids() ? BlockShares::Kept : BlockShares::None);
     parallelRanges(blocks.rows, 8, [&](std::size_t begin, std::size_t end) {
-        if (!monitor.isCancelled()) {
+        if (!monitor.isCanceled()) {
             measureBlocks(samples, kBlock, heightfield.scale(), begin, end, blocks);
         }
     });
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "canceled"};
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, "canceled"};
     }
     BlockMeans means = from(std::move(blocks), extent);
     monitor.report(1.0);

@@ -20,7 +20,7 @@ public:
     /// The smallest blocks, used for a map in memory.
     static constexpr std::size_t kBlock = 8;
 
-    /// Reads every sample once, on all cores. The only error is Cancelled.
+    /// Reads every sample once, on all cores. The only error is Canceled.
     static Result<BlockMeans> build(const Heightfield& heightfield, JobMonitor& monitor);
     /// From the means of a map's finest stored blocks; the same bits as build() from there up.
     /// `extent` is the map's, and its block_samples kBlock times a power of two.

@@ -50,7 +50,7 @@ Result<DetailErrors> DetailErrors::build(const DrawnSurface& surface, JobMonitor
         DetailMeasure::Worker worker(measure);
         std::vector<float> heights((kNodeCells + 1) * columns);
         std::vector<float> drawn(has_voids ? heights.size() : 0);
-        for (std::size_t band = begin; band < end && !monitor.isCancelled(); ++band) {
+        for (std::size_t band = begin; band < end && !monitor.isCanceled(); ++band) {
             const std::size_t first_row = band * kNodeCells;
             const std::size_t row_count = std::min(kNodeCells, rows - 1 - first_row) + 1;
             for (std::size_t i = 0; i < row_count; ++i) {
@@ -71,8 +71,8 @@ Result<DetailErrors> DetailErrors::build(const DrawnSurface& surface, JobMonitor
             monitor.report(static_cast<double>(++done) / static_cast<double>(bands));
         }
     });
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "canceled"};
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, "canceled"};
     }
     return std::move(measure).finish();
 }

@@ -42,7 +42,7 @@ public:
     /// The minimum growth factor of a corner's error from one level to the next. See cornerError.
     static constexpr float kGrowth = 1.5F;
 
-    /// Compares every sample with every level, on all cores. The only error is Cancelled.
+    /// Compares every sample with every level, on all cores. The only error is Canceled.
     static Result<DetailErrors> build(const DrawnSurface& surface, JobMonitor& monitor);
 
     /// The errors of a level's nodes, row by row; those of level 0 are 0 and not stored.

@@ -28,7 +28,7 @@ public:
 
     const Heightfield& heightfield() const noexcept { return heightfield_; }
     /// The base of the relative heights, in meters.
-    double baseMetres() const noexcept { return base_m_; }
+    double baseMeters() const noexcept { return base_m_; }
 
     /// Meters over the base; never NaN. Only if the samples are in memory.
     float height(std::size_t column, std::size_t row) const noexcept

@@ -12,7 +12,7 @@ Result<FilledHeightfield> FilledHeightfield::build(const Heightfield& heightfiel
     MARSVIEW_CHECK(analysis != nullptr);
     FilledHeightfield filled(heightfield, std::move(analysis));
     if (heightfield.samples().hasVoids() && !filled.buildMaxima(monitor)) {
-        return Error{ErrorCode::Cancelled, "canceled"};
+        return Error{ErrorCode::Canceled, "canceled"};
     }
     monitor.report(1.0);
     return filled;
@@ -30,7 +30,7 @@ bool FilledHeightfield::buildMaxima(JobMonitor& monitor)
     std::vector<float> maxima(pyramid.columns(0) * pyramid.rows(0));
     const std::size_t blocks = pyramid.columns(0);
     for (std::size_t row = 0; row < pyramid.rows(0); ++row) {
-        if (monitor.isCancelled()) {
+        if (monitor.isCanceled()) {
             return false;
         }
         monitor.report(static_cast<double>(row) / static_cast<double>(pyramid.rows(0)));

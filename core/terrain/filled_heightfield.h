@@ -20,7 +20,7 @@ namespace marsview {
 class FilledHeightfield {
 public:
     /// `analysis` must be that of `heightfield`. Reads every sample once if any is void. The only
-    /// error is Cancelled.
+    /// error is Canceled.
     static Result<FilledHeightfield> build(const Heightfield& heightfield,
                                            std::shared_ptr<const SurfaceAnalysis> analysis,
                                            JobMonitor& monitor);

@@ -75,7 +75,7 @@ void countTiles(const Heightfield& heights,
     for (std::size_t row = 0; row < layout.tileRows(TileKind::Samples, level); ++row) {
         for (std::size_t column = 0; column < layout.tileColumns(TileKind::Samples, level);
              ++column) {
-            if (options.monitor != nullptr && options.monitor->isCancelled()) {
+            if (options.monitor != nullptr && options.monitor->isCanceled()) {
                 return;
             }
             const auto tile = raster.get({.kind = TileKind::Samples,

@@ -20,13 +20,13 @@ void include(MinMaxPyramid::Bounds& bounds, const MinMaxPyramid::Bounds& other)
 
 Result<MinMaxPyramid> MinMaxPyramid::build(const Heightfield& heightfield, JobMonitor& monitor)
 {
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "canceled"};
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, "canceled"};
     }
     MinMaxPyramid pyramid =
         from(RawRanges::of(heightfield.samples(), monitor), heightfield.scale());
-    if (monitor.isCancelled()) {
-        return Error{ErrorCode::Cancelled, "canceled"};
+    if (monitor.isCanceled()) {
+        return Error{ErrorCode::Canceled, "canceled"};
     }
     monitor.report(1.0);
     return pyramid;

@@ -29,7 +29,7 @@ public:
         bool isEmpty() const noexcept { return !(minimum_m <= maximum_m); }
     };
 
-    /// Reads every sample once, on all cores. The only error is Cancelled.
+    /// Reads every sample once, on all cores. The only error is Canceled.
     static Result<MinMaxPyramid> build(const Heightfield& heightfield, JobMonitor& monitor);
     /// For a map whose blocks have these ranges; the same bits as build().
     static MinMaxPyramid from(RawRanges ranges, const ElevationScale& scale);

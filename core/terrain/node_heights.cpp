@@ -78,7 +78,7 @@ NodeState readNode(const DrawnSurface& surface,
             const double height_m = cursor.vertex(level, columns[i], rows[j]);
             heights[j * kNodeSide + i] = std::isnan(height_m)
                                              ? surface.filled(columns[i], rows[j])
-                                             : static_cast<float>(height_m - surface.baseMetres());
+                                             : static_cast<float>(height_m - surface.baseMeters());
         }
     }
     return cursor.isExact() ? NodeState::Complete : NodeState::Coarser;

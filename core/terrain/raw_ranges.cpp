@@ -107,7 +107,7 @@ RawRanges RawRanges::of(const SampleGrid& samples, JobMonitor& monitor)
         auto* blocks = reinterpret_cast<Range<T>*>(ranges.ranges_.data());
         parallelRanges(ranges.rows_, 4, [&](std::size_t begin, std::size_t end) {
             ColumnRanges<T> columns(samples.columns());
-            for (std::size_t row = begin; row < end && !monitor.isCancelled(); ++row) {
+            for (std::size_t row = begin; row < end && !monitor.isCanceled(); ++row) {
                 columns.measure(samples, values, row * kBlock, lastOf(row, samples.rows()));
                 for (std::size_t i = 0; i < ranges.columns_; ++i) {
                     blocks[row * ranges.columns_ + i] =

@@ -110,7 +110,7 @@ public:
     std::size_t columns() const { return heightfield_.columns(); }
     std::size_t rows() const { return heightfield_.rows(); }
     bool hasVoids() const { return heightfield_.hasVoids(); }
-    double baseMetres() const { return base_m_; }
+    double baseMeters() const { return base_m_; }
     void read(std::size_t first_column, std::size_t row, std::span<float> heights) const
     {
         readHeights(heightfield_, first_column, row, base_m_, heights);
@@ -159,7 +159,7 @@ public:
     std::size_t columns() const { return columns_; }
     std::size_t rows() const { return rows_; }
     bool hasVoids() const { return has_voids_; }
-    double baseMetres() const { return base_m_; }
+    double baseMeters() const { return base_m_; }
     void read(std::size_t first_column, std::size_t row, std::span<float> heights) const
     {
         const float* from = heights_.data() + (row - window_.row) * window_.columns +
@@ -476,7 +476,7 @@ tileFrom(const Rows& source, const SceneFrame& frame, const ReliefTileId& id, do
             }
         }
     });
-    heights.writeTo(tile, source.baseMetres());
+    heights.writeTo(tile, source.baseMeters());
     extend(finest, columns, rows);
     for (std::size_t level = 1; level < ReliefTile::kLevels; ++level) {
         halve(tile.levels[level - 1], tile.levels[level]);

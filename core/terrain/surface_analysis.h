@@ -20,7 +20,7 @@ struct SurfaceAnalysis {
 };
 
 /// Reads every sample a few times, on all cores: not for the GUI thread. The only error is
-/// Cancelled.
+/// Canceled.
 Result<std::shared_ptr<const SurfaceAnalysis>> analyze(const Heightfield& heightfield,
                                                        JobMonitor& monitor);
 

@@ -473,7 +473,7 @@ void TileRequests::request(std::span<const TileId> tiles)
             const Key key{impl_->raster.number_, id};
             if (!still.contains(id) && !cache.entries.contains(key) &&
                 !cache.in_work.contains(key)) {
-                ++cache.statistics.cancelled;
+                ++cache.statistics.canceled;
             }
         }
         impl_->requested.assign(tiles.begin(), tiles.end());

@@ -35,7 +35,7 @@ struct TileCacheOptions {
 struct TileCacheStatistics {
     std::uint64_t loaded = 0;
     std::uint64_t failed = 0;    // attempts
-    std::uint64_t cancelled = 0; // requests canceled before a loader took them
+    std::uint64_t canceled = 0;  // requests canceled before a loader took them
     std::uint64_t evicted = 0;
     std::size_t bytes_held = 0;
 };

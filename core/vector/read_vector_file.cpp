@@ -115,8 +115,8 @@ private:
             }
             constexpr GIntBig kFeaturesBetweenLooks = 256;
             if (number % kFeaturesBetweenLooks == 0) {
-                if (monitor_.isCancelled()) {
-                    return fault(ErrorCode::Cancelled, "reading was cancelled");
+                if (monitor_.isCanceled()) {
+                    return fault(ErrorCode::Canceled, "reading was canceled");
                 }
                 if (total > 0) {
                     monitor_.report(

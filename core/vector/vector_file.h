@@ -22,7 +22,7 @@ struct VectorFile {
 /// Earth unless it has the hint "target=mars" or "target=moon".
 ///
 /// NotFound, Unsupported and Unreadable name the path and say what to do; Unsupported too if layers
-/// are in different CRSs; TooLarge above 50 million coordinates; Cancelled when `monitor` is.
+/// are in different CRSs; TooLarge above 50 million coordinates; Canceled when `monitor` is.
 /// Blocks on the disk: not for the GUI thread.
 Result<VectorFile> readVectorFile(const std::string& path, JobMonitor& monitor);
 

@@ -250,8 +250,8 @@ private:
             }
             constexpr std::size_t kFeaturesBetweenLooks = 256;
             if (i % kFeaturesBetweenLooks == 0) {
-                if (monitor_.isCancelled()) {
-                    return fault(ErrorCode::Cancelled, "writing was cancelled");
+                if (monitor_.isCanceled()) {
+                    return fault(ErrorCode::Canceled, "writing was canceled");
                 }
                 monitor_.report(static_cast<double>(i) /
                                 static_cast<double>(source.features.size()));

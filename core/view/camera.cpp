@@ -101,12 +101,12 @@ project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& p
                       .y = (1.0 - dot(p, axes.up) / h) / 2.0 * viewport.height};
 }
 
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport)
+double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport)
 {
     return 2.0 * camera.distance_m * halfHeight(camera) / viewport.height;
 }
 
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at)
+double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at)
 {
     const double depth_m = dot(at - eyeOf(camera), axesOf(camera).forward);
     return 2.0 * depth_m * halfHeight(camera) / viewport.height;

@@ -96,7 +96,7 @@ project(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& p
 
 /// The width of a pixel in scene meters at the target and at another point, measured across the
 /// view, so that tilt and exaggeration do not matter. Negative behind the eye.
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport);
-double metresPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at);
+double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport);
+double metersPerPixel(const OrbitCamera& camera, const Viewport& viewport, const ScenePoint& at);
 
 } // namespace marsview

@@ -83,7 +83,7 @@ constexpr std::array kRamps{
     ColorRamp{.name = "datum",
               .stops = kDatum,
               .evenness = RampEvenness::EvenToSides,
-              .is_centred_on_datum = true},
+              .is_centered_on_datum = true},
     ColorRamp{.name = "hypsometric",
               .stops = kHypsometric,
               .evenness = RampEvenness::Uneven,
@@ -133,7 +133,7 @@ Oklab oklabFrom(Rgb8 color)
 
 HeightRange tintedRange(const ColorRamp& ramp, const HeightRange& heights)
 {
-    if (!ramp.is_centred_on_datum) {
+    if (!ramp.is_centered_on_datum) {
         return heights;
     }
     const double reach_m = std::max(std::abs(heights.minimum_m), std::abs(heights.maximum_m));

@@ -40,7 +40,7 @@ struct ColorRamp {
     /// cone.
     bool is_color_blind_safe = true;
     /// The middle is the datum: elevations above and below differ in hue (see tintedRange()).
-    bool is_centred_on_datum = false;
+    bool is_centered_on_datum = false;
 };
 
 /// The even ramps with rising lightness (dawn, rust, grey, ember, lagoon), then "datum", blue below

@@ -76,10 +76,10 @@ Angle clearTilt(OrbitCamera camera, const GroundQuery& ground)
     return tilt * clear;
 }
 
-// The first point accepted by `accepts` on rings around `centre`, from `radius_min_m` on. Radii
+// The first point accepted by `accepts` on rings around `center`, from `radius_min_m` on. Radii
 // grow by a quarter, so the point is nearly the nearest.
 template <typename Accepts>
-std::optional<ScenePoint> findAround(const ScenePoint& centre,
+std::optional<ScenePoint> findAround(const ScenePoint& center,
                                      double radius_min_m,
                                      double radius_max_m,
                                      const Accepts& accepts)
@@ -90,7 +90,7 @@ std::optional<ScenePoint> findAround(const ScenePoint& centre,
         for (int i = 0; i < kDirections; ++i) {
             const double heading = 2.0 * std::numbers::pi * i / kDirections;
             const ScenePoint p =
-                centre + Vec3{std::sin(heading), std::cos(heading), 0.0} * radius_m;
+                center + Vec3{std::sin(heading), std::cos(heading), 0.0} * radius_m;
             if (accepts(p)) {
                 return p;
             }

@@ -14,6 +14,6 @@ struct ScaleBar {
 
 /// The longest round bar that is at most `width_max_px` wide; it is wider than two fifths of that.
 /// Empty if an argument is not positive or the length is beyond the range of doubles.
-std::optional<ScaleBar> scaleBar(double metres_per_pixel, double width_max_px);
+std::optional<ScaleBar> scaleBar(double meters_per_pixel, double width_max_px);
 
 } // namespace marsview

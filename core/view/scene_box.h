@@ -16,7 +16,7 @@ struct SceneBox {
     ScenePoint minimum;
     ScenePoint maximum;
 
-    constexpr ScenePoint centre() const noexcept { return (minimum + maximum) * 0.5; }
+    constexpr ScenePoint center() const noexcept { return (minimum + maximum) * 0.5; }
     double diagonal_m() const noexcept // NOLINT(readability-identifier-naming)
     {
         return length(maximum - minimum);

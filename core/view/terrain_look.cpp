@@ -14,20 +14,20 @@ constexpr double kPixelsBetween = 40.0; // at least, at that slope
 
 } // namespace
 
-double automaticContourInterval(const HeightRange& range, double metres_per_pixel)
+double automaticContourInterval(const HeightRange& range, double meters_per_pixel)
 {
     const double relief_m = range.maximum_m - range.minimum_m;
-    if (!(relief_m > 0.0) || !(metres_per_pixel > 0.0) || !std::isfinite(relief_m) ||
-        !std::isfinite(metres_per_pixel)) {
+    if (!(relief_m > 0.0) || !(meters_per_pixel > 0.0) || !std::isfinite(relief_m) ||
+        !std::isfinite(meters_per_pixel)) {
         return 0.0;
     }
     return roundNumberAbove(
-        std::min(relief_m / kLinesMost, kRise * kPixelsBetween * metres_per_pixel));
+        std::min(relief_m / kLinesMost, kRise * kPixelsBetween * meters_per_pixel));
 }
 
 double contourInterval(const TerrainLook& look,
                        const HeightRange& range,
-                       double metres_per_pixel,
+                       double meters_per_pixel,
                        double exaggeration)
 {
     if (!look.has_contours) {
@@ -35,7 +35,7 @@ double contourInterval(const TerrainLook& look,
     }
     return look.contour_interval_m > 0.0
                ? look.contour_interval_m
-               : automaticContourInterval(range, metres_per_pixel / std::min(1.0, exaggeration));
+               : automaticContourInterval(range, meters_per_pixel / std::min(1.0, exaggeration));
 }
 
 } // namespace marsview

@@ -30,14 +30,14 @@ struct TerrainLook {
 /// and finer ones near the camera, so that terrain with a slope of 1 in 10 has a line about every
 /// 40 to 100 pixels. 0 if there are no lines to draw: heights are equal or unknown, or the scale is
 /// unknown.
-double automaticContourInterval(const HeightRange& range, double metres_per_pixel);
+double automaticContourInterval(const HeightRange& range, double meters_per_pixel);
 
 /// The contour interval of a look: 0 without contours. An `exaggeration` (> 0) below 1 enlarges an
 /// automatic interval in proportion: such terrain is far steeper than the lines are designed for,
 /// for example a grid in degrees read as meters.
 double contourInterval(const TerrainLook& look,
                        const HeightRange& range,
-                       double metres_per_pixel,
+                       double meters_per_pixel,
                        double exaggeration = 1.0);
 
 } // namespace marsview

@@ -20,9 +20,9 @@ constexpr Vec3 operator-(const WorkspacePoint& a, const WorkspacePoint& b)
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-constexpr WorkspacePoint operator+(const WorkspacePoint& a, const Vec3& metres)
+constexpr WorkspacePoint operator+(const WorkspacePoint& a, const Vec3& meters)
 {
-    return {a.x + metres.x, a.y + metres.y, a.z + metres.z};
+    return {a.x + meters.x, a.y + meters.y, a.z + meters.z};
 }
 
 /// The reach of a device.

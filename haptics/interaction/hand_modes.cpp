@@ -19,10 +19,10 @@ ModeStep pan(const ModeOptions& options, const ModeInput& input, ModeState& stat
 
 ModeStep zoom(const ModeOptions& options, const ModeInput& input, ModeState& state)
 {
-    const double scale = input.frame.scene_per_metre;
+    const double scale = input.frame.scene_per_meter;
     const double wanted = scale / zoomFactor(options.zoom, input.hand_shift.z);
-    const double next = std::clamp(wanted, std::min(scale, options.scene_per_metre_min),
-                                   std::max(scale, options.scene_per_metre_max));
+    const double next = std::clamp(wanted, std::min(scale, options.scene_per_meter_min),
+                                   std::max(scale, options.scene_per_meter_max));
     const WorkspaceFrame zoomed = input.frame.zoomed(input.hand, scale / next);
     const double hold = input.stiffness_n_per_m * input.free_share;
     return {.frame = zoomed.turned(input.hand, Angle::radians(input.twist_change_rad)),

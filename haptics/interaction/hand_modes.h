@@ -11,8 +11,8 @@ namespace marsview {
 struct ModeOptions {
     PanOptions pan;
     ZoomOptions zoom;
-    double scene_per_metre_min = 1e-3; // zoom limits
-    double scene_per_metre_max = 1e9;
+    double scene_per_meter_min = 1e-3; // zoom limits
+    double scene_per_meter_max = 1e9;
 };
 
 /// The change between two ticks.

@@ -6,7 +6,7 @@ OrbitCamera cameraFollowing(const HandView& before, const WorkspaceFrame& frame)
 {
     OrbitCamera camera = before.camera;
     camera.target = frame.toScene(before.frame.toWorkspace(camera.target));
-    camera.distance_m *= frame.scene_per_metre / before.frame.scene_per_metre;
+    camera.distance_m *= frame.scene_per_meter / before.frame.scene_per_meter;
     // Headings are clockwise.
     camera.azimuth = camera.azimuth + before.frame.turn + -frame.turn;
     return camera;
@@ -17,7 +17,7 @@ WorkspaceFrame frameFollowing(const HandView& before, const OrbitCamera& camera)
     const double factor = camera.distance_m / before.camera.distance_m;
     return {.anchor = before.frame.toWorkspace(before.camera.target),
             .place = camera.target,
-            .scene_per_metre = before.frame.scene_per_metre * factor,
+            .scene_per_meter = before.frame.scene_per_meter * factor,
             .turn = before.frame.turn + before.camera.azimuth + -camera.azimuth};
 }
 

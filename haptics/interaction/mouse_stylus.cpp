@@ -22,7 +22,7 @@ ScenePoint stylusGoal(const ScenePoint& ground,
 
 Vec3 stylusForce(const ScenePoint& proxy, const ScenePoint& goal, double point_m) noexcept
 {
-    const Vec3 force_n = (proxy - goal) * (kHandMetresPerPoint / point_m * kStiffnessNPerM);
+    const Vec3 force_n = (proxy - goal) * (kHandMetersPerPoint / point_m * kStiffnessNPerM);
     const double magnitude_n = length(force_n);
     return magnitude_n > kForceNMax ? force_n * (kForceNMax / magnitude_n) : force_n;
 }

@@ -44,7 +44,7 @@ ScenePoint stylusGoal(const ScenePoint& ground,
 
 /// The workspace length of a screen point: a window of 800 points is then 160 mm high, about the
 /// reach of a desktop stylus.
-inline constexpr double kHandMetresPerPoint = 2e-4;
+inline constexpr double kHandMetersPerPoint = 2e-4;
 
 /// The spring between proxy and goal, in the range in which desktop devices are stable.
 inline constexpr double kStiffnessNPerM = 300.0;

@@ -15,7 +15,7 @@ Vec3 turnedBy(const Vec3& v, Angle angle) noexcept
     return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
-WorkspacePoint centreOf(const WorkspaceBox& box) noexcept
+WorkspacePoint centerOf(const WorkspaceBox& box) noexcept
 {
     return {0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y),
             0.5 * (box.low.z + box.high.z)};
@@ -45,9 +45,9 @@ WorkspaceFrame frameAround(const Vec3& low, const Vec3& high, Angle turn, const 
     const Vec3 extent = high - low;
     const double scale =
         std::max({share(extent.x, size.x), share(extent.y, size.y), share(extent.z, size.z)});
-    return {.anchor = centreOf(reach),
+    return {.anchor = centerOf(reach),
             .place = turnedBy((low + high) * 0.5, turn),
-            .scene_per_metre = scale > 0.0 ? scale : 1.0,
+            .scene_per_meter = scale > 0.0 ? scale : 1.0,
             .turn = turn};
 }
 
@@ -65,12 +65,12 @@ WorkspacePoint WorkspaceFrame::toWorkspace(const ScenePoint& point) const noexce
 
 Vec3 WorkspaceFrame::differenceToWorkspace(const Vec3& scene_m) const noexcept
 {
-    return turnedBy(scene_m, -turn) * (1.0 / scene_per_metre);
+    return turnedBy(scene_m, -turn) * (1.0 / scene_per_meter);
 }
 
 Vec3 WorkspaceFrame::differenceToScene(const Vec3& workspace_m) const noexcept
 {
-    return turnedBy(workspace_m, turn) * scene_per_metre;
+    return turnedBy(workspace_m, turn) * scene_per_meter;
 }
 
 WorkspaceFrame WorkspaceFrame::panned(const Vec3& shift) const noexcept
@@ -84,7 +84,7 @@ WorkspaceFrame WorkspaceFrame::zoomed(const WorkspacePoint& fixed, double factor
 {
     return {.anchor = fixed,
             .place = toScene(fixed),
-            .scene_per_metre = scene_per_metre / factor,
+            .scene_per_meter = scene_per_meter / factor,
             .turn = turn};
 }
 
@@ -92,15 +92,15 @@ WorkspaceFrame WorkspaceFrame::turned(const WorkspacePoint& fixed, Angle angle) 
 {
     return {.anchor = fixed,
             .place = toScene(fixed),
-            .scene_per_metre = scene_per_metre,
+            .scene_per_meter = scene_per_meter,
             .turn = turn + -angle};
 }
 
 bool WorkspaceFrame::isSound() const noexcept
 {
     const double sum = anchor.x + anchor.y + anchor.z + place.x + place.y + place.z +
-                       scene_per_metre + turn.radians();
-    return std::isfinite(sum) && scene_per_metre > 0.0;
+                       scene_per_meter + turn.radians();
+    return std::isfinite(sum) && scene_per_meter > 0.0;
 }
 
 WorkspaceFrame frameForView(const OrbitCamera& camera,

@@ -16,7 +16,7 @@ namespace marsview {
 struct WorkspaceFrame {
     WorkspacePoint anchor{};      // this point of the workspace
     ScenePoint place{};           // maps to this point
-    double scene_per_metre = 1.0; // scene meters per workspace meter; > 0
+    double scene_per_meter = 1.0; // scene meters per workspace meter; > 0
     Angle turn{}; // from the workspace's axes to the scene's, counterclockwise seen from above
 
     bool operator==(const WorkspaceFrame&) const = default;

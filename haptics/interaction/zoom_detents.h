@@ -4,7 +4,7 @@
 namespace marsview {
 
 struct ZoomOptions {
-    double metres_per_doubling = 0.03; // of the hand, upward; > 0
+    double meters_per_doubling = 0.03; // of the hand, upward; > 0
     double detents_per_doubling = 2.0; // > 0
     double detent_n_per_m = 60.0;      // weak: at most a quarter of a newton
 };
@@ -13,8 +13,8 @@ struct ZoomOptions {
 double zoomFactor(const ZoomOptions& options, double rise_m) noexcept;
 
 /// Height of the hand above the nearest detent, in meters: at most half a step. The detents are the
-/// zooms 2^(i / detents_per_doubling) of `scene_per_metre`.
-double aboveDetent(const ZoomOptions& options, double scene_per_metre) noexcept;
+/// zooms 2^(i / detents_per_doubling) of `scene_per_meter`.
+double aboveDetent(const ZoomOptions& options, double scene_per_meter) noexcept;
 
 /// The vertical force on the hand there. Linear in the distance up to half way to the midpoint of
 /// two detents, from there linearly back to zero: continuous everywhere.

@@ -258,7 +258,7 @@ private:
         // Newly arrived terrain may change the force at most at this rate.
         constexpr double kForceRateNPerS = 20.0;
         terrain.resident().setRate(
-            std::max(1e-3, kForceRateNPerS * state_.frame.scene_per_metre /
+            std::max(1e-3, kForceRateNPerS * state_.frame.scene_per_meter /
                                (std::max(stiffness, 1.0) * map_->frame.exaggeration())));
         terrain.resident().resetMisses();
         if (terrain.refresh(motion, dt_s_)) {
@@ -351,7 +351,7 @@ private:
             return;
         }
         constexpr double kHairM = 1e-6;
-        const double depth = kHairM * state_.frame.scene_per_metre / map_->frame.exaggeration();
+        const double depth = kHairM * state_.frame.scene_per_meter / map_->frame.exaggeration();
         update({state_.proxy.x, state_.proxy.y, state_.proxy.z - depth});
     }
 

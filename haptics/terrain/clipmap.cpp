@@ -37,23 +37,23 @@ AlongAxis alongAxis(std::size_t level, std::size_t sample, std::size_t count) no
 } // namespace
 
 std::size_t
-Clipmap::firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side) noexcept
+Clipmap::firstTile(double center, std::size_t level, std::size_t tiles, std::size_t side) noexcept
 {
     const double width = static_cast<double>(kTileSide << level);
     const double most = static_cast<double>(tiles - side);
-    const double first = std::round(centre / width - static_cast<double>(side) / 2.0);
+    const double first = std::round(center / width - static_cast<double>(side) / 2.0);
     return static_cast<std::size_t>(std::clamp(first, 0.0, most));
 }
 
 Clipmap::Clipmap(std::shared_ptr<const TileHeights> heights,
                  std::shared_ptr<const Tile> top,
-                 const std::vector<GridPoint>& centres,
+                 const std::vector<GridPoint>& centers,
                  const WindowSides& sides)
     : heights_(std::move(heights))
 {
     const TileLayout& layout = heights_->layout();
     const std::size_t top_level = layout.topLevel();
-    MARSVIEW_CHECK(centres.size() == top_level + 1);
+    MARSVIEW_CHECK(centers.size() == top_level + 1);
     MARSVIEW_CHECK(sides.finest >= 3 && sides.finest <= kSideMax);
     MARSVIEW_CHECK(sides.coarser >= 3 && sides.coarser <= kSideMax);
     levels_.resize(top_level + 1);
@@ -67,8 +67,8 @@ Clipmap::Clipmap(std::shared_ptr<const TileHeights> heights,
         level.columns = static_cast<std::uint32_t>(columns);
         level.rows = static_cast<std::uint32_t>(rows);
         level.first_column =
-            static_cast<std::uint32_t>(firstTile(centres[k].column, k, tile_columns, columns));
-        level.first_row = static_cast<std::uint32_t>(firstTile(centres[k].row, k, tile_rows, rows));
+            static_cast<std::uint32_t>(firstTile(centers[k].column, k, tile_columns, columns));
+        level.first_row = static_cast<std::uint32_t>(firstTile(centers[k].row, k, tile_rows, rows));
         level.slots.resize(columns * rows);
     }
     putTop(std::move(top));

@@ -79,17 +79,17 @@ public:
     /// Along an axis with `tiles` tiles at a level, the first of the `side` (<= tiles) tiles around
     /// a center, which is given in samples of the map.
     static std::size_t
-    firstTile(double centre, std::size_t level, std::size_t tiles, std::size_t side) noexcept;
+    firstTile(double center, std::size_t level, std::size_t tiles, std::size_t side) noexcept;
 
     /// Whether such a square is valid at a level of a map.
     static bool
     fits(const TileLayout& layout, std::size_t level, const ShownTiles& square) noexcept;
 
-    /// `top` is the tile of the coarsest level. Level k is centered on `centres[k]`, in samples of
+    /// `top` is the tile of the coarsest level. Level k is centered on `centers[k]`, in samples of
     /// the map; there is one entry per level.
     Clipmap(std::shared_ptr<const TileHeights> heights,
             std::shared_ptr<const Tile> top,
-            const std::vector<GridPoint>& centres,
+            const std::vector<GridPoint>& centers,
             const WindowSides& sides = {});
 
     /// With the squares of another window, one per level, each within the map's tiles. Only `top`

@@ -73,9 +73,9 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
         // The tiles around the hand stay covered.
         const double lead = std::max(static_cast<double>(side) / 2.0 - 2.0, 0.0) * width;
         const GridPoint ahead = hand_at(0.5 * options.lookahead_s);
-        const GridPoint centre{hand.column + std::clamp(ahead.column - hand.column, -lead, lead),
+        const GridPoint center{hand.column + std::clamp(ahead.column - hand.column, -lead, lead),
                                hand.row + std::clamp(ahead.row - hand.row, -lead, lead)};
-        plan.centres.push_back(centre);
+        plan.centers.push_back(center);
         if (k < plan.finest_level || k == top) {
             continue;
         }
@@ -83,8 +83,8 @@ planWindow(const TileLayout& layout, const HandMotion& motion, const WindowPlanO
             const std::size_t first = Clipmap::firstTile(at, k, tiles, std::min(side, tiles));
             return Span{first, first + std::min(side, tiles)};
         };
-        const Span columns = span(centre.column, layout.tileColumns(TileKind::Samples, k));
-        const Span rows = span(centre.row, layout.tileRows(TileKind::Samples, k));
+        const Span columns = span(center.column, layout.tileColumns(TileKind::Samples, k));
+        const Span rows = span(center.row, layout.tileRows(TileKind::Samples, k));
         for (std::size_t row = rows.first; row < rows.end; ++row) {
             for (std::size_t column = columns.first; column < columns.end; ++column) {
                 // Distance from the hand's path in tiles; 0 inside.

@@ -18,7 +18,7 @@ struct WindowPlanOptions {
 
 /// What a window should cover, and the tiles to request.
 struct ClipmapPlan {
-    std::vector<GridPoint> centres; // of the levels, for Clipmap
+    std::vector<GridPoint> centers; // of the levels, for Clipmap
     std::vector<TileId> tiles;      // the most urgent first; all covered by the window
     /// Finer levels would arrive too late, after the hand has passed.
     std::size_t finest_level = 0;

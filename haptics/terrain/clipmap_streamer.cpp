@@ -84,8 +84,8 @@ ClipmapStreamer::ClipmapStreamer(const TiledRaster& raster,
                    heights_->layout().rows == raster_.layout().rows);
     MARSVIEW_CHECK(top);
     top_ = locked(std::move(top));
-    const std::vector<GridPoint> centres(heights_->layout().topLevel() + 1);
-    window_ = std::make_shared<const Clipmap>(heights_, top_, centres, options_.plan.sides);
+    const std::vector<GridPoint> centers(heights_->layout().topLevel() + 1);
+    window_ = std::make_shared<const Clipmap>(heights_, top_, centers, options_.plan.sides);
     exchange_ = std::make_shared<ClipmapExchange>(window_);
 }
 
@@ -191,7 +191,7 @@ bool ClipmapStreamer::feed(Clock::time_point now)
     plan_options.tiles_per_s = tiles_per_s_;
     const ClipmapPlan plan = planWindow(heights_->layout(), motion, plan_options);
 
-    auto next = std::make_shared<Clipmap>(heights_, top_, plan.centres, plan_options.sides);
+    auto next = std::make_shared<Clipmap>(heights_, top_, plan.centers, plan_options.sides);
     // Before the lookup, so that a tile that arrives in the meantime is not missed.
     const std::uint64_t generation = raster_.generation();
     bool is_changed = false;

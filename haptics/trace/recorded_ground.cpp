@@ -35,8 +35,8 @@ RecordedGround::RecordedGround(const TiledRaster& raster,
     , heights_(std::move(heights))
     , top_(std::move(top))
 {
-    const std::vector<GridPoint> centres(raster_.layout().topLevel() + 1);
-    window_ = std::make_shared<const Clipmap>(heights_, top_, centres);
+    const std::vector<GridPoint> centers(raster_.layout().topLevel() + 1);
+    window_ = std::make_shared<const Clipmap>(heights_, top_, centers);
     for (std::size_t k = 0; k < window_->levelCount(); ++k) {
         shown_.push_back(window_->shown(k));
     }

@@ -58,10 +58,10 @@ const std::shared_ptr<const FilledHeightfield>& int16Terrain()
     return kTerrain;
 }
 
-SceneFrame centredFrame()
+SceneFrame centeredFrame()
 {
-    constexpr double kCentre = static_cast<double>(kSide - 1) / 2.0;
-    return {.origin = {kCentre, kCentre}};
+    constexpr double kCenter = static_cast<double>(kSide - 1) / 2.0;
+    return {.origin = {kCenter, kCenter}};
 }
 
 // A goal that moves at a constant speed, `low` to `high` meters above the surface (negative: below
@@ -133,32 +133,32 @@ using Int16Surface = PlainHeightfieldSurface<std::int16_t>;
 
 void BM_ProxyGraph(benchmark::State& state)
 {
-    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), -5.0, -2.0);
+    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centeredFrame(), 1.0), -5.0, -2.0);
 }
 
 void BM_SurfaceWalk(benchmark::State& state)
 {
-    run<SurfaceWalk>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), -5.0, -2.0);
+    run<SurfaceWalk>(state, FloatSurface(floatTerrain(), centeredFrame(), 1.0), -5.0, -2.0);
 }
 
 void BM_ContinuousWalk(benchmark::State& state)
 {
-    run<ContinuousWalk>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), -5.0, -2.0);
+    run<ContinuousWalk>(state, FloatSurface(floatTerrain(), centeredFrame(), 1.0), -5.0, -2.0);
 }
 
 void BM_ProxyGraphInt16(benchmark::State& state)
 {
-    run<ProxyGraph>(state, Int16Surface(int16Terrain(), centredFrame(), 1.0), -5.0, -2.0);
+    run<ProxyGraph>(state, Int16Surface(int16Terrain(), centeredFrame(), 1.0), -5.0, -2.0);
 }
 
 void BM_ProxyGraphTimes5(benchmark::State& state)
 {
-    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centredFrame(), 5.0), -5.0, -2.0);
+    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centeredFrame(), 5.0), -5.0, -2.0);
 }
 
 void BM_ProxyGraphFree(benchmark::State& state)
 {
-    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centredFrame(), 1.0), 20.0, 60.0);
+    run<ProxyGraph>(state, FloatSurface(floatTerrain(), centeredFrame(), 1.0), 20.0, 60.0);
 }
 
 // The argument is the speed in tenths of a cell per update.

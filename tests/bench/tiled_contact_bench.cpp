@@ -54,17 +54,17 @@ const Ground& ground()
     return kGround;
 }
 
-SceneFrame centredFrame()
+SceneFrame centeredFrame()
 {
-    constexpr double kCentre = static_cast<double>(kSide - 1) / 2.0;
-    return {.origin = {kCentre, kCentre}};
+    constexpr double kCenter = static_cast<double>(kSide - 1) / 2.0;
+    return {.origin = {kCenter, kCenter}};
 }
 
 // A goal that moves at a constant speed, 2 to 5 meters below the surface, and turns back at the
 // border.
 std::vector<ScenePoint> path(double cells)
 {
-    const HeightfieldSurface surface(ground().map.filled, centredFrame(), 1.0);
+    const HeightfieldSurface surface(ground().map.filled, centeredFrame(), 1.0);
     constexpr std::size_t kCount = 20000;
     std::mt19937_64 random(7);
     const auto uniform = [&random](double from, double to) {
@@ -96,9 +96,9 @@ void run(benchmark::State& state, ContactModelKind kind, bool is_tiled)
     const ContactModelOptions options{.radius_m = 0.1};
     const auto model =
         is_tiled
-            ? makeContactModel(kind, TiledHeightfieldSurface(ground().terrain, centredFrame(), 1.0),
-                               options)
-            : makeContactModel(kind, HeightfieldSurface(ground().map.filled, centredFrame(), 1.0),
+            ? makeContactModel(
+                  kind, TiledHeightfieldSurface(ground().terrain, centeredFrame(), 1.0), options)
+            : makeContactModel(kind, HeightfieldSurface(ground().map.filled, centeredFrame(), 1.0),
                                options);
     std::uint64_t hash = 0xcbf29ce484222325U;
     for (const ScenePoint& goal : goals) { // once for the hash, and to warm the caches

@@ -10,9 +10,9 @@ namespace marsview::test {
 TEST(LongJob, CtrlCCancelsTheRunningJob)
 {
     LongJob job("testing");
-    EXPECT_FALSE(job.monitor().isCancelled());
+    EXPECT_FALSE(job.monitor().isCanceled());
     std::raise(SIGINT);
-    EXPECT_TRUE(job.monitor().isCancelled());
+    EXPECT_TRUE(job.monitor().isCanceled());
 }
 
 TEST(LongJob, RestoresCtrlCWhenItEnds)

@@ -174,7 +174,7 @@ TEST_F(LineRendererTest, PartsThatTheTerrainHidesAreFaintAndTheOthersAreNot)
                 }
                 // Clear cases only: the mesh of the picture is off by up to a pixel.
                 const double way_m = length(line.points[i] - eyeOf(camera));
-                const double pixel_m = metresPerPixel(camera, kPictureSize, line.points[i]);
+                const double pixel_m = metersPerPixel(camera, kPictureSize, line.points[i]);
                 const auto hitOf = [&](double rise_px) {
                     const ScenePoint aim = line.points[i] + Vec3{0.0, 0.0, rise_px * pixel_m};
                     const Vec3 direction = normalized(aim - eyeOf(camera));

@@ -114,7 +114,7 @@ public:
                     static_cast<GLfloat>(static_cast<double>(columns - 1) - anchor.column),
                     static_cast<GLfloat>(static_cast<double>(rows - 1) - anchor.row));
         const Vec3 from_eye =
-            map.frame.toScene(anchor, surface.baseMetres() * view.exaggeration) - eye;
+            map.frame.toScene(anchor, surface.baseMeters() * view.exaggeration) - eye;
         glUniform3f(program_.uniform("u_anchor_from_eye"), static_cast<GLfloat>(from_eye.x),
                     static_cast<GLfloat>(from_eye.y), static_cast<GLfloat>(from_eye.z));
         glUniform4f(program_.uniform("u_frame"), static_cast<GLfloat>(map.frame.east_per_column),
@@ -147,7 +147,7 @@ public:
                 flush();
                 place = atlas_.place(key, surface, 0, missing);
             }
-            batch.push_back(nodeInstance(selected, anchor, surface.baseMetres(), *place,
+            batch.push_back(nodeInstance(selected, anchor, surface.baseMeters(), *place,
                                          {.page = 0, .layer = 0, .node = selected.relief}));
         }
         flush();

@@ -53,7 +53,7 @@ std::vector<OrbitCamera> views(const LoadedTestMap& map, double exaggeration, co
     std::vector<OrbitCamera> cameras{home};
     const Georeference& georeference = map.map->georeference();
     const NavigationLimits limits = navigationLimits(
-        box, std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
+        box, std::min(georeference.pixelWidthMeters(), georeference.pixelHeightMeters()));
     const auto ground = [&](double east_m, double north_m) {
         return map.ground(east_m, north_m, exaggeration);
     };
@@ -195,7 +195,7 @@ protected:
             style.look.has_contours = true;
             const Picture lined = draw(camera, size, {}, style).colors;
             const double interval_m = contourInterval(style.look, map.field().range().value(),
-                                                      metresPerPixel(camera, size), exaggeration);
+                                                      metersPerPixel(camera, size), exaggeration);
             std::vector<int> step(width * height); // the interval of each pixel; kNone without one
             constexpr int kNone = std::numeric_limits<int>::min();
             const SceneFrame frame = map.frame();

@@ -9,7 +9,7 @@ namespace marsview::test {
 
 DrawnMap::DrawnMap(const Heightfield& heightfield, const SceneFrame& map_frame)
     : field(std::make_shared<const Heightfield>(heightfield))
-    , analysis(analysed(*field))
+    , analysis(analyzed(*field))
     , frame(map_frame)
 {}
 

@@ -62,7 +62,7 @@ GridTileSource::GridTileSource(const Heightfield& heightfield, Options options)
 {
     if (layout_.has_voids) {
         JobMonitor monitor;
-        filled_ = FilledHeightfield::build(heightfield, analysed(heightfield), monitor).value();
+        filled_ = FilledHeightfield::build(heightfield, analyzed(heightfield), monitor).value();
     }
 }
 

@@ -101,7 +101,7 @@ HeightFunction heightsFrom(std::vector<double> heights, std::size_t columns)
     };
 }
 
-std::shared_ptr<const SurfaceAnalysis> analysed(const Heightfield& heightfield)
+std::shared_ptr<const SurfaceAnalysis> analyzed(const Heightfield& heightfield)
 {
     JobMonitor monitor;
     return analyze(heightfield, monitor).value();

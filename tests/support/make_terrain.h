@@ -34,7 +34,7 @@ std::vector<double> fractalHeights(
 HeightFunction heightsFrom(std::vector<double> heights, std::size_t columns);
 
 /// The analysis of a heightfield, without cancellation.
-std::shared_ptr<const SurfaceAnalysis> analysed(const Heightfield& heightfield);
+std::shared_ptr<const SurfaceAnalysis> analyzed(const Heightfield& heightfield);
 
 /// North up, around the middle of the grid.
 SceneFrame northUpFrame(std::size_t columns, std::size_t rows, double pixel_m);

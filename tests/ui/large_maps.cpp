@@ -134,12 +134,12 @@ Status LargeMaps::prepare(const RasterSpec& spec, JobMonitor& monitor)
     std::unique_lock lock(mutex_);
     ++begun_count_;
     monitor.report(0.37);
-    while (!is_finishing_ && !monitor.isCancelled()) {
+    while (!is_finishing_ && !monitor.isCanceled()) {
         changed_.wait_for(lock, std::chrono::milliseconds(5)); // a cancellation does not notify
     }
-    if (monitor.isCancelled()) {
+    if (monitor.isCanceled()) {
         ++stopped_count_;
-        return Error{ErrorCode::Cancelled, spec.path + ": preparing was cancelled"};
+        return Error{ErrorCode::Canceled, spec.path + ": preparing was canceled"};
     }
     if (failure_) {
         return *failure_;

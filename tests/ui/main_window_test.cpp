@@ -161,7 +161,7 @@ TEST_F(MainWindowTest, KeepsTheMapWhenAnotherCannotBeOpened)
     EXPECT_EQ(view().camera(), camera);
 }
 
-TEST_F(MainWindowTest, KeepsTheMapWhenLoadingIsCancelled)
+TEST_F(MainWindowTest, KeepsTheMapWhenLoadingIsCanceled)
 {
     const QString file = maps_.hill();
     ASSERT_TRUE(openAndWait(*window_, file));

@@ -86,7 +86,7 @@ protected:
         camera.tilt = {};
         camera.azimuth = {};
         // A pixel of the overview, 6 km, is 1.2 pixels of the view.
-        camera.distance_m *= 6000.0 / 1.2 / metresPerPixel(camera, view().viewport());
+        camera.distance_m *= 6000.0 / 1.2 / metersPerPixel(camera, view().viewport());
         view().setCamera(camera);
         return waitFor([this] { return view().isPictureComplete(); });
     }

@@ -236,7 +236,7 @@ TEST_F(PictureSaverTest, WritesNothingOnceItIsCanceled)
         const QString file = maps_.path(QLatin1String(name));
         const Status written = writePictureFile(picture, file, &monitor);
         ASSERT_FALSE(written);
-        EXPECT_EQ(written.error().code, ErrorCode::Cancelled);
+        EXPECT_EQ(written.error().code, ErrorCode::Canceled);
         EXPECT_FALSE(QFileInfo::exists(file)) << name;
     }
 }

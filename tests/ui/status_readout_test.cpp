@@ -56,7 +56,7 @@ protected:
     {
         const auto hit = view().surfaceAt(place);
         return hit ? positionText(readout().format(), *view().map(), hit->grid,
-                                  view().metresPerPoint(*hit))
+                                  view().metersPerPoint(*hit))
                    : QString();
     }
 
@@ -129,7 +129,7 @@ TEST_F(StatusReadoutTest, ReadsThePlaceUnderTheStylusOfADevice)
         view().showDevice(pose);
         EXPECT_EQ(readout().coordinateLabel(),
                   positionText(readout().format(), mars, {column, 8.0},
-                               view().metresPerPoint(*view().reading())));
+                               view().metersPerPoint(*view().reading())));
         EXPECT_TRUE(readout().heightLabel().startsWith(numberText(20.0 * column - 300.0, 0)))
             << readout().heightLabel().toStdString();
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kJpegQuality = 92;
 
-// Takes no more once the job is cancelled, which ends the encoder that writes to it.
+// Takes no more once the job is canceled, which ends the encoder that writes to it.
 class CancellableFile final : public QIODevice {
 public:
     CancellableFile(QSaveFile& file, const JobMonitor* monitor)
@@ -24,13 +24,13 @@ public:
     {
         open(QIODevice::WriteOnly);
     }
-    bool isCancelled() const { return monitor_ != nullptr && monitor_->isCancelled(); }
+    bool isCanceled() const { return monitor_ != nullptr && monitor_->isCanceled(); }
 
 protected:
     qint64 readData(char* /*data*/, qint64 /*size_max*/) override { return -1; }
     qint64 writeData(const char* data, qint64 size) override
     {
-        return isCancelled() ? -1 : file_.write(data, size);
+        return isCanceled() ? -1 : file_.write(data, size);
     }
 
 private:
@@ -55,9 +55,9 @@ Status writeAsTiff(const QImage& image, const QString& file)
 
 Status writePictureFile(const QImage& picture, const QString& file, const JobMonitor* monitor)
 {
-    const Error cancelled{ErrorCode::Cancelled, "canceled"};
-    if (monitor != nullptr && monitor->isCancelled()) {
-        return cancelled;
+    const Error canceled{ErrorCode::Canceled, "canceled"};
+    if (monitor != nullptr && monitor->isCanceled()) {
+        return canceled;
     }
     const QString ending = QFileInfo(file).suffix().toLower();
     if (ending == QLatin1String("tif") || ending == QLatin1String("tiff")) {
@@ -93,8 +93,8 @@ Status writePictureFile(const QImage& picture, const QString& file, const JobMon
         writer.setQuality(kJpegQuality);
     }
     const bool is_written = writer.write(picture);
-    if (device.isCancelled()) {
-        return cancelled;
+    if (device.isCanceled()) {
+        return canceled;
     }
     if (!is_written || out.error() != QFileDevice::NoError) {
         return refusal(out.error() != QFileDevice::NoError ? out.errorString()

@@ -11,8 +11,8 @@ namespace marsview {
 
 /// Writes PNG, JPEG or TIFF, as the name ends: .png, .jpg, .jpeg, .tif or .tiff. A file of that
 /// name is replaced only by a whole picture. Unsupported for another ending, Unreadable where the
-/// file cannot be written; the sentence says what to do. Cancelled, and nothing replaced, where
-/// `monitor`, which may be null, is cancelled before PNG and JPEG are complete, or TIFF is begun.
+/// file cannot be written; the sentence says what to do. Canceled, and nothing replaced, where
+/// `monitor`, which may be null, is canceled before PNG and JPEG are complete, or TIFF is begun.
 /// Any thread.
 Status
 writePictureFile(const QImage& picture, const QString& file, const JobMonitor* monitor = nullptr);

@@ -523,7 +523,7 @@ double TerrainView::groundAt(double east_m, double north_m) const
 
 NavigationLimits TerrainView::limits() const
 {
-    return navigationLimits(ground_.box(style_.exaggeration), ground_.pixelMetres());
+    return navigationLimits(ground_.box(style_.exaggeration), ground_.pixelMeters());
 }
 
 OrbitCamera TerrainView::bounded(const OrbitCamera& camera) const

@@ -141,8 +141,8 @@ public:
     /// What reading() is the place of.
     ReadingSource readingSource() const;
     bool isCrosshairShown() const;
-    /// Metres on the terrain in one point of the screen at a place that surfaceAt() found.
-    double metresPerPoint(const RayHit& hit) const;
+    /// Meters on the terrain in one point of the screen at a place that surfaceAt() found.
+    double metersPerPoint(const RayHit& hit) const;
     /// Keeps the crosshair while another widget that shows the reading has the focus.
     void setReadElsewhere(bool is_read);
     /// False for pictures of the window: no crosshair in them.

@@ -341,7 +341,7 @@ void TerrainView::moveStylus()
             ground->grid, ground->height_m * style_.exaggeration);
         const bool was_panning = stylus_.pose() && stylus_.pose()->mode == StylusMode::Pan;
         stylus_.aim(*ground, buttons_,
-                    metresPerPixel(navigator_.camera(), viewport(), at) * devicePixelRatioF());
+                    metersPerPixel(navigator_.camera(), viewport(), at) * devicePixelRatioF());
         if (!was_panning && stylus_.pose()->mode == StylusMode::Pan) {
             grabbed_z_m_ = at.z; // the grabbed point stays under the pointer
         }

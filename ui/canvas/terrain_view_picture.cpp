@@ -259,7 +259,7 @@ void TerrainView::paintCursor()
         cursor.goal = pose->goal;
     } else {
         const double radius_m = kShadowPoints * devicePixelRatioF() *
-                                metresPerPixel(navigator_.camera(), viewport(), pose->proxy);
+                                metersPerPixel(navigator_.camera(), viewport(), pose->proxy);
         for (int i = 0; i < kShadowSides; ++i) {
             const double around = 2.0 * std::numbers::pi * i / kShadowSides;
             const double x = pose->proxy.x + radius_m * std::cos(around);

@@ -84,14 +84,14 @@ std::optional<RayHit> TerrainView::reading() const
     return ground ? std::optional(onTopmost(*ground)) : std::nullopt;
 }
 
-double TerrainView::metresPerPoint(const RayHit& hit) const
+double TerrainView::metersPerPoint(const RayHit& hit) const
 {
     if (!map_) {
         return 0.0;
     }
     const ScenePoint place =
         map_->georeference().sceneFrame().toScene(hit.grid, hit.height_m * style_.exaggeration);
-    return metresPerPixel(navigator_.camera(), viewport(), place) * devicePixelRatioF();
+    return metersPerPixel(navigator_.camera(), viewport(), place) * devicePixelRatioF();
 }
 
 void TerrainView::setReadElsewhere(bool is_read)

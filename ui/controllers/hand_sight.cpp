@@ -29,7 +29,7 @@ MapPlan planOf(const SceneMap& map)
 // Cells over the reach whose corners are probed.
 constexpr std::size_t kProbeColumns = 32;
 constexpr std::size_t kProbeRows = 24;
-// Of the picture's width and height, on each side: the hand trails its aim by some millimetres, and
+// Of the picture's width and height, on each side: the hand trails its aim by some millimeters, and
 // the terrain between two probes may rise.
 constexpr double kMarginShare = 0.06;
 

@@ -687,7 +687,7 @@ void HapticsController::showHand(const LoopState& state)
 {
     const ContactState& contact = state.contact;
     const Vec3 force_n =
-        state.frame.differenceToScene(state.force_n) * (1.0 / state.frame.scene_per_metre);
+        state.frame.differenceToScene(state.force_n) * (1.0 / state.frame.scene_per_meter);
     view_.showDevice(StylusPose{.mode = state.mode,
                                 .proxy = contact.is_in_contact ? contact.proxy : state.goal,
                                 .goal = state.goal,

@@ -35,7 +35,7 @@ private:
     };
 
     std::map<const Map*, Entry> entries_;
-    JobMonitor monitor_; // cancelled at the end
+    JobMonitor monitor_; // canceled at the end
     QThreadPool pool_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kProgressInterval{33};
 
-// A job that was cancelled inside a slow network read must not hold up the next one.
+// A job that was canceled inside a slow network read must not hold up the next one.
 constexpr int kThreadCountMax = 4;
 
 } // namespace
@@ -65,7 +65,7 @@ void LoadController::cancel()
     }
     const RasterSpec spec = job_->request.spec;
     abandon();
-    Q_EMIT cancelled(spec);
+    Q_EMIT canceled(spec);
 }
 
 void LoadController::abandon()
@@ -102,7 +102,7 @@ void LoadController::finish(const std::shared_ptr<Job>& job,
                             const Result<std::shared_ptr<const Map>>& outcome)
 {
     if (job != job_) {
-        return; // cancelled, or another load was started, after this one was posted
+        return; // canceled, or another load was started, after this one was posted
     }
     reportProgress();
     job_.reset();

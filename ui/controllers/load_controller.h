@@ -27,7 +27,7 @@ struct LoadFailure {
 };
 
 /// Runs one load at a time. A map that is too large to be held, and not prepared, is loaded as a
-/// preview. Starting another one, cancelling, and destroying the controller end the
+/// preview. Starting another one, canceling, and destroying the controller end the
 /// one that runs; nothing of it is heard of afterwards, whatever the moment. Lives in the GUI
 /// thread; only the destructor may wait, for at most one step of reading.
 class LoadController final : public QObject {
@@ -52,7 +52,7 @@ Q_SIGNALS:
     // One of the following ends each load, except one that gave way to another start().
     void succeeded(const std::shared_ptr<const Map>& map);
     void failed(const LoadFailure& failure);
-    void cancelled(const RasterSpec& spec);
+    void canceled(const RasterSpec& spec);
 
 private:
     struct Job;

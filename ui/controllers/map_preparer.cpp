@@ -161,13 +161,13 @@ Status MapPreparer::run(Job& job)
 {
     const RasterSpec& spec = job.request.spec;
     try {
-        if (job.request.is_preview_wanted && !job.monitor.isCancelled()) {
+        if (job.request.is_preview_wanted && !job.monitor.isCanceled()) {
             if (const auto preview = job.opener.preview(spec, betterPreview(), job.previewing)) {
                 job.tell_preview(*preview);
             }
         }
-        if (job.monitor.isCancelled()) {
-            return Error{ErrorCode::Cancelled, spec.path + ": building overviews was canceled"};
+        if (job.monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, spec.path + ": building overviews was canceled"};
         }
         return job.opener.prepare(spec, job.opener.resources, job.monitor);
     } catch (const std::bad_alloc&) {

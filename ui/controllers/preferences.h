@@ -21,7 +21,7 @@ inline constexpr int kTileMemoryMbMin = 128;
 
 struct Preferences {
     Theme theme = Theme::System;
-    HeightUnit height_unit = HeightUnit::Metres;
+    HeightUnit height_unit = HeightUnit::Meters;
     CoordinateFormat coordinates{}; // wherever positions are read or typed
     bool has_antialiasing = true;   // where the driver does it without effort
     int frames_per_s = 30;          // while something moves: 20, 30 or 60

@@ -56,8 +56,8 @@ double distanceToSee(const Map& map)
 {
     const Georeference& georeference = map.georeference();
     const double side_m =
-        std::max(static_cast<double>(georeference.columns()) * georeference.pixelWidthMetres(),
-                 static_cast<double>(georeference.rows()) * georeference.pixelHeightMetres());
+        std::max(static_cast<double>(georeference.columns()) * georeference.pixelWidthMeters(),
+                 static_cast<double>(georeference.rows()) * georeference.pixelHeightMeters());
     return 1.2 * side_m / (2.0 * std::tan(Angle::degrees(20.0).radians()));
 }
 
@@ -326,7 +326,7 @@ void SessionController::cancel()
                         tr("%1: loading was canceled").arg(QString::fromStdString(load.spec.path)));
         }
     }
-    Q_EMIT loadingCancelled();
+    Q_EMIT loadingCanceled();
     Q_EMIT loadingEnded();
 }
 
@@ -667,9 +667,9 @@ void SessionController::goTo(LayerId id)
         return;
     }
     const Map& map = *layer->map;
-    const GridPoint centre =
+    const GridPoint center =
         scene->georeference().toGrid(placeOn(map, 0.5, 0.5), map.georeference());
-    view_.flyTo(centre, distanceToSee(map));
+    view_.flyTo(center, distanceToSee(map));
 }
 
 } // namespace marsview

@@ -147,7 +147,7 @@ Q_SIGNALS:
     /// Nothing is loading any more.
     void loadingEnded();
     /// The user stopped it.
-    void loadingCancelled();
+    void loadingCanceled();
     void preparingProgressed(const PrepareProgress& progress);
     /// No overviews are being built any more.
     void preparingEnded();

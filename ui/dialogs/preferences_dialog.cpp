@@ -34,7 +34,7 @@ PreferencesDialog::PreferencesDialog(const Preferences& preferences,
     theme_->setAccessibleName(tr("Theme"));
     theme_->setObjectName(QStringLiteral("theme"));
     height_unit_->setObjectName(QStringLiteral("elevationUnit"));
-    height_unit_->addItem(tr("Meters"), static_cast<int>(HeightUnit::Metres));
+    height_unit_->addItem(tr("Meters"), static_cast<int>(HeightUnit::Meters));
     height_unit_->addItem(tr("Feet"), static_cast<int>(HeightUnit::Feet));
     height_unit_->setAccessibleName(tr("Elevation unit"));
     for (const int rate : {20, 30, 60}) {

@@ -25,7 +25,7 @@ namespace {
 constexpr double kCutStep = 0.5; // percent
 constexpr double kSteps = 100.0; // of the arrow keys over the whole range, about
 
-double inMetres(double value, HeightUnit unit)
+double inMeters(double value, HeightUnit unit)
 {
     return value / inUnit(1.0, unit);
 }
@@ -244,7 +244,7 @@ void StretchDialog::fillHeights()
     QString note;
     if (!content_.layer.isEmpty() && !(content_.all.maximum_m > content_.all.minimum_m)) {
         note = tr("All samples have the same elevation.");
-    } else if (content_.ramp != nullptr && content_.ramp->is_centred_on_datum) {
+    } else if (content_.ramp != nullptr && content_.ramp->is_centered_on_datum) {
         const HeightRange tinted = tintedRange(*content_.ramp, content_.stretched);
         //: %1 is a range of elevations
         note = tr("This ramp is symmetric about 0: its ends are %1.")
@@ -285,7 +285,7 @@ void StretchDialog::requestEnds()
         const double half_digit = 0.5 * std::pow(10.0, -box.decimals()) * (1.0 + 1e-6);
         return std::abs(box.value() - inUnit(now_m, unit_)) <= half_digit
                    ? now_m
-                   : inMetres(box.value(), unit_);
+                   : inMeters(box.value(), unit_);
     };
     const double low_m = end(*low_, content_.stretched.minimum_m);
     const double high_m = end(*high_, content_.stretched.maximum_m);

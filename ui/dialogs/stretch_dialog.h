@@ -74,7 +74,7 @@ private:
 
     StretchContent content_;
     bool was_slope_ = false;
-    HeightUnit unit_ = HeightUnit::Metres;
+    HeightUnit unit_ = HeightUnit::Meters;
     QFormLayout* form_ = nullptr;
     StretchPlot* plot_ = nullptr;
     QComboBox* kind_ = nullptr;

@@ -12,7 +12,7 @@
 
 namespace marsview {
 
-/// Elevations in metres, or slopes in degrees.
+/// Elevations in meters, or slopes in degrees.
 struct PlotRange {
     double low = 0.0;
     double high = 0.0;

@@ -6,7 +6,7 @@
 
 namespace marsview {
 
-/// An arrow at the edge of the map, in the cursor's colour, readable on any ground. It is there
+/// An arrow at the edge of the map, in the cursor's color, readable on any ground. It is there
 /// only while it has something to point to; transparent to the mouse.
 class HandPointer final : public QWidget {
     Q_OBJECT

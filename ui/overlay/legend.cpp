@@ -124,10 +124,10 @@ bool Legend::hasLower() const
                range.minimum_m - kBeyondShare * (range.maximum_m - range.minimum_m);
 }
 
-// Labels count in so many metres: kilometres where these are round. Feet stay feet.
+// Labels count in so many meters: kilometers where these are round. Feet stay feet.
 double Legend::kilo() const
 {
-    const bool is_long = content_.unit == HeightUnit::Metres && ticks_.step >= 1000.0;
+    const bool is_long = content_.unit == HeightUnit::Meters && ticks_.step >= 1000.0;
     return content_.mode == ShadingMode::Tint && is_long ? 1000.0 : 1.0;
 }
 

@@ -19,7 +19,7 @@ struct LegendContent {
     HeightRange range{};             // elevations at the ends of the ramp, for Tint
     SlopeRange slopes{};             // slopes there, for Slope
     double contour_interval_m = 0.0; // of the lines drawn; 0 without
-    HeightUnit unit = HeightUnit::Metres;
+    HeightUnit unit = HeightUnit::Meters;
     /// Of the layer. Where it reaches beyond `range`, arrows at the ends of the ramp show it.
     HeightRange all{};
     QString layer{}; // its name, where several layers are in the picture

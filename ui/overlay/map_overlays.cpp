@@ -307,7 +307,7 @@ void MapOverlays::showLegend()
          .range = colorRangeOf(layer),
          .slopes = slopeRangeOf(layer),
          .contour_interval_m = contourInterval(
-             look, all, metresPerPixel(view_.camera(), view_.viewport()), view_.exaggeration()),
+             look, all, metersPerPixel(view_.camera(), view_.viewport()), view_.exaggeration()),
          .unit = height_unit_,
          .all = all,
          .layer = is_named ? QString::fromStdString(known->name) : QString(),

@@ -119,7 +119,7 @@ private:
     OverlayLayout* layout_ = nullptr;
     bool is_hint_offered_ = false;
     Session session_;
-    HeightUnit height_unit_ = HeightUnit::Metres;
+    HeightUnit height_unit_ = HeightUnit::Meters;
     std::vector<bool> seen_; // which of the view's layers, top first; empty: not known yet
     QTimer probe_timer_;
     struct MarkedPlace {

@@ -134,8 +134,8 @@ QSize Minimap::sizeHint() const
     const double north = bounds_.north - bounds_.south;
     const double scale = std::min((largest_size_.width() - 2 * kRim) / east,
                                   (largest_size_.height() - 2 * kRim) / north);
-    const auto side = [scale](double metres) {
-        return std::max(kThinnest, static_cast<int>(std::lround(metres * scale)) + 2 * kRim);
+    const auto side = [scale](double meters) {
+        return std::max(kThinnest, static_cast<int>(std::lround(meters * scale)) + 2 * kRim);
     };
     return {std::min(side(east), largest_size_.width()),
             std::min(side(north), largest_size_.height())};
@@ -147,23 +147,23 @@ void Minimap::place()
     if (!map_) {
         return;
     }
-    pixels_per_metre_ =
+    pixels_per_meter_ =
         std::min(std::max(1, width() - 2 * kRim) / (bounds_.east - bounds_.west),
                  std::max(1, height() - 2 * kRim) / (bounds_.north - bounds_.south));
     middle_ = QPointF(width() / 2.0, height() / 2.0);
     const SceneFrame& frame = map_->frame;
     const QPointF origin = positionOf(frame.toScene({0.0, 0.0}, 0.0));
-    from_grid_ = QTransform(frame.east_per_column * pixels_per_metre_,
-                            -frame.north_per_column * pixels_per_metre_,
-                            frame.east_per_row * pixels_per_metre_,
-                            -frame.north_per_row * pixels_per_metre_, origin.x(), origin.y());
+    from_grid_ = QTransform(frame.east_per_column * pixels_per_meter_,
+                            -frame.north_per_column * pixels_per_meter_,
+                            frame.east_per_row * pixels_per_meter_,
+                            -frame.north_per_row * pixels_per_meter_, origin.x(), origin.y());
 }
 
 QPointF Minimap::positionOf(const ScenePoint& place) const
 {
     const double middle_x = (bounds_.west + bounds_.east) / 2.0;
     const double middle_y = (bounds_.south + bounds_.north) / 2.0;
-    return middle_ + QPointF(place.x - middle_x, middle_y - place.y) * pixels_per_metre_;
+    return middle_ + QPointF(place.x - middle_x, middle_y - place.y) * pixels_per_meter_;
 }
 
 ScenePoint Minimap::onMap(const ScenePoint& place) const
@@ -179,7 +179,7 @@ ScenePoint Minimap::placeAt(QPointF position) const
     if (!map_) {
         return {};
     }
-    const QPointF off = (position - middle_) / pixels_per_metre_;
+    const QPointF off = (position - middle_) / pixels_per_meter_;
     return onMap({(bounds_.west + bounds_.east) / 2.0 + off.x(),
                   (bounds_.south + bounds_.north) / 2.0 - off.y(),
                   camera_ ? camera_->target.z : 0.0});
@@ -331,7 +331,7 @@ void Minimap::drawCamera(QPainter& painter) const
     }
 
     const double reach =
-        std::clamp(wedge.length_m * pixels_per_metre_, kWedgeShortest, kWedgeLongest);
+        std::clamp(wedge.length_m * pixels_per_meter_, kWedgeShortest, kWedgeLongest);
     const auto end = [&](const Vec3& direction) {
         return eye + QPointF(direction.x, -direction.y) * reach;
     };

@@ -61,7 +61,7 @@ protected:
 
 private:
     struct Bounds {
-        double west = 0.0; // scene metres
+        double west = 0.0; // scene meters
         double east = 0.0;
         double south = 0.0;
         double north = 0.0;
@@ -78,7 +78,7 @@ private:
     std::optional<OrbitCamera> camera_;
     Viewport viewport_;
     QSize largest_size_{220, 160};
-    double pixels_per_metre_ = 1.0;
+    double pixels_per_meter_ = 1.0;
     QPointF middle_;       // of the bounds, in the widget
     QTransform from_grid_; // to the widget
     QPixmap drawn_map_;    // for this size and pixel ratio; null when it has to be drawn

@@ -47,10 +47,10 @@ QString lengthText(double round_length_m)
 {
     if (round_length_m >= 1000.0) {
         const double length_km = round_length_m / 1000.0;
-        //: A length in kilometres
+        //: A length in kilometers
         return tr("%1 km").arg(numberText(length_km, length_km));
     }
-    //: A length in metres
+    //: A length in meters
     return tr("%1 m").arg(numberText(round_length_m, round_length_m));
 }
 

@@ -80,8 +80,8 @@ OverviewPicture overviewPicture(const std::vector<ShownLayer>& layers,
     const double width_m = box.maximum.x - box.minimum.x;
     const double height_m = box.maximum.y - box.minimum.y;
     const double pixel_m = std::max(width_m, height_m) / static_cast<double>(kPictureSideMax);
-    const auto side = [pixel_m](double metres) {
-        return std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(metres / pixel_m)));
+    const auto side = [pixel_m](double meters) {
+        return std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(meters / pixel_m)));
     };
     OverviewPicture overview{
         .image = {},

@@ -29,13 +29,13 @@ ScaleBarView::ScaleBarView(QWidget* parent)
 
 void ScaleBarView::setCamera(const OrbitCamera& camera, const Viewport& viewport)
 {
-    metres_per_pixel_ = metresPerPixel(camera, viewport) * devicePixelRatioF();
+    meters_per_pixel_ = metersPerPixel(camera, viewport) * devicePixelRatioF();
     refresh();
 }
 
 void ScaleBarView::clear()
 {
-    metres_per_pixel_ = 0.0;
+    meters_per_pixel_ = 0.0;
     refresh();
 }
 
@@ -62,7 +62,7 @@ void ScaleBarView::refresh()
 {
     const std::optional<ScaleBar> before = bar_;
     const QSize room = sizeHint();
-    bar_ = scaleBar(metres_per_pixel_, longest_bar_);
+    bar_ = scaleBar(meters_per_pixel_, longest_bar_);
     if (bar_ && (!before || bar_->length_m != before->length_m)) {
         //: %1 is the length of the scale bar, for example "500 km"
         setAccessibleName(tr("Scale %1").arg(lengthText(bar_->length_m)));

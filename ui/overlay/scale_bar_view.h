@@ -38,7 +38,7 @@ protected:
 private:
     void refresh();
 
-    double metres_per_pixel_ = 0.0; // of the widget, not of the device
+    double meters_per_pixel_ = 0.0; // of the widget, not of the device
     int longest_bar_ = 130;
     std::optional<ScaleBar> bar_;
 };

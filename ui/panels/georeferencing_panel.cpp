@@ -291,17 +291,17 @@ void GeoreferencingPanel::addPlaceFacts(const Map& map)
                                                 : QString::fromStdString(info.crs->unitName()));
     const QString width = number(transform.pixelWidth());
     const QString height = number(transform.pixelHeight());
-    const auto metres = [](double value) { return shortNumberText(value, 6); };
+    const auto meters = [](double value) { return shortNumberText(value, 6); };
     QString pixel = width == height
                         //: The size of a pixel, and its unit with the space before it
                         ? tr("%1%2").arg(width, unit)
                         : tr("%1 × %2%3").arg(width, height, unit);
-    const bool is_in_metres = info.crs && !is_geographic && info.crs->unit() == 1.0;
-    if (!is_in_metres) {
-        const QString in_metres = tr("%1 × %2 m")
-                                      .arg(metres(georeference.pixelWidthMetres()),
-                                           metres(georeference.pixelHeightMetres()));
-        pixel += QLatin1Char('\n') + (info.crs ? in_metres : tr("%1, assumed").arg(in_metres));
+    const bool is_in_meters = info.crs && !is_geographic && info.crs->unit() == 1.0;
+    if (!is_in_meters) {
+        const QString in_meters = tr("%1 × %2 m")
+                                      .arg(meters(georeference.pixelWidthMeters()),
+                                           meters(georeference.pixelHeightMeters()));
+        pixel += QLatin1Char('\n') + (info.crs ? in_meters : tr("%1, assumed").arg(in_meters));
     }
     addFact(tr("Pixel size"), pixel);
     const MapExtent extent = mapExtent(georeference);

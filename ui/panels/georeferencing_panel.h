@@ -56,7 +56,7 @@ private:
     void addSampleFacts(const Map& map);
 
     std::shared_ptr<const Map> map_;
-    HeightUnit unit_of_heights_ = HeightUnit::Metres;
+    HeightUnit unit_of_heights_ = HeightUnit::Meters;
     CoordinateFormat coordinates_;
     QStackedWidget* pages_ = nullptr;
     QScrollArea* facts_page_ = nullptr;

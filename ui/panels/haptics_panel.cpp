@@ -296,7 +296,7 @@ void HapticsPanel::hideEvent(QHideEvent* event)
     controller_.setLooking(false);
 }
 
-// Colours of our own go by the palette.
+// Colors of our own go by the palette.
 void HapticsPanel::changeEvent(QEvent* event)
 {
     QWidget::changeEvent(event);
@@ -468,7 +468,7 @@ void HapticsPanel::showStiffness()
     const double chosen = controller_.settings().stiffness_n_per_m;
     const double most = controller_.stiffnessMax();
     const auto text = [](double n_per_m) {
-        //: Newtons per metre
+        //: Newtons per meter
         return leftToRight(tr("%1 N/m").arg(numberText(n_per_m, 0)));
     };
     stiffness_->setValue(static_cast<int>(std::lround(chosen / kStiffnessStep)));
@@ -477,10 +477,10 @@ void HapticsPanel::showStiffness()
                              : std::nullopt);
     stiffness_text_->setText(text(chosen));
     stiffness_->setToolTip(most < kStiffnessMax
-                               //: %1 is a stiffness in newtons per metre
+                               //: %1 is a stiffness in newtons per meter
                                ? tr("The mark is the limit of the device: %1").arg(text(most))
                                : tr("Surface stiffness"));
-    //: Below a slider that is set to more; %1 is a stiffness in newtons per metre
+    //: Below a slider that is set to more; %1 is a stiffness in newtons per meter
     stiffness_limit_->setText(tr("Limited to %1 by the device").arg(text(most)));
     // A device with a limit keeps room for the text, so that nothing moves during a drag.
     QSizePolicy policy = stiffness_limit_->sizePolicy();

@@ -92,7 +92,7 @@ private:
     Session session_;
     std::vector<Row> rows_;
     std::vector<LayerState> states_;
-    HeightUnit unit_ = HeightUnit::Metres;
+    HeightUnit unit_ = HeightUnit::Meters;
     HistogramMaker* histograms_ = nullptr;
 };
 

@@ -86,7 +86,7 @@ private:
 
     std::unique_ptr<Parts> parts_;
     std::vector<ProfileCurve> curves_;
-    HeightUnit unit_ = HeightUnit::Metres;
+    HeightUnit unit_ = HeightUnit::Meters;
     std::optional<double> exaggeration_;
     bool is_slope_shown_ = false;
     std::optional<double> cursor_m_;

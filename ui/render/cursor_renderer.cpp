@@ -203,7 +203,7 @@ void CursorRenderer::draw(const CursorPicture& cursor,
     const ScenePoint eye = eyeOf(camera);
     const Vec3 at = cursor.position - eye;
     const double point_m =
-        metresPerPixel(camera, viewport, cursor.position) * cursor.pixels_per_point;
+        metersPerPixel(camera, viewport, cursor.position) * cursor.pixels_per_point;
     const double r = kRadiusPoints * point_m;
     if (!(r > 0.0)) {
         return; // behind the eye
@@ -241,7 +241,7 @@ void CursorRenderer::draw(const CursorPicture& cursor,
         glDisable(GL_DEPTH_TEST);
         const Vec3 goal = *cursor.goal - eye;
         const double goal_point_m =
-            metresPerPixel(camera, viewport, *cursor.goal) * cursor.pixels_per_point;
+            metersPerPixel(camera, viewport, *cursor.goal) * cursor.pixels_per_point;
         Triangles spring;
         addBand(spring, at, goal, kSpringPoints * point_m, kSpringPoints * goal_point_m);
         const double g = 0.45 * kRadiusPoints * goal_point_m;

@@ -6,7 +6,7 @@
 
 namespace marsview {
 
-/// Colours in RGBA8, depths in 24 bits with a stencil of 8, as windows have them: depths can be
+/// Colors in RGBA8, depths in 24 bits with a stencil of 8, as windows have them: depths can be
 /// copied between the two.
 class FrameBuffer {
 public:

@@ -8,7 +8,7 @@
 
 namespace marsview {
 
-/// A frame buffer with colour and depth that is kept between frames of the same kind.
+/// A frame buffer with color and depth that is kept between frames of the same kind.
 class FrameTarget {
 public:
     /// Binds a buffer of that size. `samples` of 0 or 1 means one sample per pixel; a larger count

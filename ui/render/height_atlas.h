@@ -31,7 +31,7 @@ struct LayerNodeHash {
     }
 };
 
-/// One texture of squares of 33 × 33 heights, in metres over the map's base. Filled on demand
+/// One texture of squares of 33 × 33 heights, in meters over the map's base. Filled on demand
 /// from the tiles in memory, in microseconds a node; incomplete nodes are filled again.
 class HeightAtlas {
 public:

@@ -10,10 +10,10 @@
 
 namespace marsview {
 
-/// Colours and depths of the same frame.
+/// Colors and depths of the same frame.
 struct OffscreenPicture {
     Picture colors;
-    /// Distance along the view axis in scene metres, row by row from the top; infinite where
+    /// Distance along the view axis in scene meters, row by row from the top; infinite where
     /// nothing but sky is seen. Empty where it was not asked for, or with several samples a pixel.
     std::vector<double> depths_m;
     DrawReport report;

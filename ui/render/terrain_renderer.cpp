@@ -93,7 +93,7 @@ Color3 asFloats(Rgb8 color)
             static_cast<float>(color.blue) / 255.0F};
 }
 
-// The ramp so fine that a pixel needs no more than the nearest texel: between two of them colours
+// The ramp so fine that a pixel needs no more than the nearest texel: between two of them colors
 // differ by less than what a screen shows. Mixing two takes a fifth of a pixel's time in software.
 std::vector<Rgb8> rampTexels(const ColorRamp& ramp)
 {
@@ -430,7 +430,7 @@ void TerrainRenderer::Impl::drawLayer(std::size_t index,
         }
         Batch& batch = batches[relief->page];
         const NodeInstance instance =
-            nodeInstance(selected, anchor, layer.surface.baseMetres(), *slot, *relief);
+            nodeInstance(selected, anchor, layer.surface.baseMeters(), *slot, *relief);
         if (selected.quadrants == kAllQuadrants) {
             batch.nodes.push_back(instance);
             continue;
@@ -517,7 +517,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         viewRotation(request.camera);
     glUniformMatrix4fv(program.uniform("u_clip_from_eye"), 1, GL_FALSE,
                        asFloats(clip_from_eye).data());
-    const double base_m = layer.surface.baseMetres();
+    const double base_m = layer.surface.baseMeters();
     const Vec3 anchor_from_eye =
         frame.toScene(anchor, base_m * style.exaggeration) - eyeOf(request.camera);
     set("u_anchor_from_eye", anchor_from_eye.x, anchor_from_eye.y, anchor_from_eye.z);
@@ -535,7 +535,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
                                     std::hypot(frame.east_per_row, frame.north_per_row)));
     const HeightRange& tinted = layer.source.tint_range;
     const double tinted_m = tinted.maximum_m - tinted.minimum_m;
-    // A flat map has the middle colour.
+    // A flat map has the middle color.
     set("u_tint", tinted_m > 0.0 ? 1.0 / tinted_m : 0.0,
         tinted_m > 0.0 ? (base_m - tinted.minimum_m) / tinted_m : 0.5);
     const TerrainLook& look = style.look;
@@ -555,7 +555,7 @@ void TerrainRenderer::Impl::setUniforms(const GlProgram& program,
         slopes_rad > 0.0 ? -slopes.minimum.radians() / slopes_rad : 0.5);
 
     const HeightRange range = heightfield.range().value_or(HeightRange{});
-    const double pixel_m = metresPerPixel(request.camera, request.viewport);
+    const double pixel_m = metersPerPixel(request.camera, request.viewport);
     const double interval_m = contourInterval(look, range, pixel_m, style.exaggeration);
     if (interval_m > 0.0) {
         // Lines are counted in fives, so a multiple of five intervals may be left out.

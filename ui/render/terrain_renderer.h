@@ -90,7 +90,7 @@ public:
     /// and a stencil of 8. It is filled only by pictures that are drawn straight into it: of one
     /// sample a pixel, at scale 1, not kept.
     DrawReport draw(const DrawRequest& request, const DrawStyle& style, unsigned target);
-    /// The colours of the last picture that was kept, once more.
+    /// The colors of the last picture that was kept, once more.
     void present(unsigned target);
     /// Copies its depths into an area of `target`, for drawing that the terrain may hide. Copying
     /// all depths takes 4 ms a picture in software, 10 ms if the picture is enlarged.

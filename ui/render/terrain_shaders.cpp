@@ -7,7 +7,7 @@
 namespace marsview {
 namespace {
 
-// Positions are samples relative to an anchor near the eye, and metres over the base height: whole
+// Positions are samples relative to an anchor near the eye, and meters over the base height: whole
 // numbers, the same for a sample whichever node it is drawn with, so that nodes that meet compute
 // the same bits. See core/view/detail_selection.h for ranges and morphing.
 constexpr const char* kTerrainVertex = R"(#version 330 core

@@ -10,7 +10,7 @@
 
 namespace marsview {
 
-/// Colours of a ramp's texture.
+/// Colors of a ramp's texture.
 inline constexpr std::size_t kRampTexels = 1024;
 
 /// What a program is compiled for: software drivers take both sides of every branch, so that each

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kSide = 65; // samples: some nodes
 constexpr double kHeightM = 8.0;
 
-// A dome, a metre a cell: level ground would be cut down to nothing.
+// A dome, a meter a cell: level ground would be cut down to nothing.
 Heightfield dome()
 {
     Result<SampleGrid> samples = SampleGrid::create(SampleType::Float32, kSide, kSide);

@@ -106,7 +106,7 @@ PointParts partsOf(const GeographicPoint& point,
 // The side of a sample, or of a pixel on screen where that is larger.
 double readSide(const Georeference& georeference, double screen_pixel_m)
 {
-    return std::max(std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()),
+    return std::max(std::min(georeference.pixelWidthMeters(), georeference.pixelHeightMeters()),
                     screen_pixel_m);
 }
 

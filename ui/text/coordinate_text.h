@@ -29,7 +29,7 @@ QString latitudeKindName(LatitudeKind kind, const RasterInfo& info);
 QString formatName(const CoordinateFormat& format, const RasterInfo& info);
 
 /// "18.65° N, 226.20° E", "18° 39′ 00″ N, 133° 48′ 00″ W", or "562,345, 5,117,890 m". Resolves a
-/// tenth of a sample, or of a pixel on screen where that is larger (`screen_pixel_m` metres; 0 for
+/// tenth of a sample, or of a pixel on screen where that is larger (`screen_pixel_m` meters; 0 for
 /// none). Empty where the position has no such coordinates.
 QString positionText(const CoordinateFormat& format,
                      const RasterInfo& info,
@@ -70,6 +70,6 @@ extentText(const GeographicExtent& extent, const CoordinateFormat& format, const
 QString heightText(const RasterInfo& info,
                    const HeightRange& range,
                    double height_m,
-                   HeightUnit unit = HeightUnit::Metres);
+                   HeightUnit unit = HeightUnit::Meters);
 
 } // namespace marsview

@@ -10,7 +10,7 @@
 namespace marsview {
 namespace {
 
-constexpr double kMetresInAFoot = 0.3048;
+constexpr double kMetersInAFoot = 0.3048;
 
 // Unicode's isolates: the text between one of them and PDI has its own direction.
 constexpr QChar kLeftToRightIsolate(0x2066);
@@ -33,7 +33,7 @@ bool hasRightToLeftLetters(const QString& text)
 
 double inUnit(double height_m, HeightUnit unit)
 {
-    return unit == HeightUnit::Feet ? height_m / kMetresInAFoot : height_m;
+    return unit == HeightUnit::Feet ? height_m / kMetersInAFoot : height_m;
 }
 
 QString unitSymbol(HeightUnit unit)

@@ -12,7 +12,7 @@
 namespace marsview {
 
 /// The unit of elevations. Distances on the ground stay metric.
-enum class HeightUnit { Metres, Feet };
+enum class HeightUnit { Meters, Feet };
 
 double inUnit(double height_m, HeightUnit unit);
 /// "m" or "ft".

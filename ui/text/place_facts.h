@@ -26,7 +26,7 @@ struct PlaceFacts {
 
 struct PlaceTerms {
     CoordinateFormat format{};
-    HeightUnit unit = HeightUnit::Metres;
+    HeightUnit unit = HeightUnit::Meters;
 };
 
 /// Of a place on the grid of `map`, which is called `layer`. Elevation, slope and aspect are

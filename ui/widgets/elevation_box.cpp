@@ -5,7 +5,7 @@
 namespace marsview {
 namespace {
 
-constexpr double kElevationMax = 1e8; // metres or feet: more than the radius of any body here
+constexpr double kElevationMax = 1e8; // meters or feet: more than the radius of any body here
 
 } // namespace
 

@@ -13,7 +13,7 @@ class ElevationBox final : public QDoubleSpinBox {
 public:
     explicit ElevationBox(QWidget* parent = nullptr);
 
-    /// What elevations can be, in metres or feet.
+    /// What elevations can be, in meters or feet.
     void setElevationRange();
 
     QString textFromValue(double value) const override;

@@ -59,23 +59,23 @@ void LightPad::paintEvent(QPaintEvent*)
 {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
-    const QPointF centre(width() / 2.0, height() / 2.0);
+    const QPointF center(width() / 2.0, height() / 2.0);
     const double r = radius();
     painter.setPen(QPen(palette().color(hasFocus() ? QPalette::Highlight : QPalette::Mid), 2));
     painter.setBrush(palette().base());
-    painter.drawEllipse(centre, r, r);
+    painter.drawEllipse(center, r, r);
     painter.setPen(palette().color(QPalette::Mid));
     painter.setBrush(Qt::NoBrush);
-    painter.drawEllipse(centre, r / 2.0, r / 2.0);
-    painter.drawLine(centre - QPointF(r, 0), centre + QPointF(r, 0));
-    painter.drawLine(centre - QPointF(0, r), centre + QPointF(0, r));
+    painter.drawEllipse(center, r / 2.0, r / 2.0);
+    painter.drawLine(center - QPointF(r, 0), center + QPointF(r, 0));
+    painter.drawLine(center - QPointF(0, r), center + QPointF(0, r));
     painter.setPen(palette().color(QPalette::WindowText));
-    const QRectF north(centre.x() - 10, centre.y() - r - 14, 20, 13);
+    const QRectF north(center.x() - 10, center.y() - r - 14, 20, 13);
     //: North, on a compass
     painter.drawText(north, Qt::AlignCenter, tr("N"));
     const double azimuth = Angle::degrees(azimuth_deg_).radians();
     const double share = (90.0 - altitude_deg_) / 90.0;
-    const QPointF light = centre + QPointF(std::sin(azimuth), -std::cos(azimuth)) * (share * r);
+    const QPointF light = center + QPointF(std::sin(azimuth), -std::cos(azimuth)) * (share * r);
     painter.setPen(QPen(palette().color(QPalette::WindowText), 1.5));
     painter.setBrush(QColor(255, 205, 84));
     painter.drawEllipse(light, 6.0, 6.0);
@@ -97,9 +97,9 @@ void LightPad::mouseMoveEvent(QMouseEvent* event)
 
 void LightPad::moveTo(QPointF position)
 {
-    const QPointF from_centre = position - QPointF(width() / 2.0, height() / 2.0);
-    const double azimuth = Angle::radians(std::atan2(from_centre.x(), -from_centre.y())).degrees();
-    const double share = std::hypot(from_centre.x(), from_centre.y()) / radius();
+    const QPointF from_center = position - QPointF(width() / 2.0, height() / 2.0);
+    const double azimuth = Angle::radians(std::atan2(from_center.x(), -from_center.y())).degrees();
+    const double share = std::hypot(from_center.x(), from_center.y()) / radius();
     const int altitude = static_cast<int>(std::lround(90.0 * (1.0 - std::min(share, 1.0))));
     Q_EMIT moved(wrapped(static_cast<int>(std::lround(azimuth))), std::max(kAltitudeMin, altitude));
 }

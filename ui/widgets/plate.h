@@ -1,7 +1,7 @@
 // What all overlays have in common: a dark translucent plate and bright text on it.
 //
-// The map under them can have any colour and is dark or bright whatever the palette, so overlays do
-// not take their colours from it. White text on the plate keeps a contrast of at least 7 to 1 over
+// The map under them can have any color and is dark or bright whatever the palette, so overlays do
+// not take their colors from it. White text on the plate keeps a contrast of at least 7 to 1 over
 // white and more over everything else.
 #pragma once
 
@@ -30,7 +30,7 @@ void drawText(QPainter& painter, const QRectF& place, Qt::Alignment alignment, c
 void drawPlate(QPainter& painter, const QRectF& rectangle);
 /// Draws the focus rim, inside the rectangle.
 void drawFocus(QPainter& painter, const QRectF& rectangle);
-/// A bright line with a dark one around it: seen on any colour.
+/// A bright line with a dark one around it: seen on any color.
 void drawContrasting(QPainter& painter,
                      const QPainterPath& path,
                      const QColor& color,

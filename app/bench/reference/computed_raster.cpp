@@ -150,7 +150,7 @@ private:
         band.samples.resize(is_tiled ? tile_columns_ * kTileSide * kTileSide
                                      : raster_.columns * band.rows);
         parallelRanges(tile_columns_, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t tile = begin; tile < end && !monitor_.isCancelled(); ++tile) {
+            for (std::size_t tile = begin; tile < end && !monitor_.isCanceled(); ++tile) {
                 const std::size_t column = tile * kTileSide;
                 const std::size_t columns = std::min(kTileSide, raster_.columns - column);
                 if (!is_tiled) {
@@ -212,8 +212,8 @@ private:
             if (writing.valid()) {
                 status = writing.get();
             }
-            if (monitor_.isCancelled()) {
-                return Error{ErrorCode::Cancelled,
+            if (monitor_.isCanceled()) {
+                return Error{ErrorCode::Canceled,
                              fmt::format("{}: writing was canceled", raster_.path)};
             }
             if (status) {

@@ -27,7 +27,7 @@ constexpr double kSweepShareMax = 0.8; // fraction of the map's shorter side
 ScenePoint onGround(const FlightGround& ground, double x, double y)
 {
     const double z = ground.height(x, y);
-    return {x, y, std::isfinite(z) ? z : ground.box.centre().z};
+    return {x, y, std::isfinite(z) ? z : ground.box.center().z};
 }
 
 // The distance at which a sample in the center of the picture, seen face on, has this width in
@@ -45,7 +45,7 @@ OrbitCamera
 dive(double t, const OrbitCamera& home, const FlightGround& ground, const Viewport& viewport)
 {
     OrbitCamera low = home;
-    const ScenePoint middle = ground.box.centre();
+    const ScenePoint middle = ground.box.center();
     low.target = onGround(ground, middle.x, middle.y);
     low.tilt = kDiveTilt;
     low.distance_m = std::min(home.distance_m, distanceFor(kDivePixels, ground, home, viewport));
@@ -66,7 +66,7 @@ sweep(double t, const OrbitCamera& home, const FlightGround& ground, const Viewp
     const double way_m =
         std::min(kSweepReach * camera.distance_m, kSweepShareMax * std::min(size.x, size.y));
     const double along_m = (t - 0.5) * way_m;
-    const ScenePoint middle = ground.box.centre();
+    const ScenePoint middle = ground.box.center();
     camera.target = onGround(ground, middle.x + along_m * std::sin(kSweepHeading.radians()),
                              middle.y + along_m * std::cos(kSweepHeading.radians()));
     return camera;

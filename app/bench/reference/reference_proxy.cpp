@@ -37,7 +37,7 @@ constexpr int kTinyStepsMax = 16;
 
 } // namespace
 
-double ReferenceProxy::cellMetres(const SceneFrame& frame)
+double ReferenceProxy::cellMeters(const SceneFrame& frame)
 {
     return (std::hypot(frame.east_per_column, frame.north_per_column) +
             std::hypot(frame.east_per_row, frame.north_per_row)) /
@@ -46,8 +46,8 @@ double ReferenceProxy::cellMetres(const SceneFrame& frame)
 
 ReferenceProxy::ReferenceProxy(const HeightfieldSurface& surface, double piece_cells)
     : surface_(surface)
-    , piece_m_(static_cast<Real>(piece_cells) * static_cast<Real>(cellMetres(surface.frame())))
-    , cell_m_(static_cast<Real>(cellMetres(surface.frame())))
+    , piece_m_(static_cast<Real>(piece_cells) * static_cast<Real>(cellMeters(surface.frame())))
+    , cell_m_(static_cast<Real>(cellMeters(surface.frame())))
     , column_{surface.frame().east_per_column, surface.frame().north_per_column, 0.0L}
     , row_{surface.frame().east_per_row, surface.frame().north_per_row, 0.0L}
     , last_column_(static_cast<Real>(surface.terrain()->columns() - 1))

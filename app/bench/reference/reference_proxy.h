@@ -42,7 +42,7 @@ public:
     std::uint64_t unfinishedCount() const noexcept { return unfinished_count_; }
 
     /// Length of a cell in meters, as used here: the mean of its two sides.
-    static double cellMetres(const SceneFrame& frame);
+    static double cellMeters(const SceneFrame& frame);
 
 private:
     using Real = long double;

@@ -245,7 +245,7 @@ Result<BenchJson> measureOpen(const BenchTerrainOptions& options,
             Result<BenchJson> opening = runChild(arguments);
             if (opening) {
                 json["openings"].push_back(*opening);
-            } else if (opening.error().code == ErrorCode::Cancelled) {
+            } else if (opening.error().code == ErrorCode::Canceled) {
                 setCacheFolder(folder);
                 return std::move(opening).error();
             } else {
@@ -296,8 +296,8 @@ Status runMeasurements(const BenchTerrainOptions& options, const std::filesystem
         const Result<BenchJson> found = measurement.measure != nullptr
                                             ? runChild(argumentsFor(options, measurement.name))
                                             : measureOpen(options, empty);
-        if (!found && found.error().code == ErrorCode::Cancelled) {
-            return Error{ErrorCode::Cancelled,
+        if (!found && found.error().code == ErrorCode::Canceled) {
+            return Error{ErrorCode::Canceled,
                          fmt::format("{}: measuring was canceled", options.bench.map.path)};
         }
         json[measurement.name] = found ? *found : BenchJson{{"left_out", found.error().message}};

@@ -131,7 +131,7 @@ Result<ChildOutput> runSelf(const std::vector<std::string>& arguments)
     output.peak_memory_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
     if (WIFSIGNALED(status)) {
         const int signal = WTERMSIG(status);
-        return Error{signal == SIGINT ? ErrorCode::Cancelled : ErrorCode::Unreadable,
+        return Error{signal == SIGINT ? ErrorCode::Canceled : ErrorCode::Unreadable,
                      fmt::format("terminated by signal {}", signal)};
     }
     if (WEXITSTATUS(status) != 0) {

@@ -16,7 +16,7 @@ struct ChildOutput {
 };
 
 /// Runs this executable with the arguments and waits for it. Returns the child's error message if
-/// it failed, or Cancelled if it was interrupted.
+/// it failed, or Canceled if it was interrupted.
 Result<ChildOutput> runSelf(const std::vector<std::string>& arguments);
 
 } // namespace marsview

@@ -59,7 +59,7 @@ SwipingHand::SwipingHand(const SwipePath& path,
                          double speed_cells) noexcept
     : path_(path)
     , frame_(frame)
-    , depth_m_(std::max(2.0, 0.1 * speed_cells) * ReferenceProxy::cellMetres(frame))
+    , depth_m_(std::max(2.0, 0.1 * speed_cells) * ReferenceProxy::cellMeters(frame))
 {}
 
 ScenePoint SwipingHand::begin() const noexcept

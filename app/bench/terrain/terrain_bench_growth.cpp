@@ -61,8 +61,8 @@ public:
             json["whole_map_left_out"] = status.error().message;
         }
         measure();
-        if (monitor_.isCancelled()) {
-            return Error{ErrorCode::Cancelled, "measuring was canceled"};
+        if (monitor_.isCanceled()) {
+            return Error{ErrorCode::Canceled, "measuring was canceled"};
         }
         for (const auto& [tiles, path] : tiles_) {
             if (tiles->error()) {
@@ -78,7 +78,7 @@ private:
 
     Status holdParts()
     {
-        for (std::size_t side = kSideLeast; !monitor_.isCancelled(); side *= 2) {
+        for (std::size_t side = kSideLeast; !monitor_.isCanceled(); side *= 2) {
             const GridWindow window = middleOf(columns_, rows_, side, side);
             const auto bytes =
                 2.0 * static_cast<double>(window.columns) * static_cast<double>(window.rows);
@@ -158,7 +158,7 @@ private:
         for (int round = 0; round < kRounds; ++round) {
             for (std::size_t s = 0; s < options_.speeds_cells.size(); ++s) {
                 for (Size& size : sizes_) {
-                    if (monitor_.isCancelled()) {
+                    if (monitor_.isCanceled()) {
                         return;
                     }
                     const double ns = swipe(size, options_.speeds_cells[s]);

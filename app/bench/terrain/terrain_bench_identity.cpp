@@ -81,8 +81,8 @@ Result<BenchJson> measureIdentity(const TerrainBenchOptions& options)
             truth = in_memory->update(goal);
             different += isSame(truth, in_tiles->update(goal)) ? 0U : 1U;
             in_contact += truth.is_in_contact ? 1U : 0U;
-            if (job.monitor().isCancelled()) {
-                return Error{ErrorCode::Cancelled, "comparing was canceled"};
+            if (job.monitor().isCanceled()) {
+                return Error{ErrorCode::Canceled, "comparing was canceled"};
             }
         }
         if (tiles->error()) {

@@ -44,8 +44,8 @@ Result<BenchJson> measureFirstPicture(const TerrainBenchOptions& options)
     (*stage)->paint(camera, PictureStage::Moving);
     const double first_ms = since();
     (*stage)->paintWhole(camera, job.monitor());
-    if (job.monitor().isCancelled()) {
-        return Error{ErrorCode::Cancelled, "opening was canceled"};
+    if (job.monitor().isCanceled()) {
+        return Error{ErrorCode::Canceled, "opening was canceled"};
     }
     return BenchJson{{"is_prepared", is_prepared},
                      {"is_warm", options.is_warm},

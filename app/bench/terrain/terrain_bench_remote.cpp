@@ -57,10 +57,10 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options)
     // Closer by a quarter from picture to picture, each until it is whole, down to where a sample
     // is wider than a pixel.
     const GridPoint place = destination(shown);
-    const double pixel_m = shown.georeference().pixelHeightMetres();
+    const double pixel_m = shown.georeference().pixelHeightMeters();
     const double nearest_m = 400.0 * pixel_m;
     std::uint64_t pictures = 1;
-    for (double distance_m = whole.distance_m; !job.monitor().isCancelled();
+    for (double distance_m = whole.distance_m; !job.monitor().isCanceled();
          distance_m = std::max(0.75 * distance_m, nearest_m)) {
         (*stage)->paintWhole((*stage)->above(place, distance_m), job.monitor());
         ++pictures;
@@ -69,8 +69,8 @@ Result<BenchJson> measureRemote(const TerrainBenchOptions& options)
         }
     }
     const double height_m = shown.heightfield().heightWaiting(place);
-    if (job.monitor().isCancelled()) {
-        return Error{ErrorCode::Cancelled, "fetching was canceled"};
+    if (job.monitor().isCanceled()) {
+        return Error{ErrorCode::Canceled, "fetching was canceled"};
     }
     const NetworkStatistics all = networkStatistics();
     const Result<SourceIdentity> identity = identify(options.map.path);

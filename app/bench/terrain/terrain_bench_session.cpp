@@ -40,7 +40,7 @@ Result<BenchJson> measureSession(const TerrainBenchOptions& options)
         if (!swipe) {
             return std::move(swipe).error();
         }
-        for (int frame = 0; frame < options.frame_count && !job.monitor().isCancelled(); ++frame) {
+        for (int frame = 0; frame < options.frame_count && !job.monitor().isCanceled(); ++frame) {
             const double t = frame / std::max(options.frame_count - 1.0, 1.0);
             (*stage)->paint((*stage)->camera(kFlights[i], t), PictureStage::Moving);
             ++frames;
@@ -50,8 +50,8 @@ Result<BenchJson> measureSession(const TerrainBenchOptions& options)
         turns += swipe->stop().loop.tick.count();
         job.monitor().report((static_cast<double>(i) + 1.0) / kFlights.size());
     }
-    if (job.monitor().isCancelled()) {
-        return Error{ErrorCode::Cancelled, "the session was canceled"};
+    if (job.monitor().isCanceled()) {
+        return Error{ErrorCode::Canceled, "the session was canceled"};
     }
     return BenchJson{{"peak_memory_mb", static_cast<double>(peakMemoryBytes()) / 1e6},
                      {"opened_peak_memory_mb", opened_mb},

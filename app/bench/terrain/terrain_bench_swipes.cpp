@@ -83,8 +83,8 @@ Result<BenchJson> measureSwipes(const TerrainBenchOptions& options)
         }
         const TileCacheStatistics before = resources.tiles->statistics();
         TileSwipeResult result = swipe->finish(job.monitor());
-        if (job.monitor().isCancelled()) {
-            return Error{ErrorCode::Cancelled, "swiping was canceled"};
+        if (job.monitor().isCanceled()) {
+            return Error{ErrorCode::Canceled, "swiping was canceled"};
         }
         const TileCacheStatistics after = resources.tiles->statistics();
         result.tiles_loaded = after.loaded - before.loaded;

@@ -50,7 +50,7 @@ OrbitCamera TerrainStage::camera(Flight flight, double t) const
     const Georeference& georeference = scene_.map->georeference();
     const FlightGround ground{
         .box = scene_.box(scene_.exaggeration),
-        .pixel_m = std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()),
+        .pixel_m = std::min(georeference.pixelWidthMeters(), georeference.pixelHeightMeters()),
         .height = [this](double east_m, double north_m) {
             return scene_.ground(east_m, north_m, scene_.exaggeration);
         }};
@@ -77,7 +77,7 @@ DrawReport TerrainStage::paintWhole(const OrbitCamera& camera, JobMonitor& monit
 {
     constexpr std::chrono::milliseconds kPatience{100};
     DrawReport report = paint(camera, PictureStage::Sharp);
-    while (!report.is_complete && !monitor.isCancelled()) {
+    while (!report.is_complete && !monitor.isCanceled()) {
         {
             std::unique_lock lock(news_->mutex);
             news_->has_come.wait_for(lock, kPatience, [this] { return news_->is_there; });

@@ -125,7 +125,7 @@ Result<TileSwipe> TileSwipe::begin(const TouchedTiles& tiles, const TileSwipeOpt
 TileSwipeResult TileSwipe::finish(JobMonitor& monitor)
 {
     constexpr std::chrono::milliseconds kLook{50};
-    for (std::uint64_t done = 0; done < impl_->turn_count && !monitor.isCancelled();) {
+    for (std::uint64_t done = 0; done < impl_->turn_count && !monitor.isCanceled();) {
         std::this_thread::sleep_for(kLook);
         done = impl_->turns_done.load(std::memory_order_relaxed);
         monitor.report(static_cast<double>(done) / static_cast<double>(impl_->turn_count));

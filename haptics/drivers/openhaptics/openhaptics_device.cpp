@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 // Limits for devices that report none: those of the weakest, the Omni.
 constexpr double kForceNPeak = 3.3;
 constexpr double kForceNContinuous = 0.88;
-constexpr double kStiffnessNPerMetreMax = 1000.0;
+constexpr double kStiffnessNPerMeterMax = 1000.0;
 
 constexpr unsigned kFramesBetweenCalibrationChecks = 200;
 // After a force error the force stays off for half a second.
@@ -172,7 +172,7 @@ unsigned int OpenHapticsDevice::resetEncoders()
 // plausible values is the library's.
 void OpenHapticsDevice::describeForces()
 {
-    capabilities_.stiffness_n_per_m_max = kStiffnessNPerMetreMax;
+    capabilities_.stiffness_n_per_m_max = kStiffnessNPerMeterMax;
     capabilities_.force_n_peak = kForceNPeak;
     capabilities_.force_n_continuous = kForceNContinuous;
     for (const unsigned int shift : {0U, 1U}) {

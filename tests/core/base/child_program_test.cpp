@@ -47,9 +47,9 @@ TEST(ChildProgram, KillsAProgramThatDoesNotEnd)
     JobMonitor job;
     job.cancel();
     program.job = &job;
-    const auto cancelled = runChild(program);
-    ASSERT_TRUE(cancelled);
-    EXPECT_EQ(cancelled->end, ChildEnd::Cancelled);
+    const auto canceled = runChild(program);
+    ASSERT_TRUE(canceled);
+    EXPECT_EQ(canceled->end, ChildEnd::Canceled);
     // With its output streams closed.
     program = shell("exec >&- 2>&-; while :; do :; done");
     program.time_max = std::chrono::milliseconds(50);

@@ -145,7 +145,7 @@ private:
         const LongVec proxy = longVec(state.proxy);
         // Straight below the coordinates. These are rounded, and a steep surface magnifies the
         // error.
-        const long double cell_m = cellMetres();
+        const long double cell_m = cellMeters();
         const long double coordinate_error = truth_.goalError(state.proxy);
         const long double height_tolerance = 16.0L * kEpsilon * truth_.highest() +
                                              4.0L * truth_.step() / cell_m * coordinate_error +
@@ -253,7 +253,7 @@ private:
                      last && last->goal == goal ? last->rests + 1 : 0};
     }
 
-    long double cellMetres() const
+    long double cellMeters() const
     {
         const SceneFrame& frame = truth_.frame();
         return std::min(std::hypot(frame.east_per_column, frame.north_per_column),

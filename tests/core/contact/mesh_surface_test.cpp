@@ -510,7 +510,7 @@ TEST(MeshSurface, ContinuousWalkMovesAsOverTheSameHeightfield)
     expectSameAsHeightfield<ContinuousWalk>(1.0, 15.0, 5000);
 }
 
-TEST(MeshSurface, FacetsKnowTheirNeighbours)
+TEST(MeshSurface, FacetsKnowTheirNeighbors)
 {
     const auto mesh = test::meshOf(test::star());
     const MeshSurface surface(mesh);

@@ -211,13 +211,13 @@ using Shape = double (*)(double column, double row); // from the center
 template <typename T = double>
 Scenery shaped(std::size_t columns, std::size_t rows, Shape shape)
 {
-    const double centre_column = std::floor(static_cast<double>(columns) / 2.0);
-    const double centre_row = std::floor(static_cast<double>(rows) / 2.0);
+    const double center_column = std::floor(static_cast<double>(columns) / 2.0);
+    const double center_row = std::floor(static_cast<double>(rows) / 2.0);
     std::vector<T> samples;
     for (std::size_t r = 0; r < rows; ++r) {
         for (std::size_t c = 0; c < columns; ++c) {
-            samples.push_back(static_cast<T>(shape(static_cast<double>(c) - centre_column,
-                                                   static_cast<double>(r) - centre_row)));
+            samples.push_back(static_cast<T>(shape(static_cast<double>(c) - center_column,
+                                                   static_cast<double>(r) - center_row)));
         }
     }
     const auto terrain = terrainOf(columns, samples);
@@ -252,7 +252,7 @@ std::vector<Scenery> inFrames(const Scenery& scenery, const std::vector<std::arr
 
 // A map of 0.01 m cells, far from the origin of its coordinates; once alone and once as the second
 // map of a scene, where its frame is derived from those coordinates.
-std::vector<Scenery> centimetresInUtm()
+std::vector<Scenery> centimetersInUtm()
 {
     test::MapMaker maker;
     const std::vector<float> heights = test::fractalHeights(60, 50, 5);
@@ -409,7 +409,7 @@ std::vector<Case> cases()
              return std::vector<Scenery>{{terrain, test::unitFrame(*terrain)},
                                          {terrain, test::unitFrame(*terrain), 1e-4}};
          }},
-        {"CentimetresInUtm", centimetresInUtm},
+        {"CentimetresInUtm", centimetersInUtm},
         {"MillimetresBesideKilometres",
          [] {
              std::vector<Scenery> sceneries;

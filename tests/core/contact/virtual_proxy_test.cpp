@@ -96,7 +96,7 @@ struct Near {
 
 // The triangles closer to a center than `reach`, searched in all cells below it.
 std::vector<Near>
-trianglesNear(const HeightfieldSurface& surface, const ScenePoint& centre, double reach)
+trianglesNear(const HeightfieldSurface& surface, const ScenePoint& center, double reach)
 {
     const FilledHeightfield& terrain = *surface.terrain();
     const SceneFrame& frame = surface.frame();
@@ -106,7 +106,7 @@ trianglesNear(const HeightfieldSurface& surface, const ScenePoint& centre, doubl
     double high_r = -1e9;
     for (const double x : {-reach, reach}) {
         for (const double y : {-reach, reach}) {
-            const GridPoint grid = frame.toGrid({centre.x + x, centre.y + y, 0.0});
+            const GridPoint grid = frame.toGrid({center.x + x, center.y + y, 0.0});
             low_c = std::min(low_c, grid.column);
             high_c = std::max(high_c, grid.column);
             low_r = std::min(low_r, grid.row);
@@ -114,7 +114,7 @@ trianglesNear(const HeightfieldSurface& surface, const ScenePoint& centre, doubl
         }
     }
     std::vector<Near> near;
-    const Long3 p{centre.x, centre.y, centre.z};
+    const Long3 p{center.x, center.y, center.z};
     const int last_c = static_cast<int>(terrain.columns()) - 2;
     const int last_r = static_cast<int>(terrain.rows()) - 2;
     for (int r = std::max(static_cast<int>(low_r) - 1, 0);

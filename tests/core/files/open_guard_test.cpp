@@ -97,7 +97,7 @@ TEST_F(OpenGuardTest, CancelingEndsTheChild)
     });
     monitor.cancel();
     opener.join();
-    EXPECT_EQ(code, ErrorCode::Cancelled);
+    EXPECT_EQ(code, ErrorCode::Canceled);
 }
 
 // Settings are read once per process, so each case has its own process.

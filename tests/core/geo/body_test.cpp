@@ -138,11 +138,11 @@ TEST(Ellipsoid, MetersPerRadianMatchLengthsOfShortGeodesics)
             // The chord is shorter than the parallel by (step · tan φ)²/24 of its length, 4e-10 at
             // worst here; GeodSolve is accurate to a few nanometers.
             const auto tolerance_m = [](double length_m) { return 1e-9 * length_m + 1e-8; };
-            EXPECT_NEAR(e.metresPerRadianOfPlanetographicLatitude(graphic) * step_rad,
+            EXPECT_NEAR(e.metersPerRadianOfPlanetographicLatitude(graphic) * step_rad,
                         along_meridian_m, tolerance_m(along_meridian_m));
-            EXPECT_NEAR(e.metresPerRadianOfLongitude(graphic) * step_rad, along_parallel_m,
+            EXPECT_NEAR(e.metersPerRadianOfLongitude(graphic) * step_rad, along_parallel_m,
                         tolerance_m(along_parallel_m));
-            EXPECT_NEAR(e.metresPerRadianOfPlanetocentricLatitude(graphic) * step_rad,
+            EXPECT_NEAR(e.metersPerRadianOfPlanetocentricLatitude(graphic) * step_rad,
                         along_centric_m, tolerance_m(along_centric_m));
         }
     }
@@ -158,11 +158,11 @@ TEST(Ellipsoid, MetersPerRadianMatchTheClosedFormula)
             const Angle graphic = Angle::degrees(latitude);
             const long double meridian = test::meridianRadius(e.equatorial_m, e.polar_m, latitude);
             const long double parallel = test::parallelRadius(e.equatorial_m, e.polar_m, latitude);
-            ASSERT_NEAR(e.metresPerRadianOfPlanetographicLatitude(graphic),
+            ASSERT_NEAR(e.metersPerRadianOfPlanetographicLatitude(graphic),
                         static_cast<double>(meridian), 1e-14 * static_cast<double>(meridian));
             // The radius of the parallel decreases with tan(latitude) times the rounding of the
             // angle.
-            ASSERT_NEAR(e.metresPerRadianOfLongitude(graphic), static_cast<double>(parallel),
+            ASSERT_NEAR(e.metersPerRadianOfLongitude(graphic), static_cast<double>(parallel),
                         1e-15 * e.equatorial_m);
         }
     }
@@ -199,8 +199,8 @@ TEST(WrapLongitude, KeepsLongitudesInRangeBitForBit)
     for (int i = 0; i < 1000; ++i) {
         const Angle east = Angle::degrees(random.uniform(0.0, 360.0));
         EXPECT_EQ(wrapLongitude(east, LongitudeRange::From0To360), east);
-        const Angle centred = Angle::degrees(random.uniform(-180.0, 180.0));
-        EXPECT_EQ(wrapLongitude(centred, LongitudeRange::From180WestTo180East), centred);
+        const Angle centered = Angle::degrees(random.uniform(-180.0, 180.0));
+        EXPECT_EQ(wrapLongitude(centered, LongitudeRange::From180WestTo180East), centered);
     }
 }
 

@@ -199,9 +199,9 @@ TEST_P(CrsOracle, LongitudeAndLatitudeMatchGdaltransform)
     // round trip.
     const std::vector<Position> again = test::transformed(c.base, c.crs, back);
     const auto oracle_error_deg = [&](std::size_t i) {
-        const double metres =
+        const double meters =
             std::hypot(again[i].x - map[i].x, again[i].y - map[i].y) * crs->unit();
-        return crs->kind() == CrsKind::Projected ? metres / c.b / kDegreeInRadians : 0.0L;
+        return crs->kind() == CrsKind::Projected ? meters / c.b / kDegreeInRadians : 0.0L;
     };
     long double worst_deg = 0.0L;
     double worst_map = 0.0;
@@ -556,11 +556,11 @@ TEST(Crs, VerticalPartsOfCompoundSystemsAreKept)
     ASSERT_TRUE(feet->verticalUnit());
     EXPECT_EQ(feet->verticalUnit()->name, "US survey ft");
     EXPECT_NE(feet->verticalDatumName().find("NAVD88"), std::string::npos);
-    const auto metres = Crs::fromText("EPSG:4326+5773"); // EGM96 height
-    ASSERT_TRUE(metres) << metres.error().message;
-    ASSERT_TRUE(metres->verticalUnit());
-    EXPECT_EQ(metres->verticalUnit()->metres, 1.0);
-    EXPECT_EQ(metres->kind(), CrsKind::Geographic);
+    const auto meters = Crs::fromText("EPSG:4326+5773"); // EGM96 height
+    ASSERT_TRUE(meters) << meters.error().message;
+    ASSERT_TRUE(meters->verticalUnit());
+    EXPECT_EQ(meters->verticalUnit()->meters, 1.0);
+    EXPECT_EQ(meters->kind(), CrsKind::Geographic);
     EXPECT_FALSE(Crs::fromText("EPSG:32610")->verticalUnit());
 }
 

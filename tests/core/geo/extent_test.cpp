@@ -92,9 +92,9 @@ TEST(GeographicExtent, ContainsEveryPositionOfTheRaster)
             ASSERT_TRUE(place);
             EXPECT_GE(place->latitude.degrees(), extent->south.degrees() - slack);
             EXPECT_LE(place->latitude.degrees(), extent->north.degrees() + slack);
-            const double centre = (extent->west.degrees() + extent->east.degrees()) / 2.0;
+            const double center = (extent->west.degrees() + extent->east.degrees()) / 2.0;
             const double half = (extent->east.degrees() - extent->west.degrees()) / 2.0;
-            EXPECT_LE(std::abs(std::remainder(place->longitude.degrees() - centre, 360.0)),
+            EXPECT_LE(std::abs(std::remainder(place->longitude.degrees() - center, 360.0)),
                       half + slack);
         }
     }

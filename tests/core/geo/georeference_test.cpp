@@ -189,22 +189,22 @@ TEST_P(Placement, MetricPixelSizeMatchesTheBody)
 {
     // Near the center, scene meters equal meters on the body within the projection's scale there. A
     // factor of 2 is enough to detect wrong units, radii and signs.
-    const GridPoint centre = reference_.sceneFrame().origin;
-    const auto here = reference_.toGeographic(centre);
-    const auto below = reference_.toGeographic(GridPoint{centre.column, centre.row + 0.25});
-    const auto right = reference_.toGeographic(GridPoint{centre.column + 0.25, centre.row});
+    const GridPoint center = reference_.sceneFrame().origin;
+    const auto here = reference_.toGeographic(center);
+    const auto below = reference_.toGeographic(GridPoint{center.column, center.row + 0.25});
+    const auto right = reference_.toGeographic(GridPoint{center.column + 0.25, center.row});
     ASSERT_TRUE(here && below && right);
     if (std::abs(here->latitude.degrees()) > 80.0) {
         return; // longitudes converge: not a plane
     }
     const double radius = reference_.crs()->ellipsoid()->equatorial_m;
-    const auto metres = [&](const GeographicPoint& p) {
+    const auto meters = [&](const GeographicPoint& p) {
         const double dlon = std::remainder((p.longitude - here->longitude).degrees(), 360.0);
         const double dlat = (p.latitude - here->latitude).degrees();
         return radius * kDegree * std::hypot(dlon * std::cos(here->latitude.radians()), dlat);
     };
-    EXPECT_NEAR(std::log2(4.0 * metres(*right) / reference_.pixelWidthMetres()), 0.0, 1.0);
-    EXPECT_NEAR(std::log2(4.0 * metres(*below) / reference_.pixelHeightMetres()), 0.0, 1.0);
+    EXPECT_NEAR(std::log2(4.0 * meters(*right) / reference_.pixelWidthMeters()), 0.0, 1.0);
+    EXPECT_NEAR(std::log2(4.0 * meters(*below) / reference_.pixelHeightMeters()), 0.0, 1.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rasters,

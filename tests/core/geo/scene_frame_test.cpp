@@ -57,9 +57,9 @@ TEST(SceneFrame, TheMeanCellSideIsThatOfColumnsAndRows)
 TEST(SceneFrame, AProjectedRasterUsesItsLinearUnit)
 {
     // EPSG:2853 is in meters; EPSG:2924 is the same zone in US survey feet.
-    const Georeference metres = placed(11, 7, {0.0, 30.0, 0.0, 0.0, 0.0, -20.0}, "EPSG:2853");
-    EXPECT_EQ(metres.sceneFrame().east_per_column, 30.0);
-    EXPECT_EQ(metres.sceneFrame().north_per_row, -20.0);
+    const Georeference meters = placed(11, 7, {0.0, 30.0, 0.0, 0.0, 0.0, -20.0}, "EPSG:2853");
+    EXPECT_EQ(meters.sceneFrame().east_per_column, 30.0);
+    EXPECT_EQ(meters.sceneFrame().north_per_row, -20.0);
     const Georeference feet = placed(11, 7, {0.0, 30.0, 0.0, 0.0, 0.0, -20.0}, "EPSG:2924");
     const double unit = feet.crs()->unit();
     EXPECT_TRUE(unit == 0.3048 || std::abs(unit - 1200.0 / 3937.0) < 1e-12) << unit;
@@ -157,10 +157,10 @@ TEST(SceneFrame, EastInTheSceneIsEastOnTheBody)
     };
     for (const auto& c : cases) {
         const Georeference reference = placed(101, 81, c.terms, c.crs);
-        const GridPoint centre = reference.sceneFrame().origin;
-        const auto here = reference.toGeographic(centre);
-        const GridPoint right{centre.column + 5.0, centre.row};
-        const GridPoint below{centre.column, centre.row + 5.0};
+        const GridPoint center = reference.sceneFrame().origin;
+        const auto here = reference.toGeographic(center);
+        const GridPoint right{center.column + 5.0, center.row};
+        const GridPoint below{center.column, center.row + 5.0};
         const auto there = reference.toGeographic(right);
         const auto under = reference.toGeographic(below);
         ASSERT_TRUE(here && there && under) << c.crs;
@@ -181,8 +181,8 @@ TEST(SceneFrame, ARotatedRasterRoundTrips)
                                           {390045.0, 30.0 * std::cos(0.5), 30.0 * std::sin(0.5),
                                            3797505.0, 30.0 * std::sin(0.5), -30.0 * std::cos(0.5)},
                                           "EPSG:32611");
-    EXPECT_NEAR(reference.pixelWidthMetres(), 30.0, 1e-12);
-    EXPECT_NEAR(reference.pixelHeightMetres(), 30.0, 1e-12);
+    EXPECT_NEAR(reference.pixelWidthMeters(), 30.0, 1e-12);
+    EXPECT_NEAR(reference.pixelHeightMeters(), 30.0, 1e-12);
     expectRoundTrips(reference);
 }
 

@@ -12,7 +12,7 @@ TEST(VerticalUnit, UnderstandsSpellingsOfRasterFiles)
     const struct {
         const char* text;
         const char* name;
-        double metres;
+        double meters;
     } table[] = {
         {"m", "m", 1.0},
         {"metre", "m", 1.0},
@@ -43,7 +43,7 @@ TEST(VerticalUnit, UnderstandsSpellingsOfRasterFiles)
         const auto unit = verticalUnitFrom(row.text);
         ASSERT_TRUE(unit) << row.text;
         EXPECT_EQ(unit->name, row.name) << row.text;
-        EXPECT_EQ(unit->metres, row.metres) << row.text;
+        EXPECT_EQ(unit->meters, row.meters) << row.text;
     }
 }
 
@@ -67,7 +67,7 @@ TEST(VerticalUnit, IsEmptyForTextThatIsNotALength)
 
 TEST(VerticalUnit, ASurveyFootIsTwoPartsInAMillionLongerThanAFoot)
 {
-    const double ratio = verticalUnitFrom("ftUS")->metres / verticalUnitFrom("ft")->metres;
+    const double ratio = verticalUnitFrom("ftUS")->meters / verticalUnitFrom("ft")->meters;
     EXPECT_NEAR(ratio, 1.0 + 2e-6, 1e-9);
 }
 

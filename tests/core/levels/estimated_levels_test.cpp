@@ -61,7 +61,7 @@ protected:
     struct Map {
         explicit Map(const test::HeightFunction& height)
             : heightfield(test::int16Terrain(kColumns, kRows, kScale, height))
-            , truth(test::analysed(heightfield))
+            , truth(test::analyzed(heightfield))
             , source(heightfield, GridTileSource::Options{.mean_levels = 5})
             , estimate(estimated(source))
             , read_count(source.readCount())
@@ -270,7 +270,7 @@ TEST_F(EstimatedLevelsTest, ASmallMapIsMeasuredExactly)
         300, 200, kScale,
         test::heightsFrom(test::fractalHeights(random, 300, 200, 500.0, 0.5), 300));
     const MapLevels levels = estimated(GridTileSource(heightfield), 300 * 200);
-    const auto truth = test::analysed(heightfield);
+    const auto truth = test::analyzed(heightfield);
     EXPECT_EQ(levels.statistics.raw_minimum, (heightfield.range()->minimum_m - 100.0) / 0.5);
     for (std::size_t level = 1; level < truth->errors.levelCount(); ++level) {
         EXPECT_EQ(levels.analysis->errors.nodeError({level, 0, 0}),
@@ -304,9 +304,9 @@ TEST_F(EstimatedLevelsTest, ReadErrorsAndCancelingEndIt)
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().message, "x: broke");
     monitor.cancel();
-    const auto cancelled = estimateLevels(whole_->source, kScale, monitor, kMeansMax);
-    ASSERT_FALSE(cancelled);
-    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+    const auto canceled = estimateLevels(whole_->source, kScale, monitor, kMeansMax);
+    ASSERT_FALSE(canceled);
+    EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
 }
 
 TEST_F(EstimatedLevelsTest, AMapOfVoidsHasNoHeights)

@@ -68,7 +68,7 @@ public:
             reads_ = 0;
             const Status status = buildLevelFile(build, *monitor_);
             EXPECT_FALSE(status);
-            EXPECT_EQ(status.error().code, ErrorCode::Cancelled);
+            EXPECT_EQ(status.error().code, ErrorCode::Canceled);
         }
         stop_.reset();
         reads_before_ = source_.readCount();
@@ -262,7 +262,7 @@ void expectSameAsInMemory(const Heightfield& field, const Limits& limits = {})
     const LevelFile file = built.open();
     const auto levels = file.readLevels(field.scale());
     ASSERT_TRUE(levels) << levels.error().message;
-    const auto analysis = test::analysed(field);
+    const auto analysis = test::analyzed(field);
     JobMonitor monitor;
     const auto filled = FilledHeightfield::build(field, analysis, monitor).value();
     EXPECT_EQ(levels->layout.columns, field.columns());
@@ -461,7 +461,7 @@ TEST(LevelFile, ConvertsToOtherScales)
         const auto statistics = copy.applyRule({.nodata = -32768.0}, 0, kRows);
         const Heightfield scaled(std::make_shared<const SampleGrid>(std::move(copy)), statistics,
                                  scale);
-        const auto analysis = test::analysed(scaled);
+        const auto analysis = test::analyzed(scaled);
         const auto levels = file.readLevels(scale);
         ASSERT_TRUE(levels) << levels.error().message;
         expectSameBounds(levels->analysis->bounds, analysis->bounds);

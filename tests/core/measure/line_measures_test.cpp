@@ -70,7 +70,7 @@ Comparison compare(const Map& map, const GroundPosition& a, const GroundPosition
     const GeographicLib::Geodesic geodesic(ellipsoid.equatorial_m, ellipsoid.flattening());
     const GeographicLib::GeodesicLine line = geodesic.InverseLine(a.y, a.x, b.y, b.x);
     const double cell_m =
-        std::min(map.georeference().pixelWidthMetres(), map.georeference().pixelHeightMetres());
+        std::min(map.georeference().pixelWidthMeters(), map.georeference().pixelHeightMeters());
     Comparison result;
     const auto count = static_cast<int>(std::min(line.Distance() / cell_m * 16.0, 40'000.0));
     for (int i = 0; i <= count; ++i) {
@@ -289,7 +289,7 @@ TEST(Profile, TakesStepsOfTheLengthThatIsStated)
     EXPECT_EQ(refused.error().code, ErrorCode::OutOfRange);
 }
 
-TEST(Profile, StopsWhenItIsCancelled)
+TEST(Profile, StopsWhenItIsCanceled)
 {
     const auto mars = loadedMap(bundledMars());
     MeasuredTerrain terrain = terrainOf(*mars);
@@ -298,7 +298,7 @@ TEST(Profile, StopsWhenItIsCancelled)
     const std::vector<GroundPosition> way{{0.0, 5.0}, {170.0, 6.0}};
     const auto profile = measureProfile(terrain, way, std::nullopt, monitor);
     ASSERT_FALSE(profile);
-    EXPECT_EQ(profile.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(profile.error().code, ErrorCode::Canceled);
 }
 
 TEST(Profile, OfACoarseLevelIsThatOfItsSamples)

@@ -401,9 +401,9 @@ TEST(TerrainArea, IsTheSameOfFileTilesAndLevels)
     EXPECT_NEAR(*rough.volume_above_m3, *exact.volume_above_m3, 0.03 * *exact.volume_above_m3);
     JobMonitor monitor;
     monitor.cancel();
-    const auto cancelled = measureArea(fine, polygon, {}, monitor);
-    ASSERT_FALSE(cancelled);
-    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+    const auto canceled = measureArea(fine, polygon, {}, monitor);
+    ASSERT_FALSE(canceled);
+    EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
 }
 
 TEST(TerrainArea, VolumesOnABodyAreMeasuredOnItsEllipsoid)

@@ -318,7 +318,7 @@ TEST_F(MeshFile, CanBeCanceled)
     JobMonitor monitor;
     monitor.cancel();
     const std::string path = write("a.obj", objOf(test::icosphere(5)));
-    EXPECT_EQ(readTriangles(path, monitor).error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(readTriangles(path, monitor).error().code, ErrorCode::Canceled);
 }
 
 TEST_F(MeshFile, DamageIsReportedOrReadButNeverCrashes)

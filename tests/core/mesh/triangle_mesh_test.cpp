@@ -112,7 +112,7 @@ TEST(TriangleMesh, CanBeCanceled)
 {
     JobMonitor monitor;
     monitor.cancel();
-    EXPECT_EQ(TriangleMesh::build(test::cube(), monitor).error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(TriangleMesh::build(test::cube(), monitor).error().code, ErrorCode::Canceled);
 }
 
 TEST(TriangleTree, BoxQueriesFindAllFacesThatIntersectThem)

@@ -89,7 +89,7 @@ TEST_F(LevelBuilder, StopsSoonWhenCanceledAndLeavesNoFiles)
                                     }});
         const Status status = build(source, monitor);
         ASSERT_FALSE(status);
-        EXPECT_EQ(status.error().code, ErrorCode::Cancelled);
+        EXPECT_EQ(status.error().code, ErrorCode::Canceled);
         EXPECT_EQ(fileCount(), 0U);
         // No thread reads past its current tile.
         EXPECT_LE(source.readCount(), after + 1 + std::thread::hardware_concurrency());

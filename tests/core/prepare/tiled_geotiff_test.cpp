@@ -532,7 +532,7 @@ TEST(TiledGeoTiff, ResumesAfterACancel)
     for (const double fraction : {0.2, 0.4, 0.6}) {
         const Result<TiledGeoTiffReport> stopped = prepareUntil(job, fraction);
         ASSERT_FALSE(stopped);
-        EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);
+        EXPECT_EQ(stopped.error().code, ErrorCode::Canceled);
         EXPECT_THAT(stopped.error().message, StartsWith(job.path));
         EXPECT_THAT(stopped.error().message, HasSubstr("prepare it again to resume"));
         EXPECT_FALSE(fs::exists(job.path));
@@ -781,11 +781,11 @@ TEST(TiledGeoTiff, DoesNotTouchAFileThatAnotherProgramIsWriting)
     EXPECT_THAT(error.message, HasSubstr(fmt::format("(process {})", getpid())));
 
     job.when_busy = TiledGeoTiffJob::WhenBusy::Wait;
-    JobMonitor cancelled;
-    cancelled.cancel();
-    const Result<TiledGeoTiffReport> given_up = writeTiledGeoTiff(job, cancelled);
+    JobMonitor canceled;
+    canceled.cancel();
+    const Result<TiledGeoTiffReport> given_up = writeTiledGeoTiff(job, canceled);
     ASSERT_FALSE(given_up);
-    EXPECT_EQ(given_up.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(given_up.error().code, ErrorCode::Canceled);
 
     JobMonitor monitor;
     auto waiting = std::async(std::launch::async, [&] { return writeTiledGeoTiff(job, monitor); });

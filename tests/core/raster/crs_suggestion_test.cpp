@@ -121,9 +121,9 @@ TEST(CrsSuggestion, IsANoticeUntilTheCrsIsSet)
     EXPECT_FALSE(set->crs_suggestion);
     EXPECT_TRUE(set->notices.empty()) << set->notices.front();
     // With a geotransform in meters there is nothing to suggest.
-    RasterOverrides metres;
-    metres.transform = GeoTransform::Terms{5e5, 30, 0, 4e6, 0, -30};
-    EXPECT_FALSE(withOverrides(grid, metres)->crs_suggestion);
+    RasterOverrides meters;
+    meters.transform = GeoTransform::Terms{5e5, 30, 0, 4e6, 0, -30};
+    EXPECT_FALSE(withOverrides(grid, meters)->crs_suggestion);
 }
 
 TEST(CrsSuggestion, NoticeNamesTheSideOfTheMeridian)

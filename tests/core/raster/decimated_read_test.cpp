@@ -250,9 +250,9 @@ TEST(DecimatedRead, StopsWhenCanceledAndReportsReadErrors)
     ASSERT_TRUE(file);
     JobMonitor monitor;
     monitor.cancel();
-    const auto cancelled = readDecimated(*file, {}, {.samples_max = 5000}, monitor);
-    ASSERT_FALSE(cancelled);
-    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+    const auto canceled = readDecimated(*file, {}, {.samples_max = 5000}, monitor);
+    ASSERT_FALSE(canceled);
+    EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
     JobMonitor unwatched;
     const auto damaged =

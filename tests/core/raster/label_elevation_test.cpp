@@ -311,7 +311,7 @@ TEST(Pds3Label, OverridesNumbersThatGdalMisreads)
 {
     struct Case {
         const char* image;
-        double scale, offset, metres;
+        double scale, offset, meters;
     };
     const TempFolder folder;
     const std::vector<std::int16_t> samples = someSamples();
@@ -329,7 +329,7 @@ TEST(Pds3Label, OverridesNumbersThatGdalMisreads)
             RasterFile file = openOrThrow(folder.write(
                 "d.lbl",
                 pds3Label({.pointer = "d.img", .image = one.image, .is_nested = is_nested})));
-            expectElevations(file, samples, one.scale * one.metres, one.offset * one.metres);
+            expectElevations(file, samples, one.scale * one.meters, one.offset * one.meters);
         }
     }
 }
@@ -481,7 +481,7 @@ TEST(Pds3Label, ReadsRadiiInTheUnitOfTheLabel)
     folder.write("r.img", bytesOf(someSamples()));
     writeJpeg2000(folder, "r.jp2", someSamples());
     const std::string label = pds3Label({.pointer = "r.img", .image = kRadii});
-    const RasterFile kilometres = openOrThrow(folder.write("km.lbl", label));
+    const RasterFile kilometers = openOrThrow(folder.write("km.lbl", label));
     for (const char* radius : {"1737400 <m>", "1737400.0 <METERS>", "1.7374E6<M>", "1737400",
                                "1737.4 <KILOMETER>", "1737.4"}) {
         SCOPED_TRACE(radius);
@@ -494,8 +494,8 @@ TEST(Pds3Label, ReadsRadiiInTheUnitOfTheLabel)
             const RasterFile file = openOrThrow(name);
             ASSERT_TRUE(file.info().crs);
             EXPECT_EQ(file.info().crs->ellipsoid()->equatorial_m, 1737400.0);
-            EXPECT_EQ(file.info().crs->wkt(), kilometres.info().crs->wkt());
-            EXPECT_EQ(file.info().transform, kilometres.info().transform);
+            EXPECT_EQ(file.info().crs->wkt(), kilometers.info().crs->wkt());
+            EXPECT_EQ(file.info().transform, kilometers.info().transform);
             ASSERT_NE(file.info().body, nullptr);
             EXPECT_EQ(file.info().body->name, "Moon");
         }

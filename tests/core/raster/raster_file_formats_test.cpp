@@ -197,9 +197,9 @@ TEST(RasterFile, ReadsNegativeHeightsOfGtopo30WithoutPixelType)
         EXPECT_EQ(loaded.statistics.raw_maximum, 5000.0);
         const auto file = RasterFile::open(path);
         ASSERT_TRUE(file && file->info().transform);
-        const MapPoint centre = file->info().transform->toMap({0.0, 0.0});
-        EXPECT_NEAR(centre.x, 20.00416666666667, 1e-12); // ULXMAP is the center of a pixel
-        EXPECT_NEAR(centre.y, 39.99583333333333, 1e-12);
+        const MapPoint center = file->info().transform->toMap({0.0, 0.0});
+        EXPECT_NEAR(center.x, 20.00416666666667, 1e-12); // ULXMAP is the center of a pixel
+        EXPECT_NEAR(center.y, 39.99583333333333, 1e-12);
     }
 }
 
@@ -432,7 +432,7 @@ TEST(RasterFile, AssumesMetersForAnUnknownUnitWithANotice)
     const auto file = RasterFile::open(writeVrt(folder, "map", recipe));
     ASSERT_TRUE(file);
     EXPECT_FALSE(file->info().is_unit_declared);
-    EXPECT_EQ(file->info().unit.metres, 1.0);
+    EXPECT_EQ(file->info().unit.meters, 1.0);
     EXPECT_TRUE(
         std::any_of(file->info().notices.begin(), file->info().notices.end(),
                     [](const std::string& n) { return n.find("furlong") != std::string::npos; }));

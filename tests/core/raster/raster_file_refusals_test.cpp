@@ -366,13 +366,13 @@ TEST(Refusal, CanceledReading)
     monitor.cancel();
     const auto dataset = readMap(RasterSpec{path, 1, {}}, monitor, kBudget);
     ASSERT_FALSE(dataset);
-    EXPECT_EQ(dataset.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(dataset.error().code, ErrorCode::Canceled);
     expectOneSentence(dataset.error(), path);
     auto file = RasterFile::open(path);
     ASSERT_TRUE(file);
     const auto scanned = file->scan(monitor, {});
     ASSERT_FALSE(scanned);
-    EXPECT_EQ(scanned.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(scanned.error().code, ErrorCode::Canceled);
 }
 
 // A raster without a geotransform is still a map: the user can enter its position.

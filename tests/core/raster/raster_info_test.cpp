@@ -193,10 +193,10 @@ TEST(Overrides, ABodyTurnsABareGlobalGridIntoDegrees)
     EXPECT_EQ(info->crs->latitudeKind(), LatitudeKind::Planetocentric);
     EXPECT_FALSE(info->notices.empty());
     bare.transform = *GeoTransform::fromTerms({5e5, 30, 0, 4e6, 0, -30});
-    const auto metres = withOverrides(bare, overrides);
-    ASSERT_TRUE(metres);
-    EXPECT_FALSE(metres->crs);
-    EXPECT_EQ(metres->body->name, "Vesta");
+    const auto meters = withOverrides(bare, overrides);
+    ASSERT_TRUE(meters);
+    EXPECT_FALSE(meters->crs);
+    EXPECT_EQ(meters->body->name, "Vesta");
 }
 
 TEST(Overrides, ScaleAndOffsetAreInTheVerticalUnit)

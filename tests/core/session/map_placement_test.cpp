@@ -298,8 +298,8 @@ TEST(BundledMountStHelens, ShowsTheMountainAtItsKnownPosition)
     EXPECT_NEAR(top.height_m, 2543.0, 7.0);
     EXPECT_NEAR(top.latitude_deg, 46.0, 0.01); // planetocentric of 46.19
     EXPECT_NEAR(top.longitude_deg, -122.19, 0.01);
-    EXPECT_NEAR(helens->georeference().pixelWidthMetres(), 30.0, 0.01);
-    EXPECT_NEAR(helens->georeference().pixelHeightMetres(), 30.0, 0.01);
+    EXPECT_NEAR(helens->georeference().pixelWidthMeters(), 30.0, 0.01);
+    EXPECT_NEAR(helens->georeference().pixelHeightMeters(), 30.0, 0.01);
 }
 
 } // namespace

@@ -228,7 +228,7 @@ TEST(Map, WithoutPlacementEachPixelIsAUnitSquare)
     const auto dataset = load(writeVrt(folder, "map", recipe));
     ASSERT_TRUE(dataset);
     EXPECT_EQ(dataset->georeference().toMap({1.0, 1.0}), (MapPoint{1.5, -1.5}));
-    EXPECT_EQ(dataset->georeference().pixelWidthMetres(), 1.0);
+    EXPECT_EQ(dataset->georeference().pixelWidthMeters(), 1.0);
 }
 
 } // namespace

@@ -44,20 +44,20 @@ TEST(Units, AUsgsDemInFeetMatchesTheOneInMeters)
     MARSVIEW_NEEDS_SHARED_DATA();
     const test::TempFolder folder;
     const auto original = test::sharedData() / "usgs_dem/SainteHelens.dem";
-    const auto metres = load(original.string());
+    const auto meters = load(original.string());
     const auto feet = load(folder.write("feet.dem", inFeet(test::readFile(original))));
-    ASSERT_TRUE(metres && feet);
-    EXPECT_EQ(metres->info().unit.name, "m");
+    ASSERT_TRUE(meters && feet);
+    EXPECT_EQ(meters->info().unit.name, "m");
     EXPECT_EQ(feet->info().unit.name, "ft");
     EXPECT_TRUE(feet->info().is_unit_declared);
-    EXPECT_EQ(feet->info().unit.metres, 0.3048);
+    EXPECT_EQ(feet->info().unit.meters, 0.3048);
     // The resolution has six digits, an error of 3e-8; feet are stored as floats, with steps of
     // 0.0005 up to 8343.
     const double tolerance_m = 3e-8 * 2543.0 + 0.5 * 0.001 * 0.3048;
     double worst_m = 0.0;
-    for (std::size_t r = 0; r < metres->heightfield().rows(); ++r) {
-        for (std::size_t c = 0; c < metres->heightfield().columns(); ++c) {
-            const double expected = metres->heightfield().sample(c, r);
+    for (std::size_t r = 0; r < meters->heightfield().rows(); ++r) {
+        for (std::size_t c = 0; c < meters->heightfield().columns(); ++c) {
+            const double expected = meters->heightfield().sample(c, r);
             const double found = feet->heightfield().sample(c, r);
             ASSERT_EQ(std::isnan(found), std::isnan(expected)) << c << " " << r;
             if (!std::isnan(expected)) {

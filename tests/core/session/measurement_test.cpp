@@ -101,10 +101,10 @@ TEST(Measurement, KeepsTheReasonOfAFailure)
     ASSERT_FALSE(other->values);
     EXPECT_EQ(other->values.error().message,
               "was measured while the map had no CRS; measure it again");
-    JobMonitor cancelled;
-    cancelled.cancel();
+    JobMonitor canceled;
+    canceled.cancel();
     EXPECT_EQ(measured(between(MeasurementKind::Profile, {{1.0, 2.0}, {90.0, 4.0}}), *map,
-                       MeasureDetail::Full, cancelled),
+                       MeasureDetail::Full, canceled),
               nullptr);
 }
 

@@ -179,7 +179,7 @@ TEST_F(OpenMap, NeverReadsAWrongHeightWhileAnotherProgramRebuildsTheCopy)
     std::size_t damaged = 0;
     for (const double share : {0.15, 0.25, 0.3, 0.37, 0.45, 0.53, 0.6, 0.68, 0.75}) {
         ASSERT_TRUE(first) << first.error().message;
-        first = Error{ErrorCode::Cancelled, "closed"};
+        first = Error{ErrorCode::Canceled, "closed"};
         damage(kept, share);
         first = open(source_);
         ASSERT_TRUE(first) << first.error().message;

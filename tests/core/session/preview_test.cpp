@@ -60,7 +60,7 @@ TEST(PreviewMap, CoversTheSameAreaAsItsMap)
         }
         EXPECT_EQ(a.wrapsAround(), b.wrapsAround()) << path;
         // The scenes agree, so a camera has the same view in both.
-        const double side_m = a.pixelWidthMetres() * static_cast<double>(a.columns());
+        const double side_m = a.pixelWidthMeters() * static_cast<double>(a.columns());
         const ScenePoint in_a = a.sceneFrame().toScene({-0.5, -0.5}, 0.0);
         const ScenePoint in_b = b.sceneFrame().toScene({-0.5, -0.5}, 0.0);
         EXPECT_NEAR(in_a.x, in_b.x, 1e-9 * side_m) << path;

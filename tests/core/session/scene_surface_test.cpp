@@ -269,9 +269,9 @@ std::vector<Scene> scenes()
     return scenes;
 }
 
-double cellMetres(const Scene& scene)
+double cellMeters(const Scene& scene)
 {
-    return SceneSurface(scene.maps).pixelMetres();
+    return SceneSurface(scene.maps).pixelMeters();
 }
 
 class SceneSurfaceTest : public testing::Test {
@@ -302,7 +302,7 @@ TEST_F(SceneSurfaceTest, HeightIsThatOfTheUppermostMap)
         int unclear = 0;
         for (int i = 0; i < 5000; ++i) {
             const ScenePoint p = somewhere(surface);
-            if (!brute.isClear(p.x, p.y, 1e-5 * cellMetres(scene))) {
+            if (!brute.isClear(p.x, p.y, 1e-5 * cellMeters(scene))) {
                 ++unclear;
                 continue;
             }
@@ -351,7 +351,7 @@ TEST_F(SceneSurfaceTest, CastFindsTheFirstUncoveredSurface)
     for (const Scene& scene : scenes()) {
         const SceneSurface surface(scene.maps);
         const BruteScene brute(scene.maps, scene.x_shifts);
-        const double cell_m = cellMetres(scene);
+        const double cell_m = cellMeters(scene);
         int hits = 0;
         int misses = 0;
         int after_covered = 0;
@@ -478,7 +478,7 @@ TEST_F(SceneSurfaceTest, BoxIsTightAroundAllSamples)
             }
         }
         const SceneBox box = surface.box(exaggeration);
-        const double slack = 1e-6 * cellMetres(scene);
+        const double slack = 1e-6 * cellMeters(scene);
         EXPECT_LT(length(box.minimum - low), slack) << scene.name;
         EXPECT_LT(length(box.maximum - high), slack) << scene.name;
     }

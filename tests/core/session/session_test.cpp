@@ -298,15 +298,15 @@ TEST(SameCrs, ComparesPositionsNotNames)
         Terms terms;
         bool is_same;
     };
-    const Terms metres{100000.0, 500.0, 0.0, 200000.0, 0.0, -500.0};
+    const Terms meters{100000.0, 500.0, 0.0, 200000.0, 0.0, -500.0};
     for (const Pair& pair : std::vector<Pair>{
              {"EPSG:32611", "+proj=utm +zone=11 +datum=WGS84", kUtm, true},
              {"EPSG:32611", "EPSG:32612", kUtm, false},
              {"EPSG:32611", "+proj=utm +zone=11 +datum=WGS84 +units=ft", kUtm, false},
-             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396190 +lat_ts=0 +lon_0=0", metres, true},
-             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396000", metres, false},
-             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396190 +lon_0=180", metres, false},
-             {"+proj=eqc +R=3396190", "+proj=sinu +R=3396190", metres, false},
+             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396190 +lat_ts=0 +lon_0=0", meters, true},
+             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396000", meters, false},
+             {"+proj=eqc +R=3396190", "+proj=eqc +R=3396190 +lon_0=180", meters, false},
+             {"+proj=eqc +R=3396190", "+proj=sinu +R=3396190", meters, false},
              {"+proj=longlat +R=3396190", "+proj=longlat +R=3396000", kDegrees, true},
              // Planetocentric against planetographic: 10 km apart.
              {"IAU_2015:49901", "IAU_2015:49902", kDegrees, false},

@@ -212,7 +212,7 @@ TEST(BlockMeans, StopWhenCanceled)
     const Heightfield field = test::floatTerrain(9, 9, [](auto...) { return 1.0; });
     JobMonitor monitor;
     monitor.cancel();
-    EXPECT_EQ(BlockMeans::build(field, monitor).error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(BlockMeans::build(field, monitor).error().code, ErrorCode::Canceled);
 }
 
 } // namespace

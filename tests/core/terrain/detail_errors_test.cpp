@@ -252,7 +252,7 @@ TEST(DetailErrors, StopWhenCanceled)
     JobMonitor monitor;
     const BlockMeans means = BlockMeans::build(field, monitor).value();
     monitor.cancel();
-    EXPECT_EQ(DetailErrors::build({field, means}, monitor).error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(DetailErrors::build({field, means}, monitor).error().code, ErrorCode::Canceled);
 }
 
 } // namespace

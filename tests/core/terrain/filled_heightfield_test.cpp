@@ -116,9 +116,9 @@ TEST(FilledHeightfield, StopsWhenCanceled)
     JobMonitor monitor;
     const auto analysis = *analyze(terrain.heightfield(), monitor);
     monitor.cancel();
-    const auto cancelled = FilledHeightfield::build(terrain.heightfield(), analysis, monitor);
-    ASSERT_FALSE(cancelled);
-    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
+    const auto canceled = FilledHeightfield::build(terrain.heightfield(), analysis, monitor);
+    ASSERT_FALSE(canceled);
+    EXPECT_EQ(canceled.error().code, ErrorCode::Canceled);
 }
 
 } // namespace

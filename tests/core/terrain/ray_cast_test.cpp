@@ -282,7 +282,7 @@ TEST(MinMaxPyramid, StopsWhenCanceled)
     monitor.cancel();
     const auto pyramid = MinMaxPyramid::build(terrain.heightfield, monitor);
     ASSERT_FALSE(pyramid);
-    EXPECT_EQ(pyramid.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(pyramid.error().code, ErrorCode::Canceled);
 }
 
 } // namespace

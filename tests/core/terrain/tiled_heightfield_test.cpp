@@ -73,7 +73,7 @@ Pair pairOf(const Heightfield& held,
     const TiledRaster raster(*cache, std::make_shared<GridTileSource>(held, options));
     auto tiles = TiledSamples::open(raster).value();
     Heightfield tiled(std::move(tiles), statisticsOf(held), held.scale());
-    return {held, test::analysed(held), std::move(cache), std::move(tiled)};
+    return {held, test::analyzed(held), std::move(cache), std::move(tiled)};
 }
 
 Heightfield mountains(std::size_t columns, std::size_t rows, double void_share)

@@ -201,7 +201,7 @@ TEST(TileCache, SkipsCanceledRequests)
     requests.waitForPending();
     EXPECT_NE(raster.find(tileId(4, 3)), nullptr);
     EXPECT_EQ(source->readCount(), 2U) << "the tile in progress, and the requested one";
-    EXPECT_EQ(cache.statistics().cancelled, 18U);
+    EXPECT_EQ(cache.statistics().canceled, 18U);
 }
 
 TEST(TileCache, KeepsTheMostRecentlyUsedTilesWithinItsLimit)

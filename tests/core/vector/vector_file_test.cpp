@@ -247,12 +247,12 @@ TEST(VectorFile, KeepsTheOldFileWhenWritingFails)
     const std::string path = folder.file("m.gpkg");
     ASSERT_TRUE(writeVectorFile(path, marks("IAU_2015:49900", FeatureShape::Point), monitor));
     const std::string before = readFile(path);
-    JobMonitor cancelled;
-    cancelled.cancel();
+    JobMonitor canceled;
+    canceled.cancel();
     const auto stopped =
-        writeVectorFile(path, marks("IAU_2015:49900", FeatureShape::Line), cancelled);
+        writeVectorFile(path, marks("IAU_2015:49900", FeatureShape::Line), canceled);
     ASSERT_FALSE(stopped);
-    EXPECT_EQ(stopped.error().code, ErrorCode::Cancelled);
+    EXPECT_EQ(stopped.error().code, ErrorCode::Canceled);
     EXPECT_EQ(readFile(path), before);
     EXPECT_FALSE(writeVectorFile("/no/such/folder/m.gpkg",
                                  marks("IAU_2015:49900", FeatureShape::Point), monitor));

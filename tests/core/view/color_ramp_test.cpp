@@ -284,9 +284,9 @@ TEST(ColorRamp, IsEvenAndSafeByDefault)
 TEST(TintedRange, PutsTheDatumInTheMiddleOfACenteredRamp)
 {
     const HeightRange mars{.minimum_m = -8068.0, .maximum_m = 21171.0};
-    const HeightRange centred = tintedRange(*colorRampNamed("datum"), mars);
-    EXPECT_EQ(centred.minimum_m, -21171.0);
-    EXPECT_EQ(centred.maximum_m, 21171.0);
+    const HeightRange centered = tintedRange(*colorRampNamed("datum"), mars);
+    EXPECT_EQ(centered.minimum_m, -21171.0);
+    EXPECT_EQ(centered.maximum_m, 21171.0);
     const HeightRange plain = tintedRange(*colorRampNamed("dawn"), mars);
     EXPECT_EQ(plain.minimum_m, mars.minimum_m);
     EXPECT_EQ(plain.maximum_m, mars.maximum_m);

@@ -28,7 +28,7 @@ struct Map {
         : name(std::move(map_name))
         , field(std::move(heightfield))
         , frame(map_frame)
-        , analysis(test::analysed(field))
+        , analysis(test::analyzed(field))
     {}
 
     SceneBox box(double exaggeration) const
@@ -112,7 +112,7 @@ Shot randomShot(test::Random& random, const Map& map)
     const double x = random.uniform(box.minimum.x - margin, box.maximum.x + margin);
     const double y = random.uniform(box.minimum.y - margin, box.maximum.y + margin);
     const double ground = map.field.height(map.frame.toGrid({x, y, 0.0})) * view.exaggeration;
-    view.camera = {.target = {x, y, std::isnan(ground) ? box.centre().z : ground},
+    view.camera = {.target = {x, y, std::isnan(ground) ? box.center().z : ground},
                    .distance_m = size * std::pow(10.0, random.uniform(-3.5, 1.0)),
                    .azimuth = Angle::degrees(random.uniform(0.0, 360.0)),
                    .tilt = Angle::degrees(random.chance(0.2) ? 0.0 : random.uniform(0.0, 85.0)),
@@ -342,7 +342,7 @@ ScenePoint
 sceneAt(const Map& map, const DrawnSurface& surface, const Vertex& vertex, double exaggeration)
 {
     const double height =
-        static_cast<double>(surface.height(vertex.column, vertex.row)) + surface.baseMetres();
+        static_cast<double>(surface.height(vertex.column, vertex.row)) + surface.baseMeters();
     return map.frame.toScene({static_cast<double>(vertex.column), static_cast<double>(vertex.row)},
                              height * exaggeration);
 }
@@ -594,7 +594,7 @@ TEST_F(DetailSelectionTest, DrawsEveryCellAtFullResolution)
         // From far above, everything is in the view.
         const SceneBox box = map.box(1.0);
         const DetailSelection all = selector.select(
-            {.camera = {.target = box.centre(), .distance_m = 4.0 * box.diagonal_m()},
+            {.camera = {.target = box.center(), .distance_m = 4.0 * box.diagonal_m()},
              .viewport = {.width = 400, .height = 400},
              .exaggeration = 1.0},
             {.has_every_sample = true});

@@ -23,7 +23,7 @@ TEST(HomeCamera, ShowsTheWholeBoxFromTheSouth)
     for (const Viewport viewport : {Viewport{1600, 400}, Viewport{300, 900}, kViewport}) {
         const OrbitCamera camera = homeCamera(kBox, viewport);
         EXPECT_EQ(camera.azimuth, Angle{});
-        EXPECT_LT(eyeOf(camera).y, kBox.centre().y);
+        EXPECT_LT(eyeOf(camera).y, kBox.center().y);
         double widest = 0.0;
         for (const ScenePoint& corner : kBox.corners()) {
             const auto pixel = project(camera, viewport, corner);

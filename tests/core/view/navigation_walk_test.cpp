@@ -360,7 +360,7 @@ TEST_P(NavigationWalkOnMaps, NeverLosesTheMapNorEntersTheTerrain)
     ASSERT_TRUE(dataset);
     const Georeference& georeference = (*dataset)->georeference();
     Walk walk((*dataset)->heightfield(), georeference.sceneFrame(),
-              std::min(georeference.pixelWidthMetres(), georeference.pixelHeightMetres()));
+              std::min(georeference.pixelWidthMeters(), georeference.pixelHeightMeters()));
     walkAround(walk);
 }
 

@@ -20,7 +20,7 @@ TEST(MetersPerPixel, IsTheWidthOfAPixelAtTheTarget)
         const auto a = project(camera, viewport, camera.target);
         const auto b = project(camera, viewport, camera.target + right * 1000.0);
         ASSERT_TRUE(a && b);
-        EXPECT_NEAR(1000.0 / (b->x - a->x), metresPerPixel(camera, viewport), 1e-6);
+        EXPECT_NEAR(1000.0 / (b->x - a->x), metersPerPixel(camera, viewport), 1e-6);
     }
 }
 
@@ -28,20 +28,20 @@ TEST(ScaleBar, IsTheLongestRoundLengthThatFits)
 {
     test::Random random;
     for (int i = 0; i < 20000; ++i) {
-        const double metres_per_pixel = std::pow(10.0, random.uniform(-3.0, 6.0));
+        const double meters_per_pixel = std::pow(10.0, random.uniform(-3.0, 6.0));
         const double width_max_px = random.uniform(1.0, 400.0);
-        const auto bar = scaleBar(metres_per_pixel, width_max_px);
+        const auto bar = scaleBar(meters_per_pixel, width_max_px);
         ASSERT_TRUE(bar);
         ASSERT_LE(bar->width_px, width_max_px);
         ASSERT_GE(bar->width_px, width_max_px * 0.4 * (1.0 - 1e-6));
-        ASSERT_NEAR(bar->width_px * metres_per_pixel, bar->length_m, bar->length_m * 1e-8);
+        ASSERT_NEAR(bar->width_px * meters_per_pixel, bar->length_m, bar->length_m * 1e-8);
         const double decade = std::pow(10.0, std::floor(std::log10(bar->length_m) + 1e-6));
         const double lead = bar->length_m / decade;
         ASSERT_TRUE(std::abs(lead - 1.0) < 1e-9 || std::abs(lead - 2.0) < 1e-9 ||
                     std::abs(lead - 5.0) < 1e-9)
             << bar->length_m;
         const double next = bar->length_m * (lead < 1.5 || lead > 4.0 ? 2.0 : 2.5);
-        ASSERT_GT(next, metres_per_pixel * width_max_px) << "a longer one would have fitted";
+        ASSERT_GT(next, meters_per_pixel * width_max_px) << "a longer one would have fitted";
     }
 }
 

@@ -14,14 +14,14 @@ TEST(AutomaticContourInterval, GivesAReasonableNumberOfLines)
     for (int i = 0; i < 20000; ++i) {
         const double low_m = random.uniform(-1e4, 1e4);
         const double relief_m = std::pow(10.0, random.uniform(-3.0, 5.0));
-        const double metres_per_pixel = std::pow(10.0, random.uniform(-3.0, 5.0));
+        const double meters_per_pixel = std::pow(10.0, random.uniform(-3.0, 5.0));
         const double interval_m = automaticContourInterval(
-            {.minimum_m = low_m, .maximum_m = low_m + relief_m}, metres_per_pixel);
+            {.minimum_m = low_m, .maximum_m = low_m + relief_m}, meters_per_pixel);
         // From far away: 12 to 30 lines in total.
         ASSERT_LE(interval_m, relief_m / 12.0 * (1.0 + 1e-6));
         // From close up: lines on a slope of one in ten are at least 40 pixels apart, unless the
         // whole map has too little relief.
-        const double apart_px = interval_m / 0.1 / metres_per_pixel;
+        const double apart_px = interval_m / 0.1 / meters_per_pixel;
         const double lines = relief_m / interval_m;
         ASSERT_TRUE(apart_px >= 40.0 * (1.0 - 1e-6) || lines <= 30.0 * (1.0 + 1e-6));
         ASSERT_LE(apart_px, 100.0 * (1.0 + 1e-6));

@@ -381,7 +381,7 @@ TEST(PluginDriver, DropsADeviceWhoseSamplesAreNotFinite)
     EXPECT_EQ((*device)->trouble(), "its samples contain numbers that are not finite");
 }
 
-TEST(PluginDriver, DropsADeviceThatSpeaksInMillimetres)
+TEST(PluginDriver, DropsADeviceThatSpeaksInMillimeters)
 {
     const PluginFolder folder;
     PluginDriver driver(folder.options());

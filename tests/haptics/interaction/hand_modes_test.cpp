@@ -14,7 +14,7 @@ constexpr double kDt = 1e-3;
 struct Hand {
     ModeOptions options;
     ModeState state;
-    ModeInput input{.stiffness_n_per_m = 400.0, .frame = {.scene_per_metre = 1e4}};
+    ModeInput input{.stiffness_n_per_m = 400.0, .frame = {.scene_per_meter = 1e4}};
 
     ModeStep move(const Vec3& shift, double twist_rad = 0.0)
     {
@@ -104,12 +104,12 @@ TEST(HandModes, ZoomingHoldsThePlaceAndZoomsByHeight)
     Hand hand;
     hand.input.is_grabbing = true;
     hand.move({});
-    const double before = hand.input.frame.scene_per_metre;
+    const double before = hand.input.frame.scene_per_meter;
     ModeStep step;
     for (int i = 0; i < 300; ++i) {
         step = hand.move({0.0, 0.0, 1e-4}); // 30 mm: one doubling of the scale
     }
-    EXPECT_NEAR(hand.input.frame.scene_per_metre, 0.5 * before, 1e-9 * before);
+    EXPECT_NEAR(hand.input.frame.scene_per_meter, 0.5 * before, 1e-9 * before);
     step = hand.move({0.001, -0.002, 0.0});
     EXPECT_NEAR(step.force_n.x, -0.4, 1e-12);
     EXPECT_NEAR(step.force_n.y, 0.8, 1e-12);
@@ -136,13 +136,13 @@ TEST(HandModes, TwistingTurnsTheMapAboutTheHand)
 TEST(HandModes, ZoomsStayWithinTheirLimits)
 {
     Hand hand;
-    hand.options.scene_per_metre_min = 2000.0;
+    hand.options.scene_per_meter_min = 2000.0;
     hand.input.is_grabbing = true;
     hand.move({});
     for (int i = 0; i < 2000; ++i) {
         hand.move({0.0, 0.0, 1e-4});
     }
-    EXPECT_NEAR(hand.input.frame.scene_per_metre, 2000.0, 1e-6);
+    EXPECT_NEAR(hand.input.frame.scene_per_meter, 2000.0, 1e-6);
 }
 
 TEST(HandModes, StayFiniteForAnyMotion)

@@ -18,7 +18,7 @@ HandView randomView(Random& random)
                        .tilt = Angle::degrees(random.uniform(0.0, 80.0))},
             .frame = {.anchor = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.01},
                       .place = {random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4), 20.0},
-                      .scene_per_metre = random.uniform(1e3, 1e5),
+                      .scene_per_meter = random.uniform(1e3, 1e5),
                       .turn = Angle::degrees(random.uniform(-180.0, 180.0))}};
 }
 
@@ -40,7 +40,7 @@ TEST(HandView, TheCameraSeesTheWorkspaceAsBefore)
                 before.frame.toWorkspace(before.camera.target) +
                 Vec3{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
                      random.uniform(-1.0, 1.0)} *
-                    (0.2 * before.camera.distance_m / before.frame.scene_per_metre);
+                    (0.2 * before.camera.distance_m / before.frame.scene_per_meter);
             const auto then = project(before.camera, kViewport, before.frame.toScene(at));
             const auto seen = project(camera, kViewport, now.toScene(at));
             ASSERT_TRUE(then && seen);

@@ -121,7 +121,7 @@ protected:
         return {random_.uniform(-size, size), random_.uniform(-size, size),
                 random_.uniform(-size, size)};
     }
-    double pointMetres() { return std::exp(random_.uniform(-10.0, 10.0)); }
+    double pointMeters() { return std::exp(random_.uniform(-10.0, 10.0)); }
 
     test::Random random_;
 };
@@ -130,7 +130,7 @@ TEST_F(StylusForceTest, PullsFromTheGoalToTheProxyWithinTheLimit)
 {
     int cut = 0;
     for (int i = 0; i < 20000; ++i) {
-        const double point_m = pointMetres();
+        const double point_m = pointMeters();
         const ScenePoint proxy = vector(1e6);
         // Up to 100 points from the proxy: the force limit is at 55.
         const Vec3 from_goal = vector(random_.uniform(0.0, 100.0) * point_m);
@@ -141,7 +141,7 @@ TEST_F(StylusForceTest, PullsFromTheGoalToTheProxyWithinTheLimit)
             continue; // the rounding of positions at a distance of a thousand kilometers
         }
         // Hooke's law for the device; one point is 0.2 mm.
-        const double hand_m = distance_m / point_m * kHandMetresPerPoint;
+        const double hand_m = distance_m / point_m * kHandMetersPerPoint;
         const double expected_n = std::min(hand_m * kStiffnessNPerM, kForceNMax);
         ASSERT_NEAR(length(force_n), expected_n, 1e-9);
         cut += expected_n == kForceNMax ? 1 : 0;
@@ -157,7 +157,7 @@ TEST_F(StylusForceTest, FeelsTheSameAtEveryZoom)
 {
     for (int i = 0; i < 1000; ++i) {
         const Vec3 apart = vector(50.0);
-        const double scale = pointMetres();
+        const double scale = pointMeters();
         const Vec3 near = stylusForce(apart, {}, 1.0);
         const Vec3 far = stylusForce(apart * scale, {}, scale);
         ASSERT_LT(length(near - far), 1e-12);
@@ -175,7 +175,7 @@ TEST_F(StylusForceTest, GrowsWithTheDepthAndNeverJumps)
     for (int depth = 1; depth <= 1200; ++depth) { // tenths of a point, beyond the largest depth
         const double force_n = stylusForce({}, {0.0, 0.0, -0.1 * depth}, 1.0).z;
         EXPECT_GE(force_n, before_n - 1e-12);
-        EXPECT_LE(force_n - before_n, 0.1 * kHandMetresPerPoint * kStiffnessNPerM * 1.000001);
+        EXPECT_LE(force_n - before_n, 0.1 * kHandMetersPerPoint * kStiffnessNPerM * 1.000001);
         before_n = force_n;
     }
     EXPECT_DOUBLE_EQ(before_n, kForceNMax);

@@ -54,7 +54,7 @@ public:
     void look()
     {
         camera_ = homeCamera(ground_.box(exaggeration_), kViewport);
-        camera_.target = ground_.box(exaggeration_).centre();
+        camera_.target = ground_.box(exaggeration_).center();
         camera_.azimuth = Angle::degrees(random_.uniform(-180.0, 180.0));
         camera_.tilt = Angle::degrees(random_.uniform(0.0, 80.0));
         camera_.distance_m *= std::exp(random_.uniform(-4.0, 0.0));

@@ -14,7 +14,7 @@ WorkspaceFrame randomFrame(Random& random)
     return {
         .anchor = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.02},
         .place = {random.uniform(-1e6, 1e6), random.uniform(-1e6, 1e6), random.uniform(-1e3, 1e3)},
-        .scene_per_metre = std::pow(10.0, random.uniform(-1.0, 7.0)),
+        .scene_per_meter = std::pow(10.0, random.uniform(-1.0, 7.0)),
         .turn = Angle::radians(random.uniform(-10.0, 10.0))};
 }
 
@@ -34,7 +34,7 @@ TEST(WorkspaceFrame, QuarterTurnByHand)
     // south.
     const WorkspaceFrame frame{.anchor = {0.01, 0.02, 0.03},
                                .place = {100.0, 200.0, 300.0},
-                               .scene_per_metre = 1000.0,
+                               .scene_per_meter = 1000.0,
                                .turn = Angle::degrees(-90.0)};
     const ScenePoint away = frame.toScene({0.01, 0.12, 0.03});
     EXPECT_NEAR(away.x, 200.0, 1e-9);
@@ -53,7 +53,7 @@ TEST(WorkspaceFrame, RoundTripsToTheSamePosition)
         const WorkspaceFrame frame = randomFrame(random);
         const WorkspacePoint p = randomPoint(random);
         const WorkspacePoint q = frame.toWorkspace(frame.toScene(p));
-        const double rounding = 1e-15 * (1e6 / frame.scene_per_metre + 1.0) * 16;
+        const double rounding = 1e-15 * (1e6 / frame.scene_per_meter + 1.0) * 16;
         EXPECT_NEAR(distance(p, q), 0.0, rounding);
     }
 }
@@ -66,7 +66,7 @@ TEST(WorkspaceFrame, IsASimilarity)
         const WorkspacePoint a = randomPoint(random);
         const WorkspacePoint b = randomPoint(random);
         const double scene_m = length(frame.toScene(a) - frame.toScene(b));
-        EXPECT_NEAR(scene_m, distance(a, b) * frame.scene_per_metre, 1e-9 + 1e-9 * scene_m);
+        EXPECT_NEAR(scene_m, distance(a, b) * frame.scene_per_meter, 1e-9 + 1e-9 * scene_m);
     }
 }
 
@@ -75,7 +75,7 @@ TEST(WorkspaceFrame, PanningMovesTheMap)
     Random random;
     for (int i = 0; i < 100; ++i) {
         WorkspaceFrame frame = randomFrame(random);
-        frame.scene_per_metre = 1e5;
+        frame.scene_per_meter = 1e5;
         const WorkspacePoint p = randomPoint(random);
         const Vec3 shift{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.0};
         const ScenePoint grabbed = frame.toScene(p);
@@ -88,7 +88,7 @@ TEST(WorkspaceFrame, ZoomingAndTurningKeepTheirPlace)
     Random random;
     for (int i = 0; i < 100; ++i) {
         WorkspaceFrame frame = randomFrame(random);
-        frame.scene_per_metre = 1e5;
+        frame.scene_per_meter = 1e5;
         const WorkspacePoint fixed = randomPoint(random);
         const WorkspacePoint other = randomPoint(random);
         const ScenePoint held = frame.toScene(fixed);

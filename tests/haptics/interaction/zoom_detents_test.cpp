@@ -8,7 +8,7 @@ namespace marsview::test {
 namespace {
 
 constexpr ZoomOptions kOptions{
-    .metres_per_doubling = 0.04, .detents_per_doubling = 2.0, .detent_n_per_m = 50.0};
+    .meters_per_doubling = 0.04, .detents_per_doubling = 2.0, .detent_n_per_m = 50.0};
 
 TEST(ZoomDetents, LiftingTheHandEnlarges)
 {

@@ -33,7 +33,7 @@ struct Rig {
                  }))
     {
         settings.map = std::move(map);
-        settings.frame = {.place = {0.0, 0.0, 30.0}, .scene_per_metre = 1000.0};
+        settings.frame = {.place = {0.0, 0.0, 30.0}, .scene_per_meter = 1000.0};
         settings.frame_number = 1;
         settings.stiffness_n_per_m = 400.0;
         options.limits.ramp_s = 1e-3; // full force at once
@@ -116,7 +116,7 @@ TEST(HapticTick, AtAWallTheTerrainForceIsZero)
 TEST(HapticTick, OutsideTheMapTheTerrainContinuesLevel)
 {
     Rig rig;
-    rig.settings.frame.scene_per_metre = 4000.0; // the map is 50 mm wide
+    rig.settings.frame.scene_per_meter = 4000.0; // the map is 50 mm wide
     rig.at({});
     const StepResult result = rig.to({0.06, 0.0, -0.01});
     EXPECT_TRUE(result.contact.is_in_contact);
@@ -264,7 +264,7 @@ TEST(HapticTick, StretchedGroundRampsIn)
     };
     const auto filled = filledTerrain(201, 201, peak);
     const auto stretched = [&](double exaggeration) {
-        const GoalFrame plain = metreFrame(201, 201);
+        const GoalFrame plain = meterFrame(201, 201);
         return makeServoMap(
             GoalFrame(std::make_shared<const Georeference>(plain.georeference()), exaggeration),
             filled, {.map_id = 1});
@@ -323,7 +323,7 @@ TEST(HapticTick, SwitchesTheForceOffIfTheTerrainStopsArriving)
         tiledMap(floatTerrain(201, 201, [](std::size_t, std::size_t) { return 10.0; }));
     const auto exchange = std::make_shared<ClipmapExchange>(
         std::make_shared<const Clipmap>(tiles.window({100.0, 100.0})));
-    Rig rig(makeServoMap(metreFrame(201, 201),
+    Rig rig(makeServoMap(meterFrame(201, 201),
                          std::make_shared<ServoTerrain>(exchange, tiles.heights), {}));
     const auto feed = [&] { exchange->fed_ns = rig.input.now.time_since_epoch() / 1ns; };
     rig.at({});
@@ -397,7 +397,7 @@ TEST(HapticTick, AnotherModelOfTheSameMapGoesOnWhereTheLastOneWas)
     };
     const auto filled = filledTerrain(201, 201, bumps);
     const auto made = [&](ContactModelKind kind) {
-        return makeServoMap(metreFrame(201, 201), filled, {.kind = kind});
+        return makeServoMap(meterFrame(201, 201), filled, {.kind = kind});
     };
     Rig rig(made(ContactModelKind::ContinuousWalk));
     rig.at({});
@@ -433,7 +433,7 @@ TEST(HapticTick, PansAndZoomsByTheButton)
     rig.settings.is_grabbing = true; // the key has the same effect
     EXPECT_EQ(rig.at({0.03, 0.0, 0.011}).mode, StylusMode::Zoom);
     rig.to({0.03, 0.0, 0.041});
-    EXPECT_NEAR(rig.state.frame.scene_per_metre, 500.0, 1e-6);
+    EXPECT_NEAR(rig.state.frame.scene_per_meter, 500.0, 1e-6);
 }
 
 TEST(HapticTick, StiffnessIsLimitedByTheDeviceAndTheLoop)
@@ -503,7 +503,7 @@ TEST(HapticTick, WhatARecordingAimsAtDoesNotDependOnWhatIsSeen)
         if (random.chance(0.05)) { // the camera jumps
             rig.settings.frame.place = {random.uniform(-90.0, 90.0), random.uniform(-90.0, 90.0),
                                         random.uniform(-50.0, 50.0)};
-            rig.settings.frame.scene_per_metre = random.uniform(100.0, 5000.0);
+            rig.settings.frame.scene_per_meter = random.uniform(100.0, 5000.0);
             ++rig.settings.frame_number;
         }
         const StepResult result = rig.at({});
@@ -563,10 +563,10 @@ TEST(HapticTick, KeepsItsBoundsForAMillionRandomTicks)
             rig.settings.frame = {.place = {random.uniform(-60.0, 60.0),
                                             random.uniform(-60.0, 60.0),
                                             random.uniform(-20.0, 20.0)},
-                                  .scene_per_metre = std::pow(10.0, random.uniform(1.0, 4.0)),
+                                  .scene_per_meter = std::pow(10.0, random.uniform(1.0, 4.0)),
                                   .turn = Angle::radians(random.uniform(-4.0, 4.0))};
             if (random.chance(0.05)) {
-                rig.settings.frame.scene_per_metre = anyNumber();
+                rig.settings.frame.scene_per_meter = anyNumber();
             }
             if (random.chance(0.05)) {
                 rig.settings.frame.place.y = anyNumber();

@@ -25,7 +25,7 @@ inline LoopSettings settingsFor(std::shared_ptr<ServoMap> map)
 {
     LoopSettings settings;
     settings.map = std::move(map);
-    settings.frame = {.place = {0.0, 0.0, 0.0}, .scene_per_metre = 1000.0};
+    settings.frame = {.place = {0.0, 0.0, 0.0}, .scene_per_meter = 1000.0};
     settings.frame_number = 1;
     return settings;
 }

@@ -154,7 +154,7 @@ struct Case {
     Case()
     {
         settings.map = servoMap(101, 101, [](auto, auto) { return 0.0; });
-        settings.frame = {.place = {0.0, 0.0, 0.0}, .scene_per_metre = 1000.0};
+        settings.frame = {.place = {0.0, 0.0, 0.0}, .scene_per_meter = 1000.0};
         settings.frame_number = 1;
     }
     std::unique_ptr<ServoLoop> begin(double ramp_s = 0.02)

@@ -122,7 +122,7 @@ TEST(ServoLoop, TakesOtherSettingsWhileItRuns)
     const auto filled = filledTerrain(201, 201, bumps);
     for (int i = 0; i < 60; ++i) {
         LoopSettings settings =
-            settingsFor(makeServoMap(metreFrame(201, 201), filled,
+            settingsFor(makeServoMap(meterFrame(201, 201), filled,
                                      {.kind = kContactModelKinds[static_cast<std::size_t>(i) % 6],
                                       .contact = {.radius_m = 0.5},
                                       .map_id = static_cast<std::uint64_t>(i / 10)}));

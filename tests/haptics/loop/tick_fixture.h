@@ -14,12 +14,12 @@ filledTerrain(std::size_t columns, std::size_t rows, const HeightFunction& heigh
 {
     const Heightfield heightfield = floatTerrain(columns, rows, height_m);
     JobMonitor monitor;
-    auto filled = FilledHeightfield::build(heightfield, analysed(heightfield), monitor);
+    auto filled = FilledHeightfield::build(heightfield, analyzed(heightfield), monitor);
     return std::make_shared<const FilledHeightfield>(std::move(filled).value());
 }
 
 /// A map with one meter per sample, x and y counted from the first sample.
-inline GoalFrame metreFrame(std::size_t columns, std::size_t rows)
+inline GoalFrame meterFrame(std::size_t columns, std::size_t rows)
 {
     const GeoTransform transform =
         GeoTransform::fromTerms({-0.5, 1.0, 0.0, 0.5, 0.0, -1.0}).value();
@@ -31,7 +31,7 @@ inline std::shared_ptr<ServoMap> servoMap(std::size_t columns,
                                           const HeightFunction& height_m,
                                           const ServoMapOptions& options = {})
 {
-    return makeServoMap(metreFrame(columns, rows), filledTerrain(columns, rows, height_m), options);
+    return makeServoMap(meterFrame(columns, rows), filledTerrain(columns, rows, height_m), options);
 }
 
 inline DeviceCapabilities desktopDevice()

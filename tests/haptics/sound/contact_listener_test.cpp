@@ -12,7 +12,7 @@ constexpr std::int64_t kLookNs = 16'666'667;
 
 // A millimeter of the workspace is a meter of the scene; the map is turned by 90 degrees.
 const WorkspaceFrame kFrame{
-    .place = {5000.0, 7000.0, 100.0}, .scene_per_metre = 1000.0, .turn = Angle::degrees(90.0)};
+    .place = {5000.0, 7000.0, 100.0}, .scene_per_meter = 1000.0, .turn = Angle::degrees(90.0)};
 
 // The device at `at` presses `depth_m` deep into a surface with this `normal`.
 ContactMoment pressed(std::int64_t number,

@@ -41,7 +41,7 @@ TEST(ClipmapPlan, RequestsEachTileOnceAndOnlyWithinTheWindow)
                                 .is_active = true};
         const ClipmapPlan plan = planWindow(kLayout, motion, {});
         std::set<std::tuple<int, std::size_t, std::size_t>> seen;
-        ASSERT_EQ(plan.centres.size(), kLayout.topLevel() + 1);
+        ASSERT_EQ(plan.centers.size(), kLayout.topLevel() + 1);
         for (const TileId& id : plan.tiles) {
             EXPECT_TRUE(kLayout.contains(id));
             EXPECT_GE(id.level, plan.finest_level);
@@ -49,9 +49,9 @@ TEST(ClipmapPlan, RequestsEachTileOnceAndOnlyWithinTheWindow)
             const std::size_t side = id.level == 0 ? 8 : 4;
             const std::size_t columns = kLayout.tileColumns(TileKind::Samples, id.level);
             const std::size_t rows = kLayout.tileRows(TileKind::Samples, id.level);
-            const std::size_t column = Clipmap::firstTile(plan.centres[id.level].column, id.level,
+            const std::size_t column = Clipmap::firstTile(plan.centers[id.level].column, id.level,
                                                           columns, std::min(side, columns));
-            const std::size_t row = Clipmap::firstTile(plan.centres[id.level].row, id.level, rows,
+            const std::size_t row = Clipmap::firstTile(plan.centers[id.level].row, id.level, rows,
                                                        std::min(side, rows));
             EXPECT_TRUE(id.column >= column && id.column < column + side);
             EXPECT_TRUE(id.row >= row && id.row < row + side);

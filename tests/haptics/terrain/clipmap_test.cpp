@@ -331,9 +331,9 @@ TEST(Clipmap, DifferenceBoundsWhatATileChanges)
         const TiledMap map =
             test::tiledMap(test::floatTerrain(width, height, holedHeights(width, height, 3.0)));
         for (int round = 0; round < 12; ++round) {
-            const GridPoint centre{random.uniform(0.0, columns), random.uniform(0.0, rows)};
-            Clipmap before = map.window(centre, {.finest = 4, .coarser = 3});
-            Clipmap after = map.window(centre, {.finest = 4, .coarser = 3});
+            const GridPoint center{random.uniform(0.0, columns), random.uniform(0.0, rows)};
+            Clipmap before = map.window(center, {.finest = 4, .coarser = 3});
+            Clipmap after = map.window(center, {.finest = 4, .coarser = 3});
             const auto tiles = test::tilesOf(before);
             const TileId arriving = tiles[random.below(tiles.size())];
             for (const TileId& id : tiles) {

@@ -47,10 +47,10 @@ const TiledMap& roughMap()
 /// Simulates a feeder: windows that grow tile by tile, each a modified copy of the previous one.
 class Arrivals {
 public:
-    Arrivals(const TiledMap& map, GridPoint centre)
+    Arrivals(const TiledMap& map, GridPoint center)
         : map_(map)
-        , centre_(centre)
-        , window_(std::make_shared<Clipmap>(map.window(centre, kSides)))
+        , center_(center)
+        , window_(std::make_shared<Clipmap>(map.window(center, kSides)))
     {}
 
     const Clipmap& window() const { return *window_; }
@@ -58,7 +58,7 @@ public:
     /// By then the previous window is freed.
     void arrive(const TileId& id)
     {
-        auto next = std::make_shared<Clipmap>(map_.window(centre_, kSides));
+        auto next = std::make_shared<Clipmap>(map_.window(center_, kSides));
         for (const TileId& old : tiles()) {
             const Clipmap::Slot* slot = window_->slot(old);
             if (slot->tile) {
@@ -76,7 +76,7 @@ private:
     static constexpr WindowSides kSides{.finest = 4, .coarser = 3};
 
     const TiledMap& map_;
-    GridPoint centre_;
+    GridPoint center_;
     std::shared_ptr<Clipmap> window_;
 };
 

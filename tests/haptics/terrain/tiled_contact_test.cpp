@@ -168,9 +168,9 @@ public:
     Arriving(Random& random, const TiledMap& map, double rate_m_per_s)
         : random_(random)
         , map_(map)
-        , centre_{0.5 * static_cast<double>(map.layout().columns),
+        , center_{0.5 * static_cast<double>(map.layout().columns),
                   0.5 * static_cast<double>(map.layout().rows)}
-        , window_(std::make_unique<Clipmap>(map.window(centre_)))
+        , window_(std::make_unique<Clipmap>(map.window(center_)))
         , terrain_(std::make_shared<ResidentTerrain>(
               *window_, map.heights, ResidentTerrainOptions{.rate_m_per_s = rate_m_per_s}))
         , missing_(test::tilesOf(*window_))
@@ -184,7 +184,7 @@ public:
         const std::size_t which = random_.below(missing_.size());
         const TileId id = missing_[which];
         missing_.erase(missing_.begin() + static_cast<std::ptrdiff_t>(which));
-        auto next = std::make_unique<Clipmap>(map_.window(centre_));
+        auto next = std::make_unique<Clipmap>(map_.window(center_));
         for (const TileId& old : test::tilesOf(*window_)) {
             const Clipmap::Slot* slot = window_->slot(old);
             if (slot->tile) {
@@ -218,7 +218,7 @@ public:
 private:
     Random& random_;
     const TiledMap& map_;
-    GridPoint centre_;
+    GridPoint center_;
     std::unique_ptr<Clipmap> window_;
     std::shared_ptr<ResidentTerrain> terrain_;
     std::vector<TileId> missing_;

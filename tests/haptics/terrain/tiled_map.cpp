@@ -22,10 +22,10 @@ std::shared_ptr<const Tile> TiledMap::top() const
     return tile(samplesTile(layout().topLevel(), 0, 0));
 }
 
-Clipmap TiledMap::window(GridPoint centre, const WindowSides& sides) const
+Clipmap TiledMap::window(GridPoint center, const WindowSides& sides) const
 {
-    const std::vector<GridPoint> centres(layout().topLevel() + 1, centre);
-    return {heights, top(), centres, sides};
+    const std::vector<GridPoint> centers(layout().topLevel() + 1, center);
+    return {heights, top(), centers, sides};
 }
 
 std::vector<TileId> tilesOf(const Clipmap& window)
@@ -46,7 +46,7 @@ TiledMap tiledMap(const Heightfield& heightfield, GridTileSource::Options option
 {
     JobMonitor monitor;
     TiledMap map;
-    const auto analysis = analysed(heightfield);
+    const auto analysis = analyzed(heightfield);
     map.filled = std::make_shared<const FilledHeightfield>(
         FilledHeightfield::build(heightfield, analysis, monitor).value());
     map.source = std::make_shared<GridTileSource>(heightfield, std::move(options));

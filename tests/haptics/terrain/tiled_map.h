@@ -21,7 +21,7 @@ struct TiledMap {
     std::shared_ptr<const Tile> tile(const TileId& id) const;
     std::shared_ptr<const Tile> top() const;
     /// A window around a position, with only the coarsest level.
-    Clipmap window(GridPoint centre, const WindowSides& sides = {}) const;
+    Clipmap window(GridPoint center, const WindowSides& sides = {}) const;
 };
 
 TileId samplesTile(std::size_t level, std::size_t column, std::size_t row);

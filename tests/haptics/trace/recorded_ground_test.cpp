@@ -38,7 +38,7 @@ TEST(RecordedGround, IsTheGroundThatWasFeltToTheBitWhateverCameWhen)
     const TileCache other({.bytes_max = std::size_t{64} << 20, .loader_threads = 1});
     const auto feeder = ClipmapStreamer::create(TiledRaster(cold, map.source), map.heights).value();
     const auto terrain = std::make_shared<ServoTerrain>(feeder->exchange(), feeder->heights());
-    const auto servo_map = makeServoMap(metreFrame(kColumns, kRows), terrain, {});
+    const auto servo_map = makeServoMap(meterFrame(kColumns, kRows), terrain, {});
     feeder->start();
     const auto again = RecordedGround::make(TiledRaster(other, map.source), map.heights).value();
 

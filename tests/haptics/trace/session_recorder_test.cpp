@@ -46,7 +46,7 @@ TEST(SessionRecorder, ARecordingReplaysToTheSameProxiesToTheBit)
         ServoLoop loop(std::move(device), quick(ticks));
         auto recorder = SessionRecorder::begin(loop, path);
         ASSERT_TRUE(recorder);
-        loop.set(settingsFor(makeServoMap(metreFrame(201, 201), filled, {})));
+        loop.set(settingsFor(makeServoMap(meterFrame(201, 201), filled, {})));
         waitFor(loop);
         loop.stop();
         ASSERT_TRUE((*recorder)->finish());
@@ -153,7 +153,7 @@ TEST(SessionRecorder, ReportsMissingUpdates)
     const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     ASSERT_GE(reader, 0);
     ServoLoop loop(simulated(), quick(0));
-    loop.set(settingsFor(makeServoMap(metreFrame(201, 201), filledTerrain(201, 201, bumps), {})));
+    loop.set(settingsFor(makeServoMap(meterFrame(201, 201), filledTerrain(201, 201, bumps), {})));
     auto recorder = SessionRecorder::begin(loop, path);
     ASSERT_TRUE(recorder) << recorder.error().message;
     // No reader: a disk that accepts no more data.
@@ -183,7 +183,7 @@ TEST(SessionRecorder, ARecordingThatBeginsInTheMiddleOfATouchKnowsAllOfItsModel)
     const TempFolder folder;
     const std::string path = folder.file("session.csv");
     const auto filled = filledTerrain(201, 201, bumps);
-    const GoalFrame frame = metreFrame(201, 201);
+    const GoalFrame frame = meterFrame(201, 201);
     ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
     loop.set(settingsFor(makeServoMap(frame, filled, {})));
     for (const ContactModelKind kind : kContactModelKinds) {
@@ -225,7 +225,7 @@ TEST(SessionRecorder, BeginsWithALaterModelWhereTheFirstIsNeverTouched)
     const TempFolder folder;
     const std::string path = folder.file("session.csv");
     const auto filled = filledTerrain(201, 201, bumps);
-    const GoalFrame frame = metreFrame(201, 201);
+    const GoalFrame frame = meterFrame(201, 201);
     ServoLoop loop(std::make_unique<BuriedDevice>(), quick(0));
     loop.set(settingsFor(makeServoMap(frame, filled, {})));
     const auto fresh = makeServoMap(frame, filled, {});
@@ -312,7 +312,7 @@ TEST(SessionRecorder, ARecordingOverTilesThatComeWhileItIsMadeKnowsWhatWasFelt)
             LoopSettings settings =
                 settingsFor(makeServoMap(GoalFrame(georeference, exaggeration), terrain,
                                          {.kind = kind, .contact = {.radius_m = 0.75}}));
-            settings.frame.scene_per_metre = 20'000.0;
+            settings.frame.scene_per_meter = 20'000.0;
             loop.set(settings);
             const std::uint64_t until = loop.state().tick + 1500;
             while (loop.state().tick < until) {

@@ -277,11 +277,11 @@ TEST_F(TerrainViewTest, KeepsTheMiddleThroughExaggeration)
         camera.distance_m *= 0.5;
         return camera;
     }());
-    const QPointF centre(view().width() / 2.0, view().height() / 2.0);
-    const auto before = view().surfaceAt(centre);
+    const QPointF center(view().width() / 2.0, view().height() / 2.0);
+    const auto before = view().surfaceAt(center);
     ASSERT_TRUE(before);
     view().setExaggeration(view().exaggeration() * 3.0);
-    const auto after = view().surfaceAt(centre);
+    const auto after = view().surfaceAt(center);
     ASSERT_TRUE(after);
     EXPECT_NEAR(after->grid.column, before->grid.column, 1e-6);
     EXPECT_NEAR(after->grid.row, before->grid.row, 1e-6);

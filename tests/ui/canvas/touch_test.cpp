@@ -288,7 +288,7 @@ TEST_F(TouchTest, TheConeStandsOnTheSurfaceThatIsDrawn)
             const ScenePoint eye = eyeOf(view_->camera());
             const Vec3 forward = axesOf(view_->camera()).forward;
             const double depth_m = dot(pose.proxy - eye, forward);
-            const double pixel_m = metresPerPixel(view_->camera(), view_->viewport(), pose.proxy);
+            const double pixel_m = metersPerPixel(view_->camera(), view_->viewport(), pose.proxy);
             // If the proxy has slid behind a ridge, its tip is hidden, as it should be.
             const auto hit = view_->surfaceAt(where);
             const bool is_hidden = !hit || hit->t < length(pose.proxy - eye) - 3.0 * pixel_m;

@@ -210,7 +210,7 @@ TEST_F(HapticsControllerTest, TheHandReachesWhatIsSeen)
     ASSERT_TRUE(waitFor([&] { return state().tick > 10; }));
     const auto spread = [&] {
         const WorkspaceFrame frame = state().frame;
-        return frame.scene_per_metre;
+        return frame.scene_per_meter;
     };
     const double before = spread();
     OrbitCamera camera = view().camera();
@@ -258,7 +258,7 @@ TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
     hand_->buttons = 1;
     ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Zoom; }));
     const double before = view().camera().distance_m;
-    const double scale = state().frame.scene_per_metre;
+    const double scale = state().frame.scene_per_meter;
     hand_->moveTo({0.0, 0.0, 0.02});
     ASSERT_TRUE(waitFor([&] {
         return std::abs(std::log(view().camera().distance_m / before)) > 0.1 &&
@@ -267,10 +267,10 @@ TEST_F(HapticsControllerTest, LiftingAGrabInTheAirZooms)
     hand_->buttons = 0;
     ASSERT_TRUE(waitFor([&] { return state().mode == StylusMode::Hover; }));
     EXPECT_TRUE(waitFor([&] { // the view lags by some frames
-        const double wanted = state().frame.scene_per_metre / scale;
+        const double wanted = state().frame.scene_per_meter / scale;
         return std::abs(view().camera().distance_m / before - wanted) < 0.02;
     })) << view().camera().distance_m / before
-        << " instead of " << state().frame.scene_per_metre / scale;
+        << " instead of " << state().frame.scene_per_meter / scale;
 }
 
 TEST_F(HapticsControllerTest, ADeviceThatCannotBeOpenedSaysWhy)
@@ -284,7 +284,7 @@ TEST_F(HapticsControllerTest, ADeviceThatCannotBeOpenedSaysWhy)
     EXPECT_EQ(haptics().problem(), QString());
 }
 
-TEST_F(HapticsControllerTest, OpeningHoldsNothingUpAndCanBeCancelled)
+TEST_F(HapticsControllerTest, OpeningHoldsNothingUpAndCanBeCanceled)
 {
     hand_->is_held_up = true;
     haptics().connectTo(QStringLiteral("hand:"));

@@ -20,7 +20,7 @@ LoadRequest requestFor(const QString& file)
 struct Outcomes {
     std::vector<std::string> succeeded;
     std::vector<std::string> failed;
-    int cancelled = 0;
+    int canceled = 0;
 
     explicit Outcomes(LoadController& controller)
     {
@@ -31,12 +31,12 @@ struct Outcomes {
         QObject::connect(
             &controller, &LoadController::failed, &controller,
             [this](const LoadFailure& failure) { failed.push_back(failure.error.message); });
-        QObject::connect(&controller, &LoadController::cancelled, &controller,
-                         [this](const RasterSpec&) { ++cancelled; });
+        QObject::connect(&controller, &LoadController::canceled, &controller,
+                         [this](const RasterSpec&) { ++canceled; });
     }
     std::size_t count() const
     {
-        return succeeded.size() + failed.size() + static_cast<std::size_t>(cancelled);
+        return succeeded.size() + failed.size() + static_cast<std::size_t>(canceled);
     }
 };
 
@@ -77,7 +77,7 @@ TEST(LoadController, DropsAResultThatArrivesAfterCancel)
         QTest::qSleep(i % 10);
         controller.cancel();
         EXPECT_FALSE(controller.isLoading());
-        EXPECT_EQ(outcomes.cancelled, i + 1);
+        EXPECT_EQ(outcomes.canceled, i + 1);
     }
     QTest::qWait(50);
     EXPECT_TRUE(outcomes.succeeded.empty());

@@ -117,7 +117,7 @@ TEST_F(OverrideFormTest, ReportsAnUnknownCrsBelowItsField)
     EXPECT_FALSE(form().isVisible());
 }
 
-TEST_F(OverrideFormTest, RefusesDegreesOnAGridInMetresAndTheReverse)
+TEST_F(OverrideFormTest, RefusesDegreesOnAGridInMetersAndTheReverse)
 {
     ASSERT_TRUE(openAndWait(*window_, maps_.hill())); // x from 500 000
     openForm();

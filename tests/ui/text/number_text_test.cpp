@@ -22,7 +22,7 @@ TEST(NumberText, GroupsAsTheLocaleDoes)
 {
     QLocale::setDefault(QLocale(QLocale::English));
     EXPECT_EQ(countText(8192), QStringLiteral("8,192"));
-    EXPECT_EQ(heightRangeText({.minimum_m = -8201.4, .maximum_m = 21241.3}, HeightUnit::Metres),
+    EXPECT_EQ(heightRangeText({.minimum_m = -8201.4, .maximum_m = 21241.3}, HeightUnit::Meters),
               QStringLiteral("−8,201 … 21,241 m"));
     QLocale::setDefault(QLocale::c());
 }
@@ -33,7 +33,7 @@ TEST(NumberText, StaysInItsOrderInLayoutsFromRightToLeft)
     EXPECT_EQ(numberText(-12.5, 1), QStringLiteral("\u2066−12.5\u2069"));
     EXPECT_EQ(withUnit(QStringLiteral("12"), QStringLiteral("m")),
               QStringLiteral("\u206612 m\u2069"));
-    EXPECT_TRUE(heightRangeText({.minimum_m = -1.0, .maximum_m = 1.0}, HeightUnit::Metres)
+    EXPECT_TRUE(heightRangeText({.minimum_m = -1.0, .maximum_m = 1.0}, HeightUnit::Meters)
                     .startsWith(QChar(0x2066)));
     EXPECT_EQ(isolated(QStringLiteral("mars.tif")), QStringLiteral("\u2068mars.tif\u2069"));
     QLocale::setDefault(QLocale(QLocale::Hebrew));
@@ -51,7 +51,7 @@ TEST(NumberText, WritesHeightsInFeet)
 {
     EXPECT_EQ(heightRangeText({.minimum_m = 0.0, .maximum_m = 304.8}, HeightUnit::Feet),
               QStringLiteral("0 … 1000 ft"));
-    EXPECT_EQ(heightRangeText({.minimum_m = 0.25, .maximum_m = 0.75}, HeightUnit::Metres),
+    EXPECT_EQ(heightRangeText({.minimum_m = 0.25, .maximum_m = 0.75}, HeightUnit::Meters),
               QStringLiteral("0.250 … 0.750 m"));
 }
 
