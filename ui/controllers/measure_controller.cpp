@@ -601,7 +601,7 @@ void MeasureController::addSymbol(std::vector<DrapedLine>& lines, const MeasureI
         return;
     }
     const double half_m = kSymbolPoints * view_.devicePixelRatioF() *
-                          metresPerPixel(view_.camera(), view_.viewport(), *center);
+                          metersPerPixel(view_.camera(), view_.viewport(), *center);
     const auto away = [&](double azimuth_deg, double length_m) {
         return scenePoint(geometry_->ground().ray(attitude->center, azimuth_deg).at(length_m));
     };
@@ -835,7 +835,7 @@ void MeasureController::measureAgain(const MeasureItem& item)
                 Qt::QueuedConnection);
             return is_last;
         };
-        if (!job->monitor.isCancelled() && !run(MeasureDetail::Quick)) {
+        if (!job->monitor.isCanceled() && !run(MeasureDetail::Quick)) {
             run(MeasureDetail::Full);
         }
     });

@@ -25,7 +25,7 @@ protected:
 
 private:
     MeasureController& controller_;
-    HeightUnit unit_ = HeightUnit::Metres;
+    HeightUnit unit_ = HeightUnit::Meters;
 };
 
 } // namespace marsview

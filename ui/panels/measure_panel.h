@@ -48,7 +48,7 @@ private:
     QString tableCsv() const;
 
     MeasureController& controller_;
-    HeightUnit unit_ = HeightUnit::Metres;
+    HeightUnit unit_ = HeightUnit::Meters;
     bool is_filling_ = false;
     QTreeWidget* list_ = nullptr;
     QWidget* results_side_ = nullptr;
