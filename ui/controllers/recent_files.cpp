@@ -18,11 +18,6 @@ namespace {
 
 constexpr qsizetype kCountMax = 10;
 
-QString settingsKey()
-{
-    return QStringLiteral("files/recent");
-}
-
 // An ampersand marks a key in a menu, but is an ordinary character in a file name.
 QString withoutMnemonics(QString text)
 {
