@@ -39,6 +39,7 @@ const std::vector<Layer>& layers()
          {"core/base/", "core/geo/", "core/raster/", "core/tiles/", "core/terrain/",
           "core/measure/"}},
         {"core/vector/", {"core/base/", "core/geo/", "core/files/", "core/vector/"}},
+        {"core/names/", {"core/base/", "core/geo/", "core/vector/", "core/names/"}},
         {"core/view/", {"core/base/", "core/geo/", "core/raster/", "core/terrain/", "core/view/"}},
         {"core/session/", {"core/"}},
         {"haptics/", {"core/", "haptics/"}},
