@@ -5,6 +5,7 @@
 #include "ui/plots/profile_plot.h"
 #include "ui/widgets/caption.h"
 
+#include <QAbstractButton>
 #include <QClipboard>
 #include <QComboBox>
 #include <QFileDialog>
@@ -128,6 +129,7 @@ void MeasurePanel::makeResults()
     results_->setColumnCount(2);
     results_->horizontalHeader()->hide();
     results_->verticalHeader()->hide();
+    results_->findChild<QAbstractButton*>()->hide(); // in the corner of the headers
     results_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
     results_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
     results_->setEditTriggers(QAbstractItemView::NoEditTriggers);
