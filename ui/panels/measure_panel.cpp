@@ -129,7 +129,7 @@ void MeasurePanel::makeResults()
     results_->setColumnCount(2);
     results_->horizontalHeader()->hide();
     results_->verticalHeader()->hide();
-    results_->findChild<QAbstractButton*>()->hide(); // in the corner of the headers
+    results_->findChild<QAbstractButton*>()->setAccessibleName(tr("Select all results"));
     results_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
     results_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
     results_->setEditTriggers(QAbstractItemView::NoEditTriggers);
