@@ -1,76 +1,41 @@
-// What the view shows and from where. Its pictures are in terrain_view_picture.cpp, the hands on it
-// in terrain_view_hands.cpp.
-
 #include "ui/canvas/terrain_view.h"
 
 #include "core/view/exaggeration.h"
 
+#include <QChildEvent>
+#include <QContextMenuEvent>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QOpenGLContext>
 #include <QVBoxLayout>
+#include <QWheelEvent>
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace marsview {
-namespace {
-
-using std::chrono::milliseconds;
-
-constexpr double kPanShare = 0.12; // of the distance, a key press
-constexpr double kKeyZoomFactor = 0.75;
-constexpr Angle kKeyTurn = Angle::degrees(10.0);
-constexpr Angle kKeyTilt = Angle::degrees(5.0);
-constexpr milliseconds kKeyDuration{180};
-
-constexpr milliseconds kFlyDuration{700};
-
-// How often finer ground is looked for below a stylus that presses.
-constexpr milliseconds kTouchInterval{33};
-
-// Whether two pictures of one file, a preview maybe, have their outer corners in the same places of
-// the scene.
-bool isSameGround(const Map& a, const Map& b)
-{
-    const auto corner = [](const Map& map, double side) {
-        const Georeference& georeference = map.georeference();
-        const auto end = [side](std::size_t count) {
-            return -0.5 + side * static_cast<double>(count);
-        };
-        return georeference.sceneFrame().toScene(
-            {end(georeference.columns()), end(georeference.rows())}, 0.0);
-    };
-    constexpr double kTolerance = 1e-6;
-    const double tolerance_m = kTolerance * length(corner(a, 1.0) - corner(a, 0.0));
-    return a.spec().path == b.spec().path &&
-           length(corner(a, 0.0) - corner(b, 0.0)) <= tolerance_m &&
-           length(corner(a, 1.0) - corner(b, 1.0)) <= tolerance_m;
-}
-
-// Nothing moves on screen from one to the other.
-bool isSamePicture(const OrbitCamera& a, const OrbitCamera& b)
-{
-    constexpr double kShare = 1e-9; // of the distance, and in radians
-    return length(eyeOf(a) - eyeOf(b)) <= kShare * std::min(a.distance_m, b.distance_m) &&
-           std::abs((a.azimuth - b.azimuth).radians()) <= kShare &&
-           std::abs((a.tilt - b.tilt).radians()) <= kShare;
-}
-
-// Whether some map took the place of its preview.
-bool isCompletionOf(const SceneSurface& before, const SceneSurface& now)
-{
-    return std::any_of(before.maps().begin(), before.maps().end(), [&now](const SceneMap& then) {
-        return std::any_of(now.maps().begin(), now.maps().end(), [&then](const SceneMap& map) {
-            return then.map != map.map && isOfSameMap(*then.map, *map.map);
-        });
-    });
-}
-
-} // namespace
 
 TerrainView::TerrainView(QWidget* parent)
     : QOpenGLWidget(parent)
-    , navigator_([this](const OrbitCamera& camera) { return bounded(camera); })
+    , camera_(scene_, [this] { return viewport(); })
+    , projection_(*this, scene_, camera_)
+    , touch_(scene_, projection_)
+    , reader_({.view = *this,
+               .scene = scene_,
+               .camera = camera_,
+               .projection = projection_,
+               .touch = touch_})
+    , mouse_({.view = *this,
+              .scene = scene_,
+              .camera = camera_,
+              .projection = projection_,
+              .touch = touch_,
+              .reader = reader_})
+    , canvas_({.view = *this,
+               .scene = scene_,
+               .camera = camera_,
+               .projection = projection_,
+               .touch = touch_})
     , empty_hint_(new QLabel(this))
 {
     setAccessibleName(tr("Map"));
@@ -93,20 +58,32 @@ TerrainView::TerrainView(QWidget* parent)
     empty_hint_->setFont(font);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(empty_hint_);
-    pointer_timer_.setSingleShot(true);
-    connect(&pointer_timer_, &QTimer::timeout, this, &TerrainView::readUnderPointer);
-    lead_timer_.setSingleShot(true);
-    connect(&lead_timer_, &QTimer::timeout, this, &TerrainView::reportPointer);
-    touch_timer_.setInterval(kTouchInterval);
-    connect(&touch_timer_, &QTimer::timeout, this, &TerrainView::refreshTouch);
-    still_timer_.setSingleShot(true);
-    connect(&still_timer_, &QTimer::timeout, this, &TerrainView::refineWhenStill);
-    connect(&navigator_, &Navigator::cameraChanged, this, [this] {
-        has_hand_moved_ = true; // over the ground
-        redrawTerrain();
-        moveStylus();
-        reportPointer();
+    connectParts();
+}
+
+void TerrainView::connectParts()
+{
+    connect(&camera_, &CameraController::cameraChanged, this, [this] {
+        touch_.noteMotion();
+        canvas_.redraw();
+        touch_.follow();
+        reader_.report();
         Q_EMIT sightChanged();
+    });
+    connect(&touch_, &TouchTool::redrawNeeded, this, [this] { update(); });
+    connect(&touch_, &TouchTool::moved, &mouse_, &MapMouse::showCursor);
+    connect(&touch_, &TouchTool::moved, this, &TerrainView::stylusMoved);
+    connect(&reader_, &PlaceReader::readingChanged, this, &TerrainView::pointerMoved);
+    connect(&reader_, &PlaceReader::crosshairChanged, this, &TerrainView::crosshairChanged);
+    connect(&mouse_, &MapMouse::toolChanged, this, &TerrainView::toolChanged);
+    connect(&mouse_, &MapMouse::gestureMade, this, &TerrainView::gestureMade);
+    connect(&mouse_, &MapMouse::menuRequested, this, &TerrainView::menuRequested);
+    connect(&canvas_, &TerrainCanvas::completed, this, &TerrainView::pictureCompleted);
+    connect(&canvas_, &TerrainCanvas::detailChanged, this, &TerrainView::detailChanged);
+    connect(&canvas_, &TerrainCanvas::loadingChanged, this, &TerrainView::loadingChanged);
+    connect(&canvas_, &TerrainCanvas::problemChanged, this, [this](const QString& problem) {
+        Q_EMIT problemChanged(problem);
+        reader_.report(); // the tile under it may have arrived, too
     });
 }
 
@@ -122,85 +99,40 @@ TerrainView::~TerrainView()
 void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
                             std::optional<double> exaggeration)
 {
-    shown_ = top_first;
-    std::vector<std::shared_ptr<const Map>> maps;
-    for (const ShownLayer& layer : top_first) {
-        maps.push_back(layer.map);
+    const ShownScene before = scene_;
+    scene_.setLayers(top_first);
+    const bool is_other_map = map() != before.map();
+    if (before.map() && is_other_map) {
+        sights_.remember(before.map(),
+                         {.camera = camera_.goal(), .exaggeration = before.style.exaggeration});
     }
-    const std::shared_ptr<const Map> map = maps.empty() ? nullptr : maps.front();
-    const bool is_completed = map_ && map && isOfSameMap(*map_, *map);
-    const bool is_same_place =
-        map_ && map &&
-        (map_->georeference().sceneFrame() == map->georeference().sceneFrame() ||
-         isSameGround(*map_, *map));
-    const bool is_other_map = map != map_;
-    if (map_ && is_other_map) {
-        rememberSight();
-    }
-    // A map that replaces its preview keeps the preview's view, even if another would suit it.
-    const bool is_suited =
-        map_ && !is_completed && style_.exaggeration == suitableExaggeration(*map_);
-    const double exaggeration_before = style_.exaggeration;
-    const SceneSurface before = ground_;
-    map_ = map;
-    ramp_ = top_first.empty() ? nullptr : top_first.front().ramp;
-    ground_ = SceneSurface(maps);
-    layers_.clear();
-    for (std::size_t i = 0; i < maps.size(); ++i) {
-        layers_.push_back(terrainLayer(maps[i], ground_.maps()[i].frame, *top_first[i].ramp));
-        layers_.back().tint_range = colorRangeOf(top_first[i]);
-        layers_.back().slope_range = slopeRangeOf(top_first[i]);
-    }
-    are_layers_sent_ = false;
-    empty_hint_->setVisible(!map_);
-    const bool is_other_place = map_ && !is_same_place;
-    std::optional<Sight> sight;
-    if (is_other_place) {
-        sight = sightToGoOnWith(before);
-    } else if (map_ && is_suited) {
-        // The heights may have changed, as when the user sets the nodata value.
-        const double suitable = suitableExaggeration(*map_);
-        sight = Sight{.map = map_,
-                      .camera = reexaggerated(navigator_.goal(), style_.exaggeration, suitable),
-                      .exaggeration = suitable};
-    }
-    if (sight) {
-        style_.exaggeration = sight->exaggeration;
-    } else if (is_other_place) {
-        style_.exaggeration = suitableExaggeration(*map_);
-    }
-    if (map_ && exaggeration && *exaggeration != style_.exaggeration) {
-        if (sight || !is_other_place) { // otherwise the opening view follows
-            const OrbitCamera camera = sight ? sight->camera : navigator_.goal();
-            sight = Sight{.map = map_,
-                          .camera = reexaggerated(camera, style_.exaggeration, *exaggeration),
-                          .exaggeration = *exaggeration};
-        }
-        style_.exaggeration = *exaggeration;
-    }
-    if (isCompletionOf(before, ground_)) {
-        releaseTouch(); // its surface is gone
+    const NextSight next = nextSight(before, scene_, camera_.goal(), sights_, exaggeration);
+    scene_.style.exaggeration = next.exaggeration;
+    empty_hint_->setVisible(scene_.isEmpty());
+    if (isCompletionOf(before, scene_)) {
+        mouse_.releaseTouch();
     }
     // Before the camera moves, which aims the stylus.
-    stylus_.setGround(ground_, style_.exaggeration);
-    if (sight && sight->camera != navigator_.goal()) {
-        setCamera(sight->camera);
-    } else if (is_other_place && !sight) {
-        goToOpeningView();
+    touch_.updateGround();
+    canvas_.updateLayers();
+    if (next.is_opening) {
+        camera_.goToOpeningView();
+    } else if (next.camera && *next.camera != camera_.goal()) {
+        camera_.jumpTo(*next.camera);
     }
-    redrawTerrain();
-    moveStylus();
+    canvas_.redraw();
+    touch_.follow();
     Q_EMIT layersChanged();
-    if (!is_other_map && style_.exaggeration != exaggeration_before) {
-        Q_EMIT exaggerationChanged(style_.exaggeration);
+    if (!is_other_map && next.exaggeration != before.style.exaggeration) {
+        Q_EMIT exaggerationChanged(next.exaggeration);
     }
     if (is_other_map) {
         QMetaObject::invokeMethod(
             this,
             [this] {
-                Q_EMIT mapShown(map_);
-                Q_EMIT exaggerationChanged(style_.exaggeration);
-                reportPointer();
+                Q_EMIT mapShown(map());
+                Q_EMIT exaggerationChanged(scene_.style.exaggeration);
+                reader_.report();
             },
             Qt::QueuedConnection);
     }
@@ -209,41 +141,7 @@ void TerrainView::setLayers(const std::vector<ShownLayer>& top_first,
 void TerrainView::replacePreview(const std::shared_ptr<const Map>& preview,
                                  const std::shared_ptr<const Map>& map)
 {
-    for (Sight& sight : sights_) {
-        if (sight.map.lock() == preview) {
-            sight.map = map;
-        }
-    }
-}
-
-void TerrainView::rememberSight()
-{
-    std::erase_if(sights_, [this](const Sight& sight) {
-        const auto map = sight.map.lock();
-        return !map || map == map_;
-    });
-    sights_.push_back(
-        {.map = map_, .camera = navigator_.goal(), .exaggeration = style_.exaggeration});
-}
-
-// Where one of the maps was in the picture before, the same piece of it stays in sight. Otherwise a
-// map that was shown once is seen again as it was left.
-std::optional<TerrainView::Sight> TerrainView::sightToGoOnWith(const SceneSurface& before) const
-{
-    for (const SceneMap& now : ground_.maps()) {
-        for (const SceneMap& then : before.maps()) {
-            if (now.map == then.map) {
-                OrbitCamera camera = navigator_.goal();
-                camera.target =
-                    now.frame.toScene(then.frame.toGrid(camera.target), camera.target.z);
-                return Sight{.map = map_, .camera = camera, .exaggeration = style_.exaggeration};
-            }
-        }
-    }
-    const auto known = std::find_if(sights_.begin(), sights_.end(), [this](const Sight& sight) {
-        return sight.map.lock() == map_;
-    });
-    return known != sights_.end() ? std::optional(*known) : std::nullopt;
+    sights_.replacePreview(preview, map);
 }
 
 void TerrainView::setHint(const QString& hint)
@@ -254,306 +152,234 @@ void TerrainView::setHint(const QString& hint)
 
 void TerrainView::setLook(const TerrainLook& look)
 {
-    style_.look = look;
-    redrawTerrain();
+    scene_.style.look = look;
+    canvas_.redraw();
     Q_EMIT lookChanged();
-}
-
-void TerrainView::setAntialiasing(bool is_wanted)
-{
-    if (is_wanted != has_antialiasing_) {
-        has_antialiasing_ = is_wanted;
-        redrawTerrain();
-    }
-}
-
-void TerrainView::setFrameTarget(milliseconds target)
-{
-    frame_target_ = target;
-    if (picture_) {
-        picture_->setTarget(target);
-    }
-}
-
-void TerrainView::setCamera(const OrbitCamera& camera)
-{
-    is_at_opening_view_ = false;
-    navigator_.jumpTo(camera);
 }
 
 void TerrainView::setExaggeration(double exaggeration)
 {
-    if (exaggeration == style_.exaggeration) {
+    if (exaggeration == scene_.style.exaggeration) {
         return;
     }
-    const double before = style_.exaggeration;
+    const double before = scene_.style.exaggeration;
     // A motion in progress keeps its end.
-    const OrbitCamera goal = ground_.isEmpty() ? navigator_.goal() : onGround(navigator_.goal());
-    style_.exaggeration = exaggeration;
-    stylus_.setGround(ground_, exaggeration);
-    navigator_.jumpTo(reexaggerated(goal, before, exaggeration));
+    const OrbitCamera goal = camera_.goalOnGround();
+    scene_.style.exaggeration = exaggeration;
+    touch_.updateGround();
+    camera_.followTerrain(reexaggerated(goal, before, exaggeration));
     Q_EMIT exaggerationChanged(exaggeration);
 }
 
 void TerrainView::step(NavigationStep step)
 {
-    if (ground_.isEmpty()) {
-        return;
-    }
-    setKeyboardUsed(hasFocus());
-    is_at_opening_view_ = false;
-    OrbitCamera camera = onGround(navigator_.goal());
-    switch (step) {
-    case NavigationStep::PanLeft:
-        camera = panned(camera, -kPanShare, 0.0);
-        break;
-    case NavigationStep::PanRight:
-        camera = panned(camera, kPanShare, 0.0);
-        break;
-    case NavigationStep::PanAway:
-        camera = panned(camera, 0.0, kPanShare);
-        break;
-    case NavigationStep::PanNearer:
-        camera = panned(camera, 0.0, -kPanShare);
-        break;
-    case NavigationStep::ZoomIn:
-        camera = zoomed(camera, kKeyZoomFactor, camera.target, limits());
-        break;
-    case NavigationStep::ZoomOut:
-        camera = beforeZoom(1.0 / kKeyZoomFactor);
-        camera = zoomed(camera, 1.0 / kKeyZoomFactor, camera.target, limits());
-        break;
-    case NavigationStep::TurnLeft:
-        camera = orbited(camera, -kKeyTurn, {});
-        break;
-    case NavigationStep::TurnRight:
-        camera = orbited(camera, kKeyTurn, {});
-        break;
-    case NavigationStep::TiltUp:
-        camera = orbited(camera, {}, kKeyTilt);
-        break;
-    case NavigationStep::TiltDown:
-        camera = orbited(camera, {}, -kKeyTilt);
-        break;
-    }
-    navigator_.moveTo(camera, kKeyDuration);
-}
-
-// The reference point is found where a motion or a turn begins, and while the camera approaches. In
-// a grazing view the center of the picture jumps from ridge to ridge: a speed and a pivot found
-// again in each frame would jump, too.
-void TerrainView::steer(const CapRates& rates, double seconds)
-{
-    if (ground_.isEmpty() || !doesSteer(rates)) {
-        cap_ = {};
-        return;
-    }
-    const double rise = capSpeed(rates.push.z);
-    const bool begins = !doesSteer(cap_) || (doesTurn(rates) && !doesTurn(cap_));
-    OrbitCamera camera = navigator_.camera();
-    if (rise < 0.0 || (begins && rise == 0.0)) { // further: see beforeZoom()
-        camera = onGround(camera);
-    }
-    camera = bounded(steered(camera, rates, seconds, limits()));
-    if (isMoving() || !isSamePicture(camera, navigator_.camera())) {
-        cap_ = rates;
-        setCamera(camera);
+    if (!scene_.isEmpty()) {
+        reader_.noteStep();
+        camera_.step(step);
     }
 }
 
 void TerrainView::goHome()
 {
-    if (!ground_.isEmpty()) {
-        setKeyboardUsed(hasFocus());
-        navigator_.moveTo(homeCamera(ground_.box(style_.exaggeration), viewport()), kFlyDuration);
+    if (!scene_.isEmpty()) {
+        reader_.noteStep();
+        camera_.goHome();
     }
 }
 
 void TerrainView::turnNorthUp()
 {
-    if (!ground_.isEmpty()) {
-        setKeyboardUsed(hasFocus());
-        OrbitCamera camera = onGround(navigator_.goal());
-        camera.azimuth = {};
-        navigator_.moveTo(camera, kFlyDuration);
+    if (!scene_.isEmpty()) {
+        reader_.noteStep();
+        camera_.turnNorthUp();
     }
-}
-
-void TerrainView::flyTo(GridPoint grid, double distance_m)
-{
-    if (ground_.isEmpty()) {
-        return;
-    }
-    OrbitCamera goal =
-        lookingAt(map_->georeference().sceneFrame().toScene(grid, 0.0), navigator_.goal());
-    if (distance_m > 0.0) {
-        goal.distance_m = distance_m;
-    }
-    is_at_opening_view_ = false;
-    navigator_.moveTo(goal, kFlyDuration);
 }
 
 void TerrainView::goTo(GridPoint grid)
 {
-    if (ground_.isEmpty()) {
+    if (scene_.isEmpty()) {
         return;
     }
     setFocus(Qt::OtherFocusReason);
-    flyTo(grid, 0.0);
-    typed_place_ = {.place = map_->georeference().sceneFrame().toScene(grid, 0.0),
-                    .goal = navigator_.goal()};
-    setKeyboardUsed(true);
-    reportPointer();
-}
-
-void TerrainView::flyToPlace(const ScenePoint& place)
-{
-    if (ground_.isEmpty()) {
-        return;
-    }
-    is_at_opening_view_ = false;
-    navigator_.moveTo(lookingAt(place, navigator_.goal()), kFlyDuration);
-}
-
-void TerrainView::flyTo(const OrbitCamera& camera)
-{
-    if (!ground_.isEmpty()) {
-        is_at_opening_view_ = false;
-        navigator_.moveTo(camera, kFlyDuration);
-    }
-}
-
-void TerrainView::lookAt(const ScenePoint& place)
-{
-    if (ground_.isEmpty()) {
-        return;
-    }
-    setCamera(lookingAt(place, navigator_.camera()));
-}
-
-// The camera with the ground at a place in the middle of its picture.
-OrbitCamera TerrainView::lookingAt(const ScenePoint& place, const OrbitCamera& camera) const
-{
-    OrbitCamera result = onGround(camera);
-    const double z_m = groundAt(place.x, place.y);
-    result.target = {place.x, place.y, std::isfinite(z_m) ? z_m : result.target.z};
-    return result;
-}
-
-bool TerrainView::isInPicture(const ScenePoint& place) const
-{
-    const auto position = positionOfPlace(place);
-    return position && QRectF(rect()).contains(*position);
+    camera_.flyTo(grid, 0.0);
+    reader_.noteTypedPlace(scene_.placeOf(grid, 0.0));
 }
 
 std::optional<RayHit> TerrainView::surfaceAt(QPointF position) const
 {
-    const std::optional<GroundPoint> ground = groundUnder(position);
-    return ground ? std::optional(onTopmost(*ground)) : std::nullopt;
+    const std::optional<GroundPoint> ground = projection_.groundUnder(position);
+    return ground ? std::optional(scene_.onTopmost(*ground)) : std::nullopt;
 }
 
-RayHit TerrainView::onTopmost(const GroundPoint& ground) const
+double TerrainView::metersPerPoint(const RayHit& hit) const
 {
-    const ScenePoint place = ground_.maps()[ground.index].frame.toScene(ground.grid, 0.0);
-    return {.grid = ground.index == 0 ? ground.grid : ground_.maps().front().frame.toGrid(place),
-            .height_m = ground.height_m,
-            .t = ground.distance_m};
+    return map() ? projection_.metersPerPoint(scene_.placeOf(hit.grid, hit.height_m)) : 0.0;
 }
 
 std::optional<QPointF> TerrainView::positionOf(GridPoint grid) const
 {
-    if (!map_) {
+    if (!map()) {
         return std::nullopt;
     }
-    const double height_m = map_->heightfield().heightNow(grid);
-    return positionOfPlace(
-        map_->georeference().sceneFrame().toScene(grid, height_m * style_.exaggeration));
+    return projection_.positionOf(scene_.placeOf(grid, map()->heightfield().heightNow(grid)));
 }
 
-std::optional<QPointF> TerrainView::positionOfPlace(const ScenePoint& place) const
+void TerrainView::showDevice(const std::optional<StylusPose>& pose)
 {
-    const auto pixel = project(navigator_.camera(), viewport(), place);
-    if (!pixel || !std::isfinite(pixel->x)) {
-        return std::nullopt;
+    if (touch_.showDevice(pose) && (!pose || reader_.source() == ReadingSource::Stylus)) {
+        reader_.report();
     }
-    return QPointF(pixel->x, pixel->y) / devicePixelRatioF();
 }
 
-void TerrainView::goToOpeningView()
+void TerrainView::setGrabbing(bool is_grabbing)
 {
-    is_at_opening_view_ = true;
-    navigator_.jumpTo(openingCamera(map_->georeference())
-                          .value_or(homeCamera(ground_.box(style_.exaggeration), viewport())));
+    if (touch_.setGrabbing(is_grabbing)) {
+        Q_EMIT grabbingChanged(is_grabbing);
+    }
+}
+
+void TerrainView::initializeGL()
+{
+    connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &TerrainView::releaseGraphics);
+    if (const auto error = canvas_.initialize()) {
+        reportUnavailable(QString::fromStdString(error->message));
+        return;
+    }
+    // What follows may open dialogs, which is not for the middle of painting.
+    QMetaObject::invokeMethod(
+        this, [this] { Q_EMIT ready(); }, Qt::QueuedConnection);
+}
+
+void TerrainView::paintGL()
+{
+    canvas_.paint();
+}
+
+void TerrainView::paintEvent(QPaintEvent* event)
+{
+    QOpenGLWidget::paintEvent(event);
+    // Without a context the base class never calls initializeGL().
+    if (!isValid() && !std::exchange(is_context_missing_, true)) {
+        reportUnavailable(
+            tr("no OpenGL context can be created; install the graphics driver, or Mesa's "
+               "software one (libgl1-mesa-dri)"));
+    }
+}
+
+// Later: who hears of it may open dialogs, which is not for the middle of painting.
+void TerrainView::reportUnavailable(const QString& reason)
+{
+    QMetaObject::invokeMethod(
+        this, [this, reason] { Q_EMIT unavailable(reason); }, Qt::QueuedConnection);
 }
 
 void TerrainView::resizeEvent(QResizeEvent* event)
 {
-    redrawTerrain(); // before the base class, which paints
+    canvas_.redraw(); // before the base class, which paints
     QOpenGLWidget::resizeEvent(event);
-    if (is_at_opening_view_ && !ground_.isEmpty()) {
-        goToOpeningView();
-    }
+    camera_.resize();
     Q_EMIT sightChanged();
 }
 
-// In pixels of the frame buffer.
-Viewport TerrainView::viewport() const
+void TerrainView::mousePressEvent(QMouseEvent* event)
 {
-    const double scale = devicePixelRatioF();
-    return {.width = std::max(1, qRound(width() * scale)),
-            .height = std::max(1, qRound(height() * scale))};
+    mouse_.press(*event);
 }
 
-PixelPoint TerrainView::pixelAt(QPointF position) const
+void TerrainView::mouseMoveEvent(QMouseEvent* event)
 {
-    const QPointF pixel = position * devicePixelRatioF();
-    return {pixel.x(), pixel.y()};
+    mouse_.move(*event);
 }
 
-std::optional<GroundPoint> TerrainView::groundUnder(QPointF position) const
+void TerrainView::mouseReleaseEvent(QMouseEvent* event)
 {
-    return ground_.cast(pickRay(navigator_.camera(), viewport(), pixelAt(position)),
-                        style_.exaggeration);
+    mouse_.release(*event);
 }
 
-double TerrainView::groundAt(double east_m, double north_m) const
+void TerrainView::mouseDoubleClickEvent(QMouseEvent* event)
 {
-    return ground_.height(east_m, north_m) * style_.exaggeration;
+    mouse_.doubleClick(*event);
 }
 
-NavigationLimits TerrainView::limits() const
+void TerrainView::wheelEvent(QWheelEvent* event)
 {
-    return navigationLimits(ground_.box(style_.exaggeration), ground_.pixelMeters());
+    mouse_.wheel(*event);
 }
 
-OrbitCamera TerrainView::bounded(const OrbitCamera& camera) const
+// The mouse asks when its button is released; this is for the keyboard.
+void TerrainView::contextMenuEvent(QContextMenuEvent* event)
 {
-    if (ground_.isEmpty()) {
-        return camera;
+    event->accept();
+    if (event->reason() != QContextMenuEvent::Mouse && !scene_.isEmpty()) {
+        Q_EMIT menuRequested(projection_.center());
     }
-    return constrained(camera, limits(),
-                       [this](double east_m, double north_m) { return groundAt(east_m, north_m); });
 }
 
-// The same picture, its target on the ground in the middle of it.
-OrbitCamera TerrainView::onGround(const OrbitCamera& camera) const
+void TerrainView::keyPressEvent(QKeyEvent* event)
 {
-    const auto hit = ground_.cast({.origin = eyeOf(camera), .direction = axesOf(camera).forward},
-                                  style_.exaggeration);
-    const NavigationLimits bounds = limits();
-    if (!hit || hit->distance_m < bounds.distance_min_m ||
-        hit->distance_m > bounds.distance_max_m) {
-        return camera;
+    if (event->key() == Qt::Key_Space && event->modifiers() == Qt::NoModifier) {
+        if (!event->isAutoRepeat()) {
+            setGrabbing(true);
+        }
+        return;
     }
-    return retargeted(camera, hit->distance_m);
+    if (event->key() == Qt::Key_F10 && event->modifiers() == Qt::ShiftModifier) {
+        if (!scene_.isEmpty()) { // the other key of the context menu, which Qt leaves out on X11
+            Q_EMIT menuRequested(projection_.center());
+        }
+        return;
+    }
+    if (!mouse_.key(*event)) {
+        QOpenGLWidget::keyPressEvent(event);
+    }
 }
 
-// Zooming in goes by the distance to the ground in the middle of the picture. Zooming out goes by
-// the distance there is: it has to grow each time, also where the eye backs into a ridge and has
-// another ground in front of it then.
-OrbitCamera TerrainView::beforeZoom(double factor) const
+void TerrainView::keyReleaseEvent(QKeyEvent* event)
 {
-    return factor < 1.0 ? onGround(navigator_.goal()) : navigator_.goal();
+    if (event->key() == Qt::Key_Space) {
+        if (!event->isAutoRepeat()) {
+            setGrabbing(false);
+        }
+        return;
+    }
+    QOpenGLWidget::keyReleaseEvent(event);
+}
+
+void TerrainView::focusInEvent(QFocusEvent* event)
+{
+    QOpenGLWidget::focusInEvent(event);
+    reader_.report();
+}
+
+void TerrainView::focusOutEvent(QFocusEvent* event)
+{
+    QOpenGLWidget::focusOutEvent(event);
+    setGrabbing(false);
+    reader_.report();
+}
+
+void TerrainView::leaveEvent(QEvent* event)
+{
+    QOpenGLWidget::leaveEvent(event);
+    reader_.forgetPointer();
+}
+
+void TerrainView::childEvent(QChildEvent* event)
+{
+    QOpenGLWidget::childEvent(event);
+    if (event->added() && event->child()->isWidgetType()) {
+        event->child()->installEventFilter(this);
+    }
+}
+
+// The view is not left where the pointer goes onto one of its overlays.
+bool TerrainView::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() == QEvent::Enter &&
+        !static_cast<QWidget*>(watched)->testAttribute(Qt::WA_TransparentForMouseEvents)) {
+        mouse_.enterOverlay();
+    }
+    return QOpenGLWidget::eventFilter(watched, event);
 }
 
 } // namespace marsview

@@ -1,0 +1,66 @@
+#include "ui/canvas/shown_scene.h"
+
+namespace marsview {
+
+void ShownScene::setLayers(const std::vector<ShownLayer>& top_first)
+{
+    layers_ = top_first;
+    std::vector<std::shared_ptr<const Map>> maps;
+    for (const ShownLayer& layer : top_first) {
+        maps.push_back(layer.map);
+    }
+    ground_ = SceneSurface(maps);
+}
+
+const std::shared_ptr<const Map>& ShownScene::map() const noexcept
+{
+    static const std::shared_ptr<const Map> kNone;
+    return layers_.empty() ? kNone : layers_.front().map;
+}
+
+const ColorRamp* ShownScene::ramp() const noexcept
+{
+    return layers_.empty() ? nullptr : layers_.front().ramp;
+}
+
+double ShownScene::groundHeight(double east_m, double north_m) const
+{
+    return ground_.height(east_m, north_m) * style.exaggeration;
+}
+
+std::optional<GroundPoint> ShownScene::groundBelow(const ScenePoint& place) const
+{
+    const auto index = ground_.mapAt(place.x, place.y);
+    if (!index) {
+        return std::nullopt;
+    }
+    return GroundPoint{.index = *index,
+                       .grid = ground_.maps()[*index].frame.toGrid(place),
+                       .height_m = ground_.height(place.x, place.y)};
+}
+
+std::optional<GroundPoint> ShownScene::cast(const Ray& ray) const
+{
+    return ground_.cast(ray, style.exaggeration);
+}
+
+ScenePoint ShownScene::placeOf(const GroundPoint& ground) const
+{
+    return ground_.maps()[ground.index].frame.toScene(ground.grid,
+                                                      ground.height_m * style.exaggeration);
+}
+
+ScenePoint ShownScene::placeOf(GridPoint grid, double height_m) const
+{
+    return map()->georeference().sceneFrame().toScene(grid, height_m * style.exaggeration);
+}
+
+RayHit ShownScene::onTopmost(const GroundPoint& ground) const
+{
+    const ScenePoint place = ground_.maps()[ground.index].frame.toScene(ground.grid, 0.0);
+    return {.grid = ground.index == 0 ? ground.grid : ground_.maps().front().frame.toGrid(place),
+            .height_m = ground.height_m,
+            .t = ground.distance_m};
+}
+
+} // namespace marsview

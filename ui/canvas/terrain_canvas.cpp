@@ -1,0 +1,376 @@
+#include "ui/canvas/terrain_canvas.h"
+
+#include "ui/render/offscreen_picture.h"
+
+#include <QOpenGLWidget>
+#include <QRect>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace marsview {
+namespace {
+
+// The shadow of the cursor: radius on screen, and how many sides it has.
+constexpr double kShadowPoints = 9.0;
+constexpr int kShadowSides = 24;
+
+// No part of the cursor is further from its place and its shadow than this.
+constexpr double kCursorReachPoints = 32.0;
+
+// Of pictures for files, a pixel.
+constexpr int kSmoothSamples = 4;
+
+CursorShape shapeOf(const StylusPose& pose)
+{
+    switch (pose.mode) {
+    case StylusMode::Pan:
+        return CursorShape::FlatSphere;
+    case StylusMode::Zoom:
+        return CursorShape::LongSphere;
+    case StylusMode::Hover:
+    case StylusMode::Press:
+        break;
+    }
+    return pose.is_in_contact ? CursorShape::Cone : CursorShape::Sphere;
+}
+
+// Around the place below the stylus, on the terrain.
+std::vector<ScenePoint> shadowOf(const ScenePoint& place, double radius_m, const ShownScene& scene)
+{
+    std::vector<ScenePoint> shadow;
+    for (int i = 0; i < kShadowSides; ++i) {
+        const double around = 2.0 * std::numbers::pi * i / kShadowSides;
+        const double x = place.x + radius_m * std::cos(around);
+        const double y = place.y + radius_m * std::sin(around);
+        const double z = scene.groundHeight(x, y);
+        if (std::isfinite(z)) {
+            shadow.push_back({x, y, z});
+        }
+    }
+    return shadow;
+}
+
+// Where the cursor may be hidden by the terrain.
+PixelArea areaOfCursor(const CursorPicture& cursor, const OrbitCamera& camera, const Viewport& size)
+{
+    const double reach = kCursorReachPoints * cursor.pixels_per_point;
+    std::vector<ScenePoint> points = cursor.shadow;
+    points.push_back(cursor.position);
+    double left = size.width;
+    double right = 0.0;
+    double top = size.height;
+    double bottom = 0.0;
+    for (const ScenePoint& point : points) {
+        if (const auto pixel = project(camera, size, point)) {
+            left = std::min(left, pixel->x - reach);
+            right = std::max(right, pixel->x + reach);
+            top = std::min(top, pixel->y - reach);
+            bottom = std::max(bottom, pixel->y + reach);
+        }
+    }
+    const auto inside = [](double value, int limit) {
+        return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+    };
+    const int first_column = inside(std::floor(left), size.width);
+    const int first_row = inside(size.height - std::ceil(bottom), size.height);
+    return {.left = first_column,
+            .bottom = first_row,
+            .width = std::max(0, inside(std::ceil(right), size.width) - first_column),
+            .height = std::max(0, inside(size.height - std::floor(top), size.height) - first_row)};
+}
+
+} // namespace
+
+TerrainCanvas::TerrainCanvas(const CanvasParts& parts)
+    : parts_(parts)
+{
+    still_timer_.setSingleShot(true);
+    connect(&still_timer_, &QTimer::timeout, this, &TerrainCanvas::refineWhenStill);
+}
+
+std::optional<Error> TerrainCanvas::initialize()
+{
+    auto renderer = TerrainRenderer::create([this] {
+        QMetaObject::invokeMethod(this, &TerrainCanvas::redrawWithNews, Qt::QueuedConnection);
+    });
+    if (!renderer) {
+        return renderer.error();
+    }
+    auto cursor = CursorRenderer::create();
+    if (!cursor) {
+        return cursor.error();
+    }
+    auto lines = LineRenderer::create();
+    if (!lines) {
+        return lines.error();
+    }
+    renderer_ = std::move(renderer).value();
+    line_renderer_ = std::move(lines).value();
+    cursor_ = std::move(cursor).value();
+    picture_ = std::make_unique<GovernedPicture>(*renderer_);
+    picture_->setTarget(frame_target_);
+    are_layers_sent_ = false;
+    redraw();
+    return std::nullopt;
+}
+
+void TerrainCanvas::release()
+{
+    if (renderer_) {
+        parts_.view.makeCurrent();
+        picture_.reset();
+        line_renderer_.reset();
+        cursor_.reset();
+        renderer_.reset();
+        parts_.view.doneCurrent();
+    }
+}
+
+void TerrainCanvas::updateLayers()
+{
+    are_layers_sent_ = false;
+    redraw();
+}
+
+void TerrainCanvas::sendLayers()
+{
+    if (std::exchange(are_layers_sent_, true)) {
+        return;
+    }
+    std::vector<TerrainLayer> layers;
+    for (std::size_t i = 0; i < parts_.scene.layers().size(); ++i) {
+        const ShownLayer& shown = parts_.scene.layers()[i];
+        layers.push_back(
+            terrainLayer(shown.map, parts_.scene.ground().maps()[i].frame, *shown.ramp));
+        layers.back().tint_range = colorRangeOf(shown);
+        layers.back().slope_range = slopeRangeOf(shown);
+    }
+    renderer_->setLayers(layers);
+}
+
+void TerrainCanvas::setAntialiasing(bool is_wanted)
+{
+    if (is_wanted != has_antialiasing_) {
+        has_antialiasing_ = is_wanted;
+        redraw();
+    }
+}
+
+void TerrainCanvas::setFrameTarget(std::chrono::milliseconds target)
+{
+    frame_target_ = target;
+    if (picture_) {
+        picture_->setTarget(target);
+    }
+}
+
+void TerrainCanvas::setLines(std::vector<DrapedLine> lines)
+{
+    if (!lines.empty() || !lines_.empty()) {
+        lines_ = std::move(lines);
+        parts_.view.update();
+    }
+}
+
+QImage TerrainCanvas::terrainPicture()
+{
+    is_cursor_shown_ = false;
+    QImage picture = parts_.view.grabFramebuffer();
+    is_cursor_shown_ = true;
+    parts_.view.update(); // the grabbed frame, without the cursor, may reach the screen
+    return picture;
+}
+
+Result<bool> TerrainCanvas::drawPart(const OrbitCamera& camera,
+                                     const DrawStyle& style,
+                                     const QRect& part,
+                                     QImage& picture)
+{
+    if (!renderer_) {
+        return Error{ErrorCode::Unsupported,
+                     "cannot draw a picture: no graphics context; install the graphics driver"};
+    }
+    parts_.view.makeCurrent();
+    sendLayers();
+    const auto drawn = marsview::drawPart(
+        *renderer_,
+        {.camera = camera,
+         .viewport = {.width = picture.width(), .height = picture.height()},
+         .samples = has_antialiasing_ ? kSmoothSamples : 1,
+         .part = PixelArea{.left = part.left(),
+                           .bottom = picture.height() - part.bottom() - 1,
+                           .width = part.width(),
+                           .height = part.height()}},
+        style,
+        {.first = picture.scanLine(part.top()) + static_cast<qsizetype>(3) * part.left(),
+         .line_length = picture.bytesPerLine()});
+    parts_.view.doneCurrent();
+    if (!drawn) {
+        return drawn.error();
+    }
+    return drawn->is_complete;
+}
+
+int TerrainCanvas::pictureSideMax()
+{
+    if (!renderer_) {
+        return 0;
+    }
+    parts_.view.makeCurrent();
+    const int side_max = offscreenSideMax();
+    parts_.view.doneCurrent();
+    return side_max;
+}
+
+void TerrainCanvas::paint()
+{
+    if (!renderer_) {
+        return;
+    }
+    if (!is_terrain_current_) {
+        paintTerrain();
+    } else {
+        renderer_->present(parts_.view.defaultFramebufferObject());
+    }
+    paintLines();
+    paintCursor();
+}
+
+void TerrainCanvas::paintTerrain()
+{
+    sendLayers();
+    const DrawReport report =
+        picture_->paint({.camera = parts_.camera.camera(),
+                         .viewport = viewportOf(parts_.view),
+                         .stage = stage_,
+                         .last_stage = lastStage(),
+                         .is_touching = parts_.touch.isTouching(),
+                         .is_kept = true},
+                        parts_.scene.style, parts_.view.defaultFramebufferObject());
+    last_paint_ = std::chrono::steady_clock::now();
+    is_terrain_current_ = true;
+    this->report(report);
+    if (stage_ == PictureStage::Moving) {
+        if (!still_timer_.isActive()) { // new shading is not a motion
+            still_timer_.start(kStillAfter);
+        }
+    } else if (report.is_complete) {
+        // Input that arrived in the meantime is handled first.
+        QMetaObject::invokeMethod(this, &TerrainCanvas::finishStage, Qt::QueuedConnection);
+    }
+}
+
+void TerrainCanvas::report(const DrawReport& report)
+{
+    Q_EMIT detailChanged(report.error_px);
+    // In motion something is always on its way.
+    const bool is_loading = stage_ != PictureStage::Moving && !report.is_complete;
+    if (is_loading != is_loading_) {
+        is_loading_ = is_loading;
+        Q_EMIT loadingChanged(is_loading);
+    }
+    QString problem = report.problem ? QString::fromStdString(report.problem->message) : QString();
+    if (problem != problem_) {
+        problem_ = std::move(problem);
+        // Later: who hears of it may change the layout, which is not for the middle of painting.
+        QMetaObject::invokeMethod(
+            this, [this] { Q_EMIT problemChanged(problem_); }, Qt::QueuedConnection);
+    }
+}
+
+void TerrainCanvas::paintLines()
+{
+    const OrbitCamera& camera = parts_.camera.camera();
+    const double scale = parts_.projection.pixelsPerPoint();
+    const PixelArea area = areaOf(lines_, camera, viewportOf(parts_.view), scale);
+    if (area.width == 0 || area.height == 0) {
+        return;
+    }
+    renderer_->presentDepth(parts_.view.defaultFramebufferObject(), area);
+    line_renderer_->draw(lines_, camera, viewportOf(parts_.view),
+                         renderer_->clip(camera, parts_.scene.style.exaggeration), scale);
+}
+
+void TerrainCanvas::paintCursor()
+{
+    const auto& pose = parts_.touch.shown();
+    if (!pose || !is_cursor_shown_) {
+        return;
+    }
+    const OrbitCamera& camera = parts_.camera.camera();
+    const Viewport size = viewportOf(parts_.view);
+    CursorPicture cursor{.shape = shapeOf(*pose),
+                         .position = pose->proxy,
+                         .goal = std::nullopt,
+                         .shadow = {},
+                         .pixels_per_point = parts_.projection.pixelsPerPoint()};
+    if (pose->is_in_contact) {
+        cursor.goal = pose->goal;
+    } else {
+        const double radius_m = kShadowPoints * parts_.projection.metersPerPoint(pose->proxy);
+        cursor.shadow = shadowOf(pose->proxy, radius_m, parts_.scene);
+    }
+    renderer_->presentDepth(parts_.view.defaultFramebufferObject(),
+                            areaOfCursor(cursor, camera, size));
+    cursor_->draw(cursor, camera, size, renderer_->clip(camera, parts_.scene.style.exaggeration));
+}
+
+void TerrainCanvas::redraw()
+{
+    stage_ = PictureStage::Moving;
+    still_timer_.stop();
+    is_terrain_current_ = false;
+    is_completion_reported_ = false;
+    parts_.view.update();
+}
+
+// Missing shading has arrived.
+void TerrainCanvas::redrawWithNews()
+{
+    if (!renderer_) {
+        return;
+    }
+    const bool is_due = std::chrono::steady_clock::now() - last_paint_ >= kNewsInterval;
+    if (stage_ == PictureStage::Moving || is_due || !renderer_->isLoading()) {
+        is_terrain_current_ = false;
+        parts_.view.update();
+    }
+}
+
+PictureStage TerrainCanvas::lastStage() const
+{
+    return has_antialiasing_ ? PictureStage::Smooth : PictureStage::Sharp;
+}
+
+void TerrainCanvas::refineWhenStill()
+{
+    if (parts_.camera.isMoving()) {
+        return; // the next frame starts the timer again
+    }
+    if (stage_ == PictureStage::Moving) {
+        stage_ = PictureStage::Sharp;
+        is_terrain_current_ = false;
+        parts_.view.update();
+    }
+}
+
+// A sharp picture has all its shading.
+void TerrainCanvas::finishStage()
+{
+    if (stage_ == PictureStage::Moving || !is_terrain_current_ || is_completion_reported_) {
+        return;
+    }
+    if (stage_ != lastStage()) {
+        stage_ = lastStage();
+        is_terrain_current_ = false;
+        parts_.view.update();
+        return;
+    }
+    is_completion_reported_ = true;
+    Q_EMIT completed();
+}
+
+} // namespace marsview

@@ -1,0 +1,118 @@
+// Paints the view: the terrain in stages, from ready in time to as fine as can be, with lines and
+// the cursor of a stylus over it.
+#pragma once
+
+#include "core/base/result.h"
+#include "haptics/interaction/stylus.h"
+#include "ui/canvas/camera_controller.h"
+#include "ui/canvas/shown_scene.h"
+#include "ui/canvas/touch_tool.h"
+#include "ui/canvas/view_projection.h"
+#include "ui/render/cursor_renderer.h"
+#include "ui/render/governed_picture.h"
+#include "ui/render/line_renderer.h"
+#include "ui/render/terrain_renderer.h"
+
+#include <QImage>
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
+
+class QOpenGLWidget;
+class QRect;
+
+namespace marsview {
+
+/// The parts of the view that are drawn. All outlive the canvas.
+struct CanvasParts {
+    QOpenGLWidget& view; // has the graphics context
+    const ShownScene& scene;
+    const CameraController& camera;
+    const ViewProjection& projection;
+    const TouchTool& touch;
+};
+
+/// Draws only when something changed: the terrain when it, its look or the camera did, otherwise
+/// what lies over a copy of its picture.
+class TerrainCanvas final : public QObject {
+    Q_OBJECT
+
+public:
+    explicit TerrainCanvas(const CanvasParts& parts);
+
+    /// With the context current. The error if it does not suit.
+    std::optional<Error> initialize();
+    /// Before the context is destroyed.
+    void release();
+    bool isReady() const noexcept { return renderer_ != nullptr; }
+    /// With the context current and the view's frame buffer bound.
+    void paint();
+
+    /// The layers of the scene changed.
+    void updateLayers();
+    /// The camera, the size of the picture or the look changed.
+    void redraw();
+    void setAntialiasing(bool is_wanted);
+    /// The time that a frame may take while something moves.
+    void setFrameTarget(std::chrono::milliseconds target);
+    /// Lines on the terrain, drawn over every picture.
+    void setLines(std::vector<DrapedLine> lines);
+
+    /// The picture shows all there is, as well as can be.
+    bool isComplete() const noexcept { return is_completion_reported_ && is_terrain_current_; }
+    /// Why pieces of the picture cannot be read; empty where all can.
+    const QString& problem() const noexcept { return problem_; }
+    /// The picture of the terrain alone, without cursor.
+    QImage terrainPicture();
+    /// A part of the picture of any size that `camera` has, into `picture`, RGB888 of that size.
+    /// False, and nothing drawn, while pieces of it are missing: they are on their way.
+    Result<bool>
+    drawPart(const OrbitCamera& camera, const DrawStyle& style, const QRect& part, QImage& picture);
+    /// Pixels a side that the graphics driver draws; 0 without a graphics context.
+    int pictureSideMax();
+
+Q_SIGNALS:
+    void completed();
+    /// The screen-space error of the picture, in pixels.
+    void detailChanged(double pixels);
+    /// Whether pieces that the picture at rest lacks are on their way.
+    void loadingChanged(bool is_loading);
+    void problemChanged(const QString& problem);
+
+private:
+    void sendLayers();
+    void paintTerrain();
+    void paintLines();
+    void paintCursor();
+    void report(const DrawReport& report);
+    void redrawWithNews();
+    void refineWhenStill();
+    void finishStage();
+    PictureStage lastStage() const;
+
+    CanvasParts parts_;
+    std::unique_ptr<TerrainRenderer> renderer_;
+    std::unique_ptr<GovernedPicture> picture_;
+    std::unique_ptr<CursorRenderer> cursor_;
+    std::unique_ptr<LineRenderer> line_renderer_;
+    std::vector<DrapedLine> lines_;
+    std::chrono::milliseconds frame_target_{33};
+    bool has_antialiasing_ = true;
+    bool are_layers_sent_ = true;
+
+    PictureStage stage_ = PictureStage::Moving;
+    bool is_terrain_current_ = false; // the picture that was kept is of now
+    bool is_completion_reported_ = false;
+    bool is_loading_ = false;
+    bool is_cursor_shown_ = true;
+    QString problem_;
+    QTimer still_timer_; // runs out when nothing has moved for a while
+    std::chrono::steady_clock::time_point last_paint_{};
+};
+
+} // namespace marsview

@@ -1,0 +1,128 @@
+#include "ui/canvas/touch_tool.h"
+
+#include <chrono>
+
+namespace marsview {
+namespace {
+
+// How often finer terrain is looked for below a stylus that presses.
+constexpr std::chrono::milliseconds kTouchInterval{33};
+
+} // namespace
+
+TouchTool::TouchTool(const ShownScene& scene, const ViewProjection& projection)
+    : scene_(scene)
+    , projection_(projection)
+{
+    refresh_timer_.setInterval(kTouchInterval);
+    connect(&refresh_timer_, &QTimer::timeout, this, &TouchTool::refresh);
+}
+
+void TouchTool::setModel(ContactModelKind model)
+{
+    stylus_.setModel(model);
+    Q_EMIT redrawNeeded();
+    Q_EMIT moved();
+}
+
+void TouchTool::updateGround()
+{
+    stylus_.setGround(scene_.ground(), scene_.style.exaggeration);
+}
+
+void TouchTool::follow()
+{
+    const bool was_shown = shown().has_value();
+    const auto ground = pointer_ && !scene_.isEmpty() ? projection_.groundUnder(*pointer_)
+                                                      : std::optional<GroundPoint>();
+    if (ground) {
+        const ScenePoint at = scene_.placeOf(*ground);
+        const bool was_panning = stylus_.pose() && stylus_.pose()->mode == StylusMode::Pan;
+        stylus_.aim(*ground, buttons_, projection_.metersPerPoint(at));
+        if (!was_panning && stylus_.pose()->mode == StylusMode::Pan) {
+            grabbed_z_m_ = at.z; // the grabbed point stays under the pointer
+        }
+    } else if (!buttons_.is_pressing && !buttons_.is_grabbing) {
+        stylus_.lift();
+    }
+    is_over_terrain_ = ground.has_value();
+    if (stylus_.isWaiting() != refresh_timer_.isActive()) {
+        refresh_timer_.isActive() ? refresh_timer_.stop() : refresh_timer_.start();
+    }
+    if (was_shown || shown()) {
+        Q_EMIT redrawNeeded();
+    }
+    Q_EMIT moved();
+}
+
+void TouchTool::setPressing(bool is_pressing)
+{
+    buttons_.is_pressing = is_pressing;
+    if (is_pressing) {
+        has_hand_moved_ = false;
+    }
+}
+
+bool TouchTool::setGrabbing(bool is_grabbing)
+{
+    if (is_grabbing == buttons_.is_grabbing) {
+        return false;
+    }
+    buttons_.is_grabbing = is_grabbing;
+    follow();
+    return true;
+}
+
+void TouchTool::deepen(double factor)
+{
+    stylus_.deepen(factor);
+    follow();
+}
+
+void TouchTool::refresh()
+{
+    if (!stylus_.isWaiting()) {
+        refresh_timer_.stop();
+    } else if (stylus_.refresh()) {
+        if (!has_hand_moved_) {
+            stylus_.pressAnew();
+        }
+        Q_EMIT redrawNeeded();
+        Q_EMIT moved();
+    }
+}
+
+void TouchTool::pressAgainIfStill()
+{
+    if (!has_hand_moved_) {
+        stylus_.pressAnew();
+        Q_EMIT redrawNeeded();
+        Q_EMIT moved();
+    }
+}
+
+bool TouchTool::showDevice(const std::optional<StylusPose>& pose)
+{
+    if (pose == device_) {
+        return false;
+    }
+    device_ = pose;
+    Q_EMIT redrawNeeded();
+    Q_EMIT moved();
+    return true;
+}
+
+const std::optional<StylusPose>& TouchTool::shown() const noexcept
+{
+    static const std::optional<StylusPose> kNone;
+    const auto& mouse = is_chosen_ ? stylus_.pose() : kNone;
+    const bool is_mouse_at_work = mouse && mouse->mode != StylusMode::Hover;
+    return device_ && !is_mouse_at_work ? device_ : mouse;
+}
+
+bool TouchTool::isTouching() const noexcept
+{
+    return buttons_.is_pressing || (device_ && device_->is_in_contact);
+}
+
+} // namespace marsview
