@@ -72,6 +72,7 @@ const std::vector<Layer>& layers()
           "app/cli/"}},
         {"app/gui/", {"core/", "haptics/", "ui/", "app/gui/"}},
         {"app/probe/", {"core/files/", "app/probe/"}},
+        {"app/library/", {"core/", "app/library/"}},
         {"tests/architecture/", {"tests/"}},
         {"tests/support/", {"core/", "app/bench/reference/", "tests/support/"}},
         {"tests/core/", {"core/", "app/bench/reference/", "tests/"}},
