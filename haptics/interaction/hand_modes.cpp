@@ -5,10 +5,32 @@
 namespace marsview {
 namespace {
 
-ModeStep pan(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)
+PanOptions heldPan(const ModeOptions& options, const ModeInput& input)
 {
     PanOptions held = options.pan;
     held.grip_n_per_m = std::min(held.grip_n_per_m, std::max(input.stiffness_n_per_m, 1.0));
+    return held;
+}
+
+// The surface force continues in the first step: the hold's spring has the stretch that it takes.
+void grab(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)
+{
+    state.grabbed = input.hand;
+    if (state.mode == StylusMode::Pan) {
+        const Vec3 hand_m_per_s = dt_s > 0.0 ? input.hand_shift * (1.0 / dt_s) : Vec3{};
+        const PanOptions held = heldPan(options, input);
+        grabMap(held, state.pan, input.surface_force_n, hand_m_per_s);
+        state.pan.stretch_m =
+            state.pan.stretch_m - Vec3{input.hand_shift.x, input.hand_shift.y, 0.0};
+        if (input.stiffness_n_per_m > 0.0) {
+            state.grabbed.z += input.surface_force_n.z / input.stiffness_n_per_m;
+        }
+    }
+}
+
+ModeStep pan(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)
+{
+    const PanOptions held = heldPan(options, input);
     const PanStep moved = pullMap(held, state.pan, input.hand_shift, input.free_share, dt_s);
     Vec3 force_n = moved.force_n;
     force_n.z = -input.stiffness_n_per_m * (input.hand.z - state.grabbed.z);
@@ -23,13 +45,16 @@ ModeStep zoom(const ModeOptions& options, const ModeInput& input, ModeState& sta
     const double wanted = scale / zoomFactor(options.zoom, input.hand_shift.z);
     const double next = std::clamp(wanted, std::min(scale, options.scene_per_meter_min),
                                    std::max(scale, options.scene_per_meter_max));
-    const WorkspaceFrame zoomed = input.frame.zoomed(input.hand, scale / next);
+    // The grabbed point of space stays at the hand.
+    const WorkspaceFrame lifted = input.frame.panned({0.0, 0.0, input.hand_shift.z});
+    const WorkspaceFrame zoomed = lifted.zoomed(input.hand, scale / next);
     const double hold = input.stiffness_n_per_m * input.free_share;
     return {.frame = zoomed.turned(input.hand, Angle::radians(input.twist_change_rad)),
             .force_n = {-hold * (input.hand.x - state.grabbed.x),
                         -hold * (input.hand.y - state.grabbed.y),
                         detentForce(options.zoom, aboveDetent(options.zoom, next))},
-            .has_moved_map = next != scale || input.twist_change_rad != 0.0};
+            .has_moved_map =
+                input.hand_shift.z != 0.0 || next != scale || input.twist_change_rad != 0.0};
 }
 
 ModeStep glide(const ModeOptions& options, const ModeInput& input, ModeState& state, double dt_s)
@@ -54,8 +79,7 @@ ModeStep stepModes(const ModeOptions& options,
                  input.is_in_contact);
     const bool has_changed = state.mode != last && (isHolding(state.mode) || isHolding(last));
     if (has_changed && isHolding(state.mode)) {
-        state.grabbed = input.hand;
-        grabMap(state.pan);
+        grab(options, input, state, dt_s);
     }
     if (state.mode == StylusMode::Zoom) {
         state.pan = {};

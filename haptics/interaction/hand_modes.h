@@ -24,13 +24,16 @@ struct ModeInput {
     bool is_in_contact = false;
     double free_share = 1.0;       // 0 at a wall: WallContact::ground_share
     double stiffness_n_per_m = 0.; // of holds
+    Vec3 surface_force_n{};        // on the hand, while it does not hold
     WorkspaceFrame frame;
 };
 
 struct ModeState {
     StylusMode mode = StylusMode::Hover;
     PanState pan;
-    WorkspacePoint grabbed{}; // where the hand was when it grabbed
+    /// Rest position of the hold: a pan holds the touched point's height, at which the force of
+    /// the surface continues.
+    WorkspacePoint grabbed{};
 };
 
 struct ModeStep {
@@ -46,8 +49,10 @@ constexpr bool isHolding(StylusMode mode) noexcept
     return mode == StylusMode::Pan || mode == StylusMode::Zoom;
 }
 
-/// Pan: the map follows with inertia, and the hand's height is held. Zoom: the hand's height zooms
-/// about the hand, with detents, twisting rotates the map, and the horizontal position is held.
+/// Pan: the map follows with inertia, and the hand's height is held; at the grab the surface force
+/// continues. Zoom: the hand holds a point of free space, which moves up and down with it and about
+/// which its height zooms, so that the surface never passes the hand; with detents; twisting
+/// rotates the map, and the horizontal position is held.
 /// Otherwise a released map glides. The forces of a mode act along different axes, so they are
 /// added; a force along a wall's axis fades out before the wall (`free_share`). Servo thread.
 ModeStep stepModes(const ModeOptions& options,

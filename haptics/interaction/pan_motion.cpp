@@ -18,9 +18,13 @@ Vec3 bounded(const Vec3& v, double length_max) noexcept
 
 } // namespace
 
-void grabMap(PanState& state) noexcept
+void grabMap(const PanOptions& options,
+             PanState& state,
+             const Vec3& force_n,
+             const Vec3& hand_m_per_s) noexcept
 {
-    state.stretch_m = {};
+    const Vec3 damping_n = (level(hand_m_per_s) - state.velocity_m_per_s) * options.grip_n_s_per_m;
+    state.stretch_m = (level(force_n) + damping_n) * (-1.0 / options.grip_n_per_m);
 }
 
 // With m the mass, k and b the hold's spring and damper, c the drag, s the stretch and v' the map's

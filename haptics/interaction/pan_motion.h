@@ -26,8 +26,12 @@ struct PanStep {
     Vec3 force_n{}; // on the hand
 };
 
-/// The map keeps its velocity; the hold begins without stretch.
-void grabMap(PanState& state) noexcept;
+/// The map keeps its velocity. The hold begins with the stretch at which it exerts the horizontal
+/// part of `force_n` on a hand of this velocity: the force does not step at the grab.
+void grabMap(const PanOptions& options,
+             PanState& state,
+             const Vec3& force_n,
+             const Vec3& hand_m_per_s) noexcept;
 
 /// The hand holds the map and has moved by `hand_shift` within `dt_s` >= 0. `mass_share`, 0 to 1,
 /// scales the mass: at 0, where the hand touches a wall, the map follows without inertia and the

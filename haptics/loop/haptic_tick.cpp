@@ -108,13 +108,17 @@ private:
             state_.has_frame
                 ? settings_.frame.toWorkspace(state_.frame.toScene(state_.hand)) - state_.hand
                 : Vec3{};
+        const bool is_limit = state_.has_frame && settings_.frame_origin == FrameOrigin::Limit;
+        if (is_limit) {
+            state_.modes.pan.velocity_m_per_s = {};
+        }
         if (input_.recorded_goal != nullptr) {
             state_.has_hand = false; // the recorded goal does not depend on the view
-        } else if (state_.has_frame && !(length(moved_m) < kJumpM)) {
+        } else if (state_.has_frame && !is_limit && !(length(moved_m) < kJumpM)) {
             has_jumped_ = true;
         }
         // At another scale the touched point moves although the hand does not.
-        if (state_.has_frame && state_.contact.is_in_contact) {
+        if (state_.has_frame && !is_limit && state_.contact.is_in_contact) {
             const ScenePoint& at = state_.contact.proxy;
             is_stretched_ =
                 !(length(settings_.frame.toWorkspace(at) - state_.frame.toWorkspace(at)) < kJumpM);
@@ -219,16 +223,24 @@ private:
                                          .is_in_contact = state_.contact.is_in_contact,
                                          .free_share = share,
                                          .stiffness_n_per_m = stiffness,
+                                         .surface_force_n = state_.surface_force_n,
                                          .frame = state_.frame},
                                         state_.modes, dt_s_);
         result_.has_changed_mode = mode.has_changed_mode;
         if (mode.frame.isSound()) {
             state_.frame = mode.frame;
+            if (mode.has_moved_map) {
+                keepWithinView();
+            }
         }
         refreshTerrain(stiffness);
         Vec3 force_n = mode.force_n + walls.force_n;
-        if (!isHolding(state_.modes.mode)) {
-            force_n = force_n + touch() * (stiffness * share);
+        if (isHolding(state_.modes.mode)) {
+            hold(mode.force_n);
+        } else {
+            const Vec3 surface_n = touch() * (stiffness * share);
+            force_n = force_n + surface_n + release(surface_n);
+            state_.surface_force_n = surface_n;
         }
         force_n = force_n * std::clamp(settings_.force_share, 0.0, 1.0);
         if (!options_.is_passivity_kept) {
@@ -238,6 +250,57 @@ private:
             keepPassive(options_.passivity, force_n, shift_m_, state_.passivity, dt_s_);
         result_.damping_n_s_per_m = passive.damping_n_s_per_m;
         return passive.force_n;
+    }
+
+    // The map's motion ends where the camera's target reaches its bounds.
+    void keepWithinView() noexcept
+    {
+        if (!settings_.view_bounds) {
+            return;
+        }
+        const ViewBounds& bounds = *settings_.view_bounds;
+        const ScenePoint target = state_.frame.toScene(bounds.target);
+        ScenePoint kept = target;
+        kept.x = std::clamp(target.x, bounds.low.x, std::max(bounds.low.x, bounds.high.x));
+        kept.y = std::clamp(target.y, bounds.low.y, std::max(bounds.low.y, bounds.high.y));
+        if (kept == target) {
+            return;
+        }
+        state_.frame.place = state_.frame.place + (kept - target);
+        Vec3 scene_m_per_s = state_.frame.differenceToScene(state_.modes.pan.velocity_m_per_s);
+        // Against the bound; the target moves against the map.
+        scene_m_per_s.x = kept.x != target.x ? 0.0 : scene_m_per_s.x;
+        scene_m_per_s.y = kept.y != target.y ? 0.0 : scene_m_per_s.y;
+        state_.modes.pan.velocity_m_per_s = state_.frame.differenceToWorkspace(scene_m_per_s);
+    }
+
+    // While the hand holds the map, goal and proxy are what it holds.
+    void hold(const Vec3& force_n) noexcept
+    {
+        state_.held_force_n = force_n;
+        state_.release_share = 0.0;
+        state_.goal = state_.frame.toScene(state_.hand);
+        WorkspacePoint held = state_.hand;
+        if (state_.modes.mode == StylusMode::Pan) {
+            held.z = state_.modes.grabbed.z;
+        }
+        state_.contact.proxy = state_.frame.toScene(held);
+        state_.proxy = map_->frame.fromScene(clamped(state_.contact.proxy));
+    }
+
+    // After a release the force of the hold passes over to that of the surface.
+    Vec3 release(const Vec3& surface_n) noexcept
+    {
+        if (has_jumped_ || is_fresh_) {
+            state_.release_share = 0.0;
+        } else if (result_.has_changed_mode) {
+            state_.release_n = state_.held_force_n - surface_n;
+            state_.release_share = 1.0;
+        }
+        const Vec3 rest_n = state_.release_n * state_.release_share;
+        state_.release_share = std::max(
+            0.0, state_.release_share - dt_s_ / std::max(options_.limits.change_ramp_s, 1e-3));
+        return rest_n;
     }
 
     void refreshTerrain(double stiffness) noexcept
@@ -364,12 +427,10 @@ private:
             note(ForceOffReason::MissedDeadline);
         }
         result_.has_changed_map = has_jumped_ || is_fresh_ || is_stretched_;
-        const SafetyOutput safe =
-            limitForce(options_.limits,
-                       {.force_n = force_n,
-                        .reason = result_.reason,
-                        .has_changed = result_.has_changed_mode || result_.has_changed_map},
-                       state_.safety, since_write_s_);
+        const SafetyOutput safe = limitForce(
+            options_.limits,
+            {.force_n = force_n, .reason = result_.reason, .has_changed = result_.has_changed_map},
+            state_.safety, since_write_s_);
         result_.reason = safe.reason;
         result_.force_n = safe.force_n;
         noteWritten(state_.passivity, safe.force_n);

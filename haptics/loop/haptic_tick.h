@@ -3,6 +3,7 @@
 
 #include "haptics/device/haptic_device.h"
 #include "haptics/interaction/hand_modes.h"
+#include "haptics/interaction/hand_view.h"
 #include "haptics/interaction/workspace_walls.h"
 #include "haptics/loop/passivity_observer.h"
 #include "haptics/loop/safety_limiter.h"
@@ -17,14 +18,21 @@
 
 namespace marsview {
 
+/// Who has set a frame. View: the user or a flight has moved the camera; another place may now be
+/// below the hand. Limit: the view has corrected the frame that the hand has moved; the surface
+/// stays, and the map's momentum ends.
+enum class FrameOrigin : std::uint8_t { View, Limit };
+
 /// Settings for the loop: a tick sees all of them or none. Copies share the map.
 struct LoopSettings {
     /// Null: nothing to touch. If the terrain and the workspace frame change together (another
     /// exaggeration), the new map and the new frame must be in the same set(): a tick with only one
     /// of them would misplace the hand.
     std::shared_ptr<ServoMap> map;
-    WorkspaceFrame frame;             // applied when `frame_number` changes
-    std::uint64_t frame_number = 0;   // otherwise the loop keeps the frame as its hand has moved it
+    WorkspaceFrame frame;           // applied when `frame_number` changes
+    std::uint64_t frame_number = 0; // otherwise the loop keeps the frame as its hand has moved it
+    FrameOrigin frame_origin = FrameOrigin::View;
+    std::optional<ViewBounds> view_bounds{};
     double stiffness_n_per_m = 300.0; // of surface and walls; limited by the device
     double force_share = 1.0;         // of all forces, 0 to 1
     bool has_walls = true;
@@ -100,6 +108,10 @@ struct TickState {
     ScenePoint goal{};
     GridPoint at{}; // of the proxy, in the last tick
     ModeState modes;
+    Vec3 surface_force_n{};     // the last, on the hand
+    Vec3 held_force_n{};        // the last, while the hand holds the map
+    Vec3 release_n{};           // by which it differed from the surface force at the release
+    double release_share = 0.0; // of this difference that is still applied
     PassivityState passivity;
     SafetyState safety;
     double period_s = 0.0; // smoothed

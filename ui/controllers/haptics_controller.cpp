@@ -43,15 +43,6 @@ bool isEmergencyKey(const QKeyEvent& event)
            (event.key() == Qt::Key_Period && (event.modifiers() & Qt::ControlModifier) != 0);
 }
 
-// Whether the hand would notice that a camera is not where it should be.
-bool isElsewhere(const OrbitCamera& camera, const OrbitCamera& wanted)
-{
-    constexpr double kShare = 1e-3;
-    return length(camera.target - wanted.target) > kShare * wanted.distance_m ||
-           std::abs(camera.distance_m / wanted.distance_m - 1.0) > kShare ||
-           std::abs(std::remainder((camera.azimuth - wanted.azimuth).degrees(), 360.0)) > 0.05;
-}
-
 bool isPlayedBack(const QString& uri)
 {
     return isReplay(uri.toStdString());
@@ -642,9 +633,21 @@ void HapticsController::takeSight()
                   .frame = frameForSight(view_.camera(), view_.viewport(), view_.ground(),
                                          view_.exaggeration(), loop_->device().workspace)};
     loop_settings_.frame = hand_view_.frame;
+    loop_settings_.frame_origin = FrameOrigin::View;
     ++loop_settings_.frame_number;
+    takeBounds();
     takeStrokes();
     push();
+}
+
+// The hand moves the map within the limits of the camera.
+void HapticsController::takeBounds()
+{
+    const SceneSurface& ground = view_.ground();
+    const NavigationLimits limits =
+        navigationLimits(ground.box(view_.exaggeration()), ground.pixelMeters());
+    loop_settings_.view_bounds = boundsFor(hand_view_, limits);
+    boundZoom(hand_view_, limits, loop_settings_.modes);
 }
 
 // Keeps the strokes of a simulated hand within the picture; without terrain in sight they stay.
@@ -671,13 +674,14 @@ void HapticsController::followHand(const LoopState& state)
     is_following_ = true;
     view_.setCamera(wanted);
     is_following_ = false;
-    hand_view_ = {.camera = wanted, .frame = state.frame};
-    const OrbitCamera& camera = view_.camera();
-    if (isElsewhere(camera, wanted)) {
-        hand_view_.frame = frameFollowing(hand_view_, camera);
-        hand_view_.camera = camera;
+    const LimitedView limited =
+        limitedView({.camera = wanted, .frame = state.frame}, view_.camera());
+    hand_view_ = limited.view;
+    if (limited.is_moved) {
         loop_settings_.frame = hand_view_.frame;
+        loop_settings_.frame_origin = FrameOrigin::Limit;
         ++loop_settings_.frame_number;
+        takeBounds();
         takeStrokes();
         push();
     }

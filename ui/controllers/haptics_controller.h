@@ -185,6 +185,7 @@ private:
     void setMap(std::size_t index);
     void makeMapAgain();
     void takeSight();
+    void takeBounds();
     void takeStrokes();
     void followHand(const LoopState& state);
     void showHand(const LoopState& state);

