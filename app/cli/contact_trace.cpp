@@ -16,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::string_view kColumns =
-    "x,y,z,contact,feature,vertices,faces,casts,cells,far_edges,far_loops";
+    "contact,feature,vertices,faces,casts,cells,far_edges,far_loops";
 
 const char* featureName(ContactFeature feature)
 {
@@ -77,10 +77,11 @@ Status trace(ContactModel& model,
     return Done{};
 }
 
-std::string asCsv(const std::vector<TraceUpdate>& updates, TraceTiming timing)
+std::string asCsv(const std::vector<TraceUpdate>& updates, GoalColumns columns, TraceTiming timing)
 {
     const bool has_ns = timing == TraceTiming::Yes;
-    std::string text(kColumns);
+    std::string text = columns == GoalColumns::Map ? "x,y,z," : "lon,lat,z,";
+    text += kColumns;
     text += has_ns ? ",ns\n" : "\n";
     for (const TraceUpdate& update : updates) {
         text += fmt::format("{},{},{},{},{}", asText(update.proxy.x), asText(update.proxy.y),

@@ -4,6 +4,7 @@
 #include "core/base/result.h"
 #include "core/contact/contact_model.h"
 #include "core/contact/goal_frame.h"
+#include "haptics/trace/goal_file.h"
 
 #include <cstddef>
 #include <functional>
@@ -41,7 +42,7 @@ Status trace(ContactModel& model,
 
 /// The trace as CSV, optionally with a column `ns`.
 enum class TraceTiming { No, Yes };
-std::string asCsv(const std::vector<TraceUpdate>& updates, TraceTiming timing);
+std::string asCsv(const std::vector<TraceUpdate>& updates, GoalColumns columns, TraceTiming timing);
 
 /// Counts, totals and means of the counters, and times.
 nlohmann::ordered_json traceSummary(const std::vector<TraceUpdate>& updates);

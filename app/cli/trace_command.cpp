@@ -36,6 +36,7 @@ struct TraceOptions {
     std::optional<std::string> model; // these three: default from the recording, else the program's
     std::optional<double> radius_m;
     std::optional<double> exaggeration;
+    bool is_on_body = false;
     bool has_timing = false;
     std::string summary;
     std::string output;
@@ -178,7 +179,7 @@ std::string noticeOf(const TraceOptions& options,
         recording.parts.front().ground) {
         remarks.push_back(otherMapText(*recording.parts.front().ground));
     }
-    if (subject.map && !recording.goals.empty()) {
+    if (subject.map && !subject.is_on_body && !recording.goals.empty()) {
         const Georeference& map = subject.map->georeference();
         const GoalFrame frame({subject.map, &map}, 1.0);
         if (std::all_of(recording.goals.begin(), recording.goals.end(),
@@ -215,6 +216,7 @@ nlohmann::ordered_json summaryOf(const TraceOptions& options,
                                  const std::vector<TraceUpdate>& updates)
 {
     nlohmann::ordered_json summary = withSchema({{"file", options.map.path}});
+    summary["scene"] = options.is_on_body ? "body" : "flat";
     summary.update(touchJson(touches.front()));
     if (touches.size() > 1) {
         nlohmann::ordered_json parts = nlohmann::ordered_json::array();
@@ -233,6 +235,11 @@ nlohmann::ordered_json summaryOf(const TraceOptions& options,
 
 Result<TraceSubject> openMesh(const TraceOptions& options, JobMonitor& monitor)
 {
+    if (options.is_on_body) {
+        return Error{
+            ErrorCode::Invalid,
+            fmt::format("{}: a mesh has no body; leave out --scene body", options.map.path)};
+    }
     if (options.map.hasOverrides()) {
         return Error{
             ErrorCode::Invalid,
@@ -244,6 +251,17 @@ Result<TraceSubject> openMesh(const TraceOptions& options, JobMonitor& monitor)
                      "cell size"};
     }
     return meshSubject(options.map, options.exaggeration.value_or(1.0), monitor);
+}
+
+Result<TraceSubject>
+openSubject(const TraceOptions& options, const GoalRecording& recording, JobMonitor& monitor)
+{
+    if (isMesh(options.map.path)) {
+        return openMesh(options, monitor);
+    }
+    return options.is_on_body
+               ? bodySubject(options.map, options.exaggeration.value_or(1.0), monitor)
+               : mapSubject(options.map, recording, monitor);
 }
 
 Status runTrace(const TraceOptions& options)
@@ -258,17 +276,16 @@ Status runTrace(const TraceOptions& options)
     if (!text) {
         return text.error();
     }
+    const GoalColumns columns = options.is_on_body ? GoalColumns::Geographic : GoalColumns::Map;
     const Result<GoalRecording> recording =
-        readGoalRecording(*text, options.goals == "-" ? "--goals" : options.goals);
+        readGoalRecording(*text, options.goals == "-" ? "--goals" : options.goals, columns);
     if (!recording) {
         return recording.error();
     }
     std::optional<TraceSubject> subject;
     {
         LongJob job("reading");
-        Result<TraceSubject> opened = isMesh(options.map.path)
-                                          ? openMesh(options, job.monitor())
-                                          : mapSubject(options.map, *recording, job.monitor());
+        Result<TraceSubject> opened = openSubject(options, *recording, job.monitor());
         if (!opened) {
             return std::move(opened).error();
         }
@@ -288,7 +305,7 @@ Status runTrace(const TraceOptions& options)
         return *subject->waiting->error();
     }
     const std::string csv =
-        asCsv(*updates, options.has_timing ? TraceTiming::Yes : TraceTiming::No);
+        asCsv(*updates, columns, options.has_timing ? TraceTiming::Yes : TraceTiming::No);
     if (options.output.empty()) {
         std::fwrite(csv.data(), 1, csv.size(), stdout);
     } else if (Status written = writeOutputFile(options.output, csv); !written) {
@@ -349,6 +366,14 @@ void addTraceCommand(CLI::App& app, CommandAction& run)
         ->add_option("--exaggeration", options->exaggeration,
                      "vertical exaggeration; default from the recording, else 1")
         ->check(positiveNumber());
+    command
+        ->add_option_function<std::string>(
+            "--scene",
+            [options](const std::string& scene) { options->is_on_body = scene == "body"; },
+            "flat: the map's CRS laid out in the plane; body: the map lies on its body, and goals "
+            "have the header lon,lat,z: degrees east, planetocentric degrees north and meters "
+            "along the normal; default flat")
+        ->check(oneOf({"flat", "body"}));
     command->add_flag("--timing", options->has_timing, "add a column ns, the time of each update");
     command->add_option("--summary", options->summary, "JSON file for totals, means and times")
         ->type_name("FILE");

@@ -1,5 +1,7 @@
 #include "app/cli/trace_subject.h"
 
+#include "core/contact/body_goal_frame.h"
+#include "core/contact/body_surface.h"
 #include "core/contact/resident_heights.h"
 #include "core/mesh/mesh_file.h"
 #include "core/session/open_map.h"
@@ -35,6 +37,16 @@ TraceFrame meshFrame(double exaggeration)
             [exaggeration](const ContactState& state) {
                 return TracePoint{state.proxy.x, state.proxy.y, state.proxy.z / exaggeration};
             },
+        .is_clamped = [](const TracePoint&) { return false; },
+    };
+}
+
+// On the body: longitude, latitude and elevation.
+TraceFrame bodyFrame(const BodyGoalFrame& frame)
+{
+    return {
+        .to_scene = [frame](const TracePoint& goal) { return frame.toScene(goal); },
+        .from_scene = [frame](const ContactState& state) { return frame.fromScene(state.proxy); },
         .is_clamped = [](const TracePoint&) { return false; },
     };
 }
@@ -77,6 +89,43 @@ meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
         return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
                        .map_model = nullptr,
                        .frame = meshFrame(exaggeration)};
+    };
+    return subject;
+}
+
+Result<TraceSubject>
+bodySubject(const MapOptions& options, double exaggeration, JobMonitor& monitor)
+{
+    const Result<std::shared_ptr<const Map>> opened =
+        openMap(options.spec(), defaultMapResources(), monitor);
+    if (!opened) {
+        return opened.error();
+    }
+    const std::shared_ptr<const Map>& map = *opened;
+    if (!map->filled()) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("{}: is kept in tiles; only a map in memory can be traced on its "
+                                 "body, raise MARSVIEW_HELD_MB or reduce the map",
+                                 options.path)};
+    }
+    const Georeference& georeference = map->georeference();
+    const auto mesh = BodyMesh::build(map->filled(), georeference, exaggeration, monitor);
+    if (!mesh) {
+        return Error{mesh.error().code, fmt::format("{}: {}", options.path, mesh.error().message)};
+    }
+    const GridPoint middle{0.5 * static_cast<double>(georeference.columns() - 1),
+                           0.5 * static_cast<double>(georeference.rows() - 1)};
+    const auto place = georeference.toGeographic(middle);
+    const BodyGoalFrame frame((*mesh)->positions().ellipsoid(), exaggeration,
+                              place ? place->longitude : Angle::degrees(0.0));
+    TraceSubject subject;
+    subject.map = map;
+    subject.is_on_body = true;
+    subject.radius_m = (georeference.pixelWidthMeters() + georeference.pixelHeightMeters()) / 4.0;
+    subject.make = [surface = BodySurface(*mesh), frame](const TraceTouch& touch) {
+        return Toucher{.model = makeContactModel(touch.kind, surface, {.radius_m = touch.radius_m}),
+                       .map_model = nullptr,
+                       .frame = bodyFrame(frame)};
     };
     return subject;
 }

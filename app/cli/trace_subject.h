@@ -41,6 +41,7 @@ struct TraceSubject {
     std::function<Toucher(const TraceTouch&)> make;
     double radius_m = 1.0;                         // unless given
     std::shared_ptr<const Map> map;                // null for a mesh
+    bool is_on_body = false;                       // in the body scene
     std::shared_ptr<const WaitingTerrain> waiting; // of a map in tiles, or else:
     std::shared_ptr<RecordedGround> recorded; // the same, as it was when the recording was made
     bool is_recorded_on = false;              // the recording's description of its map matches
@@ -52,6 +53,11 @@ bool isMesh(const std::string& path);
 /// `exaggeration` applies to all models over the subject.
 Result<TraceSubject>
 meshSubject(const MapOptions& options, double exaggeration, JobMonitor& monitor);
+
+/// The map on its body; the errors of BodyMesh are added to those of opening. `exaggeration`
+/// applies to all models over the subject.
+Result<TraceSubject>
+bodySubject(const MapOptions& options, double exaggeration, JobMonitor& monitor);
 
 /// A tiled map has the tiles of the recording, if that was made on such a map.
 Result<TraceSubject>

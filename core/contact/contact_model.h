@@ -1,6 +1,7 @@
 // Any contact model over any surface, for programs that let the user choose.
 #pragma once
 
+#include "core/contact/body_surface.h"
 #include "core/contact/contact.h"
 #include "core/contact/heightfield_surface.h"
 #include "core/contact/mesh_surface.h"
@@ -84,6 +85,9 @@ public:
 /// own the terrain, the one that is going to place the model.
 std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
                                                const MeshSurface& surface,
+                                               const ContactModelOptions& options = {});
+std::unique_ptr<ContactModel> makeContactModel(ContactModelKind kind,
+                                               const BodySurface& surface,
                                                const ContactModelOptions& options = {});
 std::unique_ptr<MapContactModel> makeContactModel(ContactModelKind kind,
                                                   const HeightfieldSurface& surface,

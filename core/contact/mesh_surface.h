@@ -12,7 +12,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
+#include <utility>
 
 namespace marsview {
 
@@ -39,10 +39,11 @@ struct MeshGoal {
 
     Vec3 from(const ScenePoint& point) const noexcept { return (scene - point) + rest; }
 };
+template <typename Mesh>
 struct MeshFan {
     MeshVertex vertex;
     ScenePoint point;
-    std::span<const std::uint32_t> corners; // TriangleMesh::fan
+    decltype(std::declval<const Mesh&>().fan(0)) corners; // TriangleMesh::fan
 };
 
 /// The face that a walk is on. Weights are dot products with `inward`, counted from a corner on
@@ -92,27 +93,31 @@ private:
 /// 11, 2005).
 ///
 /// A small immutable value that shares the mesh. Any thread; allocates nothing after construction.
-class MeshSurface {
+///
+///     const MeshSurface surface(mesh);
+///     ContinuousWalk walk(surface);
+template <typename Mesh>
+class BasicMeshSurface {
 public:
     using Vertex = MeshVertex;
     using Edge = MeshEdge;
     using Face = MeshSide;
     using Goal = MeshGoal;
-    using Fan = MeshFan;
+    using Fan = MeshFan<Mesh>;
     using Facet = MeshFacet;
-    using EdgeFacets = SurfaceEdgeFacets<MeshSurface>;
-    using Contact = SurfaceContact<MeshSurface>;
-    using Cast = SurfaceCast<MeshSurface>;
-    using Spoke = SurfaceSpoke<MeshSurface>;
-    using Wing = SurfaceWing<MeshSurface>;
+    using EdgeFacets = SurfaceEdgeFacets<BasicMeshSurface>;
+    using Contact = SurfaceContact<BasicMeshSurface>;
+    using Cast = SurfaceCast<BasicMeshSurface>;
+    using Spoke = SurfaceSpoke<BasicMeshSurface>;
+    using Wing = SurfaceWing<BasicMeshSurface>;
 
     static constexpr bool kIsBorderWall = false;
     /// Coordinates beyond this, in meters, are refused as goals, like those that are not finite.
-    static constexpr double kGoalMaxM = TriangleMesh::kCoordinateMaxM;
+    static constexpr double kGoalMaxM = Mesh::kCoordinateMaxM;
 
-    explicit MeshSurface(std::shared_ptr<const TriangleMesh> mesh);
+    explicit BasicMeshSurface(std::shared_ptr<const Mesh> mesh);
 
-    const std::shared_ptr<const TriangleMesh>& mesh() const noexcept { return mesh_; }
+    const std::shared_ptr<const Mesh>& mesh() const noexcept { return mesh_; }
 
     std::optional<Goal> goal(const ScenePoint& point) const noexcept
     {
@@ -142,7 +147,7 @@ public:
     }
     std::array<Vertex, 3> corners(Face face) const noexcept
     {
-        const MeshFace& f = mesh_->face(face.face);
+        const MeshFace f = mesh_->face(face.face);
         return {Vertex{f[0]}, Vertex{f[1]}, Vertex{f[2]}};
     }
     Facet facet(Face face, std::size_t first) const noexcept
@@ -151,26 +156,30 @@ public:
     }
     Facet rotated(const Facet& facet, std::size_t first) const noexcept
     {
-        return facetAt(cornerOf(facet, first));
+        const std::size_t second = (first + 1) % 3;
+        const std::size_t third = (first + 2) % 3;
+        return facetOf(cornerOf(facet, first),
+                       {facet.vertices[first], facet.vertices[second], facet.vertices[third]},
+                       {facet.points[first], facet.points[second], facet.points[third]});
     }
     Face faceOf(const Facet& facet) const noexcept { return {facet.corner / 3}; }
     EdgeFacets edgeFacets(Edge edge) const noexcept
     {
         EdgeFacets facets{facetAt(edge.corner), {}, false};
         const std::uint32_t beyond = mesh_->across(edge.corner);
-        if (beyond != TriangleMesh::kNone) {
-            facets.right = facetAt(beyond);
+        if (beyond != Mesh::kNone) {
+            facets.right = facetBeyond(facets.left, 0, beyond);
             facets.has_right = true;
         }
         return facets;
     }
     bool hasBeyond(const Facet& facet, std::size_t opposite) const noexcept
     {
-        return mesh_->across(cornerOf(facet, opposite)) != TriangleMesh::kNone;
+        return mesh_->across(cornerOf(facet, opposite)) != Mesh::kNone;
     }
     Facet beyond(const Facet& facet, std::size_t opposite) const noexcept
     {
-        return facetAt(mesh_->across(cornerOf(facet, opposite)));
+        return facetBeyond(facet, opposite, mesh_->across(cornerOf(facet, opposite)));
     }
     int bend(const Facet& facet, std::size_t opposite) const noexcept
     {
@@ -185,8 +194,8 @@ public:
 
     std::array<Vertex, 2> ends(Edge edge) const noexcept
     {
-        return {Vertex{mesh_->vertexAt(TriangleMesh::nextCorner(edge.corner))},
-                Vertex{mesh_->vertexAt(TriangleMesh::previousCorner(edge.corner))}};
+        return {Vertex{mesh_->vertexAt(Mesh::nextCorner(edge.corner))},
+                Vertex{mesh_->vertexAt(Mesh::previousCorner(edge.corner))}};
     }
     Edge edgeBetween(Vertex a, Vertex b) const noexcept;
     std::array<std::optional<Wing>, 2> wings(Edge edge) const noexcept
@@ -203,9 +212,10 @@ public:
         const ScenePoint scene = from.scene + step;
         return {scene, from.rest + (step - (scene - from.scene))};
     }
-    SurfaceLegs<MeshSurface> legs(const ScenePoint& /*from*/, const ScenePoint& to) const noexcept
+    SurfaceLegs<BasicMeshSurface> legs(const ScenePoint& /*from*/,
+                                       const ScenePoint& to) const noexcept
     {
-        SurfaceLegs<MeshSurface> legs;
+        SurfaceLegs<BasicMeshSurface> legs;
         legs.ends[0] = {to, {}};
         legs.count = 1;
         return legs;
@@ -216,20 +226,22 @@ public:
     void eachSpoke(const Fan& fan, F&& function) const noexcept
     {
         for (const std::uint32_t corner : fan.corners) {
-            function(spokeTo(fan, mesh_->vertexAt(TriangleMesh::nextCorner(corner))));
+            function(spokeTo(fan, mesh_->vertexAt(Mesh::nextCorner(corner))));
         }
         const std::uint32_t last = fan.corners.back();
-        if (mesh_->across(TriangleMesh::nextCorner(last)) == TriangleMesh::kNone) {
-            function(spokeTo(fan, mesh_->vertexAt(TriangleMesh::previousCorner(last))));
+        if (mesh_->across(Mesh::nextCorner(last)) == Mesh::kNone) {
+            function(spokeTo(fan, mesh_->vertexAt(Mesh::previousCorner(last))));
         }
     }
     template <typename F>
     void eachSector(const Fan& fan, F&& function) const noexcept
     {
+        // Each sector begins at the spoke at which the one before it ends.
+        Spoke begin = spokeTo(fan, mesh_->vertexAt(Mesh::nextCorner(fan.corners.front())));
         for (const std::uint32_t corner : fan.corners) {
-            function(Face{TriangleMesh::faceOf(corner)},
-                     spokeTo(fan, mesh_->vertexAt(TriangleMesh::nextCorner(corner))),
-                     spokeTo(fan, mesh_->vertexAt(TriangleMesh::previousCorner(corner))));
+            const Spoke end = spokeTo(fan, mesh_->vertexAt(Mesh::previousCorner(corner)));
+            function(Face{Mesh::faceOf(corner)}, begin, end);
+            begin = end;
         }
     }
 
@@ -254,26 +266,41 @@ private:
     static std::uint32_t cornerOf(const Facet& facet, std::size_t i) noexcept
     {
         return i == 0   ? facet.corner
-               : i == 1 ? TriangleMesh::nextCorner(facet.corner)
-                        : TriangleMesh::previousCorner(facet.corner);
+               : i == 1 ? Mesh::nextCorner(facet.corner)
+                        : Mesh::previousCorner(facet.corner);
+    }
+    // The face of corner `far`, opposite an edge of another facet.
+    Facet facetBeyond(const Facet& facet, std::size_t opposite, std::uint32_t far) const noexcept
+    {
+        const std::size_t second = (opposite + 2) % 3;
+        const std::size_t third = (opposite + 1) % 3;
+        const Vertex vertex{mesh_->vertexAt(far)};
+        return facetOf(far, {vertex, facet.vertices[second], facet.vertices[third]},
+                       {mesh_->vertex(vertex.index), facet.points[second], facet.points[third]});
     }
     Facet facetAt(std::uint32_t corner) const noexcept
     {
-        const std::uint32_t second = TriangleMesh::nextCorner(corner);
-        const std::uint32_t third = TriangleMesh::previousCorner(corner);
-        Facet facet;
-        facet.vertices = {Vertex{mesh_->vertexAt(corner)}, Vertex{mesh_->vertexAt(second)},
-                          Vertex{mesh_->vertexAt(third)}};
-        for (std::size_t i = 0; i < 3; ++i) {
-            facet.points[i] = mesh_->vertex(facet.vertices[i].index);
-        }
-        const Vec3 a = facet.points[1] - facet.points[0];
-        const Vec3 b = facet.points[2] - facet.points[0];
-        facet.normal = cross(a, b);
-        facet.inward = {cross(facet.normal, b - a), cross(b, facet.normal), cross(facet.normal, a)};
-        facet.scale = dot(facet.normal, facet.normal);
-        facet.corner = corner;
-        return facet;
+        const MeshFace face = mesh_->face(Mesh::faceOf(corner));
+        const std::uint32_t first = corner % 3;
+        const std::array<Vertex, 3> vertices{Vertex{face[first]}, Vertex{face[(first + 1) % 3]},
+                                             Vertex{face[(first + 2) % 3]}};
+        return facetOf(corner, vertices,
+                       {mesh_->vertex(vertices[0].index), mesh_->vertex(vertices[1].index),
+                        mesh_->vertex(vertices[2].index)});
+    }
+    static Facet facetOf(std::uint32_t corner,
+                         const std::array<Vertex, 3>& vertices,
+                         const std::array<ScenePoint, 3>& points) noexcept
+    {
+        const Vec3 a = points[1] - points[0];
+        const Vec3 b = points[2] - points[0];
+        const Vec3 normal = cross(a, b);
+        return {.vertices = vertices,
+                .scale = dot(normal, normal),
+                .corner = corner,
+                .points = points,
+                .normal = normal,
+                .inward = {cross(normal, b - a), cross(b, normal), cross(normal, a)}};
     }
     Edge edgeOpposite(std::uint32_t corner) const noexcept
     {
@@ -281,9 +308,9 @@ private:
     }
     static std::optional<Wing> wingAt(std::uint32_t corner) noexcept
     {
-        return corner == TriangleMesh::kNone ? std::nullopt
-                                             : std::optional(Wing{{TriangleMesh::faceOf(corner)},
-                                                                  static_cast<int>(corner % 3)});
+        return corner == Mesh::kNone
+                   ? std::nullopt
+                   : std::optional(Wing{{Mesh::faceOf(corner)}, static_cast<int>(corner % 3)});
     }
     Spoke spokeTo(const Fan& fan, std::uint32_t vertex) const noexcept
     {
@@ -293,9 +320,15 @@ private:
     std::optional<Face> wayOutOfMixed(const Fan& fan, const Goal& goal) const noexcept;
     Contact contactFrom(const MeshPlace& place) const noexcept;
 
-    std::shared_ptr<const TriangleMesh> mesh_;
+    std::shared_ptr<const Mesh> mesh_;
     std::uint32_t steps_max_;
 };
+
+/// A general mesh. BodySurface (body_surface.h) is that of a map on its body.
+using MeshSurface = BasicMeshSurface<TriangleMesh>;
+
+// Instantiated once, in mesh_surface.cpp.
+extern template class BasicMeshSurface<TriangleMesh>;
 
 static_assert(ContactSurface<MeshSurface>);
 

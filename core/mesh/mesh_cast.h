@@ -1,4 +1,5 @@
-// The first hit of a segment on a mesh, and the nearest point of a mesh.
+// The first hit of a segment on a mesh, and the nearest point of a mesh. A mesh is a TriangleMesh
+// or a type with the same queries.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"
@@ -40,7 +41,8 @@ struct MeshEnd {
 
 /// The side of a face's plane on which the end is: 1 in front, 0 on it, -1 behind. Without rounding
 /// error.
-int sideOf(const TriangleMesh& mesh, std::uint32_t face, const MeshEnd& end) noexcept;
+template <typename Mesh>
+int sideOf(const Mesh& mesh, std::uint32_t face, const MeshEnd& end) noexcept;
 
 /// The first face that the segment to `goal` hits from the front and whose plane the goal is on or
 /// behind, according to sideOf(). Watertight: the hit is that of the exact segment with the mesh
@@ -48,12 +50,13 @@ int sideOf(const TriangleMesh& mesh, std::uint32_t face, const MeshEnd& end) noe
 /// segment, edges and vertices included. A start that rounding has put onto a face or behind it, by
 /// less than about 1e-13 of the sizes there, hits that face at once. All coordinates are within
 /// TriangleMesh::kCoordinateMaxM.
-MeshCast
-castSegment(const TriangleMesh& mesh, const MeshStart& start, const MeshEnd& goal) noexcept;
+template <typename Mesh>
+MeshCast castSegment(const Mesh& mesh, const MeshStart& start, const MeshEnd& goal) noexcept;
 
 /// The nearest position to `point`, any of them if there are several; accurate to about 1e-15 of
 /// the distance and the size of the face.
-MeshPlace nearestPlace(const TriangleMesh& mesh, const ScenePoint& point) noexcept;
+template <typename Mesh>
+MeshPlace nearestPlace(const Mesh& mesh, const ScenePoint& point) noexcept;
 
 /// The weights of the point of a triangle that is nearest to the origin.
 std::array<double, 3> nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;

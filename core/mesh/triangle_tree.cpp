@@ -233,4 +233,30 @@ TriangleTree::TriangleTree(std::span<const ScenePoint> vertices,
     nodes_.shrink_to_fit();
 }
 
+TriangleTree::TriangleTree(std::span<const Bounds> groups)
+{
+    if (groups.empty()) {
+        return;
+    }
+    Bounds all;
+    for (const Bounds& group : groups) {
+        all.add(group.low);
+        all.add(group.high);
+    }
+    middle_ = all.low * 0.5 + all.high * 0.5;
+    std::vector<Item> items(groups.size());
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        items[i].face = static_cast<std::uint32_t>(i);
+        for (const ScenePoint& corner : {groups[i].low, groups[i].high}) {
+            const Vec3 at = corner - middle_;
+            items[i].box.add({at.x, at.y, at.z});
+            reach_ = std::max({reach_, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+        }
+    }
+    nodes_.reserve(items.size());
+    order_.reserve(items.size());
+    Builder(*this, items).build();
+    nodes_.shrink_to_fit();
+}
+
 } // namespace marsview

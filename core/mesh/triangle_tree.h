@@ -25,11 +25,29 @@ using MeshFace = std::array<std::uint32_t, 3>;
 /// omit one that is.
 class TriangleTree {
 public:
+    /// A box, at first empty.
+    struct Bounds {
+        ScenePoint low{std::numeric_limits<double>::infinity(),
+                       std::numeric_limits<double>::infinity(),
+                       std::numeric_limits<double>::infinity()};
+        ScenePoint high = -low;
+
+        void add(const ScenePoint& point) noexcept
+        {
+            low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
+            high = {std::max(high.x, point.x), std::max(high.y, point.y),
+                    std::max(high.z, point.z)};
+        }
+    };
+
     TriangleTree() = default;
     /// A tree over the faces `which`, with valid indices and finite coordinates.
     TriangleTree(std::span<const ScenePoint> vertices,
                  std::span<const MeshFace> faces,
                  std::vector<std::uint32_t> which);
+    /// A tree over the boxes of small groups of triangles: where faces are named below, it has the
+    /// indices of the boxes, none of which is empty.
+    explicit TriangleTree(std::span<const Bounds> groups);
 
     bool isEmpty() const noexcept { return nodes_.empty(); }
     std::size_t byteCount() const noexcept

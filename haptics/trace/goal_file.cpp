@@ -18,15 +18,19 @@
 namespace marsview {
 namespace {
 
-constexpr std::string_view kHeader = "x,y,z";
+std::string_view headerOf(GoalColumns columns)
+{
+    return columns == GoalColumns::Map ? "x,y,z" : "lon,lat,z";
+}
 
 // Over an hour of a recording at 1 kHz; its longest lines list the tiles that arrived in an update.
 constexpr TextBounds kGoalBounds{.bytes_max = std::size_t{1} << 30U,
                                  .line_bytes_max = std::size_t{1} << 20U};
 
-bool isHeader(const TableWords& words)
+bool isHeader(const TableWords& words, GoalColumns columns)
 {
-    return words.size() >= 3 && words[0] == "x" && words[1] == "y" && words[2] == "z";
+    return words.size() >= 3 &&
+           fmt::format("{},{},{}", words[0], words[1], words[2]) == headerOf(columns);
 }
 
 // Parses a line of three columns, or more if `has_more`.
@@ -52,7 +56,8 @@ Result<std::vector<TracePoint>> readGoals(const std::string& text, const std::st
     return std::move(recording->goals);
 }
 
-Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name)
+Result<GoalRecording>
+readGoalRecording(const std::string& text, const std::string& name, GoalColumns columns)
 {
     std::string_view rest = text;
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -80,11 +85,11 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
             return Error{ErrorCode::Invalid, fmt::format("{}: line {} {}", name, number, why)};
         };
         if (!has_header) {
-            if (!isHeader(words)) {
+            if (!isHeader(words, columns)) {
                 return Error{ErrorCode::Invalid,
                              fmt::format("{}: not a touch recording or list of goals: line {} is "
                                          "\"{}\", not the header \"{}\"",
-                                         name, number, quotedWord(line), kHeader)};
+                                         name, number, quotedWord(line), headerOf(columns))};
             }
             has_header = true;
             has_more_columns = words.size() > 3;
@@ -107,7 +112,7 @@ Result<GoalRecording> readGoalRecording(const std::string& text, const std::stri
     if (!has_header) {
         return Error{ErrorCode::Invalid,
                      fmt::format("{}: is empty; the header \"{}\" and one goal per line are needed",
-                                 name, kHeader)};
+                                 name, headerOf(columns))};
     }
     return recording;
 }

@@ -14,6 +14,12 @@
 
 namespace marsview {
 
+/// The first three columns of a file of goals.
+enum class GoalColumns : std::uint8_t {
+    Map,        // "x,y,z": map coordinates (GoalFrame)
+    Geographic, // "lon,lat,z": of the body scene (BodyGoalFrame)
+};
+
 /// Parses `text`: the header "x,y,z", then one goal per line. Further columns, as in a recording,
 /// are ignored. Blanks, empty lines, CR before LF and a byte order mark are permitted; "nan" and
 /// "inf" are numbers. `name` is the source of the text, for the message that names the invalid
@@ -59,7 +65,9 @@ struct GoalRecording {
 
 /// As readGoals(), and also reads the columns "map,part,model,radius_m,exaggeration", and with them
 /// "ground" and "contact,proxy_x,proxy_y,proxy_z", if the header has them.
-Result<GoalRecording> readGoalRecording(const std::string& text, const std::string& name);
+Result<GoalRecording> readGoalRecording(const std::string& text,
+                                        const std::string& name,
+                                        GoalColumns columns = GoalColumns::Map);
 
 /// The text of a file, or of standard input if `path` is "-". TooLarge above 1 GiB, or with a line
 /// above 1 MiB.

@@ -592,4 +592,52 @@ TEST(TraceCommand, UsesTheContactSettingsOfARecording)
         << refused.err;
 }
 
+// On the body the surface has no border at 0°: the proxy follows a goal around the whole of Mars at
+// 60° N, once in each direction, and arrives where it began. Distances are those of the sphere.
+TEST(TraceCommand, OnTheBodyTheProxyGoesAroundWithoutASeam)
+{
+    const TempFolder folder;
+    std::string goals = "lon,lat,z\n10,60,30000\n";
+    for (int i = 0; i <= 720; ++i) {
+        goals += fmt::format("{},60,-9000\n", 10.0 + static_cast<double>(i));
+    }
+    for (int i = 719; i >= 0; --i) {
+        goals += fmt::format("{},60,-9000\n", 10.0 + static_cast<double>(i));
+    }
+    for (const char* model : {"proxy-graph", "surface-walk", "continuous-walk", "god-object"}) {
+        const ProgramOutput output =
+            runCli({"trace", "--scene", "body", "--model", model, bundledMars(), "--goals",
+                    folder.write("around.csv", goals)});
+        ASSERT_EQ(output.exit_status, 0) << output.err;
+        const std::vector<std::string> lines = linesOf(output.out);
+        EXPECT_TRUE(lines.at(0).starts_with("lon,lat,z,contact,")) << lines.at(0);
+        const std::vector<Row> rows = rowsOf(output.out);
+        ASSERT_EQ(rows.size(), 1442U);
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            const double goal_deg = 10.0 + static_cast<double>(i <= 721 ? i - 1 : 1441 - i);
+            ASSERT_TRUE(rows[i].is_in_contact) << model << " " << i;
+            // Near the goal: valleys hold a proxy back by a few cells of 0.25°.
+            ASSERT_LT(std::abs(std::remainder(rows[i].x - goal_deg, 360.0)), 4.0) << model << i;
+            ASSERT_NEAR(rows[i].y, 60.0, 2.0) << model << " " << i;
+        }
+    }
+}
+
+TEST(TraceCommand, OnTheBodyGoalsNeedTheirOwnHeaderAndTheMapABody)
+{
+    const TempFolder folder;
+    const std::string flat = folder.write("flat.csv", "x,y,z\n1,2,3\n");
+    const ProgramOutput columns =
+        runCli({"trace", "--scene", "body", bundledMars(), "--goals", flat});
+    EXPECT_EQ(columns.exit_status, 1);
+    EXPECT_THAT(columns.err, testing::HasSubstr("not the header \"lon,lat,z\""));
+    const std::string goals = folder.write("body.csv", "lon,lat,z\n1,2,3\n");
+    const std::string local = hills(folder, "", {0, 30, 0, 0, 0, -30}, 10.0);
+    const ProgramOutput no_body = runCli({"trace", "--scene", "body", local, "--goals", goals});
+    EXPECT_EQ(no_body.exit_status, 1);
+    EXPECT_THAT(no_body.err, testing::HasSubstr("has no CRS on a body"));
+    EXPECT_EQ(runCli({"trace", "--scene", "globe", bundledMars(), "--goals", goals}).exit_status,
+              2);
+}
+
 } // namespace marsview::test

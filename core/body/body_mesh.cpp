@@ -1,0 +1,295 @@
+#include "core/body/body_mesh.h"
+
+#include "core/base/check.h"
+
+#include <GeographicLib/Geocentric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+#include <vector>
+
+namespace marsview {
+
+BodyMesh::BodyMesh(std::shared_ptr<const FilledHeightfield> heights,
+                   BodyPositions positions,
+                   double exaggeration)
+    : heights_(std::move(heights))
+    , positions_(std::move(positions))
+    , exaggeration_(exaggeration)
+    , columns_(static_cast<std::uint32_t>(positions_.columns()))
+    , rows_(static_cast<std::uint32_t>(positions_.rows()))
+    , cell_columns_(positions_.wraps() ? columns_ : columns_ - 1)
+    , is_mirrored_(positions_.isMirrored())
+    , face_count_(std::size_t{2} * cell_columns_ * (rows_ - 1))
+    , blocks_per_row_((cell_columns_ + kBlockCells - 1) / kBlockCells)
+    , cell_blocks_(blocks_per_row_ * ((rows_ - 1 + kBlockCells - 1) / kBlockCells))
+{
+    const std::array<bool, 2> closes{positions_.closesAtFirstRow(), positions_.closesAtLastRow()};
+    for (std::size_t i = 0; i < caps_.size(); ++i) {
+        if (closes[i]) {
+            caps_[i] = {.first_face = static_cast<std::uint32_t>(face_count_),
+                        .row = i == 0 ? 0 : rows_ - 1,
+                        .exists = true,
+                        .is_turned = is_mirrored_ != (i == 1)};
+            face_count_ += columns_ - 2;
+        }
+    }
+}
+
+Result<std::shared_ptr<const BodyMesh>>
+BodyMesh::build(std::shared_ptr<const FilledHeightfield> heights,
+                const Georeference& georeference,
+                double exaggeration,
+                JobMonitor& monitor)
+{
+    MARSVIEW_CHECK(heights->columns() == georeference.columns() &&
+                   heights->rows() == georeference.rows());
+    constexpr std::size_t kCellsMax = 700'000'000; // so that corner indices fit
+    if (heights->columns() * heights->rows() > kCellsMax) {
+        return Error{ErrorCode::TooLarge,
+                     fmt::format("has {} × {} samples; up to {} can lie on a body",
+                                 heights->columns(), heights->rows(), kCellsMax)};
+    }
+    Result<BodyPositions> positions = BodyPositions::make(georeference, monitor);
+    if (!positions) {
+        return std::move(positions).error();
+    }
+    std::shared_ptr<BodyMesh> mesh(
+        new BodyMesh(std::move(heights), std::move(positions).value(), exaggeration));
+    if (Status built = mesh->buildTree(monitor); !built) {
+        return std::move(built).error();
+    }
+    return std::shared_ptr<const BodyMesh>(std::move(mesh));
+}
+
+std::uint32_t BodyMesh::vertexAt(std::uint32_t corner) const noexcept
+{
+    const std::uint32_t face = corner / 3;
+    const std::uint32_t number = corner % 3;
+    const std::uint32_t cell = face / 2;
+    const std::uint32_t row = cell / cell_columns_;
+    if (row >= rows_ - 1) {
+        const Cap& cap = capOf(face);
+        const std::uint32_t turned = cap.is_turned && number != 0U ? 3U - number : number;
+        return cap.row * columns_ + capColumns(face - cap.first_face)[turned];
+    }
+    const std::uint32_t column = cell - row * cell_columns_;
+    const bool is_upper = face % 2 == 1;
+    switch (roleOf(is_upper, number)) {
+    case kFirst:
+        return row * columns_ + column;
+    case kFar:
+        return (row + 1) * columns_ + nextColumn(column);
+    case kThird:
+        break;
+    }
+    return is_upper ? row * columns_ + nextColumn(column) : (row + 1) * columns_ + column;
+}
+
+std::uint32_t BodyMesh::across(std::uint32_t corner) const noexcept
+{
+    const std::uint32_t face = corner / 3;
+    const std::uint32_t cell = face / 2;
+    const std::uint32_t row = cell / cell_columns_;
+    if (row >= rows_ - 1) {
+        return acrossInCap(capOf(face), corner);
+    }
+    const std::uint32_t column = cell - row * cell_columns_;
+    const bool is_upper = face % 2 == 1;
+    switch (roleOf(is_upper, corner % 3)) {
+    case kThird: // the diagonal
+        return cellCorner(column, row, !is_upper, kThird);
+    case kFirst:
+        if (is_upper) { // the side at the next column
+            return column + 1 < cell_columns_ ? cellCorner(column + 1, row, false, kFar)
+                   : positions_.wraps()       ? cellCorner(0, row, false, kFar)
+                                              : kNone;
+        }
+        return row + 1 < rows_ - 1 ? cellCorner(column, row + 1, true, kFar)
+               : caps_[1].exists   ? capCornerAtEdge(caps_[1], column)
+                                   : kNone;
+    case kFar:
+        break;
+    }
+    if (is_upper) { // the side along the row
+        return row > 0           ? cellCorner(column, row - 1, false, kFirst)
+               : caps_[0].exists ? capCornerAtEdge(caps_[0], column)
+                                 : kNone;
+    }
+    return column > 0           ? cellCorner(column - 1, row, true, kFirst)
+           : positions_.wraps() ? cellCorner(cell_columns_ - 1, row, true, kFirst)
+                                : kNone;
+}
+
+// Even triangles have an edge of the row at the low end, odd ones at the high end. Corner 0 is at
+// the low end and corner 2 at the high end.
+std::array<std::uint32_t, 3> BodyMesh::capColumns(std::uint32_t triangle) const noexcept
+{
+    const std::uint32_t last = columns_ - 1;
+    const std::uint32_t step = triangle / 2;
+    return triangle % 2 == 0 ? std::array{step, step + 1, last - step}
+                             : std::array{step + 1, last - step - 1, last - step};
+}
+
+std::uint32_t BodyMesh::acrossInCap(const Cap& cap, std::uint32_t corner) const noexcept
+{
+    const std::uint32_t triangle = corner / 3 - cap.first_face;
+    const std::uint32_t number = corner % 3;
+    const std::uint32_t turned = cap.is_turned && number != 0U ? 3U - number : number;
+    const std::uint32_t count = columns_ - 2;
+    const bool is_odd = triangle % 2 == 1;
+    const auto [low, middle, high] = capColumns(triangle);
+    const auto beside = [&](std::uint32_t column) {
+        return cap.row == 0 ? cellCorner(column, 0, true, kFar)
+                            : cellCorner(column, rows_ - 2, false, kFirst);
+    };
+    // Opposite corner 1 is the edge to the triangle before; an edge of the row lies opposite
+    // corner 2 in even triangles and opposite corner 0 in odd ones.
+    if (turned == 1U) {
+        if (triangle == 0) {
+            return beside(high); // from the last column to the first
+        }
+        // Seen from an even triangle before, this edge is opposite its corner 0.
+        return capCorner(cap, triangle - 1, is_odd ? 0U : 2U);
+    }
+    const bool is_along_row = is_odd ? turned == 0U : turned == 2U;
+    if (is_along_row) {
+        return beside(is_odd ? middle : low);
+    }
+    if (triangle + 1 == count) {
+        return beside(is_odd ? low : middle);
+    }
+    return capCorner(cap, triangle + 1, 1U);
+}
+
+// The corner of the cap opposite the edge from a column to the next.
+std::uint32_t BodyMesh::capCornerAtEdge(const Cap& cap, std::uint32_t column) const noexcept
+{
+    const std::uint32_t count = columns_ - 2;
+    if (column + 1 == columns_) {
+        return capCorner(cap, 0, 1U);
+    }
+    if (2 * column < count) {
+        return capCorner(cap, 2 * column, 2U);
+    }
+    const std::uint32_t odd = 2 * (columns_ - 2 - column) + 1;
+    if (odd < count) {
+        return capCorner(cap, odd, 0U);
+    }
+    return capCorner(cap, count - 1, (count - 1) % 2 == 1 ? 2U : 0U);
+}
+
+FanCorners BodyMesh::fan(std::uint32_t vertex) const noexcept
+{
+    const std::uint32_t row = vertex / columns_;
+    const std::uint32_t column = vertex - row * columns_;
+    FanCorners corners;
+    const bool is_inside = row > 0 && row + 1 < rows_ && column > 0 && column + 1 < columns_;
+    if (is_inside) {
+        const std::array<std::uint32_t, 6> around{cellCorner(column, row, false, kFirst),
+                                                  cellCorner(column, row, true, kFirst),
+                                                  cellCorner(column, row - 1, false, kThird),
+                                                  cellCorner(column - 1, row - 1, true, kFar),
+                                                  cellCorner(column - 1, row - 1, false, kFar),
+                                                  cellCorner(column - 1, row, true, kThird)};
+        for (std::size_t i = 0; i < around.size(); ++i) {
+            corners.add(around[is_mirrored_ ? around.size() - 1 - i : i]);
+        }
+        return corners;
+    }
+    // Any of its corners, then clockwise to the border or once around, then counter-clockwise.
+    const bool has_cell_right = column < cell_columns_;
+    const std::uint32_t cell_column = has_cell_right ? column : column - 1;
+    const std::uint32_t some = row + 1 < rows_  ? has_cell_right
+                                                      ? cellCorner(cell_column, row, false, kFirst)
+                                                      : cellCorner(cell_column, row, true, kThird)
+                                : has_cell_right ? cellCorner(cell_column, row - 1, false, kThird)
+                                                : cellCorner(cell_column, row - 1, false, kFar);
+    std::uint32_t first = some;
+    for (std::size_t i = 0; i < FanCorners::kCountMax; ++i) {
+        const std::uint32_t before = across(previousCorner(first));
+        if (before == kNone) {
+            break;
+        }
+        first = previousCorner(before);
+        if (first == some) {
+            break;
+        }
+    }
+    std::uint32_t corner = first;
+    for (std::size_t i = 0; i < FanCorners::kCountMax; ++i) {
+        corners.add(corner);
+        const std::uint32_t beyond = across(nextCorner(corner));
+        if (beyond == kNone) {
+            break;
+        }
+        corner = nextCorner(beyond);
+        if (corner == first) {
+            break;
+        }
+    }
+    return corners;
+}
+
+ScenePoint BodyMesh::highAbove(const ScenePoint& point) const noexcept
+{
+    const Ellipsoid& body = positions_.ellipsoid();
+    const GeographicLib::Geocentric frame(body.equatorial_m, body.flattening());
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    double height_m = 0.0;
+    frame.Reverse(point.x, point.y, point.z, latitude_deg, longitude_deg, height_m);
+    const double latitude = Angle::degrees(latitude_deg).radians();
+    const double longitude = Angle::degrees(longitude_deg).radians();
+    const Vec3 up{std::cos(latitude) * std::cos(longitude),
+                  std::cos(latitude) * std::sin(longitude), std::sin(latitude)};
+    // Above the highest sample by more than the rounding of coordinates.
+    const double rise_m = highest_m_ - height_m + 1e-3 * std::abs(highest_m_) + 1.0;
+    return point + up * std::max(rise_m, 1.0);
+}
+
+Status BodyMesh::buildTree(JobMonitor& monitor)
+{
+    const auto face_count = static_cast<std::uint32_t>(face_count_);
+    const std::uint32_t cap_faces = face_count - 2 * cell_columns_ * (rows_ - 1);
+    const std::uint32_t cap_blocks = (cap_faces + kCapFaces - 1) / kCapFaces;
+    std::vector<TriangleTree::Bounds> bounds(cell_blocks_ + cap_blocks);
+    for (std::uint32_t block_row = 0; block_row * kBlockCells < rows_ - 1; ++block_row) {
+        monitor.report(static_cast<double>(block_row) * kBlockCells / static_cast<double>(rows_));
+        if (monitor.isCanceled()) {
+            return Error{ErrorCode::Canceled, "laying the map on its body was canceled"};
+        }
+        for (std::uint32_t block_column = 0; block_column < blocks_per_row_; ++block_column) {
+            TriangleTree::Bounds& block = bounds[block_row * blocks_per_row_ + block_column];
+            const std::uint32_t row_last = std::min((block_row + 1) * kBlockCells, rows_ - 1);
+            const std::uint32_t column_last =
+                std::min((block_column + 1) * kBlockCells, cell_columns_);
+            for (std::uint32_t row = block_row * kBlockCells; row <= row_last; ++row) {
+                for (std::uint32_t column = block_column * kBlockCells; column <= column_last;
+                     ++column) {
+                    block.add(sampleAt(column == columns_ ? 0 : column, row));
+                }
+            }
+        }
+    }
+    for (std::uint32_t block = cell_blocks_; block < bounds.size(); ++block) {
+        eachFace(block, [&](std::uint32_t face) {
+            for (const ScenePoint& point : points(face)) {
+                bounds[block].add(point);
+            }
+        });
+    }
+    for (std::uint32_t row = 0; row < rows_; ++row) {
+        for (std::uint32_t column = 0; column < columns_; ++column) {
+            const double height_m =
+                exaggeration_ * heights_->sample(column, row + positions_.firstRow());
+            highest_m_ = row == 0 && column == 0 ? height_m : std::max(highest_m_, height_m);
+        }
+    }
+    tree_ = TriangleTree(bounds);
+    return Done{};
+}
+
+} // namespace marsview

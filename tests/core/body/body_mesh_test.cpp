@@ -1,0 +1,68 @@
+#include "core/body/body_mesh.h"
+#include "core/mesh/triangle_mesh.h"
+#include "tests/core/contact/body_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace marsview {
+namespace {
+
+class BodyMeshOf : public testing::TestWithParam<test::BodyMap> {};
+
+// TriangleMesh finds the same neighbors from the triangles alone, and refuses meshes with faults.
+TEST_P(BodyMeshOf, ItsTrianglesHaveTheNeighborsThatAListOfThemHas)
+{
+    const auto mesh = test::bodyMesh(GetParam(), 1.0);
+    const auto listed = test::listedMesh(*mesh);
+    ASSERT_EQ(mesh->faceCount(), listed->faceCount());
+    for (std::uint32_t corner = 0; corner < 3 * mesh->faceCount(); ++corner) {
+        ASSERT_EQ(mesh->across(corner), listed->across(corner)) << corner;
+        ASSERT_EQ(mesh->vertexAt(corner), listed->vertexAt(corner)) << corner;
+    }
+    for (std::uint32_t vertex = 0; vertex < mesh->vertexCount(); ++vertex) {
+        const FanCorners fan = mesh->fan(vertex);
+        const auto expected = listed->fan(vertex);
+        ASSERT_EQ(std::vector(fan.begin(), fan.end()).size(), expected.size()) << vertex;
+        ASSERT_EQ(mesh->isAtBorder(vertex), listed->isAtBorder(vertex));
+        // A fan that closes may begin at any corner.
+        const auto begin = std::find(fan.begin(), fan.end(), expected.front());
+        ASSERT_NE(begin, fan.end()) << vertex;
+        std::vector<std::uint32_t> turned(begin, fan.end());
+        turned.insert(turned.end(), fan.begin(), begin);
+        ASSERT_TRUE(std::equal(turned.begin(), turned.end(), expected.begin())) << vertex;
+    }
+}
+
+// A map around the body with both poles closed encloses the body: the divergence theorem gives its
+// volume, which for a dense grid approaches the ellipsoid's.
+TEST(BodyMesh, AMapOfTheWholeBodyEnclosesIt)
+{
+    test::BodyMap smooth = test::wholeMars(360, 180);
+    smooth.relief_m = 0.0;
+    const auto mesh = test::bodyMesh(smooth, 1.0);
+    double volume_m3 = 0.0;
+    for (std::uint32_t face = 0; face < mesh->faceCount(); ++face) {
+        const auto [a, b, c] = mesh->points(face);
+        volume_m3 += dot(a, cross(b, c)) / 6.0;
+    }
+    const Ellipsoid& body = mesh->positions().ellipsoid();
+    const double expected_m3 =
+        4.0 / 3.0 * std::numbers::pi * body.equatorial_m * body.equatorial_m * body.polar_m;
+    // Triangles of 1° lie below the curve by up to (π / 180)² / 4 of the radius.
+    EXPECT_LT(volume_m3 / expected_m3, 1.0);
+    EXPECT_GT(volume_m3 / expected_m3, 1.0 - 3.0 * 7.6e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(BodyMesh,
+                         BodyMeshOf,
+                         testing::ValuesIn(test::bodyMaps()),
+                         [](const auto& tested) { return tested.param.name; });
+
+} // namespace
+} // namespace marsview

@@ -1,0 +1,85 @@
+#include "tests/core/contact/body_maps.h"
+
+#include "app/bench/reference/fractal_heights.h"
+#include "tests/core/contact/contact_terrain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace marsview::test {
+
+BodyMap wholeMars(std::size_t columns, std::size_t rows)
+{
+    const double step = 360.0 / static_cast<double>(columns);
+    const double down = 180.0 / static_cast<double>(rows);
+    return {"WholeMars", "IAU_2015:49900", columns, rows, {0, step, 0, 90, 0, -down}, 8000.0};
+}
+
+std::vector<BodyMap> bodyMaps()
+{
+    BodyMap odd = wholeMars(45, 22);
+    odd.name = "WholeMarsOdd";
+    return {
+        wholeMars(48, 24),
+        odd,
+        {"Fewest", "IAU_2015:49900", 3, 2, {0, 120, 0, 90, 0, -90}, 8000.0},
+        {"Westward", "IAU_2015:49900", 40, 20, {360, -9, 0, 90, 0, -9}, 8000.0},
+        {"Northward", "IAU_2015:49900", 40, 20, {0, 9, 0, -90, 0, 9}, 8000.0},
+        {"Registered", "IAU_2015:49900", 37, 19, {-5, 10, 0, 95, 0, -10}, 8000.0},
+        {"Belt", "IAU_2015:49900", 40, 12, {-180, 9, 0, 50, 0, -9}, 8000.0},
+        {"Cap", "IAU_2015:49900", 40, 8, {-180, 9, 0, 90, 0, -9}, 8000.0},
+        {"Part", "EPSG:4326", 30, 20, {6, 0.1, 0, 47, 0, -0.1}, 3000.0},
+        {"Utm", "EPSG:32611", 33, 21, {390045, 30, 0, 3797505, 0, -30}, 400.0},
+        {"UtmMirrored", "EPSG:32611", 33, 21, {390045, -30, 0, 3797505, 0, -30}, 400.0},
+        {"OverThePole",
+         "+proj=stere +lat_0=-90 +lon_0=0 +R=1737400 +units=m",
+         31,
+         30,
+         {-155000, 10000, 0, 150000, 0, -10000},
+         5000.0},
+    };
+}
+
+Georeference georeferenceOf(const BodyMap& map)
+{
+    return {map.columns, map.rows, *GeoTransform::fromTerms(map.terms), *Crs::fromText(map.crs)};
+}
+
+std::shared_ptr<const FilledHeightfield> fractalMap(const BodyMap& map)
+{
+    std::vector<float> heights = fractalHeights(map.columns, map.rows, 7);
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    const float middle = 0.5F * (*low + *high);
+    const float scale = static_cast<float>(map.relief_m) / std::max(*high - *low, 1e-6F);
+    for (float& height : heights) {
+        height = (height - middle) * scale;
+    }
+    return filledTerrain(map.columns, heights);
+}
+
+std::shared_ptr<const BodyMesh> bodyMesh(const BodyMap& map, double exaggeration)
+{
+    JobMonitor monitor;
+    const auto mesh = BodyMesh::build(fractalMap(map), georeferenceOf(map), exaggeration, monitor);
+    EXPECT_TRUE(mesh) << (mesh ? "" : mesh.error().message);
+    return *mesh;
+}
+
+std::shared_ptr<const TriangleMesh> listedMesh(const BodyMesh& mesh)
+{
+    TriangleSoup soup;
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        soup.vertices.push_back(mesh.vertex(v));
+    }
+    for (std::uint32_t f = 0; f < mesh.faceCount(); ++f) {
+        soup.faces.push_back(mesh.face(f));
+    }
+    JobMonitor monitor;
+    const auto listed = TriangleMesh::build(std::move(soup), monitor);
+    EXPECT_TRUE(listed) << (listed ? "" : listed.error().message);
+    return *listed;
+}
+
+} // namespace marsview::test

@@ -1,0 +1,186 @@
+#include "core/contact/body_goal_frame.h"
+#include "core/contact/contact_model.h"
+#include "tests/core/contact/body_maps.h"
+#include "tests/core/contact/contact_terrain.h"
+#include "tests/core/mesh/mesh_shapes.h"
+#include "tests/support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+namespace marsview {
+namespace {
+
+struct Walker {
+    const BodyMesh& mesh;
+    test::Random& random;
+    double column;
+    double row;
+
+    // A goal near the surface, mostly below it, a few cells from the last one; around the seam,
+    // over the poles and beyond the border too.
+    ScenePoint next(double step_cells)
+    {
+        column += random.uniform(-step_cells, step_cells);
+        row += random.uniform(-step_cells, step_cells);
+        const double columns = static_cast<double>(mesh.positions().columns());
+        const double rows = static_cast<double>(mesh.positions().rows());
+        if (mesh.positions().wraps()) {
+            column -= columns * std::floor(column / columns);
+        }
+        column = std::clamp(column, 0.0, columns - 1.0);
+        row = std::clamp(row, 0.0, rows - 1.0);
+        const auto c = static_cast<std::uint32_t>(column);
+        const auto r = static_cast<std::uint32_t>(row);
+        const std::uint32_t vertex = r * static_cast<std::uint32_t>(columns) + c;
+        const ScenePoint at = mesh.vertex(vertex);
+        const Vec3 up = mesh.positions().at(c, r, 1.0) - mesh.positions().at(c, r, 0.0);
+        const auto fan = mesh.fan(vertex);
+        const ScenePoint beside = mesh.vertex(mesh.vertexAt(BodyMesh::nextCorner(fan.front())));
+        const double cell_m = length(beside - at);
+        return at + (beside - at) * random.uniform(-1.0, 1.0) +
+               up * (cell_m * random.uniform(-1.0, 0.3));
+    }
+};
+
+using Case = std::tuple<ContactModelKind, test::BodyMap>;
+class BodyContact : public testing::TestWithParam<Case> {};
+
+// The list of the same triangles has the contact that tests of meshes prove by brute force.
+TEST_P(BodyContact, ItsProxiesAreThoseOnAListOfTheSameTriangles)
+{
+    const auto& [kind, map] = GetParam();
+    for (const double exaggeration : {0.5, 1.0, 20.0}) {
+        const auto mesh = test::bodyMesh(map, exaggeration);
+        const auto listed = test::listedMesh(*mesh);
+        const auto model = makeContactModel(kind, BodySurface(mesh));
+        const auto other = makeContactModel(kind, MeshSurface(listed));
+        test::Random random(3);
+        Walker walker{*mesh, random, 1.0, 1.0};
+        // Both begin in free space, so that they begin at one place.
+        const ScenePoint begin = mesh->highAbove(mesh->vertex(0));
+        model->update(begin);
+        other->update(begin);
+        int equal = 0;
+        int contacts = 0;
+        constexpr int kUpdates = 300;
+        const double size_m = length(mesh->vertex(0) - mesh->vertex(1));
+        for (int i = 0; i < kUpdates; ++i) {
+            const ScenePoint goal = walker.next(i % 100 == 0 ? 5.0 : 1.0);
+            const ContactState here = model->update(goal);
+            const ContactState there = other->update(goal);
+            equal += length(here.proxy - there.proxy) <= 1e-9 * size_m ? 1 : 0;
+            contacts += here.is_in_contact ? 1 : 0;
+            EXPECT_EQ(here.counters.cut_short, 0U);
+            if (here.is_in_contact && i % 50 == 0) {
+                EXPECT_LE(test::bruteDistance(*listed, here.proxy), 1e-6);
+            }
+        }
+        EXPECT_GT(contacts, kUpdates / 4);
+        EXPECT_EQ(equal, kUpdates) << "exaggeration " << exaggeration;
+    }
+}
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all;
+    for (const ContactModelKind kind : {ContactModelKind::ProxyGraph, ContactModelKind::SurfaceWalk,
+                                        ContactModelKind::ContinuousWalk}) {
+        for (const test::BodyMap& map : test::bodyMaps()) {
+            all.emplace_back(kind, map);
+        }
+    }
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(BodySurface,
+                         BodyContact,
+                         testing::ValuesIn(cases()),
+                         [](const auto& tested) {
+                             std::string name(contactModelName(std::get<0>(tested.param)));
+                             std::erase(name, '-');
+                             return name + std::get<1>(tested.param).name;
+                         });
+
+TEST(BodySurface, AModelIsPlacedOnTheSurfaceAlongTheNormal)
+{
+    const auto mesh = test::bodyMesh(test::wholeMars(180, 90), 1.0);
+    const BodyGoalFrame frame(mesh->positions().ellipsoid(), 1.0, Angle::degrees(180.0));
+    const BodySurface surface(mesh);
+    test::Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+        const TracePoint goal{random.uniform(0.0, 360.0), random.uniform(-89.9, 89.9), -30'000.0};
+        const auto begin = surface.goal(frame.toScene(goal));
+        ASSERT_TRUE(begin);
+        const TracePoint placed = frame.fromScene(surface.point(surface.contactAt(*begin)));
+        ASSERT_NEAR(std::remainder(placed.x - goal.x, 360.0), 0.0,
+                    1e-9 / std::cos(Angle::degrees(goal.y).radians()));
+        ASSERT_NEAR(placed.y, goal.y, 1e-9);
+        ASSERT_GT(placed.z, -10'000.0);
+    }
+}
+
+TEST(BodyGoalFrame, GoalsAndTheirPositionsConvertToEachOther)
+{
+    const Ellipsoid body{3396190.0, 3376200.0};
+    const BodyGoalFrame frame(body, 5.0, Angle::degrees(0.0));
+    test::Random random(9);
+    for (int i = 0; i < 10'000; ++i) {
+        const TracePoint goal{random.uniform(-180.0, 180.0), random.uniform(-90.0, 90.0),
+                              random.uniform(-8000.0, 21'000.0)};
+        const TracePoint back = frame.fromScene(frame.toScene(goal));
+        ASSERT_NEAR(back.x, goal.x, 1e-9);
+        ASSERT_NEAR(back.y, goal.y, 1e-12 * 180.0);
+        ASSERT_NEAR(back.z, goal.z, 1e-7);
+    }
+    EXPECT_FALSE(isFinite(frame.toScene({0.0, 91.0, 0.0})));
+}
+
+// On a map of a few kilometers the body is nearly a plane: the proxies differ by the curvature
+// within a cell, c² / 8R, and by that of the goal's path.
+TEST(BodySurface, ASmallMapHasTheFlatScenesProxies)
+{
+    const test::BodyMap map{"Utm", "EPSG:32611", 101, 101, {498500, 30, 0, 3797505, 0, -30}, 400.0};
+    const auto filled = test::fractalMap(map);
+    const Georeference georeference = test::georeferenceOf(map);
+    JobMonitor monitor;
+    const auto mesh = BodyMesh::build(filled, georeference, 1.0, monitor);
+    ASSERT_TRUE(mesh);
+    const BodyGoalFrame body_frame((*mesh)->positions().ellipsoid(), 1.0, Angle::degrees(-117.0));
+    const auto shared = std::make_shared<const Georeference>(georeference);
+    const GoalFrame flat_frame(shared, 1.0);
+    const auto body = makeContactModel(ContactModelKind::ContinuousWalk, BodySurface(*mesh));
+    const auto flat = makeContactModel(ContactModelKind::ContinuousWalk,
+                                       HeightfieldSurface(filled, georeference.sceneFrame(), 1.0));
+    test::Random random(21);
+    GridPoint at{50.0, 50.0};
+    double worst_m = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        at.column = std::clamp(at.column + random.uniform(-2.0, 2.0), 5.0, 95.0);
+        at.row = std::clamp(at.row + random.uniform(-2.0, 2.0), 5.0, 95.0);
+        const MapPoint point = georeference.toMap(at);
+        const auto place = georeference.toGeographic(at);
+        ASSERT_TRUE(place);
+        const double height_m =
+            filled->sample(static_cast<std::size_t>(at.column), static_cast<std::size_t>(at.row)) -
+            10.0;
+        const ContactState there = flat->update(flat_frame.toScene({point.x, point.y, height_m}));
+        const ContactState here = body->update(
+            body_frame.toScene({place->longitude.degrees(), place->latitude.degrees(), height_m}));
+        const TracePoint found = body_frame.fromScene(here.proxy);
+        const auto grid = georeference.toGrid(GeographicPoint{.longitude = Angle::degrees(found.x),
+                                                              .latitude = Angle::degrees(found.y)});
+        ASSERT_TRUE(grid);
+        const ScenePoint in_flat = georeference.sceneFrame().toScene(*grid, found.z);
+        worst_m = std::max(worst_m, length(in_flat - there.proxy));
+    }
+    RecordProperty("worst_m", std::to_string(worst_m));
+    EXPECT_LT(worst_m, 1.0);
+}
+
+} // namespace
+} // namespace marsview
